@@ -1,0 +1,242 @@
+"""Impact of a free rigid body: from energy balance and quadrature, without time stepping."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from . import _check, superpose
+from .indentation import Indentation, indent
+from .medium import Medium
+from .profiles import Profile
+from .yielding import LiveInterval, live_interval
+
+
+def impact(profile, medium, mass, speed):
+    """Let a body of given mass hit the medium at given speed, with no other force acting.
+
+    Contact begins at depth 0 and ends when the force returns to zero.
+
+    Parameters
+    ----------
+    profile : Profile
+        The indenter.
+    medium : Medium
+        The medium, with `eta = 0`.
+    mass : float or array_like
+        Mass m (kg), positive.
+    speed : float or array_like
+        Speed v₀ (m/s) at first contact, positive. Broadcasts against `mass`: one impact or many.
+
+    Returns
+    -------
+    Impact
+        Quantities of the broadcast shape, computed when asked for.
+
+    Raises
+    ------
+    ValueError
+        If a mass or a speed is not finite and positive, or the medium is viscous.
+
+    Examples
+    --------
+    Restitution of a cone that is pressed five times as deep as where yield starts:
+
+    >>> from mdr_core import Cone, Medium
+    >>> medium = Medium(E_star=1.0, q_c=1.0)
+    >>> state = indent(Cone(slope=1.0), medium, 5 * medium.critical_depth)
+    >>> energy = state.stored_energy + state.plastic_work
+    >>> print(round(impact(Cone(slope=1.0), medium, 2.0, energy**0.5).restitution, 9))
+    0.461643536
+    """
+    if medium.eta > 0:
+        raise ValueError(
+            f"viscosity eta = {medium.eta:g} Pa·s must be 0 in an impact: the dry impact is solved by "
+            "energy balance; use Medium(E_star, q_c)"
+        )
+    mass, speed = np.broadcast_arrays(_positive("mass", mass, "kg"), _positive("speed", speed, "m/s"))
+    energy = mass * speed**2 / 2
+    bad = ~((energy > 0) & (energy < np.inf))
+    _check.refuse("kinetic energy", energy, bad, "is outside double precision", unit="J")
+    depth = _largest_depth(profile, medium, energy)
+    return Impact(profile, medium, mass[()], speed[()], indent(profile, medium, depth[..., None])[..., 0])
+
+
+def _positive(quantity, value, unit):
+    value = _check.finite_array(quantity, value, unit=unit)
+    return _check.refuse(quantity, value, value <= 0, "must be positive", unit=unit)
+
+
+def _work(profile, medium, depth):
+    """Work of pressing to `depth` and force there, both over 2E* (m³, m²)."""
+    live = live_interval(depth[..., None], medium.critical_depth)[..., 0]
+    virgin = LiveInterval(np.zeros_like(depth), live.lower, live.lower)
+    yielded = np.where(live.lower > 0, medium.critical_depth, 0.0)
+    with np.errstate(invalid="ignore"):
+        plastic = np.where(live.lower > 0, yielded * superpose.radius_integral(profile, virgin), 0.0)
+    work = superpose.energy_integral(profile, live) + plastic
+    return work, superpose.radius_integral(profile, live)
+
+
+def _largest_depth(profile, medium, energy):
+    """Depth (m) at which the work of pressing equals the energy.
+
+    Newton's method on ln(work) against ln(depth), whose slope lies between 1 and 2 + 1/n, kept
+    inside a bracket that every step narrows.
+    """
+    target = np.asarray(energy / (2 * medium.E_star))
+    depth = np.full_like(target, medium.critical_depth if medium.critical_depth < np.inf else 1.0)
+    low, high = np.zeros_like(depth), np.full_like(depth, np.inf)
+    for _ in range(200):
+        work, force = _work(profile, medium, depth)
+        with np.errstate(all="ignore"):
+            miss = np.log(target / work)
+            high = np.where(work >= target, depth, high)
+            low = np.where(work <= target, depth, low)
+            step = depth * np.exp(np.clip(miss * work / (force * depth), -50, 50))
+            middle = np.where(high < np.inf, np.sqrt(low * high), 4 * depth)
+        new = np.where((step >= low) & (step <= high), step, middle)
+        done = np.abs(new - depth) <= 4 * np.finfo(float).eps * depth
+        depth = new
+        if np.all(done):
+            return depth
+    raise RuntimeError("the largest depth did not converge; please report the inputs")
+
+
+@dataclass(frozen=True, eq=False)
+class Impact:
+    """One impact or many; made by `impact`. Every quantity has the shape of mass and speed.
+
+    `deepest` is the state at the turning point.
+    """
+
+    profile: Profile
+    medium: Medium
+    mass: np.ndarray
+    speed: np.ndarray
+    deepest: Indentation
+
+    @property
+    def max_depth(self):
+        """Largest indentation depth d_max (m)."""
+        return self.deepest.depth
+
+    @property
+    def max_force(self):
+        """Largest force (N)."""
+        return self.deepest.force
+
+    @property
+    def contact_radius(self):
+        """Largest contact radius a (m)."""
+        return self.deepest.contact_radius
+
+    @property
+    def plastic_radius(self):
+        """Radius c (m) of the plastic zone that remains."""
+        return self.deepest.plastic_radius
+
+    @property
+    def plastic_depth(self):
+        """Plastic depth d_p (m) that remains."""
+        return self.deepest.plastic_depth
+
+    @property
+    def damaged_area(self):
+        """Area π c² (m²) of the plastic zone; in the fast limit that of the contact, π a²."""
+        return np.pi * self.plastic_radius**2
+
+    @property
+    def stored_energy(self):
+        """Elastic energy (J) at the turning point, all of it returned."""
+        return self.deepest.stored_energy
+
+    @property
+    def plastic_work(self):
+        """Energy (J) dissipated by yielding."""
+        return self.deepest.plastic_work
+
+    @property
+    def viscous_work(self):
+        """Energy (J) dissipated by viscosity: none in a dry impact."""
+        return np.zeros_like(self.mass)[()]
+
+    @cached_property
+    def restitution(self):
+        """Coefficient of restitution e = √(U/(m v₀²/2)), U the energy stored at the turning point."""
+        # U/(U + W_p) instead of U over the kinetic energy: never above 1.
+        return np.sqrt(self.stored_energy / (self.stored_energy + self.plastic_work))
+
+    @property
+    def rebound_speed(self):
+        """Speed e v₀ (m/s) at which the body leaves."""
+        return self.restitution * self.speed
+
+    @cached_property
+    def contact_time(self):
+        """Time (s) from first contact to the loss of contact."""
+        return _contact_time(self)
+
+
+def _integration_matrix(count):
+    """Gauss–Legendre nodes on [0, 1], and the matrix that integrates from each node to 1."""
+    legendre = np.polynomial.legendre
+    node, weight = legendre.leggauss(count)
+    values = legendre.legvander(node, count)
+    # ∫ₓ¹ P_k = (P_{k−1} − P_{k+1})/(2k + 1), for k = 0: 1 − x.
+    tail = np.empty((count, count))
+    tail[:, 0] = 1 - node
+    k = np.arange(1, count)
+    tail[:, 1:] = (values[:, :-2] - values[:, 2:]) / (2 * k + 1)
+    project = (values[:, :count] * weight[:, None]).T * (np.arange(count)[:, None] + 0.5)
+    return (1 + node) / 2, weight / 2, tail @ project / 2
+
+
+_NODE, _WEIGHT, _TAIL = _integration_matrix(32)
+
+
+def _contact_time(hit):
+    """Contact time by quadrature of dd/v in each stretch in which the force is smooth.
+
+    The depth falls short of its largest by (1 − τ³)² of the way: the square takes out the square
+    root at the turning point, the cube the fractional powers where contact or yield begins. The
+    energy still to be spent is integrated from the turning point back, so that it never cancels.
+    """
+    force = superpose.radius_integral
+    deepest, unload = np.asarray(hit.max_depth)[..., None], np.asarray(hit.deepest.live.length)[..., None]
+    lower = np.asarray(hit.plastic_depth)[..., None]
+    critical = hit.medium.critical_depth
+    yielded = lower > 0
+    rise = _NODE**3 * (2 - _NODE**3)
+    slope = 6 * _NODE**2 * (1 - _NODE**3)
+
+    def remaining(live, rate):
+        return (force(hit.profile, live) * rate) @ _TAIL.T
+
+    time = 0.0
+    # Unloading over the live length.
+    length = unload * rise
+    base = np.broadcast_to(lower, length.shape)
+    spent = remaining(LiveInterval(base, base + length, length), unload * slope)
+    time = time + (unload * slope / np.sqrt(spent)) @ _WEIGHT
+    # Loading beyond the critical depth.
+    beyond = np.where(yielded, lower, 0.0)
+    length = np.minimum(critical, deepest) * np.ones_like(rise)
+    below = beyond * rise
+    live = LiveInterval(below, below + length, length)
+    spent = remaining(live, beyond * slope)
+    with np.errstate(invalid="ignore"):
+        part = np.where(yielded, beyond * slope / np.sqrt(spent), 0.0)
+    time = time + part @ _WEIGHT
+    plastic = (force(hit.profile, live) * beyond * slope) @ _WEIGHT
+    # Loading up to the critical depth: the same map about the turning point, cut at τ_c.
+    depth_c = np.minimum(critical, deepest)
+    missing = np.sqrt(np.maximum(beyond, 0.0) / deepest)
+    cut = np.cbrt(depth_c / deepest / (1 + missing))
+    tau = cut * _NODE
+    depth = deepest * tau**3 * (2 - tau**3)
+    rate = deepest * cut * 6 * tau**2 * (1 - tau**3)
+    spent = remaining(LiveInterval(np.zeros_like(depth), depth, depth), rate) + plastic[..., None]
+    time = time + (rate / np.sqrt(spent)) @ _WEIGHT
+    # m v²/2 = 2E* × spent.
+    return time * np.sqrt(hit.mass / (4 * hit.medium.E_star))

@@ -1,0 +1,187 @@
+"""Indentation along a prescribed depth path, infinitely slowly or in a rate-independent medium."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from . import _check, superpose
+from .medium import Medium
+from .profiles import Profile
+from .yielding import LiveInterval, live_interval
+
+
+def indent(profile, medium, depth):
+    """Press an indenter along a depth path: loading, unloading and reloading in any order.
+
+    The path is followed infinitely slowly, so that the dashpots carry nothing.
+
+    Parameters
+    ----------
+    profile : Profile
+        The indenter.
+    medium : Medium
+        The medium.
+    depth : float or array_like
+        Indentation depth d (m), one number or a path along the last axis; each row of a larger
+        array is a path of its own that starts on a virgin medium. Negative means lifted off.
+
+    Returns
+    -------
+    Indentation
+        Quantities of the shape of `depth`, computed when asked for.
+
+    Raises
+    ------
+    ValueError
+        If a depth is not finite, or deeper than the profile is known.
+
+    Examples
+    --------
+    Cone of slope 1 pressed twice as deep as where it starts to yield, F = 3 F_c (Popov 2015,
+    Eqs. (20), (22)):
+
+    >>> from mdr_core import Cone, Medium
+    >>> medium = Medium(E_star=1.0, q_c=2.0)
+    >>> state = indent(Cone(slope=1.0), medium, 2 * medium.critical_depth)
+    >>> critical_force = 3.141592653589793 * 2.0**2 / 2
+    >>> print(round(state.force / critical_force, 12))
+    3.0
+    """
+    if not isinstance(profile, Profile):
+        raise TypeError(f"profile must be an mdr_core shape such as Cone(slope=1), got {profile!r}")
+    if not isinstance(medium, Medium):
+        raise TypeError(f"medium must be a Medium, got {medium!r}")
+    depth = _check.finite_array("depth", depth, unit="m")
+    return Indentation(profile, medium, depth, live_interval(depth, medium.critical_depth))
+
+
+@dataclass(frozen=True, eq=False)
+class Indentation:
+    """States of an indentation, one for each point of its depth path; made by `indent`.
+
+    Every quantity has the shape of `depth`. `result[i]` picks a state; `pressure`, `line_load`,
+    `surface` and `imprint` are fields of one state. `live` is the interval of depths [d_p, d]
+    that everything is integrated over.
+    """
+
+    profile: Profile
+    medium: Medium
+    depth: np.ndarray
+    live: LiveInterval
+
+    def __post_init__(self):
+        object.__setattr__(self, "depth", self.depth[()])
+
+    def __len__(self):
+        return len(self.depth)
+
+    def __getitem__(self, index):
+        return Indentation(self.profile, self.medium, np.asarray(self.depth[index]), self.live[index])
+
+    @cached_property
+    def force(self):
+        """Normal force F = 2E* ∫ a(s) ds (N); Popov (2015), Eqs. (20), (22)."""
+        return 2 * self.medium.E_star * superpose.radius_integral(self.profile, self.live)[()]
+
+    @cached_property
+    def contact_radius(self):
+        """Contact radius a (m), Popov (2015), Eq. (16); 0 without contact."""
+        radius = self.profile._radius(np.asarray(self.live.upper))
+        return np.where(self.live.length > 0, radius, 0.0)[()]
+
+    @cached_property
+    def plastic_radius(self):
+        """Radius c (m) of the plastic zone, Popov (2015), Eq. (21); 0 if nothing has yielded."""
+        radius = self.profile._radius(np.asarray(self.live.lower))
+        return np.where(self.live.lower > 0, radius, 0.0)[()]
+
+    @property
+    def plastic_depth(self):
+        """Plastic depth d_p (m): the depth of the residual imprint in the 1D foundation."""
+        return self.live.lower[()]
+
+    @cached_property
+    def stored_energy(self):
+        """Elastic energy U = 2E* ∫ (d − s) a(s) ds (J)."""
+        return 2 * self.medium.E_star * superpose.energy_integral(self.profile, self.live)[()]
+
+    @cached_property
+    def plastic_work(self):
+        """Work W_p = d_c φ(d_p) (J) dissipated over the whole past, φ the elastic force."""
+        past = _virgin(np.asarray(self.live.lower))
+        integral = superpose.radius_integral(self.profile, past)
+        # π q_c a at every increment: the critical depth times the modulus, which may be infinite.
+        yield_load = np.where(self.live.lower > 0, 2 * self.medium.yield_line_load, 0.0)
+        with np.errstate(invalid="ignore"):
+            return np.where(integral > 0, yield_load * integral, 0.0)[()]
+
+    @cached_property
+    def stiffness(self):
+        """Stiffness dF/dd (N/m): 2E*a, but 2E*(a − c) where the depth is the largest so far.
+
+        There it is the slope for going on deeper; unloading starts with 2E*a.
+        """
+        elastic = self.contact_radius
+        yielding = (self.live.lower > 0) & (self.live.length == self.medium.critical_depth)
+        if np.any(yielding):
+            ring = superpose.radius_drop(self.profile, self.live)
+            elastic = np.where(yielding, ring, elastic)[()]
+        return 2 * self.medium.E_star * elastic
+
+    def pressure(self, r):
+        """Contact pressure p = −σ_zz (Pa) at radii r (m), of the shape of `r`.
+
+        p(r) = (E*/π) ∫ ds/√(a(s)² − r²), from Popov (2015), Eq. (10). Zero outside the contact;
+        infinite at the rim of a flat face and under a sharp tip that has not yielded.
+
+        Examples
+        --------
+        >>> from mdr_core import Medium, Paraboloid
+        >>> state = indent(Paraboloid(radius=1.0), Medium(E_star=1.0), 0.01)
+        >>> print(round(state.pressure(0.0), 12))  # Hertz: (2/π) E* √(d/R)
+        0.063661977237
+        """
+        live, r = self._one_state("pressure"), self._radii(r)
+        integral = superpose.pressure_integral(self.profile, live, r.ravel())
+        return (self.medium.E_star / np.pi * integral).reshape(r.shape)[()]
+
+    def line_load(self, x):
+        """Line load q(x) (N/m) of the 1D foundation at x (m); Popov (2015), Eqs. (17), (18)."""
+        live, x = self._one_state("line_load"), self._radii(x)
+        compression = np.clip(live.upper - self.profile._reduced(x), 0.0, live.length)
+        # Inside c the compression is the interval's length itself, free of rounding.
+        compression = np.where(x < self.plastic_radius, live.length, compression)
+        return (self.medium.E_star * compression)[()]
+
+    def surface(self, r):
+        """Elastic displacement u(r) (m) of the surface at radii r (m), positive downward.
+
+        Together with `imprint` it is d − z(r) under the indenter.
+        """
+        live, r = self._one_state("surface"), self._radii(r)
+        displacement = superpose.displacement_integral(self.profile, live, r.ravel())
+        return displacement.reshape(r.shape)[()]
+
+    def imprint(self, r):
+        """Depth (m) of the residual imprint at radii r (m): what is left once the load is gone."""
+        live, r = self._one_state("imprint"), self._radii(r)
+        past = _virgin(live.lower)
+        return superpose.displacement_integral(self.profile, past, r.ravel()).reshape(r.shape)[()]
+
+    def _one_state(self, field):
+        if np.ndim(self.depth):
+            raise ValueError(
+                f"{field} is a field of one state, but this is a path of shape "
+                f"{np.shape(self.depth)}; pick a state first, as in result[-1].{field}(r)"
+            )
+        return self.live
+
+    @staticmethod
+    def _radii(r):
+        return np.abs(_check.finite_array("radius", r, unit="m"))
+
+
+def _virgin(depth):
+    """Live interval of an elastic indentation from zero to `depth`."""
+    return LiveInterval(np.zeros_like(depth), depth, depth)

@@ -1,0 +1,186 @@
+"""A scene: what is to be modelled, as a value that can be saved, loaded and solved."""
+
+import json
+from dataclasses import asdict, dataclass, fields
+
+import numpy as np
+
+from . import _check, profiles
+from .impact import impact
+from .indentation import indent
+from .medium import Medium
+from .profiles import Profile
+
+
+@dataclass(frozen=True)
+class DepthPath:
+    """Press along prescribed depths.
+
+    Parameters
+    ----------
+    depth : float or sequence of float
+        Indentation depth (m), one or a path.
+    """
+
+    depth: float | tuple[float, ...]
+
+    def __post_init__(self):
+        depth = _check.finite_array("DepthPath depth", self.depth, unit="m")
+        if depth.ndim > 1 or not depth.size:
+            raise ValueError(f"DepthPath depth must be a number or a path, got shape {depth.shape}")
+        object.__setattr__(self, "depth", tuple(depth.tolist()) if depth.ndim else depth.item())
+
+    def solve(self, profile, medium):
+        """The `Indentation` along this path."""
+        return indent(profile, medium, self.depth)
+
+
+@dataclass(frozen=True)
+class FreeImpact:
+    """Let a free body hit the medium.
+
+    Parameters
+    ----------
+    mass : float
+        Mass m (kg), positive.
+    speed : float
+        Speed v₀ (m/s) at first contact, positive.
+    """
+
+    mass: float
+    speed: float
+
+    def __post_init__(self):
+        object.__setattr__(self, "mass", _check.positive("FreeImpact mass", self.mass, unit="kg"))
+        object.__setattr__(self, "speed", _check.positive("FreeImpact speed", self.speed, unit="m/s"))
+
+    def solve(self, profile, medium):
+        """The `Impact` of this body."""
+        return impact(profile, medium, self.mass, self.speed)
+
+
+_PROFILES = {
+    shape.__name__: shape
+    for shape in (profiles.FlatPunch, profiles.Cone, profiles.Paraboloid, profiles.PowerLaw)
+}
+_DRIVES = {drive.__name__: drive for drive in (DepthPath, FreeImpact)}
+_FORMAT, _VERSION = "mdr-scene", 1
+
+
+@dataclass(frozen=True)
+class Scene:
+    """An indenter, a medium, and what is done with them.
+
+    Parameters
+    ----------
+    profile : Profile
+        The indenter.
+    medium : Medium
+        The medium.
+    drive : DepthPath or FreeImpact
+        What drives the indenter.
+
+    Examples
+    --------
+    >>> from mdr_core import Cone, Medium
+    >>> scene = Scene(Cone(slope=1.0), Medium(E_star=1.0), DepthPath(2.0))
+    >>> Scene.from_json(scene.to_json()) == scene
+    True
+    >>> print(round(scene.solve().force, 9))  # 2E* d²/(π s)
+    2.546479089
+    """
+
+    profile: Profile
+    medium: Medium
+    drive: DepthPath | FreeImpact
+
+    def __post_init__(self):
+        for name, kind in (("profile", Profile), ("medium", Medium), ("drive", tuple(_DRIVES.values()))):
+            if not isinstance(getattr(self, name), kind):
+                raise TypeError(f"scene {name} is of the wrong type: {getattr(self, name)!r}")
+
+    def solve(self):
+        """Results of the scene: an `Indentation` or an `Impact`."""
+        return self.drive.solve(self.profile, self.medium)
+
+    def to_json(self):
+        """The scene as JSON text, every number exact; an infinite yield constant as null."""
+        return json.dumps(
+            {
+                "format": _FORMAT,
+                "version": _VERSION,
+                "profile": _tagged(self.profile, _PROFILES),
+                "medium": {k: None if np.isinf(v) else v for k, v in asdict(self.medium).items()},
+                "drive": _tagged(self.drive, _DRIVES),
+            },
+            indent=1,
+            allow_nan=False,
+        )
+
+    @classmethod
+    def from_json(cls, text):
+        """The scene that `to_json` wrote.
+
+        Raises
+        ------
+        ValueError
+            If the text is not JSON, not a scene, or has a value out of its range.
+        """
+        try:
+            data = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_duplicates)
+        except RecursionError:
+            raise ValueError("scene: JSON is nested too deeply") from None
+        except ValueError as error:
+            raise ValueError(f"scene: {error}") from None
+        _keys("scene", data, {"format", "version", "profile", "medium", "drive"})
+        if data["format"] != _FORMAT or data["version"] != _VERSION:
+            raise ValueError(
+                f"scene: format {data['format']!r:.40} version {data['version']!r:.40} cannot be read; "
+                f"expected {_FORMAT!r} version {_VERSION}"
+            )
+        medium = data["medium"]
+        if isinstance(medium, dict) and "q_c" in medium and medium["q_c"] is None:
+            medium = medium | {"q_c": np.inf}
+        return cls(
+            _untagged("profile", data["profile"], _PROFILES),
+            _build("medium", medium, Medium),
+            _untagged("drive", data["drive"], _DRIVES),
+        )
+
+
+def _tagged(value, kinds):
+    name = type(value).__name__
+    if kinds.get(name) is not type(value):
+        raise ValueError(f"a {name} cannot be written as JSON")
+    return {"type": name} | asdict(value)
+
+
+def _untagged(what, data, kinds):
+    if not isinstance(data, dict) or not isinstance(data.get("type"), str) or data["type"] not in kinds:
+        raise ValueError(f"scene: {what} needs a type out of {', '.join(kinds)}")
+    return _build(what, {k: v for k, v in data.items() if k != "type"}, kinds[data["type"]])
+
+
+def _build(what, data, kind):
+    _keys(f"scene {what}", data, {field.name for field in fields(kind)})
+    try:
+        return kind(**data)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"scene {what}: {error}") from None
+
+
+def _keys(what, data, expected):
+    if not isinstance(data, dict) or set(data) != expected:
+        found = ", ".join(sorted(map(str, data)))[:200] if isinstance(data, dict) else type(data).__name__
+        raise ValueError(f"{what} must have exactly {', '.join(sorted(expected))}; found {found}")
+
+
+def _no_constant(name):
+    raise ValueError(f"{name} is not a number that can be used")
+
+
+def _no_duplicates(pairs):
+    data = dict(pairs)
+    if len(data) < len(pairs):
+        raise ValueError("the same key stands twice")
+    return data

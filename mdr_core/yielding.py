@@ -1,0 +1,56 @@
+"""Plastic memory: all that a depth history leaves behind is one number, the plastic depth.
+
+Every 1D element yields at the same compression d_c (Popov 2015, Eqs. (11), (12), (19)), so an
+element at x keeps the plastic part max(0, d_max − d_c − g(x)), and the state at depth d is the
+*live interval* of depths [d_p, d] with d_p = max(0, d_max − d_c).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class LiveInterval:
+    """The depths [d_p, d] that are elastically alive (m): floats, or arrays of one shape.
+
+    `length` is carried, not recovered as `upper − lower`: far beyond the critical depth that
+    difference has no digits left. Without contact the length is 0 and both ends are d_p.
+    """
+
+    lower: np.ndarray
+    upper: np.ndarray
+    length: np.ndarray
+
+    def __getitem__(self, index):
+        return LiveInterval(self.lower[index], self.upper[index], self.length[index])
+
+
+def live_interval(depth, critical_depth):
+    """Live interval after each point of a depth path.
+
+    Parameters
+    ----------
+    depth : ndarray
+        Depth path (m) along the last axis; negative while the indenter is lifted off.
+    critical_depth : float
+        Depth d_c (m) at which yield starts; may be infinite.
+
+    Returns
+    -------
+    LiveInterval
+        Arrays of the shape of `depth`.
+
+    Examples
+    --------
+    >>> live_interval(np.array([0.5, 3.0, 2.5, 1.0]), 1.0).length.tolist()
+    [0.5, 1.0, 0.5, 0.0]
+    """
+    if depth.ndim == 0:
+        lower = np.maximum(depth - critical_depth, 0.0)
+        return LiveInterval(lower, np.maximum(depth, lower), np.clip(depth, 0.0, critical_depth))
+    deepest = np.maximum.accumulate(depth, axis=-1)
+    lower = np.maximum(deepest - critical_depth, 0.0)
+    # Before the first yield the length is the depth itself, afterwards what is left of d_c.
+    length = np.minimum(depth, critical_depth - (deepest - depth))
+    return LiveInterval(lower, np.maximum(depth, lower), np.maximum(length, 0.0, out=length))
