@@ -9,20 +9,29 @@ from .impact import Impact, impact
 from .indentation import Indentation, indent
 from .medium import Medium
 from .profiles import Cone, FlatPunch, Paraboloid, PowerLaw, Profile
+from .rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
 from .scene import DepthPath, FreeImpact, Scene
+from .truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
 
 __all__ = [
     "Cone",
     "DepthPath",
     "FlatPunch",
     "FreeImpact",
+    "Hyperboloid",
     "Impact",
     "Indentation",
     "Medium",
+    "ParabolicPunch",
     "Paraboloid",
     "PowerLaw",
     "Profile",
+    "RoundedCone",
+    "RoundedPunch",
     "Scene",
+    "Sphere",
+    "TruncatedCone",
+    "TruncatedParaboloid",
     "impact",
     "indent",
 ]

@@ -8,6 +8,7 @@ import numpy as np
 from . import _check, superpose
 from .indentation import Indentation, indent
 from .medium import Medium
+from .panels import integration_rule
 from .profiles import Profile
 from .yielding import LiveInterval, live_interval
 
@@ -69,7 +70,7 @@ def _positive(quantity, value, unit):
 
 def _work(profile, medium, depth):
     """Work of pressing to `depth` and force there, both over 2E* (m³, m²)."""
-    live = live_interval(depth[..., None], medium.critical_depth)[..., 0]
+    live = live_interval(depth[..., None], *medium._critical_depth_parts)[..., 0]
     virgin = LiveInterval(np.zeros_like(depth), live.lower, live.lower)
     yielded = np.where(live.lower > 0, medium.critical_depth, 0.0)
     with np.errstate(invalid="ignore"):
@@ -178,21 +179,7 @@ class Impact:
         return _contact_time(self)
 
 
-def _integration_matrix(count):
-    """Gauss–Legendre nodes on [0, 1], and the matrix that integrates from each node to 1."""
-    legendre = np.polynomial.legendre
-    node, weight = legendre.leggauss(count)
-    values = legendre.legvander(node, count)
-    # ∫ₓ¹ P_k = (P_{k−1} − P_{k+1})/(2k + 1), for k = 0: 1 − x.
-    tail = np.empty((count, count))
-    tail[:, 0] = 1 - node
-    k = np.arange(1, count)
-    tail[:, 1:] = (values[:, :-2] - values[:, 2:]) / (2 * k + 1)
-    project = (values[:, :count] * weight[:, None]).T * (np.arange(count)[:, None] + 0.5)
-    return (1 + node) / 2, weight / 2, tail @ project / 2
-
-
-_NODE, _WEIGHT, _TAIL = _integration_matrix(32)
+_NODE, _WEIGHT, _TAIL = integration_rule(40)
 
 
 def _contact_time(hit):

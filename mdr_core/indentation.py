@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from . import _check, superpose
+from . import _check, fields, superpose
 from .medium import Medium
 from .profiles import Profile
 from .yielding import LiveInterval, live_interval
@@ -52,8 +52,8 @@ def indent(profile, medium, depth):
         raise TypeError(f"profile must be an mdr_core shape such as Cone(slope=1), got {profile!r}")
     if not isinstance(medium, Medium):
         raise TypeError(f"medium must be a Medium, got {medium!r}")
-    depth = _check.finite_array("depth", depth, unit="m")
-    return Indentation(profile, medium, depth, live_interval(depth, medium.critical_depth))
+    depth = profile._known(_check.finite_array("depth", depth, unit="m"))
+    return Indentation(profile, medium, depth, live_interval(depth, *medium._critical_depth_parts))
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,7 +143,7 @@ class Indentation:
         0.063661977237
         """
         live, r = self._one_state("pressure"), self._radii(r)
-        integral = superpose.pressure_integral(self.profile, live, r.ravel())
+        integral = fields.pressure_integral(self.profile, live, r.ravel())
         return (self.medium.E_star / np.pi * integral).reshape(r.shape)[()]
 
     def line_load(self, x):
@@ -160,14 +160,14 @@ class Indentation:
         Together with `imprint` it is d − z(r) under the indenter.
         """
         live, r = self._one_state("surface"), self._radii(r)
-        displacement = superpose.displacement_integral(self.profile, live, r.ravel())
+        displacement = fields.displacement_integral(self.profile, live, r.ravel())
         return displacement.reshape(r.shape)[()]
 
     def imprint(self, r):
         """Depth (m) of the residual imprint at radii r (m): what is left once the load is gone."""
         live, r = self._one_state("imprint"), self._radii(r)
         past = _virgin(live.lower)
-        return superpose.displacement_integral(self.profile, past, r.ravel()).reshape(r.shape)[()]
+        return fields.displacement_integral(self.profile, past, r.ravel()).reshape(r.shape)[()]
 
     def _one_state(self, field):
         if np.ndim(self.depth):

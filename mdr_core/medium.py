@@ -1,10 +1,15 @@
 """The medium: modulus, yield constant and viscosity, and what follows from them alone."""
 
 from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
 
 from . import _check
+
+# π/2 to 48 digits.
+_HALF_PI = Fraction(157079632679489661923132169163975144209858469968, 10**47)
 
 
 @dataclass(frozen=True)
@@ -84,8 +89,22 @@ class Medium:
     @property
     def critical_depth(self):
         """Indentation depth d_c = π q_c/(2E*) (m) at which yield starts, Popov (2015), Eq. (19)."""
-        # Halves first: π q_c may overflow where the depth does not.
-        return np.pi / 2 * (self.q_c / self.E_star)
+        return self._critical_depth_parts[0]
+
+    @cached_property
+    def _critical_depth_parts(self):
+        """d_c as the sum of a double and a small remainder.
+
+        Just beyond the critical depth, d_p = d − d_c has the remainder's digits in front.
+        """
+        if self.q_c == np.inf:
+            return np.inf, 0.0
+        exact = _HALF_PI * Fraction(self.q_c) / Fraction(self.E_star)
+        try:
+            nearest = float(exact)
+        except OverflowError:
+            return np.inf, 0.0
+        return nearest, float(exact - Fraction(nearest))
 
     @property
     def yield_line_load(self):

@@ -1,11 +1,29 @@
-"""Composite Gauss–Legendre quadrature with as many panels as each interval needs."""
+"""Gauss–Legendre quadrature: composite rules, and integration from each node to the end."""
 
 import numpy as np
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+
+def integration_rule(count):
+    """Gauss–Legendre nodes and weights on [0, 1], and the matrix that integrates from each node to 1."""
+    legendre = np.polynomial.legendre
+    node, weight = legendre.leggauss(count)
+    values = legendre.legvander(node, count)
+    # ∫ₓ¹ P_k = (P_{k−1} − P_{k+1})/(2k + 1), for k = 0: 1 − x.
+    tail = np.empty((count, count))
+    tail[:, 0] = 1 - node
+    k = np.arange(1, count)
+    tail[:, 1:] = (values[:, :-2] - values[:, 2:]) / (2 * k + 1)
+    project = (values[:, :count] * weight[:, None]).T * (np.arange(count)[:, None] + 0.5)
+    return (1 + node) / 2, weight / 2, tail @ project / 2
 
 
-def gauss_panels(width, longest):
+#: Sixteen nodes give full accuracy on a panel of this width for a function that is smooth to a
+#: distance of π/2 from the real axis.
+PANEL = 1.5
+NODES, WEIGHTS, TAIL = integration_rule(16)
+
+
+def gauss_panels(width, longest=PANEL):
     """Nodes and weights on the intervals [0, width], or [width, 0] where negative.
 
     Parameters
@@ -13,8 +31,7 @@ def gauss_panels(width, longest):
     width : ndarray
         Signed widths, one for each interval.
     longest : float
-        Longest panel. Sixteen nodes give full accuracy on a panel of 1.5 for a function that is
-        smooth to a distance of π/2 from the real axis.
+        Longest panel.
 
     Returns
     -------
@@ -27,5 +44,5 @@ def gauss_panels(width, longest):
     start = np.cumsum(count) - count
     step = np.repeat(width / count, count)[:, None]
     index = np.arange(count.sum()) - np.repeat(start, count)
-    nodes = step * (index[:, None] + (1 + _NODES) / 2)
-    return nodes, np.abs(step) * (_WEIGHTS / 2), start
+    nodes = step * (index[:, None] + NODES)
+    return nodes, np.abs(step) * WEIGHTS, start

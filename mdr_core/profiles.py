@@ -1,8 +1,10 @@
 """Indenter shapes: height z(r), reduced height g(x) and contact radius a(d). Geometry only.
 
-A shape is given by three facts, z(r), its reduced 1D profile g(x) (Popov 2015, Eq. (3)) and the
-inverse a(d) of g, and by its `zones`: the stretches of x between kinks, each with the rate at
-which depth grows in a coordinate in which it is smooth. Everything else follows from these.
+A shape is given by its height z(r), its reduced 1D profile g(x) (Popov 2015, Eq. (3)) and its
+`zones`: the stretches of g between kinks, each in a coordinate in which g is smooth, with the
+inverse of g in it. Everything else follows from these.
+
+Here: the interface, and the shapes that are a single power of r.
 """
 
 from abc import ABC, abstractmethod
@@ -18,27 +20,58 @@ from . import _check
 
 @dataclass(frozen=True)
 class Zone:
-    """A stretch of the reduced profile that starts at a kink and is smooth behind it.
+    """A stretch of the reduced profile between two kinks.
 
-    Behind a kink at x = k the profile is smooth in t = √(x² − k²), not in x: there
-    dg = rate(t) dt.
+    Behind a kink at x = k a profile is smooth in t = √(x² − k²), not in x. In a zone that ends on
+    an equator x = L (a sphere's), it is smooth in t = x/√(1 − x²/L²).
 
     Parameters
     ----------
-    kink : float
-        Radius k (m) where the zone begins; 0 for the zone at the tip.
-    end : float
-        Radius (m) where it ends; infinite for the last zone.
     rate : callable
         dg/dt as a function of t (m), vectorised.
+    coordinate : callable
+        t as a function of depth (m), vectorised: 0 for depths before the zone, √(end² − k²) for
+        depths beyond it.
     order : float
         Exponent of the leading power of `rate` at t → 0.
+    kink : float
+        Radius k (m) where the zone begins; 0 for the zone at the tip.
+    scale : float
+        Distance from t = 0 (m) of the nearest singularity, on the imaginary axis; infinite for a
+        pure power.
+    equator : float
+        Radius L (m) that x approaches as t grows without bound.
     """
 
-    kink: float
-    end: float
     rate: Callable
+    coordinate: Callable
     order: float
+    kink: float = 0.0
+    scale: float = np.inf
+    equator: float = np.inf
+
+    def radius(self, t):
+        """x (m) at the coordinate t."""
+        if self.equator < np.inf:
+            return t / np.hypot(1.0, t / self.equator)
+        return np.hypot(self.kink, t) if self.kink else t
+
+    def radius_rate(self, t):
+        """dx/dt at the coordinate t."""
+        if self.equator < np.inf:
+            return self.stretch(t) ** -3
+        return t / self.radius(t) if self.kink else np.ones_like(t)
+
+    def coordinate_at(self, x):
+        """t (m) at the radius x, 0 before the kink; infinite on an equator."""
+        if self.equator < np.inf:
+            with np.errstate(divide="ignore"):
+                return x / np.sqrt(np.maximum(1 - x / self.equator, 0.0) * (1 + x / self.equator))
+        return np.sqrt(np.maximum(x - self.kink, 0.0) * (x + self.kink))
+
+    def stretch(self, t):
+        """√(1 + t²/L²): x² − r² is t² − t_r² over the squares of both stretches."""
+        return np.hypot(1.0, t / self.equator) if self.equator < np.inf else 1.0
 
 
 class Profile(ABC):
@@ -47,24 +80,33 @@ class Profile(ABC):
     Lengths are in m, slopes dimensionless.
     """
 
-    #: Radius (m) of a vertical wall, where depth may grow at constant contact radius.
+    #: Radius (m) of a vertical wall, where depth grows at constant contact radius.
     wall = np.inf
+
+    #: Depth (m) beyond which the shape is not known.
+    deepest = np.inf
 
     def height(self, r):
         """Height z(r) (m) above the tip at radius r (m), of the shape of `r`; even in r."""
-        return self._height(np.abs(_check.finite_array("radius r", r, unit="m")))[()]
+        r = np.abs(_check.finite_array("radius r", r, unit="m"))
+        with np.errstate(over="ignore", under="ignore"):
+            return self._height(r)[()]
 
     def reduced(self, x):
         """Height g(x) (m) of the equivalent 1D profile, Popov (2015), Eq. (3); even in x."""
-        return self._reduced(np.abs(_check.finite_array("coordinate x", x, unit="m")))[()]
+        x = np.abs(_check.finite_array("coordinate x", x, unit="m"))
+        with np.errstate(over="ignore", under="ignore"):
+            return self._reduced(x)[()]
 
     def contact_radius(self, depth):
         """Contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
-        depth = _check.finite_array("depth", depth, unit="m")
-        _check.refuse(
-            "depth", depth, depth < 0, "is negative", unit="m", remedy="depth is positive downward"
-        )
+        depth = self._known(_check.finite_array("depth", depth, unit="m"))
+        _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
         return self._radius(depth)[()]
+
+    def zones_between(self, lower, upper) -> tuple[Zone, ...]:
+        """The zones that hold depths from `lower` to `upper` (m), from the tip outward."""
+        return self.zones
 
     @property
     @abstractmethod
@@ -77,12 +119,22 @@ class Profile(ABC):
     @abstractmethod
     def _reduced(self, x): ...
 
-    @abstractmethod
-    def _radius(self, depth): ...
+    def _radius(self, depth):
+        (zone,) = self.zones
+        return zone.radius(zone.coordinate(depth))
+
+    def _known(self, depth):
+        """`depth`, if the shape is known so far."""
+        if self.deepest == np.inf:
+            return depth
+        bound = f"is deeper than the shape is known, {self.deepest:g} m"
+        return _check.refuse(
+            "depth", depth, depth > self.deepest, bound, unit="m", remedy="press less deep"
+        )
 
 
-def _set_positive(profile, **units):
-    """Replace each named field by its checked float value."""
+def set_positive(profile, **units):
+    """Replace each named field of a frozen profile by its checked float value."""
     for name, unit in units.items():
         quantity = f"{type(profile).__name__} {name}"
         value = _check.positive(quantity, getattr(profile, name), unit=unit)
@@ -107,7 +159,7 @@ class FlatPunch(Profile):
     radius: float
 
     def __post_init__(self):
-        _set_positive(self, radius="m")
+        set_positive(self, radius="m")
 
     wall = property(lambda self: self.radius)
     zones = ()
@@ -140,11 +192,11 @@ class Cone(Profile):
     slope: float
 
     def __post_init__(self):
-        _set_positive(self, slope="")
+        set_positive(self, slope="")
 
     @property
     def zones(self):
-        return (Zone(0.0, np.inf, lambda t: np.full_like(t, np.pi / 2 * self.slope), 0.0),)
+        return (Zone(lambda t: np.full_like(t, np.pi / 2 * self.slope), self._radius, order=0),)
 
     def _height(self, r):
         return self.slope * r
@@ -174,11 +226,11 @@ class Paraboloid(Profile):
     radius: float
 
     def __post_init__(self):
-        _set_positive(self, radius="m")
+        set_positive(self, radius="m")
 
     @property
     def zones(self):
-        return (Zone(0.0, np.inf, lambda t: 2 * t / self.radius, 1.0),)
+        return (Zone(lambda t: 2 * t / self.radius, self._radius, order=1),)
 
     def _height(self, r):
         return r * (r / (2 * self.radius))
@@ -211,16 +263,22 @@ class PowerLaw(Profile):
     exponent: float
 
     def __post_init__(self):
-        _set_positive(self, coefficient="m^(1-n)", exponent="")
+        set_positive(self, coefficient="m^(1-n)", exponent="")
+        if not 0 < self._reduced_coefficient < np.inf:
+            raise ValueError(
+                f"PowerLaw coefficient = {self.coefficient:g} m^(1-n) with exponent = {self.exponent:g} "
+                "leaves double precision in its reduced profile; use another unit of length"
+            )
 
     @cached_property
     def _reduced_coefficient(self):
-        return kappa(self.exponent) * self.coefficient
+        with np.errstate(over="ignore"):
+            return float(kappa(self.exponent) * self.coefficient)
 
     @property
     def zones(self):
         c, n = self._reduced_coefficient, self.exponent
-        return (Zone(0.0, np.inf, lambda t: n * c * t ** (n - 1), n - 1),)
+        return (Zone(lambda t: n * c * t ** (n - 1), self._radius, order=n - 1),)
 
     def _height(self, r):
         return self.coefficient * r**self.exponent
@@ -239,7 +297,7 @@ def kappa(n):
 
     Examples
     --------
-    >>> float(kappa(2.0))
+    >>> print(kappa(2.0))
     2.0
     """
     if n < 300:

@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass, fields
 
 import numpy as np
 
-from . import _check, profiles
+from . import _check, profiles, rounded, truncated
 from .impact import impact
 from .indentation import indent
 from .medium import Medium
@@ -61,7 +61,19 @@ class FreeImpact:
 
 _PROFILES = {
     shape.__name__: shape
-    for shape in (profiles.FlatPunch, profiles.Cone, profiles.Paraboloid, profiles.PowerLaw)
+    for shape in (
+        profiles.FlatPunch,
+        profiles.Cone,
+        profiles.Paraboloid,
+        profiles.PowerLaw,
+        rounded.Sphere,
+        rounded.Hyperboloid,
+        rounded.RoundedCone,
+        rounded.ParabolicPunch,
+        truncated.TruncatedCone,
+        truncated.TruncatedParaboloid,
+        truncated.RoundedPunch,
+    )
 }
 _DRIVES = {drive.__name__: drive for drive in (DepthPath, FreeImpact)}
 _FORMAT, _VERSION = "mdr-scene", 1

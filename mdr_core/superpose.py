@@ -1,12 +1,13 @@
 """Integrals over the live interval: each increment of depth is a flat punch of radius a(s).
 
-Four integrals over the depths s in [d_p, d] give every rate-independent result (the moduli are
-the caller's business, here is geometry only):
+Here those that make the force, the energies and the stiffness,
 
-    radius_integral        ∫ a(s) ds                  force
-    energy_integral        ∫ (d − s) a(s) ds          stored energy
-    pressure_integral      ∫ ds/√(a(s)² − r²)         contact pressure
-    displacement_integral  ∫ h(r, a(s)) ds            surface displacement, imprint
+    radius_integral   ∫ a(s) ds            over the depths s in [d_p, d]
+    energy_integral   ∫ (d − s) a(s) ds
+    radius_drop       a(d) − a(d_p)
+
+for arrays of states; `fields` has those that depend on the radius r. Moduli are the caller's
+business, here is geometry only.
 
 Far beyond the critical depth the interval is much shorter than the depths at its ends. Closed
 forms are therefore written as the interval's length times a positive mean, never as a difference
@@ -18,17 +19,23 @@ from functools import singledispatch
 import numpy as np
 from scipy.special import betainc
 
-from .panels import gauss_panels
+from .panels import NODES, PANEL, TAIL, WEIGHTS
 from .profiles import Cone, FlatPunch, Paraboloid, PowerLaw
+from .rounded import Sphere
 
-# Contributions below e^(−40) of the largest are left out of a graded quadrature.
-_NEGLIGIBLE = 40.0
+_TINY = np.finfo(float).tiny
+
+#: Contributions below e^(−40) of the largest are left out of a graded quadrature.
+NEGLIGIBLE = 40.0
+
+# States that are treated at once: enough to amortise a call, few enough to stay in the cache.
+_CHUNK = 4096
 
 
 @singledispatch
 def radius_integral(profile, live):
     """∫ a(s) ds over the live interval (m²), elementwise."""
-    raise NotImplementedError(type(profile).__name__)
+    return _by_quadrature(profile, live)[0]
 
 
 @radius_integral.register
@@ -45,7 +52,7 @@ def _(profile: Cone, live):
 def _(profile: Paraboloid, live):
     # A³ − C³ with A² − C² = length.
     A, C = np.sqrt(live.upper), np.sqrt(live.lower)
-    mean = (live.upper + A * C + live.lower) / np.maximum(A + C, np.finfo(float).tiny)
+    mean = (live.upper + A * C + live.lower) / np.maximum(A + C, _TINY)
     return (2 / 3 * np.sqrt(profile.radius)) * mean * live.length
 
 
@@ -59,7 +66,7 @@ def _(profile: PowerLaw, live):
 @singledispatch
 def energy_integral(profile, live):
     """∫ (d − s) a(s) ds over the live interval (m³), elementwise."""
-    raise NotImplementedError(type(profile).__name__)
+    return _by_quadrature(profile, live)[1]
 
 
 @energy_integral.register
@@ -76,7 +83,7 @@ def _(profile: Cone, live):
 def _(profile: Paraboloid, live):
     # ∫ 2x²(A² − x²) dx from C to A = C + e, as a polynomial with positive terms in e.
     C = np.sqrt(live.lower)
-    e = live.length / np.maximum(np.sqrt(live.upper) + C, np.finfo(float).tiny)
+    e = live.length / np.maximum(np.sqrt(live.upper) + C, _TINY)
     polynomial = ((4 / 15 * e + 4 / 3 * C) * e + 8 / 3 * C**2) * e + 2 * C**3
     return np.sqrt(profile.radius) * e**2 * polynomial
 
@@ -90,13 +97,13 @@ def _(profile: PowerLaw, live):
 
 @singledispatch
 def radius_drop(profile, live):
-    """a(d) − a(d_p) (m), elementwise: the width of the elastic ring."""
-    raise NotImplementedError(type(profile).__name__)
+    """a(d) − a(d_p) (m), elementwise: where something has yielded, the width of the elastic ring."""
+    return _by_quadrature(profile, live)[2]
 
 
 @radius_drop.register
 def _(profile: FlatPunch, live):
-    return np.where((live.length > 0) & (live.lower == 0), profile.radius, 0.0)
+    return np.zeros_like(live.length)
 
 
 @radius_drop.register
@@ -107,7 +114,7 @@ def _(profile: Cone, live):
 @radius_drop.register
 def _(profile: Paraboloid, live):
     both = np.sqrt(live.upper) + np.sqrt(live.lower)
-    return np.sqrt(profile.radius) * live.length / np.maximum(both, np.finfo(float).tiny)
+    return np.sqrt(profile.radius) * live.length / np.maximum(both, _TINY)
 
 
 @radius_drop.register
@@ -126,189 +133,114 @@ def _power_drop(q, fraction):
         return -np.expm1(q * np.log1p(-fraction))
 
 
-@singledispatch
-def pressure_integral(profile, live, r):
-    """∫ ds/√(a(s)² − r²) over a(s) > r in the live interval, for one state and many r ≥ 0.
-
-    Infinite where the contact pressure is: at the rim of a flat face, and under a sharp tip as
-    long as nothing has yielded there.
-    """
-    return _pressure_by_quadrature(profile, live, r)
-
-
-def _pressure_by_quadrature(profile, live, r):
-    a, c, r, result, inside = _contact(profile, live, r)
-    total, mass = np.zeros_like(r), np.zeros_like(r)
-    for zone in profile.zones:
-        low, high = max(c, zone.kink), min(a, zone.end)
-        reached = r < high
-        if low < high:
-            part = _zone_pressure(zone, low, high, r[reached])
-            total[reached] += part[0]
-            mass[reached] += part[1]
-    # The increments that the whole interval holds are known: scaling by them takes out the
-    # error of a − c, which has few digits in a short interval.
-    smooth = live.length - _wall_length(profile, live)
-    np.divide(total * smooth, mass, out=total, where=(r < c) & (mass > 0) & np.isfinite(total))
-    if profile.wall <= a:
-        with np.errstate(divide="ignore"):
-            total += _wall_length(profile, live) / np.sqrt((a - r) * (a + r))
-    result[inside] = total
-    return result
-
-
-@pressure_integral.register
-def _(profile: Cone, live, r):
-    a, c, r, result, inside = _contact(profile, live, r)
-    # arccosh(a/r) − arccosh(c/r), with the difference of the logarithms' arguments written out.
-    low = np.maximum(c, r)
-    drop = np.where(r < c, radius_drop(profile, live), a - r)
-    root_a, root_low = np.sqrt((a - r) * (a + r)), np.sqrt((low - r) * (low + r))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = (drop + drop * ((a + low) / (root_a + root_low))) / (low + root_low)
-    result[inside] = np.pi / 2 * profile.slope * np.log1p(ratio)
-    return result
-
-
-@pressure_integral.register
-def _(profile: Paraboloid, live, r):
-    a, c, r, result, inside = _contact(profile, live, r)
-    root_a, root_c = np.sqrt((a - r) * (a + r)), np.sqrt(np.maximum(c - r, 0) * (c + r))
-    with np.errstate(invalid="ignore"):
-        yielded = 2 * live.length / (root_a + root_c)
-    result[inside] = np.where(r < c, yielded, 2 / profile.radius * root_a)
-    return result
-
-
-@pressure_integral.register
-def _(profile: PowerLaw, live, r):
-    result = _pressure_by_quadrature(profile, live, np.where(r > 0, r, np.inf))
-    if live.length > 0 and np.any(r == 0):
-        result[r == 0] = _power_law_axis(profile, live)
-    return result
-
-
-def _power_law_axis(profile, live):
-    """∫ ds/a(s) for z = c rⁿ: finite if the axis has yielded, or n > 1."""
-    a, order = profile._radius(live.upper), profile.exponent - 1
-    if live.lower == 0:
-        return profile.exponent / order * live.upper / a if order > 0 else np.inf
-    logarithm = -np.log1p(-radius_drop(profile, live) / a)
-    mean = -np.expm1(-order * logarithm) / order if order else logarithm
-    return profile.exponent * live.upper / a * mean
-
-
-def _contact(profile, live, r):
-    """Radii a and c of one state, the r < a, a result of zeros, and where r < a lies in it."""
-    a = profile._radius(live.upper) if live.length > 0 else 0.0
-    c = profile._radius(live.lower) if live.lower > 0 else 0.0
-    # On the rim of a wall the pressure is infinite, elsewhere it vanishes at r = a.
-    inside = (r <= a) & (a > 0) if a == profile.wall else r < a
-    return float(a), float(c), r[inside], np.zeros_like(r), inside
-
-
-def _wall_length(profile, live):
-    """Part of the live interval (m) in which the contact radius stays at the wall."""
+def wall_length(profile, live):
+    """Part of the live interval (m) in which the contact radius stays at the wall, elementwise."""
     if profile.wall == np.inf:
-        return 0.0
+        return np.zeros_like(live.length)
     foot = profile._reduced(np.asarray(profile.wall))
-    return live.length if foot <= live.lower else max(live.upper - foot, 0.0)
+    beyond = np.maximum(live.upper - foot, 0.0)
+    return np.where(foot <= live.lower, live.length, np.minimum(beyond, live.length))
 
 
-def _zone_pressure(zone, low, high, r):
-    """∫ dg/√(x² − r²) and ∫ dg over max(low, r) < x < high in one zone, for r < high.
+def _by_quadrature(profile, live):
+    """The three integrals for a shape without closed forms, elementwise."""
+    shape = np.shape(live.length)
+    ends = [np.ravel(part) for part in (live.lower, live.upper, live.length, wall_length(profile, live))]
+    result = np.zeros((3, ends[0].size))
+    for rows in _chunks(ends[0].size):
+        lower, upper, length, at_wall = (part[rows] for part in ends)
+        zones = profile.zones_between(lower.min(), upper.max())
+        result[:, rows] = _quadrature(profile, zones, lower, upper, length, at_wall)
+    return result.reshape(3, *shape)
 
-    With β² = |r² − k²| and t = (e^λ ± β² e^(−λ))/2 the first is ∫ rate(t) dλ, and the root is
-    (e^λ ∓ β² e^(−λ))/2: smooth however close r comes to the kink k, or to 0.
+
+def _quadrature(profile, zones, lower, upper, length, at_wall):
+    """Sums of a ds, (d − s) a ds and da over panels, from the depth d downward.
+
+    In u = arsinh(t/scale) every zone is smooth to a distance of about π/2 from the real axis.
     """
-    k = zone.kink
-    sign = np.where(r < k, -1.0, 1.0)
-    beta2 = np.abs((r - k) * (r + k))
-    t_high, root_high = _root(high, k), _root(high, r)
-    t_low, root_low = np.maximum(_root(low, k), np.sqrt(beta2) * (r > k)), _root(np.maximum(low, r), r)
-    top, bottom = t_high + root_high, t_low + root_low
-    rise = ((t_high - t_low) + (root_high - root_low)) / np.where(bottom > 0, bottom, 1.0)
-    width = np.where(bottom > 0, np.log1p(np.maximum(rise, 0.0)), np.inf)
-    if zone.order > 0:
-        width = np.minimum(width, _NEGLIGIBLE / zone.order)
-    total, mass = np.full_like(r, np.inf), np.zeros_like(r)
-    finite = np.isfinite(width)
-    if finite.any():
-        lam, weight, start = gauss_panels(-width[finite], 8 / max(zone.order, 16 / 3))
-        count = np.diff(start, append=len(lam))
-        e = np.repeat(top[finite], count)[:, None] * np.exp(lam)
-        inverse = np.repeat((sign * beta2)[finite], count)[:, None] / e
-        increment = weight * zone.rate((e + inverse) / 2)
-        total[finite] = np.add.reduceat(increment.sum(axis=1), start)
-        mass[finite] = np.add.reduceat((increment * (e - inverse) / 2).sum(axis=1), start)
-    return total, mass
+    spent = at_wall.copy()
+    wall = profile.wall if at_wall.any() else 0.0
+    area, volume, drop = wall * at_wall, wall * at_wall**2 / 2, np.zeros_like(at_wall)
+    for zone in reversed(zones):
+        t_high, t_low = zone.coordinate(upper), zone.coordinate(lower)
+        high, low = np.arcsinh(t_high / zone.scale), np.arcsinh(t_low / zone.scale)
+        width = np.minimum(high - low, NEGLIGIBLE)
+        count = np.ceil(width / PANEL).astype(int)
+        step = width / np.maximum(count, 1)
+        for panel in range(count.max(initial=0)):
+            rows = np.flatnonzero(count > panel)
+            u = high[rows, None] - step[rows, None] * (panel + NODES)
+            t, slant = zone.scale * np.sinh(u), zone.scale * np.cosh(u)
+            x = zone.radius(t)
+            depths = step[rows, None] * zone.rate(t) * slant
+            # Depth between the top and each node: what the panel holds above it.
+            above = spent[rows, None] + depths @ (WEIGHTS - TAIL).T
+            area[rows] += (x * depths) @ WEIGHTS
+            volume[rows] += (x * depths * above) @ WEIGHTS
+            drop[rows] += step[rows] * ((zone.radius_rate(t) * slant) @ WEIGHTS)
+            spent[rows] += depths @ WEIGHTS
+    # An interval too short for its ends to differ is one flat punch.
+    edge = profile._radius(upper)
+    some = spent > 0
+    scale = np.divide(length, spent, out=np.ones_like(spent), where=some)
+    area = np.where(some, area * scale, edge * length)
+    volume = np.where(some, volume * scale * scale, edge * length**2 / 2)
+    return area, volume, drop * scale
 
 
-def _root(x, r):
-    """√(x² − r²) for x ≥ r, without cancellation."""
-    return np.sqrt(np.maximum(x - r, 0.0) * (x + r))
+@radius_integral.register
+def _(profile: Sphere, live):
+    lower, upper, length = (np.ravel(part) for part in (live.lower, live.upper, live.length))
+    result = np.empty_like(length)
+    for rows in _chunks(length.size):
+        result[rows] = _sphere_area(profile, lower[rows], upper[rows], length[rows])
+    return result.reshape(np.shape(live.length))
 
 
-def displacement_integral(profile, live, r):
-    """∫ h(r, a(s)) ds over the live interval (m), for one state and many r ≥ 0.
+def _sphere_area(profile, lower, upper, length):
+    R = profile.radius
+    high, low = profile.latitude(upper), np.zeros_like(lower)
+    yielded = np.flatnonzero(lower > 0)
+    low[yielded] = profile.latitude(lower[yielded])
+    area = R**2 * (_cap_moment(high) - _cap_moment(low))
+    # In a short interval the difference cancels, but the mean radius is a matter of few nodes.
+    short = np.flatnonzero(lower > 0.9 * upper)
+    area[short] = R * _mean_tanh(high[short], low[short]) * length[short]
+    return area
 
-    h is the surface displacement of a flat punch of radius a per unit of its indentation: 1 for
-    r < a and (2/π) arcsin(a/r) outside.
-    """
-    if live.length == 0:
-        return np.zeros_like(r)
-    c = profile._radius(live.lower) if live.lower > 0 else 0.0
-    a = profile._radius(live.upper)
-    if live.lower == 0:
-        # Nothing has yielded: the surface follows the indenter, d − z(r).
-        result = live.upper - profile._height(np.minimum(r, a))
-        outside = r > a
-    else:
-        result = np.where(r < c, live.length, np.clip(live.upper - profile._reduced(r), 0, live.length))
-        outside = r > c
-    outer = _outside_displacement(profile, live, a, c, r[outside])
-    result[outside] = np.where(r[outside] < a, result[outside], 0.0) + outer
+
+_SHORT_NODES, _SHORT_WEIGHTS = np.polynomial.legendre.leggauss(4)
+
+
+def _mean_tanh(high, low):
+    """Mean of a/R = tanh y over the depths R y tanh y between two near latitudes."""
+    area, depth = np.zeros_like(high), np.zeros_like(high)
+    for node, weight in zip(_SHORT_NODES, _SHORT_WEIGHTS, strict=True):
+        y = (high + low) / 2 + node * (high - low) / 2
+        tanh = np.tanh(y)
+        rate = weight * (tanh + y * (1 - tanh) * (1 + tanh))
+        depth += rate
+        area += tanh * rate
+    return area / np.maximum(depth, _TINY)
+
+
+def _cap_moment(y):
+    """[(1 + tanh²y) y − tanh y]/2, the elastic ∫ a ds of a sphere over R²."""
+    tanh = np.tanh(y)
+    result = ((1 + tanh * tanh) * y - tanh) / 2
+    small = np.flatnonzero(tanh < 0.3)
+    square = tanh[small] ** 2
+    # Σ tanh^(2k+1) 2k/(4k² − 1) for small tanh, where the two terms cancel.
+    series = np.zeros_like(square)
+    for coefficient in _CAP_SERIES:
+        series = series * square + coefficient
+    result[small] = series * square * tanh[small]
     return result
 
 
-def _outside_displacement(profile, live, a, c, r):
-    """(2/π) ∫ arcsin(a(s)/r) ds over a(s) < r, for r > c."""
-    total, mass = np.zeros_like(r), np.zeros_like(r)
-    for zone in profile.zones:
-        low, high = max(c, zone.kink), np.minimum(min(a, zone.end), r)
-        reached = high > low
-        if reached.any():
-            part = _zone_displacement(zone, low, high[reached], r[reached])
-            total[reached] += part[0]
-            mass[reached] += part[1]
-    at_wall = _wall_length(profile, live)
-    scaled = (r > a) & (mass > 0)
-    np.divide(total * (live.length - at_wall), mass, out=total, where=scaled)
-    if at_wall > 0:
-        total += np.where(r > a, at_wall * np.arcsin(np.minimum(a / r, 1.0)), 0.0)
-    return 2 / np.pi * total
+_CAP_SERIES = [2 * k / (4 * k * k - 1) for k in range(14, 0, -1)]
 
 
-def _zone_displacement(zone, low, high, r):
-    """∫ arcsin(x/r) dg and ∫ dg over low < x < high ≤ r in one zone.
-
-    With β² = r² − k² and t = β/cosh w the root √(r² − x²) is β tanh w: smooth at x = r, and
-    graded towards the kink.
-    """
-    k = zone.kink
-    beta = _root(r, k)
-    w_low = np.arcsinh(_root(r, high) / _root(high, k))
-    with np.errstate(divide="ignore"):
-        w_high = np.arcsinh(_root(r, low) / _root(low, k))
-    width = np.minimum(w_high - w_low, _NEGLIGIBLE / (1 + zone.order))
-    w, weight, start = gauss_panels(width, 8 / max(zone.order + 1, 16 / 3))
-    count = np.diff(start, append=len(w))
-    w, beta, radius = (
-        w + np.repeat(w_low, count)[:, None],
-        *(np.repeat(part, count)[:, None] for part in (beta, r)),
-    )
-    t, root = beta / np.cosh(w), beta * np.tanh(w)
-    increment = weight * zone.rate(t) * t * np.tanh(w)
-    angle = np.arctan2(np.sqrt((radius - root) * (radius + root)), root)
-    total = np.add.reduceat((increment * angle).sum(axis=1), start)
-    return total, np.add.reduceat(increment.sum(axis=1), start)
+def _chunks(size):
+    return (slice(start, start + _CHUNK) for start in range(0, size, _CHUNK))

@@ -1,0 +1,69 @@
+"""The medium: Popov (2015), Eqs. (1), (2), (12), (19)."""
+
+import math
+
+import pytest
+
+import mdr_core as mdr
+
+
+def test_eq_1_relaxation_time_is_dashpot_over_spring():
+    medium = mdr.Medium(E_star=3e6, eta=12.0)
+    spring, dashpot = medium.E_star, 4 * medium.eta
+    assert medium.relaxation_time == dashpot / spring
+
+
+def test_eq_2_compliances_of_two_bodies_add():
+    steel, rubber = mdr.Medium.from_bodies(210e9, 0.3), mdr.Medium.from_bodies(2e6, 0.5)
+    both = mdr.Medium.from_bodies(210e9, 0.3, 2e6, 0.5)
+    # One rounding in each of a few operations.
+    assert 1 / both.E_star == pytest.approx(1 / steel.E_star + 1 / rubber.E_star, rel=1e-15)
+
+
+def test_eq_2_incompressible_body_under_a_rigid_indenter():
+    assert mdr.Medium.from_bodies(3.0, 0.5).E_star == 4.0
+
+
+def test_eq_12_and_19_yield_line_load_is_reached_at_the_critical_depth():
+    medium = mdr.Medium(E_star=100e9, q_c=7.0)
+    assert medium.yield_line_load == math.pi * 7.0 / 2
+    assert medium.critical_depth * medium.E_star == pytest.approx(medium.yield_line_load, rel=1e-15)
+
+
+def test_without_yield_constant_nothing_yields():
+    assert mdr.Medium(E_star=1.0).critical_depth == math.inf
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({"E_star": 0.0}, "E_star = 0 Pa must be finite and positive"),
+        ({"E_star": math.nan}, "E_star = nan"),
+        ({"E_star": math.inf}, "E_star = inf"),
+        ({"E_star": "1e9"}, "E_star must be one real number"),
+        ({"E_star": True}, "E_star must be one real number"),
+        ({"E_star": [1e9, 2e9]}, "E_star must be one real number"),
+        ({"E_star": 1e9, "q_c": 0.0}, "q_c = 0 N/m must be positive"),
+        ({"E_star": 1e9, "q_c": math.nan}, "q_c = nan"),
+        ({"E_star": 1e9, "eta": -1.0}, "eta = -1 Pa·s must be finite and not negative"),
+        ({"E_star": 1e300, "q_c": 1e-300}, "outside double precision"),
+    ],
+)
+def test_bad_medium_is_refused(arguments, says):
+    with pytest.raises(ValueError, match=says):
+        mdr.Medium(**arguments)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ((1e9, 0.6), "nu1 = 0.6"),
+        ((1e9, -1.0), "nu1 = -1"),
+        ((-1e9, 0.3), "E1 = -1e"),
+        ((1e9, 0.3, 0.0), "E2 = 0"),
+        ((math.inf, 0.3), "both infinite"),
+    ],
+)
+def test_bad_bodies_are_refused(arguments, says):
+    with pytest.raises(ValueError, match=says):
+        mdr.Medium.from_bodies(*arguments)
