@@ -5,18 +5,22 @@ inversely proportional to the contact radius), mapped exactly onto a row of inde
 V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 """
 
+from . import abel
 from .impact import Impact, impact
-from .indentation import Indentation, indent
+from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium
 from .profiles import Cone, FlatPunch, Paraboloid, PowerLaw, Profile
 from .rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
-from .scene import DepthPath, FreeImpact, Scene
+from .sampled import Sampled
+from .scene import DepthPath, ForcePath, FreeImpact, Scene
+from .smooth import Smooth
 from .truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
 
 __all__ = [
     "Cone",
     "DepthPath",
     "FlatPunch",
+    "ForcePath",
     "FreeImpact",
     "Hyperboloid",
     "Impact",
@@ -28,10 +32,14 @@ __all__ = [
     "Profile",
     "RoundedCone",
     "RoundedPunch",
+    "Sampled",
     "Scene",
+    "Smooth",
     "Sphere",
     "TruncatedCone",
     "TruncatedParaboloid",
+    "abel",
     "impact",
     "indent",
+    "indent_to_force",
 ]

@@ -76,7 +76,7 @@ def _contact(profile, live, r):
 
 
 def _pressure_by_quadrature(profile, live, r):
-    a, c, r, result, inside = _contact(profile, live, r)
+    a, _, r, result, inside = _contact(profile, live, r)
     at_wall = wall_length(profile, live)
     total, mass = np.zeros_like(r), np.zeros_like(r)
     for zone in profile.zones_between(live.lower, live.upper):
@@ -87,8 +87,9 @@ def _pressure_by_quadrature(profile, live, r):
             total[reached] += part[0]
             mass[reached] += part[1]
     # The increments that the whole interval holds are known: scaling by them takes out the
-    # error of a − c, which has few digits in a short interval.
-    scaled = (r < c) & (mass > 0) & np.isfinite(total)
+    # error of a − c, which has few digits in a short interval. Under a flat face c counts as its
+    # radius.
+    scaled = (r < profile._radius(live.lower)) & (mass > 0) & np.isfinite(total)
     np.divide(total * (live.length - at_wall), mass, out=total, where=scaled)
     if at_wall > 0:
         with np.errstate(divide="ignore"):
@@ -144,7 +145,8 @@ def displacement_integral(profile, live, r):
         result = live.upper - profile._height(np.minimum(r, a))
         outside = r > a
     else:
-        result = np.where(r < c, live.length, np.clip(live.upper - profile._reduced(r), 0, live.length))
+        ring = np.clip(live.upper - profile._reduced(np.minimum(r, a)), 0, live.length)
+        result = np.where(r < c, live.length, ring)
         outside = r > c
     outer = _outside_displacement(profile, live, a, r[outside])
     result[outside] = np.where(r[outside] < a, result[outside], 0.0) + outer

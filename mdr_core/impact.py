@@ -7,6 +7,7 @@ import numpy as np
 
 from . import _check, superpose
 from .indentation import Indentation, indent
+from .inverse import increasing_root
 from .medium import Medium
 from .panels import integration_rule
 from .profiles import Profile
@@ -80,28 +81,16 @@ def _work(profile, medium, depth):
 
 
 def _largest_depth(profile, medium, energy):
-    """Depth (m) at which the work of pressing equals the energy.
-
-    Newton's method on ln(work) against ln(depth), whose slope lies between 1 and 2 + 1/n, kept
-    inside a bracket that every step narrows.
-    """
-    target = np.asarray(energy / (2 * medium.E_star))
-    depth = np.full_like(target, medium.critical_depth if medium.critical_depth < np.inf else 1.0)
-    low, high = np.zeros_like(depth), np.full_like(depth, np.inf)
-    for _ in range(200):
-        work, force = _work(profile, medium, depth)
-        with np.errstate(all="ignore"):
-            miss = np.log(target / work)
-            high = np.where(work >= target, depth, high)
-            low = np.where(work <= target, depth, low)
-            step = depth * np.exp(np.clip(miss * work / (force * depth), -50, 50))
-            middle = np.where(high < np.inf, np.sqrt(low * high), 4 * depth)
-        new = np.where((step >= low) & (step <= high), step, middle)
-        done = np.abs(new - depth) <= 4 * np.finfo(float).eps * depth
-        depth = new
-        if np.all(done):
-            return depth
-    raise RuntimeError("the largest depth did not converge; please report the inputs")
+    """Depth (m) at which the work of pressing equals the energy."""
+    depth = increasing_root(
+        lambda depth: _work(profile, medium, depth),
+        energy / (2 * medium.E_star),
+        medium.critical_depth if medium.critical_depth < np.inf else 1.0,
+        profile.deepest,
+    )
+    bound = f"presses deeper than the shape is known, {profile.deepest:g} m"
+    _check.refuse("kinetic energy", energy, np.isinf(depth), bound, remedy="hit less hard")
+    return depth
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from . import _check, fields, superpose
+from .inverse import increasing_root
 from .medium import Medium
 from .profiles import Profile
 from .yielding import LiveInterval, live_interval
@@ -48,17 +49,91 @@ def indent(profile, medium, depth):
     >>> print(round(state.force / critical_force, 12))
     3.0
     """
-    if not isinstance(profile, Profile):
-        raise TypeError(f"profile must be an mdr_core shape such as Cone(slope=1), got {profile!r}")
-    if not isinstance(medium, Medium):
-        raise TypeError(f"medium must be a Medium, got {medium!r}")
+    _refuse_types(profile, medium)
     depth = profile._known(_check.finite_array("depth", depth, unit="m"))
     return Indentation(profile, medium, depth, live_interval(depth, *medium._critical_depth_parts))
 
 
+def indent_to_force(profile, medium, force):
+    """Press an indenter along a force path: the inverse of `indent`, with the same memory.
+
+    Parameters
+    ----------
+    profile, medium
+        As for `indent`.
+    force : float or array_like
+        Normal force (N), not negative; one number or a path along the last axis. Where it falls
+        to 0 the indenter rests at the bottom of the imprint.
+
+    Returns
+    -------
+    Indentation
+        Quantities of the shape of `force`.
+
+    Raises
+    ------
+    ValueError
+        If a force is negative or not finite, larger than a flat face carries before all of it
+        yields (π q_c b, Popov 2015, Eq. (11)), or beyond the depth to which the shape is known.
+
+    Examples
+    --------
+    >>> from mdr_core import Cone, Medium
+    >>> cone, medium = Cone(slope=1.0), Medium(E_star=1.0, q_c=1.0)
+    >>> print(round(indent_to_force(cone, medium, indent(cone, medium, 5.0).force).depth, 12))
+    5.0
+    """
+    _refuse_types(profile, medium)
+    force = _check.finite_array("force", force, unit="N")
+    _check.refuse("force", force, force < 0, "is negative", unit="N", remedy="there is no adhesion")
+    most = 2 * medium.yield_line_load * profile.wall
+    bound = f"must be less than the {most:g} N at which the whole flat face yields"
+    _check.refuse("force", force, force >= most, bound, unit="N", remedy="press to a depth instead")
+    area = force / (2 * medium.E_star)
+    peak = np.maximum.accumulate(area, axis=-1) if area.ndim else area
+    deepest = _loading_depth(profile, medium, peak)
+    bound = f"presses deeper than the shape is known, {profile.deepest:g} m"
+    _check.refuse("force", force, np.isinf(deepest), bound, unit="N", remedy="press less")
+    front = live_interval(deepest[..., None], *medium._critical_depth_parts)[..., 0]
+    length = np.where(area == peak, front.length, _live_length(profile, front, area))
+    upper = np.where(area == peak, deepest, front.lower + length)
+    return Indentation(profile, medium, upper, LiveInterval(front.lower, upper, length))
+
+
+def _loading_depth(profile, medium, area):
+    """Depth (m) at which a first loading has ∫ a ds = `area`, elementwise."""
+
+    def loading(depth):
+        live = live_interval(depth[..., None], *medium._critical_depth_parts)[..., 0]
+        ring = np.where(live.lower > 0, superpose.radius_drop(profile, live), profile._radius(depth))
+        return superpose.radius_integral(profile, live), ring
+
+    start = medium.critical_depth if medium.critical_depth < np.inf else 1.0
+    return increasing_root(loading, area, start, profile.deepest)
+
+
+def _live_length(profile, front, area):
+    """Live depth (m) left under the force 2E*·`area` after unloading from the state `front`."""
+
+    def unloading(length):
+        length = np.minimum(length, front.length)
+        live = LiveInterval(front.lower, front.lower + length, length)
+        return superpose.radius_integral(profile, live), profile._radius(live.upper)
+
+    start = float(np.max(front.length, initial=0.0)) or 1.0
+    return np.minimum(increasing_root(unloading, area, start), front.length)
+
+
+def _refuse_types(profile, medium):
+    if not isinstance(profile, Profile):
+        raise TypeError(f"profile must be an mdr_core shape such as Cone(slope=1), got {profile!r}")
+    if not isinstance(medium, Medium):
+        raise TypeError(f"medium must be a Medium, got {medium!r}")
+
+
 @dataclass(frozen=True, eq=False)
 class Indentation:
-    """States of an indentation, one for each point of its depth path; made by `indent`.
+    """States of an indentation, one for each point of its path; made by `indent` or `indent_to_force`.
 
     Every quantity has the shape of `depth`. `result[i]` picks a state; `pressure`, `line_load`,
     `surface` and `imprint` are fields of one state. `live` is the interval of depths [d_p, d]
@@ -149,9 +224,10 @@ class Indentation:
     def line_load(self, x):
         """Line load q(x) (N/m) of the 1D foundation at x (m); Popov (2015), Eqs. (17), (18)."""
         live, x = self._one_state("line_load"), self._radii(x)
-        compression = np.clip(live.upper - self.profile._reduced(x), 0.0, live.length)
+        ring = live.upper - self.profile._reduced(np.minimum(x, self.contact_radius))
         # Inside c the compression is the interval's length itself, free of rounding.
-        compression = np.where(x < self.plastic_radius, live.length, compression)
+        inside = np.where(x < self.plastic_radius, live.length, np.clip(ring, 0.0, live.length))
+        compression = np.where(x < self.contact_radius, inside, 0.0)
         return (self.medium.E_star * compression)[()]
 
     def surface(self, r):

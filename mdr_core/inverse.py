@@ -1,9 +1,9 @@
-"""Inverting a reduced profile: Newton's method on arrays, and a function it needs."""
+"""Roots on arrays: of reduced profiles, forces and energies; and a function they need."""
 
 import numpy as np
 
 
-def newton(step, start, *, most=60):
+def newton(step, start, *, largest=np.inf, most=60):
     """Roots by Newton's method, elementwise.
 
     Parameters
@@ -13,6 +13,8 @@ def newton(step, start, *, most=60):
         relative accuracy.
     start : ndarray
         First guesses, not negative; a guess of 0 is taken as the root.
+    largest : float
+        Bound that no root exceeds.
 
     Raises
     ------
@@ -21,17 +23,66 @@ def newton(step, start, *, most=60):
     """
     x = np.asarray(start, dtype=float)
     zero = x == 0
-    x = np.where(zero, 1.0, x)
+    x = np.where(zero, np.minimum(1.0, largest), x)
     for _ in range(most):
         change = step(x)
         # Never below a tenth: keeps x positive where f is flat.
-        new = np.maximum(x - change, x / 10)
+        new = np.minimum(np.maximum(x - change, x / 10), largest)
         settled = np.abs(change) <= 1e-8 * x
         x = new
         # The error of the new x is the square of the change.
         if np.all(settled | zero):
             return np.where(zero, 0.0, x)
     raise ArithmeticError("the contact radius did not converge; check that the depth is in metres")
+
+
+def increasing_root(function, target, start, highest=np.inf):
+    """Positive x with function(x) = target, elementwise, for a function that grows about as a power.
+
+    Newton's method on ln f against ln x, inside a bracket that every step narrows.
+
+    Parameters
+    ----------
+    function : callable
+        Values and derivatives at an array x > 0, as a pair.
+    target : ndarray
+        Values to reach; 0 is reached at 0.
+    start : float
+        A first guess for all.
+    highest : float
+        Largest x at which the function is known; where it falls short of the target there, the
+        result is infinite.
+    """
+    target = np.asarray(target, dtype=float)
+    x = np.full(target.shape, min(start, highest))
+    low, high = np.zeros_like(x), np.full_like(x, np.inf)
+    if highest < np.inf:
+        reachable = target <= function(np.full_like(x, highest))[0]
+        high = np.full_like(x, highest)
+    else:
+        reachable = np.ones(target.shape, bool)
+    sought = (target > 0) & reachable
+    for iteration in range(300):
+        value, slope = function(x)
+        with np.errstate(all="ignore"):
+            high = np.where(value >= target, x, high)
+            low = np.where(value <= target, x, low)
+            miss = np.log(target / value)
+            step = miss * value / (slope * x)
+            new = x * np.exp(np.clip(step, -3, 3))
+            middle = np.where(
+                high < np.inf, np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 16), 16 * x
+            )
+        # Long steps in a bracket take turns with halving it, so that none can go round in circles.
+        halve = (iteration % 3 == 2) & (np.abs(step) > 0.1) & (low > 0) & (high < np.inf)
+        new = np.where((new >= low) & (new <= high) & ~halve, new, middle)
+        # Where f is nearly flat its own rounding decides.
+        eps = np.finfo(float).eps
+        settled = (np.abs(new - x) <= 4 * eps * x) | (np.abs(miss) <= 8 * eps)
+        x = np.where(sought, new, x)
+        if np.all(settled | ~sought):
+            return np.where(reachable, np.where(target > 0, x, 0.0), np.inf)
+    raise ArithmeticError("the depth did not converge; check that all quantities are in SI units")
 
 
 # 1/3, −1/5, 1/7, …: enough for τ ≤ 1/2.

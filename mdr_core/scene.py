@@ -5,11 +5,18 @@ from dataclasses import asdict, dataclass, fields
 
 import numpy as np
 
-from . import _check, profiles, rounded, truncated
+from . import _check, profiles, rounded, sampled, truncated
 from .impact import impact
-from .indentation import indent
+from .indentation import indent, indent_to_force
 from .medium import Medium
 from .profiles import Profile
+
+
+def _path(quantity, values, unit):
+    values = _check.finite_array(quantity, values, unit=unit)
+    if values.ndim > 1 or not values.size:
+        raise ValueError(f"{quantity} must be a number or a path, got shape {values.shape}")
+    return tuple(values.tolist()) if values.ndim else values.item()
 
 
 @dataclass(frozen=True)
@@ -25,14 +32,31 @@ class DepthPath:
     depth: float | tuple[float, ...]
 
     def __post_init__(self):
-        depth = _check.finite_array("DepthPath depth", self.depth, unit="m")
-        if depth.ndim > 1 or not depth.size:
-            raise ValueError(f"DepthPath depth must be a number or a path, got shape {depth.shape}")
-        object.__setattr__(self, "depth", tuple(depth.tolist()) if depth.ndim else depth.item())
+        object.__setattr__(self, "depth", _path("DepthPath depth", self.depth, "m"))
 
     def solve(self, profile, medium):
         """The `Indentation` along this path."""
         return indent(profile, medium, self.depth)
+
+
+@dataclass(frozen=True)
+class ForcePath:
+    """Press with prescribed forces.
+
+    Parameters
+    ----------
+    force : float or sequence of float
+        Normal force (N), one or a path; not negative.
+    """
+
+    force: float | tuple[float, ...]
+
+    def __post_init__(self):
+        object.__setattr__(self, "force", _path("ForcePath force", self.force, "N"))
+
+    def solve(self, profile, medium):
+        """The `Indentation` along this path."""
+        return indent_to_force(profile, medium, self.force)
 
 
 @dataclass(frozen=True)
@@ -73,9 +97,10 @@ _PROFILES = {
         truncated.TruncatedCone,
         truncated.TruncatedParaboloid,
         truncated.RoundedPunch,
+        sampled.Sampled,
     )
 }
-_DRIVES = {drive.__name__: drive for drive in (DepthPath, FreeImpact)}
+_DRIVES = {drive.__name__: drive for drive in (DepthPath, ForcePath, FreeImpact)}
 _FORMAT, _VERSION = "mdr-scene", 1
 
 
@@ -89,7 +114,7 @@ class Scene:
         The indenter.
     medium : Medium
         The medium.
-    drive : DepthPath or FreeImpact
+    drive : DepthPath, ForcePath or FreeImpact
         What drives the indenter.
 
     Examples
@@ -104,7 +129,7 @@ class Scene:
 
     profile: Profile
     medium: Medium
-    drive: DepthPath | FreeImpact
+    drive: DepthPath | ForcePath | FreeImpact
 
     def __post_init__(self):
         for name, kind in (("profile", Profile), ("medium", Medium), ("drive", tuple(_DRIVES.values()))):

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .inverse import arctan_gap, newton
-from .profiles import Profile, Zone, set_positive
+from .profiles import Profile, set_positive
+from .zones import Zone
 
 
 class _FlatFaced(Profile):

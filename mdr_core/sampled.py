@@ -1,0 +1,247 @@
+"""An indenter given by samples of its height, as a measured tip is."""
+
+import re
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from . import _check
+from .profiles import Profile
+from .zones import Zone
+
+_UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9}
+
+
+@dataclass(frozen=True)
+class Sampled(Profile):
+    """The polygon through samples of the height, solved exactly.
+
+    Its reduced height is x Σ sᵢ [arcsin(min(rᵢ₊₁, x)/x) − arcsin(rᵢ/x)] with the slopes sᵢ, from
+    Popov (2015), Eq. (3). The polygon must be convex: behind a vertex at which the slope falls,
+    g falls with a vertical tangent, and the contact would not be compact.
+
+    Parameters
+    ----------
+    r : array_like
+        Radii (m), strictly ascending from 0; at least two.
+    z : array_like
+        Heights (m) at `r`; they count from the first one.
+
+    Raises
+    ------
+    ValueError
+        If the samples are not as above, or pressed deeper than they reach.
+
+    Examples
+    --------
+    >>> tip = Sampled([0.0, 1.0, 2.0], [0.0, 1.0, 3.0])
+    >>> print(round(tip.reduced(1.0), 12), tip.deepest > 3)  # π/2
+    1.570796326795 True
+    """
+
+    r: tuple[float, ...]
+    z: tuple[float, ...] = field(repr=False)
+
+    def __post_init__(self):
+        r, z = (
+            _check.finite_array(f"Sampled {what}", values, unit="m")
+            for what, values in (("r", self.r), ("z", self.z))
+        )
+        if r.ndim != 1 or r.shape != z.shape or r.size < 2:
+            raise ValueError(
+                f"Sampled r and z must be two lists of one length ≥ 2, got shapes {r.shape}, {z.shape}"
+            )
+        if r[0] != 0:
+            raise ValueError(f"Sampled r[0] = {r[0]:g} m must be 0: add the sample at the tip")
+        back = np.append(False, np.diff(r) <= 0)
+        _check.refuse("Sampled r", r, back, "does not ascend", unit="m", remedy="sort, and drop duplicates")
+        object.__setattr__(self, "r", tuple(r.tolist()))
+        object.__setattr__(self, "z", tuple((z - z[0]).tolist()))
+        self._refuse_concave()
+
+    @classmethod
+    def from_csv(cls, path, unit=None):
+        """The tip in a CSV file with two columns, radius and height.
+
+        Parameters
+        ----------
+        path : path-like
+            File with one sample a row: separated by commas, semicolons, tabs or blanks. Lines that
+            begin with # are passed over. A header may name the units, as in ``r (nm), z (nm)``.
+        unit : {"m", "mm", "um", "µm", "nm"}, optional
+            Unit of both columns, if the header does not name them.
+
+        Raises
+        ------
+        ValueError
+            If a row is not two numbers, or no unit is given, or two that differ.
+        """
+        with open(path, encoding="utf-8-sig", newline="") as file:
+            return cls(*_read(file, unit, str(path)))
+
+    @classmethod
+    def convex_envelope(cls, r, z):
+        """The largest convex shape under the samples: what is left of a noisy tip for a compact contact.
+
+        Parameters
+        ----------
+        r, z : array_like
+            As for `Sampled`, convex or not.
+
+        Examples
+        --------
+        >>> Sampled.convex_envelope([0, 1, 2, 3], [0, 2, 2.5, 6]).r
+        (0.0, 2.0, 3.0)
+        """
+        r, z = (_check.finite_array(f"Sampled {n}", v, unit="m") for n, v in (("r", r), ("z", z)))
+        hull = []
+        for point in zip(r.tolist(), z.tolist(), strict=True):
+            while len(hull) > 1 and _turns_down(*hull[-2:], point):
+                hull.pop()
+            hull.append(point)
+        return cls(*zip(*hull, strict=True))
+
+    def _refuse_concave(self):
+        r, z, slope = self._r, self._z, self._slope
+        # Straight within the rounding of the heights counts as straight.
+        noise = 4 * np.finfo(float).eps * (np.abs(z[1:]) + np.abs(z[:-1])) / np.diff(r)
+        fall = slope[:-1] - slope[1:]
+        concave = np.append(False, fall > noise[1:] + noise[:-1])
+        if slope[0] < 0:
+            raise ValueError(
+                f"Sampled z[1] = {z[1]:g} m lies below the tip; order the samples from the tip out"
+            )
+        if np.any(concave):
+            i = int(np.argmax(concave))
+            raise ValueError(
+                f"Sampled shape is concave at r[{i}] = {r[i]:g} m (slope {slope[i - 1]:g} before, "
+                f"{slope[i]:g} after), so that the contact would not be compact; smooth the samples or "
+                "take Sampled.convex_envelope(r, z)"
+            )
+        if not slope[-1] > 0:
+            raise ValueError("Sampled z is flat throughout; use FlatPunch")
+
+    # The polygon is a sum of truncated cones, one from each vertex, by the change of slope there.
+    _r = cached_property(lambda self: np.array(self.r))
+    _z = cached_property(lambda self: np.array(self.z))
+    _slope = cached_property(lambda self: np.diff(self._z) / np.diff(self._r))
+    _bend = cached_property(lambda self: np.diff(self._slope, prepend=0.0))
+
+    @cached_property
+    def _g(self):
+        """Reduced height at the vertices (m)."""
+        return self._reduced(self._r)
+
+    known_radius = property(lambda self: self.r[-1])
+    deepest = property(lambda self: float(self._g[-1]))
+
+    @cached_property
+    def zones(self):
+        return tuple(self._zone(j) for j in range(len(self.r) - 1))
+
+    def zones_between(self, lower, upper):
+        first = max(np.searchsorted(self._g, lower, side="right") - 1, 0)
+        last = np.searchsorted(self._g, upper, side="left")
+        return tuple(zone for zone in self.zones[first:last] if zone.scale > 0)
+
+    def _zone(self, j):
+        r, bend = self._r, self._bend
+        end = np.sqrt((r[j + 1] - r[j]) * (r[j + 1] + r[j]))
+        if self._g[j + 1] == 0:
+            # Under a flat face no depth is gained.
+            return Zone(np.zeros_like, np.zeros_like, order=0, kink=r[j], scale=0.0)
+        inner = (r[j] - r[1:j]) * (r[j] + r[1:j])
+
+        def rate(t):
+            x = np.hypot(r[j], t)
+            own = bend[j] * (np.arctan2(t, r[j]) * t + r[j]) / x if j else 0.0
+            w = np.sqrt(np.square(t)[..., None] + inner)
+            others = np.pi / 2 * bend[0] + (np.arctan2(w, r[1:j]) + r[1:j] / w) @ bend[1:j]
+            return own + others * (t / x if j else 1.0)
+
+        def coordinate(depth):
+            depth = np.clip(depth, self._g[j], self._g[j + 1])
+            return _bracketed_root(
+                lambda t: self._reduced(np.hypot(r[j], t)) - depth, rate, end, r[j], depth
+            )
+
+        scale = np.sqrt(inner[-1]) if j > 1 else r[1]
+        return Zone(rate, coordinate, order=0, kink=float(r[j]), scale=float(scale))
+
+    def _height(self, r):
+        beyond = np.maximum(r - self._r[-1], 0.0)
+        return np.interp(r, self._r, self._z) + self._slope[-1] * beyond
+
+    def _reduced(self, x):
+        x = np.asarray(x)
+        total = np.pi / 2 * self._bend[0] * x
+        for radius, bend in zip(self._r[1:-1], self._bend[1:], strict=True):
+            behind = np.sqrt(np.maximum(x - radius, 0.0) * (x + radius))
+            total = total + bend * x * np.arctan2(behind, radius)
+        return total
+
+    def _radius(self, depth):
+        depth = np.asarray(depth)
+        flat = depth.ravel()
+        result = np.full(flat.shape, self._r[np.count_nonzero(self._g == 0) - 1])
+        index = np.clip(np.searchsorted(self._g, flat, side="left") - 1, 0, len(self.r) - 2)
+        for j in np.unique(index[flat > 0]):
+            rows = (index == j) & (flat > 0)
+            result[rows] = self.zones[j].radius(self.zones[j].coordinate(flat[rows]))
+        return result.reshape(depth.shape)
+
+
+def _bracketed_root(f, slope, end, kink, depth):
+    """Root t in [0, end] of f, rising from f(0) ≤ 0 to f(end) ≥ 0, to the rounding of x = √(k² + t²)."""
+    low, high = np.zeros_like(depth), np.full_like(depth, end)
+    t = high / 2
+    for _ in range(100):
+        value = f(t)
+        low, high = np.where(value <= 0, t, low), np.where(value >= 0, t, high)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            new = t - value / slope(t)
+        new = np.where((new >= low) & (new <= high), new, (low + high) / 2)
+        settled = t * np.abs(new - t) <= 2e-16 * (kink**2 + t * t)
+        t = new
+        if np.all(settled):
+            break
+    return t
+
+
+def _turns_down(first, middle, last):
+    (r0, z0), (r1, z1), (r2, z2) = first, middle, last
+    return (z1 - z0) * (r2 - r1) > (z2 - z1) * (r1 - r0)
+
+
+def _read(lines, unit, name):
+    """Radii and heights (m) in a CSV file."""
+    if unit is not None and unit not in _UNITS:
+        raise ValueError(f"unit = {unit!r} must be one of {', '.join(_UNITS)}")
+    rows, named = [], []
+    for number, line in enumerate(lines, start=1):
+        cells = [cell for cell in re.split(r"[;,\s]+", line.strip()) if cell]
+        try:
+            values = [float(cell) for cell in cells]
+        except ValueError:
+            values = None
+        if not rows and (values is None or line.startswith("#")):
+            named = re.findall(r"[(\[]\s*([^)\]\s]+)\s*[)\]]", line) or named
+        elif cells and not line.startswith("#"):
+            if values is None or len(values) != 2:
+                raise ValueError(
+                    f"{name}, line {number}: expected two numbers r, z, found {line.strip()!r:.60}"
+                )
+            rows.append(values)
+    units = [unit, unit] if unit else named
+    if len(units) != 2 or not set(units) <= set(_UNITS):
+        raise ValueError(
+            f"{name}: the header must name the units of r and z, as in 'r (nm), z (nm)', out of "
+            f"{', '.join(_UNITS)}; or give unit='nm'"
+        )
+    if unit and named and set(named) != {unit}:
+        raise ValueError(f"{name}: unit={unit!r} was given, but the header says {', '.join(named)}")
+    if not rows:
+        raise ValueError(f"{name}: no samples; expected rows of two numbers r, z")
+    r, z = np.array(rows).T
+    return r * _UNITS[units[0]], z * _UNITS[units[1]]
