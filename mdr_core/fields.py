@@ -113,7 +113,8 @@ def _zone_pressure(zone, t_low, t_high, r):
     rise = ((t_high - t_low) + (root_high - root_low)) / np.where(bottom > 0, bottom, 1.0)
     width = np.where(bottom > 0, np.log1p(np.maximum(rise, 0.0)), np.inf)
     if zone.order > 0:
-        width = np.minimum(width, NEGLIGIBLE / zone.order)
+        # t falls at least as fast as 2 e^λ below its largest.
+        width = np.minimum(width, NEGLIGIBLE / zone.order + np.log(2))
     total, mass = np.full_like(r, np.inf), np.zeros_like(r)
     finite = np.isfinite(width)
     if finite.any():

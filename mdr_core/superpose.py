@@ -14,7 +14,9 @@ forms are therefore written as the interval's length times a positive mean, neve
 of two elastic curves; quadratures are scaled so that the increments sum to that length.
 """
 
+from collections.abc import Callable
 from functools import singledispatch
+from typing import NamedTuple
 
 import numpy as np
 from scipy.special import betainc
@@ -35,7 +37,7 @@ _CHUNK = 4096
 @singledispatch
 def radius_integral(profile, live):
     """∫ a(s) ds over the live interval (m²), elementwise."""
-    return _by_quadrature(profile, live)[0]
+    return _by_quadrature(profile, live, _area)
 
 
 @radius_integral.register
@@ -66,7 +68,7 @@ def _(profile: PowerLaw, live):
 @singledispatch
 def energy_integral(profile, live):
     """∫ (d − s) a(s) ds over the live interval (m³), elementwise."""
-    return _by_quadrature(profile, live)[1]
+    return _by_quadrature(profile, live, _volume)
 
 
 @energy_integral.register
@@ -98,7 +100,7 @@ def _(profile: PowerLaw, live):
 @singledispatch
 def radius_drop(profile, live):
     """a(d) − a(d_p) (m), elementwise: where something has yielded, the width of the elastic ring."""
-    return _by_quadrature(profile, live)[2]
+    return _by_quadrature(profile, live, _drop)
 
 
 @radius_drop.register
@@ -142,51 +144,82 @@ def wall_length(profile, live):
     return np.where(foot <= live.lower, live.length, np.minimum(beyond, live.length))
 
 
-def _by_quadrature(profile, live):
-    """The three integrals for a shape without closed forms, elementwise."""
-    shape = np.shape(live.length)
+def _by_quadrature(profile, live, integral):
+    """One of the three integrals for a shape without closed forms, elementwise."""
     ends = [np.ravel(part) for part in (live.lower, live.upper, live.length, wall_length(profile, live))]
-    result = np.zeros((3, ends[0].size))
+    result = np.zeros_like(ends[0])
     for rows in _chunks(ends[0].size):
         lower, upper, length, at_wall = (part[rows] for part in ends)
         zones = profile.zones_between(lower.min(), upper.max())
-        result[:, rows] = _quadrature(profile, zones, lower, upper, length, at_wall)
-    return result.reshape(3, *shape)
+        total, spent = _quadrature(profile, zones, lower, upper, at_wall, integral)
+        # An interval too short for its ends to differ is one flat punch.
+        edge = integral.short(profile._radius(upper), length)
+        scale = np.divide(length, spent, out=np.ones_like(spent), where=spent > 0)
+        result[rows] = np.where(spent > 0, total * scale**integral.degree, edge)
+    return result.reshape(np.shape(live.length))
 
 
-def _quadrature(profile, zones, lower, upper, length, at_wall):
-    """Sums of a ds, (d − s) a ds and da over panels, from the depth d downward.
+class _Integral(NamedTuple):
+    """What is summed over the panels of a state, from the depth d downward."""
+
+    #: What the wall adds, from its radius and length.
+    wall: Callable
+    #: What a node adds, from the zone, t, dt, the depth increment and the depth above it.
+    node: Callable
+    #: The whole of an interval too short to divide, from its radius and length.
+    short: Callable
+    #: Power of the interval's length to which the sum is proportional.
+    degree: int
+    #: Whether the depth above each node is needed.
+    cumulative: bool = False
+
+
+_area = _Integral(
+    wall=lambda b, length: b * length,
+    node=lambda zone, t, dt, ds, above: zone.radius(t) * ds,
+    short=lambda a, length: a * length,
+    degree=1,
+)
+_volume = _Integral(
+    wall=lambda b, length: b * length**2 / 2,
+    node=lambda zone, t, dt, ds, above: zone.radius(t) * ds * above,
+    short=lambda a, length: a * length**2 / 2,
+    degree=2,
+    cumulative=True,
+)
+_drop = _Integral(
+    wall=lambda b, length: np.zeros_like(length),
+    node=lambda zone, t, dt, ds, above: zone.radius_rate(t) * dt,
+    short=lambda a, length: np.zeros_like(length),
+    degree=1,
+)
+
+
+def _quadrature(profile, zones, lower, upper, at_wall, integral):
+    """Sum of one integral over panels, and the depth that they hold.
 
     In u = arsinh(t/scale) every zone is smooth to a distance of about π/2 from the real axis.
+    Sums run over the nodes of one state alone: the result does not depend on its neighbours.
     """
     spent = at_wall.copy()
-    wall = profile.wall if at_wall.any() else 0.0
-    area, volume, drop = wall * at_wall, wall * at_wall**2 / 2, np.zeros_like(at_wall)
+    total = integral.wall(profile.wall, at_wall) if at_wall.any() else np.zeros_like(at_wall)
     for zone in reversed(zones):
-        t_high, t_low = zone.coordinate(upper), zone.coordinate(lower)
-        high, low = np.arcsinh(t_high / zone.scale), np.arcsinh(t_low / zone.scale)
+        high, low = (np.arcsinh(zone.coordinate(end) / zone.scale) for end in (upper, lower))
         width = np.minimum(high - low, NEGLIGIBLE)
         count = np.ceil(width / PANEL).astype(int)
         step = width / np.maximum(count, 1)
         for panel in range(count.max(initial=0)):
             rows = np.flatnonzero(count > panel)
             u = high[rows, None] - step[rows, None] * (panel + NODES)
-            t, slant = zone.scale * np.sinh(u), zone.scale * np.cosh(u)
-            x = zone.radius(t)
-            depths = step[rows, None] * zone.rate(t) * slant
-            # Depth between the top and each node: what the panel holds above it.
-            above = spent[rows, None] + depths @ (WEIGHTS - TAIL).T
-            area[rows] += (x * depths) @ WEIGHTS
-            volume[rows] += (x * depths * above) @ WEIGHTS
-            drop[rows] += step[rows] * ((zone.radius_rate(t) * slant) @ WEIGHTS)
-            spent[rows] += depths @ WEIGHTS
-    # An interval too short for its ends to differ is one flat punch.
-    edge = profile._radius(upper)
-    some = spent > 0
-    scale = np.divide(length, spent, out=np.ones_like(spent), where=some)
-    area = np.where(some, area * scale, edge * length)
-    volume = np.where(some, volume * scale * scale, edge * length**2 / 2)
-    return area, volume, drop * scale
+            t = zone.scale * np.sinh(u)
+            dt = step[rows, None] * (zone.scale * np.cosh(u))
+            ds = zone.rate(t) * dt
+            above = None
+            if integral.cumulative:
+                above = spent[rows, None] + np.einsum("ij,kj->ik", ds, WEIGHTS - TAIL)
+            total[rows] += np.einsum("ij,j->i", integral.node(zone, t, dt, ds, above), WEIGHTS)
+            spent[rows] += np.einsum("ij,j->i", ds, WEIGHTS)
+    return total, spent
 
 
 @radius_integral.register

@@ -153,9 +153,8 @@ class TestMemory:
         peak = 7 * D_C
         down = np.linspace(peak, peak - D_C, 9)
         path = mdr.indent(shape, MEDIUM, np.concatenate([down, down[::-1], [9 * D_C]]))
-        # Sums over nodes may differ in their last bit with the number of states.
-        np.testing.assert_allclose(path.force[:9], path.force[9:18][::-1], rtol=1e-15)
-        assert path.force[-1] == pytest.approx(mdr.indent(shape, MEDIUM, 9 * D_C).force, rel=1e-15)
+        np.testing.assert_array_equal(path.force[:9], path.force[9:18][::-1])
+        assert path.force[-1] == mdr.indent(shape, MEDIUM, 9 * D_C).force
 
     def test_contact_is_lost_at_the_plastic_depth(self, shape):
         path = mdr.indent(shape, MEDIUM, [4 * D_C, 2.9 * D_C, 1 * D_C, -1e-9])
@@ -172,7 +171,7 @@ class TestMemory:
             mdr.indent(shape, mdr.Medium(1e9), depth),
             mdr.indent(shape, mdr.Medium(1e9), 2.0 * D_C),
         )
-        assert path.force[-1] == pytest.approx(single.force, rel=1e-15)
+        assert path.force[-1] == single.force
         assert path.plastic_work[-1] == 0.0
 
     def test_elastic_curve_is_the_limit_of_large_yield_constant(self, shape):
@@ -189,8 +188,7 @@ class TestMemory:
         rows = np.array([[3.0, 2.5], [0.5, 2.5]]) * D_C
         both = mdr.indent(shape, MEDIUM, rows)
         for i in range(2):
-            alone = mdr.indent(shape, MEDIUM, rows[i])
-            np.testing.assert_allclose(both.force[i], alone.force, rtol=1e-15)
+            np.testing.assert_array_equal(both.force[i], mdr.indent(shape, MEDIUM, rows[i]).force)
 
 
 def test_pressure_is_infinite_only_where_it_is():

@@ -1,0 +1,164 @@
+"""Sampled tips: exact for their polygon, and careful with what a file may hold."""
+
+import math
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+
+from .shapes import integrate
+
+MEDIUM = mdr.Medium(1e9, 1.0)
+D_C = MEDIUM.critical_depth
+HISTORIES = ((0.4,), (3.0,), (100.0,), (1000.0, 999.5))
+
+
+def states(first, second, history):
+    path = np.array(history) * D_C
+    return mdr.indent(first, MEDIUM, path)[-1], mdr.indent(second, MEDIUM, path)[-1]
+
+
+def assert_same(sampled, exact, tolerance):
+    for field in ("contact_radius", "force", "stored_energy", "plastic_work", "stiffness"):
+        assert getattr(sampled, field) == pytest.approx(getattr(exact, field), rel=tolerance), field
+    r = np.array([1e-3, 0.3, 0.9, 0.999, 1.5]) * exact.contact_radius
+    np.testing.assert_allclose(sampled.pressure(r), exact.pressure(r), rtol=50 * tolerance)
+    np.testing.assert_allclose(sampled.surface(r), exact.surface(r), rtol=50 * tolerance)
+
+
+@pytest.mark.parametrize("count", [2, 7, 100])
+def test_polygon_of_a_cone_is_the_cone(count):
+    r = np.linspace(0, 1e-4, count)
+    tip, cone = mdr.Sampled(r, 0.3 * r), mdr.Cone(0.3)
+    x = np.geomspace(1e-9, 0.99e-4, 40)
+    np.testing.assert_allclose(tip.reduced(x), cone.reduced(x), rtol=1e-13)
+    np.testing.assert_allclose(tip.height(x), cone.height(x), rtol=1e-13)
+    for history in HISTORIES:
+        assert_same(*states(tip, cone, history), 1e-14)
+
+
+@pytest.mark.parametrize("history", HISTORIES)
+def test_polygon_with_a_flat_face_is_the_truncated_cone(history):
+    b = 1e-6
+    tip = mdr.Sampled([0, b, 1e-4], [0, 0, 0.3 * (1e-4 - b)])
+    # The slope between the samples carries their rounding, amplified by up to a/b.
+    assert_same(*states(tip, mdr.TruncatedCone(b, 0.3), history), 1e-12)
+
+
+def test_refined_polygon_converges():
+    """Chords of a parabola: with the contact edge on a vertex the force error falls as h²."""
+    radius, a = 1e-3, 0.8e-4
+    exact = mdr.Paraboloid(radius)
+
+    def error(count):
+        r = np.linspace(0, 1e-4, count + 1)
+        tip = mdr.Sampled(r, r * r / (2 * radius))
+        depth = tip.reduced(a)
+        return abs(
+            mdr.indent(tip, mdr.Medium(1e9), depth).force / mdr.indent(exact, mdr.Medium(1e9), depth).force
+            - 1
+        )
+
+    rates = [math.log2(error(n) / error(2 * n)) for n in (10, 20, 40)]
+    # The last chord before the edge counts with a square root: between 1.5 and 2.
+    assert all(1.3 < rate < 2.2 for rate in rates), rates
+
+
+def test_pressure_integrates_to_the_force():
+    r = np.linspace(0, 1e-5, 25)
+    tip = mdr.Sampled(r, r**3 / 1e-10 + 0.05 * r)
+    state = mdr.indent(tip, MEDIUM, 5 * D_C)
+    edges = np.unique([*r[r < state.contact_radius], state.plastic_radius, state.contact_radius])
+    force = integrate(lambda r: 2 * math.pi * r * state.pressure(r), edges)
+    # The logarithms at the vertices cost the adaptive quadrature some digits.
+    assert force == pytest.approx(state.force, rel=1e-8)
+
+
+def test_heights_count_from_the_first_sample():
+    r = np.array([0, 1e-6, 2e-6])
+    assert mdr.Sampled(r, [5.0, 5.25, 5.75]) == mdr.Sampled(r, [0.0, 0.25, 0.75])
+
+
+def test_scene_holds_a_sampled_tip():
+    scene = mdr.Scene(mdr.Sampled([0, 1e-6, 3e-6], [0, 1e-7, 7e-7]), MEDIUM, mdr.ForcePath(1e-6))
+    assert mdr.Scene.from_json(scene.to_json()) == scene
+
+
+@pytest.mark.parametrize(
+    ("r", "z", "says"),
+    [
+        ([0, 1, 2], [0, 2, 3], r"concave at r\[1\] = 1 m"),
+        ([0, 1, 1], [0, 2, 3], r"Sampled r\[2\] = 1 m does not ascend"),
+        ([0.1, 1], [0, 2], r"r\[0\] = 0.1 m must be 0"),
+        ([0, 1], [0, 0], "flat throughout"),
+        ([0, 1, 2], [0, -1, 3], "lies below the tip"),
+        ([0], [0], "two lists of one length"),
+        ([0, 1], [0, 1, 2], "two lists of one length"),
+        ([0, 1], [0, math.nan], r"Sampled z\[1\] = nan m"),
+        ([0, "one"], [0, 1], "Sampled r must be real numbers"),
+    ],
+)
+def test_bad_samples_are_refused(r, z, says):
+    with pytest.raises(ValueError, match=says):
+        mdr.Sampled(r, z)
+
+
+def test_deeper_than_measured_is_refused():
+    tip = mdr.Sampled([0, 1e-6], [0, 1e-7])
+    # The whole tip: (π/2) z at its last sample.
+    assert mdr.indent(tip, MEDIUM, math.pi / 2 * 1e-7 * (1 - 1e-15)).contact_radius == pytest.approx(1e-6)
+    with pytest.raises(ValueError, match=r"depth\[1\] = 1.6e-07 m is deeper than the shape is known, 1.57"):
+        mdr.indent(tip, MEDIUM, [0, 1.6e-7])
+    with pytest.raises(ValueError, match="beyond the radius up to which the shape is known"):
+        tip.height(1.1e-6)
+    with pytest.raises(ValueError, match="presses deeper than the shape is known"):
+        mdr.indent_to_force(tip, MEDIUM, 1.0)
+    with pytest.raises(ValueError, match="presses deeper than the shape is known"):
+        mdr.impact(tip, MEDIUM, 1.0, 1.0)
+
+
+def test_convex_envelope():
+    tip = mdr.Sampled.convex_envelope([0, 1, 2, 3], [0, 2, 2.5, 6])
+    assert (tip.r, tip.z) == ((0.0, 2.0, 3.0), (0.0, 2.5, 6.0))
+
+
+class TestCsv:
+    def read(self, tmp_path, text, **options):
+        path = tmp_path / "tip.csv"
+        path.write_text(text, encoding="utf-8")
+        return mdr.Sampled.from_csv(path, **options)
+
+    @pytest.mark.parametrize(
+        "text",
+        [
+            "r (nm), z (nm)\n0, 0\n100, 10\n200, 30\n",
+            "# a tip\nr [nm];z [nm]\n0;0\n100;10\n200;30",
+            "# r (nm)\tz (nm)\r\n0\t0\r\n1e2\t1e1\r\n\r\n2e2\t3e1\r\n",
+            "\ufeffr (um) z (nm)\n0 0\n.1 10\n.2 30\n",
+        ],
+    )
+    def test_units_in_the_header(self, tmp_path, text):
+        tip = self.read(tmp_path, text)
+        np.testing.assert_allclose(tip.r, [0, 1e-7, 2e-7], rtol=1e-15)
+        np.testing.assert_allclose(tip.z, [0, 1e-8, 3e-8], rtol=1e-15)
+
+    def test_units_given(self, tmp_path):
+        assert self.read(tmp_path, "0,0\n1,1\n", unit="mm").r == (0.0, 1e-3)
+
+    @pytest.mark.parametrize(
+        ("text", "options", "says"),
+        [
+            ("0,0\n1,1\n", {}, "header must name the units"),
+            ("r (inch), z (inch)\n0,0\n1,1\n", {}, "header must name the units"),
+            ("r (nm), z (nm)\n0,0\n1,1\n", {"unit": "mm"}, "unit='mm' was given, but the header says nm"),
+            ("0,0\n1,1\n", {"unit": "inch"}, "unit = 'inch' must be one of"),
+            ("r (nm), z (nm)\n0,0\n1;x\n", {}, "line 3: expected two numbers"),
+            ("r (nm), z (nm)\n0,0,0\n", {}, "line 2: expected two numbers"),
+            ("r (nm), z (nm)\n", {}, "no samples"),
+            ("r (nm), z (nm)\n0,0\n1,nan\n", {}, r"Sampled z\[1\] = nan m"),
+        ],
+    )
+    def test_bad_files_are_refused(self, tmp_path, text, options, says):
+        with pytest.raises(ValueError, match=says):
+            self.read(tmp_path, text, **options)
