@@ -1,0 +1,35 @@
+"""The README's table of equations names functions and tests that exist."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import mdr_core as mdr
+
+ROOT = Path(__file__).parents[1]
+ROWS = [
+    row for row in (ROOT / "README.md").read_text(encoding="utf-8").splitlines() if re.match(r"\| \(\d", row)
+]
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.split("|")[1].strip())
+def test_equation_has_a_function_and_a_test(row):
+    _, _, _, functions, tests, _ = row.split("|")
+    for function in re.findall(r"`([^`]+)`", functions):
+        thing = mdr
+        for part in function.split("."):
+            # Fields of a dataclass are no attributes of its class, everything named here is.
+            thing = getattr(thing, part)
+    named = re.findall(r"`(\w+\.py)::(\w+)`", tests)
+    assert named
+    for file, test in named:
+        assert f"def {test}(" in (ROOT / "tests" / file).read_text(encoding="utf-8")
+
+
+def test_every_equation_of_the_paper_is_in_the_table():
+    numbers = set()
+    for row in ROWS:
+        for first, last in re.findall(r"\((\d+)\)(?:–\((\d+)\))?", row.split("|")[1]):
+            numbers.update(range(int(first), int(last or first) + 1))
+    assert numbers == set(range(1, 25))
