@@ -1,5 +1,8 @@
-"""The README's table of equations names functions and tests that exist."""
+"""What the docstrings and the README show is true."""
 
+import doctest
+import importlib
+import pkgutil
 import re
 from pathlib import Path
 
@@ -11,6 +14,17 @@ ROOT = Path(__file__).parents[1]
 ROWS = [
     row for row in (ROOT / "README.md").read_text(encoding="utf-8").splitlines() if re.match(r"\| \(\d", row)
 ]
+
+
+@pytest.mark.parametrize("module", [m.name for m in pkgutil.iter_modules(mdr.__path__)])
+def test_examples_in_docstrings(module):
+    assert doctest.testmod(importlib.import_module(f"mdr_core.{module}")).failed == 0
+
+
+def test_examples_in_the_readme():
+    result = doctest.testfile(str(ROOT / "README.md"), module_relative=False)
+    assert result.attempted > 0
+    assert result.failed == 0
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.split("|")[1].strip())
