@@ -11,9 +11,8 @@ import pytest
 import mdr_core as mdr
 
 ROOT = Path(__file__).parents[1]
-ROWS = [
-    row for row in (ROOT / "README.md").read_text(encoding="utf-8").splitlines() if re.match(r"\| \(\d", row)
-]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+ROWS = [row for row in README.splitlines() if re.match(r"\| \(\d", row)]
 
 
 @pytest.mark.parametrize("module", [m.name for m in pkgutil.iter_modules(mdr.__path__)])
