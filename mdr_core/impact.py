@@ -9,7 +9,7 @@ from . import _check, superpose
 from .indentation import Indentation, indent
 from .inverse import increasing_root
 from .medium import Medium
-from .panels import integration_rule
+from .panels import chunks, integration_rule
 from .profiles import Profile
 from .yielding import LiveInterval, live_interval
 
@@ -171,48 +171,54 @@ class Impact:
 _NODE, _WEIGHT, _TAIL = integration_rule(40)
 
 
+# Depth reached at each node, as a fraction of the largest, and its rate of change. It falls short by
+# (1 − τ³)²: the square takes out the square root at the turning point, the cube the fractional
+# powers where contact or yield begins.
+_RISE, _RATE = _NODE**3 * (2 - _NODE**3), 6 * _NODE**2 * (1 - _NODE**3)
+
+
 def _contact_time(hit):
-    """Contact time by quadrature of dd/v in each stretch in which the force is smooth.
+    """Contact time: ∫ dd/v over each stretch in which the force is smooth."""
+    live = hit.deepest.live
+    deepest, lower, length = (np.ravel(part) for part in (live.upper, live.lower, live.length))
+    time = np.empty_like(deepest)
+    for rows in chunks(time.size, 512):
+        time[rows] = _time_over_root(
+            hit.profile, deepest[rows, None], lower[rows, None], length[rows, None]
+        )
+    # m v²/2 = 2E* times the integral of a ds that is still to be spent.
+    return time.reshape(np.shape(live.upper)) * np.sqrt(hit.mass / (4 * hit.medium.E_star))
 
-    The depth falls short of its largest by (1 − τ³)² of the way: the square takes out the square
-    root at the turning point, the cube the fractional powers where contact or yield begins. The
-    energy still to be spent is integrated from the turning point back, so that it never cancels.
+
+def _time_over_root(profile, deepest, lower, length):
+    """∫ ds/√(∫ a ds) over unloading and loading (√m), one impact a row.
+
+    What is still to be spent is integrated from the turning point back, so that it never cancels.
     """
-    force = superpose.radius_integral
-    deepest, unload = np.asarray(hit.max_depth)[..., None], np.asarray(hit.deepest.live.length)[..., None]
-    lower = np.asarray(hit.plastic_depth)[..., None]
-    critical = hit.medium.critical_depth
-    yielded = lower > 0
-    rise = _NODE**3 * (2 - _NODE**3)
-    slope = 6 * _NODE**2 * (1 - _NODE**3)
 
-    def remaining(live, rate):
-        return (force(hit.profile, live) * rate) @ _TAIL.T
+    def force(lower, length):
+        return superpose.radius_integral(profile, LiveInterval(lower, lower + length, length))
 
-    time = 0.0
-    # Unloading over the live length.
-    length = unload * rise
-    base = np.broadcast_to(lower, length.shape)
-    spent = remaining(LiveInterval(base, base + length, length), unload * slope)
-    time = time + (unload * slope / np.sqrt(spent)) @ _WEIGHT
-    # Loading beyond the critical depth.
-    beyond = np.where(yielded, lower, 0.0)
-    length = np.minimum(critical, deepest) * np.ones_like(rise)
-    below = beyond * rise
-    live = LiveInterval(below, below + length, length)
-    spent = remaining(live, beyond * slope)
-    with np.errstate(invalid="ignore"):
-        part = np.where(yielded, beyond * slope / np.sqrt(spent), 0.0)
-    time = time + part @ _WEIGHT
-    plastic = (force(hit.profile, live) * beyond * slope) @ _WEIGHT
-    # Loading up to the critical depth: the same map about the turning point, cut at τ_c.
-    depth_c = np.minimum(critical, deepest)
-    missing = np.sqrt(np.maximum(beyond, 0.0) / deepest)
-    cut = np.cbrt(depth_c / deepest / (1 + missing))
+    def slowness(rate, spent):
+        return np.einsum("ij,j->i", rate / np.sqrt(spent), _WEIGHT)
+
+    def still_to_spend(flow):
+        return np.einsum("ij,kj->ik", flow, _TAIL)
+
+    # Unloading, over the live length.
+    left = length * _RISE
+    flow = force(lower + 0 * left, left) * (length * _RATE)
+    time = slowness(length * _RATE, still_to_spend(flow))
+    # Loading up to the critical depth: the map about the turning point, cut at τ_c.
+    cut = np.cbrt(length / deepest / (1 + np.sqrt(lower / deepest)))
     tau = cut * _NODE
     depth = deepest * tau**3 * (2 - tau**3)
     rate = deepest * cut * 6 * tau**2 * (1 - tau**3)
-    spent = remaining(LiveInterval(np.zeros_like(depth), depth, depth), rate) + plastic[..., None]
-    time = time + (rate / np.sqrt(spent)) @ _WEIGHT
-    # m v²/2 = 2E* × spent.
-    return time * np.sqrt(hit.mass / (4 * hit.medium.E_star))
+    spent = still_to_spend(force(np.zeros_like(depth), depth) * rate)
+    # Loading beyond the critical depth.
+    rows = np.flatnonzero(lower[:, 0] > 0)
+    beyond = lower[rows]
+    flow = force(beyond * _RISE, length[rows] + 0 * _RISE) * (beyond * _RATE)
+    time[rows] += slowness(beyond * _RATE, still_to_spend(flow))
+    spent[rows] += np.einsum("ij,j->i", flow, _WEIGHT)[:, None]
+    return time + slowness(rate, spent)

@@ -46,3 +46,8 @@ def gauss_panels(width, longest=PANEL):
     index = np.arange(count.sum()) - np.repeat(start, count)
     nodes = step * (index[:, None] + NODES)
     return nodes, np.abs(step) * WEIGHTS, start
+
+
+def chunks(size, most=4096):
+    """Slices of at most so many rows: enough to amortise a call, few enough to stay in the cache."""
+    return (slice(start, start + most) for start in range(0, size, most))

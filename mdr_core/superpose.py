@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.special import betainc
 
-from .panels import NODES, PANEL, TAIL, WEIGHTS
+from .panels import NODES, PANEL, TAIL, WEIGHTS, chunks
 from .profiles import Cone, FlatPunch, Paraboloid, PowerLaw
 from .rounded import Sphere
 
@@ -29,9 +29,6 @@ _TINY = np.finfo(float).tiny
 
 #: Contributions below e^(−40) of the largest are left out of a graded quadrature.
 NEGLIGIBLE = 40.0
-
-# States that are treated at once: enough to amortise a call, few enough to stay in the cache.
-_CHUNK = 4096
 
 
 @singledispatch
@@ -148,7 +145,7 @@ def _by_quadrature(profile, live, integral):
     """One of the three integrals for a shape without closed forms, elementwise."""
     ends = [np.ravel(part) for part in (live.lower, live.upper, live.length, wall_length(profile, live))]
     result = np.zeros_like(ends[0])
-    for rows in _chunks(ends[0].size):
+    for rows in chunks(ends[0].size):
         lower, upper, length, at_wall = (part[rows] for part in ends)
         zones = profile.zones_between(lower.min(), upper.max())
         total, spent = _quadrature(profile, zones, lower, upper, at_wall, integral)
@@ -226,7 +223,7 @@ def _quadrature(profile, zones, lower, upper, at_wall, integral):
 def _(profile: Sphere, live):
     lower, upper, length = (np.ravel(part) for part in (live.lower, live.upper, live.length))
     result = np.empty_like(length)
-    for rows in _chunks(length.size):
+    for rows in chunks(length.size):
         result[rows] = _sphere_area(profile, lower[rows], upper[rows], length[rows])
     return result.reshape(np.shape(live.length))
 
@@ -273,7 +270,3 @@ def _cap_moment(y):
 
 
 _CAP_SERIES = [2 * k / (4 * k * k - 1) for k in range(14, 0, -1)]
-
-
-def _chunks(size):
-    return (slice(start, start + _CHUNK) for start in range(0, size, _CHUNK))
