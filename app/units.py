@@ -1,0 +1,113 @@
+"""Units at the edge of the app: chosen to fit, written and read back. The core knows SI only."""
+
+import re
+from dataclasses import dataclass
+from math import floor, isfinite, log10
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit and its size in SI: a value in SI divided by `factor` is the number shown."""
+
+    name: str
+    factor: float
+
+    def label(self, text):
+        """Axis label: the text, then the unit in brackets."""
+        return f"{text} ({self.name})" if self.name else text
+
+
+def _family(text):
+    return tuple(Unit(name, float(factor)) for name, factor in (item.split() for item in text.split(", ")))
+
+
+#: The units of each kind of quantity, smallest first; the first of factor 1 is the SI unit.
+UNITS = {
+    "number": (Unit("", 1.0),),
+    "fraction": (Unit("%", 0.01),),
+    "length": _family("pm 1e-12, nm 1e-9, µm 1e-6, mm 1e-3, m 1"),
+    "force": _family("pN 1e-12, nN 1e-9, µN 1e-6, mN 1e-3, N 1, kN 1e3, MN 1e6, GN 1e9"),
+    "pressure": _family("mPa 1e-3, Pa 1, kPa 1e3, MPa 1e6, GPa 1e9, TPa 1e12"),
+    "energy": _family("aJ 1e-18, fJ 1e-15, pJ 1e-12, nJ 1e-9, µJ 1e-6, mJ 1e-3, J 1, kJ 1e3, MJ 1e6"),
+    "yield constant": _family("µN/m 1e-6, mN/m 1e-3, N/m 1, kN/m 1e3, MN/m 1e6, GN/m 1e9"),
+}
+
+
+def fitting(value, kind):
+    """The unit of that kind in which a value in SI has one to three digits before the point."""
+    units = UNITS[kind]
+    size = abs(value) if isfinite(value) else 0.0
+    # A value a rounding error below the next unit is written in that unit: 1 mm, not 1000 µm.
+    reached = [unit for unit in units if unit.factor <= size * (1 + 1e-9)]
+    if size == 0:
+        return next((unit for unit in units if unit.factor == 1), units[0])
+    return reached[-1] if reached else units[0]
+
+
+def digits(value, count=4):
+    """A number with that many significant digits, very large and very small ones as a × 10ⁿ."""
+    if not isfinite(value):
+        return "∞" if value > 0 else "–"
+    if value == 0:
+        return "0"
+    if 1e-3 <= abs(value) < 1e5:
+        value = float(f"{value:.{count - 1}e}")
+        return f"{value:.{max(count - 1 - floor(log10(abs(value))), 0)}f}".replace("-", "−")
+    mantissa, exponent = f"{value:.{count - 1}e}".split("e")
+    power = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{mantissa} × 10{power}".replace("-", "−")
+
+
+def written(value, kind, count=4):
+    """A value in SI as text with its unit, with that many significant digits."""
+    if value == 0:
+        return "0"
+    unit = fitting(value, kind)
+    return f"{digits(value / unit.factor, count)} {unit.name}".strip()
+
+
+def entry(value, kind):
+    """A value in SI as short text for a field to type in, which `read` understands."""
+    unit = fitting(value, kind)
+    return f"{value / unit.factor:.5g} {unit.name}".strip()
+
+
+_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
+
+
+def read(text, kind, shown):
+    """A value in SI from what was typed: a number, in the unit that is shown if it names none.
+
+    Raises
+    ------
+    ValueError
+        If the text is not a finite number with a unit of that kind.
+    """
+    text = text.strip().replace("−", "-").replace("μ", "µ")
+    match = _NUMBER.fullmatch(text) if len(text) <= 40 else None
+    units = {unit.name: unit for unit in UNITS[kind]}
+    # u for µ, as on any keyboard.
+    units |= {name.replace("µ", "u"): unit for name, unit in units.items()}
+    if match is None or (match[2] and match[2] not in units):
+        known = ", ".join(unit.name for unit in UNITS[kind] if unit.name)
+        raise ValueError(
+            f"“{text:.40}” is not a number" + (f" with one of the units {known}" if known else "")
+        )
+    unit = units[match[2]] if match[2] else shown
+    value = float(match[1]) * unit.factor
+    if not isfinite(value):
+        raise ValueError(f"“{text}” is too large")
+    return value
+
+
+_ROUND = np.array([1, 1.5, 2, 3, 5, 7.5, 10])
+
+
+def round_up(value):
+    """The next of 1, 1.5, 2, 3, 5, 7.5 × 10ⁿ: axes that end there keep still while a slider moves."""
+    if not value > 0 or not isfinite(value):
+        return 1.0
+    power = 10.0 ** floor(log10(value))
+    return float(_ROUND[np.searchsorted(_ROUND, value / power * (1 - 1e-9))] * power)

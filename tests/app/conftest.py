@@ -1,0 +1,187 @@
+"""The page served as a person would, in a headless Chromium that records everything."""
+
+import importlib.util
+import os
+import re
+import subprocess
+import sys
+import threading
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+collect_ignore_glob = [] if importlib.util.find_spec("panel") else ["*.py"]
+
+ROOT = Path(__file__).parents[2]
+CHROMIUM = os.environ.get("CHROMIUM", "/usr/bin/chromium")
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+
+# What the page draws: layers by name, axes, colours, and whether all is painted.
+SCRIPT = """
+window.explorer = {
+  figure: (name) => Bokeh.documents[0].get_model_by_name(name),
+  column: (name, layer, key) => {
+    const glyph = explorer.figure(name).renderers.find((each) => each.name === layer)
+    return Array.from(glyph.data_source.data[key])
+  },
+  axis: (name) => {
+    const { x_range, y_range, below, left } = explorer.figure(name)
+    return { x: [x_range.start, x_range.end], y: [y_range.start, y_range.end],
+             labels: [below[0].axis_label, left[0].axis_label] }
+  },
+  frame: (name) => {
+    const { left, right } = Bokeh.index.find_one(explorer.figure(name)).frame.bbox
+    return [left, right]
+  },
+  drawn: () => explorer.figure("springs").renderers.map((layer) => layer.data_source.data),
+  notices: () => document.querySelectorAll(".notyf__toast").length,
+  idle: () => window.Bokeh !== undefined && Bokeh.documents.length > 0 && Bokeh.documents[0].is_idle &&
+    explorer.figure("radii") !== null,
+  colours: (name) => {
+    const view = Bokeh.index.find_one(explorer.figure(name))
+    const canvas = view.export("png", false).canvas
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height)
+    const counts = {}
+    for (let i = 0; i < data.length; i += 4) {
+      const key = [data[i], data[i + 1], data[i + 2]].join()
+      counts[key] = (counts[key] ?? 0) + 1
+    }
+    return counts
+  },
+}
+"""
+
+
+class Server:
+    """`panel serve app` from the project root, on a free port, with its log."""
+
+    def __init__(self):
+        command = [sys.executable, "-m", "panel", "serve", "app", "--port", "0"]
+        self.lines, self._ready = [], threading.Event()
+        self.process = subprocess.Popen(
+            command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+        assert self._ready.wait(60), f"the server did not start:\n{self.log}"
+
+    def _read(self):
+        for line in self.process.stdout:
+            self.lines.append(line)
+            if found := re.search(r"running at: (http\S+)", line):
+                self.url = found[1]
+                self._ready.set()
+
+    @property
+    def log(self):
+        return "".join(self.lines)
+
+    def stop(self):
+        self.process.terminate()
+        self.process.wait(20)
+        self._reader.join(20)
+        self.process.stdout.close()
+
+
+class Explorer:
+    """The page as a person sees it, and what it said on the way."""
+
+    def __init__(self, page, url):
+        self.page, self.requests, self.problems = page, [], []
+        page.on("request", lambda request: self.requests.append(request.url))
+        page.on("pageerror", lambda error: self.problems.append(str(error)))
+        page.on("console", self._heard)
+        page.add_init_script(SCRIPT)
+        page.goto(url)
+        page.wait_for_function("explorer.idle()")
+
+    def _heard(self, message):
+        if message.type in ("error", "warning"):
+            self.problems.append(message.text)
+
+    def off_host(self):
+        """Requests that left the host."""
+        inside = ("localhost", "127.0.0.1", None)
+        return [url for url in self.requests if urlsplit(url).hostname not in inside]
+
+    def column(self, figure, layer, key):
+        return self.page.evaluate("(args) => explorer.column(...args)", [figure, layer, key])
+
+    def axis(self, figure):
+        return self.page.evaluate("(name) => explorer.axis(name)", figure)
+
+    def colours(self, figure):
+        return self.page.evaluate("(name) => explorer.colours(name)", figure)
+
+    def slider(self, symbol):
+        return self.page.locator(f'input[type="range"][aria-label^="{symbol},"]')
+
+    def field(self, symbol):
+        return self.page.locator(f'input[type="text"][aria-label^="{symbol},"]')
+
+    def choose(self, label, option):
+        """Choose from a list, and wait until what is drawn has changed and been painted."""
+        with self.change():
+            self.page.get_by_label(label, exact=True).select_option(label=option)
+
+    def type(self, symbol, text):
+        self.field(symbol).fill(text)
+        self.field(symbol).press("Enter")
+
+    def change(self):
+        """Context in which something is done, left when the springs have changed and all is painted."""
+        return _Change(self.page)
+
+
+class _Change:
+    def __init__(self, page):
+        self.page = page
+
+    def __enter__(self):
+        self.page.evaluate("window.before = explorer.drawn()")
+
+    def __exit__(self, kind, *_):
+        if kind is None:
+            self.page.wait_for_function(
+                "explorer.drawn().some((data, i) => data !== before[i]) && explorer.idle()"
+            )
+
+
+@pytest.fixture(scope="session")
+def server():
+    server = Server()
+    yield server
+    server.stop()
+    assert "Traceback" not in server.log, server.log
+    assert "ERROR" not in server.log, server.log
+
+
+@pytest.fixture(scope="session")
+def browser():
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def explorer(server, browser):
+    """A page freshly opened; afterwards nothing may have been complained about or left the host."""
+    page = browser.new_page(viewport={"width": 1440, "height": 900})
+    explorer = Explorer(page, server.url)
+    yield explorer
+    assert explorer.problems == []
+    assert explorer.off_host() == []
+    page.close()
+    assert "Traceback" not in server.log, server.log

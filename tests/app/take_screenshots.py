@@ -1,0 +1,31 @@
+"""Take the pictures of the page that stand in assets/.
+
+Run from the project root: python -m tests.app.take_screenshots
+"""
+
+from .conftest import CHROMIUM, FLAGS, ROOT, Explorer, Server
+
+
+def main():
+    from playwright.sync_api import sync_playwright
+
+    server = Server()
+    try:
+        with sync_playwright() as playwright:
+            browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+            page = browser.new_page(viewport={"width": 1440, "height": 900})
+            explorer = Explorer(page, server.url)
+            page.screenshot(path=ROOT / "assets/explorer.png")
+            with explorer.change():
+                explorer.type("u", "110")
+            page.screenshot(path=ROOT / "assets/explorer-unloaded.png")
+            page = browser.new_page(viewport={"width": 400, "height": 800})
+            Explorer(page, server.url)
+            page.screenshot(path=ROOT / "assets/explorer-narrow.png", full_page=True)
+            browser.close()
+    finally:
+        server.stop()
+
+
+if __name__ == "__main__":
+    main()

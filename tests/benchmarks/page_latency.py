@@ -1,0 +1,88 @@
+"""Latency of the served page: from a key press on the depth slider to the last plot painted.
+
+Run from the project root: python -m tests.benchmarks.page_latency
+"""
+
+import os
+import statistics
+import time
+from pathlib import Path
+
+from tests.app.conftest import CHROMIUM, FLAGS, SCRIPT, Server
+
+PRESSES = 60
+FIGURES = ["springs", "force", "pressure", "radii"]
+
+# Notes the time of each key press and of every paint of a plot.
+HOOK = """(names) => {
+  window.bench = { painted: new Map(), pressed: 0 }
+  document.addEventListener("keydown", () => {
+    bench.pressed = performance.now()
+    bench.painted.clear()
+  }, true)
+  for (const name of names) {
+    const view = Bokeh.index.find_one(explorer.figure(name))
+    const paint = view._actual_paint.bind(view)
+    view._actual_paint = () => { paint(); bench.painted.set(name, performance.now()) }
+  }
+  bench.last = () => Math.max(...bench.painted.values())
+  bench.done = () => bench.painted.size === names.length && performance.now() - bench.last() > 100
+}"""
+
+
+def cpu_seconds(pid):
+    """CPU time of a process, from its /proc entry."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def cold_load(browser, url):
+    """A new page with an empty cache; seconds until every plot is painted, and bytes loaded."""
+    page = browser.new_context(viewport={"width": 1440, "height": 900}).new_page()
+    loaded = []
+    page.on("requestfinished", lambda request: loaded.append(request.sizes()["responseBodySize"]))
+    page.add_init_script(SCRIPT)
+    begin = time.perf_counter()
+    page.goto(url, wait_until="commit")
+    page.wait_for_function("explorer.idle()", polling=20)
+    return page, time.perf_counter() - begin, sum(loaded)
+
+
+def moves(page, key):
+    """Milliseconds from each press of a key to the last plot painted."""
+    latencies = []
+    for _ in range(PRESSES):
+        page.keyboard.press(key)
+        page.wait_for_function("bench.done()", polling=100)
+        latencies.append(page.evaluate("bench.last() - bench.pressed"))
+    return latencies
+
+
+def main():
+    from playwright.sync_api import sync_playwright
+
+    server = Server()
+    time.sleep(5)
+    try:
+        with sync_playwright() as playwright:
+            browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+            for visitor in ("first visitor", "second visitor"):
+                page, seconds, size = cold_load(browser, server.url)
+                print(f"cold load to last plot, {visitor}: {seconds:.2f} s, {size / 1e6:.2f} MB")
+            page.evaluate(HOOK, FIGURES)
+            page.locator('input[type="range"][aria-label^="d_max,"]').focus()
+            before = cpu_seconds(server.process.pid)
+            latencies = sorted(moves(page, "ArrowRight"))
+            used = cpu_seconds(server.process.pid) - before
+            median, p95 = statistics.median(latencies), latencies[int(0.95 * PRESSES)]
+            print(
+                f"key press to all {len(FIGURES)} plots painted: median {median:.0f} ms, p95 {p95:.0f} ms"
+            )
+            print(f"server CPU: {1000 * used / PRESSES:.1f} ms a move")
+            browser.close()
+    finally:
+        server.stop()
+
+
+if __name__ == "__main__":
+    main()
