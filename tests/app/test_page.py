@@ -1,5 +1,8 @@
 """The served page in a real browser: what is drawn agrees with the core, whatever a person does."""
 
+import os
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -9,6 +12,14 @@ from app.shapes import SHAPES
 from app.state import QUANTITIES
 from app.state import Explorer as State
 from app.units import UNITS, read
+
+from .conftest import CHROMIUM
+
+# Where the browser is required its absence is a failure.
+pytestmark = pytest.mark.skipif(
+    not Path(CHROMIUM).exists() and os.environ.get("MDR_BROWSER") != "required",
+    reason="the page's tests need Chromium; set CHROMIUM to its path",
+)
 
 YIELDED, ELASTIC = "213,94,0", "0,114,178"
 FIGURES = ("springs", "force", "pressure", "radii")
