@@ -1,6 +1,11 @@
 """Checks of what a caller hands in: quantity, value, bound, and what to do about it."""
 
+from functools import cached_property, wraps
+
 import numpy as np
+
+# Beyond it the squares and products of quantities would overflow.
+_LARGEST = 1e140
 
 
 def number(quantity, value):
@@ -38,7 +43,7 @@ def finite_array(quantity, value, *, unit=""):
         array = array.astype(float, copy=False)
     except (TypeError, ValueError):
         raise ValueError(f"{quantity} must be real numbers, got {value!r:.80}") from None
-    return refuse(quantity, array, ~np.isfinite(array), "must be finite", unit=unit)
+    return refuse(quantity, array, ~(np.abs(array) < _LARGEST), "must be finite", unit=unit)
 
 
 def refuse(quantity, array, bad, bound, *, unit="", remedy=""):
@@ -50,3 +55,15 @@ def refuse(quantity, array, bad, bound, *, unit="", remedy=""):
         remedy = f"; {remedy}" if remedy else ""
         raise ValueError(f"{quantity}{where} = {array[index]:g}{unit} {bound}{remedy}")
     return array
+
+
+def frozen(values):
+    """`values` as a scalar, or as an array that cannot be written to."""
+    values = np.asarray(values)
+    values.setflags(write=False)
+    return values[()]
+
+
+def frozen_property(function):
+    """A property that is computed once and handed out as `frozen`."""
+    return cached_property(wraps(function)(lambda self: frozen(function(self))))

@@ -152,6 +152,9 @@ def stress_from_line_load(x, q, r, axis="auto"):
     r = np.abs(_check.finite_array("radius r", r, unit="m"))
     if axis not in ("auto", "straight", "even"):
         raise ValueError(f"axis = {axis!r} must be 'auto', 'straight' or 'even'")
+    if x[-1] == 0:
+        # All of the load stands on the axis, where it has no width.
+        return np.zeros_like(r)[()]
     slope, jump = _slopes(x, q)
     even = _is_even(x, slope, jump, axis)
     curvature = 0.0

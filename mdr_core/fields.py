@@ -12,7 +12,7 @@ import numpy as np
 
 from .panels import PANEL, gauss_panels
 from .profiles import Cone, Paraboloid, PowerLaw
-from .superpose import NEGLIGIBLE, radius_drop, wall_length
+from .superpose import NEGLIGIBLE, depth_ratio, radius_drop, wall_length
 
 
 @singledispatch
@@ -32,7 +32,7 @@ def _(profile: Cone, live, r):
     low = np.maximum(c, r)
     drop = np.where(r < c, radius_drop(profile, live), a - r)
     root_a, root_low = np.sqrt((a - r) * (a + r)), np.sqrt((low - r) * (low + r))
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         ratio = (drop + drop * ((a + low) / (root_a + root_low))) / (low + root_low)
     result[inside] = np.pi / 2 * profile.slope * np.log1p(ratio)
     return result
@@ -61,7 +61,7 @@ def _power_law_axis(profile, live):
     a, order = profile._radius(live.upper), profile.exponent - 1
     if live.lower == 0:
         return profile.exponent / order * live.upper / a if order > 0 else np.inf
-    logarithm = -np.log1p(-radius_drop(profile, live) / a)
+    logarithm = -depth_ratio(live) / profile.exponent
     mean = -np.expm1(-order * logarithm) / order if order else logarithm
     return profile.exponent * live.upper / a * mean
 
@@ -89,8 +89,12 @@ def _pressure_by_quadrature(profile, live, r):
     # The increments that the whole interval holds are known: scaling by them takes out the
     # error of a − c, which has few digits in a short interval. Under a flat face c counts as its
     # radius.
-    scaled = (r < profile._radius(live.lower)) & (mass > 0) & np.isfinite(total)
-    np.divide(total * (live.length - at_wall), mass, out=total, where=scaled)
+    scaled = (r < profile._radius(live.lower)) & np.isfinite(total)
+    smooth = live.length - at_wall
+    np.divide(total * smooth, mass, out=total, where=scaled & (mass > 0))
+    # An interval too short for its ends to differ is one flat punch.
+    short = scaled & (mass == 0)
+    total[short] = smooth / np.sqrt((a - r[short]) * (a + r[short]))
     if at_wall > 0:
         with np.errstate(divide="ignore"):
             total += at_wall / np.sqrt((a - r) * (a + r))
@@ -114,7 +118,8 @@ def _zone_pressure(zone, t_low, t_high, r):
     width = np.where(bottom > 0, np.log1p(np.maximum(rise, 0.0)), np.inf)
     if zone.order > 0:
         # t falls at least as fast as 2 e^λ below its largest.
-        width = np.minimum(width, NEGLIGIBLE / zone.order + np.log(2))
+        beyond = np.log(zone.stretch(t_high))
+        width = np.minimum(width, NEGLIGIBLE / zone.order + np.log(2) + beyond)
     total, mass = np.full_like(r, np.inf), np.zeros_like(r)
     finite = np.isfinite(width)
     if finite.any():
@@ -167,6 +172,9 @@ def _outside_displacement(profile, live, a, r):
             mass[reached] += part[1]
     scaled = (r > a) & (mass > 0)
     np.divide(total * (live.length - at_wall), mass, out=total, where=scaled)
+    # An interval too short for its ends to differ is one flat punch.
+    short = (r > a) & (mass == 0)
+    total[short] = (live.length - at_wall) * np.arcsin(a / r[short])
     if at_wall > 0:
         total += np.where(r > a, at_wall * np.arcsin(np.minimum(a / r, 1.0)), 0.0)
     return 2 / np.pi * total
@@ -188,7 +196,8 @@ def _zone_displacement(zone, t_low, t_high, r):
         top = t_high / t_low if t_low > 0 else np.full_like(r, np.inf)
     width = np.log((top + np.sqrt((top - 1) * (top + 1) + T * T)) / (1 + T))
     decay = 1 + zone.order
-    width = np.minimum(np.maximum(width, 0.0), NEGLIGIBLE / decay)
+    cut = NEGLIGIBLE / decay + np.log(zone.stretch(t_high))
+    width = np.minimum(np.maximum(width, 0.0), cut)
     omega, weight, start = gauss_panels(width, _longest(decay))
     repeat = _repeater(start, len(omega))
     T, t_high, r, x_high = (repeat(part) for part in (T, t_high, r, x_high))

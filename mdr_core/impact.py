@@ -1,7 +1,6 @@
 """Impact of a free rigid body: from energy balance and quadrature, without time stepping."""
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -57,11 +56,18 @@ def impact(profile, medium, mass, speed):
             "energy balance; use Medium(E_star, q_c)"
         )
     mass, speed = np.broadcast_arrays(_positive("mass", mass, "kg"), _positive("speed", speed, "m/s"))
-    energy = mass * speed**2 / 2
+    with np.errstate(over="ignore", under="ignore"):
+        energy = mass * speed**2 / 2
     bad = ~((energy > 0) & (energy < np.inf))
     _check.refuse("kinetic energy", energy, bad, "is outside double precision", unit="J")
     depth = _largest_depth(profile, medium, energy)
-    return Impact(profile, medium, mass[()], speed[()], indent(profile, medium, depth[..., None])[..., 0])
+    return Impact(
+        profile,
+        medium,
+        mass.copy()[()],
+        speed.copy()[()],
+        indent(profile, medium, depth[..., None])[..., 0],
+    )
 
 
 def _positive(quantity, value, unit):
@@ -105,6 +111,9 @@ class Impact:
     mass: np.ndarray
     speed: np.ndarray
     deepest: Indentation
+
+    def __getitem__(self, index):
+        return Impact(self.profile, self.medium, self.mass[index], self.speed[index], self.deepest[index])
 
     @property
     def max_depth(self):
@@ -151,7 +160,7 @@ class Impact:
         """Energy (J) dissipated by viscosity: none in a dry impact."""
         return np.zeros_like(self.mass)[()]
 
-    @cached_property
+    @_check.frozen_property
     def restitution(self):
         """Coefficient of restitution e = √(U/(m v₀²/2)), U the energy stored at the turning point."""
         # U/(U + W_p) instead of U over the kinetic energy: never above 1.
@@ -162,7 +171,7 @@ class Impact:
         """Speed e v₀ (m/s) at which the body leaves."""
         return self.restitution * self.speed
 
-    @cached_property
+    @_check.frozen_property
     def contact_time(self):
         """Time (s) from first contact to the loss of contact."""
         return _contact_time(self)
@@ -171,54 +180,73 @@ class Impact:
 _NODE, _WEIGHT, _TAIL = integration_rule(40)
 
 
-# Depth reached at each node, as a fraction of the largest, and its rate of change. It falls short by
-# (1 − τ³)²: the square takes out the square root at the turning point, the cube the fractional
-# powers where contact or yield begins.
-_RISE, _RATE = _NODE**3 * (2 - _NODE**3), 6 * _NODE**2 * (1 - _NODE**3)
-
-
 def _contact_time(hit):
-    """Contact time: ∫ dd/v over each stretch in which the force is smooth."""
+    """Contact time: ∫ dd/v over unloading and loading.
+
+    Depths run from where a stretch begins to its turning point as τ³(2 − τ³): the square in
+    1 − τ³ takes out the square root at the turning point, the cube the fractional powers where
+    contact or yield begins. What is still to be spent is integrated from the turning point back,
+    so that it never cancels.
+    """
     live = hit.deepest.live
     deepest, lower, length = (np.ravel(part) for part in (live.upper, live.lower, live.length))
+    kinks = np.array(hit.profile.kinks)
     time = np.empty_like(deepest)
     for rows in chunks(time.size, 512):
-        time[rows] = _time_over_root(
-            hit.profile, deepest[rows, None], lower[rows, None], length[rows, None]
-        )
+        time[rows] = _time_over_root(hit.profile, kinks, deepest[rows], lower[rows], length[rows])
     # m v²/2 = 2E* times the integral of a ds that is still to be spent.
     return time.reshape(np.shape(live.upper)) * np.sqrt(hit.mass / (4 * hit.medium.E_star))
 
 
-def _time_over_root(profile, deepest, lower, length):
-    """∫ ds/√(∫ a ds) over unloading and loading (√m), one impact a row.
-
-    What is still to be spent is integrated from the turning point back, so that it never cancels.
-    """
-
-    def force(lower, length):
-        return superpose.radius_integral(profile, LiveInterval(lower, lower + length, length))
-
-    def slowness(rate, spent):
-        return np.einsum("ij,j->i", rate / np.sqrt(spent), _WEIGHT)
-
-    def still_to_spend(flow):
-        return np.einsum("ij,kj->ik", flow, _TAIL)
-
-    # Unloading, over the live length.
-    left = length * _RISE
-    flow = force(lower + 0 * left, left) * (length * _RATE)
-    time = slowness(length * _RATE, still_to_spend(flow))
-    # Loading up to the critical depth: the map about the turning point, cut at τ_c.
+def _time_over_root(profile, kinks, deepest, lower, length):
+    """∫ ds/√(∫ a ds) over unloading and loading (√m), one impact a row."""
+    base, whole = lower[:, None], length[:, None]
+    nothing, end = np.zeros_like(deepest), np.ones_like(deepest)
+    # Unloading over the live length, above the plastic depth.
+    time, _ = _stretch(profile, length, kinks - base, lambda s: (base + 0 * s, s), end, nothing)
+    # Loading beyond the critical depth: the interval moves. Its lower end has a scale of its own, d_c.
+    breaks = np.hstack([kinks + 0 * base, kinks - whole, whole])
+    beyond, spent = _stretch(profile, lower, breaks, lambda s: (s, whole + 0 * s), end, nothing)
+    # Loading up to the critical depth: the same map about the turning point, cut at τ_c.
     cut = np.cbrt(length / deepest / (1 + np.sqrt(lower / deepest)))
-    tau = cut * _NODE
-    depth = deepest * tau**3 * (2 - tau**3)
-    rate = deepest * cut * 6 * tau**2 * (1 - tau**3)
-    spent = still_to_spend(force(np.zeros_like(depth), depth) * rate)
-    # Loading beyond the critical depth.
-    rows = np.flatnonzero(lower[:, 0] > 0)
-    beyond = lower[rows]
-    flow = force(beyond * _RISE, length[rows] + 0 * _RISE) * (beyond * _RATE)
-    time[rows] += slowness(beyond * _RATE, still_to_spend(flow))
-    spent[rows] += np.einsum("ij,j->i", flow, _WEIGHT)[:, None]
-    return time + slowness(rate, spent)
+    below, _ = _stretch(profile, deepest, kinks + 0 * base, lambda s: (0 * s, s), cut, spent)
+    return time + beyond + below
+
+
+def _stretch(profile, extent, breaks, interval, last, spent):
+    """∫ ds/√spent over a stretch of depth, and what is spent when it ends, one impact a row.
+
+    Parameters
+    ----------
+    extent : ndarray, shape (N,)
+        Depth (m) from where the stretch begins to its turning point, at τ = 1.
+    breaks : ndarray, shape (N, K)
+        Depths (m) in it at which the force has a kink.
+    interval : callable
+        Lower end and length of the live interval at depths from the beginning.
+    last : ndarray, shape (N,)
+        End of the stretch in τ.
+    spent : ndarray, shape (N,)
+        What is still to be spent beyond `last`.
+    """
+    room = np.maximum(extent, np.finfo(float).tiny)[:, None]
+    share = np.clip(breaks / room, 0, 1)
+    # Inverse of τ³(2 − τ³), without cancellation for small shares.
+    inner = np.minimum(np.cbrt(share / (1 + np.sqrt(1 - share))), last[:, None])
+    edges = np.sort(np.hstack([np.zeros_like(room), inner, last[:, None]]), axis=1)
+    time, spent = np.zeros_like(extent), spent.copy()
+    for k in range(edges.shape[1] - 2, -1, -1):
+        low, high = edges[:, k], edges[:, k + 1]
+        rows = np.flatnonzero((high > low) & (extent > 0))
+        if not rows.size:
+            continue
+        tau = low[rows, None] + (high - low)[rows, None] * _NODE
+        depth = np.zeros((len(extent), _NODE.size))
+        depth[rows] = extent[rows, None] * (tau**3 * (2 - tau**3))
+        lower, length = (part[rows] for part in interval(depth))
+        rate = extent[rows, None] * (high - low)[rows, None] * (6 * tau**2 * (1 - tau**3))
+        flow = superpose.radius_integral(profile, LiveInterval(lower, lower + length, length)) * rate
+        left = spent[rows, None] + np.einsum("ij,kj->ik", flow, _TAIL)
+        time[rows] += np.einsum("ij,j->i", rate / np.sqrt(left), _WEIGHT)
+        spent[rows] += np.einsum("ij,j->i", flow, _WEIGHT)
+    return time, spent

@@ -1,7 +1,6 @@
 """Indentation along a prescribed depth path, infinitely slowly or in a rate-independent medium."""
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -146,7 +145,8 @@ class Indentation:
     live: LiveInterval
 
     def __post_init__(self):
-        object.__setattr__(self, "depth", self.depth[()])
+        # A copy: what the caller does with the path later must not change the result.
+        object.__setattr__(self, "depth", _check.frozen(np.array(self.depth)))
 
     def __len__(self):
         return len(self.depth)
@@ -154,18 +154,18 @@ class Indentation:
     def __getitem__(self, index):
         return Indentation(self.profile, self.medium, np.asarray(self.depth[index]), self.live[index])
 
-    @cached_property
+    @_check.frozen_property
     def force(self):
         """Normal force F = 2E* ∫ a(s) ds (N); Popov (2015), Eqs. (20), (22)."""
         return 2 * self.medium.E_star * superpose.radius_integral(self.profile, self.live)[()]
 
-    @cached_property
+    @_check.frozen_property
     def contact_radius(self):
         """Contact radius a (m), Popov (2015), Eq. (16); 0 without contact."""
         radius = self.profile._radius(np.asarray(self.live.upper))
         return np.where(self.live.length > 0, radius, 0.0)[()]
 
-    @cached_property
+    @_check.frozen_property
     def plastic_radius(self):
         """Radius c (m) of the plastic zone, Popov (2015), Eq. (21); 0 if nothing has yielded."""
         radius = self.profile._radius(np.asarray(self.live.lower))
@@ -174,14 +174,14 @@ class Indentation:
     @property
     def plastic_depth(self):
         """Plastic depth d_p (m): the depth of the residual imprint in the 1D foundation."""
-        return self.live.lower[()]
+        return _check.frozen(self.live.lower)
 
-    @cached_property
+    @_check.frozen_property
     def stored_energy(self):
         """Elastic energy U = 2E* ∫ (d − s) a(s) ds (J)."""
         return 2 * self.medium.E_star * superpose.energy_integral(self.profile, self.live)[()]
 
-    @cached_property
+    @_check.frozen_property
     def plastic_work(self):
         """Work W_p = d_c φ(d_p) (J) dissipated over the whole past, φ the elastic force."""
         past = _virgin(np.asarray(self.live.lower))
@@ -191,7 +191,7 @@ class Indentation:
         with np.errstate(invalid="ignore"):
             return np.where(integral > 0, yield_load * integral, 0.0)[()]
 
-    @cached_property
+    @_check.frozen_property
     def stiffness(self):
         """Stiffness dF/dd (N/m): 2E*a, but 2E*(a − c) where the depth is the largest so far.
 

@@ -18,7 +18,7 @@ def newton(step, start, *, largest=np.inf, most=60):
 
     Raises
     ------
-    ArithmeticError
+    ValueError
         If the iteration does not settle.
     """
     x = np.asarray(start, dtype=float)
@@ -33,7 +33,7 @@ def newton(step, start, *, largest=np.inf, most=60):
         # The error of the new x is the square of the change.
         if np.all(settled | zero):
             return np.where(zero, 0.0, x)
-    raise ArithmeticError("the contact radius did not converge; check that the depth is in metres")
+    raise ValueError("the contact radius did not converge; check that the depth is in metres")
 
 
 def increasing_root(function, target, start, highest=np.inf):
@@ -62,6 +62,8 @@ def increasing_root(function, target, start, highest=np.inf):
     else:
         reachable = np.ones(target.shape, bool)
     sought = (target > 0) & reachable
+    eps = np.finfo(float).eps
+    best, least, stalled = x.copy(), np.full(x.shape, np.inf), np.zeros(x.shape, int)
     for iteration in range(300):
         value, slope = function(x)
         with np.errstate(all="ignore"):
@@ -70,19 +72,22 @@ def increasing_root(function, target, start, highest=np.inf):
             miss = np.log(target / value)
             step = miss * value / (slope * x)
             new = x * np.exp(np.clip(step, -3, 3))
-            middle = np.where(
-                high < np.inf, np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 16), 16 * x
-            )
+            middle = np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 16)
+            middle = np.where(high < np.inf, middle, 16 * x)
+        better = np.abs(miss) < least
+        stalled = np.where(better, 0, stalled + 1)
+        best, least = np.where(better, x, best), np.where(better, np.abs(miss), least)
         # Long steps in a bracket take turns with halving it, so that none can go round in circles.
         halve = (iteration % 3 == 2) & (np.abs(step) > 0.1) & (low > 0) & (high < np.inf)
         new = np.where((new >= low) & (new <= high) & ~halve, new, middle)
-        # Where f is nearly flat its own rounding decides.
-        eps = np.finfo(float).eps
-        settled = (np.abs(new - x) <= 4 * eps * x) | (np.abs(miss) <= 8 * eps)
-        x = np.where(sought, new, x)
+        # In the end the rounding of f decides: it no longer comes closer.
+        settled = (np.abs(new - x) <= 4 * eps * x) | (least <= 8 * eps) | ((stalled > 5) & (least <= 1e-12))
         if np.all(settled | ~sought):
-            return np.where(reachable, np.where(target > 0, x, 0.0), np.inf)
-    raise ArithmeticError("the depth did not converge; check that all quantities are in SI units")
+            return np.where(reachable, np.where(target > 0, best, 0.0), np.inf)
+        x = np.where(sought, new, x)
+    raise ValueError(
+        "the depth of this force or energy was not found; check that all quantities are in SI units"
+    )
 
 
 # 1/3, −1/5, 1/7, …: enough for τ ≤ 1/2.

@@ -8,7 +8,7 @@ Here: the interface, and the shapes that are a single power of r.
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
@@ -30,6 +30,13 @@ class Profile(ABC):
     #: Depth and radius (m) beyond which the shape is not known.
     deepest = np.inf
     known_radius = np.inf
+
+    #: Depths (m) at which the edge of the contact passes a kink of g, or reaches the wall.
+    kinks = ()
+
+    def __getstate__(self):
+        # What is computed from the parameters is not worth keeping, and may hold functions.
+        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     def height(self, r):
         """Height z(r) (m) above the tip at radius r (m), of the shape of `r`; even in r."""
@@ -201,7 +208,7 @@ class PowerLaw(Profile):
     coefficient : float
         Coefficient c (m^(1−n)), positive.
     exponent : float
-        Exponent n, positive.
+        Exponent n, from 0.01 to 1000.
 
     Examples
     --------
@@ -214,6 +221,10 @@ class PowerLaw(Profile):
 
     def __post_init__(self):
         set_positive(self, coefficient="m^(1-n)", exponent="")
+        if not 0.01 <= self.exponent <= 1000:
+            raise ValueError(
+                f"PowerLaw exponent = {self.exponent:g} must lie in 0.01 ≤ n ≤ 1000; FlatPunch is n → ∞"
+            )
         if not 0 < self._reduced_coefficient < np.inf:
             raise ValueError(
                 f"PowerLaw coefficient = {self.coefficient:g} m^(1-n) with exponent = {self.exponent:g} "

@@ -31,8 +31,8 @@ class Sphere(Profile):
     def __post_init__(self):
         set_positive(self, radius="m")
 
-    # There a is R to any precision, and the hyperbolic functions are still finite.
-    deepest = property(lambda self: 300 * self.radius)
+    # There a is R to any precision, and the squares of hyperbolic functions are still finite.
+    deepest = property(lambda self: 100 * self.radius)
 
     @property
     def zones(self):
@@ -155,6 +155,8 @@ class RoundedCone(Profile):
     def _cap(self):
         return self.slope * self.tip_radius
 
+    kinks = property(lambda self: (self.slope * self._cap,))
+
     @property
     def zones(self):
         R, s, b = self.tip_radius, self.slope, self._cap
@@ -166,7 +168,13 @@ class RoundedCone(Profile):
             return s * (tau * np.arctan(tau) + 2 * tau / (tau + x)) / x
 
         return (
-            Zone(lambda t: 2 * t / R, lambda depth: np.minimum(np.sqrt(R * depth), b), order=1, scale=b),
+            Zone(
+                lambda t: 2 * t / R,
+                lambda depth: np.minimum(np.sqrt(R * depth), b),
+                order=1,
+                scale=b,
+                end=b,
+            ),
             Zone(rate, self._beyond_cap, order=1, kink=b, scale=b),
         )
 
@@ -226,6 +234,7 @@ class ParabolicPunch(Profile):
         set_positive(self, radius="m", cylinder_radius="m")
 
     wall = property(lambda self: self.cylinder_radius)
+    kinks = property(lambda self: (self.cylinder_radius * (self.cylinder_radius / self.radius),))
 
     @property
     def zones(self):

@@ -1,12 +1,14 @@
 """An indenter given by samples of its height, as a measured tip is."""
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from . import _check
+from .inverse import newton
+from .panels import chunks
 from .profiles import Profile
 from .zones import Zone
 
@@ -41,7 +43,7 @@ class Sampled(Profile):
     """
 
     r: tuple[float, ...]
-    z: tuple[float, ...] = field(repr=False)
+    z: tuple[float, ...]
 
     def __post_init__(self):
         r, z = (
@@ -134,6 +136,7 @@ class Sampled(Profile):
         return self._reduced(self._r)
 
     known_radius = property(lambda self: self.r[-1])
+    kinks = property(lambda self: tuple(g for g in self._g[1:-1].tolist() if g > 0))
     deepest = property(lambda self: float(self._g[-1]))
 
     @cached_property
@@ -146,28 +149,22 @@ class Sampled(Profile):
         return tuple(zone for zone in self.zones[first:last] if zone.scale > 0)
 
     def _zone(self, j):
-        r, bend = self._r, self._bend
-        end = np.sqrt((r[j + 1] - r[j]) * (r[j + 1] + r[j]))
+        kink, height = float(self._r[j]), self._g[j + 1] - self._g[j]
         if self._g[j + 1] == 0:
             # Under a flat face no depth is gained.
-            return Zone(np.zeros_like, np.zeros_like, order=0, kink=r[j], scale=0.0)
-        inner = (r[j] - r[1:j]) * (r[j] + r[1:j])
-
-        def rate(t):
-            x = np.hypot(r[j], t)
-            own = bend[j] * (np.arctan2(t, r[j]) * t + r[j]) / x if j else 0.0
-            w = np.sqrt(np.square(t)[..., None] + inner)
-            others = np.pi / 2 * bend[0] + (np.arctan2(w, r[1:j]) + r[1:j] / w) @ bend[1:j]
-            return own + others * (t / x if j else 1.0)
+            return Zone(np.zeros_like, np.zeros_like, order=0, kink=kink, scale=0.0)
+        step = _VertexSum(self._r[: j + 1], self._bend[: j + 1])
+        end = float(np.sqrt((self._r[j + 1] - kink) * (self._r[j + 1] + kink)))
 
         def coordinate(depth):
-            depth = np.clip(depth, self._g[j], self._g[j + 1])
-            return _bracketed_root(
-                lambda t: self._reduced(np.hypot(r[j], t)) - depth, rate, end, r[j], depth
-            )
+            depth = np.asarray(depth)
+            result = np.where(depth > self._g[j], end, 0.0)
+            inside = (depth > self._g[j]) & (depth < self._g[j + 1])
+            if inside.any():
+                result[inside] = step.inverse(depth[inside] - self._g[j], end, height)
+            return result
 
-        scale = np.sqrt(inner[-1]) if j > 1 else r[1]
-        return Zone(rate, coordinate, order=0, kink=float(r[j]), scale=float(scale))
+        return Zone(step.rate, coordinate, order=0, kink=kink, scale=step.scale, end=end)
 
     def _height(self, r):
         beyond = np.maximum(r - self._r[-1], 0.0)
@@ -176,7 +173,10 @@ class Sampled(Profile):
     def _reduced(self, x):
         x = np.asarray(x)
         total = np.pi / 2 * self._bend[0] * x
+        farthest = np.max(x, initial=0.0)
         for radius, bend in zip(self._r[1:-1], self._bend[1:], strict=True):
+            if radius >= farthest:
+                break
             behind = np.sqrt(np.maximum(x - radius, 0.0) * (x + radius))
             total = total + bend * x * np.arctan2(behind, radius)
         return total
@@ -192,21 +192,50 @@ class Sampled(Profile):
         return result.reshape(depth.shape)
 
 
-def _bracketed_root(f, slope, end, kink, depth):
-    """Root t in [0, end] of f, rising from f(0) ≤ 0 to f(end) ≥ 0, to the rounding of x = √(k² + t²)."""
-    low, high = np.zeros_like(depth), np.full_like(depth, end)
-    t = high / 2
-    for _ in range(100):
-        value = f(t)
-        low, high = np.where(value <= 0, t, low), np.where(value >= 0, t, high)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            new = t - value / slope(t)
-        new = np.where((new >= low) & (new <= high), new, (low + high) / 2)
-        settled = t * np.abs(new - t) <= 2e-16 * (kink**2 + t * t)
-        t = new
-        if np.all(settled):
-            break
-    return t
+class _VertexSum:
+    """Reduced height behind the last of some vertices, as a sum over them, in t = √(x² − r_j²)."""
+
+    def __init__(self, r, bend):
+        self.r, self.bend = float(r[-1]), bend[-1]
+        self.inner_r, self.inner_bend = r[1:-1], bend[1:-1]
+        self.tip = np.pi / 2 * bend[0]
+        self.inner = (self.r - self.inner_r) * (self.r + self.inner_r)
+        self.scale = float(np.sqrt(self.inner[-1])) if len(self.inner) else self.r or 1.0
+
+    def rate(self, t):
+        """dg/dt."""
+        if self.r == 0:
+            return np.full_like(t, self.tip)
+        x = np.hypot(self.r, t)
+        w = np.sqrt(np.square(t)[..., None] + self.inner)
+        others = self.tip + (np.arctan2(w, self.inner_r) + self.inner_r / w) @ self.inner_bend
+        return (self.bend * (np.arctan2(t, self.r) * t + self.r) + others * t) / x
+
+    def rise(self, t):
+        """g − g(r_j), without cancellation however small t is."""
+        x = np.hypot(self.r, t)
+        square = np.square(t)[..., None]
+        w, w0 = np.sqrt(square + self.inner), np.sqrt(self.inner)
+        dx = t * t / (x + self.r)
+        turn = np.arctan2(self.inner_r * square / (w + w0), self.inner_r**2 + w * w0)
+        others = (dx[..., None] * np.arctan2(w, self.inner_r) + self.r * turn) @ self.inner_bend
+        return self.bend * x * np.arctan2(t, self.r) + self.tip * dx + others
+
+    def inverse(self, rise, end, height):
+        """t at a rise between 0 and `height`, which is reached at `end`."""
+        if self.r == 0:
+            return rise / self.tip
+        result = np.empty_like(rise)
+        for rows in chunks(rise.size, 1024):
+            target = rise[rows]
+
+            def step(t, target=target):
+                # A bend that is rounding only may have the wrong sign next to the vertex.
+                return (self.rise(t) - target) / np.maximum(self.rate(t), target / end)
+
+            # g is convex in t: from the right Newton's method only descends.
+            result[rows] = newton(step, end * np.sqrt(target / height), largest=end)
+        return result
 
 
 def _turns_down(first, middle, last):

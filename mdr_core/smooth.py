@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -57,7 +57,17 @@ class Smooth(Profile):
         raise TypeError("the zone of a Smooth shape depends on the depth; ask zones_between")
 
     def zones_between(self, lower, upper):
-        return (_fitted_zone(self, float(upper)),) if upper > 0 else ()
+        return (self._zone(float(upper)),) if upper > 0 else ()
+
+    _zones = cached_property(lambda self: {})
+
+    def _zone(self, depth):
+        """The zone up to a depth, remembered."""
+        if depth not in self._zones:
+            if len(self._zones) > 64:
+                self._zones.clear()
+            self._zones[depth] = _fitted_zone(self, depth)
+        return self._zones[depth]
 
     def _height(self, r):
         # ∫ z′ dr = r ∫ z′(r sin t) cos t dt, as the transform of z′(ρ) √(1 − (ρ/r)²).
@@ -80,10 +90,9 @@ class Smooth(Profile):
 
     def _radius(self, depth):
         deepest = float(np.max(depth, initial=0.0))
-        return _fitted_zone(self, deepest).coordinate(depth) if deepest > 0 else np.zeros_like(depth)
+        return self._zone(deepest).coordinate(depth) if deepest > 0 else np.zeros_like(depth)
 
 
-@lru_cache(maxsize=64)
 def _fitted_zone(shape, depth):
     """The one zone of a smooth shape up to its contact radius at `depth`."""
     end = _contact_end(shape, depth)

@@ -118,12 +118,22 @@ def _(profile: Paraboloid, live):
 
 @radius_drop.register
 def _(profile: PowerLaw, live):
-    return profile._radius(live.upper) * _power_drop(1 / profile.exponent, _fraction(live))
+    return -profile._radius(live.upper) * np.expm1(depth_ratio(live) / profile.exponent)
 
 
 def _fraction(live):
     """Length of the live interval as a fraction of the depth, 0 where both vanish."""
     return np.divide(live.length, live.upper, out=np.zeros_like(live.upper), where=live.upper > 0)
+
+
+def depth_ratio(live):
+    """ln(d_p/d) without cancellation: from the length where that is short, else from the ends."""
+    with np.errstate(divide="ignore"):
+        fraction = _fraction(live)
+        ends = np.log(
+            np.divide(live.lower, live.upper, out=np.zeros_like(live.upper), where=live.upper > 0)
+        )
+        return np.where(fraction < 0.5, np.log1p(-np.minimum(fraction, 0.5)), ends)
 
 
 def _power_drop(q, fraction):
@@ -201,22 +211,45 @@ def _quadrature(profile, zones, lower, upper, at_wall, integral):
     spent = at_wall.copy()
     total = integral.wall(profile.wall, at_wall) if at_wall.any() else np.zeros_like(at_wall)
     for zone in reversed(zones):
-        high, low = (np.arcsinh(zone.coordinate(end) / zone.scale) for end in (upper, lower))
-        width = np.minimum(high - low, NEGLIGIBLE)
-        count = np.ceil(width / PANEL).astype(int)
-        step = width / np.maximum(count, 1)
-        for panel in range(count.max(initial=0)):
-            rows = np.flatnonzero(count > panel)
-            u = high[rows, None] - step[rows, None] * (panel + NODES)
-            t = zone.scale * np.sinh(u)
-            dt = step[rows, None] * (zone.scale * np.cosh(u))
-            ds = zone.rate(t) * dt
-            above = None
-            if integral.cumulative:
-                above = spent[rows, None] + np.einsum("ij,kj->ik", ds, WEIGHTS - TAIL)
-            total[rows] += np.einsum("ij,j->i", integral.node(zone, t, dt, ds, above), WEIGHTS)
-            spent[rows] += np.einsum("ij,j->i", ds, WEIGHTS)
+        t_high, t_low = zone.coordinate(upper), zone.coordinate(lower)
+        whole = (t_low == 0) & (t_high == zone.end)
+        if whole.any():
+            area, own, held = _whole_zone(zone, integral)
+            total[whole] += own + (spent[whole] * area if integral.cumulative else 0.0)
+            spent[whole] += held
+            t_high = np.where(whole, t_low, t_high)
+        _add_zone(zone, t_high, t_low, total, spent, integral)
     return total, spent
+
+
+def _whole_zone(zone, integral):
+    """∫ a ds, one integral and the depth of a zone that lies inside the contact, as for all such states."""
+    ends = np.array([zone.end]), np.zeros(1)
+    area, own, held = np.zeros((3, 1))
+    _add_zone(zone, *ends, area, held, _area)
+    if integral is _area:
+        return area, area, held
+    _add_zone(zone, *ends, own, np.zeros(1), integral)
+    return area, own, held
+
+
+def _add_zone(zone, t_high, t_low, total, spent, integral):
+    """Adds what one zone gives to the totals, and the depth that it holds, in place."""
+    high, low = np.arcsinh(t_high / zone.scale), np.arcsinh(t_low / zone.scale)
+    width = np.minimum(high - low, NEGLIGIBLE + np.log(zone.stretch(t_high)))
+    count = np.ceil(width / PANEL).astype(int)
+    step = width / np.maximum(count, 1)
+    for panel in range(count.max(initial=0)):
+        rows = np.flatnonzero(count > panel)
+        u = high[rows, None] - step[rows, None] * (panel + NODES)
+        t = zone.scale * np.sinh(u)
+        dt = step[rows, None] * (zone.scale * np.cosh(u))
+        ds = zone.rate(t) * dt
+        above = None
+        if integral.cumulative:
+            above = spent[rows, None] + np.einsum("ij,kj->ik", ds, WEIGHTS - TAIL)
+        total[rows] += np.einsum("ij,j->i", integral.node(zone, t, dt, ds, above), WEIGHTS)
+        spent[rows] += np.einsum("ij,j->i", ds, WEIGHTS)
 
 
 @radius_integral.register

@@ -29,6 +29,8 @@ class Zone:
         pure power.
     equator : float
         Radius L (m) that x approaches as t grows without bound.
+    end : float
+        Largest t (m) of the zone.
     """
 
     rate: Callable
@@ -37,6 +39,7 @@ class Zone:
     kink: float = 0.0
     scale: float = np.inf
     equator: float = np.inf
+    end: float = np.inf
 
     def radius(self, t):
         """x (m) at the coordinate t."""

@@ -11,6 +11,8 @@ EXTREMES = (
     *SHAPES,
     mdr.PowerLaw(coefficient=4e-9, exponent=0.1),
     mdr.PowerLaw(coefficient=1e250, exponent=50.0),
+    # Vertices at very different distances.
+    mdr.Sampled([0.0, 1e-9, 1e-8, 1e-6, 2e-6, 1e-4, 10.0], [0.0, 1e-12, 1e-10, 4e-8, 2e-7, 4e-5, 9.0]),
 )
 # Depths in units of d_c, in the order of the path.
 REGIMES = {
@@ -43,7 +45,7 @@ BOUNDS = (
 def errors(shape, medium, regime):
     """Relative error of every quantity in one state."""
     path = np.array(REGIMES[regime]) * medium.critical_depth
-    if path[0] > shape.deepest / 20:
+    if isinstance(shape, mdr.Sphere) and path[0] > shape.radius:
         # A sphere is not pressed in by many radii: take one as large as the depth.
         shape = mdr.Sphere(radius=path[0])
     state, exact = mdr.indent(shape, medium, path)[-1], Reference(shape, medium, path[-1], path[0])

@@ -54,6 +54,26 @@ _SHAPES = {
     ),
     "ParabolicPunch": lambda R, b: (lambda x: x * x / R, lambda x: 2 * x / R),
 }
+
+
+def _polygon(r, z):
+    """g and g′ of a polygon: a truncated cone from every vertex, by the change of slope there."""
+    r, z = [mpf(each) for each in r], [mpf(each) for each in z]
+    slopes = [(z[i + 1] - z[i]) / (r[i + 1] - r[i]) for i in range(len(r) - 1)]
+    bends = [slopes[0]] + [b - a for a, b in itertools.pairwise(slopes)]
+
+    def reduced(x):
+        return x * sum(bend * mp.acos(k / x) for k, bend in zip(r, bends, strict=False) if k < x)
+
+    def slope(x):
+        return sum(
+            bend * (mp.acos(k / x) + k / _root(x, k)) for k, bend in zip(r, bends, strict=False) if k < x
+        )
+
+    return reduced, slope
+
+
+_SHAPES["Sampled"] = _polygon
 _FLAT = {"FlatPunch", "TruncatedCone", "TruncatedParaboloid", "RoundedPunch"}
 _WALL = {"FlatPunch": 0, "ParabolicPunch": 1}
 
@@ -69,12 +89,16 @@ class Reference:
 
     def __init__(self, profile, medium, depth, deepest=None):
         shape = type(profile).__name__
-        values = [mpf(getattr(profile, field.name)) for field in fields(profile)]
+        values = [getattr(profile, field.name) for field in fields(profile)]
+        values = [mpf(value) if isinstance(value, float) else value for value in values]
         self._behind, self._slope = _SHAPES[shape](*values)
         self.flat = values[0] if shape in _FLAT else mpf(0)
         self.wall = values[_WALL[shape]] if shape in _WALL else mp.inf
         self.limit = values[0] if shape == "Sphere" else self.wall
-        self.kinks = [self.flat] + ([values[0] * values[1]] if shape == "RoundedCone" else [])
+        if shape == "Sampled":
+            self.limit, self.kinks = mpf(values[0][-1]), [mpf(r) for r in values[0][:-1]]
+        else:
+            self.kinks = [self.flat] + ([values[0] * values[1]] if shape == "RoundedCone" else [])
         self.modulus = mpf(medium.E_star)
         self.critical = mp.pi * mpf(medium.q_c) / (2 * self.modulus)
         self.depth = mpf(depth)

@@ -71,7 +71,7 @@ def test_restitution_at_given_depth(shape, expected):
         assert hit_to_depth(shape, MEDIUM, times * D_C).restitution == pytest.approx(e, abs=5e-10)
 
 
-@pytest.mark.parametrize("times", [0.7, 1.0001, 1.5, 30.0])
+@pytest.mark.parametrize("times", [0.7, 1.0001, 1.5, 30.0, 150.0])
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_contact_time_by_direct_quadrature(shape, times):
     """T = ∫ dd/v in and out, from the force alone, with v from the work done so far."""
@@ -153,3 +153,9 @@ def test_bad_arguments_are_refused(arguments, says):
 def test_viscous_impact_is_refused():
     with pytest.raises(ValueError, match="viscosity eta = 1 Pa·s must be 0"):
         mdr.impact(mdr.Cone(0.3), mdr.Medium(1e9, eta=1.0), 1.0, 1.0)
+
+
+def test_one_of_many():
+    grid = mdr.impact(mdr.Cone(0.3), MEDIUM, 1e-3, [[0.01, 0.1], [1.0, 10.0]])
+    assert grid[1, 0].restitution == grid.restitution[1, 0]
+    assert grid[1].contact_time.shape == (2,)

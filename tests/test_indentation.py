@@ -1,6 +1,7 @@
 """Indentation: Popov (2015), Eqs. (10)-(22), balance laws, memory, limits."""
 
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -230,3 +231,57 @@ def test_bad_arguments_are_refused():
         mdr.indent(mdr.Cone(0.3), MEDIUM, [D_C, 2 * D_C]).pressure(0.0)
     with pytest.raises(ValueError, match="radius = inf m must be finite"):
         mdr.indent(mdr.Cone(0.3), MEDIUM, D_C).pressure(math.inf)
+
+
+@pytest.mark.parametrize("n", [0.5, 1.5, 3.0])
+@pytest.mark.parametrize("excess", [1e-12, 1e-6, 1e-3])
+def test_axis_pressure_and_stiffness_of_a_power_law_next_to_the_threshold(n, excess):
+    """p(0) = (E*/π) n κ c (a^(n−1) − c^(n−1))/(n−1), dF/dd = 2E*(a − c), c/a from d_p/d itself."""
+    shape = mdr.PowerLaw(1e-3, n)
+    s = mdr.indent(shape, MEDIUM, D_C * (1 + excess))
+    ratio = (s.plastic_depth / s.depth) ** (1 / n)
+    a = s.contact_radius
+    expected = MEDIUM.E_star / math.pi * n * s.depth / a * (1 - ratio ** (n - 1)) / (n - 1)
+    # Powers of a ratio down to 1e-12.
+    assert s.pressure(0.0) == pytest.approx(expected, rel=1e-12)
+    assert s.stiffness == pytest.approx(2 * MEDIUM.E_star * a * (1 - ratio), rel=1e-13)
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+def test_live_depth_shorter_than_the_spacing_of_doubles(shape):
+    """Unloaded all but completely from far beyond d_c: a flat punch of radius a."""
+    deep = min(1e6 * D_C, 1e-5)
+    s = mdr.indent(shape, MEDIUM, [deep, np.nextafter(deep - D_C, 1)])[-1]
+    a, live = s.contact_radius, s.live.length
+    assert live > 0
+    assert s.force == pytest.approx(2 * MEDIUM.E_star * a * live, rel=1e-9)
+    assert s.pressure(0.5 * a) == pytest.approx(MEDIUM.E_star / math.pi * live / (a * 0.75**0.5), rel=1e-6)
+    assert s.surface(2 * a) == pytest.approx(live / 3, rel=1e-6)
+
+
+def test_results_do_not_change_under_the_hands():
+    depth = np.array([D_C, 2 * D_C])
+    result = mdr.indent(mdr.Cone(0.3), MEDIUM, depth)
+    depth[:] = 0
+    assert result.depth[1] == 2 * D_C
+    for field in ("depth", "force", "contact_radius", "plastic_depth"):
+        with pytest.raises(ValueError, match="read-only"):
+            getattr(result, field)[0] = 1.0
+
+
+@pytest.mark.parametrize("shape", [*SHAPES, mdr.Sampled([0, 1e-6, 1e-3], [0, 1e-7, 1e-3])], ids=name)
+def test_results_can_be_pickled(shape):
+    result = mdr.indent(shape, MEDIUM, [D_C, 3 * D_C])
+    force = result.force
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(result)).force, force)
+
+
+def test_forces_of_any_size_are_found():
+    """Every force of a dense range has its depth, however noisy its last digits are."""
+    for shape in (*SHAPES, mdr.Sphere(1e-6), mdr.PowerLaw(4e-9, 0.1)):
+        if shape.wall < np.inf:
+            continue
+        deepest = 3e-6 if isinstance(shape, mdr.Sphere) else 1e3 * D_C
+        force = mdr.indent(shape, MEDIUM, np.geomspace(0.3 * D_C, deepest, 400)[:, None]).force[:, 0]
+        back = mdr.indent_to_force(shape, MEDIUM, force[:, None])
+        np.testing.assert_allclose(back.force[:, 0], force, rtol=1e-12)
