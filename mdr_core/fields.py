@@ -12,7 +12,8 @@ import numpy as np
 
 from .panels import PANEL, gauss_panels
 from .profiles import Cone, Paraboloid, PowerLaw
-from .superpose import NEGLIGIBLE, depth_ratio, radius_drop, wall_length
+from .quadrature import NEGLIGIBLE, wall_length
+from .superpose import depth_ratio, radius_drop
 
 
 @singledispatch

@@ -14,27 +14,23 @@ forms are therefore written as the interval's length times a positive mean, neve
 of two elastic curves; quadratures are scaled so that the increments sum to that length.
 """
 
-from collections.abc import Callable
 from functools import singledispatch
-from typing import NamedTuple
 
 import numpy as np
 from scipy.special import betainc
 
-from .panels import NODES, PANEL, TAIL, WEIGHTS, chunks
+from .panels import chunks
 from .profiles import Cone, FlatPunch, Paraboloid, PowerLaw
+from .quadrature import AREA, DROP, VOLUME, by_quadrature
 from .rounded import Sphere
 
 _TINY = np.finfo(float).tiny
-
-#: Contributions below e^(−40) of the largest are left out of a graded quadrature.
-NEGLIGIBLE = 40.0
 
 
 @singledispatch
 def radius_integral(profile, live):
     """∫ a(s) ds over the live interval (m²), elementwise."""
-    return _by_quadrature(profile, live, _area)
+    return by_quadrature(profile, live, AREA)
 
 
 @radius_integral.register
@@ -65,7 +61,7 @@ def _(profile: PowerLaw, live):
 @singledispatch
 def energy_integral(profile, live):
     """∫ (d − s) a(s) ds over the live interval (m³), elementwise."""
-    return _by_quadrature(profile, live, _volume)
+    return by_quadrature(profile, live, VOLUME)
 
 
 @energy_integral.register
@@ -97,7 +93,7 @@ def _(profile: PowerLaw, live):
 @singledispatch
 def radius_drop(profile, live):
     """a(d) − a(d_p) (m), elementwise: where something has yielded, the width of the elastic ring."""
-    return _by_quadrature(profile, live, _drop)
+    return by_quadrature(profile, live, DROP)
 
 
 @radius_drop.register
@@ -140,116 +136,6 @@ def _power_drop(q, fraction):
     """1 − (1 − fraction)^q without cancellation."""
     with np.errstate(divide="ignore"):
         return -np.expm1(q * np.log1p(-fraction))
-
-
-def wall_length(profile, live):
-    """Part of the live interval (m) in which the contact radius stays at the wall, elementwise."""
-    if profile.wall == np.inf:
-        return np.zeros_like(live.length)
-    foot = profile._reduced(np.asarray(profile.wall))
-    beyond = np.maximum(live.upper - foot, 0.0)
-    return np.where(foot <= live.lower, live.length, np.minimum(beyond, live.length))
-
-
-def _by_quadrature(profile, live, integral):
-    """One of the three integrals for a shape without closed forms, elementwise."""
-    ends = [np.ravel(part) for part in (live.lower, live.upper, live.length, wall_length(profile, live))]
-    result = np.zeros_like(ends[0])
-    for rows in chunks(ends[0].size):
-        lower, upper, length, at_wall = (part[rows] for part in ends)
-        zones = profile.zones_between(lower.min(), upper.max())
-        total, spent = _quadrature(profile, zones, lower, upper, at_wall, integral)
-        # An interval too short for its ends to differ is one flat punch.
-        edge = integral.short(profile._radius(upper), length)
-        scale = np.divide(length, spent, out=np.ones_like(spent), where=spent > 0)
-        result[rows] = np.where(spent > 0, total * scale**integral.degree, edge)
-    return result.reshape(np.shape(live.length))
-
-
-class _Integral(NamedTuple):
-    """What is summed over the panels of a state, from the depth d downward."""
-
-    #: What the wall adds, from its radius and length.
-    wall: Callable
-    #: What a node adds, from the zone, t, dt, the depth increment and the depth above it.
-    node: Callable
-    #: The whole of an interval too short to divide, from its radius and length.
-    short: Callable
-    #: Power of the interval's length to which the sum is proportional.
-    degree: int
-    #: Whether the depth above each node is needed.
-    cumulative: bool = False
-
-
-_area = _Integral(
-    wall=lambda b, length: b * length,
-    node=lambda zone, t, dt, ds, above: zone.radius(t) * ds,
-    short=lambda a, length: a * length,
-    degree=1,
-)
-_volume = _Integral(
-    wall=lambda b, length: b * length**2 / 2,
-    node=lambda zone, t, dt, ds, above: zone.radius(t) * ds * above,
-    short=lambda a, length: a * length**2 / 2,
-    degree=2,
-    cumulative=True,
-)
-_drop = _Integral(
-    wall=lambda b, length: np.zeros_like(length),
-    node=lambda zone, t, dt, ds, above: zone.radius_rate(t) * dt,
-    short=lambda a, length: np.zeros_like(length),
-    degree=1,
-)
-
-
-def _quadrature(profile, zones, lower, upper, at_wall, integral):
-    """Sum of one integral over panels, and the depth that they hold.
-
-    In u = arsinh(t/scale) every zone is smooth to a distance of about π/2 from the real axis.
-    Sums run over the nodes of one state alone: the result does not depend on its neighbours.
-    """
-    spent = at_wall.copy()
-    total = integral.wall(profile.wall, at_wall) if at_wall.any() else np.zeros_like(at_wall)
-    for zone in reversed(zones):
-        t_high, t_low = zone.coordinate(upper), zone.coordinate(lower)
-        whole = (t_low == 0) & (t_high == zone.end)
-        if whole.any():
-            area, own, held = _whole_zone(zone, integral)
-            total[whole] += own + (spent[whole] * area if integral.cumulative else 0.0)
-            spent[whole] += held
-            t_high = np.where(whole, t_low, t_high)
-        _add_zone(zone, t_high, t_low, total, spent, integral)
-    return total, spent
-
-
-def _whole_zone(zone, integral):
-    """∫ a ds, one integral and the depth of a zone that lies inside the contact, as for all such states."""
-    ends = np.array([zone.end]), np.zeros(1)
-    area, own, held = np.zeros((3, 1))
-    _add_zone(zone, *ends, area, held, _area)
-    if integral is _area:
-        return area, area, held
-    _add_zone(zone, *ends, own, np.zeros(1), integral)
-    return area, own, held
-
-
-def _add_zone(zone, t_high, t_low, total, spent, integral):
-    """Adds what one zone gives to the totals, and the depth that it holds, in place."""
-    high, low = np.arcsinh(t_high / zone.scale), np.arcsinh(t_low / zone.scale)
-    width = np.minimum(high - low, NEGLIGIBLE + np.log(zone.stretch(t_high)))
-    count = np.ceil(width / PANEL).astype(int)
-    step = width / np.maximum(count, 1)
-    for panel in range(count.max(initial=0)):
-        rows = np.flatnonzero(count > panel)
-        u = high[rows, None] - step[rows, None] * (panel + NODES)
-        t = zone.scale * np.sinh(u)
-        dt = step[rows, None] * (zone.scale * np.cosh(u))
-        ds = zone.rate(t) * dt
-        above = None
-        if integral.cumulative:
-            above = spent[rows, None] + np.einsum("ij,kj->ik", ds, WEIGHTS - TAIL)
-        total[rows] += np.einsum("ij,j->i", integral.node(zone, t, dt, ds, above), WEIGHTS)
-        spent[rows] += np.einsum("ij,j->i", ds, WEIGHTS)
 
 
 @radius_integral.register
