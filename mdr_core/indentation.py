@@ -7,6 +7,7 @@ import numpy as np
 from . import _check, fields, superpose
 from .inverse import increasing_root
 from .medium import Medium
+from .panels import chunks
 from .profiles import Profile
 from .yielding import LiveInterval, live_interval
 
@@ -218,7 +219,9 @@ class Indentation:
         0.063661977237
         """
         live, r = self._one_state("pressure"), self._radii(r)
-        integral = fields.pressure_integral(self.profile, live, r.ravel())
+        integral, flat = np.empty(r.size), r.ravel()
+        for rows in chunks(r.size, 8192):
+            integral[rows] = fields.pressure_integral(self.profile, live, flat[rows])
         return (self.medium.E_star / np.pi * integral).reshape(r.shape)[()]
 
     def line_load(self, x):
