@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _check, superpose
-from .indentation import Indentation, indent
+from .indentation import Indentation, first_loading
 from .inverse import increasing_root
 from .medium import Medium
 from .panels import chunks, integration_rule
 from .profiles import Profile
-from .yielding import LiveInterval, live_interval
+from .yielding import LiveInterval
 
 
 def impact(profile, medium, mass, speed):
@@ -43,7 +43,7 @@ def impact(profile, medium, mass, speed):
     --------
     Restitution of a cone that is pressed five times as deep as where yield starts:
 
-    >>> from mdr_core import Cone, Medium
+    >>> from mdr_core import Cone, Medium, indent
     >>> medium = Medium(E_star=1.0, q_c=1.0)
     >>> state = indent(Cone(slope=1.0), medium, 5 * medium.critical_depth)
     >>> energy = state.stored_energy + state.plastic_work
@@ -61,13 +61,8 @@ def impact(profile, medium, mass, speed):
     bad = ~((energy > 0) & (energy < np.inf))
     _check.refuse("kinetic energy", energy, bad, "is outside double precision", unit="J")
     depth = _largest_depth(profile, medium, energy)
-    return Impact(
-        profile,
-        medium,
-        mass.copy()[()],
-        speed.copy()[()],
-        indent(profile, medium, depth[..., None])[..., 0],
-    )
+    deepest = first_loading(profile, medium, depth)
+    return Impact(profile, medium, mass.copy()[()], speed.copy()[()], deepest)
 
 
 def _positive(quantity, value, unit):
@@ -75,22 +70,16 @@ def _positive(quantity, value, unit):
     return _check.refuse(quantity, value, value <= 0, "must be positive", unit=unit)
 
 
-def _work(profile, medium, depth):
-    """Work of pressing to `depth` and force there, both over 2E* (m³, m²)."""
-    live = live_interval(depth[..., None], *medium._critical_depth_parts)[..., 0]
-    virgin = LiveInterval(np.zeros_like(depth), live.lower, live.lower)
-    yielded = np.where(live.lower > 0, medium.critical_depth, 0.0)
-    with np.errstate(invalid="ignore"):
-        plastic = np.where(live.lower > 0, yielded * superpose.radius_integral(profile, virgin), 0.0)
-    work = superpose.energy_integral(profile, live) + plastic
-    return work, superpose.radius_integral(profile, live)
-
-
 def _largest_depth(profile, medium, energy):
     """Depth (m) at which the work of pressing equals the energy."""
+
+    def work(depth):
+        state = first_loading(profile, medium, depth)
+        return state.stored_energy + state.plastic_work, state.force
+
     depth = increasing_root(
-        lambda depth: _work(profile, medium, depth),
-        energy / (2 * medium.E_star),
+        work,
+        energy,
         medium.critical_depth if medium.critical_depth < np.inf else 1.0,
         profile.deepest,
     )

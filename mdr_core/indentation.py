@@ -94,17 +94,23 @@ def indent_to_force(profile, medium, force):
     deepest = _loading_depth(profile, medium, peak)
     bound = f"presses deeper than the shape is known, {profile.deepest:g} m"
     _check.refuse("force", force, np.isinf(deepest), bound, unit="N", remedy="press less")
-    front = live_interval(deepest[..., None], *medium._critical_depth_parts)[..., 0]
+    front = first_loading(profile, medium, deepest).live
     length = np.where(area == peak, front.length, _live_length(profile, front, area))
     upper = np.where(area == peak, deepest, front.lower + length)
     return Indentation(profile, medium, upper, LiveInterval(front.lower, upper, length))
+
+
+def first_loading(profile, medium, depth):
+    """States reached by pressing a virgin medium to each of an array of depths (m) on its own."""
+    live = live_interval(depth[..., None], *medium._critical_depth_parts)[..., 0]
+    return Indentation(profile, medium, depth, live)
 
 
 def _loading_depth(profile, medium, area):
     """Depth (m) at which a first loading has ∫ a ds = `area`, elementwise."""
 
     def loading(depth):
-        live = live_interval(depth[..., None], *medium._critical_depth_parts)[..., 0]
+        live = first_loading(profile, medium, depth).live
         ring = np.where(live.lower > 0, superpose.radius_drop(profile, live), profile._radius(depth))
         return superpose.radius_integral(profile, live), ring
 

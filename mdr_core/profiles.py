@@ -95,6 +95,8 @@ def set_positive(profile, **units):
     for name, unit in units.items():
         quantity = f"{type(profile).__name__} {name}"
         value = _check.positive(quantity, getattr(profile, name), unit=unit)
+        if not 1e-100 <= value <= 1e100 and unit != "m^(1-n)":
+            raise ValueError(f"{quantity} = {value:g} must lie between 1e-100 and 1e100; check the unit")
         object.__setattr__(profile, name, value)
 
 

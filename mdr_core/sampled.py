@@ -97,6 +97,8 @@ class Sampled(Profile):
         (0.0, 2.0, 3.0)
         """
         r, z = (_check.finite_array(f"Sampled {n}", v, unit="m") for n, v in (("r", r), ("z", z)))
+        if r.ndim != 1 or r.shape != z.shape or r.size < 2:
+            raise ValueError(f"r, z must be two lists of one length ≥ 2, got shapes {r.shape}, {z.shape}")
         hull = []
         for point in zip(r.tolist(), z.tolist(), strict=True):
             while len(hull) > 1 and _turns_down(*hull[-2:], point):

@@ -123,6 +123,12 @@ def test_convex_envelope():
     assert (tip.r, tip.z) == ((0.0, 2.0, 3.0), (0.0, 2.5, 6.0))
 
 
+@pytest.mark.parametrize(("r", "z"), [(1, 2), ([], []), ([0, 1], [0, 1, 2])])
+def test_bad_samples_have_no_envelope(r, z):
+    with pytest.raises(ValueError, match="two lists of one length"):
+        mdr.Sampled.convex_envelope(r, z)
+
+
 class TestCsv:
     def read(self, tmp_path, text, **options):
         path = tmp_path / "tip.csv"
