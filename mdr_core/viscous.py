@@ -6,7 +6,8 @@ import numpy as np
 
 from . import superpose
 from .contact_time import contact_time
-from .rebound import Bodies, solve
+from .course import Bodies
+from .rebound import solve
 from .turning import dry_restitution, plastic_integral, turning_point
 from .yielding import LiveInterval
 
