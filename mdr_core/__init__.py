@@ -9,9 +9,11 @@ from . import abel
 from .impact import Impact, impact
 from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium
+from .motion import Motion
 from .profiles import Cone, FlatPunch, Paraboloid, PowerLaw, Profile
 from .rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
 from .sampled import Sampled
+from .scaling import FastLimit, ScalingLaw, hardness_class
 from .scene import DepthPath, ForcePath, FreeImpact, Scene
 from .smooth import Smooth
 from .truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
@@ -19,6 +21,7 @@ from .truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
 __all__ = [
     "Cone",
     "DepthPath",
+    "FastLimit",
     "FlatPunch",
     "ForcePath",
     "FreeImpact",
@@ -26,6 +29,7 @@ __all__ = [
     "Impact",
     "Indentation",
     "Medium",
+    "Motion",
     "ParabolicPunch",
     "Paraboloid",
     "PowerLaw",
@@ -33,12 +37,14 @@ __all__ = [
     "RoundedCone",
     "RoundedPunch",
     "Sampled",
+    "ScalingLaw",
     "Scene",
     "Smooth",
     "Sphere",
     "TruncatedCone",
     "TruncatedParaboloid",
     "abel",
+    "hardness_class",
     "impact",
     "indent",
     "indent_to_force",
