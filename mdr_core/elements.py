@@ -68,8 +68,8 @@ class Ramp:
 
     @property
     def lag(self):
-        """τ|ḋ| (m): the elastic part whose force equals that of the dashpot."""
-        return abs(self.rise) * (self.tau / self.time)
+        """τḋ (m): the elastic part whose force equals that of the dashpot, of the sign of the rise."""
+        return self.rise * (self.tau / self.time)
 
     @property
     def keep(self):
@@ -79,18 +79,28 @@ class Ramp:
 
 @dataclass(frozen=True, eq=False)
 class Exchange:
-    """What each element did along a ramp: lengths, squared lengths and times, to be taken times E*.
+    """What each element did along a ramp; forces and energies are per unit of E* and of width.
 
-    `stroke` is the path (m) along which it was pushed or let out in contact, `mean` the mean
-    elastic part (m) on it, `duration` the time (s) spent in contact. The dissipated squares (m²)
-    are per unit of E* and of width.
+    `stroke` is the path (m) along which it was pushed or let out in contact, `mean` its mean
+    elastic part (m) in contact, `duration` the time (s) of contact, `relaxed` the energy (m²) lost
+    while free, `lag` that of the ramp (m).
     """
 
     stroke: np.ndarray
     mean: np.ndarray
     duration: np.ndarray
-    viscous: np.ndarray
-    plastic: np.ndarray
+    relaxed: np.ndarray
+    lag: float
+
+    @property
+    def impulse(self):
+        """∫ q dt/E* (m s)."""
+        return (self.mean + self.lag) * self.duration
+
+    @property
+    def viscous(self):
+        """Energy (m²) dissipated by the dashpot: 4ηḋ along the stroke, and all that is lost while free."""
+        return self.lag * self.stroke + self.relaxed
 
 
 def advance(elements, ramp):
@@ -108,19 +118,20 @@ def advance(elements, ramp):
 
 def _press(elements, ramp, above):
     """A ramp that goes deeper, or holds: what is met stays met."""
-    relaxed = elements.elastic * ramp.keep
-    met = ~elements.contact & (above > relaxed)
+    before, relaxed = elements.elastic, elements.elastic * ramp.keep
+    met = (above > relaxed) & ~elements.contact
     contact = elements.contact | met
-    first = np.where(met, _meeting_pressed(elements, ramp, above, met), elements.elastic)
+    first, duration = before, np.where(elements.contact, ramp.time, 0.0)
+    if met.any():
+        first = np.where(met, _meeting_pressed(elements, ramp, above, met), before)
+        duration = np.where(met, _time_since(first, elements, ramp, above), duration)
     elastic = np.where(contact, np.minimum(above, ramp.critical_depth), relaxed)
-    excess = np.where(contact, above - elastic, 0.0)
     stroke = np.where(contact, above - first, 0.0)
+    excess = np.where(contact, above - elastic, 0.0)
     # On the capped part of the stroke the elastic part stays what it is.
-    capped = np.divide(excess, stroke, out=np.zeros_like(stroke), where=stroke > 0)
-    mean = np.where(contact, elastic - (1 - capped) * (elastic - first) / 2, 0.0)
-    duration = np.where(elements.contact, ramp.time, _time_since(first, elements, ramp, stroke, met))
-    left_free = np.where(met, first, np.where(contact, elements.elastic, relaxed))
-    viscous = ramp.lag * stroke + (elements.elastic**2 - left_free**2) / 2
+    rising = 1 - np.divide(excess, stroke, out=np.zeros_like(stroke), where=stroke > 0)
+    mean = np.where(contact, elastic - rising * (elastic - first) / 2, 0.0)
+    lost = (before**2 - np.where(contact, first, relaxed) ** 2) / 2
     new = Elements(
         elements.reduced,
         np.where(contact, elastic, above),
@@ -128,7 +139,7 @@ def _press(elements, ramp, above):
         elements.plastic + excess,
         contact,
     )
-    return new, Exchange(stroke, mean, duration, viscous, _times(excess, ramp.critical_depth))
+    return new, Exchange(stroke, mean, duration, lost, ramp.lag)
 
 
 def _meeting_pressed(elements, ramp, above, met):
@@ -144,51 +155,57 @@ def _meeting_pressed(elements, ramp, above, met):
     return np.clip(np.where(scaled < np.inf, root, low), low, np.maximum(above, low))
 
 
-def _time_since(first, elements, ramp, stroke, met):
-    """Time (s) since a relaxing element was met."""
-    if ramp.rise > 0:
-        return np.where(met, stroke / ramp.rise * ramp.time, 0.0) if ramp.time < np.inf else 0.0 * stroke
+def _time_since(first, elements, ramp, above):
+    """Time (s) since an element was met; it counts in a ramp of finite time."""
+    if ramp.time == np.inf:
+        return np.zeros_like(first)
     with np.errstate(divide="ignore", invalid="ignore"):
-        wait = ramp.tau * np.log(elements.elastic / first)
-    return np.where(met, ramp.time - wait, 0.0)
+        # One that was relaxed is met at 0, another once it has relaxed so far.
+        since = np.where(
+            elements.elastic > 0,
+            ramp.time - ramp.tau * np.log(elements.elastic / first),
+            above / np.float64(ramp.rise) * ramp.time,
+        )
+    return np.clip(since, 0.0, ramp.time)
 
 
 def _withdraw(elements, ramp, above):
     """A ramp that goes back: what is in contact may let go, once, and is not met again."""
-    lag = ramp.lag
-    first, met = _meeting_withdrawn(elements, ramp, above)
-    touched = elements.contact | met
-    first = np.where(met, first, elements.elastic)
+    lag, before = -ramp.lag, elements.elastic
+    first, touched = before, elements.contact
+    met = ~elements.contact & (before > lag) & (above - ramp.rise > 0)
+    if met.any():
+        meeting, met = _meeting_withdrawn(elements, ramp, above, met)
+        first, touched = np.where(met, meeting, before), touched | met
     last = np.maximum(above, np.minimum(first, lag))
     contact = touched & (above > lag)
     stroke = np.where(touched, first - last, 0.0)
     # Without a lag what has let go is relaxed at once.
-    since = np.exp((above - last) / lag) if lag > 0 else 0.0
-    free = np.where(touched, last * since, elements.elastic * ramp.keep)
-    elastic = np.where(contact, above, free)
-    duration = stroke / -ramp.rise * ramp.time if ramp.time < np.inf else 0.0 * stroke
-    duration = np.where(elements.contact & contact, ramp.time, duration)
-    left_free = np.where(met, first, np.where(touched, elements.elastic, elastic))
-    viscous = lag * stroke + (elements.elastic**2 - left_free**2) / 2
-    viscous = viscous + np.where(touched & ~contact, (last**2 - elastic**2) / 2, 0.0)
-    new = Elements(elements.reduced, above, elastic, elements.plastic, contact)
+    with np.errstate(over="ignore"):
+        since = np.exp(np.minimum(above - last, 0.0) / lag) if lag > 0 else 0.0
+    elastic = np.where(contact, above, np.where(touched, last * since, before * ramp.keep))
+    duration = np.zeros_like(stroke)
+    if ramp.time < np.inf:
+        duration = np.where(elements.contact & contact, ramp.time, stroke / -ramp.rise * ramp.time)
+    kept = np.where(touched, np.where(contact, 0.0, last**2 - elastic**2), -(elastic**2))
+    lost = (before**2 - np.where(touched, first**2, 0.0) + kept) / 2
     mean = np.where(touched, (first + last) / 2, 0.0)
-    return new, Exchange(-stroke, mean, duration, viscous, np.zeros_like(stroke))
+    new = Elements(elements.reduced, above, elastic, elements.plastic, contact)
+    return new, Exchange(-stroke, mean, duration, lost, ramp.lag)
 
 
-def _meeting_withdrawn(elements, ramp, above):
+def _meeting_withdrawn(elements, ramp, above, able):
     """Elastic part w (m) at which a relaxing element springs back to a slower indenter, and where it does.
 
     Y − ln Y = w₀/lag − ln(u₀/lag) with w = lag Y, Y ≥ 1: later it would no longer be faster.
     """
-    start, lag = above - ramp.rise, ramp.lag
-    able = ~elements.contact & (elements.elastic > lag) & (start > 0)
-    if not np.any(able) or lag == 0:
+    start, lag = above - ramp.rise, -ramp.lag
+    if lag == 0:
         return start, able
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        # Both measured from Y = 1, u = Y₀ − 1: what is to be found is often close to it.
+        # As u − ln(1 + u) with u = Y − 1, which is often small.
         goal = np.where(able, start / lag - np.log(elements.elastic / lag) - 1, 0.0)
-    able &= goal >= 0
+    able = able & (goal >= 0)
     goal = np.where(able, np.minimum(goal, 1e17), 0.0)
     root = goal + np.sqrt(2 * goal)
     for _ in range(6):
@@ -198,8 +215,3 @@ def _meeting_withdrawn(elements, ramp, above):
     # Beyond 16 digits the lag makes no difference.
     meeting = np.where(goal < 1e17, np.minimum(lag * (1 + root), start), start)
     return meeting, able & (meeting > above)
-
-
-def _times(excess, critical_depth):
-    """excess · d_c, where d_c may be infinite and nothing exceeds it."""
-    return excess * critical_depth if critical_depth < np.inf else np.zeros_like(excess)

@@ -75,6 +75,8 @@ class Foundation:
     depth: float = field(default=0.0, init=False)
     #: Energy (J) dissipated by the dashpots so far.
     viscous_work: float = field(default=0.0, init=False)
+    #: The moves so far, as (depth, dt): what another row has to go through to be like this one.
+    history: tuple[tuple[float, float], ...] = field(default=(), init=False, repr=False)
 
     def __post_init__(self):
         if not isinstance(self.profile, Profile):
@@ -100,7 +102,8 @@ class Foundation:
             n=int(n),
             half_width=half_width,
             nodes=tuple(nodes.tolist()),
-            _edges=edges,
+            _middle=middle,
+            _width=np.diff(edges),
             _rim=np.inf if half_width >= self.profile.wall else rim,
             _lag=0.0,
             _elements=Elements.virgin(self.profile.reduced(middle)),
@@ -141,23 +144,15 @@ class Foundation:
         22.0 6.0
         """
         depth = float(self.profile._known(_check.finite_array("depth", _check.number("depth", depth))))
-        return self._moved(depth, _check.positive("dt", dt, unit="s", infinite=True))[0]
+        ramp = self._ramp(depth, _check.positive("dt", dt, unit="s", infinite=True))
+        return self._after(ramp, *elements.advance(self._elements, ramp))
 
-    def _moved(self, depth, dt):
-        """The foundation after a ramp, and the impulse (N·s) of its force."""
-        self._refuse_overflow(depth)
-        ramp = self._ramp(depth, dt)
-        state, exchange = elements.advance(self._elements, ramp)
-        return self._after(ramp, state, exchange), self._impulse(ramp, exchange)
-
-    def _refuse_overflow(self, depth):
+    def _ramp(self, depth, dt):
         if depth > self._rim:
             raise ValueError(
                 f"half_width = {self.half_width:g} m is less than the contact radius at depth = {depth:g} m, "
                 f"{self.profile.contact_radius(depth):g} m; give at least that"
             )
-
-    def _ramp(self, depth, dt):
         medium = self.medium
         return Ramp(self.depth, depth, dt, medium.relaxation_time, medium.critical_depth)
 
@@ -170,19 +165,15 @@ class Foundation:
         new._set(
             depth=ramp.depth,
             viscous_work=self.viscous_work + self._total(exchange.viscous),
-            _lag=np.copysign(ramp.lag, ramp.rise),
+            history=(*self.history, (ramp.depth, ramp.time)),
+            _lag=ramp.lag,
             _elements=state,
         )
         return new
 
-    def _impulse(self, ramp, exchange):
-        with np.errstate(invalid="ignore"):
-            load = exchange.mean + np.copysign(ramp.lag, ramp.rise)
-            return self._total(np.where(exchange.duration > 0, load * exchange.duration, 0.0))
-
     def _total(self, values):
         """E* times the sum over both sides of a quantity of the elements, by width."""
-        return float(2 * self.medium.E_star * (values @ np.diff(self._edges)))
+        return float(2 * self.medium.E_star * (values @ self._width))
 
     def _mirrored(self, values, sign=1):
         return np.concatenate([sign * values[::-1], values])
@@ -190,12 +181,12 @@ class Foundation:
     @_check.frozen_property
     def x(self):
         """Places of the elements (m), shape (n,), from −half_width to half_width."""
-        return self._mirrored((self._edges[1:] + self._edges[:-1]) / 2, sign=-1)
+        return self._mirrored(self._middle, sign=-1)
 
     @_check.frozen_property
     def width(self):
         """Widths Δx (m) of the elements: what sums over them are weighted with."""
-        return self._mirrored(np.diff(self._edges))
+        return self._mirrored(self._width)
 
     @_check.frozen_property
     def elastic(self):
@@ -231,7 +222,7 @@ class Foundation:
     @property
     def force(self):
         """Normal force F = Σ q Δx (N); Popov (2015), Eq. (9)."""
-        return float(2 * (self._load @ np.diff(self._edges)))
+        return float(2 * (self._load @ self._width))
 
     @property
     def stored_energy(self):

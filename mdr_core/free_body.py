@@ -1,0 +1,267 @@
+"""A free body on a chain: Newton's equation in steps that are exact for the elements.
+
+In a step of constant ḋ = V the impulse J(V) of the chain's force is exact, and the body's velocity
+changes from v to v₁ with
+
+    m (v₁ − v) = −J(V),   V = (v + v₁)/2,
+
+so that its kinetic energy changes by the work −V J of that very force: the ledger closes whatever
+the step. The order is two. One step ends where the body turns round, for the largest depth is what
+the elements remember.
+"""
+
+from dataclasses import dataclass
+from itertools import chain, repeat
+
+import numpy as np
+from scipy.optimize import brentq
+
+from . import _check, elements
+from .foundation import Foundation
+from .grid import cell_edges
+from .medium import Medium
+from .profiles import Profile
+
+#: Change of velocity, and path, of the first run's steps in units of the whole.
+_SHARE = 1 / 12
+_MOST_STEPS = 100_000
+
+
+@dataclass(frozen=True)
+class Body:
+    """What flies, against what, and from where."""
+
+    profile: Profile
+    medium: Medium
+    mass: float
+    speed: float
+    history: tuple[tuple[float, float], ...] = ()
+
+    def __post_init__(self):
+        object.__setattr__(self, "mass", _check.positive("mass", self.mass, unit="kg"))
+        object.__setattr__(self, "speed", _check.positive("speed", self.speed, unit="m/s"))
+
+    @property
+    def met_before(self):
+        """Largest depth (m) of the history, at least 0."""
+        return max([0.0, *(depth for depth, _ in self.history)])
+
+    def row(self, n, deepest):
+        """The chain on which the body starts, wide enough for a depth (m), edges at the plastic zones."""
+        past = self.met_before
+        level = np.array([past, deepest]) - self.medium.critical_depth
+        nodes = self.profile.contact_radius(level[level > 0])
+        widest = min(1.02 * max(past, deepest), self.profile.deepest)
+        half_width = self.profile.contact_radius(widest)
+        row = Foundation(self.profile, self.medium, n, half_width, nodes=tuple(nodes))
+        for depth, dt in self.history:
+            row = row.advance(depth, dt)
+        return row
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """The motion step by step, from the start to the end of contact; arrays of one length.
+
+    Time (s), depth (m), velocity (m/s), force (N) and the ledger (J): kinetic, stored, plastic and
+    viscous. `steps` are the time steps (s), `foundation` is the chain at the end, `met` the time of
+    first contact.
+    """
+
+    time: np.ndarray
+    depth: np.ndarray
+    velocity: np.ndarray
+    force: np.ndarray
+    kinetic_energy: np.ndarray
+    stored_energy: np.ndarray
+    plastic_work: np.ndarray
+    viscous_work: np.ndarray
+    steps: np.ndarray
+    foundation: Foundation
+    met: float
+
+
+def reach(body):
+    """A depth (m) that the body does not exceed: the less of what springs and dashpots alone allow.
+
+    Beyond what was met before, the springs and caps take ∫F dd = 2E* ∫ (u_e²/2 + d_c u_p) dx of
+    the energy, the dashpots 8η ∫ a dd = 8η ∫ u dx of the momentum.
+    """
+    medium = body.medium
+    momentum, energy = body.mass * body.speed, body.mass * body.speed**2 / 2
+    past = np.array(_resistance(body, body.met_before))
+
+    def stops(depth):
+        work, damping = np.array(_resistance(body, depth)) - past
+        return work >= energy or (medium.eta > 0 and damping >= momentum)
+
+    high = min(medium.critical_depth, body.profile.deepest, 1.0)
+    while high > body.met_before and stops(high):
+        high /= 16
+    while not stops(high):
+        if high == body.profile.deepest:
+            return high
+        high = min(16 * high, body.profile.deepest)
+    low = max(high / 16, body.met_before)
+    while high > 1.05 * low:
+        middle = np.sqrt(low * high)
+        low, high = (low, middle) if stops(middle) else (middle, high)
+    return high
+
+
+def _resistance(body, depth):
+    """Work (J) of the springs and caps, and momentum (N·s) taken by the dashpots, up to a depth."""
+    if depth <= 0:
+        return 0.0, 0.0
+    medium, edges = body.medium, cell_edges(body.profile, 64, body.profile.contact_radius(depth))
+    u = np.maximum(depth - body.profile.reduced((edges[1:] + edges[:-1]) / 2), 0.0)
+    elastic = np.minimum(u, medium.critical_depth)
+    # u_e²/2 + d_c u_p, with u_e = d_c wherever u_p > 0.
+    work = 2 * medium.E_star * (elastic * (u - elastic / 2)) @ np.diff(edges)
+    return float(work), float(8 * medium.eta * u @ np.diff(edges))
+
+
+class _Flight:
+    """One run: the chain, the velocity, and what has been recorded so far."""
+
+    def __init__(self, body, row, precision):
+        self.body, self.row, self.velocity = body, row, body.speed
+        self.precision = precision * body.speed
+        self.acceleration = self.jerk = self.time = 0.0
+        self.met, self.end = np.inf, 0.0
+        self.steps, self.records = [], []
+        self._record()
+
+    def _record(self):
+        row, v, m = self.row, self.velocity, self.body.mass
+        state, medium = row._elements, row.medium
+        # With the dashpots at the present velocity, not at the mean one of the step.
+        load = np.maximum(state.elastic + medium.relaxation_time * v, 0.0)
+        force = row._total(np.where(state.contact, load, 0.0))
+        ledger = (m * v**2 / 2, row.stored_energy, row.plastic_work, row.viscous_work)
+        self.records.append((self.time, row.depth, v, force, *ledger))
+
+    @property
+    def over(self):
+        """Whether the body leaves for good: it goes back and touches nothing."""
+        return self.velocity < 0 and not self.row._elements.contact.any()
+
+    def trial(self, rate, dt):
+        """Ramp, new elements, exchange, impulse (N·s) and its slope dJ/dV (kg) for a step."""
+        ramp = self.row._ramp(self.row.depth + rate * dt, dt)
+        state, exchange = elements.advance(self.row._elements, ramp)
+        lag = (state.elastic < ramp.critical_depth) * (exchange.duration / 2) + ramp.tau
+        row = self.row
+        slope = row._total(exchange.duration * lag)
+        return ramp, state, exchange, row._total(exchange.impulse), slope
+
+    def step(self, dt):
+        """One step of the given time, by Newton's method in V; returns the new velocity."""
+        m, v = self.body.mass, self.velocity
+        last = self.steps[-1] if self.steps else 0.0
+        rate = v + (self.acceleration + self.jerk * (last + dt) / 2) * dt / 2
+        for _ in range(40):
+            ramp, state, exchange, impulse, slope = self.trial(rate, dt)
+            miss = (2 * m * (rate - v) + impulse) / (2 * m + slope)
+            if abs(miss) <= self.precision:
+                break
+            rate -= miss
+        return ramp, state, exchange, v - impulse / m
+
+    def turn(self, longest):
+        """The step that ends where the velocity is zero, J(v/2) = m v."""
+        m, v = self.body.mass, self.velocity
+
+        def excess(dt):
+            return (self.trial(v / 2, dt)[3] if dt else 0.0) - m * v
+
+        dt = brentq(excess, 0.0, longest, xtol=1e-12 * longest)
+        return *self.trial(v / 2, dt)[:3], 0.0
+
+    def accept(self, ramp, state, exchange, velocity):
+        """Take a step into the records."""
+        touched = exchange.duration.max()
+        if touched > 0:
+            # On a virgin surface contact begins between the elements, at depth 0.
+            first = self.time + ramp.time - touched if self.body.history else 0.0
+            self.met = min(self.met, first)
+            self.end = self.time + (ramp.time if state.contact.any() else touched)
+        acceleration = (velocity - self.velocity) / ramp.time
+        if self.steps:
+            # From the middle of the last step to the middle of this one.
+            self.jerk = 2 * (acceleration - self.acceleration) / (ramp.time + self.steps[-1])
+        self.acceleration, self.velocity = acceleration, velocity
+        self.row = self.row._after(ramp, state, exchange)
+        self.time += ramp.time
+        self.steps.append(ramp.time)
+        self._record()
+
+    def go(self, dt, taken=None):
+        """A step of the given time, in two if the body turns round in it."""
+        if len(self.steps) > _MOST_STEPS:
+            raise ValueError(
+                f"the impact takes more than {_MOST_STEPS} steps; tau = {self.row.medium.relaxation_time:g} s "
+                "is out of proportion to the time of contact: check the units, or leave out eta"
+            )
+        taken = taken or self.step(dt)
+        if self.velocity > 0 > taken[-1]:
+            self.accept(*self.turn(dt))
+            dt -= self.steps[-1]
+            if dt <= 1e-9 * self.steps[-1]:
+                return
+            taken = self.step(dt)
+        self.accept(*taken)
+
+    def approach(self, room):
+        """Fly freely to a distance `room` (m) of the first element."""
+        for _ in range(1000):
+            state = self.row._elements
+            gap = float(np.min(state.reduced + state.plastic + state.elastic)) - self.row.depth
+            if gap <= room or state.contact.any():
+                return
+            dt = (gap - room / 2) / self.velocity
+            self.accept(*self.trial(self.velocity, dt)[:3], self.velocity)
+
+    def motion(self):
+        """What was recorded, with the end where the last element lets go."""
+        columns = [np.array(column) for column in zip(*self.records, strict=True)]
+        columns[0][-1] = self.end
+        return Motion(*columns, np.array(self.steps), self.row, self.met)
+
+
+def pace(body, row, deepest):
+    """A first run with steps as long as velocity and depth allow."""
+    flight = _Flight(body, row, 1e-6)
+    flight.approach(deepest)
+    flight.steps.clear()
+    path = _SHARE * max(deepest - row.depth, _SHARE * deepest)
+    longest = _SHARE * body.speed
+    dt = path / body.speed / 10
+    while not flight.over:
+        taken = flight.step(dt)
+        change = abs(taken[-1] - flight.velocity)
+        if change > 1.5 * longest:
+            dt *= max(longest / change, 0.1)
+            continue
+        flight.go(dt, taken)
+        room = path / max(abs(flight.velocity) * dt, 1e-300)
+        dt *= min(1.5, longest / max(change, 1e-300), room)
+        # A body that creeps out of the imprint does so on the scale of the time it has taken.
+        dt = min(dt, 1.5 * _SHARE * flight.time) if flight.velocity < 0 else dt
+    return flight.motion()
+
+
+def fly(body, row, steps, room, precision):
+    """A run with given time steps (s), the last one repeated as long as there is contact."""
+    flight = _Flight(body, row, min(1e-9, 1e-4 * precision))
+    flight.approach(room)
+    flight.steps.clear()
+    for dt in chain(steps, repeat(steps[-1])):
+        if flight.over:
+            return flight.motion()
+        flight.go(dt)
+
+
+def halved(steps):
+    """Every time step in two."""
+    return np.repeat(np.asarray(steps) / 2, 2)
