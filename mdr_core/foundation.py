@@ -143,21 +143,17 @@ class Foundation:
         >>> print(moved.force, moved.advance(3.0, dt=1.0).force)  # 2E*b d + 8ηb ḋ
         22.0 6.0
         """
-        depth = float(self.profile._known(_check.finite_array("depth", _check.number("depth", depth))))
+        depth = float(_check.finite_array("depth", _check.number("depth", depth), unit="m"))
         ramp = self._ramp(depth, _check.positive("dt", dt, unit="s", infinite=True))
         return self._after(ramp, *elements.advance(self._elements, ramp))
 
     def _ramp(self, depth, dt):
-        if depth > self._rim:
-            raise ValueError(
-                f"half_width = {self.half_width:g} m is less than the contact radius at depth = {depth:g} m, "
-                f"{self.profile.contact_radius(depth):g} m; give at least that"
-            )
         medium = self.medium
         return Ramp(self.depth, depth, dt, medium.relaxation_time, medium.critical_depth)
 
     def _after(self, ramp, state, exchange):
         """This foundation with its elements at the end of a ramp."""
+        self._refuse_overflow(ramp.depth)
         new = copy.copy(self)
         # What has been computed from the old state does not belong to the new one.
         for name in _CACHED & vars(new).keys():
@@ -170,6 +166,14 @@ class Foundation:
             _elements=state,
         )
         return new
+
+    def _refuse_overflow(self, depth):
+        self.profile._known(np.asarray(depth))
+        if depth > self._rim:
+            raise ValueError(
+                f"half_width = {self.half_width:g} m is less than the contact radius at depth = {depth:g} m, "
+                f"{self.profile.contact_radius(depth):g} m; give at least that"
+            )
 
     def _total(self, values):
         """E* times the sum over both sides of a quantity of the elements, by width."""
