@@ -9,13 +9,14 @@ from .inverse import increasing_root
 from .medium import Medium
 from .panels import chunks
 from .profiles import Profile
+from .timed import check_times, indent_in_time
 from .yielding import LiveInterval, live_interval
 
 
-def indent(profile, medium, depth):
+def indent(profile, medium, depth, *, time=None, tolerance=1e-6):
     """Press an indenter along a depth path: loading, unloading and reloading in any order.
 
-    The path is followed infinitely slowly, so that the dashpots carry nothing.
+    Without times the path is followed infinitely slowly, so that the dashpots carry nothing.
 
     Parameters
     ----------
@@ -26,16 +27,22 @@ def indent(profile, medium, depth):
     depth : float or array_like
         Indentation depth d (m), one number or a path along the last axis; each row of a larger
         array is a path of its own that starts on a virgin medium. Negative means lifted off.
+    time : array_like, optional
+        Increasing times (s) of a one-dimensional path, which is straight in between; its first
+        depth is reached infinitely slowly. They matter in a viscous medium.
+    tolerance : float, optional
+        Error allowed in force and energies in a viscous medium, each relative to its largest.
 
     Returns
     -------
     Indentation
-        Quantities of the shape of `depth`, computed when asked for.
+        Quantities of the shape of `depth`, computed when asked for; in a viscous medium with times
+        a `TimedIndentation`.
 
     Raises
     ------
     ValueError
-        If a depth is not finite, or deeper than the profile is known.
+        If a depth is not finite, or deeper than the profile is known, or times do not increase.
 
     Examples
     --------
@@ -51,6 +58,10 @@ def indent(profile, medium, depth):
     """
     _refuse_types(profile, medium)
     depth = profile._known(_check.finite_array("depth", depth, unit="m"))
+    if time is not None:
+        time = check_times(time, depth, "depth")
+        if medium.eta > 0:
+            return indent_in_time(profile, medium, depth, time, tolerance)
     return Indentation(profile, medium, depth, live_interval(depth, *medium._critical_depth_parts))
 
 
