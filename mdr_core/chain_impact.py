@@ -6,7 +6,6 @@ from functools import cached_property
 import numpy as np
 
 from . import _check
-from .foundation import Foundation
 from .free_body import Body, Motion, fly, halved, pace, reach
 from .medium import Medium
 from .profiles import Profile

@@ -44,9 +44,9 @@ class Foundation:
 
     Notes
     -----
-    A fully immersed step is one call however long it is: along a straight ramp every element is
-    followed exactly, through being met, yielding, letting go and relaxing. The line load is that
-    at the end of the ramp, with the dashpots still at its rate.
+    A straight ramp is one step however long it is: every element is followed exactly, through being
+    met, yielding, letting go and relaxing. The line load is that at the end of the ramp, with the
+    dashpots still at its rate.
 
     Examples
     --------
@@ -80,7 +80,9 @@ class Foundation:
 
     def __post_init__(self):
         if not isinstance(self.profile, Profile):
-            raise TypeError(f"profile must be an mdr_core shape such as Cone(slope=1), got {self.profile!r}")
+            raise TypeError(
+                f"profile must be an mdr_core shape such as Cone(slope=1), got {self.profile!r}"
+            )
         if not isinstance(self.medium, Medium):
             raise TypeError(f"medium must be a Medium, got {self.medium!r}")
         n = _check.positive("n", self.n)
@@ -171,8 +173,8 @@ class Foundation:
         self.profile._known(np.asarray(depth))
         if depth > self._rim:
             raise ValueError(
-                f"half_width = {self.half_width:g} m is less than the contact radius at depth = {depth:g} m, "
-                f"{self.profile.contact_radius(depth):g} m; give at least that"
+                f"half_width = {self.half_width:g} m is less than the contact radius "
+                f"{self.profile.contact_radius(depth):g} m at depth = {depth:g} m; give at least that"
             )
 
     def _total(self, values):
@@ -209,7 +211,7 @@ class Foundation:
 
     @_check.frozen_property
     def line_load(self):
-        """Line load q = E* u_e + 4ηḋ (N/m) of each element, 0 out of contact; Popov (2015), Eqs. (1), (17)."""
+        """Line load q = E* u_e + 4ηḋ (N/m), 0 out of contact; Popov (2015), Eqs. (1), (17), (18)."""
         return self._mirrored(self._load)
 
     @property

@@ -17,8 +17,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from . import _check, elements
+from .bounds import least_depth, resistance
 from .foundation import Foundation
-from .grid import cell_edges
 from .medium import Medium
 from .profiles import Profile
 
@@ -82,43 +82,16 @@ class Motion:
 
 
 def reach(body):
-    """A depth (m) that the body does not exceed: the less of what springs and dashpots alone allow.
-
-    Beyond what was met before, the springs and caps take ∫F dd = 2E* ∫ (u_e²/2 + d_c u_p) dx of
-    the energy, the dashpots 8η ∫ a dd = 8η ∫ u dx of the momentum.
-    """
-    medium = body.medium
+    """A depth (m) that the body does not exceed, beyond what was met before."""
+    profile, medium = body.profile, body.medium
     momentum, energy = body.mass * body.speed, body.mass * body.speed**2 / 2
-    past = np.array(_resistance(body, body.met_before))
+    past = resistance(profile, medium, body.met_before)
 
-    def stops(depth):
-        work, damping = np.array(_resistance(body, depth)) - past
-        return work >= energy or (medium.eta > 0 and damping >= momentum)
+    def stops(now):
+        spent = now.work - past.work >= energy
+        return spent or (medium.eta > 0 and now.momentum - past.momentum >= momentum)
 
-    high = min(medium.critical_depth, body.profile.deepest, 1.0)
-    while high > body.met_before and stops(high):
-        high /= 16
-    while not stops(high):
-        if high == body.profile.deepest:
-            return high
-        high = min(16 * high, body.profile.deepest)
-    low = max(high / 16, body.met_before)
-    while high > 1.05 * low:
-        middle = np.sqrt(low * high)
-        low, high = (low, middle) if stops(middle) else (middle, high)
-    return high
-
-
-def _resistance(body, depth):
-    """Work (J) of the springs and caps, and momentum (N·s) taken by the dashpots, up to a depth."""
-    if depth <= 0:
-        return 0.0, 0.0
-    medium, edges = body.medium, cell_edges(body.profile, 64, body.profile.contact_radius(depth))
-    u = np.maximum(depth - body.profile.reduced((edges[1:] + edges[:-1]) / 2), 0.0)
-    elastic = np.minimum(u, medium.critical_depth)
-    # u_e²/2 + d_c u_p, with u_e = d_c wherever u_p > 0.
-    work = 2 * medium.E_star * (elastic * (u - elastic / 2)) @ np.diff(edges)
-    return float(work), float(8 * medium.eta * u @ np.diff(edges))
+    return least_depth(profile, medium, stops, body.met_before)
 
 
 class _Flight:
@@ -175,7 +148,7 @@ class _Flight:
         def excess(dt):
             return (self.trial(v / 2, dt)[3] if dt else 0.0) - m * v
 
-        dt = brentq(excess, 0.0, longest, xtol=1e-12 * longest)
+        dt = max(brentq(excess, 0.0, longest, xtol=1e-12 * longest), 1e-12 * longest)
         return *self.trial(v / 2, dt)[:3], 0.0
 
     def accept(self, ramp, state, exchange, velocity):
@@ -200,11 +173,13 @@ class _Flight:
         """A step of the given time, in two if the body turns round in it."""
         if len(self.steps) > _MOST_STEPS:
             raise ValueError(
-                f"the impact takes more than {_MOST_STEPS} steps; tau = {self.row.medium.relaxation_time:g} s "
-                "is out of proportion to the time of contact: check the units, or leave out eta"
+                f"the impact takes more than {_MOST_STEPS} steps: the relaxation time tau = "
+                f"{self.row.medium.relaxation_time:g} s is out of proportion to the time of contact: check the units, or leave out eta"
             )
         taken = taken or self.step(dt)
-        if self.velocity > 0 > taken[-1]:
+        # With next to no velocity, before or after, the step ends there already.
+        still = 10 * self.precision
+        if self.velocity > still and taken[-1] < -still:
             self.accept(*self.turn(dt))
             dt -= self.steps[-1]
             if dt <= 1e-9 * self.steps[-1]:

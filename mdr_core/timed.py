@@ -66,7 +66,9 @@ def indent_in_time(profile, medium, depth, time, tolerance):
             break
         last, count = record, 2 * count
     plastic_depth = np.maximum.accumulate(np.maximum(depth - medium.critical_depth, 0.0))
-    return TimedIndentation(profile, medium, time, depth, *record.T, plastic_depth, error, np.arange(len(depth)))
+    return TimedIndentation(
+        profile, medium, time, depth, *record.T, plastic_depth, error, np.arange(len(depth))
+    )
 
 
 def _difference(record, last):
