@@ -38,8 +38,8 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
     n : int, optional
         A fixed number of elements; by default as many as the tolerance needs.
     tolerance : float, optional
-        Error allowed in the restitution coefficient, positive. Elements and time steps are refined
-        until the estimated error is less, or eight times over.
+        Error allowed in the restitution coefficient, and in the largest depth relative to itself;
+        positive. Elements and time steps are refined until the estimate is less, or eight times.
 
     Returns
     -------
@@ -60,20 +60,22 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
     >>> from mdr_core import FlatPunch, Medium
     >>> hit = chain_impact(FlatPunch(radius=0.5), Medium(E_star=1.0, eta=0.25), 1.0, 1.0)
     >>> print(round(hit.restitution, 5))  # ζ = 1/2: exp(−2π/(3√3))
-    0.29846
+    0.29844
     """
     body = Body(profile, medium, mass, speed, _history(profile, medium, start))
     tolerance = _check.positive("tolerance", tolerance)
     bound = reach(body)
     motion = pace(body, body.row(n or _ELEMENTS, bound), bound)
+    scale = float(np.max(np.abs(motion.depth)))
     steps, hits, values = motion.steps, [], []
     for level in range(_REFINEMENTS):
         steps = halved(steps) if level else steps
         row = body.row(n or _ELEMENTS * 2**level, float(np.max(motion.depth)))
         motion = fly(body, row, steps, bound, tolerance)
         hits.append(motion)
-        values.append(_limit(hits, "velocity") / body.speed)
-        error = _error(values, motion.velocity[-1] / body.speed)
+        reached = [_reached(motion, body.speed, scale) for motion in hits[-2:]]
+        values.append(reached[-1] + (reached[-1] - reached[0]) / 3)
+        error = _error(values, reached[-1])
         if error <= tolerance:
             break
     return ChainImpact(profile, medium, body.mass, body.speed, error, *hits[-2:])
@@ -91,22 +93,23 @@ def _history(profile, medium, start):
     return start.history
 
 
+def _reached(motion, speed, scale):
+    """Velocity at the end and largest depth of a run, in units of a speed (m/s) and a depth (m)."""
+    return np.array([motion.velocity[-1] / speed, np.max(motion.depth) / scale])
+
+
 def _error(values, finest):
-    """Estimated error of the last of the limits `values`, given the last value itself.
+    """Estimated error of the last of the limits `values`, given the finest run's own value.
 
     The limits are of higher order than two, but never trusted to be thirty times better than what
     they are made of.
     """
     if len(values) < 2:
         return np.inf
-    gained = abs(values[-1] - finest)
-    return max(abs(values[-1] - values[-2]), gained / 30) if len(values) > 2 else gained / 4
-
-
-def _limit(motions, quantity):
-    """The last value of a quantity of second order, from the last two of runs refined twofold."""
-    last = [getattr(motion, quantity)[-1] for motion in motions[-2:]]
-    return last[-1] + (last[-1] - last[0]) / 3
+    gained = np.max(np.abs(values[-1] - finest))
+    return float(
+        max(np.max(np.abs(values[-1] - values[-2])), gained / 30) if len(values) > 2 else gained / 4
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,8 +117,8 @@ class ChainImpact:
     """One impact on the chain; made by `chain_impact`.
 
     Numbers are limits for vanishing steps and elements, from the last two runs; `error` is the
-    estimated error of the restitution coefficient. `motion` is the finest run as it is, and closes
-    its ledger to rounding.
+    estimated error of the restitution coefficient and of the largest depth, relative to itself.
+    `motion` is the finest run as it is, whose ledger closes whatever the steps.
     """
 
     profile: Profile

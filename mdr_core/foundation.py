@@ -161,7 +161,7 @@ class Foundation:
         for name in _CACHED & vars(new).keys():
             del new.__dict__[name]
         new._set(
-            depth=ramp.depth,
+            depth=float(ramp.depth),
             viscous_work=self.viscous_work + self._total(exchange.viscous),
             history=(*self.history, (ramp.depth, ramp.time)),
             _lag=ramp.lag,
@@ -181,13 +181,13 @@ class Foundation:
         """E* times the sum over both sides of a quantity of the elements, by width."""
         return float(2 * self.medium.E_star * (values @ self._width))
 
-    def _mirrored(self, values, sign=1):
-        return np.concatenate([sign * values[::-1], values])
+    def _mirrored(self, values):
+        return np.concatenate([values[::-1], values])
 
     @_check.frozen_property
     def x(self):
         """Places of the elements (m), shape (n,), from −half_width to half_width."""
-        return self._mirrored(self._middle, sign=-1)
+        return np.concatenate([-self._middle[::-1], self._middle])
 
     @_check.frozen_property
     def width(self):

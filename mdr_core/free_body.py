@@ -174,7 +174,8 @@ class _Flight:
         if len(self.steps) > _MOST_STEPS:
             raise ValueError(
                 f"the impact takes more than {_MOST_STEPS} steps: the relaxation time tau = "
-                f"{self.row.medium.relaxation_time:g} s is out of proportion to the time of contact: check the units, or leave out eta"
+                f"{self.row.medium.relaxation_time:g} s is out of proportion to the time of contact; "
+                "check the units, or leave out eta"
             )
         taken = taken or self.step(dt)
         # With next to no velocity, before or after, the step ends there already.

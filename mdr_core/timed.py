@@ -83,8 +83,10 @@ def _nodes(profile, medium, depth, time):
     """Radii (m) at which the line load has a front at one of the times: contact, yield, letting go."""
     if len(depth) > _LEVELS:
         rise = np.sign(np.diff(depth))
-        turn = np.concatenate([[True], rise[1:] != rise[:-1], [True]])
-        depth, time = depth[turn][:_LEVELS], time[turn][:_LEVELS]
+        turn = np.flatnonzero(np.concatenate([[True], rise[1:] != rise[:-1], [True]]))
+        turn = turn[np.argsort(-depth[turn])[:_LEVELS]]
+        turn.sort()
+        depth, time = depth[turn], time[turn]
     lag = medium.relaxation_time * np.append(0.0, np.diff(depth) / np.diff(time))
     level = np.concatenate([depth, depth + np.minimum(lag, 0.0), depth - medium.critical_depth])
     level = np.unique(level[level > 0])
@@ -92,9 +94,11 @@ def _nodes(profile, medium, depth, time):
 
 
 def _run(profile, medium, depth, time, n, nodes):
-    """Force, contact radius and energies at each time, one row each, on n elements and up to one more."""
-    # A path that never touches has no width of its own.
-    half_width = nodes[-1] if len(nodes) else min(1.0, profile.wall, profile.known_radius)
+    """Force, contact radius and energies at each time, one row each, on about n elements."""
+    half_width = float(profile.contact_radius(max(np.max(depth), 0.0)))
+    if half_width == 0:
+        # A path that never touches has no width of its own.
+        half_width = min(1.0, profile.known_radius)
     row = Foundation(profile, medium, n + n % 2, half_width, nodes=nodes).advance(depth[0])
     record = []
     for i in range(len(depth)):
@@ -156,12 +160,8 @@ class TimedIndentation:
 
         The elements at x follow the whole path anew: no grid is involved.
         """
+        self._refuse_path("line_load(x)")
         x = np.abs(_check.finite_array("coordinate x", x, unit="m"))
-        if np.ndim(self.time):
-            raise ValueError(
-                f"line_load is a field of one state, but this is a path of {len(self)}; "
-                "pick a state first, as in result[-1].line_load(x)"
-            )
         medium, (time, depth) = self.medium, self._path
         state, lag = Elements.virgin(np.asarray(self.profile.reduced(x.ravel()))), 0.0
         starts, steps = np.append(0.0, depth[:-1]), np.append(np.inf, np.diff(time))
@@ -177,14 +177,21 @@ class TimedIndentation:
         From the line load at 4000 places, straight in between. Infinite at the rim while the
         dashpots press there.
         """
-        radius = float(self.contact_radius) if not np.ndim(self.time) else 1.0
+        self._refuse_path("pressure(r)")
+        r, radius = _check.finite_array("radius", r, unit="m"), float(self.contact_radius)
         if radius == 0:
-            self.line_load(0.0)
-            return np.zeros(np.shape(r))[()]
+            return np.zeros(r.shape)[()]
         x = cell_edges(self.profile, 4000, radius, nodes=(self.plastic_radius,))
         # The last place just inside: the load may end there with a jump.
         load = self.line_load(np.minimum(x, radius * (1 - 1e-12)))
         return 0.0 - abel.stress_from_line_load(x, load, r)
+
+    def _refuse_path(self, field):
+        if np.ndim(self.time):
+            raise ValueError(
+                f"{field} is a field of one state, but this is a path of {len(self)}; "
+                f"pick a state first, as in result[-1].{field}"
+            )
 
 
 _ARRAYS = [f.name for f in fields(TimedIndentation) if f.type == "np.ndarray" or f.type is np.ndarray]
