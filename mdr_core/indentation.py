@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _check, fields, superpose
+from .creep import indent_to_force_in_time
 from .inverse import increasing_root
 from .medium import Medium
 from .panels import chunks
@@ -65,7 +66,7 @@ def indent(profile, medium, depth, *, time=None, tolerance=1e-6):
     return Indentation(profile, medium, depth, live_interval(depth, *medium._critical_depth_parts))
 
 
-def indent_to_force(profile, medium, force):
+def indent_to_force(profile, medium, force, *, time=None, tolerance=1e-4):
     """Press an indenter along a force path: the inverse of `indent`, with the same memory.
 
     Parameters
@@ -75,11 +76,16 @@ def indent_to_force(profile, medium, force):
     force : float or array_like
         Normal force (N), not negative; one number or a path along the last axis. Where it falls
         to 0 the indenter rests at the bottom of the imprint.
+    time : array_like, optional
+        Increasing times (s) of a one-dimensional path, which is straight in between; its first
+        force is reached infinitely slowly. They matter in a viscous medium, which creeps.
+    tolerance : float, optional
+        Error allowed in the depth in a viscous medium, relative to the largest one.
 
     Returns
     -------
     Indentation
-        Quantities of the shape of `force`.
+        Quantities of the shape of `force`; in a viscous medium with times a `TimedIndentation`.
 
     Raises
     ------
@@ -97,6 +103,10 @@ def indent_to_force(profile, medium, force):
     _refuse_types(profile, medium)
     force = _check.finite_array("force", force, unit="N")
     _check.refuse("force", force, force < 0, "is negative", unit="N", remedy="there is no adhesion")
+    if time is not None:
+        time = check_times(time, force, "force")
+        if medium.eta > 0:
+            return indent_to_force_in_time(profile, medium, force, time, tolerance)
     most = 2 * medium.yield_line_load * profile.wall
     bound = f"must be less than the {most:g} N at which the whole flat face yields"
     _check.refuse("force", force, force >= most, bound, unit="N", remedy="press to a depth instead")

@@ -111,7 +111,8 @@ def _run(profile, medium, depth, time, n, nodes):
 
 @dataclass(frozen=True, eq=False)
 class TimedIndentation:
-    """States of a viscous indentation, one for each time of its path; made by `indent(..., time=...)`.
+    """States of a viscous indentation, one for each time of its path; made by `indent` or `indent_to_force`
+    with times.
 
     Every quantity has the shape of `time`; `result[i]` picks a state. At a time at which the rate
     changes, force and fields are those that the piece before it ends with.
