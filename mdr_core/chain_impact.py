@@ -67,11 +67,11 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
     bound = reach(body)
     motion = pace(body, body.row(n or _ELEMENTS, bound), bound)
     scale = float(np.max(np.abs(motion.depth)))
-    steps, hits, values = motion.steps, [], []
+    legs, hits, values = motion.legs, [], []
     for level in range(_REFINEMENTS):
-        steps = halved(steps) if level else steps
+        legs = halved(legs) if level else legs
         row = body.row(n or _ELEMENTS * 2**level, float(np.max(motion.depth)))
-        motion = fly(body, row, steps, bound, tolerance)
+        motion = fly(body, row, legs, bound, tolerance)
         hits.append(motion)
         reached = [_reached(motion, body.speed, scale) for motion in hits[-2:]]
         values.append(reached[-1] + (reached[-1] - reached[0]) / 3)
@@ -175,7 +175,8 @@ class ChainImpact:
     @cached_property
     def restitution(self):
         """Coefficient of restitution, the speed of leaving over the speed of coming."""
-        return -self._limit(lambda motion: motion.velocity[-1]) / self.speed
+        # Where next to nothing comes back, the limit may miss zero by its error.
+        return max(0.0, -self._limit(lambda motion: motion.velocity[-1]) / self.speed)
 
     @property
     def rebound_speed(self):

@@ -76,9 +76,7 @@ def indent_to_force_in_time(profile, medium, force, time, tolerance):
 def _extrapolated(rows):
     """The limit of results with errors of first and second order, each run with half the step."""
     for power in range(1, len(rows)):
-        rows = [
-            fine + (fine - coarse) / (2**power - 1) for coarse, fine in zip(rows, rows[1:], strict=False)
-        ]
+        rows = [fine + (fine - coarse) / (2**power - 1) for coarse, fine in pairwise(rows)]
     return rows[-1]
 
 

@@ -64,8 +64,8 @@ class Motion:
     """The motion step by step, from the start to the end of contact; arrays of one length.
 
     Time (s), depth (m), velocity (m/s), force (N) and the ledger (J): kinetic, stored, plastic and
-    viscous. `steps` are the time steps (s), `foundation` is the chain at the end, `met` the time of
-    first contact.
+    viscous. `legs` are the time steps (s) up to the turning point and after it, `foundation` is the
+    chain at the end, `met` the time of first contact.
     """
 
     time: np.ndarray
@@ -76,7 +76,7 @@ class Motion:
     stored_energy: np.ndarray
     plastic_work: np.ndarray
     viscous_work: np.ndarray
-    steps: np.ndarray
+    legs: tuple[np.ndarray, np.ndarray]
     foundation: Foundation
     met: float
 
@@ -101,7 +101,7 @@ class _Flight:
         self.body, self.row, self.velocity = body, row, body.speed
         self.precision = precision * body.speed
         self.acceleration = self.jerk = self.time = 0.0
-        self.met, self.end = np.inf, 0.0
+        self.met, self.end, self.turned = np.inf, 0.0, None
         self.steps, self.records = [], []
         self._record()
 
@@ -170,7 +170,7 @@ class _Flight:
         self._record()
 
     def go(self, dt, taken=None):
-        """A step of the given time, in two if the body turns round in it."""
+        """A step of the given time, or up to where the body turns round."""
         if len(self.steps) > _MOST_STEPS:
             raise ValueError(
                 f"the impact takes more than {_MOST_STEPS} steps: the relaxation time tau = "
@@ -181,12 +181,10 @@ class _Flight:
         # With next to no velocity, before or after, the step ends there already.
         still = 10 * self.precision
         if self.velocity > still and taken[-1] < -still:
-            self.accept(*self.turn(dt))
-            dt -= self.steps[-1]
-            if dt <= 1e-9 * self.steps[-1]:
-                return
-            taken = self.step(dt)
+            taken = self.turn(dt)
         self.accept(*taken)
+        if self.turned is None and self.velocity <= still:
+            self.turned = len(self.steps)
 
     def approach(self, room):
         """Fly freely to a distance `room` (m) of the first element."""
@@ -202,7 +200,8 @@ class _Flight:
         """What was recorded, with the end where the last element lets go."""
         columns = [np.array(column) for column in zip(*self.records, strict=True)]
         columns[0][-1] = self.end
-        return Motion(*columns, np.array(self.steps), self.row, self.met)
+        legs = np.array(self.steps[: self.turned]), np.array(self.steps[self.turned :])
+        return Motion(*columns, legs, self.row, self.met)
 
 
 def pace(body, row, deepest):
@@ -215,29 +214,40 @@ def pace(body, row, deepest):
     dt = path / body.speed / 10
     while not flight.over:
         taken = flight.step(dt)
-        change = abs(taken[-1] - flight.velocity)
-        if change > 1.5 * longest:
-            dt *= max(longest / change, 0.1)
+        change, rise = abs(taken[-1] - flight.velocity), abs(taken[0].rise)
+        excess = max(change / longest, rise / path)
+        if excess > 1.5:
+            dt *= max(1 / excess, 0.1)
             continue
+        down = flight.turned is None
         flight.go(dt, taken)
-        room = path / max(abs(flight.velocity) * dt, 1e-300)
-        dt *= min(1.5, longest / max(change, 1e-300), room)
-        # A body that creeps out of the imprint does so on the scale of the time it has taken.
-        dt = min(dt, 1.5 * _SHARE * flight.time) if flight.velocity < 0 else dt
+        dt *= min(1.5, 1 / max(excess, 1e-300))
+        if down and flight.turned:
+            # What springs back is no more than the critical depth.
+            path = min(path, _SHARE * body.medium.critical_depth)
+            dt = min(dt, np.sqrt(path / max(abs(flight.acceleration), 1e-300)))
+        elif not down:
+            # A body that creeps out of the imprint does so on the scale of the time it has taken.
+            dt = min(dt, 1.5 * _SHARE * flight.time)
     return flight.motion()
 
 
-def fly(body, row, steps, room, precision):
-    """A run with given time steps (s), the last one repeated as long as there is contact."""
+def fly(body, row, legs, room, precision):
+    """A run with given time steps (s) on either leg, the last one repeated as long as the leg lasts."""
     flight = _Flight(body, row, min(1e-9, 1e-4 * precision))
     flight.approach(room)
     flight.steps.clear()
-    for dt in chain(steps, repeat(steps[-1])):
+    down, up = legs
+    for dt in chain(down, repeat(np.max(down[-3:]))):
+        flight.go(dt)
+        if flight.turned:
+            break
+    for dt in chain(up, repeat(up[-1])):
         if flight.over:
             return flight.motion()
         flight.go(dt)
 
 
-def halved(steps):
-    """Every time step in two."""
-    return np.repeat(np.asarray(steps) / 2, 2)
+def halved(legs):
+    """Every time step of both legs in two."""
+    return tuple(np.repeat(steps / 2, 2) for steps in legs)

@@ -41,30 +41,29 @@ def test_beyond_yield_a_flat_punch_flows_at_a_constant_rate():
 def test_creep_ends_at_the_depth_of_the_slow_path_and_recovery_at_the_imprint(shape):
     slow = mdr.indent(shape, DRY, 3 * D_C)
     force = np.array([0, 1, 1, 0, 0]) * slow.force
-    time = np.array([0, 0.1, 40.0, 40.1, 80.0]) * TAU
-    result = mdr.indent_to_force(shape, MEDIUM, force, time=time)
+    time = np.array([0, 0.1, 100.0, 100.1, 140.0]) * TAU
+    result = mdr.indent_to_force(shape, MEDIUM, force, time=time, tolerance=1e-3)
     assert np.all(np.diff(result.depth[:3]) > 0)
     assert result.depth[1] < 0.9 * 3 * D_C
-    # e^(−40) of the way is left.
-    assert result.depth[2] == pytest.approx(3 * D_C, rel=2e-4)
-    assert result.depth[4] == pytest.approx(slow.plastic_depth, rel=5e-4)
-    assert result.plastic_depth[4] == pytest.approx(slow.plastic_depth, rel=3e-4)
+    # All dashpots against the springs of the ring: e^(−100(a − c)/a), less than e^(−18), is left.
+    assert result.depth[2] == pytest.approx(3 * D_C, rel=1e-3)
+    assert result.depth[4] == pytest.approx(slow.plastic_depth, rel=2e-3)
+    assert result.plastic_depth[4] == pytest.approx(slow.plastic_depth, rel=2e-3)
     x = np.linspace(0, 1.1, 20) * slow.contact_radius
-    atol = 1e-3 * MEDIUM.yield_line_load
+    atol = 3e-3 * MEDIUM.yield_line_load
     np.testing.assert_allclose(result[2].line_load(x), slow.line_load(x), rtol=0, atol=atol)
 
 
-def test_the_depth_found_needs_the_force_prescribed():
-    """Back along the depths: the chain under them carries the forces."""
+def test_depths_lead_back_to_the_forces():
+    """Indented along the depths found, the chain carries on the average what was prescribed."""
     slow = mdr.indent(mdr.Paraboloid(1e-5), DRY, 3 * D_C)
-    time = np.linspace(0, 4, 30) * TAU
-    force = slow.force * (0.2 + np.sin(time / TAU) ** 2)
-    result = mdr.indent_to_force(mdr.Paraboloid(1e-5), MEDIUM, force, time=time, tolerance=1e-4)
-    fine = np.linspace(0, time[-1], 30)
-    back = mdr.indent(mdr.Paraboloid(1e-5), MEDIUM, result.depth, time=fine)
-    # Straight between 30 depths the rate at their ends is off by half a step's change.
-    middle = (back.force[1:] + back.force[:-1]) / 2 - (force[1:] + force[:-1]) / 2
-    assert abs(np.mean(middle[1:])) < 0.05 * slow.force
+    time = np.linspace(0, 2, 21) * TAU
+    force = slow.force * np.linspace(0, 1, 21)
+    result = mdr.indent_to_force(mdr.Paraboloid(1e-5), MEDIUM, force, time=time, tolerance=1e-3)
+    back = mdr.indent(mdr.Paraboloid(1e-5), MEDIUM, result.depth, time=time, tolerance=1e-4)
+    # Force at the end of a straight piece with its mean rate: half a step late, in first order.
+    late = (force[1:] + force[:-1]) / 2
+    np.testing.assert_allclose(back.force[5:], late[4:], rtol=0, atol=0.03 * slow.force)
 
 
 def test_without_viscosity_times_do_not_matter():
