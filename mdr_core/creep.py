@@ -42,6 +42,19 @@ def indent_to_force_in_time(profile, medium, force, time, tolerance):
     ValueError
         If the first force is more than a flat face carries at rest, π q_c b, or a force presses
         deeper than the shape is known.
+
+    Examples
+    --------
+    A flat punch under a force that grows for a time τ and is held as long again, d = F/(2E*b) times
+    1 − (e − 1)/e²:
+
+    >>> import numpy as np
+    >>> from mdr_core import FlatPunch, Medium
+    >>> medium = Medium(E_star=1.0, eta=0.25)
+    >>> path = np.array([0.0, 2.0, 2.0]), np.array([0.0, 1.0, 2.0])
+    >>> state = indent_to_force_in_time(FlatPunch(1.0), medium, *path, tolerance=1e-5)
+    >>> print(round(float(state.depth[-1]), 4))
+    0.7675
     """
     tolerance = _check.positive("tolerance", tolerance)
     most = 2 * medium.yield_line_load * profile.wall

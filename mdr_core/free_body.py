@@ -129,16 +129,21 @@ class _Flight:
         return ramp, state, exchange, row._total(exchange.impulse), slope
 
     def step(self, dt):
-        """One step of the given time, by Newton's method in V; returns the new velocity."""
+        """One step of the given time, by Newton's method in V; with the new velocity."""
         m, v = self.body.mass, self.velocity
         last = self.steps[-1] if self.steps else 0.0
         rate = v + (self.acceleration + self.jerk * (last + dt) / 2) * dt / 2
-        for _ in range(40):
+        low, high = -np.inf, np.inf
+        for count in range(80):
             ramp, state, exchange, impulse, slope = self.trial(rate, dt)
             miss = (2 * m * (rate - v) + impulse) / (2 * m + slope)
-            if abs(miss) <= self.precision:
+            if abs(miss) <= self.precision or high - low <= self.precision:
                 break
+            low, high = (rate, high) if miss < 0 else (low, rate)
             rate -= miss
+            # Elements that let go within the step bend J sharply: then halve the bracket by turns.
+            if not low < rate < high or (count > 5 and count % 2 and high - low < np.inf):
+                rate = (low + high) / 2
         return ramp, state, exchange, v - impulse / m
 
     def turn(self, longest):

@@ -116,6 +116,17 @@ class TimedIndentation:
 
     Every quantity has the shape of `time`; `result[i]` picks a state. At a time at which the rate
     changes, force and fields are those that the piece before it ends with.
+
+    Examples
+    --------
+    A flat punch of radius 1 is ramped to d = 3 in 1.5 s and held: F = 2E*b d + 8ηb ḋ.
+
+    >>> from mdr_core import FlatPunch, Medium, indent
+    >>> path = indent(FlatPunch(1.0), Medium(E_star=1.0, eta=1.0), [0.0, 3.0, 3.0], time=[0.0, 1.5, 2.0])
+    >>> path.force.round(9).tolist()
+    [0.0, 22.0, 6.0]
+    >>> print(path[1].line_load(0.5))  # E* d + 4η ḋ
+    11.0
     """
 
     profile: Profile
