@@ -159,11 +159,11 @@ def _time_since(first, elements, ramp, above):
     """Time (s) since an element was met; it counts in a ramp of finite time."""
     if ramp.time == np.inf:
         return np.zeros_like(first)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         # One that was relaxed is met at 0, another once it has relaxed so far.
         since = np.where(
             elements.elastic > 0,
-            ramp.time - ramp.tau * np.log(elements.elastic / first),
+            ramp.time - ramp.tau * (np.log(elements.elastic) - np.log(first)),
             above / np.float64(ramp.rise) * ramp.time,
         )
     return np.clip(since, 0.0, ramp.time)

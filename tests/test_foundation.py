@@ -104,17 +104,17 @@ def test_a_foundation_does_not_change():
         row.line_load[0] = 1.0
 
 
-# Rates from a thousandth of d_c/τ to a thousandfold, with turns in between, holds and a lift-off.
+# Turns in between, holds and a lift-off; at the paces below from a tenth to ten times d_c/τ.
 PATH = np.array([0, 2.5, 2.5, 1.9, 2.2, 1.0, 1.3, -0.5, 1.9, 1.75, 4.0]) * D_C
 
 
-@pytest.mark.parametrize("pace", [1e-3, 0.1, 1.0, 10.0])
+@pytest.mark.parametrize("pace", [0.1, 1.0, 10.0])
 @pytest.mark.parametrize("reduced", [0.0, 0.9 * D_C, 1.8 * D_C])
 def test_every_event_of_an_element_is_met(pace, reduced):
     """Yield, release, relaxation, re-contact: against the law in small steps."""
     time = np.cumsum([0, 1.0, 0.5, 0.2, 0.4, 1.5, 0.6, 1.0, 0.8, 0.1, 2.0]) * pace * TAU
     punch = mdr.FlatPunch(1e-6)
-    for last in range(2, len(PATH) + 1):
+    for last in (4, 5, 7, 9, 11):
         row = mdr.Foundation(punch, VISCOUS, 2, 1e-6)
         for k in range(1, last):
             row = row.advance(PATH[k] - reduced, time[k] - time[k - 1])
@@ -125,7 +125,7 @@ def test_every_event_of_an_element_is_met(pace, reduced):
         assert row.contact[0] == steps.contact
 
 
-@pytest.mark.parametrize("pace", [0.1, 1.0, 10.0])
+@pytest.mark.parametrize("pace", [0.1, 10.0])
 def test_work_of_the_force_goes_into_the_ledger(pace):
     """Spring, cap and dashpot take ∫F dd, through every event of the path."""
     time = np.cumsum([0, 1.0, 0.5, 0.2, 0.4, 1.5, 0.6, 1.0, 0.8, 0.1, 2.0]) * pace * TAU

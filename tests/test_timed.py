@@ -72,18 +72,18 @@ class TestScalarEquations:
         np.testing.assert_allclose(result.force, dry.force, rtol=0, atol=1e-6 * np.max(dry.force))
         np.testing.assert_allclose(result.contact_radius, dry.contact_radius, rtol=1e-6)
 
-    @pytest.mark.parametrize("pace", [0.03, 1.0, 10.0])
+    @pytest.mark.parametrize("pace", [0.1, 3.0])
     def test_re_contact_against_fine_elements(self, shape, pace):
         time = np.arange(9) * pace * TAU
         result = mdr.indent(shape, MEDIUM, CYCLE, time=time)
         assert result.error <= 1e-6
-        row = mdr.Foundation(shape, MEDIUM, 40000, shape.contact_radius(CYCLE.max()))
+        row = mdr.Foundation(shape, MEDIUM, 20000, shape.contact_radius(CYCLE.max()))
         force = [0.0]
         for depth in CYCLE[1:]:
             row = row.advance(depth, pace * TAU)
             force.append(row.force)
-        # Whole elements err by half of one, 1/40000 of the width, times the jump of the load at the front.
-        np.testing.assert_allclose(result.force, force, rtol=0, atol=5e-5 * np.max(force))
+        # Whole elements err by half of one, 1/20000 of the width, times the jump of the load at the front.
+        np.testing.assert_allclose(result.force, force, rtol=0, atol=1e-4 * np.max(force))
 
 
 def test_a_return_that_comes_too_soon_finds_no_contact():
@@ -106,15 +106,13 @@ def test_a_return_that_comes_too_soon_finds_no_contact():
 
 
 def test_work_of_the_force_is_the_ledger():
-    depth = np.concatenate([np.linspace(a, b, 200) for a, b in itertools.pairwise(CYCLE)])
+    depth = np.concatenate([np.linspace(a, b, 80) for a, b in itertools.pairwise(CYCLE)])
     depth = depth[np.append(True, np.diff(depth) != 0)]
-    result = mdr.indent(
-        mdr.Cone(0.3), MEDIUM, depth, time=np.arange(len(depth)) * TAU / 200, tolerance=1e-5
-    )
+    result = mdr.indent(mdr.Cone(0.3), MEDIUM, depth, time=np.arange(len(depth)) * TAU / 80, tolerance=1e-5)
     kept = result.stored_energy + result.plastic_work + result.viscous_work
     work = cumulative_trapezoid(result.force, depth, initial=0.0)
     # At a turn the force given is the one before it: half a step's jump, eight times.
-    np.testing.assert_allclose(work, kept, rtol=0, atol=1e-2 * kept[-1])
+    np.testing.assert_allclose(work, kept, rtol=0, atol=3e-2 * kept[-1])
 
 
 def test_without_viscosity_times_do_not_matter():
