@@ -6,6 +6,8 @@ V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 """
 
 from . import abel
+from .chain_impact import ChainImpact, chain_impact
+from .foundation import Foundation
 from .impact import Impact, impact
 from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium
@@ -16,14 +18,17 @@ from .sampled import Sampled
 from .scaling import FastLimit, ScalingLaw, hardness_class
 from .scene import DepthPath, ForcePath, FreeImpact, Scene
 from .smooth import Smooth
+from .timed import TimedIndentation
 from .truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
 
 __all__ = [
+    "ChainImpact",
     "Cone",
     "DepthPath",
     "FastLimit",
     "FlatPunch",
     "ForcePath",
+    "Foundation",
     "FreeImpact",
     "Hyperboloid",
     "Impact",
@@ -41,9 +46,11 @@ __all__ = [
     "Scene",
     "Smooth",
     "Sphere",
+    "TimedIndentation",
     "TruncatedCone",
     "TruncatedParaboloid",
     "abel",
+    "chain_impact",
     "hardness_class",
     "impact",
     "indent",
