@@ -7,6 +7,7 @@ V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 
 from . import abel
 from .chain_impact import ChainImpact, chain_impact
+from .drives import DepthPath, ForcePath, FreeImpact
 from .foundation import Foundation
 from .impact import Impact, impact
 from .indentation import Indentation, indent, indent_to_force
@@ -16,7 +17,7 @@ from .profiles import Cone, FlatPunch, Paraboloid, PowerLaw, Profile
 from .rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
 from .sampled import Sampled
 from .scaling import FastLimit, ScalingLaw, hardness_class
-from .scene import DepthPath, ForcePath, FreeImpact, Scene
+from .scene import Scene
 from .smooth import Smooth
 from .timed import TimedIndentation
 from .truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid

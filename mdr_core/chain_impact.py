@@ -8,6 +8,7 @@ import numpy as np
 from . import _check
 from .free_body import Body, Motion, fly, halved, pace, reach
 from .medium import Medium
+from .model import CHAIN
 from .profiles import Profile
 
 #: Elements of the first run; every refinement takes twice as many, and half the steps in time.
@@ -128,6 +129,9 @@ class ChainImpact:
     error: float
     _coarse: Motion
     _fine: Motion
+
+    #: How it was found.
+    model = CHAIN
 
     def motion(self):
         """Time, depth, velocity, force and the energies of the finest run, step by step."""

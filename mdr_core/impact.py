@@ -9,14 +9,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _check
+from .arguments import check_types
 from .contact_time import contact_time
-from .indentation import Indentation, check_types
+from .indentation import Indentation
 from .medium import Medium
+from .model import CLOSED_FORM, SCALAR_ODE
 from .motion import motion
 from .profiles import Profile
 from .scaling import fast_limit
 from .turning import dry_restitution, plastic_integral, turning_point
-from .viscous import Rebound, viscous_impacts
+from .viscous import Rebound, impacts_in_time
 
 
 def impact(profile, medium, mass, speed, *, plastic_depth=0.0):
@@ -69,6 +71,11 @@ def impact(profile, medium, mass, speed, *, plastic_depth=0.0):
     >>> bool(again.restitution > hit.restitution)
     True
     """
+    return solve_impact(profile, medium, mass, speed, plastic_depth)
+
+
+def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=False):
+    """`impact`; `in_time` the equation of motion is solved also where there is no viscosity."""
     check_types(profile, medium)
     mass = _check.positive("mass", mass, unit="kg")
     speed = _check.positive("speed", speed, unit="m/s")
@@ -86,8 +93,8 @@ def impact(profile, medium, mass, speed, *, plastic_depth=0.0):
     bad = ~((energy > 0) & (energy < np.inf))
     _check.refuse("kinetic energy", energy, bad, "is outside double precision", unit="J")
     mass, speed, before = (np.broadcast_to(part, shape) for part in (mass, speed, before))
-    if np.any(medium.eta):
-        live, growth, rebound = viscous_impacts(profile, medium, mass, speed, before)
+    if in_time or np.any(np.asarray(medium.eta) > 0):
+        live, growth, rebound = impacts_in_time(profile, medium, mass, speed, before, in_time)
     else:
         target = np.broadcast_to(energy / (2 * medium.E_star), shape)
         live, growth = turning_point(profile, target, *medium._critical_depth_parts, before)
@@ -120,6 +127,11 @@ class Impact:
         mass, speed, growth = self.mass[index], self.speed[index], self.growth[index]
         rebound = self.rebound and self.rebound[index]
         return Impact(deepest.profile, deepest.medium, mass, speed, deepest, growth, rebound)
+
+    @property
+    def model(self):
+        """How it was found: energy balance in closed form, or the equation of motion."""
+        return CLOSED_FORM if self.rebound is None else SCALAR_ODE
 
     @property
     def max_depth(self):

@@ -5,9 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _check, fields, superpose
+from .arguments import check_one
 from .creep import indent_to_force_in_time
 from .inverse import increasing_root
 from .medium import Medium
+from .model import CLOSED_FORM
 from .panels import chunks
 from .profiles import Profile
 from .timed import check_times, indent_in_time
@@ -57,7 +59,7 @@ def indent(profile, medium, depth, *, time=None, tolerance=1e-6):
     >>> print(round(state.force / critical_force, 12))
     3.0
     """
-    _one_of_each(profile, medium)
+    check_one(profile, medium)
     depth = profile._known(_check.finite_array("depth", depth, unit="m"))
     if time is not None:
         time = check_times(time, depth, "depth")
@@ -100,7 +102,7 @@ def indent_to_force(profile, medium, force, *, time=None, tolerance=1e-4):
     >>> print(round(indent_to_force(cone, medium, indent(cone, medium, 5.0).force).depth, 12))
     5.0
     """
-    _one_of_each(profile, medium)
+    check_one(profile, medium)
     force = _check.finite_array("force", force, unit="N")
     _check.refuse("force", force, force < 0, "is negative", unit="N", remedy="there is no adhesion")
     if time is not None:
@@ -151,23 +153,6 @@ def _live_length(profile, front, area):
     return np.minimum(increasing_root(unloading, area, start), front.length)
 
 
-def check_types(profile, medium):
-    """Refuses what is no indenter or no medium."""
-    if not isinstance(profile, Profile):
-        raise TypeError(f"profile must be an mdr_core shape such as Cone(slope=1), got {profile!r:.80}")
-    if not isinstance(medium, Medium):
-        raise TypeError(f"medium must be a Medium, got {medium!r:.80}")
-
-
-def _one_of_each(profile, medium):
-    check_types(profile, medium)
-    if profile.shape or medium.shape:
-        raise ValueError(
-            "a path is that of one indenter on one medium, but their parameters are arrays of shape "
-            f"{profile.shape or medium.shape}; indent one at a time, as in profile.entries(i)"
-        )
-
-
 @dataclass(frozen=True, eq=False)
 class Indentation:
     """States of an indentation, one for each point of its path; made by `indent` or `indent_to_force`.
@@ -181,6 +166,9 @@ class Indentation:
     medium: Medium
     depth: np.ndarray
     live: LiveInterval
+
+    #: How it was found.
+    model = CLOSED_FORM
 
     def __post_init__(self):
         # A copy: what the caller does with the path later must not change the result.

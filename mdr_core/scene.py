@@ -5,83 +5,11 @@ from dataclasses import asdict, dataclass, fields
 
 import numpy as np
 
-from . import _check, profiles, rounded, sampled, truncated
-from .impact import impact
-from .indentation import indent, indent_to_force
+from . import profiles, rounded, sampled, truncated
+from .arguments import check_one
+from .drives import DepthPath, ForcePath, FreeImpact
 from .medium import Medium
 from .profiles import Profile
-
-
-def _path(quantity, values, unit):
-    values = _check.finite_array(quantity, values, unit=unit)
-    if values.ndim > 1 or not values.size:
-        raise ValueError(f"{quantity} must be a number or a path, got shape {values.shape}")
-    return tuple(values.tolist()) if values.ndim else values.item()
-
-
-@dataclass(frozen=True)
-class DepthPath:
-    """Press along prescribed depths.
-
-    Parameters
-    ----------
-    depth : float or sequence of float
-        Indentation depth (m), one or a path.
-    """
-
-    depth: float | tuple[float, ...]
-
-    def __post_init__(self):
-        object.__setattr__(self, "depth", _path("DepthPath depth", self.depth, "m"))
-
-    def solve(self, profile, medium):
-        """The `Indentation` along this path."""
-        return indent(profile, medium, self.depth)
-
-
-@dataclass(frozen=True)
-class ForcePath:
-    """Press with prescribed forces.
-
-    Parameters
-    ----------
-    force : float or sequence of float
-        Normal force (N), one or a path; not negative.
-    """
-
-    force: float | tuple[float, ...]
-
-    def __post_init__(self):
-        object.__setattr__(self, "force", _path("ForcePath force", self.force, "N"))
-
-    def solve(self, profile, medium):
-        """The `Indentation` along this path."""
-        return indent_to_force(profile, medium, self.force)
-
-
-@dataclass(frozen=True)
-class FreeImpact:
-    """Let a free body hit the medium.
-
-    Parameters
-    ----------
-    mass : float
-        Mass m (kg), positive.
-    speed : float
-        Speed v₀ (m/s) at first contact, positive.
-    """
-
-    mass: float
-    speed: float
-
-    def __post_init__(self):
-        object.__setattr__(self, "mass", _check.positive("FreeImpact mass", self.mass, unit="kg"))
-        object.__setattr__(self, "speed", _check.positive("FreeImpact speed", self.speed, unit="m/s"))
-
-    def solve(self, profile, medium):
-        """The `Impact` of this body."""
-        return impact(profile, medium, self.mass, self.speed)
-
 
 _PROFILES = {
     shape.__name__: shape
@@ -134,11 +62,42 @@ class Scene:
     def __post_init__(self):
         for name, kind in (("profile", Profile), ("medium", Medium), ("drive", tuple(_DRIVES.values()))):
             if not isinstance(getattr(self, name), kind):
-                raise TypeError(f"scene {name} is of the wrong type: {getattr(self, name)!r}")
+                raise TypeError(f"scene {name} is of the wrong type: {getattr(self, name)!r:.80}")
+        check_one(self.profile, self.medium)
 
-    def solve(self):
-        """Results of the scene: an `Indentation` or an `Impact`."""
-        return self.drive.solve(self.profile, self.medium)
+    @property
+    def models(self):
+        """Models that can solve the scene, the cheapest that is exact for it first."""
+        return self.drive.models(self.medium)
+
+    def solve(self, model=None):
+        """Results of the scene; `result.model` says how they were found, `result.model.reason` why.
+
+        Parameters
+        ----------
+        model : {"closed form", "scalar ODE", "chain"}, optional
+            Another model than the cheapest that is exact, to compare: one of `models`.
+
+        Returns
+        -------
+        Indentation, TimedIndentation, Impact or ChainImpact
+
+        Examples
+        --------
+        >>> from mdr_core import Cone, Medium
+        >>> scene = Scene(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), FreeImpact(1e-9, 0.1))
+        >>> exact, chain = scene.solve(), scene.solve(model="chain")
+        >>> print(exact.model, chain.model, abs(chain.restitution - exact.restitution) < 1e-6)
+        closed form chain True
+        """
+        if model is None:
+            return self.drive.solve(self.profile, self.medium, self.models[0])
+        if model not in self.models:
+            raise ValueError(
+                f"model {model!r:.40} cannot solve this scene; give one of "
+                f"{', '.join(map(repr, self.models))}"
+            )
+        return self.drive.solve(self.profile, self.medium, model)
 
     def to_json(self):
         """The scene as JSON text, every number exact; an infinite yield constant as null."""
@@ -199,6 +158,8 @@ def _untagged(what, data, kinds):
 
 
 def _build(what, data, kind):
+    if isinstance(data, dict) and kind in (DepthPath, ForcePath):
+        data = {"time": None} | data
     _keys(f"scene {what}", data, {field.name for field in fields(kind)})
     try:
         return kind(**data)

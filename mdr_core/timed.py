@@ -10,6 +10,7 @@ from .foundation import Foundation
 from .fronts import beyond_edges, edge_of_contact
 from .grid import cell_edges
 from .medium import Medium
+from .model import CHAIN
 from .profiles import Profile
 
 #: Elements of the first run, and the most element steps of the last one.
@@ -148,6 +149,9 @@ class TimedIndentation:
     error: float
     _place: np.ndarray
     _path: tuple[np.ndarray, np.ndarray] = ()
+
+    #: How it was found.
+    model = CHAIN
 
     def __post_init__(self):
         if not self._path:

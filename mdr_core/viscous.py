@@ -38,15 +38,16 @@ def bodies_of(profile, medium, mass, speed, before):
     return Bodies(profile.flat_entries(slice(None), shape), *flat)
 
 
-def viscous_impacts(profile, medium, mass, speed, before):
+def impacts_in_time(profile, medium, mass, speed, before, dry_too=False):
     """Live interval at the turning point, growth of the plastic depth, and `Rebound`, elementwise.
 
-    Where eta is 0 they are those of the dry impact.
+    Where eta is 0 they are those of the energy balance, unless dry impacts too are to be solved by
+    their equation of motion.
     """
     shape = np.shape(speed)
     bodies = bodies_of(profile, medium, mass, speed, before)
     results = np.empty((8, bodies.speed.size))
-    wet = bodies.relaxation_time > 0
+    wet = (bodies.relaxation_time > 0) | dry_too
     for rows, solution in ((np.flatnonzero(wet), _wet), (np.flatnonzero(~wet), _dry)):
         if rows.size:
             results[:, rows] = solution(bodies.rows(rows))

@@ -78,3 +78,68 @@ def test_what_is_not_a_scene_is_refused(text, says):
 def test_wrong_parts_are_refused():
     with pytest.raises(TypeError, match="scene medium is of the wrong type"):
         mdr.Scene(mdr.Cone(1.0), 1e9, mdr.DepthPath(1.0))
+
+
+class TestModel:
+    """A scene picks the cheapest model that is exact, says which, and can be asked for another."""
+
+    DRY, VISCOUS = mdr.Medium(1e9, 10.0), mdr.Medium(1e9, 10.0, eta=20.0)
+    PATH, TIME = (0.0, 60e-9, 60e-9, 40e-9), (0.0, 1e-6, 2e-6, 3e-6)
+    HIT = mdr.FreeImpact(mass=1e-9, speed=0.1)
+
+    @pytest.mark.parametrize(
+        ("medium", "drive", "model", "kind"),
+        [
+            (DRY, mdr.DepthPath(PATH), "closed form", mdr.Indentation),
+            (VISCOUS, mdr.DepthPath(PATH), "closed form", mdr.Indentation),
+            (DRY, mdr.DepthPath(PATH, TIME), "closed form", mdr.Indentation),
+            (VISCOUS, mdr.DepthPath(PATH, TIME), "chain", mdr.TimedIndentation),
+            (VISCOUS, mdr.ForcePath((0.0, 1e-6, 1e-6), TIME[:3]), "chain", mdr.TimedIndentation),
+            (DRY, HIT, "closed form", mdr.Impact),
+            (VISCOUS, HIT, "scalar ODE", mdr.Impact),
+        ],
+    )
+    def test_the_cheapest_that_is_exact(self, medium, drive, model, kind):
+        scene = mdr.Scene(mdr.Cone(0.3), medium, drive)
+        result = scene.solve()
+        assert isinstance(result, kind)
+        assert result.model == scene.models[0] == model
+        assert len(result.model.reason) > 20
+        assert mdr.Scene.from_json(scene.to_json()) == scene
+
+    @pytest.mark.parametrize("medium", [DRY, VISCOUS])
+    def test_all_models_of_an_impact_agree(self, medium):
+        scene = mdr.Scene(mdr.Cone(0.3), medium, self.HIT)
+        exact = scene.solve()
+        for model in scene.models:
+            other = scene.solve(model=model)
+            assert other.model == model
+            # The chain is refined until its estimate is 1e-6.
+            assert other.restitution == pytest.approx(exact.restitution, rel=2e-6)
+            assert other.max_depth == pytest.approx(exact.max_depth, rel=2e-6)
+
+    @pytest.mark.parametrize(
+        "drive", [mdr.DepthPath(PATH), mdr.DepthPath(60e-9), mdr.ForcePath((0.0, 1e-6))]
+    )
+    def test_all_models_of_a_path_agree(self, drive):
+        scene = mdr.Scene(mdr.Paraboloid(1e-6), self.VISCOUS, drive)
+        exact, chain = scene.solve(), scene.solve(model="chain")
+        # Tolerance 1e-6 of the largest force on a depth path, 1e-4 of the largest depth on a force path.
+        np.testing.assert_allclose(chain.force, exact.force, rtol=2e-6, atol=1e-12)
+        np.testing.assert_allclose(chain.depth, exact.depth, rtol=2e-4, atol=1e-14)
+
+    def test_a_model_that_cannot_is_refused(self):
+        scene = mdr.Scene(mdr.Cone(0.3), self.VISCOUS, self.HIT)
+        with pytest.raises(ValueError, match=r"model 'closed form' cannot.*'scalar ODE', 'chain'"):
+            scene.solve(model="closed form")
+
+    def test_scenes_without_times_can_still_be_read(self):
+        text = mdr.Scene(mdr.Cone(0.3), self.DRY, mdr.DepthPath(1e-9)).to_json()
+        assert '"time": null' in text
+        old = text.replace(',\n  "time": null', "")
+        assert "time" not in old
+        assert mdr.Scene.from_json(old) == mdr.Scene.from_json(text)
+
+    def test_a_scene_is_one_indenter_on_one_medium(self):
+        with pytest.raises(ValueError, match="one indenter on one medium"):
+            mdr.Scene(mdr.Cone([0.1, 0.2]), self.DRY, self.HIT)
