@@ -32,7 +32,9 @@ class Bodies:
     before: np.ndarray
 
     def rows(self, index):
-        """Some of the impacts."""
+        """Some of the impacts, by their numbers."""
+        if index.size == self.speed.size:
+            return self
         profile, *arrays = (getattr(self, field.name) for field in fields(self))
         return Bodies(profile.entries(index, self.speed.shape), *(part[index] for part in arrays))
 

@@ -88,7 +88,7 @@ class Medium:
             raise ValueError("E1 and E2 are both infinite; at least one body must be elastic")
         return cls(1 / compliance, q_c, eta)
 
-    @property
+    @cached_property
     def shape(self):
         """Shape to which array-valued parameters broadcast, () for one medium."""
         return np.broadcast_shapes(np.shape(self.E_star), np.shape(self.q_c), np.shape(self.eta))

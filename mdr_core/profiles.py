@@ -61,7 +61,7 @@ class Profile(ABC):
         """The zones that hold depths from `lower` to `upper` (m), from the tip outward."""
         return self.zones
 
-    @property
+    @cached_property
     def shape(self):
         """Shape to which array-valued parameters broadcast, () for one indenter."""
         return np.broadcast_shapes(*(np.shape(getattr(self, field.name)) for field in fields(self)))

@@ -63,23 +63,22 @@ def _solve(bodies, record):
 
 def _resolved(bodies, course, step, settled):
     """Which steps are good enough; plans the length of the next one for each."""
-    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        rest = step.length * gauss.unresolved(step.deceleration[:, 1:], step.kind)
-        # What is left at the end must be resolved, small as it may be against the beginning.
-        speed = np.abs(step.velocity - step.lost[:, -1])
-        speed = np.maximum(speed, np.abs(step.deceleration[:, -1]) * step.length)
-        live = np.maximum(np.abs(step.coordinate[:, -1]), speed * step.length)
-        error = rest * np.maximum(1 / speed, step.lag / live) / TOLERANCE
-        if np.any(bodies.relaxation_time[step.rows] > 0):
-            slid = step.radius * (step.velocity[:, None] - step.lost[:, 1:]) ** 2
-            gained = course.slid[step.rows] + step.integral(slid, np.ones(step.rows.size))
-            drag = step.length * gauss.unresolved(slid, step.kind) / gained / TOLERANCE
-            # Next to the tip the radius is a fractional power: the other kinds of step are made for it.
-            error = np.where(step.kind == gauss.PLAIN, np.fmax(error, drag), error)
-        good = settled & (error <= 1)
-        factor = np.where(good, np.clip(0.9 * error ** (-1 / 14), 0.5, 3.0), 0.5)
-        # Fractional powers resolve slowly, and so do layers that a step has overrun.
-        factor = np.where(~settled | (error > 1e3), 0.25, factor)
+    rest = step.length * gauss.unresolved(step.deceleration[:, 1:], step.kind)
+    # What is left at the end must be resolved, small as it may be against the beginning.
+    speed = np.abs(step.velocity - step.lost[:, -1])
+    speed = np.maximum(speed, np.abs(step.deceleration[:, -1]) * step.length)
+    live = np.maximum(np.abs(step.coordinate[:, -1]), speed * step.length)
+    error = rest * np.maximum(1 / speed, step.lag / live) / TOLERANCE
+    if np.any(bodies.relaxation_time[step.rows] > 0):
+        slid = step.radius * (step.velocity[:, None] - step.lost[:, 1:]) ** 2
+        gained = course.slid[step.rows] + step.integral(slid, np.ones(step.rows.size))
+        drag = step.length * gauss.unresolved(slid, step.kind) / gained / TOLERANCE
+        # Next to the tip the radius is a fractional power: the other kinds of step are made for it.
+        error = np.where(step.kind == gauss.PLAIN, np.fmax(error, drag), error)
+    good = settled & (error <= 1)
+    factor = np.where(good, np.clip(0.9 * error ** (-1 / 14), 0.5, 3.0), 0.5)
+    # Fractional powers resolve slowly, and so do layers that a step has overrun.
+    factor = np.where(~settled | (error > 1e3), 0.25, factor)
     course.step[step.rows] = step.length * factor
     course.kind[step.rows[~good & (step.kind == gauss.CLOSING)]] = gauss.PLAIN
     return good
@@ -87,6 +86,8 @@ def _resolved(bodies, course, step, settled):
 
 def _up_to(course, step, missed, edge):
     """Plans steps that end at an edge of the coordinate, for those that failed and had run past it."""
+    if not missed.any():
+        return
     side = np.sign(step.coordinate[:, 0] - edge)[:, None]
     past = missed & (side * (step.coordinate - edge[:, None]) < 0).any(axis=1)
     if past.any():
@@ -186,22 +187,24 @@ def _advance(bodies, course, stage, step, last, record):
         slid, released = gathered(step, tau, unloading)
         course.slid[rows] += step.integral(slid, last)
         course.released[rows] += step.integral(released, last)
-    if not unloading:
-        higher = step.deceleration.max(axis=1) > course.peak[rows]
-        if higher.any():
-            course.peak[rows[higher]] = _peak(bodies, course, step.keep(higher), last[higher])
+    _peak(bodies, course, stage, step, last)
     course.time[rows] += step.length * gauss.share(step.kind, last)
     course.y[rows] += way
     course.live[rows] += np.where(unloading, change, 0.0)
     course.velocity[rows] -= lost
 
 
-def _peak(bodies, course, step, last):
-    """Largest deceleration so far of impacts that load."""
-    theta = gauss.largest(step.deceleration, last)
-    weights = gauss.basis(theta)
+def _peak(bodies, course, stage, step, last):
+    """Notes the largest deceleration so far."""
+    known = np.where(last[:, None] >= gauss.POINTS, step.deceleration, 0.0)
+    course.peak[step.rows] = np.maximum(course.peak[step.rows], known.max(axis=1))
+    # Inside a step; one that is at its end is the beginning of the next.
+    inside = (known.argmax(axis=1) > 0) & (known.argmax(axis=1) < (known > 0).sum(axis=1) - 1)
+    if isinstance(stage, Unloading) or not inside.any():
+        return
+    step, rows = step.keep(inside), step.rows[inside]
+    weights = gauss.basis(gauss.largest(step.deceleration, last[inside]))
     way, lost = (gauss.interpolate(weights, part)[:, None] for part in (step.way, step.lost))
     # The load itself, because fractional powers are not interpolated well.
-    there = Loading(bodies, course, step.rows).deceleration(way, lost)[0][:, 0]
-    known = np.where(last[:, None] >= gauss.POINTS, step.deceleration, 0.0).max(axis=1)
-    return np.maximum(course.peak[step.rows], np.maximum(known, there))
+    there = Loading(bodies, course, rows).deceleration(way, lost)[0][:, 0]
+    course.peak[rows] = np.maximum(course.peak[rows], there)

@@ -76,8 +76,8 @@ class Step:
     """Steps of some impacts, one a row; values at 0 and at the nodes where there are seventeen.
 
     Length (s), velocity at the beginning (m/s), deceleration (m/s²), way gone (m), velocity lost
-    (m/s), coordinate of the stage (m), the time by which it runs ahead of the way (s), and the
-    contact radius at the nodes (m).
+    (m/s), coordinate of the stage (m), the time by which it runs ahead of the way (s), the contact
+    radius at the nodes (m), and the way, velocity lost and change of the coordinate at the end.
     """
 
     rows: np.ndarray
@@ -90,9 +90,12 @@ class Step:
     coordinate: np.ndarray
     lag: np.ndarray
     radius: np.ndarray
+    end: np.ndarray
 
     def keep(self, some):
         """The steps of some impacts."""
+        if some.all():
+            return self
         return Step(*(getattr(self, field.name)[some] for field in fields(self)))
 
     def integral(self, values, theta):
@@ -108,6 +111,8 @@ class Step:
 
     def moved(self, theta):
         """Way, velocity lost, and change of the coordinate up to θ."""
+        if (theta == 1).all():
+            return self.end.T
         lost = self.integral(self.deceleration[:, 1:], theta)
         way = self.integral(self.velocity[:, None] - self.lost[:, 1:], theta)
         return way, lost, way - self.lag * lost
@@ -133,16 +138,22 @@ def collocate(stage, course, rows):
         failed |= ~np.isfinite(largest)
         change[settled | failed] = 0.0
         alpha = alpha - change
-        settled |= largest <= 1e-9 * np.abs(alpha).max(axis=1)
+        # The error is the square of the last correction.
+        settled |= largest <= 1e-6 * np.abs(alpha).max(axis=1)
         if (settled | failed).all():
             break
     lost = np.einsum("kij,kj->ki", once, alpha)
     way = run - np.einsum("kij,kj->ki", twice, alpha)
     coordinate = stage.start[:, None] + way - stage.lag[:, None] * lost
-    zero, speed = nothing[:, 0], course.velocity[rows]
+    zero, speed, h = nothing[:, 0], course.velocity[rows], h[:, 0]
     columns = ((begun, alpha), (zero, way), (zero, lost), (stage.start, coordinate))
     values = (gauss.with_start(*pair) for pair in columns)
-    return Step(rows, kind, h[:, 0], speed, *values, stage.lag, state[1]), settled
+    # At the end the quadrature is better than the interpolant.
+    all_lost, all_way = (
+        h * np.einsum("kj,kj->k", gauss.WHOLE[kind], rate) for rate in (alpha, speed[:, None] - lost)
+    )
+    end = np.column_stack([all_way, all_lost, all_way - stage.lag * all_lost])
+    return Step(rows, kind, h, speed, *values, stage.lag, state[1], end), settled
 
 
 def gathered(step, tau, unloading):
