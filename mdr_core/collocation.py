@@ -115,6 +115,11 @@ def crossing(values, target):
     return theta
 
 
+def slope(values, theta):
+    """Derivative by θ of the interpolant of values at 0 and the nodes, one step a row."""
+    return interpolate(basis(theta), np.einsum("ij,kj->ik", values, _DERIVATIVE))
+
+
 def largest(values, last):
     """θ up to `last` at which the interpolant of values at 0 and the nodes is largest, one step a row."""
     slope = np.einsum("ij,kj->ik", values, _DERIVATIVE)

@@ -198,9 +198,11 @@ def _peak(bodies, course, stage, step, last):
     """Notes the largest deceleration so far."""
     known = np.where(last[:, None] >= gauss.POINTS, step.deceleration, 0.0)
     course.peak[step.rows] = np.maximum(course.peak[step.rows], known.max(axis=1))
-    # Inside a step; one that is at its end is the beginning of the next.
-    inside = (known.argmax(axis=1) > 0) & (known.argmax(axis=1) < (known > 0).sum(axis=1) - 1)
-    if isinstance(stage, Unloading) or not inside.any():
+    if isinstance(stage, Unloading):
+        return
+    # Where the load still grows at the end of a step, its largest value is the beginning of the next.
+    inside = (known.argmax(axis=1) > 0) & (gauss.slope(step.deceleration, last) < 0)
+    if not inside.any():
         return
     step, rows = step.keep(inside), step.rows[inside]
     weights = gauss.basis(gauss.largest(step.deceleration, last[inside]))
