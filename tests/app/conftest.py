@@ -42,10 +42,10 @@ window.explorer = {
     const { left, right } = Bokeh.index.find_one(explorer.figure(name)).frame.bbox
     return [left, right]
   },
-  drawn: () => explorer.figure("springs").renderers.map((layer) => layer.data_source.data),
-  notices: () => document.querySelectorAll(".notyf__toast").length,
+  drawn: () => explorer.figure("force").renderers.map((layer) => layer.data_source.data),
+  main: () => Bokeh.index.roots[0]?.shadow_el?.querySelector("main"),
   idle: () => window.Bokeh !== undefined && Bokeh.documents.length > 0 && Bokeh.documents[0].is_idle &&
-    explorer.figure("radii") !== null,
+    Boolean(explorer.main()) && explorer.main().getAttribute("aria-busy") !== "true",
   colours: (name) => {
     const view = Bokeh.index.find_one(explorer.figure(name))
     const canvas = view.export("png", false).canvas

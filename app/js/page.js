@@ -1,0 +1,251 @@
+// The page: builds what is seen, sends what a person does, and shows what the server answers.
+const BASE = ["springs", "force", "pressure", "radii"]
+const IN_TIME = ["motion", "energy"]
+const SETTLED = 300
+
+class Explorer {
+  constructor(model, view) {
+    this.model = model
+    this.given = JSON.parse(model.static)
+    this.units = this.given.units
+    this.plots = new Plots(this.given.plots, (name) => view.model.document.get_model_by_name(name))
+    this.ask = asker(
+      (message) => model.send_msg(message),
+      () => this.notify("The server does not answer."),
+      (busy) => this.node.setAttribute("aria-busy", String(busy)))
+    this.form = new Form(this.ask)
+    this.player = new Player({
+      show: (index) => this.frame(index),
+      settled: (at) => this.ask({ do: "stand", at }),
+      need: () => this.need(),
+    })
+    this.player.units = this.units
+    this.map = false
+    this.dark = stored("theme", matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light") === "dark"
+    this.build()
+  }
+
+  build() {
+    const { help, equations } = this.given
+    this.readouts = new Readouts(this.units)
+    this.lights = make("ul", { class: "lights", "aria-label": "Validity" })
+    this.notices = make("div", { class: "notices", role: "alert" })
+    const rows = Object.values(equations).map(([number, math, what]) => {
+      const formula = make("dd")
+      formula.innerHTML = math
+      formula.append(make("small", {}, what))
+      return [make("dt", {}, number), formula]
+    })
+    const about = make("details", {}, make("summary", {}, "Equations and help"), ...help.map((text) => make("p", {}, text)), make("dl", { class: "equations" }, ...rows.flat()))
+    const head = [make("h1", {}, "Indentation explorer"), make("p", { class: "note" }, "non-local yield, solved by dimensionality reduction")]
+    const figures = this.model.get_child("figures")
+    this.tiles = new Map(this.given.plots.map((plot, i) => [plot.name, this.tile(plot, figures[i])]))
+    const grid = make("div", { class: "plots" }, ...this.tiles.values())
+    this.grid = grid
+    const results = make("section", { class: "results" }, this.toolbar(), this.readouts.node, this.lights, this.player.node, grid)
+    this.node = make("main", { class: "explorer" }, make("aside", {}, ...head, this.form.node, about), results, this.notices)
+  }
+
+  toolbar() {
+    const button = (text, title, act) => {
+      const node = make("button", { type: "button", title }, text)
+      node.addEventListener("click", act)
+      return node
+    }
+    this.buttons = {
+      undo: button("Undo", "Undo the last change (Z)", () => this.ask({ do: "undo" })),
+      redo: button("Redo", "Do it again (Y)", () => this.ask({ do: "redo" })),
+      reset: button("Reset", "Back to the preset (R)", () => this.ask({ do: "reset" })),
+      hold: button("Hold", "Hold these curves to compare with the next (H)", () => this.ask({ do: "hold" })),
+      map: button("Map", "Pressure over the plane (M)", () => this.toggleMap()),
+      theme: button("Dark", "Light or dark (D)", () => this.toggleTheme()),
+    }
+    const file = (text, what, title) => button(text, title, () => this.ask({ do: "file", what }))
+    const menu = make("details", { class: "menu" }, make("summary", {}, "Take with you"), make("div", {},
+      file("Curves as CSV", "curves", "Every state along the way"),
+      file("Pressure as CSV", "pressure", "Stress and line load of this state"),
+      file("Scene as JSON", "scene", "To load here or with mdr.Scene.from_json"),
+      file("Copy as Python", "python", "A snippet that comes to this state"),
+      button("Copy link", "A link to this page as it is", () => this.showLink()),
+      bring("Load a scene (JSON)", ".json,application/json", (text) => this.ask({ do: "upload", kind: "scene", text }), (why) => this.notify(why)),
+      bring("Load a tip (CSV: r, z)", ".csv,.txt,text/csv", (text) => this.ask({ do: "upload", kind: "tip", text }), (why) => this.notify(why))))
+    menu.addEventListener("click", (event) => { if (event.target.tagName === "BUTTON") menu.open = false })
+    this.heldNote = make("span", { class: "note" })
+    return make("div", { class: "toolbar", role: "toolbar", "aria-label": "Page" }, ...Object.values(this.buttons), menu, this.heldNote)
+  }
+
+  tile(plot, figure) {
+    const [number, math] = this.given.equations[plot.equation]
+    const formula = make("span", { class: "formula" })
+    formula.innerHTML = math
+    const saved = (text, act) => {
+      const node = make("button", { type: "button", class: "save", title: `Save “${plot.title}” as ${text}` }, text)
+      node.addEventListener("click", () => act(plot, Bokeh.index.find_one(this.plots.figure(plot.name)), this.dark))
+      return node
+    }
+    const legend = make("ul", { class: "legend" })
+    legend.innerHTML = plot.legend.map((entry) => `<li data-layer="${svgText(entry.label)}"><svg width="20" height="12" aria-hidden="true"></svg>${svgText(entry.label)}</li>`).join("")
+    const head = make("header", {}, make("h3", {}, plot.title), formula, make("small", {}, number), saved("PNG", savePng), saved("SVG", saveSvg))
+    return make("article", { class: "tile", "data-plot": plot.name, "aria-label": plot.title }, head, legend, make("div", { class: "plot" }, figure))
+  }
+
+  // A new scene from the server.
+  load() {
+    const meta = JSON.parse(this.model.meta)
+    const again = this.scene?.meta.seq === meta.seq
+    const frames = again ? this.scene.frames : null
+    this.scene = new Scene(meta, this.model.values)
+    this.scene.frames = frames
+    this.ask.answered(meta.answered)
+    this.arrange(meta)
+    this.player.load(this.scene)
+    this.plots.draw(this.scene, this.player.at)
+    this.readouts.read(this.scene, this.player.at)
+    this.form.show(meta)
+    this.around(meta)
+    clearTimeout(this.rest)
+    this.rest = setTimeout(() => this.settle(), SETTLED)
+  }
+
+  frame(index) {
+    this.plots.frame(this.scene, index)
+    this.readouts.read(this.scene, index)
+  }
+
+  // Which plots are seen.
+  arrange({ impact }) {
+    const names = [...BASE, ...(impact ? IN_TIME : []), ...(this.map ? ["map"] : [])]
+    if (names.join() === [...this.plots.shown].join()) return
+    this.plots.shown = new Set(names)
+    this.plots.limits.clear()
+    for (const [name, tile] of this.tiles) tile.hidden = !this.plots.shown.has(name)
+    this.grid.classList.toggle("wide", names.length > 4)
+    this.grid.classList.toggle("impact", impact)
+  }
+
+  around(meta) {
+    const lights = JSON.stringify(meta.lights)
+    if (lights !== this.lit) {
+      this.lit = lights
+      this.lights.replaceChildren(...meta.lights.map(([good, text]) => sentence("li", { class: good ? "good" : "beyond" }, text)))
+    }
+    this.buttons.undo.disabled = !meta.undo[0]
+    this.buttons.redo.disabled = !meta.undo[1]
+    this.buttons.hold.setAttribute("aria-pressed", String(Boolean(meta.held)))
+    this.heldNote.textContent = meta.held ? `held: ${meta.held}` : ""
+    for (const tile of this.tiles.values()) tile.querySelector('[data-layer="held"]')?.toggleAttribute("hidden", !meta.held)
+    if (meta.notice) this.notify(meta.notice)
+  }
+
+  // The input is still: the link follows, and the fields of all states are fetched.
+  settle() {
+    const { query } = this.scene.meta
+    const url = query ? `?${query}` : location.pathname
+    if (location.search !== `?${query}`) history.replaceState(null, "", url)
+    this.need()
+  }
+
+  need() {
+    const { seq } = this.scene.meta
+    if (this.scene.frames?.seq === seq || this.needed === seq) return
+    this.needed = seq
+    this.ask({ do: "frames" })
+  }
+
+  // What the server sends once.
+  hear(message) {
+    if (message.frames !== undefined) {
+      this.scene.frames = { seq: message.frames, places: JSON.parse(message.places), values: Scene.plain(message.values) }
+      if (this.player.at !== this.scene.meta.now) this.frame(this.player.at)
+    } else if (message.what === "python") {
+      this.dialog("This state with mdr_core", message.text)
+    } else if (message.file) {
+      save(message.file, message.text, "text/plain")
+    }
+  }
+
+  showLink() {
+    if (this.scene.meta.query) this.dialog("Link to this page", new URL(`?${this.scene.meta.query}`, location.href).href)
+    else this.notify("This tip has too many samples for a link: save the scene as JSON.")
+  }
+
+  dialog(title, text) {
+    const dialog = textDialog(title, text)
+    this.node.append(dialog)
+    dialog.showModal()
+  }
+
+  notify(text) {
+    const note = make("div", { class: "notice" }, text)
+    this.notices.append(note)
+    setTimeout(() => note.remove(), 7000)
+  }
+
+  toggleMap() {
+    this.map = !this.map
+    this.buttons.map.setAttribute("aria-pressed", String(this.map))
+    this.arrange(this.scene.meta)
+    this.plots.draw(this.scene, this.player.at)
+    this.paint()
+    // Once it has its place on the page, the map can be as wide as high.
+    if (this.map) setTimeout(() => this.plots.square(this.scene), 60)
+  }
+
+  toggleTheme() {
+    this.dark = !this.dark
+    store("theme", this.dark ? "dark" : "light")
+    this.paint()
+  }
+
+  paint() {
+    this.node.classList.toggle("dark", this.dark)
+    document.documentElement.style.background = this.dark ? "#121418" : "#f5f6f8"
+    this.buttons.theme.textContent = this.dark ? "Light" : "Dark"
+    for (const plot of this.given.plots) {
+      recolour(this.plots.figure(plot.name), this.dark)
+      const marks = this.tiles.get(plot.name).querySelectorAll(".legend svg")
+      plot.legend.forEach((entry, k) => { marks[k].innerHTML = swatch(entry, this.dark) })
+    }
+  }
+
+  key(event) {
+    const on = event.composedPath()[0]
+    const typing = on.matches?.("input[type=text], textarea, select") || event.ctrlKey || event.altKey || event.metaKey
+    const acts = {
+      " ": () => !on.matches?.("button, summary, input[type=radio]") && (this.player.toggle(), true),
+      h: () => (this.ask({ do: "hold" }), true),
+      r: () => (this.ask({ do: "reset" }), true),
+      z: () => (this.ask({ do: "undo" }), true),
+      y: () => (this.ask({ do: "redo" }), true),
+      m: () => (this.toggleMap(), true),
+      d: () => (this.toggleTheme(), true),
+    }
+    if (!typing && acts[event.key.toLowerCase()]?.()) event.preventDefault()
+  }
+}
+
+export function render({ model, view }) {
+  const explorer = new Explorer(model, view)
+  let due = false
+  const load = () => {
+    // Text and numbers come as two changes of one message.
+    if (due) return
+    due = true
+    queueMicrotask(() => { due = false; explorer.load() })
+  }
+  model.on("meta", load)
+  model.on("values", load)
+  model.on("msg:custom", (message) => explorer.hear(message))
+  const key = (event) => explorer.key(event)
+  document.addEventListener("keydown", key)
+  model.on("remove", () => document.removeEventListener("keydown", key))
+  explorer.load()
+  explorer.paint()
+  const grab = () => {
+    const force = Bokeh.index.find_one(explorer.plots.figure("force"))
+    if (force?.canvas_view?.events_el) explorer.player.grab(force)
+    else requestAnimationFrame(grab)
+  }
+  grab()
+  return explorer.node
+}
