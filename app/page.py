@@ -1,4 +1,4 @@
-"""The page as one component: its figures, and what travels between it and the session."""
+"""The page as one component: its scripts, and what travels between it and the session."""
 
 import json
 from pathlib import Path
@@ -10,7 +10,7 @@ import param
 from .equations import EQUATIONS, KEYS, MODEL
 from .presets import ASSETS
 from .units import UNITS
-from .views import PLOTS
+from .views import DOCUMENTS, PLOTS
 
 #: In the order in which they need each other: one module in the browser.
 _SCRIPTS = (
@@ -21,6 +21,7 @@ _STYLE = (ASSETS / "style.css").read_text(encoding="utf-8")
 _STATIC = json.dumps(
     {
         "plots": [plot.described() for plot in PLOTS.values()],
+        "documents": DOCUMENTS,
         "equations": EQUATIONS,
         "help": [MODEL, KEYS],
         "units": {kind: [[unit.name, unit.factor] for unit in units] for kind, units in UNITS.items()},
@@ -37,11 +38,10 @@ def _script(name):
 class Page(pn.custom.JSComponent):
     """Everything a person sees. All drawing is done in the browser, from one buffer of numbers.
 
-    A change goes out as `meta`, all that is text as JSON, and `values`, all arrays end to end;
-    what a person does comes back as one message.
+    A change goes out as one message with `meta`, all that is text as JSON, and `values`, all arrays
+    end to end; the first one as properties of the same names. What a person does comes back as one message.
     """
 
-    figures = pn.custom.Children()
     static = param.String(_STATIC, constant=True)
     meta = param.String()
     values = param.Parameter()
@@ -51,16 +51,18 @@ class Page(pn.custom.JSComponent):
 
     def __init__(self, receive):
         self._receive = receive
-        figures = {name: plot.copy() for name, plot in PLOTS.items()}
-        # One axis for both plots, so that what belongs together stands under each other.
-        for lower, upper in (("pressure", "springs"), ("radii", "force"), ("energy", "motion")):
-            figures[lower].x_range = figures[upper].x_range
-        panes = [pn.pane.Bokeh(figure, sizing_mode="stretch_both") for figure in figures.values()]
-        super().__init__(figures=panes, values=_NOTHING, sizing_mode="stretch_both", margin=0)
+        super().__init__(values=_NOTHING, sizing_mode="stretch_both", margin=0)
 
     def _handle_msg(self, message):
         if isinstance(message, dict):
             self._receive(message)
+
+    def show(self, meta, values):
+        """Draw anew: as a message, so that nothing of it is kept."""
+        if self._models:
+            self.send({"meta": meta, "values": values})
+        else:
+            self.param.update(meta=meta, values=values)
 
     def send(self, message):
         """Say something to the page, once."""

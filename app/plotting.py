@@ -1,11 +1,11 @@
-"""How a plot is declared once in HoloViews and copied for every session: layers, legend, one look."""
+"""How a plot is declared once in HoloViews and rendered once for everybody: layers, legend, one look."""
 
 from dataclasses import dataclass, field
 
 import holoviews as hv
 import holoviews.plotting.bokeh
 import numpy as np
-from bokeh.core.serialization import Deserializer, Serializer
+from bokeh.document import Document
 from bokeh.models import ColumnDataSource, HoverTool, Legend, Line, LinearAxis, Range1d, Scatter
 
 hv.Store.set_current_backend("bokeh")
@@ -51,9 +51,9 @@ def names(label, **options):
 
 @dataclass
 class Plot:
-    """A plot declared in HoloViews and rendered once; each session draws on a copy of its own.
+    """A plot declared in HoloViews and rendered once; every browser makes its own figure of it.
 
-    A copy is a quarter of the work of rendering, and nothing of a session stays with HoloViews.
+    No session has figures on the server: nothing to build, to keep or to walk through.
 
     Parameters
     ----------
@@ -77,6 +77,7 @@ class Plot:
     right: tuple[str, ...] = ()
     hatched: tuple[str, ...] = ()
     legend: list = field(init=False)
+    figure: object = field(init=False, repr=False)
 
     def __post_init__(self):
         overlay = self.overlay.opts(
@@ -109,11 +110,7 @@ class Plot:
         self.legend = [_entry(item) for legend in figure.legend for item in legend.items]
         figure.center = [part for part in figure.center if not isinstance(part, Legend)]
         _look(figure)
-        self._encoded = Serializer(deferred=False).encode(figure)
-
-    def copy(self):
-        """Bokeh figure of one session."""
-        return Deserializer().deserialize(self._encoded)
+        self.figure = figure
 
     def described(self):
         """What the page writes around it."""
@@ -195,3 +192,11 @@ def _entry(item):
         "alpha": glyph.fill_alpha,
         "hatch": glyph.hatch_pattern is not None,
     }
+
+
+def encoded(plots):
+    """Figures as a Bokeh document that a browser can read, and their names in its order."""
+    document = Document()
+    for plot in plots:
+        document.add_root(plot.figure)
+    return {"names": [plot.name for plot in plots], "document": document.to_json(deferred=False)}

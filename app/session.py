@@ -208,7 +208,7 @@ class Session:
             "notice": self.notice,
         }
         self.notice = ""
-        self.page.param.update(meta=json.dumps(meta, allow_nan=False), values=buffer.joined())
+        self.page.show(json.dumps(meta, allow_nan=False), buffer.joined())
 
     _shown = None
 

@@ -16,6 +16,7 @@ from .plotting import (
     Plot,
     area,
     curve,
+    encoded,
     names,
     points,
     verticals,
@@ -153,3 +154,13 @@ def _map():
 
 #: Every plot of the page, in its order.
 PLOTS = {plot.name: plot for plot in (_SPRINGS, _FORCE, _MOTION, _PRESSURE, _ZONE, _ENERGY, _map())}
+
+# One axis for both plots, so that what belongs together stands under each other.
+for _lower, _upper in (("pressure", "springs"), ("radii", "force"), ("energy", "motion")):
+    PLOTS[_lower].figure.x_range = PLOTS[_upper].figure.x_range
+
+#: What is built in a browser at the same time: the rest is, when it is seen for the first time.
+DOCUMENTS = [
+    encoded([PLOTS[name] for name in group])
+    for group in (("springs", "force", "pressure", "radii"), ("motion", "energy"), ("map",))
+]

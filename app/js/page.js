@@ -4,11 +4,11 @@ const IN_TIME = ["motion", "energy"]
 const SETTLED = 300
 
 class Explorer {
-  constructor(model, view) {
+  constructor(model) {
     this.model = model
     this.given = JSON.parse(model.static)
     this.units = this.given.units
-    this.plots = new Plots(this.given.plots, (name) => view.model.document.get_model_by_name(name))
+    this.plots = new Plots(this.given.plots, this.given.documents)
     this.ask = asker(
       (message) => model.send_msg(message),
       () => this.notify("The server does not answer."),
@@ -38,8 +38,7 @@ class Explorer {
     })
     const about = make("details", {}, make("summary", {}, "Equations and help"), ...help.map((text) => make("p", {}, text)), make("dl", { class: "equations" }, ...rows.flat()))
     const head = [make("h1", {}, "Indentation explorer"), make("p", { class: "note" }, "non-local yield, solved by dimensionality reduction")]
-    const figures = this.model.get_child("figures")
-    this.tiles = new Map(this.given.plots.map((plot, i) => [plot.name, this.tile(plot, figures[i])]))
+    this.tiles = new Map(this.given.plots.map((plot) => [plot.name, this.tile(plot)]))
     const grid = make("div", { class: "plots" }, ...this.tiles.values())
     this.grid = grid
     const results = make("section", { class: "results" }, this.toolbar(), this.readouts.node, this.lights, this.player.node, grid)
@@ -74,27 +73,27 @@ class Explorer {
     return make("div", { class: "toolbar", role: "toolbar", "aria-label": "Page" }, ...Object.values(this.buttons), menu, this.heldNote)
   }
 
-  tile(plot, figure) {
+  tile(plot) {
     const [number, math] = this.given.equations[plot.equation]
     const formula = make("span", { class: "formula" })
     formula.innerHTML = math
     const saved = (text, act) => {
       const node = make("button", { type: "button", class: "save", title: `Save “${plot.title}” as ${text}` }, text)
-      node.addEventListener("click", () => act(plot, Bokeh.index.find_one(this.plots.figure(plot.name)), this.dark))
+      node.addEventListener("click", () => act(plot, this.plots.view(plot.name), this.dark))
       return node
     }
     const legend = make("ul", { class: "legend" })
     legend.innerHTML = plot.legend.map((entry) => `<li data-layer="${svgText(entry.label)}"><svg width="20" height="12" aria-hidden="true"></svg>${svgText(entry.label)}</li>`).join("")
     const head = make("header", {}, make("h3", {}, plot.title), formula, make("small", {}, number), saved("PNG", savePng), saved("SVG", saveSvg))
-    return make("article", { class: "tile", "data-plot": plot.name, "aria-label": plot.title }, head, legend, make("div", { class: "plot" }, figure))
+    return make("article", { class: "tile", "data-plot": plot.name, "aria-label": plot.title }, head, legend, make("div", { class: "plot" }))
   }
 
   // A new scene from the server.
-  load() {
-    const meta = JSON.parse(this.model.meta)
+  load(text, values) {
+    const meta = JSON.parse(text)
     const again = this.scene?.meta.seq === meta.seq
     const frames = again ? this.scene.frames : null
-    this.scene = new Scene(meta, this.model.values)
+    this.scene = new Scene(meta, values)
     this.scene.frames = frames
     this.ask.answered(meta.answered)
     this.arrange(meta)
@@ -121,6 +120,20 @@ class Explorer {
     for (const [name, tile] of this.tiles) tile.hidden = !this.plots.shown.has(name)
     this.grid.classList.toggle("wide", names.length > 4)
     this.grid.classList.toggle("impact", impact)
+    this.draw()
+  }
+
+  // Draws all that is seen, in figures that may have to be made first.
+  async draw() {
+    const fresh = await this.plots.build((name) => this.tiles.get(name).querySelector(".plot"))
+    if (!fresh) return
+    if (this.plots.seen.includes("force") && !this.grabbed) {
+      this.grabbed = true
+      this.player.grab(this.plots.view("force"))
+    }
+    this.plots.draw(this.scene, this.player.at)
+    this.paint()
+    this.node.dataset.drawn = this.plots.seen.join(" ")
   }
 
   around(meta) {
@@ -154,7 +167,9 @@ class Explorer {
 
   // What the server sends once.
   hear(message) {
-    if (message.frames !== undefined) {
+    if (message.meta !== undefined) {
+      this.load(message.meta, message.values)
+    } else if (message.frames !== undefined) {
       this.scene.frames = { seq: message.frames, places: JSON.parse(message.places), values: Scene.plain(message.values) }
       if (this.player.at !== this.scene.meta.now) this.frame(this.player.at)
     } else if (message.what === "python") {
@@ -202,7 +217,7 @@ class Explorer {
     document.documentElement.style.background = this.dark ? "#121418" : "#f5f6f8"
     this.buttons.theme.textContent = this.dark ? "Light" : "Dark"
     for (const plot of this.given.plots) {
-      recolour(this.plots.figure(plot.name), this.dark)
+      if (this.plots.figure(plot.name)) recolour(this.plots.figure(plot.name), this.dark)
       const marks = this.tiles.get(plot.name).querySelectorAll(".legend svg")
       plot.legend.forEach((entry, k) => { marks[k].innerHTML = swatch(entry, this.dark) })
     }
@@ -224,28 +239,13 @@ class Explorer {
   }
 }
 
-export function render({ model, view }) {
-  const explorer = new Explorer(model, view)
-  let due = false
-  const load = () => {
-    // Text and numbers come as two changes of one message.
-    if (due) return
-    due = true
-    queueMicrotask(() => { due = false; explorer.load() })
-  }
-  model.on("meta", load)
-  model.on("values", load)
+export function render({ model }) {
+  const explorer = new Explorer(model)
   model.on("msg:custom", (message) => explorer.hear(message))
   const key = (event) => explorer.key(event)
   document.addEventListener("keydown", key)
   model.on("remove", () => document.removeEventListener("keydown", key))
-  explorer.load()
+  explorer.load(model.meta, model.values)
   explorer.paint()
-  const grab = () => {
-    const force = Bokeh.index.find_one(explorer.plots.figure("force"))
-    if (force?.canvas_view?.events_el) explorer.player.grab(force)
-    else requestAnimationFrame(grab)
-  }
-  grab()
   return explorer.node
 }

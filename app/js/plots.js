@@ -3,17 +3,38 @@ const DRAW = { springs: drawSprings, force: drawForce, pressure: drawPressure, r
 const PIXELS = 72
 
 class Plots {
-  constructor(described, find) {
-    this.described = described
-    this.find = find
+  constructor(described, documents) {
+    Object.assign(this, { described, documents })
     this.figures = new Map()
     this.shown = new Set()
     this.limits = new Map()
   }
 
   figure(name) {
-    if (!this.figures.has(name)) this.figures.set(name, this.find(name))
     return this.figures.get(name)
+  }
+
+  view(name) {
+    return Bokeh.index.find_one(this.figure(name))
+  }
+
+  // Makes the figures that are to be seen and are not there yet, each in its place.
+  async build(place) {
+    const missing = this.documents.filter(({ names }) => names.some((name) => this.shown.has(name)))
+    this.documents = this.documents.filter((each) => !missing.includes(each))
+    for (const { names, document } of missing) {
+      const ids = document.roots.map((root) => root.id)
+      const roots = Object.fromEntries(ids.map((id, k) => [id, place(names[k])]))
+      await Bokeh.embed.embed_items({ plots: document }, [{ docid: "plots", roots, root_ids: ids }])
+      const found = Bokeh.documents.find((each) => each.get_model_by_id(ids[0]) !== null)
+      names.forEach((name, k) => this.figures.set(name, found.get_model_by_id(ids[k])))
+    }
+    return missing.length > 0
+  }
+
+  // The names of the plots that are seen, as far as they are there.
+  get seen() {
+    return [...this.shown].filter((name) => this.figures.has(name))
   }
 
   layer(name, label) {
@@ -23,14 +44,14 @@ class Plots {
   // Everything of a scene at one of its states.
   draw(scene, i) {
     for (const plot of this.described) {
-      if (this.shown.has(plot.name)) this.fit(plot, scene.meta.axes)
+      if (this.seen.includes(plot.name)) this.fit(plot, scene.meta.axes)
     }
     this.frame(scene, i)
   }
 
   // One state in every plot that is seen.
   frame(scene, i) {
-    for (const name of this.shown) {
+    for (const name of this.seen) {
       if (name === "map") {
         this.map(scene, i)
         continue
@@ -40,8 +61,7 @@ class Plots {
   }
 
   put(name, label, data) {
-    // What the browser draws does not go back to the server.
-    this.layer(name, label).data_source.setv({ data }, { sync: false })
+    this.layer(name, label).data_source.data = data
   }
 
   fit({ name, axes }, all) {
@@ -52,29 +72,29 @@ class Plots {
     if (this.limits.get(name) === limits) return
     this.limits.set(name, limits)
     const set = (range, axis) => range.setv(
-      { start: axis.start, end: axis.end, reset_start: axis.start, reset_end: axis.end }, { sync: false })
+      { start: axis.start, end: axis.end, reset_start: axis.start, reset_end: axis.end })
     set(figure.x_range, x)
     set(figure.y_range, y)
-    figure.below[0].setv({ axis_label: label }, { sync: false })
-    figure.left[0].setv({ axis_label: name === "map" ? "" : y.label }, { sync: false })
+    figure.below[0].setv({ axis_label: label })
+    figure.left[0].setv({ axis_label: name === "map" ? "" : y.label })
     if (right) {
       set(figure.extra_y_ranges.right ?? figure.extra_y_ranges.get("right"), right)
-      figure.right[0].setv({ axis_label: right.label }, { sync: false })
+      figure.right[0].setv({ axis_label: right.label })
     }
     if (name === "map") this.square({ meta: { axes: all } })
     const tooltips = [[x.label.split(",")[0], `$x ${x.unit}`], [y.label.split(",")[0], `$y ${y.unit}`]]
     for (const tool of figure.toolbar.tools) {
-      if ("tooltips" in tool && "mode" in tool) tool.setv({ tooltips }, { sync: false })
+      if ("tooltips" in tool && "mode" in tool) tool.setv({ tooltips })
     }
   }
 
   // Equal scales on both axes of the map, whatever the shape of its frame.
   square(scene) {
-    const { width, height } = Bokeh.index.find_one(this.figure("map"))?.frame.bbox ?? {}
+    const { width, height } = this.view("map")?.frame.bbox ?? {}
     const half = scene.meta.axes.x.end
     if (!(width > 0) || !(height > 0)) return
     const across = half * Math.max(1, width / height)
-    const set = (range, end) => range.setv({ start: -end, end, reset_start: -end, reset_end: end }, { sync: false })
+    const set = (range, end) => range.setv({ start: -end, end, reset_start: -end, reset_end: end })
     set(this.figure("map").x_range, across)
     set(this.figure("map").y_range, (across * height) / width)
   }
@@ -92,8 +112,8 @@ class Plots {
         image[k] = along[Math.round(Math.hypot(x, y) * 2 * RAY)] ?? 0
       }
       const glyph = this.layer("map", "image").glyph
-      glyph.color_mapper.setv({ low: 0, high: axes.p.end }, { sync: false })
-      this.figure("map").right[0]?.setv({ title: `−σ_zz (${axes.p.unit})` }, { sync: false })
+      glyph.color_mapper.setv({ low: 0, high: axes.p.end })
+      this.figure("map").right[0]?.setv({ title: `−σ_zz (${axes.p.unit})` })
       this.put("map", "image", { image: [image], x: [-half], y: [-half], dw: [2 * half], dh: [2 * half] })
     }
     const k = axes.a.factor / axes.x.factor

@@ -32,7 +32,7 @@ function recolour(figure, dark) {
       const to = shade(value, dark)
       changed[name] = wrapped ? { value: to } : to
     }
-    model.setv(changed, { sync: false })
+    model.setv(changed)
   }
 }
 

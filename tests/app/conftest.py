@@ -28,7 +28,7 @@ FLAGS = [
 # What the page draws: layers by name, axes, colours, and whether all is painted.
 SCRIPT = """
 window.explorer = {
-  figure: (name) => Bokeh.documents[0].get_model_by_name(name),
+  figure: (name) => Bokeh.documents.map((each) => each.get_model_by_name(name)).find((each) => each),
   column: (name, layer, key) => {
     const glyph = explorer.figure(name).renderers.find((each) => each.name === layer)
     return Array.from(glyph.data_source.data[key])
@@ -44,8 +44,8 @@ window.explorer = {
   },
   drawn: () => explorer.figure("force").renderers.map((layer) => layer.data_source.data),
   main: () => Bokeh.index.roots[0]?.shadow_el?.querySelector("main"),
-  idle: () => window.Bokeh !== undefined && Bokeh.documents.length > 0 && Bokeh.documents[0].is_idle &&
-    Boolean(explorer.main()) && explorer.main().getAttribute("aria-busy") !== "true",
+  idle: () => window.Bokeh !== undefined && Bokeh.documents.length > 0 && Bokeh.documents.every((each) => each.is_idle) &&
+    Boolean(explorer.main()?.dataset.drawn) && explorer.main().getAttribute("aria-busy") !== "true",
   colours: (name) => {
     const view = Bokeh.index.find_one(explorer.figure(name))
     const canvas = view.export("png", false).canvas
