@@ -12,7 +12,7 @@ from .state import LAST_PROGRESS, Explorer
 
 #: Longest link, and most characters of a file.
 LONGEST_LINK, LARGEST_FILE = 8000, 2_000_000
-_SAMPLES = 200
+_SAMPLES = 120
 
 
 def query(state):
@@ -24,7 +24,7 @@ def query(state):
         r, z = state.samples
         if len(r) > _SAMPLES:
             return ""
-        pairs["samples"] = " ".join(f"{x:.9g},{y:.9g}" for x, y in zip(r, z, strict=True))
+        pairs["samples"] = " ".join(f"{x!r},{y!r}" for x, y in zip(r, z, strict=True))
     text = urlencode(pairs)
     return text if len(text) <= LONGEST_LINK else ""
 

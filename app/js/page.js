@@ -133,6 +133,7 @@ class Explorer {
     }
     this.plots.draw(this.scene, this.player.at)
     this.paint()
+    this.squareMap()
     this.node.dataset.drawn = this.plots.seen.join(" ")
   }
 
@@ -202,8 +203,12 @@ class Explorer {
     this.arrange(this.scene.meta)
     this.plots.draw(this.scene, this.player.at)
     this.paint()
-    // Once it has its place on the page, the map can be as wide as high.
-    if (this.map) setTimeout(() => this.plots.square(this.scene), 60)
+    this.squareMap()
+  }
+
+  // Once it has its place on the page, the map can be as wide as high.
+  squareMap() {
+    if (this.plots.seen.includes("map")) setTimeout(() => this.plots.square(this.scene), 60)
   }
 
   toggleTheme() {
