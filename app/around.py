@@ -34,11 +34,11 @@ def sketch(trajectory, shape):
 
 def lights(trajectory, density):
     """How far the assumptions hold for this scene: pairs of whether they do, and a sentence."""
-    slope = trajectory.largest_slope
+    slope = float(trajectory.largest_slope)
     small = slope <= SMALL_SLOPE
     rest = "a half-space at small slopes" if small else "beyond 0.3 small slopes are an approximation"
     found = [(small, f"Slopes reach {digits(slope, 2)}: {rest}")]
-    depth, critical = float(trajectory.deepest.depth), trajectory.scene.medium.critical_depth
+    depth, critical = float(trajectory.deepest.depth), float(trajectory.scene.medium.critical_depth)
     if critical < np.inf and trajectory.onset is not None:
         found.append(_depth_light(trajectory, depth / critical))
     if trajectory.hit is not None and density is not None:

@@ -18,7 +18,7 @@ def csv(trajectory):
         "contact radius a (m)": states.contact_radius,
         "plastic radius c (m)": states.plastic_radius,
         "plastic depth d_p (m)": states.live.lower,
-        "stored energy U (J)": states.stored_energy,
+        "stored energy U (J)": trajectory.stored_energy,
         "plastic work W_p (J)": states.plastic_work,
     }
     if motion is not None:

@@ -99,7 +99,7 @@ class Drawing:
         buffer.add("a", states.contact_radius, unit["a"])
         buffer.add("c", states.plastic_radius, unit["a"])
         energy = unit.get("E") or _axis("", "energy", float(np.max(_work(states))))["factor"]
-        buffer.add("U", states.stored_energy, energy)
+        buffer.add("U", trajectory.stored_energy, energy)
         buffer.add("W", states.plastic_work, energy)
         if trajectory.motion is not None:
             motion = trajectory.motion

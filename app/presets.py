@@ -38,7 +38,7 @@ def _preset(scene, media, indenters):
     values |= {f"{key}_{i}": body[key]["value"] for i, body in bodies for key in ("E", "nu")}
     values |= {"q_c": built.q_c, "E_star": built.E_star}
     if "depth" in scene:
-        values["max_depth"] = scene["depth"] * built.critical_depth
+        values["max_depth"] = float(scene["depth"] * built.critical_depth)
     else:
         values |= {name: scene[name]["value"] for name in ("mass", "speed")}
     choices = {

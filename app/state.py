@@ -89,7 +89,7 @@ class Explorer:
         if name == "shape" and option == "sampled" and self.samples is None:
             raise ValueError("load the samples of a tip first: a CSV file with r and z")
         if option != self.choices[name]:
-            converted = _CONVERT[name](self, option)
+            converted = {key: float(value) for key, value in _CONVERT[name](self, option).items()}
             self.choices[name] = option
             self.numbers |= converted
             self.resets = self.resets | converted

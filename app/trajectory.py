@@ -1,18 +1,17 @@
 """All states of one scene from first contact to the end, as arrays. Asks the core, adds no physics."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core.motion import Motion
 from mdr_core.yielding import LiveInterval
-
-from .motion import motion
 
 #: Denser towards both ends of a stretch by the cosine.
 _SPREAD = (1 - np.cos(np.linspace(0, np.pi, 33))) / 2
-_MOTION = 121
+_MOTION = 160
 #: Points of an unloading curve from one state.
 _RELEASE = np.linspace(1, 0, 13)
 
@@ -32,7 +31,7 @@ class Trajectory:
         The states with what is elastic of them.
     now : int
         The present one.
-    motion : mdr.Motion or None
+    motion : Motion or None
         Time, speeds and energies of an impact.
     hit : mdr.Impact or None
         The impact.
@@ -42,13 +41,18 @@ class Trajectory:
     progress: np.ndarray
     states: mdr.Indentation
     now: int
-    motion: object = None
+    motion: Motion | None = None
     hit: mdr.Impact | None = None
 
     @cached_property
     def force(self):
         """Normal force (N), with that of the dashpots."""
         return self.states.force if self.motion is None else self.motion.force
+
+    @property
+    def stored_energy(self):
+        """Energy (J) of all springs, of those too that have let go of a viscous rebound."""
+        return self.states.stored_energy if self.motion is None else self.motion.stored_energy
 
     @cached_property
     def peak(self):
@@ -126,7 +130,7 @@ def follow(scene, progress):
 
 def _impact(scene, progress):
     hit = scene.solve()
-    path = motion(hit, _MOTION)
+    path = _with_turning_point(hit, hit.motion(_MOTION))
     peak = int(np.argmax(path.depth))
     turn, end = path.time[peak], path.time[-1]
     way = np.where(path.time <= turn, path.time / turn, 1 + (path.time - turn) / (end - turn))
@@ -134,6 +138,32 @@ def _impact(scene, progress):
     live = LiveInterval(path.plastic_depth, path.plastic_depth + path.live_depth, path.live_depth)
     states = mdr.Indentation(scene.profile, scene.medium, path.depth, live)
     return Trajectory(scene, way, states, _nearest(way, progress), path, hit)
+
+
+def _with_turning_point(hit, path):
+    """A motion with the state at its turning point among its instants."""
+    after = int(np.argmax(path.velocity <= 0))
+    fast, slow = path.velocity[after - 1], -path.velocity[after]
+    deepest, before = hit.deepest, path.time[after - 1]
+    # Next to its zero the speed falls evenly.
+    time = before + (path.time[after] - before) * fast / (fast + slow)
+    spent = path.kinetic_energy[0] - deepest.stored_energy - hit.plastic_work
+    values = {
+        "time": time,
+        "depth": deepest.depth,
+        "velocity": 0.0,
+        "force": deepest.force,
+        "contact_radius": deepest.contact_radius,
+        "plastic_radius": deepest.plastic_radius,
+        "plastic_depth": deepest.plastic_depth,
+        "live_depth": deepest.live.length,
+        "kinetic_energy": 0.0,
+        "stored_energy": deepest.stored_energy,
+        "plastic_work": hit.plastic_work,
+        "viscous_work": spent if hit.medium.eta > 0 else 0.0,
+    }
+    names = [field.name for field in fields(path)]
+    return replace(path, **{name: np.insert(getattr(path, name), after, values[name]) for name in names})
 
 
 def _nearest(way, progress):

@@ -95,6 +95,7 @@ class Explorer {
     const frames = again ? this.scene.frames : null
     this.scene = new Scene(meta, values)
     this.scene.frames = frames
+    this.node.dataset.scene = meta.seq
     this.ask.answered(meta.answered)
     this.arrange(meta)
     this.player.load(this.scene)
@@ -172,6 +173,7 @@ class Explorer {
       this.load(message.meta, message.values)
     } else if (message.frames !== undefined) {
       this.scene.frames = { seq: message.frames, places: JSON.parse(message.places), values: Scene.plain(message.values) }
+      this.node.dataset.frames = message.frames
       if (this.player.at !== this.scene.meta.now) this.frame(this.player.at)
     } else if (message.what === "python") {
       this.dialog("This state with mdr_core", message.text)

@@ -7,7 +7,7 @@ import subprocess
 import sys
 import threading
 from pathlib import Path
-from urllib.parse import urlsplit
+from urllib.parse import parse_qsl, urlsplit
 
 import pytest
 
@@ -42,7 +42,14 @@ window.explorer = {
     const { left, right } = Bokeh.index.find_one(explorer.figure(name)).frame.bbox
     return [left, right]
   },
+  notices: () => explorer.main().querySelectorAll(".notice").length,
   drawn: () => explorer.figure("force").renderers.map((layer) => layer.data_source.data),
+  listen: () => {
+    explorer.sent = []
+    const send = explorer.send ?? WebSocket.prototype.send
+    explorer.send = send
+    WebSocket.prototype.send = function (data) { explorer.sent.push(String(data).slice(0, 200)); send.call(this, data) }
+  },
   main: () => Bokeh.index.roots[0]?.shadow_el?.querySelector("main"),
   idle: () => window.Bokeh !== undefined && Bokeh.documents.length > 0 && Bokeh.documents.every((each) => each.is_idle) &&
     Boolean(explorer.main()?.dataset.drawn) && explorer.main().getAttribute("aria-busy") !== "true",
@@ -127,6 +134,51 @@ class Explorer:
 
     def field(self, symbol):
         return self.page.locator(f'input[type="text"][aria-label^="{symbol},"]')
+
+    def readout(self, symbol):
+        """A number of the strip above the plots, with its unit."""
+        return self.page.locator(f'.readouts [data-symbol="{symbol}"] dd').inner_text().replace("\n", "").strip()
+
+    def pick(self, name, option, label):
+        """Pick an option of a choice, however it is offered, and wait until it is drawn."""
+        with self.change():
+            self.page.locator(f'input[type="radio"][name="{name}"][value="{option}"]').check()
+
+    def menu(self, label):
+        self.page.locator(".menu summary").click()
+        self.page.get_by_role("button", name=label).click()
+
+    def take(self, label):
+        """Path of the file that an entry of the menu gives."""
+        with self.page.expect_download() as download:
+            self.menu(label)
+        return download.value.path()
+
+    def save(self, figure, kind):
+        """Path of the picture of a plot."""
+        with self.page.expect_download() as download:
+            self.page.locator(f'[data-plot="{figure}"] button', has_text=kind).click()
+        return download.value.path()
+
+    def bring(self, label, path):
+        """Give the page a file."""
+        self.page.locator(f'input[type="file"][aria-label^="{label}"]').set_input_files(path)
+
+    def link(self):
+        """What the address of the page says, once it has settled."""
+        self.page.wait_for_function("explorer.idle()")
+        self.page.wait_for_timeout(400)
+        query = dict(parse_qsl(urlsplit(self.page.url).query))
+        return query | {"at": float(query["at"])}
+
+    def wait_for_frames(self):
+        """Wait until the fields of all states are in the browser."""
+        self.page.wait_for_function("explorer.main().dataset.frames === explorer.main().dataset.scene && explorer.idle()")
+
+    def listen(self):
+        """What the page sends from now on: a function that gives the messages so far."""
+        self.page.evaluate("explorer.listen()")
+        return lambda: self.page.evaluate("explorer.sent")
 
     def choose(self, label, option):
         """Choose from a list, and wait until what is drawn has changed and been painted."""
