@@ -6,7 +6,9 @@ import numpy as np
 
 from . import collocation as gauss
 from . import superpose
-from .rebound import gathered, solve, unloading
+from .course import UNLOADING
+from .rebound import solve
+from .stages import gathered
 from .turning import plastic_integral, pressed
 from .viscous import bodies_of
 from .yielding import LiveInterval
@@ -78,8 +80,8 @@ class _Stretch:
         self.bodies, self.step, self.last = bodies, step, last
         self.time, self.y = course.time[0], course.y[0]
         self.slid, self.released, self.lower = course.slid[0], course.released[0], course.lower[0]
-        self.unloading = unloading(course)[0]
-        rates = gathered(bodies, step, self.unloading, course)
+        self.unloading = course.phase[0] == UNLOADING
+        rates = gathered(step, bodies.relaxation_time, self.unloading)
         sums = (step.length * gauss.INTEGRATE[step.kind[0]] @ rate[0] for rate in rates)
         self.sums = [np.append(0.0, each) for each in sums]
 
