@@ -1,4 +1,4 @@
-"""The equations where they are used, as MathML that every browser sets by itself, without a font to load."""
+"""The equations where they are used, as MathML that every browser sets by itself."""
 
 
 def _tag(name):
@@ -84,7 +84,9 @@ EQUATIONS = {
     ),
     "energy": (
         "",
-        _math(_fraction(_row("m", _sup("v", "2")), "2"), "+", "U", "+", _sub("W", "p"), "+", _sub("W", "v")),
+        _math(
+            _fraction(_row("m", _sup("v", "2")), "2"), "+", "U", "+", _sub("W", "p"), "+", _sub("W", "v")
+        ),
         "the energy before the impact, at every instant",
     ),
     "motion": (
@@ -94,21 +96,29 @@ EQUATIONS = {
     ),
     "fast": (
         "(23) (24)",
-        _math("W", "≈", _fraction(_row(_qc, _sup("d", "2")), "s"), ",", "A", "≈", _fraction("4W", _row("π", _qc, "s"))),
+        _math(
+            "W",
+            "≈",
+            _fraction(_row(_qc, _sup("d", "2")), "s"),
+            ",",
+            "A",
+            "≈",
+            _fraction("4W", _row("π", _qc, "s")),
+        ),
         "a cone, far beyond the critical depth",
     ),
 }
 
 KEYS = (
-    "Numbers can be typed (2.5, 3e-6, 250 MPa) or dragged; on a slider arrow keys step, Page Up and Page Down "
-    "leap, Home and End go to the ends, a double click resets. Drag along the force–depth curve to move through "
-    "the states. Space plays, H holds the curves, R resets, Z undoes, Y does again, M shows the map, D changes "
-    "light and dark."
+    "Numbers can be typed (2.5, 3e-6, 250 MPa) or dragged; on a slider arrow keys step, Page Up and Page "
+    "Down leap, Home and End go to the ends, a double click resets. Drag along the force–depth curve to "
+    "move through the states. Space plays, H holds the curves, R resets, Z undoes, Y does again, M shows "
+    "the map, D changes light and dark."
 )
 
 MODEL = (
-    "A rigid indenter on a half-space, at small slopes; the yield criterion is non-local, hardness inversely "
-    "proportional to the contact radius (class b of the paper). Equation numbers are those of V. L. Popov, Facta "
-    "Universitatis, Mech. Eng. 13(1), 2015, 39–46. Where −σ_zz is infinite, at the rim of a flat face or under "
-    "a sharp tip, the picture is clipped; forces and energies never are."
+    "A rigid indenter on a half-space, at small slopes; the yield criterion is non-local, hardness "
+    "inversely proportional to the contact radius (class b of the paper). Equation numbers are those of "
+    "V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46. Where −σ_zz is infinite, at the "
+    "rim of a flat face or under a sharp tip, the picture is clipped; forces and energies never are."
 )

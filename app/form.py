@@ -127,7 +127,8 @@ def _yield(state):
         return "Nothing yields: q_c = ∞"
     depth = written(medium.critical_depth, "length")
     if state.choices[PLASTICITY] == "hardness":
-        return f"q_c = σ_c a_c = {written(medium.q_c, 'yield constant')} (11); d_c = π q_c/(2E*) = {depth} (19)"
+        q_c = written(medium.q_c, "yield constant")
+        return f"q_c = σ_c a_c = {q_c} (11); d_c = π q_c/(2E*) = {depth} (19)"
     return f"Yield starts at d_c = π q_c/(2E*) = {depth} (19)"
 
 

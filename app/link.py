@@ -37,7 +37,10 @@ def restore(arguments):
     ValueError
         If anything in them is unknown, said twice, or out of bounds.
     """
-    if len(arguments) > 60 or sum(len(text) for values in arguments.values() for text in values) > LONGEST_LINK:
+    if (
+        len(arguments) > 60
+        or sum(len(text) for values in arguments.values() for text in values) > LONGEST_LINK
+    ):
         raise ValueError("this link is too long")
     if any(len(values) > 1 for values in arguments.values()):
         raise ValueError("this link says the same thing twice")
@@ -81,12 +84,13 @@ def _samples(text):
 
 
 def scene_file(trajectory):
-    """The scene as JSON: pressed to its largest value and, unless it stands there, on to the present one."""
-    scene = trajectory.scene
-    if trajectory.now != trajectory.peak and isinstance(scene.drive, mdr.DepthPath):
-        depths = (float(trajectory.deepest.depth), float(trajectory.state.depth))
-        loading = trajectory.now < trajectory.peak
-        scene = mdr.Scene(scene.profile, scene.medium, mdr.DepthPath(depths[1] if loading else depths))
+    """The scene as JSON: pressed to its largest value and, if need be, on to the present one."""
+    scene, now, peak = trajectory.scene, trajectory.now, trajectory.peak
+    if now != peak and not isinstance(scene.drive, mdr.FreeImpact):
+        prescribes_depth = isinstance(scene.drive, mdr.DepthPath)
+        along = trajectory.states.depth if prescribes_depth else trajectory.force
+        path = along[[now]] if now < peak else along[[peak, now]]
+        scene = mdr.Scene(scene.profile, scene.medium, type(scene.drive)(path))
     return scene.to_json()
 
 

@@ -1,4 +1,4 @@
-"""What the page draws of a trajectory: one buffer of numbers in the units of its axes, and what they mean."""
+"""What the page draws of a trajectory: one buffer of numbers, in the units of its axes."""
 
 import numpy as np
 

@@ -16,8 +16,8 @@ ASSETS = Path(__file__).parent.parent / "assets"
 class Preset:
     """What the page can open on.
 
-    `choices` and `values` are what the page sets (SI); `sources` says for each number what it is, how large,
-    and where it comes from.
+    `choices` and `values` are what the page sets (SI); `sources` says for each number what it is,
+    how large, and where it comes from.
     """
 
     label: str

@@ -7,7 +7,6 @@ from . import around, export, link
 from .form import form, scale
 from .packet import Buffer, Drawing
 from .page import Page
-from .presets import OPENING
 from .quantities import QUANTITIES
 from .state import Explorer
 from .tip import read_tip

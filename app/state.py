@@ -6,7 +6,16 @@ from math import inf
 import mdr_core as mdr
 
 from .presets import OPENING, PRESETS
-from .quantities import CHOICES, DAMPING, DRIVE, ELASTICITY, INERTIA, PLASTICITY, QUANTITIES, shape_quantities
+from .quantities import (
+    CHOICES,
+    DAMPING,
+    DRIVE,
+    ELASTICITY,
+    INERTIA,
+    PLASTICITY,
+    QUANTITIES,
+    shape_quantities,
+)
 from .shapes import SHAPES
 from .units import written
 

@@ -20,16 +20,20 @@ function headSvg(plot, width, dark) {
   const entries = plot.legend.map((entry) => {
     const at = x
     x += 34 + 6.2 * entry.label.length
-    return `<g transform="translate(${at} 25)">${swatch(entry, dark)}<text x="25" y="10" font-size="11" ${font} fill="${ink}">${svgText(entry.label)}</text></g>`
+    const text = `<text x="25" y="10" font-size="11" ${font} fill="${ink}">${svgText(entry.label)}</text>`
+    return `<g transform="translate(${at} 25)">${swatch(entry, dark)}${text}</g>`
   })
-  return `<rect width="${width}" height="${HEAD}" fill="${shade("#ffffff", dark)}"/><text x="10" y="17" font-size="13" font-weight="600" ${font} fill="${ink}">${svgText(plot.title)}</text>${entries.join("")}`
+  const ground = `<rect width="${width}" height="${HEAD}" fill="${shade("#ffffff", dark)}"/>`
+  const bold = `font-size="13" font-weight="600" ${font} fill="${ink}"`
+  return `${ground}<text x="10" y="17" ${bold}>${svgText(plot.title)}</text>${entries.join("")}`
 }
 
 // The mark of a legend entry, 20 by 12.
 function swatch(entry, dark) {
   const colour = shade(entry.colour, dark)
   if (entry.mark === "line") {
-    return `<line x1="0" x2="20" y1="6" y2="6" stroke="${colour}" stroke-width="${entry.width}" stroke-dasharray="${entry.dash.join(" ")}"/>`
+    const stroke = `stroke-width="${entry.width}" stroke-dasharray="${entry.dash.join(" ")}"`
+    return `<line x1="0" x2="20" y1="6" y2="6" stroke="${colour}" ${stroke}/>`
   }
   if (entry.mark === "dot") return `<circle cx="10" cy="6" r="4.5" fill="${colour}"/>`
   const hatch = entry.hatch ? `<path d="M1 12 7 0M7 12 13 0M13 12 19 0" stroke="${colour}"/>` : ""
@@ -37,7 +41,8 @@ function swatch(entry, dark) {
 }
 
 function wrapped(width, height, content) {
-  return `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" width="${width}" height="${height}">${content}</svg>`
+  const names = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+  return `<svg ${names} width="${width}" height="${height}">${content}</svg>`
 }
 
 function saveSvg(plot, view, dark) {
@@ -56,7 +61,8 @@ async function savePng(plot, view, dark) {
   canvas.height = Math.round((height + HEAD) * ratio)
   const context = canvas.getContext("2d")
   const head = new Image()
-  head.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(wrapped(width, HEAD, headSvg(plot, width, dark)))}`
+  const drawing = encodeURIComponent(wrapped(width, HEAD, headSvg(plot, width, dark)))
+  head.src = `data:image/svg+xml;charset=utf-8,${drawing}`
   await head.decode()
   context.drawImage(head, 0, 0, canvas.width, Math.round(HEAD * ratio))
   context.drawImage(body, 0, Math.round(HEAD * ratio))
@@ -68,7 +74,13 @@ function textDialog(title, text) {
   const area = make("textarea", { readonly: "", spellcheck: false, "aria-label": title }, text)
   const copy = make("button", { type: "button" }, "Copy")
   const close = make("button", { type: "button" }, "Close")
-  const dialog = make("dialog", { "aria-label": title }, make("h2", {}, title), area, make("div", { class: "buttons" }, copy, close))
+  const dialog = make(
+    "dialog",
+    { "aria-label": title },
+    make("h2", {}, title),
+    area,
+    make("div", { class: "buttons" }, copy, close),
+  )
   copy.addEventListener("click", async () => {
     area.select()
     try {

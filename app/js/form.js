@@ -35,7 +35,11 @@ class Form {
   show(meta) {
     const { form } = meta
     this.steps = form.steps
-    const kinds = JSON.stringify(form.groups.map(({ rows }) => rows.map((row) => [row.number, row.choice, row.options, row.sketch, "note" in row])))
+    const kinds = JSON.stringify(
+      form.groups.map(({ rows }) =>
+        rows.map((row) => [row.number, row.choice, row.options, row.sketch, "note" in row]),
+      ),
+    )
     if (kinds !== this.kinds) {
       this.kinds = kinds
       this.build(form)
@@ -47,10 +51,16 @@ class Form {
 
   build(form) {
     const focused = this.node.getRootNode().activeElement?.getAttribute?.("aria-label")
-    this.preset = list(form.preset.label, form.preset.options.map((label) => [label, label]))
+    this.preset = list(
+      form.preset.label,
+      form.preset.options.map((label) => [label, label]),
+    )
     this.preset.addEventListener("change", () => this.ask({ do: "load", label: this.preset.value }))
     this.where = make("dl")
-    const parts = [field("Preset", this.preset), make("details", {}, make("summary", {}, "Where the preset's numbers come from"), this.where)]
+    const parts = [
+      field("Preset", this.preset),
+      make("details", {}, make("summary", {}, "Where the preset's numbers come from"), this.where),
+    ]
     form.groups.forEach(({ title, rows }, g) => {
       parts.push(make("h2", {}, title))
       rows.forEach((row, r) => {
@@ -76,12 +86,20 @@ class Form {
     if (text === this.told) return
     this.told = text
     this.where.replaceChildren(
-      ...rows.flatMap(([what, value, source]) => [sentence("dt", {}, `${what} = ${value}`), make("dd", {}, source)]))
+      ...rows.flatMap(([what, value, source]) => [
+        sentence("dt", {}, `${what} = ${value}`),
+        make("dd", {}, source),
+      ]),
+    )
   }
 }
 
 function list(label, options) {
-  return make("select", { "aria-label": label }, ...options.map(([value, text]) => make("option", { value }, text)))
+  return make(
+    "select",
+    { "aria-label": label },
+    ...options.map(([value, text]) => make("option", { value }, text)),
+  )
 }
 
 function field(label, control) {
@@ -93,23 +111,47 @@ function choiceRow(row, ask) {
   if (options.length > 3) {
     const select = list(row.label, options)
     select.addEventListener("change", () => ask({ do: "choose", name: row.choice, option: select.value }))
-    return [field(row.label, select), ({ value }) => { select.value = value }]
+    return [
+      field(row.label, select),
+      ({ value }) => {
+        select.value = value
+      },
+    ]
   }
   const buttons = options.map(([value, text]) => {
     const button = make("input", { type: "radio", name: row.choice, value })
     button.addEventListener("change", () => ask({ do: "choose", name: row.choice, option: value }))
     return make("label", {}, button, sentence("span", {}, text))
   })
-  const node = make("fieldset", { class: "choice" }, make("legend", {}, row.label), make("div", {}, ...buttons))
-  return [node, ({ value }) => { for (const { firstChild } of buttons) firstChild.checked = firstChild.value === value }]
+  const node = make(
+    "fieldset",
+    { class: "choice" },
+    make("legend", {}, row.label),
+    make("div", {}, ...buttons),
+  )
+  return [
+    node,
+    ({ value }) => {
+      for (const { firstChild } of buttons) firstChild.checked = firstChild.value === value
+    },
+  ]
 }
 
 function numberRow(row, ask, steps) {
   const name = `${row.symbol}, ${row.label}`
   const text = make("input", { type: "text", spellcheck: false, autocomplete: "off", "aria-label": name })
-  const slider = make("input", { type: "range", min: "0", max: String(steps), step: "1", "aria-label": `${name}, slider`, title: "Arrow keys step, double-click resets" })
+  const slider = make("input", {
+    type: "range",
+    min: "0",
+    max: String(steps),
+    step: "1",
+    "aria-label": `${name}, slider`,
+    title: "Arrow keys step, double-click resets",
+  })
   let shown = row
-  slider.addEventListener("input", () => ask({ do: "move", name: row.number, position: Number(slider.value) }))
+  slider.addEventListener("input", () =>
+    ask({ do: "move", name: row.number, position: Number(slider.value) }),
+  )
   slider.addEventListener("dblclick", () => ask({ do: "double", name: row.number }))
   text.addEventListener("change", () => {
     ask({ do: "type", name: row.number, text: text.value })
@@ -120,7 +162,12 @@ function numberRow(row, ask, steps) {
     if (event.key === "Enter" || event.key === "Escape") text.blur()
   })
   text.addEventListener("focus", () => text.select())
-  const node = make("div", { class: "quantity" }, make("label", {}, make("span", {}, symbol(row.symbol), ` ${row.label}`), text), slider)
+  const node = make(
+    "div",
+    { class: "quantity" },
+    make("label", {}, make("span", {}, symbol(row.symbol), ` ${row.label}`), text),
+    slider,
+  )
   const show = (next) => {
     shown = next
     if (text.getRootNode().activeElement !== text) text.value = next.text
@@ -133,9 +180,20 @@ function numberRow(row, ask, steps) {
 
 function sketchRow() {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg")
-  for (const [name, value] of [["width", 132], ["height", 64], ["role", "img"]]) svg.setAttribute(name, value)
+  for (const [name, value] of [
+    ["width", 132],
+    ["height", 64],
+    ["role", "img"],
+  ])
+    svg.setAttribute(name, value)
   const ground = document.createElementNS(svg.namespaceURI, "line")
-  for (const [name, value] of [["x1", 0], ["x2", 132], ["y1", 57], ["y2", 57]]) ground.setAttribute(name, value)
+  for (const [name, value] of [
+    ["x1", 0],
+    ["x2", 132],
+    ["y1", 57],
+    ["y2", 57],
+  ])
+    ground.setAttribute(name, value)
   const body = document.createElementNS(svg.namespaceURI, "polygon")
   svg.append(ground, body)
   const caption = make("figcaption")

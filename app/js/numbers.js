@@ -1,5 +1,5 @@
 // Numbers as in a paper: units that fit, significant digits. The scripts of this folder are one module.
-const RAISED = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" }
+const RAISED = Object.fromEntries([..."-0123456789"].map((digit, k) => [digit, "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"[k]]))
 
 function digits(value, count = 4) {
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "–"
@@ -24,7 +24,7 @@ function fitting(units, value) {
 
 // A value in SI as a pair of its digits and its unit.
 function written(units, value, count = 4) {
-  if (value === 0) return ["0", ""]
+  if (value === 0 || !Number.isFinite(value)) return [digits(value), ""]
   const [name, factor] = fitting(units, value)
   return [digits(value / factor, count), name]
 }

@@ -12,7 +12,8 @@ class Explorer {
     this.ask = asker(
       (message) => model.send_msg(message),
       () => this.notify("The server does not answer."),
-      (busy) => this.node.setAttribute("aria-busy", String(busy)))
+      (busy) => this.node.setAttribute("aria-busy", String(busy)),
+    )
     this.form = new Form(this.ask)
     this.player = new Player({
       show: (index) => this.frame(index),
@@ -21,7 +22,8 @@ class Explorer {
     })
     this.player.units = this.units
     this.map = false
-    this.dark = stored("theme", matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light") === "dark"
+    this.dark =
+      stored("theme", matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light") === "dark"
     this.build()
   }
 
@@ -36,56 +38,36 @@ class Explorer {
       formula.append(make("small", {}, what))
       return [make("dt", {}, number), formula]
     })
-    const about = make("details", {}, make("summary", {}, "Equations and help"), ...help.map((text) => make("p", {}, text)), make("dl", { class: "equations" }, ...rows.flat()))
-    const head = [make("h1", {}, "Indentation explorer"), make("p", { class: "note" }, "non-local yield, solved by dimensionality reduction")]
-    this.tiles = new Map(this.given.plots.map((plot) => [plot.name, this.tile(plot)]))
+    const about = make(
+      "details",
+      {},
+      make("summary", {}, "Equations and help"),
+      ...help.map((text) => make("p", {}, text)),
+      make("dl", { class: "equations" }, ...rows.flat()),
+    )
+    const head = [
+      make("h1", {}, "Indentation explorer"),
+      make("p", { class: "note" }, "non-local yield, solved by dimensionality reduction"),
+    ]
+    this.tiles = new Map(this.given.plots.map((plot) => [plot.name, tile(this, plot)]))
     const grid = make("div", { class: "plots" }, ...this.tiles.values())
     this.grid = grid
-    const results = make("section", { class: "results" }, this.toolbar(), this.readouts.node, this.lights, this.player.node, grid)
-    this.node = make("main", { class: "explorer" }, make("aside", {}, ...head, this.form.node, about), results, this.notices)
-  }
-
-  toolbar() {
-    const button = (text, title, act) => {
-      const node = make("button", { type: "button", title }, text)
-      node.addEventListener("click", act)
-      return node
-    }
-    this.buttons = {
-      undo: button("Undo", "Undo the last change (Z)", () => this.ask({ do: "undo" })),
-      redo: button("Redo", "Do it again (Y)", () => this.ask({ do: "redo" })),
-      reset: button("Reset", "Back to the preset (R)", () => this.ask({ do: "reset" })),
-      hold: button("Hold", "Hold these curves to compare with the next (H)", () => this.ask({ do: "hold" })),
-      map: button("Map", "Pressure over the plane (M)", () => this.toggleMap()),
-      theme: button("Dark", "Light or dark (D)", () => this.toggleTheme()),
-    }
-    const file = (text, what, title) => button(text, title, () => this.ask({ do: "file", what }))
-    const menu = make("details", { class: "menu" }, make("summary", {}, "Take with you"), make("div", {},
-      file("Curves as CSV", "curves", "Every state along the way"),
-      file("Pressure as CSV", "pressure", "Stress and line load of this state"),
-      file("Scene as JSON", "scene", "To load here or with mdr.Scene.from_json"),
-      file("Copy as Python", "python", "A snippet that comes to this state"),
-      button("Copy link", "A link to this page as it is", () => this.showLink()),
-      bring("Load a scene (JSON)", ".json,application/json", (text) => this.ask({ do: "upload", kind: "scene", text }), (why) => this.notify(why)),
-      bring("Load a tip (CSV: r, z)", ".csv,.txt,text/csv", (text) => this.ask({ do: "upload", kind: "tip", text }), (why) => this.notify(why))))
-    menu.addEventListener("click", (event) => { if (event.target.tagName === "BUTTON") menu.open = false })
-    this.heldNote = make("span", { class: "note" })
-    return make("div", { class: "toolbar", role: "toolbar", "aria-label": "Page" }, ...Object.values(this.buttons), menu, this.heldNote)
-  }
-
-  tile(plot) {
-    const [number, math] = this.given.equations[plot.equation]
-    const formula = make("span", { class: "formula" })
-    formula.innerHTML = math
-    const saved = (text, act) => {
-      const node = make("button", { type: "button", class: "save", title: `Save “${plot.title}” as ${text}` }, text)
-      node.addEventListener("click", () => act(plot, this.plots.view(plot.name), this.dark))
-      return node
-    }
-    const legend = make("ul", { class: "legend" })
-    legend.innerHTML = plot.legend.map((entry) => `<li data-layer="${svgText(entry.label)}"><svg width="20" height="12" aria-hidden="true"></svg>${svgText(entry.label)}</li>`).join("")
-    const head = make("header", {}, make("h3", {}, plot.title), formula, make("small", {}, number), saved("PNG", savePng), saved("SVG", saveSvg))
-    return make("article", { class: "tile", "data-plot": plot.name, "aria-label": plot.title }, head, legend, make("div", { class: "plot" }))
+    const results = make(
+      "section",
+      { class: "results" },
+      toolbar(this),
+      this.readouts.node,
+      this.lights,
+      this.player.node,
+      grid,
+    )
+    this.node = make(
+      "main",
+      { class: "explorer" },
+      make("aside", {}, ...head, this.form.node, about),
+      results,
+      this.notices,
+    )
   }
 
   // A new scene from the server.
@@ -142,13 +124,16 @@ class Explorer {
     const lights = JSON.stringify(meta.lights)
     if (lights !== this.lit) {
       this.lit = lights
-      this.lights.replaceChildren(...meta.lights.map(([good, text]) => sentence("li", { class: good ? "good" : "beyond" }, text)))
+      this.lights.replaceChildren(
+        ...meta.lights.map(([good, text]) => sentence("li", { class: good ? "good" : "beyond" }, text)),
+      )
     }
     this.buttons.undo.disabled = !meta.undo[0]
     this.buttons.redo.disabled = !meta.undo[1]
     this.buttons.hold.setAttribute("aria-pressed", String(Boolean(meta.held)))
     this.heldNote.textContent = meta.held ? `held: ${meta.held}` : ""
-    for (const tile of this.tiles.values()) tile.querySelector('[data-layer="held"]')?.toggleAttribute("hidden", !meta.held)
+    for (const tile of this.tiles.values())
+      tile.querySelector('[data-layer="held"]')?.toggleAttribute("hidden", !meta.held)
     if (meta.notice) this.notify(meta.notice)
   }
 
@@ -172,7 +157,11 @@ class Explorer {
     if (message.meta !== undefined) {
       this.load(message.meta, message.values)
     } else if (message.frames !== undefined) {
-      this.scene.frames = { seq: message.frames, places: JSON.parse(message.places), values: Scene.plain(message.values) }
+      this.scene.frames = {
+        seq: message.frames,
+        places: JSON.parse(message.places),
+        values: Scene.plain(message.values),
+      }
       this.node.dataset.frames = message.frames
       if (this.player.at !== this.scene.meta.now) this.frame(this.player.at)
     } else if (message.what === "python") {
@@ -183,7 +172,8 @@ class Explorer {
   }
 
   showLink() {
-    if (this.scene.meta.query) this.dialog("Link to this page", new URL(`?${this.scene.meta.query}`, location.href).href)
+    if (this.scene.meta.query)
+      this.dialog("Link to this page", new URL(`?${this.scene.meta.query}`, location.href).href)
     else this.notify("This tip has too many samples for a link: save the scene as JSON.")
   }
 
@@ -226,13 +216,16 @@ class Explorer {
     for (const plot of this.given.plots) {
       if (this.plots.figure(plot.name)) recolour(this.plots.figure(plot.name), this.dark)
       const marks = this.tiles.get(plot.name).querySelectorAll(".legend svg")
-      plot.legend.forEach((entry, k) => { marks[k].innerHTML = swatch(entry, this.dark) })
+      plot.legend.forEach((entry, k) => {
+        marks[k].innerHTML = swatch(entry, this.dark)
+      })
     }
   }
 
   key(event) {
     const on = event.composedPath()[0]
-    const typing = on.matches?.("input[type=text], textarea, select") || event.ctrlKey || event.altKey || event.metaKey
+    const typing =
+      on.matches?.("input[type=text], textarea, select") || event.ctrlKey || event.altKey || event.metaKey
     const acts = {
       " ": () => !on.matches?.("button, summary, input[type=radio]") && (this.player.toggle(), true),
       h: () => (this.ask({ do: "hold" }), true),

@@ -1,4 +1,4 @@
-// Moves through the states of a scene in the browser: a slider, play and pause, and the force–depth curve itself.
+// Moves through the states of a scene: by a slider, play and pause, and along the force–depth curve.
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2]
 const CYCLE = 5000
 
@@ -6,13 +6,26 @@ class Player {
   constructor({ show, settled, need }) {
     Object.assign(this, { show, settled, need, at: 0, playing: false, last: 0, clock: 0 })
     this.button = make("button", { type: "button", title: "Play or pause (space)" }, "▶ Play")
-    this.slider = make("input", { type: "range", min: "0", max: "1", step: "1", "aria-label": "State along the way" })
-    this.speed = make("select", { "aria-label": "Speed of the player" }, ...SPEEDS.map((speed) => make("option", { value: String(speed) }, `${speed} ×`)))
+    this.slider = make("input", {
+      type: "range",
+      min: "0",
+      max: "1",
+      step: "1",
+      "aria-label": "State along the way",
+    })
+    this.speed = make(
+      "select",
+      { "aria-label": "Speed of the player" },
+      ...SPEEDS.map((speed) => make("option", { value: String(speed) }, `${speed} ×`)),
+    )
     this.speed.value = "1"
     this.text = make("output", { "aria-live": "off" })
     this.node = make("div", { class: "player" }, this.button, this.slider, this.speed, this.text)
     this.button.addEventListener("click", () => this.toggle())
-    this.slider.addEventListener("input", () => { this.stop(); this.go(Number(this.slider.value)) })
+    this.slider.addEventListener("input", () => {
+      this.stop()
+      this.go(Number(this.slider.value))
+    })
     this.slider.addEventListener("change", () => this.rest())
   }
 
@@ -22,7 +35,9 @@ class Player {
     const { impact, progress } = scene.meta
     // An impact is played in slow motion, anything else at an even pace along its states.
     const t = scene.get("t")
-    this.times = impact ? Array.from(t, (value) => value / t[t.length - 1]) : progress.map((_, i) => i / (progress.length - 1))
+    this.times = impact
+      ? Array.from(t, (value) => value / t[t.length - 1])
+      : progress.map((_, i) => i / (progress.length - 1))
     this.slider.max = String(progress.length - 1)
     if (!this.playing) this.at = scene.meta.now
     this.at = Math.min(this.at, progress.length - 1)
@@ -34,7 +49,9 @@ class Player {
     const share = scene.meta.progress[at]
     this.slider.value = String(at)
     const phase = share < 1 ? "loading" : share === 1 ? "deepest" : share < 2 ? "unloading" : "load gone"
-    const [time, unit] = scene.meta.impact ? written(this.units.time, scene.get("t")[at] * scene.meta.axes.t.factor, 3) : ["", ""]
+    const [time, unit] = scene.meta.impact
+      ? written(this.units.time, scene.get("t")[at] * scene.meta.axes.t.factor, 3)
+      : ["", ""]
     this.text.textContent = time ? `${phase}, t = ${time} ${unit}` : phase
     this.slider.setAttribute("aria-valuetext", this.text.textContent)
   }

@@ -1,5 +1,12 @@
 // The figures of the page: finds layers and axes by name, and puts what is drawn into them.
-const DRAW = { springs: drawSprings, force: drawForce, pressure: drawPressure, radii: drawRadii, motion: drawMotion, energy: drawEnergy }
+const DRAW = {
+  springs: drawSprings,
+  force: drawForce,
+  pressure: drawPressure,
+  radii: drawRadii,
+  motion: drawMotion,
+  energy: drawEnergy,
+}
 const PIXELS = 72
 
 class Plots {
@@ -71,8 +78,8 @@ class Plots {
     const limits = JSON.stringify([x, y, right])
     if (this.limits.get(name) === limits) return
     this.limits.set(name, limits)
-    const set = (range, axis) => range.setv(
-      { start: axis.start, end: axis.end, reset_start: axis.start, reset_end: axis.end })
+    const set = (range, axis) =>
+      range.setv({ start: axis.start, end: axis.end, reset_start: axis.start, reset_end: axis.end })
     set(figure.x_range, x)
     set(figure.y_range, y)
     figure.below[0].setv({ axis_label: label })
@@ -82,7 +89,10 @@ class Plots {
       figure.right[0].setv({ axis_label: right.label })
     }
     if (name === "map") this.square({ meta: { axes: all } })
-    const tooltips = [[x.label.split(",")[0], `$x ${x.unit}`], [y.label.split(",")[0], `$y ${y.unit}`]]
+    const tooltips = [
+      [x.label.split(",")[0], `$x ${x.unit}`],
+      [y.label.split(",")[0], `$y ${y.unit}`],
+    ]
     for (const tool of figure.toolbar.tools) {
       if ("tooltips" in tool && "mode" in tool) tool.setv({ tooltips })
     }
@@ -106,7 +116,10 @@ class Plots {
     const half = axes.x.end
     if (fields) {
       const along = ray(fields, half, axes.p.end)
-      const image = Object.assign(new Float32Array(PIXELS * PIXELS), { shape: [PIXELS, PIXELS], dimension: 2 })
+      const image = Object.assign(new Float32Array(PIXELS * PIXELS), {
+        shape: [PIXELS, PIXELS],
+        dimension: 2,
+      })
       for (let k = 0; k < image.length; k++) {
         const [x, y] = [k % PIXELS, Math.floor(k / PIXELS)].map((pixel) => (pixel + 0.5) / PIXELS - 0.5)
         image[k] = along[Math.round(Math.hypot(x, y) * 2 * RAY)] ?? 0
@@ -117,7 +130,10 @@ class Plots {
       this.put("map", "image", { image: [image], x: [-half], y: [-half], dw: [2 * half], dh: [2 * half] })
     }
     const k = axes.a.factor / axes.x.factor
-    for (const [label, name] of [["a ring", "a"], ["c ring", "c"]]) {
+    for (const [label, name] of [
+      ["a ring", "a"],
+      ["c ring", "c"],
+    ]) {
       const r = scene.get(name)[i] * k
       const turn = Float32Array.from({ length: 73 }, (_, j) => (j * Math.PI) / 36)
       this.put("map", label, { x: turn.map((t) => r * Math.cos(t)), y: turn.map((t) => r * Math.sin(t)) })

@@ -19,10 +19,18 @@ class Readouts {
       ["U", "stored energy", "energy", si("U", meta.energy)],
       ["W_p", "plastic work", "energy", si("W", meta.energy)],
     ]
-    if (meta.impact) cells.push(["t", "time", "time", si("t", axes.t.factor)], ["v", "speed", "speed", si("v", meta.speed)])
+    if (meta.impact)
+      cells.push(
+        ["t", "time", "time", si("t", axes.t.factor)],
+        ["v", "speed", "speed", si("v", meta.speed)],
+      )
     const critical = meta.numbers[0][3]
-    if (critical !== null) cells.splice(2, 0, ["d/d_c", "relative depth", "number", si("d", axes.d.factor) / critical])
-    const all = [...cells, ...meta.numbers.map(([name, label, kind, value]) => [name, label, kind, value ?? Infinity])]
+    if (critical !== null)
+      cells.splice(2, 0, ["d/d_c", "relative depth", "number", si("d", axes.d.factor) / critical])
+    const all = [
+      ...cells,
+      ...meta.numbers.map(([name, label, kind, value]) => [name, label, kind, value ?? Infinity]),
+    ]
     this.cells(all)
   }
 
@@ -34,7 +42,12 @@ class Readouts {
         const [number, unit] = [make("span"), make("small")]
         const [head, below] = name.split("/")
         const title = below ? [symbol(head), "/", symbol(below)] : [symbol(name)]
-        const cell = make("div", { title: label, "data-symbol": name }, make("dt", {}, ...title, ` ${label}`), make("dd", {}, number, unit))
+        const cell = make(
+          "div",
+          { title: label, "data-symbol": name },
+          make("dt", {}, ...title, ` ${label}`),
+          make("dd", {}, number, unit),
+        )
         return { cell, number, unit }
       })
       this.node.replaceChildren(...this.shownCells.map(({ cell }) => cell))

@@ -10,7 +10,10 @@ function asker(send, lost, busy) {
     under = waiting.shift() ?? null
     busy(under !== null)
     if (under === null) return
-    timer = setTimeout(() => { lost(); next() }, ANSWER)
+    timer = setTimeout(() => {
+      lost()
+      next()
+    }, ANSWER)
     send({ ...under, n: (under.n = ++count) })
   }
   const ask = (message) => {
@@ -19,7 +22,9 @@ function asker(send, lost, busy) {
     waiting.push(message)
     if (under === null) next()
   }
-  ask.answered = (n) => { if (under !== null && n === under.n) next() }
+  ask.answered = (n) => {
+    if (under !== null && n === under.n) next()
+  }
   ask.pending = (name) => [under, ...waiting].some((each) => each?.do === "move" && each.name === name)
   return ask
 }

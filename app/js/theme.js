@@ -42,7 +42,8 @@ function colours(model) {
     if (!COLOURED.test(property.attr)) continue
     const value = property.get_value()
     const plain = value?.value ?? value
-    if (typeof plain === "string" && plain in DARK) found.push([property.attr, { value: plain, wrapped: plain !== value }])
+    if (typeof plain === "string" && plain in DARK)
+      found.push([property.attr, { value: plain, wrapped: plain !== value }])
   }
   return found
 }

@@ -43,15 +43,18 @@ window.explorer = {
     return [left, right]
   },
   notices: () => explorer.main().querySelectorAll(".notice").length,
-  drawn: () => explorer.figure("force").renderers.map((layer) => layer.data_source.data),
   listen: () => {
     explorer.sent = []
     const send = explorer.send ?? WebSocket.prototype.send
     explorer.send = send
-    WebSocket.prototype.send = function (data) { explorer.sent.push(String(data).slice(0, 200)); send.call(this, data) }
+    WebSocket.prototype.send = function (data) {
+      explorer.sent.push(String(data).slice(0, 200))
+      send.call(this, data)
+    }
   },
   main: () => Bokeh.index.roots[0]?.shadow_el?.querySelector("main"),
-  idle: () => window.Bokeh !== undefined && Bokeh.documents.length > 0 && Bokeh.documents.every((each) => each.is_idle) &&
+  idle: () => window.Bokeh !== undefined && Bokeh.documents.length > 0 &&
+    Bokeh.documents.every((each) => each.is_idle) &&
     Boolean(explorer.main()?.dataset.drawn) && explorer.main().getAttribute("aria-busy") !== "true",
   colours: (name) => {
     const view = Bokeh.index.find_one(explorer.figure(name))
@@ -107,6 +110,7 @@ class Explorer:
         page.on("request", lambda request: self.requests.append(request.url))
         page.on("pageerror", lambda error: self.problems.append(str(error)))
         page.on("console", self._heard)
+        page.set_default_timeout(12_000)
         page.add_init_script(SCRIPT)
         page.goto(url)
         page.wait_for_function("explorer.idle()")
@@ -137,7 +141,12 @@ class Explorer:
 
     def readout(self, symbol):
         """A number of the strip above the plots, with its unit."""
-        return self.page.locator(f'.readouts [data-symbol="{symbol}"] dd').inner_text().replace("\n", "").strip()
+        return (
+            self.page.locator(f'.readouts [data-symbol="{symbol}"] dd')
+            .inner_text()
+            .replace("\n", "")
+            .strip()
+        )
 
     def pick(self, name, option, label):
         """Pick an option of a choice, however it is offered, and wait until it is drawn."""
@@ -173,7 +182,9 @@ class Explorer:
 
     def wait_for_frames(self):
         """Wait until the fields of all states are in the browser."""
-        self.page.wait_for_function("explorer.main().dataset.frames === explorer.main().dataset.scene && explorer.idle()")
+        self.page.wait_for_function(
+            "explorer.main().dataset.frames === explorer.main().dataset.scene && explorer.idle()"
+        )
 
     def listen(self):
         """What the page sends from now on: a function that gives the messages so far."""
@@ -190,7 +201,7 @@ class Explorer:
         self.field(symbol).press("Enter")
 
     def change(self):
-        """Context in which something is done, left when the springs have changed and all is painted."""
+        """Context in which something is done, left when a new scene is there and all is painted."""
         return _Change(self.page)
 
 
@@ -199,13 +210,11 @@ class _Change:
         self.page = page
 
     def __enter__(self):
-        self.page.evaluate("window.before = explorer.drawn()")
+        self.page.evaluate("window.before = explorer.main().dataset.scene")
 
     def __exit__(self, kind, *_):
         if kind is None:
-            self.page.wait_for_function(
-                "explorer.drawn().some((data, i) => data !== before[i]) && explorer.idle()"
-            )
+            self.page.wait_for_function("explorer.main().dataset.scene !== before && explorer.idle()")
 
 
 @pytest.fixture(scope="session")

@@ -210,7 +210,9 @@ def test_player_plays_the_impact_without_the_server(explorer):
     explorer.page.keyboard.press(" ")
     slider = explorer.page.get_by_label("State along the way")
     places = {slider.input_value()}
-    explorer.page.wait_for_function("(v) => explorer.main().querySelector('.player input').value !== v", arg=places.pop())
+    explorer.page.wait_for_function(
+        "(v) => explorer.main().querySelector('.player input').value !== v", arg=places.pop()
+    )
     depths = set()
     for _ in range(5):
         depths.add(now(explorer)[0])

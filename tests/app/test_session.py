@@ -66,7 +66,9 @@ def test_what_is_sent_is_what_the_core_says(person):
     assert person.array("c")[peak] * axes["a"]["factor"] == pytest.approx(deepest.plastic_radius, rel=1e-6)
     spots = person.array("spot") * axes["x"]["factor"]
     assert len(spots) == SPRINGS // 2
-    assert person.array("spot g") * axes["z"]["factor"] == pytest.approx(scene.profile.reduced(spots), rel=1e-5)
+    assert person.array("spot g") * axes["z"]["factor"] == pytest.approx(
+        scene.profile.reduced(spots), rel=1e-5
+    )
     assert meta["answered"] == 7
 
 
@@ -223,8 +225,10 @@ def test_measured_tip_is_drawn_linked_and_saved(person):
     assert Person().ask("upload", kind="tip", text="r (nm), z (nm)\n" + "1,1\n" * 20_001)["notice"]
 
 
-def test_scene_file_goes_down_and_up(person):
+@pytest.mark.parametrize("drive", ["depth", "force"])
+def test_scene_file_goes_down_and_up(person, drive):
     person.ask("choose", name="shape", option="hyperboloid")
+    person.ask("choose", name="drive", option=drive)
     person.ask("stand", at=1.5)
     before = person.session.drawing.trajectory
     text = link.scene_file(before)
