@@ -6,7 +6,7 @@ from .units import fitting, round_up
 
 #: Depth of the springs' base below the surface, in units of the depth axis.
 REST = 1.5
-SPRINGS = 60
+SPRINGS = 48
 _EDGE = (1 - np.cos(np.linspace(0, np.pi, 48))) / 2
 
 

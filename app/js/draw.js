@@ -1,12 +1,13 @@
 // From the states of a scene to what each layer of each plot shows, all in the units of the axes.
 function drawForce(scene, i) {
-  const { axes, peak, onset } = scene.meta
+  const { axes, peak, onset, impact, tau } = scene.meta
   const [d, F, c, dp] = ["d", "F", "c", "dp"].map((name) => scene.get(name))
   const fields = scene.fields(i)
   const first = firstYielded(c, peak)
   const shown = {
     ...curves(scene, d, F, first),
-    onset: onset ? { x: [onset[0] / axes.d.factor], y: [onset[1] / axes.F.factor] } : EMPTY,
+    // With dashpots the curve does not pass there.
+    onset: onset && !(impact && tau > 0) ? { x: [onset[0] / axes.d.factor], y: [onset[1] / axes.F.factor] } : EMPTY,
     now: { x: [d[i]], y: [F[i]] },
     names: forceNames(scene, first <= peak ? dp[i] : 0),
     held: scene.meta.held ? { x: scene.get("held d"), y: scene.get("held F") } : EMPTY,
@@ -37,7 +38,7 @@ function curves(scene, x, y, first) {
 }
 
 function forceNames(scene, dp) {
-  const { axes, onset } = scene.meta
+  const { axes, onset, impact, tau } = scene.meta
   const [right, up] = [0.02 * axes.d.end, 0.035 * axes.F.end]
   const names = { x: [], y: [], text: [] }
   const add = (x, y, text) => {
@@ -45,7 +46,7 @@ function forceNames(scene, dp) {
     names.y.push(y)
     names.text.push(text)
   }
-  if (onset) {
+  if (onset && !(impact && tau > 0)) {
     const x = onset[0] / axes.d.factor
     // To the left of its point where the picture ends on the right.
     add(x + (x < 0.85 * axes.d.end ? right : -8.5 * right), onset[1] / axes.F.factor - up, "(d_c, F_c)")

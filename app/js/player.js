@@ -1,10 +1,11 @@
 // Moves through the states of a scene: by a slider, play and pause, and along the force–depth curve.
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2]
 const CYCLE = 5000
+const STILL = 250
 
 class Player {
   constructor({ show, settled, need }) {
-    Object.assign(this, { show, settled, need, at: 0, playing: false, last: 0, clock: 0 })
+    Object.assign(this, { show, settled, need, at: 0, playing: false, last: 0, clock: 0, resting: null })
     this.button = make("button", { type: "button", title: "Play or pause (space)" }, "▶ Play")
     this.slider = make("input", {
       type: "range",
@@ -39,7 +40,7 @@ class Player {
       ? Array.from(t, (value) => value / t[t.length - 1])
       : progress.map((_, i) => i / (progress.length - 1))
     this.slider.max = String(progress.length - 1)
-    if (!this.playing) this.at = scene.meta.now
+    if (!this.playing && this.resting === null) this.at = scene.meta.now
     this.at = Math.min(this.at, progress.length - 1)
     this.mark()
   }
@@ -94,8 +95,13 @@ class Player {
     this.button.textContent = "▶ Play"
   }
 
+  // Once it is still for a moment, the server hears where the page stands.
   rest() {
-    this.settled(this.scene.meta.progress[this.at])
+    clearTimeout(this.resting)
+    this.resting = setTimeout(() => {
+      this.resting = null
+      this.settled(this.scene.meta.progress[this.at])
+    }, STILL)
   }
 
   // Dragging in the force–depth plot goes to the state next to the pointer.

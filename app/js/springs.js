@@ -1,5 +1,5 @@
 // The springs of the 1D foundation under the 1D profile, each by its state.
-const BENDS = 5
+const BENDS = 4
 const SPRING_REST = 1.5
 
 function drawSprings(scene, i) {

@@ -74,8 +74,8 @@ window.explorer = {
 class Server:
     """`panel serve app` from the project root, on a free port, with its log."""
 
-    def __init__(self):
-        command = [sys.executable, "-m", "panel", "serve", "app", "--port", "0"]
+    def __init__(self, *options):
+        command = [sys.executable, "-m", "panel", "serve", "app", *options, "--port", "0"]
         self.lines, self._ready = [], threading.Event()
         self.process = subprocess.Popen(
             command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from app.packet import SPRINGS
 from app.presets import OPENING, PRESETS
 from app.quantities import QUANTITIES, shape_quantities
 from app.shapes import SHAPES
@@ -81,7 +82,7 @@ def assert_springs(explorer, result):
     axis = explorer.axis("springs")
     length, height = (unit(label, "length") for label in axis["labels"])
     reach = np.max(np.abs(drawn(explorer, "springs", "yielded")[0]), initial=0.0) * length
-    spacing = 2 * axis["x"][1] * length / 60
+    spacing = 2 * axis["x"][1] * length / SPRINGS
     assert result.plastic_radius - spacing <= reach <= result.plastic_radius + spacing
     x, z = drawn(explorer, "springs", "profile g(x)")
     inside = np.abs(x) * length < 0.99 * result.contact_radius
