@@ -7,7 +7,10 @@ function drawForce(scene, i) {
   const shown = {
     ...curves(scene, d, F, first),
     // With dashpots the curve does not pass there.
-    onset: onset && !(impact && tau > 0) ? { x: [onset[0] / axes.d.factor], y: [onset[1] / axes.F.factor] } : EMPTY,
+    onset:
+      onset && !(impact && tau > 0)
+        ? { x: [onset[0] / axes.d.factor], y: [onset[1] / axes.F.factor] }
+        : EMPTY,
     now: { x: [d[i]], y: [F[i]] },
     names: forceNames(scene, first <= peak ? dp[i] : 0),
     held: scene.meta.held ? { x: scene.get("held d"), y: scene.get("held F") } : EMPTY,

@@ -24,6 +24,13 @@ function sentence(tag, attributes, text) {
   return node
 }
 
+// A selector that finds the same control again after the form was built anew.
+function nameOf(control) {
+  if (control?.type === "radio") return `input[name="${control.name}"][value="${control.value}"]`
+  const label = control?.getAttribute?.("aria-label")
+  return label ? `[aria-label="${CSS.escape(label)}"]` : null
+}
+
 class Form {
   constructor(ask) {
     this.ask = ask
@@ -44,13 +51,13 @@ class Form {
       this.kinds = kinds
       this.build(form)
     }
-    this.preset.value = form.preset.value
+    if (!this.ask.pending("load")) this.preset.value = form.preset.value
     form.groups.forEach(({ rows }, g) => rows.forEach((row, r) => this.rows.get(`${g}.${r}`)(row, meta)))
     this.sources(meta.sources)
   }
 
   build(form) {
-    const focused = this.node.getRootNode().activeElement?.getAttribute?.("aria-label")
+    const focused = nameOf(this.node.getRootNode().activeElement)
     this.preset = list(
       form.preset.label,
       form.preset.options.map((label) => [label, label]),
@@ -70,7 +77,7 @@ class Form {
       })
     })
     this.node.replaceChildren(...parts)
-    if (focused) this.node.querySelector(`[aria-label="${CSS.escape(focused)}"]`)?.focus()
+    if (focused) this.node.querySelector(focused)?.focus()
   }
 
   row(row) {
@@ -114,7 +121,7 @@ function choiceRow(row, ask) {
     return [
       field(row.label, select),
       ({ value }) => {
-        select.value = value
+        if (!ask.pending("choose", row.choice)) select.value = value
       },
     ]
   }
@@ -132,6 +139,8 @@ function choiceRow(row, ask) {
   return [
     node,
     ({ value }) => {
+      // What was picked stays picked while the answer is on its way.
+      if (ask.pending("choose", row.choice)) return
       for (const { firstChild } of buttons) firstChild.checked = firstChild.value === value
     },
   ]
@@ -172,7 +181,7 @@ function numberRow(row, ask, steps) {
     shown = next
     if (text.getRootNode().activeElement !== text) text.value = next.text
     // While moves are on their way, the slider stands where it was put.
-    if (!ask.pending(row.number)) slider.value = next.position
+    if (!ask.pending("move", row.number)) slider.value = next.position
     slider.setAttribute("aria-valuetext", next.text)
   }
   return [node, show]

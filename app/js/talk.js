@@ -25,7 +25,9 @@ function asker(send, lost, busy) {
   ask.answered = (n) => {
     if (under !== null && n === under.n) next()
   }
-  ask.pending = (name) => [under, ...waiting].some((each) => each?.do === "move" && each.name === name)
+  // Whether something asked for is still on its way: all of a kind, or of one slider or choice.
+  ask.pending = (kind, name) =>
+    [under, ...waiting].some((each) => each?.do === kind && (name === undefined || each.name === name))
   return ask
 }
 
