@@ -98,7 +98,9 @@ class Server:
     @property
     def faults(self):
         """What the log complains about, but for pages that closed while an answer was on its way."""
-        closed = r"Task exception was never retrieved\n(?:(?!Task exc).)*?WebSocketClosedError\S*\n"
+        closed = (
+            r"Task exception was never retrieved\n(?:(?!Task exc).)*?\ntornado\S+WebSocketClosedError\n"
+        )
         log = re.sub(closed, "", self.log, flags=re.DOTALL)
         return log if "Traceback" in log or "ERROR" in log else ""
 
