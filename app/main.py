@@ -2,8 +2,7 @@
 
 import panel as pn
 
-from .controls import STYLE
 from .session import Session
 
-pn.extension(raw_css=[STYLE], reconnect=True, notifications=True)
-Session().layout().servable(title="Indentation explorer")
+pn.extension(reconnect=True, notifications=False)
+Session(pn.state.session_args).page.servable(title="Indentation explorer")

@@ -1,144 +1,139 @@
-"""How a plot is declared once in HoloViews and then streamed to: layers, axes, one look."""
+"""How a plot is declared once in HoloViews and rendered once for everybody: layers, legend, one look."""
 
-from html import escape
+from dataclasses import dataclass, field
 
 import holoviews as hv
 import holoviews.plotting.bokeh
 import numpy as np
-from bokeh.core.serialization import Deserializer, Serializer
-from bokeh.models import ColumnDataSource, HoverTool, Legend, Line, Scatter
-
-from .units import fitting, round_up
+from bokeh.document import Document
+from bokeh.models import ColumnDataSource, HoverTool, Legend, Line, LinearAxis, Range1d, Scatter
 
 hv.Store.set_current_backend("bokeh")
 
 # Okabe–Ito; the three states mean the same thing in every plot.
 FREE, ELASTIC, YIELDED = "#8a8f98", "#0072b2", "#d55e00"
-INK, PAPER, RULE = "#22272e", "#ffffff", "#e6e8eb"
-_FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
+HELD, SPEED, LOSS = "#aa4499", "#009e73", "#b8860b"
+INK, PAPER, RULE, BODY = "#22272e", "#ffffff", "#e6e8eb", "#c9ced6"
+FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
 
-#: Drawn as nothing, but with its entry in the legend.
-NOWHERE = (np.nan, np.nan)
-_SHORT = 16
+#: Drawn as nothing, but there.
+_NOWHERE = {"text": ["", ""]}
+_FIELDS = ("x", "y", "x0", "x1", "text", "image", "dw", "dh")
 
-
-class Layer:
-    """Data of one glyph, or of several over the same abscissae, of a rendered plot."""
-
-    def __init__(self, source, columns):
-        self.source, self.columns = source, columns
-
-    def show(self, **columns):
-        """Replace the data. Long columns travel as float32, each as a message; short ones as text."""
-        self.source.data = {self.columns[name]: _sent(values) for name, values in columns.items()}
-
-    def hide(self):
-        """Draw nothing."""
-        self.show(**{name: NOWHERE for name, column in self.columns.items() if column in self.source.data})
+_TWO = np.zeros(2)
 
 
-def _sent(values):
-    return np.asarray(values, np.float32) if len(values) > _SHORT else np.asarray(values).tolist()
+def curve(label, **options):
+    """A line; the page draws in it."""
+    return hv.Curve((_TWO, _TWO), "x", "y", label=label).opts(**options)
 
 
-class Axis:
-    """An axis that shows one quantity: its unit and its end follow the data in round steps."""
-
-    def __init__(self, label, kind, axes, range_):
-        self.label, self.kind, self.axes, self.range = label, kind, axes, range_
-        self.unit, self.limits = None, None
-
-    def fit(self, largest, below=0.0):
-        """Let the axis end at the next round number above `largest` (SI).
-
-        `below` is how far it goes below zero, as a multiple of that. Returns the end in SI.
-        """
-        self.unit = fitting(largest, self.kind)
-        end = round_up(largest / self.unit.factor)
-        if end >= 1000:
-            self.unit = fitting(end * self.unit.factor, self.kind)
-            end = round_up(largest / self.unit.factor)
-        limits = (-below * end, end, self.unit)
-        if limits != self.limits:
-            self.limits = limits
-            # The reset tool goes back to where the server put the axis.
-            self.range.update(start=limits[0], end=end, reset_start=limits[0], reset_end=end)
-            for each in self.axes:
-                each.axis_label = self.unit.label(self.label)
-        return end * self.unit.factor
-
-    def follow(self, other):
-        """Take unit and end of an axis whose range this one shares."""
-        if self.limits != other.limits:
-            self.unit, self.limits = other.unit, other.limits
-            for each in self.axes:
-                each.axis_label = self.unit.label(self.label)
-
-    def __call__(self, values):
-        """Values in SI in the unit of the axis."""
-        return np.asarray(values) / self.unit.factor
+def area(label, **options):
+    """A filled polygon."""
+    return hv.Area((_TWO, _TWO), "x", "y", label=label).opts(line_alpha=0, **options)
 
 
-class Declared:
-    """A plot declared in HoloViews and rendered once; each session draws on a copy of its own.
+def points(label, **options):
+    """Markers."""
+    return hv.Scatter((_TWO, _TWO), "x", "y", label=label).opts(**options)
 
-    A copy is a quarter of the work of rendering, and nothing of a session stays with HoloViews.
+
+def verticals(label, **options):
+    """Vertical lines through the whole plot."""
+    return hv.VLines(_TWO, label=label).opts(**options)
+
+
+def names(label, **options):
+    """Short texts in the plot."""
+    options = {"text_font_size": "12px", "text_color": INK, "text_font_style": "italic"} | options
+    return hv.Labels((_TWO, _TWO, ["", ""]), label=label).opts(**options)
+
+
+@dataclass
+class Plot:
+    """A plot declared in HoloViews and rendered once; every browser makes its own figure of it.
+
+    No session has figures on the server: nothing to build, to keep or to walk through.
+
+    Parameters
+    ----------
+    name, title, equation : str
+        Its key, its heading, and the formula that it shows (a key of `equations.EQUATIONS`).
+    overlay : hv.Overlay
+        Elements with labels, under which the page draws in them.
+    axes : tuple of str
+        Keys of the axes that it shows: x, y, and one on the right if there is a third.
+    right : tuple of str
+        Layers that are drawn over the axis on the right.
+    hatched : tuple of str
+        Areas with a hatch, so that they do not differ by colour alone.
     """
 
-    def __init__(self, name, overlay, title, together=None, hatched=()):
-        """Render an overlay whose elements are labelled.
+    name: str
+    title: str
+    equation: str
+    overlay: hv.Overlay
+    axes: tuple[str, ...]
+    right: tuple[str, ...] = ()
+    hatched: tuple[str, ...] = ()
+    legend: list = field(init=False)
+    figure: object = field(init=False, repr=False)
 
-        `together` names groups of elements over the same abscissae, each with the column of every
-        element: they are drawn from one source, and updated as one layer. Those in `hatched` are hatched.
-        """
-        overlay = overlay.opts(
+    def __post_init__(self):
+        overlay = self.overlay.opts(
             hv.opts.Overlay(
                 title="",
                 responsive=True,
-                min_height=240,
+                min_height=200,
                 toolbar="above",
-                default_tools=["box_zoom", "reset", "save"],
+                default_tools=["box_zoom", "wheel_zoom", "reset"],
+                active_tools=[],
                 show_grid=True,
             )
         )
         plot = hv.renderer("bokeh").get_plot(overlay)
+        figure = plot.state
         for element, key in zip(overlay, plot.subplots, strict=True):
-            renderer = plot.subplots[key].handles["glyph_renderer"]
-            # Nothing is selected or muted here: fewer glyphs to send.
-            renderer.update(name=element.label, selection_glyph=None, nonselection_glyph=None)
-            renderer.update(muted_glyph=None, hover_glyph=None)
-        plot.state.name = name
-        renderers = {renderer.name: renderer for renderer in plot.state.renderers}
-        for label in hatched:
+            _strip(plot.subplots[key].handles["glyph_renderer"], element.label)
+        renderers = {renderer.name: renderer for renderer in figure.renderers}
+        for label in self.hatched:
             # Not an option of HoloViews' areas.
             glyph = renderers[label].glyph
             glyph.update(hatch_pattern="right_diagonal_line", hatch_color=glyph.fill_color)
             glyph.update(hatch_alpha=0.35, hatch_scale=10)
-        for group, columns in (together or {}).items():
-            empty = dict.fromkeys(["x", *columns.values()], NOWHERE)
-            source = ColumnDataSource(empty, name=group)
-            for label, column in columns.items():
-                renderers[label].data_source = source
-                renderers[label].glyph.update(x="x", y=column)
-        _look(plot.state)
-        #: Title and legend, as HTML.
-        self.heading = _heading(title, plot.state)
-        plot.state.center = [part for part in plot.state.center if not isinstance(part, Legend)]
-        self._encoded = Serializer(deferred=False).encode(plot.state)
+        if self.right:
+            figure.extra_y_ranges = {"right": Range1d(0, 1)}
+            figure.add_layout(LinearAxis(y_range_name="right"), "right")
+            for label in self.right:
+                renderers[label].y_range_name = "right"
+        figure.name = self.name
+        self.legend = [_entry(item) for legend in figure.legend for item in legend.items]
+        figure.center = [part for part in figure.center if not isinstance(part, Legend)]
+        _look(figure)
+        self.figure = figure
 
-    def copy(self):
-        """Bokeh figure of one session, and its layers by label."""
-        figure = Deserializer().deserialize(self._encoded)
-        layers = {}
-        for renderer in figure.renderers:
-            source, glyph = renderer.data_source, renderer.glyph
-            if source.name:
-                layers[source.name] = Layer(source, {column: column for column in source.data})
-            else:
-                fields = {name: getattr(glyph, name, None) for name in ("x", "y", "x0", "x1", "text")}
-                columns = {name: getattr(field, "field", field) for name, field in fields.items()}
-                layers[renderer.name] = Layer(source, columns)
-        return figure, layers
+    def described(self):
+        """What the page writes around it."""
+        return {
+            "name": self.name,
+            "title": self.title,
+            "equation": self.equation,
+            "legend": self.legend,
+            "axes": self.axes,
+        }
+
+
+def _strip(renderer, label):
+    """Take off what is never shown, and name the columns alike in every glyph."""
+    glyph = renderer.glyph
+    # Nothing is selected or muted here: fewer glyphs to send.
+    renderer.update(name=label, selection_glyph=None, nonselection_glyph=None)
+    renderer.update(muted_glyph=None, hover_glyph=None)
+    fields = [name for name in _FIELDS if name in glyph.properties()]
+    if "image" not in fields:
+        data = {name: _NOWHERE.get(name, [np.nan, np.nan]) for name in fields if getattr(glyph, name, None)}
+        renderer.data_source = ColumnDataSource(data)
+        glyph.update(**{name: name for name in data})
 
 
 def _look(figure):
@@ -146,6 +141,7 @@ def _look(figure):
         background_fill_color=PAPER,
         border_fill_color=PAPER,
         outline_line_color=None,
+        border_line_color=None,
         toolbar_inner=True,
         output_backend="canvas",
         sizing_mode="stretch_both",
@@ -162,46 +158,45 @@ def _look(figure):
             axis_line_color="#9aa0a8",
             major_tick_line_color="#9aa0a8",
             minor_tick_line_color=None,
-            major_label_text_font=_FONT,
+            major_label_text_font=FONT,
             major_label_text_font_size="11px",
             major_label_text_color="#4a515b",
-            axis_label_text_font=_FONT,
+            axis_label_text_font=FONT,
             axis_label_text_font_size="12px",
             axis_label_text_font_style="normal",
             axis_label_text_color=INK,
         )
-
-
-def _heading(title, figure):
-    """Title and legend of a plot as HTML: a legend inside the canvas is drawn anew with every change."""
-    entries = "".join(
-        f"<li>{_swatch(item.renderers[0].glyph)}{escape(item.label.value)}</li>"
-        for legend in figure.legend
-        for item in legend.items
-    )
-    return f'<h3>{escape(title)}</h3><ul class="legend">{entries}</ul>'
-
-
-def _swatch(glyph):
-    if isinstance(glyph, Line):
-        dash = " ".join(map(str, glyph.line_dash))
-        mark = (
-            f'<line x1="0" x2="20" y1="6" y2="6" stroke="{glyph.line_color}" '
-            f'stroke-width="{glyph.line_width}" stroke-dasharray="{dash}"/>'
-        )
-    elif isinstance(glyph, Scatter):
-        mark = f'<circle cx="10" cy="6" r="4.5" fill="{glyph.fill_color}"/>'
-    else:
-        hatch = f'stroke="{glyph.fill_color}"' if glyph.hatch_pattern else ""
-        mark = (
-            f'<rect width="20" height="12" fill="{glyph.fill_color}" '
-            f'fill-opacity="{glyph.fill_alpha}"/><path d="M1 12 7 0M7 12 13 0M13 12 19 0" {hatch}/>'
-        )
-    return f'<svg width="20" height="12" aria-hidden="true">{mark}</svg>'
-
-
-def tooltips(figure, rows):
-    """Say what the pointer is over: pairs of a label and a column with its unit."""
     for tool in figure.toolbar.tools:
-        if isinstance(tool, HoverTool) and tool.tooltips != rows:
-            tool.tooltips = rows
+        if isinstance(tool, HoverTool):
+            tool.tooltips = [("x", "$x"), ("y", "$y")]
+
+
+def _entry(item):
+    """One entry of a legend, which the page draws outside the canvas."""
+    glyph, label = item.renderers[0].glyph, item.label.value
+    if isinstance(glyph, Line):
+        dash = list(glyph.line_dash)
+        return {
+            "label": label,
+            "mark": "line",
+            "colour": glyph.line_color,
+            "width": glyph.line_width,
+            "dash": dash,
+        }
+    if isinstance(glyph, Scatter):
+        return {"label": label, "mark": "dot", "colour": glyph.fill_color}
+    return {
+        "label": label,
+        "mark": "area",
+        "colour": glyph.fill_color,
+        "alpha": glyph.fill_alpha,
+        "hatch": glyph.hatch_pattern is not None,
+    }
+
+
+def encoded(plots):
+    """Figures as a Bokeh document that a browser can read, and their names in its order."""
+    document = Document()
+    for plot in plots:
+        document.add_root(plot.figure)
+    return {"names": [plot.name for plot in plots], "document": document.to_json(deferred=False)}

@@ -16,12 +16,12 @@ ASSETS = Path(__file__).parent.parent / "assets"
 class Preset:
     """What the page can open on.
 
-    `values` are the app's parameters (SI); `sources` says for each number what it is, how large,
-    and where it comes from.
+    `choices` and `values` are what the page sets (SI); `sources` says for each number what it is,
+    how large, and where it comes from.
     """
 
     label: str
-    shape: str
+    choices: dict[str, str]
     values: dict[str, float]
     sources: tuple[tuple[str, str, str], ...]
 
@@ -29,16 +29,24 @@ class Preset:
 def _preset(scene, media, indenters):
     medium, indenter = media[scene["medium"]], indenters[scene["indenter"]]
     shape = indenter["shape"]
+    bodies = ((1, medium), (2, indenter))
     built = mdr.Medium.from_bodies(
-        *(body[key]["value"] for body in (medium, indenter) for key in ("E", "nu")),
+        *(body[key]["value"] for _, body in bodies for key in ("E", "nu")),
         q_c=medium["q_c"]["value"],
     )
     values = {f"{shape}_{name}": number["value"] for name, number in indenter["parameters"].items()}
-    values |= {
-        "E_star": built.E_star,
-        "q_c": built.q_c,
-        "max_depth": scene["depth"] * built.critical_depth,
-        "unloading": 0.0,
+    values |= {f"{key}_{i}": body[key]["value"] for i, body in bodies for key in ("E", "nu")}
+    values |= {"q_c": built.q_c, "E_star": built.E_star}
+    if "depth" in scene:
+        values["max_depth"] = float(scene["depth"] * built.critical_depth)
+    else:
+        values |= {name: scene[name]["value"] for name in ("mass", "speed")}
+    choices = {
+        "shape": shape,
+        "elasticity": "bodies",
+        "plasticity": "q_c",
+        "damping": "none",
+        "drive": "depth" if "depth" in scene else "impact",
     }
     kinds = {"E": ("E", "pressure"), "nu": ("ν", "number"), "q_c": ("q_c", "yield constant")}
     shown = [(kinds[key], medium["label"], medium[key]) for key in ("E", "nu", "q_c")]
@@ -47,13 +55,18 @@ def _preset(scene, media, indenters):
         for q in SHAPES[shape].quantities
     ]
     shown += [(kinds[key], indenter["label"], indenter[key]) for key in ("E", "nu")]
+    shown += [
+        ((symbol, name), "the impact", scene[name])
+        for symbol, name in (("m", "mass"), ("v_0", "speed"))
+        if name in scene
+    ]
     sources = tuple(
         (f"{symbol} of {owner}", f"{written(number['value'], kind, 3)}", number["source"])
         for (symbol, kind), owner, number in shown
     )
     remark = f", {scene['remark']}" if "remark" in scene else ""
     label = f"{indenter['label']} on {medium['label']}{remark}"
-    return Preset(label[0].upper() + label[1:], shape, values, sources)
+    return Preset(label[0].upper() + label[1:], choices, values, sources)
 
 
 def _load(path):

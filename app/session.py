@@ -1,172 +1,245 @@
-"""One person's session: the state, its controls and its plots, wired together."""
+"""One person's session: what they do comes in as messages, one change is one solve and one packet out."""
 
+import json
 import logging
-from html import escape
 
-import panel as pn
-from param.parameterized import discard_events
-
-from . import panels
-from .controls import STYLE, QuantityControl, Text
-from .curves import ForceView, RadiiView
-from .presets import OPENING, PRESETS
-from .run import solve
-from .shapes import SHAPES
-from .state import DRIVE, MEDIUM, QUANTITIES, Explorer
-from .views import PressureView, SpringsView
+from . import around, export, link
+from .form import form, scale
+from .packet import Buffer, Drawing
+from .page import Page
+from .quantities import QUANTITIES
+from .state import Explorer
+from .tip import read_tip
+from .trajectory import follow
+from .units import fitting, read
 
 _LOG = logging.getLogger(__name__)
+_MOST_UNDO = 100
 
 
 class Session:
-    """What one person sees. One change of the state is one solve and one update of every plot."""
+    """What one person sees and does."""
 
-    def __init__(self):
-        self.state = Explorer()
-        self.run = solve(self.state.scene())
-        self._good = self.state.values()
-        springs, force = SpringsView(), ForceView()
-        self.views = {
-            "springs": springs,
-            "force": force,
-            "pressure": PressureView(springs),
-            "radii": RadiiView(force),
-        }
-        self.preset = _select("Preset", {label: label for label in PRESETS}, OPENING)
-        self.shape = _select("Shape", {shape.label: key for key, shape in SHAPES.items()}, self.state.shape)
-        self.controls = {}
-        self.indenter = pn.Column(sizing_mode="stretch_width")
-        texts = (Text() for _ in range(5))
-        self.readouts, self.sketch, self.onset, self.validity, self.sources = texts
-        self._follow()
-        self._draw()
-        self.preset.param.watch(lambda event: self.attempt(self.state.load, event.new), "value")
-        self.shape.param.watch(self._choose, "value")
-        self.state.param.watch(self._changed, list(self._good))
-        if pn.state.notifications is not None:
-            pn.state.on_session_destroyed(_forget(pn.state.notifications))
+    def __init__(self, arguments=None):
+        self.state, self.notice = Explorer(), ""
+        self.past, self.future, self._last = [], [], None
+        self.drawing = self.held = None
+        self.axes, self._answered = {}, 0
+        if arguments:
+            self._open(arguments)
+        if self.drawing is None:
+            self._solve()
+        self.page = Page(self.receive)
+        self._show()
 
-    def attempt(self, action, *args):
-        """Do what a control asks for; if it is refused say why, and keep everything as it was."""
-        with pn.io.hold():
-            try:
-                action(*args)
-            except ValueError as error:
-                _notify(str(error))
-            finally:
-                self._follow()
-
-    def _choose(self, event):
-        if event.new != self.state.shape:
-            self.attempt(self.state.choose, event.new)
-
-    def _changed(self, *_):
+    def _open(self, arguments):
         try:
-            self.run = solve(self.state.scene())
-            self._draw()
+            self.state = link.restore(arguments)
+            self._solve()
         except Exception as error:
-            if not isinstance(error, ValueError):
-                _LOG.exception("a change could not be drawn")
-            _notify(f"This cannot be shown, the last values are kept: {error}")
-            with discard_events(self.state):
-                self.state.param.update(**self._good)
-            self.run = solve(self.state.scene())
-            self._draw()
-        self._good = self.state.values()
+            self._note_failure(error)
+            self.notice = f"The link was not opened: {error}"
+            self.state, self.drawing = Explorer(), None
 
-    def _draw(self):
-        with pn.io.hold():
-            for view in self.views.values():
-                view.update(self.run)
-            self.readouts.html = panels.readouts(self.run)
-            self.sketch.html = panels.sketch(self.run, self.state.shape)
-            self.onset.html = panels.onset(self.run)
-            self.validity.html = panels.validity(self.run)
-            self.sources.html = panels.sources(PRESETS[self.preset.value])
+    def receive(self, message):
+        """Do what a person asks for; if it is refused say why, and keep everything as it was."""
+        self._answered = message.get("n") if isinstance(message.get("n"), int) else self._answered
+        act = _ACTIONS.get(message.get("do"))
+        before, drawing, kept = self.state.snapshot(), self.drawing, (self.past, self.future)
+        try:
+            if act is not None and act(self, message):
+                self._solve()
+                self._remember(before, message)
+            self._show()
+        except Exception as error:
+            self._note_failure(error)
+            self.notice = str(error) if isinstance(error, ValueError) else "This cannot be shown."
+            self.state.restore(before)
+            self.drawing, (self.past, self.future) = drawing, kept
+            self._show()
 
-    def _follow(self):
-        """Let the controls show what the state has."""
-        self.shape.value = self.state.shape
-        names = [name for name, _ in self.state.shape_quantities(self.state.shape)]
-        controls = [self._control(name) for name in names]
-        if self.indenter.objects != controls:
-            self.indenter.objects = controls
-        for name in [*names, *(quantity.name for quantity in MEDIUM + DRIVE)]:
-            self._control(name).follow()
+    @staticmethod
+    def _note_failure(error):
+        if not isinstance(error, ValueError):
+            _LOG.error("a change could not be shown", exc_info=error)
 
-    def _control(self, name):
-        if name not in self.controls:
-            self.controls[name] = QuantityControl(self.state, name, QUANTITIES[name], self.attempt)
-        return self.controls[name]
+    def _solve(self):
+        self.drawing = Drawing(follow(self.state.scene(), self.state.progress))
 
-    def layout(self):
-        """The whole page."""
-        sidebar = _column(
-            "sidebar",
-            _html(
-                "<h1>Indentation explorer</h1><p>non-local yield, solved by dimensionality reduction</p>"
-            ),
-            self.preset,
-            self.sources,
-            _html("<h2>Indenter</h2>"),
-            self.shape,
-            self.sketch,
-            self.indenter,
-            _html("<h2>Medium</h2>"),
-            *(self._control(quantity.name) for quantity in MEDIUM),
-            self.onset,
-            _html("<h2>Drive</h2>"),
-            *(self._control(quantity.name) for quantity in DRIVE),
-            _html(
-                '<p class="note">0 % at d<sub>max</sub>, 100 % load gone, 120 % tip back at the surface</p>'
-            ),
-            _html(panels.equations()),
+    def _remember(self, before, message):
+        """Keep what was for undo; a drag of one slider counts as one change."""
+        if message["do"] in ("undo", "redo", "stand"):
+            return
+        mark = (message["do"], message.get("name")) if message["do"] == "move" else None
+        if mark is None or mark != self._last:
+            self.past = [*self.past[1 - _MOST_UNDO :], before]
+        self._last, self.future = mark, []
+
+    # What can be asked for. Each returns whether the scene has to be solved anew.
+
+    def _move(self, message):
+        name, position = message.get("name"), message.get("position")
+        if name not in QUANTITIES or not isinstance(position, (int, float)):
+            raise ValueError("this slider is not known")
+        self.state.set(name, scale(self.state, name).value(position))
+        return True
+
+    def _type(self, message):
+        name, text = message.get("name"), message.get("text")
+        if name not in QUANTITIES or not isinstance(text, str):
+            raise ValueError("this field is not known")
+        kind = QUANTITIES[name].kind
+        self.state.set(name, read(text, kind, fitting(self.state.numbers[name], kind)))
+        self.state.resets = {name: self.state.numbers[name]} | self.state.resets
+        return True
+
+    def _double(self, message):
+        name = message.get("name")
+        if name in self.state.resets:
+            self.state.set(name, self.state.resets[name])
+        return True
+
+    def _choose(self, message):
+        self.state.choose(message["name"], message["option"])
+        return True
+
+    def _load(self, message):
+        self.state.load(message["label"])
+        return True
+
+    def _reset(self, message):
+        self.state.load(self.state.preset)
+        return True
+
+    def _undo(self, message):
+        return self._step("past", "future")
+
+    def _redo(self, message):
+        return self._step("future", "past")
+
+    def _step(self, source, target):
+        steps = getattr(self, source)
+        if not steps:
+            return False
+        setattr(self, target, [*getattr(self, target), self.state.snapshot()])
+        setattr(self, source, steps[:-1])
+        self.state.restore(steps[-1])
+        self._last = None
+        return True
+
+    def _hold(self, message):
+        self.held = None if self.held is not None else self.drawing
+        return False
+
+    def _stand(self, message):
+        """The page stands at another state; it has drawn that already."""
+        self.state.move(float(message["at"]))
+        return True
+
+    def _upload(self, message):
+        text = message.get("text")
+        if not isinstance(text, str) or len(text) > link.LARGEST_FILE:
+            raise ValueError("the file is larger than 2 MB")
+        if message.get("kind") == "scene":
+            self.state = link.from_scene(text, self.state)
+        else:
+            self.state.upload(read_tip(text))
+        return True
+
+    def _frames(self, message):
+        """Send the fields of all states along the way, so that the page can move through them alone."""
+        trajectory, buffer = self.drawing.trajectory, Buffer()
+        self.drawing.fields(buffer, self.axes, range(len(trajectory.progress)))
+        self.page.send(
+            {"frames": self._sequence, "places": json.dumps(buffer.places), "values": buffer.joined()}
         )
-        plots = _column(
-            "plots",
-            *(
-                _column(
-                    "plot",
-                    _html(self.views[name].heading),
-                    pn.pane.Bokeh(self.views[name].figure, sizing_mode="stretch_both"),
-                )
-                for name in ("springs", "force", "pressure", "radii")
-            ),
-        )
-        return _column("page", sidebar, _column("results", self.readouts, self.validity, plots))
+        return False
+
+    def _file(self, message):
+        trajectory = self.drawing.trajectory
+        files = {
+            "curves": ("curves.csv", export.csv),
+            "pressure": ("pressure.csv", export.pressure_csv),
+            "scene": ("scene.json", link.scene_file),
+            "python": ("scene.py", export.python),
+        }
+        if message.get("what") in files:
+            name, write = files[message["what"]]
+            self.page.send({"file": name, "what": message["what"], "text": write(trajectory)})
+        return False
+
+    _sequence = 0
+
+    def _show(self):
+        """Send what is drawn: one buffer, and one text with all that is not drawn."""
+        drawing, held = self.drawing, self.held
+        trajectory, state = drawing.trajectory, self.state
+        axes, buffer = drawing.axes(held), Buffer()
+        energy = drawing.moving(buffer, axes)
+        drawing.still(buffer, axes)
+        drawing.fields(buffer, axes, [trajectory.now])
+        if held is not None:
+            held.held(buffer, axes)
+        if axes != self.axes or drawing is not self._shown:
+            self._sequence += 1
+        self.axes, self._shown = axes, drawing
+        meta = {
+            "seq": self._sequence,
+            "answered": self._answered,
+            "axes": axes,
+            "energy": energy,
+            "places": buffer.places,
+            "progress": trajectory.progress.tolist(),
+            "now": trajectory.now,
+            "peak": trajectory.peak,
+            "onset": _onset(trajectory),
+            "tau": trajectory.scene.medium.relaxation_time,
+            "speed": float(trajectory.motion.velocity[0]) if trajectory.motion is not None else 0.0,
+            "impact": trajectory.motion is not None,
+            "numbers": around.numbers(trajectory),
+            "form": form(state),
+            "sketch": around.sketch(trajectory, state.shape),
+            "lights": around.lights(trajectory, self._density()),
+            "sources": around.sources(state.preset),
+            "query": link.query(state),
+            "undo": [bool(self.past), bool(self.future)],
+            "held": _named(held),
+            "notice": self.notice,
+        }
+        self.notice = ""
+        self.page.show(json.dumps(meta, allow_nan=False), buffer.joined())
+
+    _shown = None
+
+    def _density(self):
+        known = self.state.choices["inertia"] == "density"
+        return self.state.numbers["density"] if known else None
 
 
-def _forget(notifications):
-    """A callback that lets go of a closed session's notification area, which Panel 1.9 keeps."""
-
-    def forget(_context):
-        views = pn.state._views
-        for key in [key for key, (view, *_) in views.items() if view is notifications]:
-            del views[key]
-
-    return forget
-
-
-def _column(name, *children):
-    return pn.Column(*children, css_classes=[name], stylesheets=[STYLE], sizing_mode="stretch_both")
-
-
-def _html(text):
-    return pn.pane.HTML(text, stylesheets=[STYLE], sizing_mode="stretch_width", margin=0)
+_ACTIONS = {
+    "move": Session._move,
+    "type": Session._type,
+    "double": Session._double,
+    "choose": Session._choose,
+    "load": Session._load,
+    "reset": Session._reset,
+    "undo": Session._undo,
+    "redo": Session._redo,
+    "hold": Session._hold,
+    "stand": Session._stand,
+    "upload": Session._upload,
+    "frames": Session._frames,
+    "file": Session._file,
+}
 
 
-def _select(label, options, value):
-    return pn.widgets.Select(
-        name=label,
-        options=options,
-        value=value,
-        stylesheets=[STYLE],
-        sizing_mode="stretch_width",
-        margin=(4, 0),
-    )
+def _onset(trajectory):
+    onset = trajectory.onset
+    return None if onset is None else [float(onset.depth), float(onset.force)]
 
 
-def _notify(text):
-    # A notification is shown as HTML, and the text may quote what was typed.
-    if pn.state.notifications is not None:
-        pn.state.notifications.send(escape(text), background="#8a4300", duration=6000)
+def _named(held):
+    if held is None:
+        return None
+    scene = held.trajectory.scene
+    return f"{type(scene.profile).__name__}, {type(scene.drive).__name__}"

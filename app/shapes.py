@@ -39,6 +39,11 @@ class Quantity:
     default: float
     span: float = 30.0
 
+    @property
+    def start(self):
+        """The default within the bounds."""
+        return min(max(self.default, self.bounds[0]), self.bounds[1])
+
 
 def _length(name, symbol, label, default):
     return Quantity(name, symbol, label, "length", LENGTH, default)

@@ -32,6 +32,12 @@ UNITS = {
     "pressure": _family("mPa 1e-3, Pa 1, kPa 1e3, MPa 1e6, GPa 1e9, TPa 1e12"),
     "energy": _family("aJ 1e-18, fJ 1e-15, pJ 1e-12, nJ 1e-9, µJ 1e-6, mJ 1e-3, J 1, kJ 1e3, MJ 1e6"),
     "yield constant": _family("µN/m 1e-6, mN/m 1e-3, N/m 1, kN/m 1e3, MN/m 1e6, GN/m 1e9"),
+    "mass": _family("pg 1e-15, ng 1e-12, µg 1e-9, mg 1e-6, g 1e-3, kg 1, t 1e3"),
+    "speed": _family("nm/s 1e-9, µm/s 1e-6, mm/s 1e-3, m/s 1, km/s 1e3"),
+    "time": _family("ps 1e-12, ns 1e-9, µs 1e-6, ms 1e-3, s 1"),
+    "viscosity": _family("nPa·s 1e-9, µPa·s 1e-6, mPa·s 1e-3, Pa·s 1, kPa·s 1e3, MPa·s 1e6"),
+    "density": _family("kg/m³ 1"),
+    "area": _family("nm² 1e-18, µm² 1e-12, mm² 1e-6, m² 1"),
 }
 
 
@@ -74,6 +80,7 @@ def entry(value, kind):
     return f"{value / unit.factor:.5g} {unit.name}".strip()
 
 
+_KEYBOARD = str.maketrans("µ·³²", "u*32")
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
 
 
@@ -88,8 +95,8 @@ def read(text, kind, shown):
     text = text.strip().replace("−", "-").replace("μ", "µ")
     match = _NUMBER.fullmatch(text) if len(text) <= 40 else None
     units = {unit.name: unit for unit in UNITS[kind]}
-    # u for µ, as on any keyboard.
-    units |= {name.replace("µ", "u"): unit for name, unit in units.items()}
+    # u, * and 3 for µ, · and ³, as on any keyboard.
+    units |= {name.translate(_KEYBOARD): unit for name, unit in units.items()}
     if match is None or (match[2] and match[2] not in units):
         known = ", ".join(unit.name for unit in UNITS[kind] if unit.name)
         raise ValueError(
@@ -102,11 +109,11 @@ def read(text, kind, shown):
     return value
 
 
-_ROUND = np.array([1, 1.5, 2, 3, 5, 7.5, 10])
+_ROUND = np.array([1, 1.5, 2, 3, 4, 5, 6, 8, 10])
 
 
 def round_up(value):
-    """The next of 1, 1.5, 2, 3, 5, 7.5 × 10ⁿ: axes that end there keep still while a slider moves."""
+    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8 × 10ⁿ: axes that end there keep still while a slider moves."""
     if not value > 0 or not isfinite(value):
         return 1.0
     power = 10.0 ** floor(log10(value))

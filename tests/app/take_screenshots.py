@@ -4,6 +4,7 @@ Run from the project root: python -m tests.app.take_screenshots
 """
 
 from .conftest import CHROMIUM, FLAGS, ROOT, Explorer, Server
+from .test_page import DROP
 
 
 def main():
@@ -16,9 +17,12 @@ def main():
             page = browser.new_page(viewport={"width": 1440, "height": 900})
             explorer = Explorer(page, server.url)
             page.screenshot(path=ROOT / "assets/explorer.png")
-            with explorer.change():
-                explorer.type("u", "110")
-            page.screenshot(path=ROOT / "assets/explorer-unloaded.png")
+            explorer.choose("Preset", DROP)
+            explorer.pick("damping", "tau", "τ")
+            page.locator("h1").click()
+            page.keyboard.press("d")
+            page.wait_for_timeout(800)
+            page.screenshot(path=ROOT / "assets/explorer-impact.png")
             page = browser.new_page(viewport={"width": 400, "height": 800})
             Explorer(page, server.url)
             page.screenshot(path=ROOT / "assets/explorer-narrow.png", full_page=True)

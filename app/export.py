@@ -1,0 +1,101 @@
+"""What is taken away as text: curves as CSV, and the state as a Python snippet."""
+
+from importlib.metadata import PackageNotFoundError, version
+
+import numpy as np
+
+import mdr_core as mdr
+
+_INPUT = "#   {}: {}"
+
+
+def csv(trajectory):
+    """Every state along the way as CSV in SI, with inputs, units and version in its header."""
+    states, motion = trajectory.states, trajectory.motion
+    columns = {
+        "depth d (m)": states.depth,
+        "force F (N)": trajectory.force,
+        "contact radius a (m)": states.contact_radius,
+        "plastic radius c (m)": states.plastic_radius,
+        "plastic depth d_p (m)": states.live.lower,
+        "stored energy U (J)": trajectory.stored_energy,
+        "plastic work W_p (J)": states.plastic_work,
+    }
+    if motion is not None:
+        columns = {"time t (s)": motion.time} | columns
+        columns["velocity v (m/s)"] = motion.velocity
+        columns["kinetic energy (J)"] = motion.kinetic_energy
+        columns["viscous work (J)"] = motion.viscous_work
+    return _table(trajectory, "states along the way", columns)
+
+
+def pressure_csv(trajectory, points=401):
+    """Pressure, line load and reduced profile of the present state as CSV in SI."""
+    state = trajectory.state
+    largest = 1.25 * float(trajectory.deepest.contact_radius)
+    r = np.linspace(0, min(largest, trajectory.scene.profile.known_radius), points)
+    columns = {
+        "radius r (m)": r,
+        "sigma_zz (Pa)": -trajectory.pressure(trajectory.now, r),
+        "line load q (N/m)": state.line_load(r),
+        "reduced profile g (m)": trajectory.scene.profile.reduced(r),
+    }
+    depth, force = float(state.depth), float(trajectory.force[trajectory.now])
+    return _table(trajectory, f"state at depth d = {depth!r} m, force F = {force!r} N", columns)
+
+
+def _table(trajectory, title, columns):
+    lines = [f"# mdr_core {_version()}: {title}", "# inputs, SI units:"]
+    lines += [_INPUT.format(name, value) for name, value in _inputs(trajectory.scene)]
+    lines.append(",".join(columns))
+    rows = zip(*(np.asarray(values, float).tolist() for values in columns.values()), strict=True)
+    lines += [",".join(map(repr, row)) for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def _inputs(scene):
+    medium = scene.medium
+    yield "profile", _profile(scene.profile, limit=6)
+    yield "medium", f"E_star = {medium.E_star!r} Pa, q_c = {medium.q_c!r} N/m, eta = {medium.eta!r} Pa·s"
+    yield "drive", repr(scene.drive)
+
+
+def _version():
+    try:
+        return version("mdr-core")
+    except PackageNotFoundError:
+        return "(not installed)"
+
+
+def _profile(profile, limit=None):
+    """A profile as Python makes it; of many samples only the first, if there is a limit."""
+    if isinstance(profile, mdr.Sampled) and limit and len(profile.r) > limit:
+        return f"Sampled of {len(profile.r)} samples to r = {profile.r[-1]!r} m, z = {profile.z[-1]!r} m"
+    return repr(profile)
+
+
+def python(trajectory):
+    """A snippet that comes to the present state with `mdr_core`."""
+    scene = trajectory.scene
+    medium = scene.medium
+    q_c = "" if np.isinf(medium.q_c) else f", q_c={medium.q_c!r}"
+    eta = f", eta={medium.eta!r}" if medium.eta > 0 else ""
+    lines = [
+        "import mdr_core as mdr",
+        "",
+        f"profile = mdr.{_profile(scene.profile)}",
+        f"medium = mdr.Medium(E_star={medium.E_star!r}{q_c}{eta})  # Pa, N/m, Pa·s",
+    ]
+    if isinstance(scene.drive, mdr.FreeImpact):
+        lines += [
+            f"hit = mdr.impact(profile, medium, mass={scene.drive.mass!r}, speed={scene.drive.speed!r})",
+            "print(hit.max_depth, hit.max_force, hit.restitution, hit.contact_time)",
+        ]
+    else:
+        deepest, now = float(trajectory.deepest.depth), float(trajectory.state.depth)
+        path = f"[{deepest!r}, {now!r}]" if trajectory.now > trajectory.peak else f"[{now!r}]"
+        lines += [
+            f"state = mdr.indent(profile, medium, {path})[-1]  # m",
+            "print(state.force, state.contact_radius, state.plastic_radius)",
+        ]
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,170 @@
+"""All states of one scene from first contact to the end, as arrays. Asks the core, adds no physics."""
+
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
+
+import numpy as np
+
+import mdr_core as mdr
+from mdr_core.motion import Motion
+from mdr_core.yielding import LiveInterval
+
+#: Denser towards both ends of a stretch by the cosine.
+_SPREAD = (1 - np.cos(np.linspace(0, np.pi, 33))) / 2
+_MOTION = 160
+#: Points of an unloading curve from one state.
+_RELEASE = np.linspace(1, 0, 13)
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """States of a scene along its way; made by `follow`. Every array has one value for each state.
+
+    Parameters
+    ----------
+    scene : mdr.Scene
+        What was solved.
+    progress : ndarray
+        Where on the way a state stands: 0 first contact, 1 deepest, 2 loss of contact, beyond that
+        the tip goes back to the height of the undeformed surface.
+    states : mdr.Indentation
+        The states with what is elastic of them.
+    now : int
+        The present one.
+    motion : Motion or None
+        Time, speeds and energies of an impact.
+    hit : mdr.Impact or None
+        The impact.
+    """
+
+    scene: mdr.Scene
+    progress: np.ndarray
+    states: mdr.Indentation
+    now: int
+    motion: Motion | None = None
+    hit: mdr.Impact | None = None
+
+    @cached_property
+    def force(self):
+        """Normal force (N), with that of the dashpots."""
+        return self.states.force if self.motion is None else self.motion.force
+
+    @property
+    def stored_energy(self):
+        """Energy (J) of all springs, of those too that have let go of a viscous rebound."""
+        return self.states.stored_energy if self.motion is None else self.motion.stored_energy
+
+    @cached_property
+    def peak(self):
+        """Number of the deepest state."""
+        return int(np.argmax(self.states.depth))
+
+    @property
+    def state(self):
+        """The present state."""
+        return self.states[self.now]
+
+    @property
+    def deepest(self):
+        """The deepest state."""
+        return self.states[self.peak]
+
+    @cached_property
+    def onset(self):
+        """The state where yield starts; None if nothing yields or the shape is not known so deep."""
+        medium, profile = self.scene.medium, self.scene.profile
+        if medium.critical_depth > min(profile.deepest, 1e300):
+            return None
+        return mdr.indent(profile, medium, medium.critical_depth)
+
+    @cached_property
+    def largest_slope(self):
+        """Largest slope of the indenter within the largest contact, walls left out."""
+        r = self.deepest.contact_radius * np.linspace(0, 1, 65)
+        with np.errstate(invalid="ignore"):
+            slope = np.diff(self.scene.profile.height(r)) / np.diff(r)
+        return float(np.max(slope[np.isfinite(slope)], initial=0.0))
+
+    def pressure(self, index, r):
+        """Contact pressure (Pa) of a state, that of the dashpots included."""
+        pressure = self.states[index].pressure(r)
+        damping = 0.0 if self.motion is None else self._dashpot_load(index)
+        if damping > 0:
+            a = float(self.states.contact_radius[index])
+            with np.errstate(divide="ignore", invalid="ignore"):
+                flat = damping / np.pi / np.sqrt(np.maximum(a - r, 0) * (a + r))
+            pressure = pressure + np.where(r < a, flat, np.where(r == a, np.inf, 0.0))
+        return pressure
+
+    def _dashpot_load(self, index):
+        # On the way in every dashpot carries 4ηḋ, Popov (2015), Eq. (1): a flat punch of radius a.
+        # On the way out the dashpots only shorten the live interval, which is in `states` already.
+        return 4 * self.scene.medium.eta * max(float(self.motion.velocity[index]), 0.0)
+
+    def released(self, indices):
+        """Depths and elastic forces of unloading from each of some states: two arrays, a row each."""
+        live = self.states[indices].live
+        length = live.length[:, None] * _RELEASE
+        lower = np.broadcast_to(live.lower[:, None], length.shape)
+        interval = LiveInterval(lower, lower + length, length)
+        states = mdr.Indentation(self.states.profile, self.states.medium, interval.upper, interval)
+        return interval.upper, states.force
+
+
+def follow(scene, progress):
+    """The trajectory of a scene, with a state at the progress where the page stands."""
+    if isinstance(scene.drive, mdr.FreeImpact):
+        return _impact(scene, progress)
+    deepest = scene.solve()
+    largest = float(deepest.depth)
+    critical = min(scene.medium.critical_depth, largest)
+    share = critical / largest if largest > 0 else 1.0
+    loading = np.concatenate([share * _SPREAD, share + (1 - share) * _SPREAD])
+    way = np.concatenate([loading, 1 + _SPREAD, [2 + 1e-6], 2 + 0.2 * np.linspace(0, 1, 9)[1:], [progress]])
+    # Six digits: what the page says about where it stands is read back as the same number.
+    way = np.unique([float(f"{p:.6g}") for p in way])
+    depth = np.where(way <= 1, way * largest, largest - (np.clip(way, 1, 2) - 1) * critical)
+    depth = np.where(way > 2, (largest - critical) * np.maximum(2.2 - way, 0) / 0.2, depth)
+    return Trajectory(scene, way, mdr.indent(scene.profile, scene.medium, depth), _nearest(way, progress))
+
+
+def _impact(scene, progress):
+    hit = scene.solve()
+    path = _with_turning_point(hit, hit.motion(_MOTION))
+    peak = int(np.argmax(path.depth))
+    turn, end = path.time[peak], path.time[-1]
+    way = np.where(path.time <= turn, path.time / turn, 1 + (path.time - turn) / (end - turn))
+    way = np.array([float(f"{p:.6g}") for p in way])
+    live = LiveInterval(path.plastic_depth, path.plastic_depth + path.live_depth, path.live_depth)
+    states = mdr.Indentation(scene.profile, scene.medium, path.depth, live)
+    return Trajectory(scene, way, states, _nearest(way, progress), path, hit)
+
+
+def _with_turning_point(hit, path):
+    """A motion with the state at its turning point among its instants."""
+    after = int(np.argmax(path.velocity <= 0))
+    fast, slow = path.velocity[after - 1], -path.velocity[after]
+    deepest, before = hit.deepest, path.time[after - 1]
+    # Next to its zero the speed falls evenly.
+    time = before + (path.time[after] - before) * fast / (fast + slow)
+    spent = path.kinetic_energy[0] - deepest.stored_energy - hit.plastic_work
+    values = {
+        "time": time,
+        "depth": deepest.depth,
+        "velocity": 0.0,
+        "force": deepest.force,
+        "contact_radius": deepest.contact_radius,
+        "plastic_radius": deepest.plastic_radius,
+        "plastic_depth": deepest.plastic_depth,
+        "live_depth": deepest.live.length,
+        "kinetic_energy": 0.0,
+        "stored_energy": deepest.stored_energy,
+        "plastic_work": hit.plastic_work,
+        "viscous_work": spent if hit.medium.eta > 0 else 0.0,
+    }
+    names = [field.name for field in fields(path)]
+    return replace(path, **{name: np.insert(getattr(path, name), after, values[name]) for name in names})
+
+
+def _nearest(way, progress):
+    return int(np.argmin(np.abs(way - progress)))

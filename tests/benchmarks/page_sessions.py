@@ -1,0 +1,127 @@
+"""Many people at the served page at once: server time of a move, memory of a session, what stays behind.
+
+Run from the project root: python -m tests.benchmarks.page_sessions
+"""
+
+import asyncio
+import json
+import re
+import statistics
+import time
+from pathlib import Path
+from urllib.request import urlopen
+
+from tornado.httpclient import AsyncHTTPClient, HTTPRequest
+from tornado.websocket import websocket_connect
+
+from tests.app.conftest import Server
+
+SESSIONS, RATE, SECONDS, OPENED = 12, 4.0, 8.0, 15
+
+
+class Client:
+    """A person's browser as far as the server sees it."""
+
+    async def open(self, url):
+        """Load the page and connect."""
+        page = (await AsyncHTTPClient().fetch(url)).body.decode()
+        token = re.search(r'"token":"([^"]+)"', page)[1]
+        self.root = re.search(r'"roots":\{"([^"]+)"', page)[1]
+        address = url.replace("http", "ws", 1) + "/ws"
+        request = HTTPRequest(address, headers={"Sec-WebSocket-Protocol": f"bokeh, {token}"})
+        self.socket = await websocket_connect(request, max_message_size=10**8)
+        await self._message()
+        return self
+
+    async def _message(self):
+        """The next message: its type and content, with the buffers that belong to it."""
+        header = json.loads(await self.socket.read_message())
+        await self.socket.read_message()
+        content = await self.socket.read_message()
+        for _ in range(2 * header.get("num_buffers", 0)):
+            await self.socket.read_message()
+        return header["msgtype"], content
+
+    async def move(self, n):
+        """Move a slider; seconds until the server has answered with a new picture."""
+        data = {"do": "move", "name": "max_depth", "position": 150 + n % 100, "n": n}
+        values = [
+            ["model", {"id": self.root}],
+            ["data", {"type": "map", "entries": [list(item) for item in data.items()]}],
+        ]
+        event = {"type": "event", "name": "data_event", "values": {"type": "map", "entries": values}}
+        content = {"events": [{"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}]}
+        begin = time.perf_counter()
+        for part in ({"msgid": f"{id(self)}-{n}", "msgtype": "PATCH-DOC"}, {}, content):
+            await self.socket.write_message(json.dumps(part))
+        while True:
+            _, content = await self._message()
+            if f'\\"answered\\": {n},' in content:
+                return time.perf_counter() - begin
+
+    async def work(self, offset):
+        """Move at an even rate; the seconds that each answer took."""
+        await asyncio.sleep(offset)
+        times, begin = [], time.perf_counter()
+        for n in range(1, int(RATE * SECONDS) + 1):
+            times.append(await self.move(n))
+            await asyncio.sleep(max(begin + n / RATE - time.perf_counter(), 0))
+        return times
+
+
+def resident(pid):
+    """Resident memory of a process (MB)."""
+    return int(re.search(r"VmRSS:\s+(\d+)", Path(f"/proc/{pid}/status").read_text())[1]) / 1024
+
+
+async def many(url, pid):
+    """Twelve people at work."""
+    first = await Client().open(url)
+    await first.move(1)
+    before = resident(pid)
+    clients = [await Client().open(url) for _ in range(SESSIONS)]
+    times = await asyncio.gather(*(c.work(k / RATE / SESSIONS) for k, c in enumerate(clients)))
+    each = (resident(pid) - before) / SESSIONS
+    times = sorted(1000 * t for row in times for t in row)
+    print(
+        f"{SESSIONS} sessions, {RATE:g} moves/s each: median {statistics.median(times):.0f} ms, "
+        f"p95 {times[int(0.95 * len(times))]:.0f} ms to the answer; {each:.2f} MB a session"
+    )
+
+
+async def come_and_go(url):
+    """Sessions that are opened, used and closed."""
+    for _ in range(OPENED):
+        client = await Client().open(url)
+        await client.move(1)
+        client.socket.close()
+
+
+def left_behind():
+    """Count the live Documents after sessions have come and gone."""
+    short = ("--unused-session-lifetime", "200", "--check-unused-sessions", "200")
+    server = Server("tests/benchmarks/probe.py", *short)
+    time.sleep(8)
+    try:
+        url = server.url.rpartition("/")[0]
+        asyncio.run(asyncio.wait_for(come_and_go(f"{url}/app"), 60))
+        time.sleep(3)
+        urlopen(f"{url}/probe").read()
+        time.sleep(1)
+        print(f"{OPENED} sessions opened and closed: {re.findall('live Documents.*', server.log)[-1]}")
+    finally:
+        server.stop()
+
+
+def main():
+    server = Server()
+    time.sleep(8)
+    try:
+        asyncio.run(asyncio.wait_for(many(server.url, server.process.pid), 60))
+    finally:
+        server.stop()
+    left_behind()
+
+
+if __name__ == "__main__":
+    main()
