@@ -125,7 +125,8 @@ class Medium:
             nearest, remainder = (np.ldexp(part, q_exponent - E_exponent) for part in (nearest, remainder))
         never = np.isinf(self.q_c)
         remainder = np.where(never | np.isinf(nearest), 0.0, remainder)
-        return tuple(_check.frozen(part) for part in (np.where(never, np.inf, nearest), remainder))
+        parts = np.where(never, np.inf, nearest), remainder
+        return tuple(_check.frozen(part) if part.ndim else float(part) for part in parts)
 
     @property
     def yield_line_load(self):
