@@ -12,6 +12,9 @@ from .profiles import Profile
 from .turning import plastic_integral, pressed
 from .yielding import LiveInterval
 
+#: Share of its depth to which a kink is met; between that and the kink the force is smooth enough.
+NEAR = 1e-6
+
 ELASTIC, YIELDING, UNLOADING, DONE = range(4)
 
 
@@ -54,9 +57,9 @@ class Course:
         self.slid, self.released = np.zeros((2, count))
         #: Largest deceleration so far (m/s²).
         self.peak = np.zeros(count)
-        #: Length (s) and kind of the next step.
+        #: Length (s) and kind of the next step, and what the length was before an edge cut it short.
         self.step = 0.5 * _depth_scale(bodies) / bodies.speed
-        self.kind = opening(bodies)
+        self.kind, self.uncut = opening(bodies), np.zeros(count)
         self.breaks = _breaks(bodies)
 
 
@@ -99,7 +102,7 @@ def ahead(bodies, course, rows):
     if course.breaks is not None:
         kinks = course.breaks[rows] - bodies.before[rows, None]
         both = np.hstack([kinks, kinks + d_c[:, None]])
-        passed = both <= course.y[rows, None] * (1 + 1e-12)
+        passed = both <= course.y[rows, None] * (1 + 2 * NEAR)
         nearest = np.minimum(nearest, np.where(passed, np.inf, both).min(axis=1))
     return nearest
 
@@ -109,5 +112,5 @@ def below(course, rows):
     if course.breaks is None:
         return np.zeros(rows.size)
     kinks = course.breaks[rows] - course.lower[rows, None]
-    passed = kinks >= course.live[rows, None] * (1 - 1e-12)
+    passed = kinks >= course.live[rows, None] * (1 - 2 * NEAR)
     return np.maximum(np.where(passed, 0.0, kinks).max(axis=1), 0.0)

@@ -16,7 +16,7 @@ live depth ℓ = D − p is carried itself, so that its last digits decide when 
 import numpy as np
 
 from . import collocation as gauss
-from .course import DONE, ELASTIC, UNLOADING, YIELDING, Course, ahead, below, opening
+from .course import DONE, ELASTIC, NEAR, UNLOADING, YIELDING, Course, ahead, below, opening
 from .panels import chunks
 from .stages import Loading, Unloading, collocate, gathered
 from .turning import pressed
@@ -93,6 +93,7 @@ def _up_to(course, step, missed, edge):
     if past.any():
         rows, cut = step.rows[past], step.keep(past)
         theta = gauss.crossing(cut.coordinate, edge[past])
+        course.uncut[rows] = np.maximum(course.uncut[rows], cut.length / 4)
         course.step[rows] = cut.length * gauss.share(cut.kind, theta)
         # Where contact is lost the load vanishes as a fractional power of the time that is left.
         course.kind[rows] = np.where(edge[past] == 0, gauss.CLOSING, cut.kind)
@@ -112,20 +113,28 @@ def _load(bodies, course, rows, record):
     if turned.any():
         last[turned] = gauss.crossing(step.lost[turned], step.velocity[turned])
     y = course.y[rows] + step.moved(last)[2]
-    arrived = ~turned & (edge < np.inf) & (np.abs(y - edge) <= 1e-10 * y)
+    arrived = ~turned & (edge < np.inf) & (np.abs(y - edge) <= np.where(smooth, 1e-10, NEAR) * y)
     beyond = (y > edge) & ~arrived
     if beyond.any():
         last[beyond] = gauss.crossing(step.coordinate[beyond], edge[beyond])
     # Where the step ran on smoothly it is cut at the edge, otherwise done again up to there.
     again = beyond & ~smooth
+    course.uncut[rows[again]] = np.maximum(course.uncut[rows], step.length / 4)[again]
     course.step[rows[again]] = (step.length * gauss.share(step.kind, last))[again]
     keep = ~again
     _advance(bodies, course, stage, step.keep(keep), last[keep], record)
     arrived, turned = (arrived | beyond) & keep, turned & ~beyond
-    course.y[rows[arrived]] = edge[arrived]
+    course.y[rows[arrived & smooth]] = edge[arrived & smooth]
+    _resume(course, rows[arrived])
     course.kind[rows[keep]] = np.where(arrived, opening(bodies)[rows], gauss.PLAIN)[keep]
     course.phase[rows[arrived & smooth]] = YIELDING
     _turn(bodies, course, rows[turned])
+
+
+def _resume(course, rows):
+    """Steps go on behind an edge about as long as before it."""
+    course.step[rows] = np.maximum(course.step[rows], course.uncut[rows])
+    course.uncut[rows] = 0.0
 
 
 def _turn(bodies, course, rows):
@@ -152,7 +161,7 @@ def _unload(bodies, course, rows, record):
     # So close to the edge that the rest of the way is straight.
     load = gauss.interpolate(gauss.basis(last), step.deceleration)
     left = miss / (lost - course.velocity[rows] + step.lag * np.maximum(load, 0.0))
-    arrived = np.abs(left) <= np.where(free, 1e-9, 1e-10) * step.length
+    arrived = np.where(free, np.abs(left) <= 1e-9 * step.length, np.abs(miss) <= NEAR * edge)
     # A long step may run past the edge and come back.
     beyond = (np.minimum(miss, (step.coordinate - edge[:, None]).min(axis=1)) < 0) & ~arrived
     if beyond.any():
@@ -162,6 +171,7 @@ def _unload(bodies, course, rows, record):
     short = (step.kind == gauss.CLOSING) & ~beyond & ~arrived & (left < 0.1 * step.length)
     again = (beyond & ~smooth) | short
     plan = step.length * gauss.share(step.kind, last) + np.where(short, left, 0.0)
+    course.uncut[rows[again]] = np.maximum(course.uncut[rows], step.length / 4)[again]
     course.step[rows[again]] = plan[again]
     course.kind[rows[again]] = np.where(free, gauss.CLOSING, gauss.PLAIN)[again]
     keep = ~again
@@ -169,7 +179,8 @@ def _unload(bodies, course, rows, record):
     straight = arrived & free
     course.time[rows[straight]] += left[straight]
     arrived |= beyond & keep
-    course.live[rows[arrived]] = edge[arrived]
+    course.live[rows[arrived & free]] = 0.0
+    _resume(course, rows[arrived])
     course.kind[rows[keep]] = np.where(arrived, gauss.OPENING, gauss.PLAIN)[keep]
     course.phase[rows[arrived & free]] = DONE
 
