@@ -86,19 +86,23 @@ def interpolate(weights, values):
     return np.einsum("ij,ij->i", weights, values)
 
 
-def crossing(values, target):
+def crossing(values, target, end=1.0):
     """First θ at which the interpolant of values at 0 and the nodes crosses a target, one step a row.
 
-    The first value is on one side of the target, and some other one, or the interpolant at 1, on
-    the other.
+    The first value is on one side of the target, and some other one up to θ = `end`, or the
+    interpolant there, on the other.
     """
     gap = values - np.asarray(target)[:, None]
-    end = interpolate(basis(np.ones(len(gap))), gap)
-    edges, known = np.append(POINTS, 1.0), np.column_stack([gap, end])
+    end = np.broadcast_to(end, len(gap))
+    inside = np.column_stack([end[:, None] > POINTS, np.zeros(len(gap), bool)])
+    edges = np.where(inside, np.append(POINTS, 1.0), end[:, None])
+    there = interpolate(basis(end), gap)[:, None]
+    known = np.where(inside, np.hstack([gap, there]), there)
     side = np.sign(known[:, :1])
     index = np.argmax(side * known <= 0, axis=1)
-    index = np.where((side * known <= 0).any(axis=1), index, len(edges) - 1)
-    low, high = edges[np.maximum(index - 1, 0)], edges[index]
+    index = np.where((side * known <= 0).any(axis=1), index, edges.shape[1] - 1)
+    rows = np.arange(len(gap))
+    low, high = edges[rows, np.maximum(index - 1, 0)], edges[rows, index]
     slope = np.einsum("ij,kj->ik", gap, _DERIVATIVE)
     theta = (low + high) / 2
     for _ in range(60):

@@ -149,8 +149,9 @@ def _stretch(profile, extent, breaks, interval, last, spent):
     spent : ndarray, shape (N,)
         What is still to be spent beyond `last`.
     """
-    room = np.maximum(extent, np.finfo(float).tiny)[:, None]
-    share = np.clip(breaks / room, 0, 1)
+    room = np.where(extent > 0, extent, 1.0)[:, None]
+    with np.errstate(over="ignore"):
+        share = np.clip(breaks / room, 0, 1)
     # Inverse of τ³(2 − τ³), without cancellation for small shares.
     inner = np.minimum(np.cbrt(share / (1 + np.sqrt(1 - share))), last[:, None])
     edges = np.sort(np.hstack([np.zeros_like(room), inner, last[:, None]]), axis=1)

@@ -3,8 +3,7 @@
 A shape is given by its height z(r), its reduced 1D profile g(x) (Popov 2015, Eq. (3)) and its
 `zones`: the stretches of g between kinks, each in a coordinate in which g is smooth, with the
 inverse of g in it. Everything else follows from these.
-
-Here: the interface, and the shapes that are a single power of r.
+Here are the shapes that are a single power of r.
 """
 
 from abc import ABC, abstractmethod
@@ -15,14 +14,15 @@ import numpy as np
 from scipy.special import gamma
 
 from . import _check
+from .panels import chunks
 from .zones import Zone
 
 
 class Profile(ABC):
     """A rigid axisymmetric indenter with its tip at the origin, growing outward.
 
-    Lengths are in m, slopes dimensionless. Parameters may be arrays, which broadcast against each
-    other and against radii and depths: many indenters at once, for `impact`.
+    Lengths are in m, slopes dimensionless. Parameters may be arrays that broadcast with each other,
+    with radii and depths: many indenters at once, for `impact`.
     """
 
     #: Radius (m) of a vertical wall, where depth grows at constant contact radius.
@@ -57,21 +57,25 @@ class Profile(ABC):
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
         return self._radius(depth)[()]
 
-    def zones_between(self, lower, upper) -> tuple[Zone, ...]:
+    def zones_between(self, lower, upper):
         """The zones that hold depths from `lower` to `upper` (m), from the tip outward."""
         return self.zones
+
+    def batches(self, depth):
+        """Rows of an array of depths (m) that are solved together, in the zones of the deepest."""
+        return chunks(depth.size)
 
     @cached_property
     def shape(self):
         """Shape to which array-valued parameters broadcast, () for one indenter."""
-        return np.broadcast_shapes(*(np.shape(getattr(self, field.name)) for field in fields(self)))
+        return np.broadcast_shapes(*map(np.shape, self.__getstate__().values()))
 
     def entries(self, index, shape=None):
         """The indenters at an index of the parameters, broadcast to `shape` before."""
         if not self.shape:
             return self
         shape = self.shape if shape is None else shape
-        values = (getattr(self, field.name) for field in fields(self))
+        values = self.__getstate__().values()
         return type(self)(*(np.broadcast_to(v, shape)[index] if np.ndim(v) else v for v in values))
 
     def flat_entries(self, rows, shape):
@@ -80,14 +84,14 @@ class Profile(ABC):
             return self
         return self.entries(np.unravel_index(np.arange(np.prod(shape, dtype=int))[rows], shape), shape)
 
-    #: The same shape with parameters of 1, its unit of length and its unit of depth (m), for shapes
-    #: with lengths of their own: g(x) is the unit of depth times the unit shape's g(x/length).
+    #: For shapes with lengths of their own: the same shape with parameters of 1, and its units of
+    #: length and depth (m), so that g(x) is the unit of depth times the unit shape's g(x/length).
     unit = None
 
     @property
     @abstractmethod
-    def zones(self) -> tuple[Zone, ...]:
-        """The smooth stretches of g, from the tip outward."""
+    def zones(self):
+        """The smooth stretches of g, from the tip outward: a tuple of `Zone`."""
 
     @abstractmethod
     def _height(self, r): ...
@@ -101,17 +105,15 @@ class Profile(ABC):
 
     def _within(self, r):
         """`r`, if the shape is known so far out."""
-        bound = f"m is beyond the radius up to which the shape is known, {self.known_radius:g} m"
+        bound = f"m is beyond the radius up to which the shape is known, {np.min(self.known_radius):g} m"
         return _check.refuse("radius", r, r > self.known_radius, bound)
 
     def _known(self, depth):
         """`depth`, if the shape is known so far."""
         if np.all(self.deepest == np.inf):
             return depth
-        bound = f"is deeper than the shape is known, {self.deepest:g} m"
-        return _check.refuse(
-            "depth", depth, depth > self.deepest, bound, unit="m", remedy="press less deep"
-        )
+        deep, bound = depth > self.deepest, f"is deeper than the shape is known, {np.min(self.deepest):g} m"
+        return _check.refuse("depth", depth, deep, bound, unit="m", remedy="press less deep")
 
 
 def set_positive(profile, **units):

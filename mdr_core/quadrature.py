@@ -5,11 +5,12 @@ scaled so that its increments make up the length of the interval (see `superpose
 """
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from .panels import NODES, PANEL, TAIL, WEIGHTS, chunks
+from .panels import NODES, PANEL, TAIL, WEIGHTS
 from .yielding import LiveInterval
 
 #: Contributions below e^(−40) of the largest are left out of a graded quadrature.
@@ -32,14 +33,17 @@ def by_quadrature(profile, live, integral):
         return by_quadrature(unit, scaled(live, depth), integral) * (radius * depth**integral.units)
     ends = [np.ravel(part) for part in (live.lower, live.upper, live.length, wall_length(profile, live))]
     result = np.zeros_like(ends[0])
-    for rows in chunks(ends[0].size):
+    for rows in profile.batches(ends[1]):
         lower, upper, length, at_wall = (part[rows] for part in ends)
-        zones = profile.zones_between(lower.min(), upper.max())
+        zones = profile.zones_between(lower.min(initial=np.inf), upper.max(initial=0.0))
         total, spent = _quadrature(profile, zones, lower, upper, at_wall, integral)
-        # An interval too short for its ends to differ is one flat punch.
-        edge = integral.short(profile._radius(upper), length)
+        short = np.flatnonzero(~(spent > 0))
+        spent[short] = length[short]
+        if short.size:
+            # An interval too short for its ends to differ is one flat punch.
+            total[short] = integral.short(profile._radius(upper[short]), length[short])
         scale = np.divide(length, spent, out=np.ones_like(spent), where=spent > 0)
-        result[rows] = np.where(spent > 0, total * scale**integral.degree, edge)
+        result[rows] = total * scale**integral.degree
     return result.reshape(np.shape(live.length))
 
 
@@ -105,10 +109,12 @@ def _quadrature(profile, zones, lower, upper, at_wall, integral):
             total[whole] += own + (spent[whole] * area if integral.cumulative else 0.0)
             spent[whole] += held
             t_high = np.where(whole, t_low, t_high)
-        _add_zone(zone, t_high, t_low, total, spent, integral)
+        if np.any(t_high > t_low):
+            _add_zone(zone, t_high, t_low, total, spent, integral)
     return total, spent
 
 
+@lru_cache(maxsize=1024)
 def _whole_zone(zone, integral):
     """∫ a ds, one integral and the depth of a zone that lies inside the contact, as for all such states."""
     ends = np.array([zone.end]), np.zeros(1)

@@ -112,11 +112,14 @@ def _load(bodies, course, rows, record):
     turned = step.velocity <= np.maximum(step.moved(last)[1], step.lost.max(axis=1))
     if turned.any():
         last[turned] = gauss.crossing(step.lost[turned], step.velocity[turned])
+        # Where yield began as the body stopped, rounding may have left it none of its speed.
+        last[step.velocity <= 0] = 0.0
     y = course.y[rows] + step.moved(last)[2]
     arrived = ~turned & (edge < np.inf) & (np.abs(y - edge) <= np.where(smooth, 1e-10, NEAR) * y)
     beyond = (y > edge) & ~arrived
     if beyond.any():
-        last[beyond] = gauss.crossing(step.coordinate[beyond], edge[beyond])
+        # Only up to the turning point: the way back crosses the edge again.
+        last[beyond] = gauss.crossing(step.coordinate[beyond], edge[beyond], last[beyond])
     # Where the step ran on smoothly it is cut at the edge, otherwise done again up to there.
     again = beyond & ~smooth
     course.uncut[rows[again]] = np.maximum(course.uncut[rows], step.length / 4)[again]

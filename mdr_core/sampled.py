@@ -205,6 +205,7 @@ class _VertexSum:
         self.tip = np.pi / 2 * bend[0]
         self.inner = (self.r - self.inner_r) * (self.r + self.inner_r)
         self.scale = float(np.sqrt(self.inner[-1])) if len(self.inner) else self.r or 1.0
+        self._table = None
 
     def rate(self, t):
         """dg/dt."""
@@ -229,6 +230,7 @@ class _VertexSum:
         """t at a rise between 0 and `height`, which is reached at `end`."""
         if self.r == 0:
             return rise / self.tip
+        table, root = self._start(end)
         result = np.empty_like(rise)
         for rows in chunks(rise.size, 1024):
             target = rise[rows]
@@ -238,8 +240,16 @@ class _VertexSum:
                 return (self.rise(t) - target) / np.maximum(self.rate(t), target / end)
 
             # g is convex in t: from the right Newton's method only descends.
-            result[rows] = newton(step, end * np.sqrt(target / height), largest=end)
+            result[rows] = newton(step, np.interp(np.sqrt(target), root, table), largest=end)
         return result
+
+    def _start(self, end):
+        """t from 0 to `end`, and the root of the rise there, which is nearly straight between them."""
+        if self._table is None:
+            near = np.geomspace(1e-3 * min(self.scale / end, 1.0), 1.0, 48)
+            t = end * np.unique(np.concatenate([[0.0], near, np.linspace(0, 1, 48)]))
+            self._table = t, np.sqrt(np.maximum.accumulate(np.maximum(self.rise(t), 0.0)))
+        return self._table
 
 
 def _turns_down(first, middle, last):

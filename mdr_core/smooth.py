@@ -9,12 +9,15 @@ from numpy.polynomial import chebyshev
 
 from . import _check, abel
 from .inverse import newton
+from .panels import chunks
 from .profiles import Profile
 from .zones import Zone
 
 # Degrees tried for the Chebyshev series of g/x, and how small its last coefficients must be.
 _DEGREES = (16, 32, 64, 128, 256, 512)
 _CONVERGED = 2e-15
+# Steps of the depths to which zones reach (octaves), least and largest depth (m), zones remembered.
+_OCTAVES, _SHALLOWEST, _DEEPEST, _MOST_ZONES = (2.0, 0.25, 0.01), 1e-60, 1e9, 512
 
 
 @dataclass(frozen=True)
@@ -59,17 +62,73 @@ class Smooth(Profile):
         raise TypeError("the zone of a Smooth shape depends on the depth; ask zones_between")
 
     def zones_between(self, lower, upper):
-        return (self._zone(float(upper)),) if upper > 0 else ()
+        return tuple(zone for _, zone in self._shared(np.array([upper], dtype=float)))
+
+    def batches(self, depth):
+        return [rows[part] for rows, _ in self._shared(depth) for part in chunks(rows.size)] + [
+            np.flatnonzero(~(depth > 0))
+        ]
+
+    @cached_property
+    def deepest(self):
+        """Depth (m) up to which zones can be fitted, within a tenth; infinite if unknown.
+
+        What stops them is the end of the slope, or g that no longer grows or is too rough there.
+        """
+        depth = 2.0**-20
+        while not self._fits(depth):
+            depth /= 2.0**20
+            if depth < _SHALLOWEST:
+                # Nowhere: the zone that is asked for will say why.
+                return np.inf
+        for factor in (2.0**10, 4.0, 1.1):
+            while depth < _DEEPEST and self._fits(depth * factor):
+                depth *= factor
+        return depth
+
+    def _known(self, depth):
+        # A zone that cannot be fitted says itself why.
+        return depth
+
+    def _shared(self, depth):
+        """Rows of an array of positive depths (m) and the zone that they share, whatever their neighbours.
+
+        Zones reach to powers of two; where the shape ends before, to finer steps, at last to a depth
+        itself.
+        """
+        rest = np.flatnonzero(depth > 0)
+        for octaves in _OCTAVES:
+            levels = np.ceil(np.log2(np.maximum(depth[rest], _SHALLOWEST)) / octaves)
+            left = np.ones(rest.size, bool)
+            for level in np.unique(levels):
+                top = float(2.0 ** (octaves * level))
+                if self._fits(top):
+                    yield rest[levels == level], self._attempt(top, True)
+                    left[levels == level] = False
+            rest = rest[left]
+        for row in rest:
+            zone = self._attempt(float(depth[row]), False)
+            if isinstance(zone, ValueError):
+                raise ValueError(*zone.args)
+            yield np.array([row]), zone
+
+    def _fits(self, depth):
+        return not isinstance(self._attempt(depth, True), ValueError)
 
     _zones = cached_property(lambda self: {})
 
-    def _zone(self, depth):
-        """The zone up to a depth, remembered."""
-        if depth not in self._zones:
-            if len(self._zones) > 64:
+    def _attempt(self, depth, generous):
+        """The zone up to a depth, generously or exactly, or the error it ends in; remembered."""
+        result = self._zones.get((depth, generous))
+        if result is None:
+            try:
+                result = _fitted_zone(self, depth, 1e-2 if generous else 0.0)
+            except ValueError as error:
+                result = error
+            if len(self._zones) > _MOST_ZONES:
                 self._zones.clear()
-            self._zones[depth] = _fitted_zone(self, depth)
-        return self._zones[depth]
+            self._zones[depth, generous] = result
+        return result
 
     def _height(self, r):
         # ∫ z′ dr = r ∫ z′(r sin t) cos t dt, as the transform of z′(ρ) √(1 − (ρ/r)²).
@@ -91,13 +150,16 @@ class Smooth(Profile):
         return abel.reduce_slope(self.slope_function, x)
 
     def _radius(self, depth):
-        deepest = float(np.max(depth, initial=0.0))
-        return self._zone(deepest).coordinate(depth) if deepest > 0 else np.zeros_like(depth)
+        depth = np.asarray(depth)
+        result, flat = np.zeros(depth.size), depth.ravel()
+        for rows, zone in self._shared(flat):
+            result[rows] = zone.coordinate(flat[rows])
+        return result.reshape(depth.shape)
 
 
-def _fitted_zone(shape, depth):
-    """The one zone of a smooth shape up to its contact radius at `depth`."""
-    end = _contact_end(shape, depth)
+def _fitted_zone(shape, depth, margin):
+    """The one zone of a smooth shape up to its contact radius at `depth`, or a little beyond."""
+    end = _contact_end(shape, depth, margin)
     series = _series(shape, end)
     derivative = chebyshev.chebder(series) * (2 / end)
 
@@ -129,8 +191,13 @@ def _fitted_zone(shape, depth):
 def _series(shape, end):
     """Chebyshev series on [0, end] of g/x, the mean slope."""
     for degree in _DEGREES:
-        x = end * (1 + np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))) / 2
-        series = chebyshev.chebfit(2 * x / end - 1, shape._reduced(x) / x, degree)
+        count = degree + 1
+        order, node = np.arange(count)[:, None], 2 * np.arange(count) + 1
+        x = end * np.cos(np.pi / 4 * node / count) ** 2
+        # Cosines are orthogonal on these nodes; whole turns are taken out before they cost digits.
+        cosine = np.cos(np.pi / 2 * (order * node % (4 * count)) / count)
+        series = 2 / count * cosine @ (shape._reduced(x) / x)
+        series[0] /= 2
         if np.abs(series[-3:]).max() <= _CONVERGED * np.abs(series).max():
             return series
     raise ValueError(
@@ -139,8 +206,8 @@ def _series(shape, end):
     )
 
 
-def _contact_end(shape, depth):
-    """Contact radius (m) at `depth`, by bisection of g itself."""
+def _contact_end(shape, depth, margin):
+    """Contact radius (m) at `depth`, by bisection of g itself; too large by up to a share `margin`."""
 
     def height(x):
         # Where the slope is not finite, or too rough, the shape is not known.
@@ -157,7 +224,7 @@ def _contact_end(shape, depth):
             "Smooth slope_function is not finite or not smooth next to the axis; a fractional power of "
             "r belongs to PowerLaw, kinks to Sampled"
         )
-    low, g_low = high, height(high)
+    low, g_low, g_high = high, height(high), np.inf
     while g_low < depth and low < min(shape.radius, 1e12):
         high = min(2 * low, shape.radius)
         g_high = height(high)
@@ -167,8 +234,16 @@ def _contact_end(shape, depth):
             break
         low, g_low = high, g_high
     for _ in range(60):
+        if g_high < np.inf and high <= low * (1 + margin):
+            return high
         middle = (low + high) / 2
-        low, high = (low, middle) if height(middle) >= depth else (middle, high)
+        g_middle = height(middle)
+        if margin and g_middle == np.inf:
+            break
+        if g_middle >= depth:
+            high, g_high = middle, g_middle
+        else:
+            low = middle
     if height(low) < depth * (1 - 1e-12):
         raise ValueError(
             f"depth = {depth:g} m is deeper than the Smooth shape is known: at r = {low:g} m, where the "

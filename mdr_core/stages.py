@@ -40,7 +40,8 @@ class Loading:
         """Derivatives of the deceleration by depth (1/s²) and velocity (1/s) at the nodes."""
         ring = a
         if not self.elastic.all():
-            ring = np.where(np.isinf(self.d_c), a, superpose.radius_drop(self.profile, live))
+            # Newton's method settles on it, however many digits of it cancel.
+            ring = np.where(np.isinf(self.d_c), a, a - self.profile._radius(live.lower))
         # a′(d) v is da/dt, and that is at hand without a formula for a′.
         growth = np.einsum("kij,kj->ki", self.differentiate, a) / self.step
         return (ring + self.tau * growth) / self.inertia, self.tau * a / self.inertia
