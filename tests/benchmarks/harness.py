@@ -80,12 +80,13 @@ def measure(problem, rounds=5, patience=20.0):
     The methods take turns, round by round, so that all of them meet the same disturbances; a method
     that has used up its patience (s) drops out after the first rounds.
     """
-    calls = [method.prepare() for method in problem.methods]
-    errors, repeats = [], []
+    calls, errors, repeats = [method.prepare() for method in problem.methods], [], []
     for method, call in zip(problem.methods, calls, strict=True):
-        errors.append(problem.error(call()))
+        start = perf_counter()
+        result = call()
         shortest = 0.0 if method.forget else _SHORTEST
-        repeats.append(max(1, math.ceil(shortest / max(_once(call), 1e-7))))
+        repeats.append(max(1, math.ceil(shortest / (perf_counter() - start))))
+        errors.append(problem.error(result))
     times = [[] for _ in calls]
     gc.collect()
     gc.disable()

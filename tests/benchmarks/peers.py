@@ -30,7 +30,7 @@ def versions():
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 import_module(module)
-        except (ImportError, OSError, AttributeError) as reason:
+        except (ImportError, OSError) as reason:
             found[name] = f"not imported: {reason}"
         else:
             found[name] = metadata.version(name)
@@ -42,13 +42,21 @@ def is_there(name):
 
 
 class Square:
-    """Cell centres of an n × n grid around a contact of radius a, and what is exact there."""
+    """Cell centres of an n × n grid around a contact of radius a, and what is exact there.
+
+    The codes have absolute tolerances, so that they get the problem in units of a, the depth and
+    E*: `box`, `height`, and `push`, the force in these units.
+    """
 
     def __init__(self, profile, medium, depth, n):
         self.profile, self.medium, self.depth, self.n = profile, medium, depth, n
-        self.width = 2 * profile.contact_radius(depth) / _FILL
-        x = ((np.arange(n) + 0.5) / n - 0.5) * self.width
-        self.r = np.hypot(x[:, None], x)
+        self.box = 2 / _FILL
+        x = ((np.arange(n) + 0.5) / n - 0.5) * self.box
+        self.radius = float(profile.contact_radius(depth))
+        self.r = self.radius * np.hypot(x[:, None], x)
+        self.height = profile.height(self.r) / depth
+        self.unit = medium.E_star * self.radius * depth
+        self.push = float(indent(profile, medium, depth).force) / self.unit
         self._radii, self._inverse = np.unique(self.r, return_inverse=True)
 
     @property
@@ -88,23 +96,23 @@ def _tamaas(square, tolerance, quantity):
     import tamaas
 
     tamaas.set_log_level(tamaas.LogLevel.error)
-    n, width, height = square.n, square.width, square.profile.height(square.r)
-    model = tamaas.Model(tamaas.model_type.basic_2d, [width, width], [n, n])
-    model.E, model.nu = square.medium.E_star, 0.0
+    n, box, height = square.n, square.box, square.height
+    model = tamaas.Model(tamaas.model_type.basic_2d, [box, box], [n, n])
+    model.E, model.nu = 1.0, 0.0
     tamaas.ModelFactory.registerNonPeriodic(model, "free")
     solver = tamaas.PolonskyKeerRey(model, -height, tolerance)
     solver.setIntegralOperator("free")
-    force = float(indent(square.profile, square.medium, square.depth).force)
     displacement = np.zeros_like(height)
 
     def call():
         model.traction[:] = 0
-        solver.solve(force / width**2)
+        solver.solve(square.push / box**2)
         if quantity == "pressure":
-            return np.array(model.traction)
+            return model.traction * (square.unit / square.radius**2)
         model.operators["free"](model.traction, displacement)
         touching = model.traction > 0
-        return np.mean((displacement + height)[touching]), force
+        depth = square.depth * np.mean((displacement + height)[touching])
+        return depth, square.push * square.unit
 
     return call
 
@@ -114,19 +122,18 @@ def _contact_mechanics(square, quantity):
         warnings.simplefilter("ignore")
         from ContactMechanics import FreeFFTElasticHalfSpace, make_system
         from SurfaceTopography import Topography
-    n, width = square.n, square.width
-    height = square.profile.height(square.r)
-    surface = Topography(-height, (width, width))
-    half_space = FreeFFTElasticHalfSpace((n, n), square.medium.E_star, (width, width))
+    n, box = square.n, square.box
+    surface = Topography(-square.height, (box, box))
+    half_space = FreeFFTElasticHalfSpace((n, n), 1.0, (box, box))
     system = make_system(substrate=half_space, surface=surface)
     # Its default, which it takes by a route that it warns about.
-    penetration = height.std() / (10 * n)
+    penetration = square.height.std() / (10 * n)
 
     def call():
-        forces = np.asarray(system.minimize_proxy(offset=square.depth, pentol=penetration).jac)[:n, :n]
+        forces = np.asarray(system.minimize_proxy(offset=1.0, pentol=penetration).jac)[:n, :n]
         if quantity == "pressure":
-            return forces / (width / n) ** 2
-        return square.depth, forces.sum()
+            return forces * (square.unit * (n / box / square.radius) ** 2)
+        return square.depth, forces.sum() * square.unit
 
     return call
 

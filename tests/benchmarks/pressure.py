@@ -59,7 +59,7 @@ def _yielded(quick):
     methods = [
         *_own(CONE, SOFT, _DEEP, r, ""),
         Method("difference of curves", "", lambda: lambda: _difference(a, c, r)),
-        Method("mdr_core.abel", "line load at c and a", lambda: lambda: _by_samples(a, c, r)),
+        Method("mdr_core, samples", "line load at 0, c and a", lambda: lambda: _by_samples(a, c, r)),
     ]
     for tolerance in (1e-3, 1e-6, 1e-9):
         methods.append(

@@ -61,11 +61,11 @@ def _problem(case, title, profile, medium, depth, quick):
 def _samples(state, r):
     """Nodes by family: even ones, even ones and the kink, and as many that crowd at the rim."""
     a, c = float(state.contact_radius), float(state.plastic_radius)
-    nodes = {"mdr_core.abel, even samples": r}
+    nodes = {"mdr_core, even samples": r}
     if c > 0:
-        nodes["mdr_core.abel, kink known"] = np.sort(np.append(r, c))
+        nodes["mdr_core, kink known"] = np.sort(np.append(r, c))
     else:
-        nodes["mdr_core.abel, graded samples"] = a * np.sin(np.pi / 2 * r / a)
+        nodes["mdr_core, graded samples"] = a * np.sin(np.pi / 2 * r / a)
     return nodes
 
 
