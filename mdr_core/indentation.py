@@ -49,7 +49,7 @@ def indent(profile, medium, depth):
     >>> print(round(state.force / critical_force, 12))
     3.0
     """
-    _refuse_types(profile, medium)
+    _one_of_each(profile, medium)
     depth = profile._known(_check.finite_array("depth", depth, unit="m"))
     return Indentation(profile, medium, depth, live_interval(depth, *medium._critical_depth_parts))
 
@@ -83,7 +83,7 @@ def indent_to_force(profile, medium, force):
     >>> print(round(indent_to_force(cone, medium, indent(cone, medium, 5.0).force).depth, 12))
     5.0
     """
-    _refuse_types(profile, medium)
+    _one_of_each(profile, medium)
     force = _check.finite_array("force", force, unit="N")
     _check.refuse("force", force, force < 0, "is negative", unit="N", remedy="there is no adhesion")
     most = 2 * medium.yield_line_load * profile.wall
@@ -130,11 +130,21 @@ def _live_length(profile, front, area):
     return np.minimum(increasing_root(unloading, area, start), front.length)
 
 
-def _refuse_types(profile, medium):
+def check_types(profile, medium):
+    """Refuses what is no indenter or no medium."""
     if not isinstance(profile, Profile):
-        raise TypeError(f"profile must be an mdr_core shape such as Cone(slope=1), got {profile!r}")
+        raise TypeError(f"profile must be an mdr_core shape such as Cone(slope=1), got {profile!r:.80}")
     if not isinstance(medium, Medium):
-        raise TypeError(f"medium must be a Medium, got {medium!r}")
+        raise TypeError(f"medium must be a Medium, got {medium!r:.80}")
+
+
+def _one_of_each(profile, medium):
+    check_types(profile, medium)
+    if profile.shape or medium.shape:
+        raise ValueError(
+            "a path is that of one indenter on one medium, but their parameters are arrays of shape "
+            f"{profile.shape or medium.shape}; indent one at a time, as in profile.entries(i)"
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +169,9 @@ class Indentation:
         return len(self.depth)
 
     def __getitem__(self, index):
-        return Indentation(self.profile, self.medium, np.asarray(self.depth[index]), self.live[index])
+        shape = np.shape(self.depth)
+        profile, medium = self.profile.entries(index, shape), self.medium.entries(index, shape)
+        return Indentation(profile, medium, np.asarray(self.depth[index]), self.live[index])
 
     @_check.frozen_property
     def force(self):

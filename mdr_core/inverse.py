@@ -47,18 +47,18 @@ def increasing_root(function, target, start, highest=np.inf):
         Values and derivatives at an array x > 0, as a pair.
     target : ndarray
         Values to reach; 0 is reached at 0.
-    start : float
-        A first guess for all.
-    highest : float
+    start : float or ndarray
+        First guesses.
+    highest : float or ndarray
         Largest x at which the function is known; where it falls short of the target there, the
         result is infinite.
     """
     target = np.asarray(target, dtype=float)
-    x = np.full(target.shape, min(start, highest))
-    low, high = np.zeros_like(x), np.full_like(x, np.inf)
-    if highest < np.inf:
-        reachable = target <= function(np.full_like(x, highest))[0]
-        high = np.full_like(x, highest)
+    x = np.zeros(target.shape) + np.minimum(start, highest)
+    low, high = np.zeros_like(x), np.zeros_like(x) + highest
+    bounded = high < np.inf
+    if bounded.any():
+        reachable = ~bounded | (target <= function(np.where(bounded, high, x))[0])
     else:
         reachable = np.ones(target.shape, bool)
     sought = (target > 0) & reachable

@@ -1,15 +1,14 @@
 """The medium: modulus, yield constant and viscosity, and what follows from them alone."""
 
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
 
 from . import _check
 
-# π/2 to 48 digits.
-_HALF_PI = Fraction(157079632679489661923132169163975144209858469968, 10**47)
+# π/2 as the sum of two doubles.
+_HALF_PI = 1.5707963267948966, 6.123233995736766e-17
 
 
 @dataclass(frozen=True)
@@ -27,10 +26,12 @@ class Medium:
     eta : float, optional
         Dynamic viscosity η (Pa·s), not negative; 0 (the default) means rate-independent.
 
+    Each may be an array for many impacts at once (`impact`); then every property is one too.
+
     Raises
     ------
     ValueError
-        If a parameter is not a number or out of its range.
+        If a parameter is not a number or out of its range, or arrays do not broadcast.
 
     Examples
     --------
@@ -49,11 +50,12 @@ class Medium:
         q_c = _check.positive("yield constant q_c", self.q_c, unit="N/m", infinite=True)
         set_(self, "q_c", q_c)
         set_(self, "eta", _check.positive("viscosity eta", self.eta, unit="Pa·s", zero=True))
-        if q_c < np.inf and not 0 < self.critical_depth < np.inf:
-            raise ValueError(
-                f"yield constant q_c = {q_c:g} N/m over E_star = {self.E_star:g} Pa gives a critical "
-                "depth outside double precision; check the units, or leave q_c out for no yield"
-            )
+        _check.common_shape("medium", E_star=self.E_star, q_c=self.q_c, eta=self.eta)
+        depth = np.asarray(self.critical_depth)
+        bad = ~((depth > 0) & ((depth < np.inf) | (self.q_c == np.inf)))
+        bound = "m is outside double precision"
+        remedy = "check the units of q_c and E_star, or leave q_c out for no yield"
+        _check.refuse("critical depth π q_c/(2 E_star)", depth, bad, bound, remedy=remedy)
 
     @classmethod
     def from_bodies(cls, E1, nu1, E2=np.inf, nu2=0.0, q_c=np.inf, eta=0.0):
@@ -78,13 +80,26 @@ class Medium:
         compliance = 0.0
         for i, (modulus, ratio) in enumerate(((E1, nu1), (E2, nu2)), start=1):
             modulus = _check.positive(f"Young's modulus E{i}", modulus, unit="Pa", infinite=True)
-            ratio = _check.number(f"Poisson ratio nu{i}", ratio)
-            if not -1 < ratio <= 0.5:
-                raise ValueError(f"Poisson ratio nu{i} = {ratio:g} must lie in −1 < ν ≤ 0.5")
-            compliance += (1 - ratio) * (1 + ratio) / modulus
-        if compliance == 0:
+            quantity = f"Poisson ratio nu{i}"
+            ratio = _check.finite_array(quantity, ratio)
+            _check.refuse(quantity, ratio, ~((ratio > -1) & (ratio <= 0.5)), "must lie in −1 < ν ≤ 0.5")
+            compliance = compliance + (1 - ratio) * (1 + ratio) / modulus
+        if np.any(compliance == 0):
             raise ValueError("E1 and E2 are both infinite; at least one body must be elastic")
         return cls(1 / compliance, q_c, eta)
+
+    @property
+    def shape(self):
+        """Shape to which array-valued parameters broadcast, () for one medium."""
+        return np.broadcast_shapes(np.shape(self.E_star), np.shape(self.q_c), np.shape(self.eta))
+
+    def entries(self, index, shape=None):
+        """The media at an index of the parameters, broadcast to `shape` before."""
+        if not self.shape:
+            return self
+        shape = self.shape if shape is None else shape
+        values = (self.E_star, self.q_c, self.eta)
+        return Medium(*(np.broadcast_to(v, shape)[index] if np.ndim(v) else v for v in values))
 
     @property
     def critical_depth(self):
@@ -95,16 +110,22 @@ class Medium:
     def _critical_depth_parts(self):
         """d_c as the sum of a double and a small remainder.
 
-        Just beyond the critical depth, d_p = d − d_c has the remainder's digits in front.
+        Just beyond the critical depth, d_p = d − d_c has the remainder's digits in front. On
+        mantissas, so that nothing over- or underflows on the way.
         """
-        if self.q_c == np.inf:
-            return np.inf, 0.0
-        exact = _HALF_PI * Fraction(self.q_c) / Fraction(self.E_star)
-        try:
-            nearest = float(exact)
-        except OverflowError:
-            return np.inf, 0.0
-        return nearest, float(exact - Fraction(nearest))
+        q_c, q_exponent = np.frexp(np.where(np.isinf(self.q_c), 1.0, self.q_c))
+        E, E_exponent = np.frexp(self.E_star)
+        product, error = _exact_product(_HALF_PI[0], q_c)
+        quotient = product / E
+        back, back_error = _exact_product(quotient, E)
+        remainder = ((product - back) - back_error + (error + _HALF_PI[1] * q_c)) / E
+        nearest = quotient + remainder
+        remainder = remainder - (nearest - quotient)
+        with np.errstate(over="ignore", under="ignore"):
+            nearest, remainder = (np.ldexp(part, q_exponent - E_exponent) for part in (nearest, remainder))
+        never = np.isinf(self.q_c)
+        remainder = np.where(never | np.isinf(nearest), 0.0, remainder)
+        return tuple(_check.frozen(part) for part in (np.where(never, np.inf, nearest), remainder))
 
     @property
     def yield_line_load(self):
@@ -115,3 +136,11 @@ class Medium:
     def relaxation_time(self):
         """Relaxation time τ = 4η/E* (s) of a spring and its dashpot, Popov (2015), Eq. (1)."""
         return 4 * self.eta / self.E_star
+
+
+def _exact_product(a, b):
+    """Product of two doubles of moderate size, and its rounding error (Veltkamp and Dekker)."""
+    product = a * b
+    a_high, b_high = (134217729.0 * part - (134217729.0 * part - part) for part in (a, b))
+    a_low, b_low = a - a_high, b - b_high
+    return product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low

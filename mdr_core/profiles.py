@@ -21,7 +21,8 @@ from .zones import Zone
 class Profile(ABC):
     """A rigid axisymmetric indenter with its tip at the origin, growing outward.
 
-    Lengths are in m, slopes dimensionless.
+    Lengths are in m, slopes dimensionless. Parameters may be arrays, which broadcast against each
+    other and against radii and depths: many indenters at once, for `impact`.
     """
 
     #: Radius (m) of a vertical wall, where depth grows at constant contact radius.
@@ -61,6 +62,33 @@ class Profile(ABC):
         return self.zones
 
     @property
+    def shape(self):
+        """Shape to which array-valued parameters broadcast, () for one indenter."""
+        return np.broadcast_shapes(*(np.shape(getattr(self, field.name)) for field in fields(self)))
+
+    def entries(self, index, shape=None):
+        """The indenters at an index of the parameters, broadcast to `shape` before."""
+        if not self.shape:
+            return self
+        shape = self.shape if shape is None else shape
+        values = (getattr(self, field.name) for field in fields(self))
+        return type(self)(*(np.broadcast_to(v, shape)[index] if np.ndim(v) else v for v in values))
+
+    def flat_entries(self, rows, shape):
+        """The indenters in some rows of an ensemble of a `shape`, counted flat."""
+        if not self.shape:
+            return self
+        return self.entries(np.unravel_index(np.arange(np.prod(shape, dtype=int))[rows], shape), shape)
+
+    @property
+    def unit(self):
+        """The same shape with parameters of 1, the unit of length and the unit of depth (m).
+
+        g(x) is the depth unit times the unit shape's g of x over the length unit.
+        """
+        raise NotImplementedError
+
+    @property
     @abstractmethod
     def zones(self) -> tuple[Zone, ...]:
         """The smooth stretches of g, from the tip outward."""
@@ -82,7 +110,7 @@ class Profile(ABC):
 
     def _known(self, depth):
         """`depth`, if the shape is known so far."""
-        if self.deepest == np.inf:
+        if np.all(self.deepest == np.inf):
             return depth
         bound = f"is deeper than the shape is known, {self.deepest:g} m"
         return _check.refuse(
@@ -91,13 +119,16 @@ class Profile(ABC):
 
 
 def set_positive(profile, **units):
-    """Replace each named field of a frozen profile by its checked float value."""
+    """Replace each named field of a frozen profile by its checked value, a float or an array."""
     for name, unit in units.items():
         quantity = f"{type(profile).__name__} {name}"
         value = _check.positive(quantity, getattr(profile, name), unit=unit)
-        if not 1e-100 <= value <= 1e100 and unit != "m^(1-n)":
-            raise ValueError(f"{quantity} = {value:g} must lie between 1e-100 and 1e100; check the unit")
+        if unit != "m^(1-n)":
+            outside = ~((np.asarray(value) >= 1e-100) & (np.asarray(value) <= 1e100))
+            bound = "must lie between 1e-100 and 1e100"
+            _check.refuse(quantity, np.asarray(value), outside, bound, unit=unit, remedy="check the unit")
         object.__setattr__(profile, name, value)
+    _check.common_shape(type(profile).__name__, **{name: getattr(profile, name) for name in units})
 
 
 @dataclass(frozen=True)
@@ -207,9 +238,9 @@ class PowerLaw(Profile):
 
     Parameters
     ----------
-    coefficient : float
+    coefficient : float or array_like
         Coefficient c (m^(1−n)), positive.
-    exponent : float
+    exponent : float or array_like
         Exponent n, from 0.01 to 1000.
 
     Examples
@@ -223,20 +254,19 @@ class PowerLaw(Profile):
 
     def __post_init__(self):
         set_positive(self, coefficient="m^(1-n)", exponent="")
-        if not 0.01 <= self.exponent <= 1000:
-            raise ValueError(
-                f"PowerLaw exponent = {self.exponent:g} must lie in 0.01 ≤ n ≤ 1000; FlatPunch is n → ∞"
-            )
-        if not 0 < self._reduced_coefficient < np.inf:
-            raise ValueError(
-                f"PowerLaw coefficient = {self.coefficient:g} m^(1-n) with exponent = {self.exponent:g} "
-                "leaves double precision in its reduced profile; use another unit of length"
-            )
+        exponent = np.asarray(self.exponent)
+        outside = ~((exponent >= 0.01) & (exponent <= 1000))
+        bound = "must lie in 0.01 ≤ n ≤ 1000"
+        _check.refuse("PowerLaw exponent", exponent, outside, bound, remedy="FlatPunch is n → ∞")
+        reduced = np.asarray(self._reduced_coefficient)
+        bound = "m^(1-n), the coefficient of the reduced profile, leaves double precision"
+        outside = ~((reduced > 0) & (reduced < np.inf))
+        _check.refuse("κₙ c", reduced, outside, bound, remedy="use another unit of length")
 
     @cached_property
     def _reduced_coefficient(self):
         with np.errstate(over="ignore"):
-            return float(kappa(self.exponent) * self.coefficient)
+            return _check.frozen(kappa(self.exponent) * self.coefficient)
 
     @property
     def zones(self):
@@ -263,10 +293,11 @@ def kappa(n):
     >>> print(kappa(2.0))
     2.0
     """
-    if n < 300:
-        # n Γ(n/2)/2 = Γ(n/2 + 1), which stays finite as n → 0.
-        return np.sqrt(np.pi) * gamma(n / 2 + 1) / gamma((n + 1) / 2)
+    n = np.asarray(n, dtype=float)
+    # n Γ(n/2)/2 = Γ(n/2 + 1), which stays finite as n → 0.
+    few = np.minimum(n, 300.0)
+    ratio = np.sqrt(np.pi) * gamma(few / 2 + 1) / gamma((few + 1) / 2)
     # Γ(m + 1/2)/Γ(m) for large m, where the gamma functions overflow.
-    m = (n + 1) / 2
+    m = (np.maximum(n, 300.0) + 1) / 2
     series = np.polyval([869 / 4194304, -399 / 262144, -21 / 32768, 5 / 1024, 1 / 128, -1 / 8, 1], 1 / m)
-    return np.sqrt(np.pi * m) * series
+    return np.where(n < 300, ratio, np.sqrt(np.pi * m) * series)[()]

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .panels import NODES, PANEL, TAIL, WEIGHTS, chunks
+from .yielding import LiveInterval
 
 #: Contributions below e^(−40) of the largest are left out of a graded quadrature.
 NEGLIGIBLE = 40.0
@@ -17,7 +18,7 @@ NEGLIGIBLE = 40.0
 
 def wall_length(profile, live):
     """Part of the live interval (m) in which the contact radius stays at the wall, elementwise."""
-    if profile.wall == np.inf:
+    if np.all(profile.wall == np.inf):
         return np.zeros_like(live.length)
     foot = profile._reduced(np.asarray(profile.wall))
     beyond = np.maximum(live.upper - foot, 0.0)
@@ -26,6 +27,9 @@ def wall_length(profile, live):
 
 def by_quadrature(profile, live, integral):
     """One of the three integrals for a shape without closed forms, elementwise."""
+    if profile.shape:
+        unit, radius, depth = profile.unit
+        return by_quadrature(unit, scaled(live, depth), integral) * (radius * depth**integral.units)
     ends = [np.ravel(part) for part in (live.lower, live.upper, live.length, wall_length(profile, live))]
     result = np.zeros_like(ends[0])
     for rows in chunks(ends[0].size):
@@ -39,6 +43,11 @@ def by_quadrature(profile, live, integral):
     return result.reshape(np.shape(live.length))
 
 
+def scaled(live, unit):
+    """The live interval in another unit of depth."""
+    return LiveInterval(*np.broadcast_arrays(live.lower / unit, live.upper / unit, live.length / unit))
+
+
 class Integral(NamedTuple):
     """What is summed over the panels of a state, from the depth d downward."""
 
@@ -50,6 +59,8 @@ class Integral(NamedTuple):
     short: Callable
     #: Power of the interval's length to which the sum is proportional.
     degree: int
+    #: Power of the unit of depth in it, besides one length.
+    units: int
     #: Whether the depth above each node is needed.
     cumulative: bool = False
 
@@ -59,12 +70,14 @@ AREA = Integral(
     node=lambda zone, t, dt, ds, above: zone.radius(t) * ds,
     short=lambda a, length: a * length,
     degree=1,
+    units=1,
 )
 VOLUME = Integral(
     wall=lambda b, length: b * length**2 / 2,
     node=lambda zone, t, dt, ds, above: zone.radius(t) * ds * above,
     short=lambda a, length: a * length**2 / 2,
     degree=2,
+    units=2,
     cumulative=True,
 )
 DROP = Integral(
@@ -72,6 +85,7 @@ DROP = Integral(
     node=lambda zone, t, dt, ds, above: zone.radius_rate(t) * dt,
     short=lambda a, length: np.zeros_like(length),
     degree=1,
+    units=0,
 )
 
 

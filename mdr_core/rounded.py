@@ -33,6 +33,7 @@ class Sphere(Profile):
 
     # There a is R to any precision, and the squares of hyperbolic functions are still finite.
     deepest = property(lambda self: 100 * self.radius)
+    unit = property(lambda self: (Sphere(1.0), self.radius, self.radius))
 
     @property
     def zones(self):
@@ -99,6 +100,8 @@ class Hyperboloid(Profile):
     def _length(self):
         return self.slope * self.tip_radius
 
+    unit = property(lambda self: (Hyperboloid(1.0, 1.0), self._length, self.slope * self._length))
+
     @property
     def zones(self):
         s, length = self.slope, self._length
@@ -156,6 +159,7 @@ class RoundedCone(Profile):
         return self.slope * self.tip_radius
 
     kinks = property(lambda self: (self.slope * self._cap,))
+    unit = property(lambda self: (RoundedCone(1.0, 1.0), self._cap, self.slope * self._cap))
 
     @property
     def zones(self):
@@ -235,6 +239,7 @@ class ParabolicPunch(Profile):
 
     wall = property(lambda self: self.cylinder_radius)
     kinks = property(lambda self: (self.cylinder_radius * (self.cylinder_radius / self.radius),))
+    unit = property(lambda self: (ParabolicPunch(1.0, 1.0), self.cylinder_radius, self.kinks[0]))
 
     @property
     def zones(self):

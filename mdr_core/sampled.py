@@ -137,6 +137,8 @@ class Sampled(Profile):
         """Reduced height at the vertices (m)."""
         return self._reduced(self._r)
 
+    # The samples are one indenter, not many.
+    shape = ()
     known_radius = property(lambda self: self.r[-1])
     kinks = property(lambda self: tuple(g for g in self._g[1:-1].tolist() if g > 0))
     deepest = property(lambda self: float(self._g[-1]))

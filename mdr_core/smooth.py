@@ -47,9 +47,11 @@ class Smooth(Profile):
             raise ValueError(
                 f"Smooth slope_function must be a function of the radius, got {self.slope_function!r:.80}"
             )
+        _check.number("Smooth radius", self.radius)
         radius = _check.positive("Smooth radius", self.radius, unit="m", infinite=True)
         object.__setattr__(self, "radius", radius)
 
+    shape = ()
     known_radius = property(lambda self: self.radius)
 
     @property

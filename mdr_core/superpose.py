@@ -21,7 +21,7 @@ from scipy.special import betainc
 
 from .panels import chunks
 from .profiles import Cone, FlatPunch, Paraboloid, PowerLaw
-from .quadrature import AREA, DROP, VOLUME, by_quadrature
+from .quadrature import AREA, DROP, VOLUME, by_quadrature, scaled
 from .rounded import Sphere
 
 _TINY = np.finfo(float).tiny
@@ -140,6 +140,9 @@ def _power_drop(q, fraction):
 
 @radius_integral.register
 def _(profile: Sphere, live):
+    if profile.shape:
+        unit, radius, depth = profile.unit
+        return radius * depth * radius_integral(unit, scaled(live, depth))
     lower, upper, length = (np.ravel(part) for part in (live.lower, live.upper, live.length))
     result = np.empty_like(length)
     for rows in chunks(length.size):

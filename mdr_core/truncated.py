@@ -18,6 +18,8 @@ class _FlatFaced(Profile):
     #: Exponent of dg/dt at the edge of the face.
     _order = 0
 
+    unit = property(lambda self: (type(self)(1.0, 1.0), self.flat_radius, self._depth_scale))
+
     @property
     def zones(self):
         b = self.flat_radius
@@ -64,14 +66,18 @@ class TruncatedCone(_FlatFaced):
     def _height(self, r):
         return self.slope * np.maximum(r - self.flat_radius, 0.0)
 
+    @property
+    def _depth_scale(self):
+        return self.slope * self.flat_radius
+
     def _behind(self, tau):
-        return self.slope * self.flat_radius * np.hypot(1.0, tau) * np.arctan(tau)
+        return self._depth_scale * np.hypot(1.0, tau) * np.arctan(tau)
 
     def _rate(self, tau):
         return self.slope * (tau * np.arctan(tau) + 1) / np.hypot(1.0, tau)
 
     def _tau(self, depth):
-        D = depth / (self.slope * self.flat_radius)
+        D = depth / self._depth_scale
 
         def step(tau):
             x, arctan = np.hypot(1.0, tau), np.arctan(tau)

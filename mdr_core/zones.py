@@ -45,7 +45,7 @@ class Zone:
         """x (m) at the coordinate t."""
         if self.equator < np.inf:
             return t / np.hypot(1.0, t / self.equator)
-        return np.hypot(self.kink, t) if self.kink else t
+        return np.hypot(self.kink, t) if np.ndim(self.kink) or self.kink else t
 
     def radius_rate(self, t):
         """dx/dt at the coordinate t."""

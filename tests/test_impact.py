@@ -139,20 +139,15 @@ def test_arguments_broadcast_and_order_does_not_matter():
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        ((0.0, 1.0), "mass = 0 kg must be positive"),
-        ((1.0, [1.0, -2.0]), r"speed\[1\] = -2 m/s must be positive"),
-        ((1.0, math.nan), "speed = nan m/s must be finite"),
+        ((0.0, 1.0), "mass = 0 kg must be finite and positive"),
+        ((1.0, [1.0, -2.0]), r"speed\[1\] = -2 m/s must be finite and positive"),
+        ((1.0, math.nan), "speed = nan m/s must be finite and positive"),
         ((1e-300, 1e-100), "kinetic energy = 0 J is outside double precision"),
     ],
 )
 def test_bad_arguments_are_refused(arguments, says):
     with pytest.raises(ValueError, match=says):
         mdr.impact(mdr.Cone(0.3), MEDIUM, *arguments)
-
-
-def test_viscous_impact_is_refused():
-    with pytest.raises(ValueError, match="viscosity eta = 1 Pa·s must be 0"):
-        mdr.impact(mdr.Cone(0.3), mdr.Medium(1e9, eta=1.0), 1.0, 1.0)
 
 
 def test_one_of_many():

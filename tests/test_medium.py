@@ -42,7 +42,11 @@ def test_without_yield_constant_nothing_yields():
         ({"E_star": math.inf}, "E_star = inf"),
         ({"E_star": "1e9"}, "E_star must be one real number"),
         ({"E_star": True}, "E_star must be one real number"),
-        ({"E_star": [1e9, 2e9]}, "E_star must be one real number"),
+        (
+            {"E_star": [1e9, -2e9, 0.0]},
+            r"E_star\[1\] = -2e\+09 Pa must be .* \(and 1 more",
+        ),
+        ({"E_star": [1e9, 2e9], "q_c": [1.0, 2.0, 3.0]}, r"E_star \(2,\), q_c \(3,\) do not broadcast"),
         ({"E_star": 1e9, "q_c": 0.0}, "q_c = 0 N/m must be positive"),
         ({"E_star": 1e9, "q_c": math.nan}, "q_c = nan"),
         ({"E_star": 1e9, "eta": -1.0}, "eta = -1 Pa·s must be finite and not negative"),

@@ -1,0 +1,170 @@
+"""Contact time of a dry impact: quadrature of dd/v, without time stepping."""
+
+from functools import lru_cache
+
+import numpy as np
+from scipy.special import gamma
+
+from . import superpose
+from .panels import chunks, integration_rule
+from .profiles import Cone, FlatPunch, Paraboloid, PowerLaw
+from .yielding import LiveInterval
+
+_NODE, _WEIGHT, _TAIL = integration_rule(40)
+
+
+def contact_time(profile, inertia, speed, live, growth):
+    """Time (s) from first contact to its loss, elementwise.
+
+    Parameters
+    ----------
+    profile : Profile
+        One or many.
+    inertia, speed : float or ndarray
+        m/(2E*) (m s²) and v₀ (m/s).
+    live, growth : LiveInterval, ndarray
+        At the turning point, and what the impact added to the plastic depth (m). Everything
+        broadcasts to their shape.
+    """
+    shape = np.shape(live.upper)
+    factor = np.broadcast_to(np.sqrt(inertia / 2), shape).ravel()
+    growth = np.ravel(growth)
+    lower, upper, length = (np.ravel(part) for part in (live.lower, live.upper, live.length))
+    passage = np.broadcast_to(upper.reshape(shape) / speed, shape).ravel()
+    # Of a power law, the contact time over d_max/v₀ depends on d_p/d_c alone.
+    virgin = growth == lower
+    known = virgin & (lower == 0) & (power(profile) is not None)
+    tabulated = virgin & (lower > 0) & isinstance(profile, Cone | Paraboloid)
+    time = np.empty(upper.shape)
+    if known.any():
+        ratio = np.broadcast_to(elastic_time(power(profile)), shape).ravel()
+        time[known] = ratio[known] * passage[known]
+    if tabulated.any():
+        grown = lower[tabulated] / length[tabulated]
+        time[tabulated] = _tabulated(type(profile), grown) * passage[tabulated]
+    rest = np.flatnonzero(~(known | tabulated))
+    for part in chunks(rest.size, 512):
+        rows = rest[part]
+        indenters = profile.flat_entries(rows, shape)
+        # The kinetic energy is 2E* times the integral of a ds that is still to be spent.
+        state = LiveInterval(lower[rows], upper[rows], length[rows])
+        time[rows] = time_over_root(indenters, state, growth[rows]) * factor[rows]
+    return time.reshape(shape)[()]
+
+
+def power(profile):
+    """Exponent p of the elastic force F ∝ dᵖ, None if it is not a power."""
+    if isinstance(profile, FlatPunch):
+        return 1.0
+    exponent = {Cone: 1.0, Paraboloid: 2.0}.get(type(profile))
+    exponent = profile.exponent if isinstance(profile, PowerLaw) else exponent
+    return None if exponent is None else 1 + 1 / exponent
+
+
+def elastic_time(p):
+    """Contact time over d_max/v₀ of an elastic impact with F ∝ dᵖ.
+
+    Examples
+    --------
+    >>> print(round(elastic_time(1.5), 10))  # Hertz
+    2.9432751843
+    """
+    q = 1 / (p + 1)
+    return 2 * np.sqrt(np.pi) * gamma(1 + q) / gamma(0.5 + q)
+
+
+def _tabulated(kind, grown):
+    """Contact time over d_max/v₀ of a cone or paraboloid, as a function of d_p/d_c > 0."""
+    coefficients = _table(kind)
+    result = np.empty_like(grown)
+    for rows in chunks(grown.size):
+        root = np.sqrt(grown[rows])
+        # Powers of √(d_p/d_c) at the onset of yield, of its inverse far beyond.
+        twice = 2 * (2 * (root / (1 + root)) - 1)
+        first, second = np.full_like(root, coefficients[-1]), np.zeros_like(root)
+        for coefficient in coefficients[-2:0:-1]:
+            first, second = coefficient + twice * first - second, first
+        result[rows] = coefficients[0] + twice / 2 * first - second
+    return result
+
+
+@lru_cache
+def _table(kind):
+    """Chebyshev coefficients of `_tabulated` in 2v − 1, with v = √X/(1 + √X) and X = d_p/d_c."""
+    count = 72
+    angle = np.pi * (np.arange(count) + 0.5) / count
+    v = (1 + np.cos(angle)) / 2
+    X = (v / (1 - v)) ** 2
+    one = np.ones_like(X)
+    live = LiveInterval(X, X + one, one)
+    profile = kind(1.0)
+    past = LiveInterval(np.zeros_like(X), X, X)
+    energy = superpose.energy_integral(profile, live) + superpose.radius_integral(profile, past)
+    time = time_over_root(profile, live, X) * np.sqrt(energy) / live.upper
+    coefficients = 2 / count * np.einsum("k,jk->j", time, np.cos(np.outer(np.arange(count), angle)))
+    coefficients[0] /= 2
+    return coefficients[: np.flatnonzero(np.abs(coefficients) > 1e-15)[-1] + 1].tolist()
+
+
+def time_over_root(profile, live, growth):
+    """∫ ds/√(∫ a ds) over unloading and loading (√m), one impact a row.
+
+    Depths run from where a stretch begins to its turning point as τ³(2 − τ³): the square in
+    1 − τ³ takes out the square root at the turning point, the cube the fractional powers where
+    contact or yield begins. What is still to be spent is integrated from the turning point back,
+    so that it never cancels.
+    """
+    kinks = np.column_stack(profile.kinks) if profile.kinks else np.empty((1, 0))
+    base, whole = live.lower[:, None], live.length[:, None]
+    start = base - growth[:, None]
+    nothing, end = np.zeros_like(growth), np.ones_like(growth)
+    # Unloading over the live length, above the plastic depth.
+    time, _ = _stretch(profile, live.length, kinks - base, lambda s: (base + 0 * s, s), end, nothing)
+    # Loading beyond the critical depth: the interval moves. Its lower end has a scale of its own, d_c.
+    breaks = np.hstack([kinks - start, kinks - start - whole, whole])
+    beyond, spent = _stretch(profile, growth, breaks, lambda s: (start + s, whole + 0 * s), end, nothing)
+    # Loading up to the critical depth: the same map about the turning point, cut at τ_c.
+    way = growth + live.length
+    cut = np.cbrt(live.length / way / (1 + np.sqrt(growth / way)))
+    below, _ = _stretch(profile, way, kinks - start, lambda s: (start + 0 * s, s), cut, spent)
+    return time + beyond + below
+
+
+def _stretch(profile, extent, breaks, interval, last, spent):
+    """∫ ds/√spent over a stretch of depth, and what is spent when it ends, one impact a row.
+
+    Parameters
+    ----------
+    extent : ndarray, shape (N,)
+        Depth (m) from where the stretch begins to its turning point, at τ = 1.
+    breaks : ndarray, shape (N, K)
+        Depths (m) in it at which the force has a kink.
+    interval : callable
+        Lower end and length of the live interval at depths from the beginning.
+    last : ndarray, shape (N,)
+        End of the stretch in τ.
+    spent : ndarray, shape (N,)
+        What is still to be spent beyond `last`.
+    """
+    room = np.maximum(extent, np.finfo(float).tiny)[:, None]
+    share = np.clip(breaks / room, 0, 1)
+    # Inverse of τ³(2 − τ³), without cancellation for small shares.
+    inner = np.minimum(np.cbrt(share / (1 + np.sqrt(1 - share))), last[:, None])
+    edges = np.sort(np.hstack([np.zeros_like(room), inner, last[:, None]]), axis=1)
+    time, spent = np.zeros_like(extent), spent.copy()
+    for k in range(edges.shape[1] - 2, -1, -1):
+        low, high = edges[:, k], edges[:, k + 1]
+        rows = np.flatnonzero((high > low) & (extent > 0))
+        if not rows.size:
+            continue
+        tau = low[rows, None] + (high - low)[rows, None] * _NODE
+        depth = np.zeros((len(extent), _NODE.size))
+        depth[rows] = extent[rows, None] * (tau**3 * (2 - tau**3))
+        lower, length = (part[rows] for part in interval(depth))
+        rate = extent[rows, None] * (high - low)[rows, None] * (6 * tau**2 * (1 - tau**3))
+        indenters = profile.entries((rows, None), (len(extent),))
+        flow = superpose.radius_integral(indenters, LiveInterval(lower, lower + length, length)) * rate
+        left = spent[rows, None] + np.einsum("ij,kj->ik", flow, _TAIL)
+        time[rows] += np.einsum("ij,j->i", rate / np.sqrt(left), _WEIGHT)
+        spent[rows] += np.einsum("ij,j->i", flow, _WEIGHT)
+    return time, spent
