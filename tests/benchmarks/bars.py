@@ -47,7 +47,7 @@ def _transforms(records):
         if r["setting"] != "N = 1001, cold":
             continue
         own = min(_time_at(curve, r["error"]) for curve in _sampled(records, r["title"]))
-        what = f"transform of samples, N = 1001, cold ({r['title']}), times faster at equal error"
+        what = f"transform of 1001 samples, cold ({r['title']}), times faster at equal error"
         result.append(_bar(what, 5, r["seconds"] / own, f"{r['family']}, error {r['error']:.0e}"))
     return result
 

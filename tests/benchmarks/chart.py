@@ -37,6 +37,7 @@ def figure(results):
     size = f'viewBox="0 0 {_COLUMNS * _WIDTH} {rows * _HEIGHT}" width="{_COLUMNS * _WIDTH}"'
     style = (
         f"text{{font:12px system-ui,sans-serif;fill:{_INK}}}.t{{font-weight:600;font-size:13px}}"
+        ".k{font-size:11px}"
         f".g{{stroke:{_INK};stroke-opacity:.25;fill:none}}.l{{fill:none;stroke-width:1.6;stroke-opacity:.8}}"
     )
     return (
@@ -71,7 +72,7 @@ def _panel(title, question, records):
             colour, own = _OWN[own % len(_OWN)], own + 1
         else:
             colour, others = _OTHERS[others % len(_OTHERS)], others + 1
-        points = sorted(map(place, members), key=lambda point: point[1])
+        points = sorted(map(place, members))
         parts += [*_series(points, colour, family), *_legend(index, family, colour)]
     return "".join(parts)
 
@@ -118,4 +119,4 @@ def _legend(index, family, colour):
     x = 8 + index % 2 * 162
     y = _TOP + _PLOT[1] + 46 + index // 2 * 14
     mark = "●" if family.startswith("mdr_core") else "■"
-    yield f'<text x="{x}" y="{y}" style="fill:{colour}">{mark} {escape(family)}</text>'
+    yield f'<text class="k" x="{x}" y="{y}" style="fill:{colour}">{mark} {escape(family)}</text>'

@@ -74,7 +74,12 @@ def _once(call, repeats=1):
     return (perf_counter() - start) / repeats
 
 
-def measure(problem, rounds=5, patience=20.0):
+def _repeats(call):
+    """How often a call that has been made before has to be made to be timed."""
+    return max(1, math.ceil(_SHORTEST / _once(call)))
+
+
+def measure(problem, rounds=5, patience=10.0):
     """One record for each method: error, median time and its spread.
 
     The methods take turns, round by round, so that all of them meet the same disturbances; a method
@@ -82,11 +87,8 @@ def measure(problem, rounds=5, patience=20.0):
     """
     calls, errors, repeats = [method.prepare() for method in problem.methods], [], []
     for method, call in zip(problem.methods, calls, strict=True):
-        start = perf_counter()
-        result = call()
-        shortest = 0.0 if method.forget else _SHORTEST
-        repeats.append(max(1, math.ceil(shortest / (perf_counter() - start))))
-        errors.append(problem.error(result))
+        errors.append(problem.error(call()))
+        repeats.append(1 if method.forget else _repeats(call))
     times = [[] for _ in calls]
     gc.collect()
     gc.disable()
@@ -97,6 +99,9 @@ def measure(problem, rounds=5, patience=20.0):
                     continue
                 if method.forget:
                     method.forget()
+                elif repeat > 1:
+                    # What came before has emptied the caches.
+                    call()
                 taken.append(_once(call, repeat))
     finally:
         gc.enable()
