@@ -44,7 +44,7 @@ def test_every_method_is_as_exact_as_its_family(results):
 def test_every_question_has_an_easy_and_a_hard_case(results):
     questions = "force", "pressure", "restitution", "contact time", "transform"
     cases = {(record["question"], record["case"]) for record in results["records"]}
-    assert cases == {(question, case) for question in questions for case in ("easy", "hard")}
+    assert cases >= {(question, case) for question in questions for case in ("easy", "hard")}
 
 
 def test_a_finer_setting_is_more_exact(results):

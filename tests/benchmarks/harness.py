@@ -11,6 +11,8 @@ import numpy as np
 
 #: A timed stretch lasts at least this long (s); shorter calls are repeated.
 _SHORTEST = 2e-3
+#: A call that takes longer (s) needs no warming up.
+_LONG = 1.0
 
 
 @dataclass(frozen=True)
@@ -85,11 +87,15 @@ def measure(problem, rounds=5, patience=10.0):
     The methods take turns, round by round, so that all of them meet the same disturbances; a method
     that has used up its patience (s) drops out after the first rounds.
     """
-    calls, errors, repeats = [method.prepare() for method in problem.methods], [], []
+    calls, errors, repeats, times = [method.prepare() for method in problem.methods], [], [], []
     for method, call in zip(problem.methods, calls, strict=True):
-        errors.append(problem.error(call()))
-        repeats.append(1 if method.forget else _repeats(call))
-    times = [[] for _ in calls]
+        start = perf_counter()
+        result = call()
+        first = perf_counter() - start
+        errors.append(problem.error(result))
+        long = first > _LONG
+        times.append([first] if long else [])
+        repeats.append(1 if long or method.forget else _repeats(call))
     gc.collect()
     gc.disable()
     try:

@@ -14,7 +14,7 @@ from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 
-from . import force, growth, impacts, peers, pressure, transform
+from . import force, growth, impacts, peers, pressure, transform, viscous
 from .bars import bars
 from .chart import figure
 from .harness import measure
@@ -28,7 +28,7 @@ def collect(quick=False, say=lambda line: None):
     """Everything measured, as plain lists and dicts."""
     floor = growth.floors(quick)
     records = []
-    for question in (force, pressure, impacts, transform):
+    for question in (force, pressure, impacts, viscous, transform):
         for problem in question.problems(quick):
             say(f"{problem.question}, {problem.case}: {problem.title}")
             records += measure(problem, rounds=1 if quick else 5)
