@@ -8,6 +8,7 @@ README.md; with --quick it measures small sizes in less than a minute and only p
 
 import argparse
 import json
+import os
 import platform
 import tomllib
 from datetime import UTC, datetime
@@ -36,6 +37,7 @@ def collect(quick=False, say=lambda line: None):
     million = growth.million(quick)
     return {
         "date": datetime.now(UTC).date().isoformat(),
+        "processors": os.cpu_count(),
         "versions": _versions(),
         "peers": peers.versions(),
         "floors": floor,

@@ -23,7 +23,7 @@ def time(seconds):
 
 
 def _two_digits(value):
-    return f"{float(f'{value:.2g}'):g}" if value < 1e4 else f"{value:.0e}"
+    return f"{float(f'{value:.2g}'):g}" if value < 1e4 else f"{value:.1e}"
 
 
 def _row(*cells):
@@ -65,7 +65,8 @@ def document(results):
 def _made(results):
     versions = ", ".join(f"{name} {version}" for name, version in results["versions"].items())
     peers = ", ".join(f"{name} {version}" for name, version in results["peers"].items())
-    return f"Made by `{_COMMAND}` on {results['date']} with {versions}; beside them {peers}."
+    machine = f"{results['processors']} processors"
+    return f"Made by `{_COMMAND}` on {results['date']}, on {machine}, with {versions}; beside them {peers}."
 
 
 def _bars(bars):
@@ -116,7 +117,7 @@ def summary(results):
     for quantity in ("restitution", "contact time"):
         chosen = [r for r in results["records"] if r["question"] == quantity and r["case"] == "hard"]
         rows += _compared(chosen, chosen[0]["title"], "", f"{quantity}, 1000 fast impacts")
-    head = "problem", "mdr_core", "error", "others", "time", "error", "times faster"
+    head = "problem", "mdr_core", "error", "fastest of the others", "time", "error", "times faster"
     return "\n".join(_table(head, rows))
 
 
