@@ -34,8 +34,9 @@ def _interpolation(points):
     return weight, derivative
 
 
-_POINTS = np.append(0.0, NODES)
-_WEIGHT, _DERIVATIVE = _interpolation(_POINTS)
+#: The beginning and the nodes of a step.
+POINTS = np.append(0.0, NODES)
+_WEIGHT, _DERIVATIVE = _interpolation(POINTS)
 _INNER_DERIVATIVE = _interpolation(NODES)[1]
 
 #: Matrix that differentiates by the share of time elapsed, from values at the nodes, (kind, node, node).
@@ -68,7 +69,7 @@ def theta_at(kind, elapsed):
 
 def basis(theta):
     """Weights that interpolate values at 0 and the nodes to θ, one row each."""
-    gap = theta[:, None] - _POINTS
+    gap = theta[:, None] - POINTS
     # On a point its own weight outgrows the others.
     gap[gap == 0] = 1e-200
     row = _WEIGHT / gap
@@ -93,7 +94,7 @@ def crossing(values, target):
     """
     gap = values - np.asarray(target)[:, None]
     end = interpolate(basis(np.ones(len(gap))), gap)
-    edges, known = np.append(_POINTS, 1.0), np.column_stack([gap, end])
+    edges, known = np.append(POINTS, 1.0), np.column_stack([gap, end])
     side = np.sign(known[:, :1])
     index = np.argmax(side * known <= 0, axis=1)
     index = np.where((side * known <= 0).any(axis=1), index, len(edges) - 1)
@@ -115,13 +116,13 @@ def crossing(values, target):
 
 
 def largest(values, last):
-    """Largest value up to θ = `last` of the interpolant of values at 0 and the nodes, one step a row."""
+    """θ up to `last` at which the interpolant of values at 0 and the nodes is largest, one step a row."""
     slope = np.einsum("ij,kj->ik", values, _DERIVATIVE)
     bend = np.einsum("ij,kj->ik", slope, _DERIVATIVE)
-    known = np.where(last[:, None] >= _POINTS, values, -np.inf)
+    known = np.where(last[:, None] >= POINTS, values, -np.inf)
     index = np.argmax(known, axis=1)
-    low, high = _POINTS[np.maximum(index - 1, 0)], np.minimum(np.append(_POINTS, 1.0)[index + 1], last)
-    theta = np.minimum(_POINTS[index], last)
+    low, high = POINTS[np.maximum(index - 1, 0)], np.minimum(np.append(POINTS, 1.0)[index + 1], last)
+    theta = np.minimum(POINTS[index], last)
     for _ in range(6):
         weights = basis(theta)
         rate, change = interpolate(weights, slope), interpolate(weights, bend)
@@ -130,4 +131,4 @@ def largest(values, last):
         moved, theta = np.abs(new - theta).max(initial=0.0), new
         if moved <= 1e-6:
             break
-    return np.maximum(known.max(axis=1), interpolate(basis(theta), values))
+    return theta

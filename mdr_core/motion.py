@@ -81,7 +81,7 @@ class _Stretch:
         self.time, self.y = course.time[0], course.y[0]
         self.slid, self.released, self.lower = course.slid[0], course.released[0], course.lower[0]
         self.unloading = course.phase[0] == UNLOADING
-        rates = gathered(bodies, step, self.unloading, course)
+        rates = gathered(step, bodies.relaxation_time, self.unloading)
         sums = (step.length * gauss.INTEGRATE[step.kind[0]] @ rate[0] for rate in rates)
         self.sums = [np.append(0.0, each) for each in sums]
 

@@ -40,6 +40,12 @@ def solve(bodies, record=None):
     ValueError
         If a motion does not converge.
     """
+    # A step that overshoots may leave double precision; it is then made again, shorter.
+    with np.errstate(all="ignore"):
+        return _solve(bodies, record)
+
+
+def _solve(bodies, record):
     course = Course(bodies)
     for _ in range(_MOST_STEPS):
         loading = np.flatnonzero(course.phase < UNLOADING)
@@ -55,12 +61,21 @@ def solve(bodies, record=None):
     )
 
 
-def _resolved(course, step, settled):
+def _resolved(bodies, course, step, settled):
     """Which steps are good enough; plans the length of the next one for each."""
-    velocity = step.velocity[:, None] - step.lost
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         rest = step.length * gauss.unresolved(step.deceleration[:, 1:], step.kind)
-        error = rest / np.abs(velocity).max(axis=1) / TOLERANCE
+        # What is left at the end must be resolved, small as it may be against the beginning.
+        speed = np.abs(step.velocity - step.lost[:, -1])
+        speed = np.maximum(speed, np.abs(step.deceleration[:, -1]) * step.length)
+        live = np.maximum(np.abs(step.coordinate[:, -1]), speed * step.length)
+        error = rest * np.maximum(1 / speed, step.lag / live) / TOLERANCE
+        if np.any(bodies.relaxation_time[step.rows] > 0):
+            slid = step.radius * (step.velocity[:, None] - step.lost[:, 1:]) ** 2
+            gained = course.slid[step.rows] + step.integral(slid, np.ones(step.rows.size))
+            drag = step.length * gauss.unresolved(slid, step.kind) / gained / TOLERANCE
+            # Next to the tip the radius is a fractional power: the other kinds of step are made for it.
+            error = np.where(step.kind == gauss.PLAIN, np.fmax(error, drag), error)
         good = settled & (error <= 1)
         factor = np.where(good, np.clip(0.9 * error ** (-1 / 14), 0.5, 3.0), 0.5)
         # Fractional powers resolve slowly, and so do layers that a step has overrun.
@@ -86,7 +101,7 @@ def _load(bodies, course, rows, record):
     """One step of loading."""
     stage = Loading(bodies, course, rows)
     step, settled = collocate(stage, course, rows)
-    good = _resolved(course, step, settled)
+    good = _resolved(bodies, course, step, settled)
     edge = ahead(bodies, course, rows)
     smooth = (course.phase[rows] == ELASTIC) & (edge == bodies.critical_depth[rows])
     _up_to(course, step, settled & ~good & ~smooth, edge)
@@ -125,7 +140,7 @@ def _unload(bodies, course, rows, record):
     """One step of unloading."""
     stage = Unloading(bodies, course, rows)
     step, settled = collocate(stage, course, rows)
-    good = _resolved(course, step, settled)
+    good = _resolved(bodies, course, step, settled)
     edge = below(course, rows)
     _up_to(course, step, settled & ~good & (step.kind != gauss.CLOSING), edge)
     step, edge = step.keep(good), edge[good]
@@ -133,9 +148,10 @@ def _unload(bodies, course, rows, record):
     free = edge == 0
     _, lost, change = step.moved(last)
     miss = course.live[rows] + change - edge
-    # Close to the loss of contact there is no load, and the rest of the way is straight.
-    arrived = np.abs(miss) <= np.where(free, 1e-6, 1e-10) * course.live[rows]
-    left = miss / (lost - course.velocity[rows])
+    # So close to the edge that the rest of the way is straight.
+    load = gauss.interpolate(gauss.basis(last), step.deceleration)
+    left = miss / (lost - course.velocity[rows] + step.lag * np.maximum(load, 0.0))
+    arrived = np.abs(left) <= np.where(free, 1e-9, 1e-10) * step.length
     # A long step may run past the edge and come back.
     beyond = (np.minimum(miss, (step.coordinate - edge[:, None]).min(axis=1)) < 0) & ~arrived
     if beyond.any():
@@ -167,15 +183,25 @@ def _advance(bodies, course, stage, step, last, record):
     way, lost, change = step.moved(last)
     tau = bodies.relaxation_time[rows]
     if np.any(tau > 0):
-        slid, released = gathered(bodies, step, unloading, course)
+        slid, released = gathered(step, tau, unloading)
         course.slid[rows] += step.integral(slid, last)
         course.released[rows] += step.integral(released, last)
     if not unloading:
         higher = step.deceleration.max(axis=1) > course.peak[rows]
         if higher.any():
-            peak = gauss.largest(step.deceleration[higher], last[higher])
-            course.peak[rows[higher]] = np.maximum(course.peak[rows[higher]], peak)
+            course.peak[rows[higher]] = _peak(bodies, course, step.keep(higher), last[higher])
     course.time[rows] += step.length * gauss.share(step.kind, last)
     course.y[rows] += way
     course.live[rows] += np.where(unloading, change, 0.0)
     course.velocity[rows] -= lost
+
+
+def _peak(bodies, course, step, last):
+    """Largest deceleration so far of impacts that load."""
+    theta = gauss.largest(step.deceleration, last)
+    weights = gauss.basis(theta)
+    way, lost = (gauss.interpolate(weights, part)[:, None] for part in (step.way, step.lost))
+    # The load itself, because fractional powers are not interpolated well.
+    there = Loading(bodies, course, step.rows).deceleration(way, lost)[0][:, 0]
+    known = np.where(last[:, None] >= gauss.POINTS, step.deceleration, 0.0).max(axis=1)
+    return np.maximum(course.peak[step.rows], np.maximum(known, there))

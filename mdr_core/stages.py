@@ -76,7 +76,8 @@ class Step:
     """Steps of some impacts, one a row; values at 0 and at the nodes where there are seventeen.
 
     Length (s), velocity at the beginning (m/s), deceleration (m/s²), way gone (m), velocity lost
-    (m/s), coordinate of the stage (m), and the time by which it runs ahead of the way (s).
+    (m/s), coordinate of the stage (m), the time by which it runs ahead of the way (s), and the
+    contact radius at the nodes (m).
     """
 
     rows: np.ndarray
@@ -88,6 +89,7 @@ class Step:
     lost: np.ndarray
     coordinate: np.ndarray
     lag: np.ndarray
+    radius: np.ndarray
 
     def keep(self, some):
         """The steps of some impacts."""
@@ -140,14 +142,11 @@ def collocate(stage, course, rows):
     zero, speed = nothing[:, 0], course.velocity[rows]
     columns = ((begun, alpha), (zero, way), (zero, lost), (stage.start, coordinate))
     values = (gauss.with_start(*pair) for pair in columns)
-    return Step(rows, kind, h[:, 0], speed, *values, stage.lag), settled
+    return Step(rows, kind, h[:, 0], speed, *values, stage.lag, state[1]), settled
 
 
-def gathered(bodies, step, unloading, course):
+def gathered(step, tau, unloading):
     """a v² and, on unloading, τ a v v̇ at the nodes of steps."""
-    profile = bodies.profile.entries((step.rows, None), bodies.speed.shape)
-    edge = course.lower[step.rows, None] if unloading else bodies.before[step.rows, None]
-    a = profile._radius(np.abs(edge + step.coordinate[:, 1:]))
     velocity = step.velocity[:, None] - step.lost[:, 1:]
-    released = -bodies.relaxation_time[step.rows, None] * a * velocity * step.deceleration[:, 1:]
-    return a * velocity**2, released if unloading else np.zeros_like(released)
+    released = -tau[:, None] * step.radius * velocity * step.deceleration[:, 1:]
+    return step.radius * velocity**2, released if unloading else np.zeros_like(released)

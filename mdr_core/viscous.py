@@ -8,6 +8,7 @@ from . import superpose
 from .contact_time import contact_time
 from .course import Bodies
 from .rebound import solve
+from .similarity import WORTHWHILE, by_similarity
 from .turning import dry_restitution, plastic_integral, turning_point
 from .yielding import LiveInterval
 
@@ -61,18 +62,38 @@ def viscous_impacts(profile, medium, mass, speed, before):
 
 
 def _wet(bodies):
+    if bodies.speed.size < WORTHWHILE:
+        return _moved(bodies)
+    holds, depth, time, restitution, loss, force = by_similarity(bodies)
+    work = loss * (bodies.inertia * bodies.speed**2 / 2)
+    results = np.array(
+        [0 * depth, depth, depth, 0 * depth, _speed_ratio(loss, restitution), time, work, force]
+    )
+    rest = np.flatnonzero(~holds)
+    if rest.size:
+        results[:, rest] = _moved(bodies.rows(rest))
+    return results
+
+
+def _moved(bodies):
     course = solve(bodies)
     length = np.minimum(course.deepest, bodies.critical_depth)
     live = LiveInterval(course.lower, np.maximum(bodies.before + course.deepest, course.lower), length)
     work = bodies.relaxation_time * (course.slid + course.released)
     plastic = plastic_integral(bodies.profile, live, bodies.critical_depth, course.growth)
-    # A small loss is known better than a speed that has hardly changed.
-    lost = (work + plastic) / (bodies.inertia * bodies.speed**2 / 2)
-    restitution = np.where(
-        lost < 0.25, np.sqrt(1 - np.minimum(lost, 0.25)), -course.velocity / bodies.speed
+    loss = (work + plastic) / (bodies.inertia * bodies.speed**2 / 2)
+    ends = (
+        _speed_ratio(loss, -course.velocity / bodies.speed),
+        course.time,
+        work,
+        course.peak * bodies.inertia,
     )
-    ends = restitution, course.time, work, course.peak * bodies.inertia
     return live.lower, live.upper, live.length, course.growth, *ends
+
+
+def _speed_ratio(loss, ratio):
+    """Restitution from the loss of energy where that is small, and known better than the ratio itself."""
+    return np.where(loss < 0.25, np.sqrt(1 - np.minimum(loss, 0.25)), ratio)
 
 
 def _dry(bodies):
