@@ -114,14 +114,17 @@ def time_over_root(profile, live, growth):
     contact or yield begins. What is still to be spent is integrated from the turning point back,
     so that it never cancels.
     """
-    kinks = np.column_stack(profile.kinks) if profile.kinks else np.empty((1, 0))
+    # Besides kinks, depths at which a shape goes over from one power to another.
+    places = (*profile.kinks, *(profile.unit[2:] if profile.unit else ()))
+    kinks = np.column_stack(places) if places else np.empty((1, 0))
     base, whole = live.lower[:, None], live.length[:, None]
     start = base - growth[:, None]
     nothing, end = np.zeros_like(growth), np.ones_like(growth)
     # Unloading over the live length, above the plastic depth.
     time, _ = _stretch(profile, live.length, kinks - base, lambda s: (base + 0 * s, s), end, nothing)
     # Loading beyond the critical depth: the interval moves. Its lower end has a scale of its own, d_c.
-    breaks = np.hstack([kinks - start, kinks - start - whole, whole])
+    between = np.sqrt(whole * growth[:, None])
+    breaks = np.hstack([kinks - start, kinks - start - whole, whole, between])
     beyond, spent = _stretch(profile, growth, breaks, lambda s: (start + s, whole + 0 * s), end, nothing)
     # Loading up to the critical depth: the same map about the turning point, cut at τ_c.
     way = growth + live.length
@@ -157,11 +160,14 @@ def _stretch(profile, extent, breaks, interval, last, spent):
         rows = np.flatnonzero((high > low) & (extent > 0))
         if not rows.size:
             continue
-        tau = low[rows, None] + (high - low)[rows, None] * _NODE
+        # Behind a kink the force goes on with the root of the depth: squared.
+        square = (low > 0)[rows, None] & (profile.unit is not None or len(profile.kinks) > 0)
+        node, slope = np.where(square, _NODE**2, _NODE), np.where(square, 2 * _NODE, 1.0)
+        tau = low[rows, None] + (high - low)[rows, None] * node
         depth = np.zeros((len(extent), _NODE.size))
         depth[rows] = extent[rows, None] * (tau**3 * (2 - tau**3))
         lower, length = (part[rows] for part in interval(depth))
-        rate = extent[rows, None] * (high - low)[rows, None] * (6 * tau**2 * (1 - tau**3))
+        rate = extent[rows, None] * (high - low)[rows, None] * (6 * slope * tau**2 * (1 - tau**3))
         indenters = profile.entries((rows, None), (len(extent),))
         flow = superpose.radius_integral(indenters, LiveInterval(lower, lower + length, length)) * rate
         left = spent[rows, None] + np.einsum("ij,kj->ik", flow, _TAIL)

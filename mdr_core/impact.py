@@ -14,6 +14,7 @@ from .indentation import Indentation, check_types
 from .medium import Medium
 from .motion import motion
 from .profiles import Profile
+from .scaling import fast_limit
 from .turning import dry_restitution, plastic_integral, turning_point
 from .viscous import Rebound, viscous_impacts
 
@@ -185,6 +186,22 @@ class Impact:
             return self.rebound.contact_time
         inertia = self.mass / (2 * self.medium.E_star)
         return contact_time(self.profile, inertia, self.speed, self.deepest.live, self.growth)
+
+    @property
+    def fast_limit(self):
+        """The impact in the limit of Popov (2015), Eqs. (23), (24), with its error: a `FastLimit`.
+
+        Examples
+        --------
+        >>> from mdr_core import Cone, Medium
+        >>> hit = impact(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), 1e-6, 30.0)
+        >>> limit = hit.fast_limit
+        >>> print(round(limit.contact_area / (4 * 1e-6 * 30.0**2 / 2 / (np.pi * 10.0 * 0.3)), 12))  # (24)
+        1.0
+        >>> print(f"{limit.max_depth_error:.1e}")  # −d_c/(2 d_max)
+        -2.1e-06
+        """
+        return fast_limit(self)
 
     def motion(self, n=200):
         """The motion of one impact at n equal steps of time, from first contact to its loss.

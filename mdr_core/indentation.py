@@ -5,17 +5,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _check, fields, superpose
+from .creep import indent_to_force_in_time
 from .inverse import increasing_root
 from .medium import Medium
 from .panels import chunks
 from .profiles import Profile
+from .timed import check_times, indent_in_time
 from .yielding import LiveInterval, live_interval
 
 
-def indent(profile, medium, depth):
+def indent(profile, medium, depth, *, time=None, tolerance=1e-6):
     """Press an indenter along a depth path: loading, unloading and reloading in any order.
 
-    The path is followed infinitely slowly, so that the dashpots carry nothing.
+    Without times the path is followed infinitely slowly, so that the dashpots carry nothing.
 
     Parameters
     ----------
@@ -26,16 +28,22 @@ def indent(profile, medium, depth):
     depth : float or array_like
         Indentation depth d (m), one number or a path along the last axis; each row of a larger
         array is a path of its own that starts on a virgin medium. Negative means lifted off.
+    time : array_like, optional
+        Increasing times (s) of a one-dimensional path, which is straight in between; its first
+        depth is reached infinitely slowly. They matter in a viscous medium.
+    tolerance : float, optional
+        Error allowed in force and energies in a viscous medium, each relative to its largest.
 
     Returns
     -------
     Indentation
-        Quantities of the shape of `depth`, computed when asked for.
+        Quantities of the shape of `depth`, computed when asked for; in a viscous medium with times
+        a `TimedIndentation`.
 
     Raises
     ------
     ValueError
-        If a depth is not finite, or deeper than the profile is known.
+        If a depth is not finite, or deeper than the profile is known, or times do not increase.
 
     Examples
     --------
@@ -51,10 +59,14 @@ def indent(profile, medium, depth):
     """
     _one_of_each(profile, medium)
     depth = profile._known(_check.finite_array("depth", depth, unit="m"))
+    if time is not None:
+        time = check_times(time, depth, "depth")
+        if medium.eta > 0:
+            return indent_in_time(profile, medium, depth, time, tolerance)
     return Indentation(profile, medium, depth, live_interval(depth, *medium._critical_depth_parts))
 
 
-def indent_to_force(profile, medium, force):
+def indent_to_force(profile, medium, force, *, time=None, tolerance=1e-4):
     """Press an indenter along a force path: the inverse of `indent`, with the same memory.
 
     Parameters
@@ -64,11 +76,16 @@ def indent_to_force(profile, medium, force):
     force : float or array_like
         Normal force (N), not negative; one number or a path along the last axis. Where it falls
         to 0 the indenter rests at the bottom of the imprint.
+    time : array_like, optional
+        Increasing times (s) of a one-dimensional path, which is straight in between; its first
+        force is reached infinitely slowly. They matter in a viscous medium, which creeps.
+    tolerance : float, optional
+        Error allowed in the depth in a viscous medium, relative to the largest one.
 
     Returns
     -------
     Indentation
-        Quantities of the shape of `force`.
+        Quantities of the shape of `force`; in a viscous medium with times a `TimedIndentation`.
 
     Raises
     ------
@@ -86,6 +103,10 @@ def indent_to_force(profile, medium, force):
     _one_of_each(profile, medium)
     force = _check.finite_array("force", force, unit="N")
     _check.refuse("force", force, force < 0, "is negative", unit="N", remedy="there is no adhesion")
+    if time is not None:
+        time = check_times(time, force, "force")
+        if medium.eta > 0:
+            return indent_to_force_in_time(profile, medium, force, time, tolerance)
     most = 2 * medium.yield_line_load * profile.wall
     bound = f"must be less than the {most:g} N at which the whole flat face yields"
     _check.refuse("force", force, force >= most, bound, unit="N", remedy="press to a depth instead")

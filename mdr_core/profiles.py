@@ -80,13 +80,9 @@ class Profile(ABC):
             return self
         return self.entries(np.unravel_index(np.arange(np.prod(shape, dtype=int))[rows], shape), shape)
 
-    @property
-    def unit(self):
-        """The same shape with parameters of 1, the unit of length and the unit of depth (m).
-
-        g(x) is the depth unit times the unit shape's g of x over the length unit.
-        """
-        raise NotImplementedError
+    #: The same shape with parameters of 1, its unit of length and its unit of depth (m), for shapes
+    #: with lengths of their own: g(x) is the unit of depth times the unit shape's g(x/length).
+    unit = None
 
     @property
     @abstractmethod

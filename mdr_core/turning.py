@@ -48,8 +48,9 @@ def turning_point(profile, target, d_c, remainder, before):
         yielding = d_c[rows], remainder[rows], before[rows]
         indenters = profile.flat_entries(rows, shape)
         y = _penetration(indenters, target[rows], *yielding)
-        live, growth[rows] = pressed(y, *yielding)
-        lower[rows], upper[rows], length[rows] = live.lower, live.upper, live.length
+        live, growth[rows] = pressed(np.where(np.isinf(y), 0.0, y), *yielding)
+        lower[rows], length[rows] = live.lower, live.length
+        upper[rows] = np.where(np.isinf(y), np.inf, live.upper)
     lower, upper, length, growth = (part.reshape(shape) for part in (lower, upper, length, growth))
     return LiveInterval(lower, upper, length), growth
 

@@ -1,0 +1,181 @@
+"""Scaling laws of very fast impacts, and which class of hardness a material belongs to.
+
+Popov (2015), section 1, divides plasticity into three classes: hardness (a) constant, (b) inversely
+proportional to the contact radius, (c) inversely proportional to the contact area, governed by
+volume, surface and line processes. Under a fully yielded contact the force goes as a^i with
+i = 2, 1, 0. For a shape z = c rⁿ that gives powers of the impact energy.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _check, superpose
+from .inverse import increasing_root
+from .yielding import LiveInterval
+
+_FORCE_POWER = {"a": 2, "b": 1, "c": 0}
+
+
+@dataclass(frozen=True)
+class ScalingLaw:
+    """Powers of the impact energy W in the limit of very fast impacts on a class of hardness.
+
+    With F ∝ aⁱ and a ∝ d^(1/n), the work goes as d^((n + i)/n); the energy that comes back as F²/a.
+
+    Parameters
+    ----------
+    hardness : {"a", "b", "c"}
+        Class: hardness constant, ∝ 1/radius, ∝ 1/area.
+    exponent : float
+        Exponent n of the indenter z = c rⁿ, positive: 1 for a cone, 2 for a paraboloid.
+
+    Examples
+    --------
+    In class (b) the area that a cone damages is proportional to the energy (Popov 2015, Eq. (24)),
+    and the coefficient of restitution falls as the root of the speed:
+
+    >>> law = ScalingLaw("b", 1.0)
+    >>> law.area, law.restitution
+    (1.0, -0.5)
+    """
+
+    hardness: str
+    exponent: float
+
+    def __post_init__(self):
+        if self.hardness not in _FORCE_POWER:
+            raise ValueError(f"hardness class = {self.hardness!r:.40} must be one of 'a', 'b', 'c'")
+        exponent = _check.positive(
+            "ScalingLaw exponent", _check.number("ScalingLaw exponent", self.exponent)
+        )
+        object.__setattr__(self, "exponent", exponent)
+
+    @property
+    def radius(self):
+        """Power of W that the contact radius goes with."""
+        return 1 / (self.exponent + _FORCE_POWER[self.hardness])
+
+    @property
+    def depth(self):
+        """Power of W that the depth goes with: 1 in class (c)."""
+        return self.exponent * self.radius
+
+    @property
+    def area(self):
+        """Power of W that the contact area goes with: 1 for a cone in class (b)."""
+        return 2 * self.radius
+
+    @property
+    def volume(self):
+        """Power of W that the expelled volume goes with: 1 in class (a)."""
+        return (self.exponent + 2) * self.radius
+
+    @property
+    def restitution(self):
+        """Power of the *speed* that the coefficient of restitution goes with."""
+        return (_FORCE_POWER[self.hardness] - 1 - self.exponent) * self.radius
+
+
+@dataclass(frozen=True)
+class HardnessClass:
+    """Which class measured imprints belong to; made by `hardness_class`.
+
+    `hardness` is the nearest class, `slope` the measured power of the energy with its standard error
+    `slope_error`, `laws` the `ScalingLaw` of each class.
+    """
+
+    hardness: str
+    slope: float
+    slope_error: float
+    laws: dict
+
+
+def hardness_class(energy, radius, exponent):
+    """The class of hardness that imprints of fast impacts tell: how their radius grows with energy.
+
+    Fits ln(radius) against ln(energy) and compares the slope with 1/(n + i).
+
+    Parameters
+    ----------
+    energy : array_like
+        Energies (J) that were lost in the impacts, positive; at least two that differ.
+    radius : array_like
+        Radii (m) of the imprints, positive.
+    exponent : float
+        Exponent n of the indenter z = c rⁿ.
+
+    Returns
+    -------
+    HardnessClass
+
+    Examples
+    --------
+    >>> from mdr_core import Cone, Medium, impact
+    >>> hit = impact(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), 1e-6, [1.0, 3.0, 10.0])
+    >>> hardness_class(hit.plastic_work, hit.plastic_radius, exponent=1.0).hardness
+    'b'
+    """
+    energy, radius = (
+        np.atleast_1d(_check.positive(name, np.atleast_1d(value), unit=unit))
+        for name, value, unit in (("energy", energy, "J"), ("radius", radius, "m"))
+    )
+    if energy.shape != radius.shape or np.ptp(energy) == 0:
+        raise ValueError(
+            f"energy {energy.shape} and radius {radius.shape} must be of one shape, with two energies or "
+            "more that differ"
+        )
+    laws = {name: ScalingLaw(name, exponent) for name in _FORCE_POWER}
+    x, y = (np.log(part.ravel()) - np.log(part.ravel()).mean() for part in (energy, radius))
+    slope = (x @ y) / (x @ x)
+    rest = y - slope * x
+    error = np.sqrt(rest @ rest / max(x.size - 2, 1) / (x @ x))
+    nearest = min(laws, key=lambda name: abs(laws[name].radius - slope))
+    return HardnessClass(nearest, float(slope), float(error), laws)
+
+
+@dataclass(frozen=True, eq=False)
+class FastLimit:
+    """An impact in the limit in which everything under the indenter yields, beside the exact one.
+
+    Popov (2015), Eqs. (23), (24): the work is π q_c ∫ a dd, for a cone q_c d²/s, and all of the
+    contact is damaged. Restitution is √(U/W) with U = E* a d_c².
+
+    Attributes
+    ----------
+    max_depth, contact_area, restitution : float or ndarray
+        Depth (m), area (m²), coefficient of restitution in that limit.
+    max_depth_error, contact_area_error, restitution_error : float or ndarray
+        Their relative errors against the exact impact; large where the limit does not hold.
+    """
+
+    max_depth: np.ndarray
+    contact_area: np.ndarray
+    restitution: np.ndarray
+    max_depth_error: np.ndarray
+    contact_area_error: np.ndarray
+    restitution_error: np.ndarray
+
+
+def fast_limit(hit):
+    """The `FastLimit` of an `Impact`."""
+    profile, medium = hit.profile, hit.medium
+    d_c = np.asarray(medium.critical_depth)
+    _check.refuse("critical depth", d_c, np.isinf(d_c), "m: nothing yields", remedy="give q_c")
+    shape = np.shape(hit.max_depth)
+    energy = hit.mass * hit.speed**2 / 2
+    target = np.broadcast_to(energy / (np.pi * medium.q_c), shape)
+
+    def work(depth):
+        live = LiveInterval(np.zeros_like(depth), depth, depth)
+        return superpose.radius_integral(profile, live), profile._radius(depth)
+
+    with np.errstate(over="ignore", under="ignore"):
+        depth = increasing_root(work, target, hit.max_depth, profile.deepest)
+    bound = f"m/s presses deeper than the shape is known, {np.min(profile.deepest):g} m, in this limit"
+    _check.refuse("speed", np.asarray(hit.speed), np.isinf(depth), bound, remedy="hit less hard")
+    a = profile._radius(depth)
+    area, restitution = np.pi * a**2, np.sqrt(medium.E_star * a * d_c**2 / energy)
+    exact = hit.max_depth, np.pi * hit.contact_radius**2, hit.restitution
+    errors = (limit / value - 1 for limit, value in zip((depth, area, restitution), exact, strict=True))
+    return FastLimit(*(_check.frozen(part) for part in (depth, area, restitution, *errors)))
