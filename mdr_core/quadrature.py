@@ -26,7 +26,13 @@ def wall_length(profile, live):
 
 
 def by_quadrature(profile, live, integral):
-    """One of the three integrals for a shape without closed forms, elementwise."""
+    """One of the three integrals for a shape without closed forms, elementwise.
+
+    Raises
+    ------
+    ValueError
+        For a pure power: it has no scale to set the panels by, and closed forms.
+    """
     if profile.shape:
         unit, radius, depth = profile.unit
         return by_quadrature(unit, scaled(live, depth), integral) * (radius * depth**integral.units)
@@ -35,6 +41,8 @@ def by_quadrature(profile, live, integral):
     for rows in chunks(ends[0].size):
         lower, upper, length, at_wall = (part[rows] for part in ends)
         zones = profile.zones_between(lower.min(), upper.max())
+        if any(zone.scale == np.inf for zone in zones):
+            raise ValueError(f"{profile!r} has no scale for panels; register its closed form in superpose")
         total, spent = _quadrature(profile, zones, lower, upper, at_wall, integral)
         # An interval too short for its ends to differ is one flat punch.
         edge = integral.short(profile._radius(upper), length)
