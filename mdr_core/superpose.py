@@ -209,7 +209,7 @@ def _(profile: Sphere, live):
 
 # Widths in latitude up to which so many Gauss nodes give full accuracy, down to the axis, where the
 # moment is y⁴ times a series in (2y/π)²: the first power that n nodes miss is (2y/π)^(2n − 4).
-_LATITUDES = (0.0, 0.02, 0.4, 1.5)
+_LATITUDES = (0.0, 0.015, 0.3, 1.5)
 _LATITUDE_RULES = [np.polynomial.legendre.leggauss(count) for count in (5, 8, 16)]
 
 
@@ -244,5 +244,3 @@ def _latitude_moment(high, width, nodes, weights):
         spent += rate
         moment += rate * tanh * (delta * top + y * drop * (1 - top * tanh))
     return 2 / width * moment / spent**2
-
-
