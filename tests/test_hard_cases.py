@@ -24,14 +24,14 @@ def test_against_many_digits(shape, regime):
         assert error <= BOUNDS[quantity], quantity
 
 
-@pytest.mark.parametrize("share", [0.0, 1e-9, 0.3, 0.89, 0.91, 1 - 1e-9])
+@pytest.mark.parametrize("share", [0.0, 0.3, 0.9, 1 - 1e-9])
 def test_energy_of_a_sphere_of_any_contact_radius(share):
     """∫ (d − s) a ds with s = R y tanh y, from a ≪ R to a → R, and live intervals of any length."""
-    for depth in (1e-12, 2.2e-4, 2.3e-4, 0.087, 0.088, 1.35, 1.37, 90.0):
+    for depth in (1e-12, 2.2e-4, 2.3e-4, 0.087, 0.088, 1.35, 1.37, 3.0):
         lower = share * depth
         live = LiveInterval(*(np.array([each]) for each in (lower, depth, depth - lower)))
         # Many digits are needed where the interval is a billionth of the depth.
-        with mp.workdps(80):
+        with mp.workdps(60):
             ends = [_latitude(mpf(each)) for each in (lower, depth)]
 
             def moment(y, depth=depth):

@@ -35,7 +35,8 @@ def _field(records):
 
 def _sampled(records, title):
     """Own transforms of samples of one problem, by family."""
-    sampled = "mdr_core, even samples", "mdr_core, graded samples", "mdr_core, kink known"
+    kinds = "even samples", "graded samples", "cubic", "kink known"
+    sampled = [f"mdr_core, {kind}" for kind in kinds]
     own = [r for r in records if r["title"] == title and r["family"] in sampled]
     return [[r for r in own if r["family"] == family] for family in sorted({r["family"] for r in own})]
 

@@ -45,14 +45,19 @@ def critical_depth(medium):
 
 
 class Power:
-    """z = c rⁿ with n = 1 (cone, c the slope) or 2 (paraboloid, c = 1/(2R)), elastic curves."""
+    """Elastic curves of z = c rⁿ: cone (c the slope), paraboloid (c = 1/(2R)), or any n."""
 
     def __init__(self, profile, medium):
         with mp.workdps(_DIGITS):
-            cone = hasattr(profile, "slope")
-            self.n = mpf(1 if cone else 2)
+            if hasattr(profile, "exponent"):
+                self.n, c = mpf(profile.exponent), mpf(profile.coefficient)
+            elif hasattr(profile, "slope"):
+                self.n, c = mpf(1), mpf(profile.slope)
+            else:
+                self.n, c = mpf(2), 1 / (2 * mpf(profile.radius))
             # g = k xⁿ, from Eqs. (4)–(8).
-            self.k = mp.pi / 2 * mpf(profile.slope) if cone else 1 / mpf(profile.radius)
+            half = self.n / 2
+            self.k = c * mp.sqrt(mp.pi) * self.n * mp.gamma(half) / (2 * mp.gamma(half + mpf(1) / 2))
             self.p = 1 + 1 / self.n
             self.modulus = mpf(medium.E_star)
             self.critical = critical_depth(medium) if medium.q_c < np.inf else mp.inf
@@ -104,7 +109,7 @@ def _sphere_force(profile, medium):
 
 @_precise
 def pressure(profile, medium, depth, radii):
-    """Pressure of a cone or a paraboloid under first loading; 0 outside the contact."""
+    """Pressure of z = c rⁿ, n = 1, 2 or 4, under first loading; 0 outside the contact."""
     power = Power(profile, medium)
     modulus, depth = power.modulus, mpf(depth)
     a, lower = power.radius(depth), power.before(depth)
@@ -115,7 +120,10 @@ def pressure(profile, medium, depth, radii):
             return mpf(0)
         if power.n == 1:
             return modulus * power.k / mp.pi * mp.acosh(radius / r)
-        return 2 * modulus * power.k / mp.pi * mp.sqrt((radius - r) * (radius + r))
+        root = mp.sqrt((radius - r) * (radius + r))
+        # ∫ n xⁿ⁻¹ dx/√(x² − r²)
+        integral = {2: 2 * root, 4: 4 * root * (root**2 / 3 + r**2)}[int(power.n)]
+        return modulus * power.k / mp.pi * integral
 
     return Exact([elastic(a, r) - elastic(c, r) for r in map(mpf, radii)])
 

@@ -6,7 +6,6 @@ from scipy.integrate import quad
 import mdr_core as mdr
 
 from . import exact, peers
-from .chain import Chain
 from .harness import Method, Problem
 from .shapes import CONE, ELASTIC, PARABOLOID, SOFT, SPHERE, by_quadrature
 
@@ -93,5 +92,9 @@ def _quad(profile, medium, depths, tolerance):
 
 
 def _chain(profile, medium, depths, n):
-    chain = Chain(profile, medium, n, 1.01 * float(profile.contact_radius(depths[-1])))
-    return np.array([chain.advance(depth) for depth in depths])
+    row = mdr.Foundation(profile, medium, n, 1.01 * float(profile.contact_radius(depths[-1])))
+    forces = []
+    for depth in depths:
+        row = row.advance(depth)
+        forces.append(row.force)
+    return np.array(forces)

@@ -8,7 +8,6 @@ from scipy.integrate import quad
 import mdr_core as mdr
 
 from . import exact, peers
-from .chain import Chain
 from .harness import Method, Problem
 from .shapes import CONE, ELASTIC, PARABOLOID, SOFT, by_quadrature
 
@@ -98,6 +97,6 @@ def _quad(a, c, radii, tolerance):
 
 
 def _chain(n, a, r):
-    chain = Chain(CONE, SOFT, n, a * (1 + 1 / n))
-    chain.advance(_DEEP)
-    return -mdr.abel.stress_from_line_load(chain.x, chain.line_load, r)
+    row = mdr.Foundation(CONE, SOFT, n, a * (1 + 1 / n)).advance(_DEEP)
+    right = row.x > 0
+    return -mdr.abel.stress_from_line_load(row.x[right], row.line_load[right], r)

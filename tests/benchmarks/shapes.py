@@ -3,6 +3,7 @@
 import mdr_core as mdr
 
 CONE, PARABOLOID, SPHERE = mdr.Cone(0.1), mdr.Paraboloid(1e-3), mdr.Sphere(1e-3)
+QUARTIC = mdr.PowerLaw(1e9, 4.0)
 ELASTIC, SOFT = mdr.Medium(1e9), mdr.Medium(1e9, 1e-3)
 
 

@@ -3,10 +3,11 @@
 import math
 import warnings
 
+import numpy as np
 from scipy.integrate import IntegrationWarning, quad, solve_ivp
 from scipy.optimize import brentq
 
-from .chain import Chain
+import mdr_core as mdr
 
 
 class Curve:
@@ -89,20 +90,9 @@ def integrated(curve, tolerance):
     return math.sqrt(2 * stored), time * curve.time
 
 
-def chained(curve, n):
-    """The row of springs and sliders under a mass, in n velocity-Verlet steps of the way down."""
-    deepest = brentq(lambda d: curve.loss(d) - 0.5, 0.0, 1e9)
-    width = 1.05 * float(curve.profile.contact_radius(deepest * curve.length))
-    chain = Chain(curve.profile, curve.medium, n, width)
-    unit = curve.length / curve.energy
-    dt, depth, speed, push, time = 2 * deepest / n, 0.0, 1.0, 0.0, 0.0
-    while True:
-        speed -= push * dt / 2
-        step = speed * dt
-        new = chain.advance((depth + step) * curve.length) * unit
-        if new <= 0:
-            # The force ends within this step; it falls as good as linearly.
-            speed -= push * dt / 4
-            return -speed, (time + dt / 2) * curve.time
-        depth, push, time = depth + step, new, time + dt
-        speed -= push * dt / 2
+def chained(profile, medium, mass, speeds, tolerance, attribute):
+    """The row of springs, dashpots and sliders under a mass, one impact after the other."""
+    hits = [
+        mdr.chain_impact(profile, medium, mass, speed, tolerance=tolerance) for speed in speeds.tolist()
+    ]
+    return np.array([getattr(hit, attribute) for hit in hits])
