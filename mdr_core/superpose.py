@@ -232,8 +232,8 @@ def _sphere_energy(profile, live):
 def _latitude_moment(high, width, nodes, weights):
     """∫ (d − s) a ds over R times the square of ∫ ds, with a = R tanh y and s = R y tanh y.
 
-    At y = Y − δ, with T and τ the tangents of Y and δ, a/R = (T − τ)/(1 − T τ), and d − s is
-    δ T + y τ (1 − T tanh y): no differences but those of terms that vanish at the axis.
+    At y = Y − δ, with T and τ the hyperbolic tangents of Y and δ, a/R = (T − τ)/(1 − T τ), and d − s
+    is δ T + y τ (1 − T tanh y): no differences but those of terms that vanish at the axis.
     """
     top, spent, moment = np.tanh(high), np.zeros_like(high), np.zeros_like(high)
     for node, weight in zip(nodes, weights, strict=True):

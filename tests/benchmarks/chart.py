@@ -10,12 +10,12 @@ _PANELS = (
     ("elastic cone, field on a grid", "pressure"),
     ("cone, 10⁸ critical depths deep", "pressure"),
     ("sphere, 10⁸ critical depths deep", "force"),
-    ("paraboloid, smooth load", "transform"),
+    ("fourth power, smooth load", "transform"),
     ("yielded cone, kink between samples", "transform"),
     ("cone, 10⁶ critical depths deep", "contact time"),
 )
 _COLUMNS, _WIDTH, _HEIGHT, _PLOT, _LEFT, _TOP = 3, 330, 352, (268, 196), 48, 42
-_OWN = ("#2f81f7", "#1f9e89", "#6e7bf2")
+_OWN = ("#2f81f7", "#1f9e89", "#6e7bf2", "#4f9fb8")
 _OTHERS = ("#e5534b", "#bf8700", "#d6409f", "#c9510c", "#9a6cd8", "#8a929b", "#7d9b2f")
 _INK = "#7a828c"
 _LEAST = 1e-17

@@ -5,7 +5,7 @@ but more digits to begin with.
 """
 
 import itertools
-from functools import wraps
+from functools import cache, wraps
 
 import numpy as np
 from mpmath import mp, mpf
@@ -128,9 +128,10 @@ def pressure(profile, medium, depth, radii):
     return Exact([elastic(a, r) - elastic(c, r) for r in map(mpf, radii)])
 
 
+@cache
 @_precise
 def impacts(profile, medium, mass, speeds):
-    """Restitution and contact time of impacts, as two lists of 50 digits."""
+    """Restitution and contact time of impacts at a tuple of speeds, as two lists of 50 digits."""
     power = Power(profile, medium)
     pairs = [_impact(power, mpf(mass), mpf(speed)) for speed in speeds]
     return tuple(Exact(values) for values in zip(*pairs, strict=True))

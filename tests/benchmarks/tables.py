@@ -110,7 +110,8 @@ def summary(results):
     for title, setting, what in (
         ("elastic cone, field on a grid", "128²", "pressure of a cone on 128² points"),
         ("cone, 10⁸ critical depths deep", "", "pressure, 10⁸ critical depths deep, 1000 radii"),
-        ("yielded cone, kink between samples", "N = 1001", "transform of 1001 samples, cold"),
+        ("yielded cone, kink between samples", "N = 1001", "transform of 1001 samples with a kink, cold"),
+        ("fourth power, smooth load", "N = 1001", "transform of 1001 smooth samples, cold"),
         ("sphere, 10⁸ critical depths deep", "", "force of a sphere, 1000 depths"),
     ):
         rows += _compared(results["records"], title, setting, what)
