@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from . import _check
+from . import _check, cubic
 from .treecode import superpose_kernel
 
 # Nodes tried in turn, and how closely two of them must agree.
@@ -110,12 +110,12 @@ def _mean_over_quarter(function, x, quantity):
     )
 
 
-def stress_from_line_load(x, q, r, axis="auto"):
+def stress_from_line_load(x, q, r, axis="auto", interpolation="linear"):
     """Normal stress σ_zz(r) from samples of the line load q(x), Popov (2015), Eq. (10).
 
     σ_zz = (1/π) ∫ q′(x)/√(x² − r²) dx over x > r, exactly for the q that is linear between the
-    samples, constant before the first and 0 beyond the last one. A node given twice is a jump;
-    so is a last q that is not 0.
+    samples, or the cubic spline through them, constant before the first and 0 beyond the last one.
+    A node given twice is a jump; so is a last q that is not 0.
 
     Parameters
     ----------
@@ -126,10 +126,14 @@ def stress_from_line_load(x, q, r, axis="auto"):
     r : float or array_like
         Radii (m).
     axis : {"auto", "straight", "even"}, optional
-        How q runs between x = 0 and the next node: straight, or as the even parabola of a load
-        that is smooth across the axis (straight, it has a tip there, and an infinite stress).
-        "auto" takes the parabola where the first two slopes extrapolate to zero on the axis
-        within 5 % of the second.
+        How q runs between x = 0 and the next node: straight (as the spline comes, if cubic), or as
+        the even parabola (with no slope on the axis, if cubic) of a load that is smooth across the
+        axis; otherwise it has a tip there, and an infinite stress. "auto" takes it as even where
+        the first two slopes extrapolate to zero on the axis within 5 % of the second.
+    interpolation : {"linear", "cubic"}, optional
+        "linear" is right for any q, and exact for that of a cone. "cubic" is for a smooth q, whose
+        error it makes fall as the power 3.5 of the spacing instead of 1.5. It does not cross nodes
+        that are given twice: give those at which q has a kink so, with the same q.
 
     Returns
     -------
@@ -147,32 +151,55 @@ def stress_from_line_load(x, q, r, axis="auto"):
 
     >>> print(round(stress_from_line_load([0, 1], [1, 0], 0.5), 12))
     -0.419200718279
+
+    Hertz, q = 1 − x² and p = (2/π) √(1 − r²), which a cubic gives without error:
+
+    >>> x = np.linspace(0, 1, 5)
+    >>> print(round(stress_from_line_load(x, 1 - x**2, 0.6, interpolation="cubic"), 12))
+    -0.509295817894
     """
     x, q = _samples(x, q, "line load q", "N/m")
     r = np.abs(_check.finite_array("radius r", r, unit="m"))
-    if axis not in ("auto", "straight", "even"):
-        raise ValueError(f"axis = {axis!r} must be 'auto', 'straight' or 'even'")
+    for name, value, known in (
+        ("axis", axis, ("auto", "straight", "even")),
+        ("interpolation", interpolation, ("linear", "cubic")),
+    ):
+        if value not in known:
+            raise ValueError(f"{name} = {value!r} must be {' or '.join(map(repr, known))}")
     if x[-1] == 0:
         # All of the load stands on the axis, where it has no width.
         return np.zeros_like(r)[()]
     slope, jump = _slopes(x, q)
     even = _is_even(x, slope, jump, axis)
+    if interpolation == "cubic":
+        smooth = cubic.stress(x, cubic.slopes(x, q, even), r)
+    else:
+        smooth = _polygon_stress(x, slope, even, r)
+    return ((smooth + _jump_stress(x, jump, r)) / np.pi)[()]
+
+
+def _polygon_stress(x, slope, even, r):
+    """∫ q′/√(x² − r²) dx for constant slopes; where even, for a parabola on the first panel."""
     curvature = 0.0
     if even:
         curvature, slope[0] = 2 * slope[0] / x[1], 0.0
     # The kernel integrated once, arcosh(x/r), stands at each node times the change of slope.
     change = -np.diff(slope, prepend=0.0, append=0.0)
-    stress = superpose_kernel(_arcosh, x, change, r) + superpose_kernel(_punch, x, jump, r)
+    stress = superpose_kernel(_arcosh, x, change, r)
     # On the axis the logarithms of r cancel, unless q has a tip there.
     tip = slope[0] if x[0] == 0 and len(slope) else 0.0
     behind = x > 0
     at_axis = np.sum((change * np.log(x / x[-1], where=behind, out=np.zeros_like(x)))[behind])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        at_axis += np.sum((jump / x)[behind]) + (np.copysign(np.inf, tip) if tip else 0.0)
-    stress = np.where(r == 0, at_axis, stress)
+    stress = np.where(r == 0, at_axis + (np.copysign(np.inf, tip) if tip else 0.0), stress)
     if even:
         stress = stress + curvature * np.sqrt(np.maximum(x[1] - r, 0.0) * (x[1] + r))
-    return (stress / np.pi)[()]
+    return stress
+
+
+def _jump_stress(x, jump, r):
+    """Σ jump/√(x² − r²)."""
+    behind = x > 0
+    return np.where(r == 0, np.sum(jump[behind] / x[behind]), superpose_kernel(_punch, x, jump, r))
 
 
 def line_load_from_stress(r, stress, x):
@@ -249,6 +276,9 @@ def _root(x, r):
 
 def _arcosh(x, r):
     """∫ dx/√(x² − r²) from r."""
+    if np.min(x) > 1.5 * np.max(r):
+        # As exact, and faster.
+        return np.log((x + _root(x, r)) / r)
     return np.log1p((x - r + _root(x, r)) / r)
 
 

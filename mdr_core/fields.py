@@ -29,12 +29,18 @@ def pressure_integral(profile, live, r):
 @pressure_integral.register
 def _(profile: Cone, live, r):
     a, c, r, result, inside = _contact(profile, live, r)
-    # arccosh(a/r) − arccosh(c/r), with the difference of the logarithms' arguments written out.
-    low = np.maximum(c, r)
-    drop = np.where(r < c, radius_drop(profile, live), a - r)
-    root_a, root_low = np.sqrt((a - r) * (a + r)), np.sqrt((low - r) * (low + r))
+    root_a = np.sqrt((a - r) * (a + r))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        ratio = (drop + drop * ((a + low) / (root_a + root_low))) / (low + root_low)
+        if c == 0:
+            # Nothing has yielded: arccosh(a/r).
+            ratio = ((a - r) + root_a) / r
+        else:
+            # arccosh(a/r) − arccosh(c/r), with the difference of the logarithms' arguments
+            # written out.
+            low = np.maximum(c, r)
+            drop = np.where(r < c, radius_drop(profile, live), a - r)
+            root_low = np.sqrt((low - r) * (low + r))
+            ratio = (drop + drop * ((a + low) / (root_a + root_low))) / (low + root_low)
     result[inside] = np.pi / 2 * profile.slope * np.log1p(ratio)
     return result
 
@@ -42,10 +48,14 @@ def _(profile: Cone, live, r):
 @pressure_integral.register
 def _(profile: Paraboloid, live, r):
     a, c, r, result, inside = _contact(profile, live, r)
-    root_a, root_c = np.sqrt((a - r) * (a + r)), np.sqrt(np.maximum(c - r, 0) * (c + r))
-    with np.errstate(invalid="ignore"):
-        yielded = 2 * live.length / (root_a + root_c)
-    result[inside] = np.where(r < c, yielded, 2 / profile.radius * root_a)
+    root_a = np.sqrt((a - r) * (a + r))
+    integral = 2 / profile.radius * root_a
+    if c > 0:
+        root_c = np.sqrt(np.maximum(c - r, 0) * (c + r))
+        with np.errstate(invalid="ignore"):
+            yielded = 2 * live.length / (root_a + root_c)
+        integral = np.where(r < c, yielded, integral)
+    result[inside] = integral
     return result
 
 

@@ -249,7 +249,8 @@ class Indentation:
         integral, flat = np.empty(r.size), r.ravel()
         for rows in chunks(r.size, 8192):
             integral[rows] = fields.pressure_integral(self.profile, live, flat[rows])
-        return (self.medium.E_star / np.pi * integral).reshape(r.shape)[()]
+        integral *= self.medium.E_star / np.pi
+        return integral.reshape(r.shape)[()]
 
     def line_load(self, x):
         """Line load q(x) (N/m) of the 1D foundation at x (m); Popov (2015), Eqs. (17), (18)."""

@@ -27,7 +27,13 @@ def wall_length(profile, live):
 
 
 def by_quadrature(profile, live, integral):
-    """One of the three integrals for a shape without closed forms, elementwise."""
+    """One of the three integrals for a shape without closed forms, elementwise.
+
+    Raises
+    ------
+    ValueError
+        For a pure power: it has no scale to set the panels by, and closed forms.
+    """
     if profile.shape:
         unit, radius, depth = profile.unit
         return by_quadrature(unit, scaled(live, depth), integral) * (radius * depth**integral.units)
@@ -36,6 +42,8 @@ def by_quadrature(profile, live, integral):
     for rows in profile.batches(ends[1]):
         lower, upper, length, at_wall = (part[rows] for part in ends)
         zones = profile.zones_between(lower.min(initial=np.inf), upper.max(initial=0.0))
+        if any(zone.scale == np.inf for zone in zones):
+            raise ValueError(f"{profile!r} has no scale for panels; register its closed form in superpose")
         total, spent = _quadrature(profile, zones, lower, upper, at_wall, integral)
         short = np.flatnonzero(~(spent > 0))
         spent[short] = length[short]

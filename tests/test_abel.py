@@ -1,9 +1,11 @@
 """Transforms between 3D and 1D: closed-form pairs, exactness for the polygon, inverses, growth."""
 
+import itertools
 import math
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 import mdr_core as mdr
 from mdr_core import abel
@@ -103,6 +105,89 @@ class TestStressFromLineLoad:
     def test_bad_samples_are_refused(self, arguments, says):
         with pytest.raises(ValueError, match=says):
             abel.stress_from_line_load(*arguments)
+
+
+class TestCubicLoad:
+    def test_cubic_loads_are_exact_across_kinks_that_are_given_twice(self):
+        """q = 1 − x² (Hertz) up to 0.37, on with another slope, and a jump at 0.6, then 1 − x³."""
+        x = np.concatenate([np.linspace(0, 0.37, 9), np.linspace(0.37, 0.6, 5), np.linspace(0.6, 1, 12)])
+        r = np.append(np.geomspace(1e-9, 1, 80, endpoint=False), [0.36999, 0.37001, 0.59999, 0.60001])
+        pieces = np.repeat([0, 1, 2], [9, 5, 12])
+        q = np.choose(pieces, [1 - x * x, 1 - 0.37**2 - 2 * (x - 0.37), 1 - x**3])
+
+        def sqrt(b):
+            return np.sqrt(np.maximum(b - r, 0) * (b + r))
+
+        def arcosh(b):
+            return np.arccosh(np.maximum(b / r, 1))
+
+        def square(b):
+            return (b * sqrt(b) + r * r * arcosh(b)) / 2
+
+        with np.errstate(divide="ignore"):
+            punch = np.where(r < 0.6, (1 - 0.6**3 - q[13]) / sqrt(0.6), 0.0)
+        expected = (
+            -2 * sqrt(0.37) - 2 * (arcosh(0.6) - arcosh(0.37)) - 3 * (square(1) - square(0.6)) + punch
+        )
+        actual = abel.stress_from_line_load(x, q, r, interpolation="cubic")
+        # Slopes come from differences of loads over a fortieth, arcosh cancels at each kink.
+        np.testing.assert_allclose(actual, expected / math.pi, rtol=1e-11)
+
+    @pytest.mark.parametrize(("interpolation", "order"), [("linear", 1.5), ("cubic", 3.5)])
+    def test_order_of_convergence(self, interpolation, order):
+        """q = 1 − x⁴: p = (4/π)(s³/3 + r² s) with s = √(1 − r²).
+
+        A spline's slope is wrong by h³, with a mean of zero over a panel; the part of it next to r,
+        √h of the integral, has no mean. Linear panels likewise: h √h.
+        """
+
+        def error(count):
+            x, r = np.linspace(0, 1, count + 1), np.linspace(0.05, 0.95, 977)
+            s = np.sqrt(1 - r * r)
+            exact = -4 / math.pi * (s**3 / 3 + r * r * s)
+            actual = abel.stress_from_line_load(x, 1 - x**4, r, axis="even", interpolation=interpolation)
+            return np.linalg.norm(actual - exact) / np.linalg.norm(exact)
+
+        coarse, fine = error(40), error(320)
+        assert math.log(coarse / fine, 8) == pytest.approx(order, abs=0.15)
+
+    def test_axis(self):
+        x = np.linspace(0, 1, 21)
+        # −(1/π) ∫ 4x² dx
+        quartic = abel.stress_from_line_load(x, 1 - x**4, 0.0, axis="even", interpolation="cubic")
+        assert quartic == pytest.approx(-4 / (3 * math.pi), rel=1e-4)
+        assert abel.stress_from_line_load(x, 1 - x, 0.0, interpolation="cubic") == -math.inf
+        hertz = abel.stress_from_line_load(x, 1 - x * x, [0.0, 1e-12], interpolation="cubic")
+        np.testing.assert_allclose(hertz, -2 / math.pi, rtol=1e-13)
+
+    def test_few_nodes(self):
+        """Two nodes make a straight line, three a parabola."""
+        line = abel.stress_from_line_load([0.0, 1.0], [1.0, 0.0], 0.3, "straight", "cubic")
+        assert line == pytest.approx(-math.acosh(1 / 0.3) / math.pi, rel=1e-14)
+        hertz = abel.stress_from_line_load([0.0, 0.2, 1.0], [1.0, 0.96, 0.0], 0.3, interpolation="cubic")
+        assert hertz == pytest.approx(-2 / math.pi * math.sqrt(0.91), rel=1e-14)
+        assert abel.stress_from_line_load([0.5], [1.0], 0.3, interpolation="cubic") == pytest.approx(
+            -1 / (0.4 * math.pi), rel=1e-14
+        )
+
+    def test_rough_loads_on_uneven_nodes(self):
+        """Against Gauss quadrature of the spline itself, in √(x − r) from each panel's end."""
+        x = np.concatenate([[0.0], np.sort(RNG.uniform(0, 1, 40)), [1.0, 1.5, 9.0]])
+        q = RNG.normal(size=x.size)
+        spline = CubicSpline(x, q).derivative()
+        node, weight = np.polynomial.legendre.leggauss(60)
+        for r in (1e-3, 0.2, 0.77, 1.2, 5.0):
+            total, roots = -q[-1] / math.sqrt((9 - r) * (9 + r)), np.sqrt(np.maximum(x - r, 0))
+            for low, high in itertools.pairwise(roots):
+                t = (low + high) / 2 + (high - low) / 2 * node
+                total += (high - low) * weight @ (spline(r + t * t) / np.sqrt(2 * r + t * t))
+            actual = abel.stress_from_line_load(x, q, r, axis="straight", interpolation="cubic")
+            # Slopes of up to 10⁴ of both signs.
+            assert actual == pytest.approx(total / math.pi, rel=1e-10)
+
+    def test_another_interpolation_is_refused(self):
+        with pytest.raises(ValueError, match="interpolation = 'round' must be 'linear' or 'cubic'"):
+            abel.stress_from_line_load([0, 1], [1, 0], 0.5, interpolation="round")
 
 
 class TestLineLoadFromStress:

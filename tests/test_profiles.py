@@ -7,6 +7,8 @@ import pytest
 
 import mdr_core as mdr
 from mdr_core.profiles import kappa
+from mdr_core.quadrature import AREA, by_quadrature
+from mdr_core.yielding import LiveInterval
 
 from .shapes import POWER_LAWS, SHAPES, integrate, name
 
@@ -104,3 +106,8 @@ def test_limits_of_families():
 def test_bad_shapes_and_arguments_are_refused(make, says):
     with pytest.raises(ValueError, match=says):
         make()
+
+
+def test_a_pure_power_is_not_left_to_a_quadrature_without_scale():
+    with pytest.raises(ValueError, match="has no scale for panels"):
+        by_quadrature(mdr.Cone(1.0), LiveInterval(*np.array([[0.0], [1.0], [1.0]])), AREA)

@@ -1,0 +1,79 @@
+"""Speed against error, measured and written down: tables, figure and the README's section.
+
+    python -m tests.benchmarks.report
+
+writes assets/benchmarks.json, assets/benchmarks.md, assets/speed_against_error.svg and the table in
+README.md; with --quick it measures small sizes in less than a minute and only prints.
+"""
+
+import argparse
+import json
+import os
+import platform
+import tomllib
+from datetime import UTC, datetime
+from importlib import metadata
+from pathlib import Path
+
+from . import force, growth, impacts, peers, pressure, transform, viscous
+from .bars import bars
+from .chart import figure
+from .harness import measure
+from .tables import document, summary
+
+ROOT = Path(__file__).parents[2]
+_BEGIN, _END = "<!-- benchmarks: begin -->\n", "<!-- benchmarks: end -->"
+
+
+def collect(quick=False, say=lambda line: None):
+    """Everything measured, as plain lists and dicts."""
+    floor = growth.floors(quick)
+    records = []
+    for question in (force, pressure, impacts, viscous, transform):
+        for problem in question.problems(quick):
+            say(f"{problem.question}, {problem.case}: {problem.title}")
+            records += measure(problem, rounds=1 if quick else 5)
+    say("growth, floors")
+    million = growth.million(quick)
+    return {
+        "date": datetime.now(UTC).date().isoformat(),
+        "processors": os.cpu_count(),
+        "versions": _versions(),
+        "peers": peers.versions(),
+        "floors": floor,
+        "records": records,
+        "growth": growth.growth(floor, quick),
+        "million": million,
+        "bars": bars(records, million),
+    }
+
+
+def _versions():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    found = {"mdr_core": project["version"], "python": platform.python_version()}
+    return found | {name: metadata.version(name) for name in ("numpy", "scipy", "mpmath")}
+
+
+def _write(results):
+    assets = ROOT / "assets"
+    text = json.dumps(results, indent=1, ensure_ascii=False)
+    (assets / "benchmarks.json").write_text(text + "\n", encoding="utf-8")
+    (assets / "benchmarks.md").write_text(document(results), encoding="utf-8")
+    (assets / "speed_against_error.svg").write_text(figure(results), encoding="utf-8")
+    readme = ROOT / "README.md"
+    head, rest = readme.read_text(encoding="utf-8").split(_BEGIN)
+    readme.write_text(head + _BEGIN + summary(results) + _END + rest.split(_END)[1], encoding="utf-8")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="small sizes, nothing is written")
+    quick = parser.parse_args().quick
+    results = collect(quick, say=lambda line: print(line, flush=True))
+    print(document(results))
+    if not quick:
+        _write(results)
+
+
+if __name__ == "__main__":
+    main()
