@@ -252,11 +252,10 @@ class PowerLaw(Profile):
 
     def __post_init__(self):
         set_positive(self, coefficient="m^(1-n)", exponent="")
-        exponent = np.asarray(self.exponent)
+        exponent, reduced = np.asarray(self.exponent), np.asarray(self._reduced_coefficient)
         outside = ~((exponent >= 0.01) & (exponent <= 1000))
         bound = "must lie in 0.01 ≤ n ≤ 1000"
         _check.refuse("PowerLaw exponent", exponent, outside, bound, remedy="FlatPunch is n → ∞")
-        reduced = np.asarray(self._reduced_coefficient)
         bound = "m^(1-n), the coefficient of the reduced profile, leaves double precision"
         outside = ~((reduced > 0) & (reduced < np.inf))
         _check.refuse("κₙ c", reduced, outside, bound, remedy="use another unit of length")

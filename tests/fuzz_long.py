@@ -105,7 +105,9 @@ def shapes(source):
 
 def odd_shapes(source):
     name = source.pick((*SCALARS, "Sampled", "Smooth"))
-    shape = getattr(mdr, name)(*(source.pick(ODD) for _ in range(COUNTS.get(name, 1) + (name == "Sampled"))))
+    shape = getattr(mdr, name)(
+        *(source.pick(ODD) for _ in range(COUNTS.get(name, 1) + (name == "Sampled")))
+    )
     finite(shape.contact_radius(1e-9), shape.reduced(1e-9), infinite=True)
 
 
@@ -235,7 +237,9 @@ FOLDER = Path(tempfile.gettempdir())
 
 
 def tips(source):
-    data = source.rng.bytes(source.rng.integers(0, 200)) if source.rng.random() < 0.2 else mutated(source, TIP)
+    data = (
+        source.rng.bytes(source.rng.integers(0, 200)) if source.rng.random() < 0.2 else mutated(source, TIP)
+    )
     with tempfile.NamedTemporaryFile(suffix=".csv", dir=FOLDER) as file:
         file.write(data)
         file.flush()
