@@ -75,8 +75,9 @@ class FreeImpact:
     speed: float
 
     def __post_init__(self):
-        object.__setattr__(self, "mass", _check.positive("FreeImpact mass", self.mass, unit="kg"))
-        object.__setattr__(self, "speed", _check.positive("FreeImpact speed", self.speed, unit="m/s"))
+        for name, unit in (("mass", "kg"), ("speed", "m/s")):
+            value = _check.positive_number(f"FreeImpact {name}", getattr(self, name), unit=unit)
+            object.__setattr__(self, name, value)
 
     def solve(self, profile, medium):
         """The `Impact` of this body."""
