@@ -4,8 +4,8 @@ from functools import cached_property, wraps
 
 import numpy as np
 
-# Beyond it the squares and products of quantities would overflow.
-_LARGEST = 1e140
+#: Beyond these the squares and products of quantities would leave double precision.
+SMALLEST, LARGEST = 1e-60, 1e60
 
 
 def number(quantity, value):
@@ -15,17 +15,18 @@ def number(quantity, value):
         if array.dtype.kind not in "iuf" or array.ndim:
             raise TypeError
     except (TypeError, ValueError):
-        raise ValueError(f"{quantity} must be one real number, got {value!r}") from None
+        raise ValueError(f"{quantity} must be one real number, got {value!r:.80}") from None
     return float(array)
 
 
-def positive(quantity, value, *, unit="", infinite=False, zero=False):
-    """`value` as a float or a read-only array, if positive (or zero, or infinite, where allowed)."""
-    if np.ndim(value) == 0:
-        values = np.asarray(number(quantity, value))
-    else:
-        values = _real_array(quantity, value).copy()
-        values.setflags(write=False)
+def positive(quantity, value, *, unit="", infinite=False, zero=False, within=(SMALLEST, LARGEST)):
+    """`value` as a float or a read-only array, if positive (or zero, or infinite, where allowed).
+
+    Other numbers must lie within bounds that physical quantities in SI units keep.
+    """
+    many = isinstance(value, list | tuple | np.ndarray)
+    values = _real_array(quantity, value, "real numbers" if many else "one real number").copy()
+    values.setflags(write=False)
     with np.errstate(invalid="ignore"):
         bad = ~(values >= 0) if zero else ~(values > 0)
     if not infinite:
@@ -33,23 +34,34 @@ def positive(quantity, value, *, unit="", infinite=False, zero=False):
     bound = f"must be {'' if infinite else 'finite and '}{'not negative' if zero else 'positive'}"
     remedy = f"give it in SI units{f' ({unit})' if unit else ''}"
     refuse(quantity, values, bad, bound, unit=unit, remedy=remedy)
+    least, most = (0.0 if zero else within[0]), within[1]
+    outside = (values < least) | (values > most) & (values < np.inf)
+    bound = f"must lie between {least:g} and {most:g}"
+    refuse(quantity, values, outside, bound, unit=unit, remedy=remedy)
     return values if values.ndim else float(values)
 
 
-def _real_array(quantity, value):
+def positive_number(quantity, value, *, unit="", infinite=False):
+    """`value` as a float, if it is one positive number."""
+    return positive(quantity, number(quantity, value), unit=unit, infinite=infinite)
+
+
+def _real_array(quantity, value, what="real numbers"):
     try:
         array = np.asarray(value)
         if array.dtype.kind not in "iuf":
             raise TypeError
         return array.astype(float, copy=False)
     except (TypeError, ValueError):
-        raise ValueError(f"{quantity} must be real numbers, got {value!r:.80}") from None
+        raise ValueError(f"{quantity} must be {what}, got {value!r:.80}") from None
 
 
 def finite_array(quantity, value, *, unit=""):
     """`value` as a float array without NaN or infinity."""
-    array = _real_array(quantity, value)
-    return refuse(quantity, array, ~(np.abs(array) < _LARGEST), "must be finite", unit=unit)
+    array, remedy = _real_array(quantity, value), "leave it out, or mend the data it comes from"
+    large = np.isfinite(array) & (np.abs(array) > LARGEST)
+    refuse(quantity, array, large, f"is beyond {LARGEST:g}", unit=unit, remedy="give it in SI units")
+    return refuse(quantity, array, ~np.isfinite(array), "must be finite", unit=unit, remedy=remedy)
 
 
 def refuse(quantity, array, bad, bound, *, unit="", remedy=""):
@@ -67,6 +79,8 @@ def refuse(quantity, array, bad, bound, *, unit="", remedy=""):
 
 def common_shape(what, **values):
     """Shape to which the values broadcast, or an error that names their shapes."""
+    for name, value in values.items():
+        _real_array(name, value)
     try:
         return np.broadcast_shapes(*map(np.shape, values.values()))
     except ValueError:

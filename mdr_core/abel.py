@@ -7,6 +7,7 @@ Pure mathematics, for callables (`reduce_slope`, `height_from_reduced`) and for 
 from functools import lru_cache
 
 import numpy as np
+from scipy.special import gamma
 
 from . import _check, cubic
 from .treecode import superpose_kernel
@@ -46,6 +47,26 @@ def reduce_slope(slope, x):
     """
     x = np.abs(_check.finite_array("coordinate x", x, unit="m"))
     return (x * _mean_over_quarter(slope, x, "slope dz/dr"))[()]
+
+
+def kappa(n):
+    """Coefficient κₙ = √π n Γ(n/2)/(2 Γ((n+1)/2)) of a reduced power law.
+
+    Popov (2015), Eq. (7).
+
+    Examples
+    --------
+    >>> print(kappa(2.0))
+    2.0
+    """
+    n = np.asarray(n, dtype=float)
+    # n Γ(n/2)/2 = Γ(n/2 + 1), which stays finite as n → 0.
+    few = np.minimum(n, 300.0)
+    ratio = np.sqrt(np.pi) * gamma(few / 2 + 1) / gamma((few + 1) / 2)
+    # Γ(m + 1/2)/Γ(m) for large m, where the gamma functions overflow.
+    m = (np.maximum(n, 300.0) + 1) / 2
+    series = np.polyval([869 / 4194304, -399 / 262144, -21 / 32768, 5 / 1024, 1 / 128, -1 / 8, 1], 1 / m)
+    return np.where(n < 300, ratio, np.sqrt(np.pi * m) * series)[()]
 
 
 def height_from_reduced(reduced, r):

@@ -14,6 +14,8 @@ from .profiles import Profile
 #: Elements of the first run; every refinement takes twice as many, and half the steps in time.
 _ELEMENTS = 100
 _REFINEMENTS = 8
+#: The deepest that the chain can tell the critical depth from rounding, in critical depths.
+_DEEPEST = 1e11
 
 
 def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=1e-6):
@@ -64,8 +66,13 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
     0.29844
     """
     body = Body(profile, medium, mass, speed, _history(profile, medium, start))
-    tolerance = _check.positive("tolerance", tolerance)
+    tolerance = _check.positive_number("tolerance", tolerance)
     bound = reach(body)
+    if bound > _DEEPEST * medium.critical_depth:
+        raise ValueError(
+            f"speed = {body.speed:g} m/s presses down to {bound:g} m, over {_DEEPEST:g} critical depths, "
+            "so that what springs back is lost in rounding; hit less hard, or use impact"
+        )
     motion = pace(body, body.row(n or _ELEMENTS, bound), bound)
     scale = float(np.max(np.abs(motion.depth)))
     legs, hits, values = motion.legs, [], []

@@ -56,7 +56,7 @@ def indent_to_force_in_time(profile, medium, force, time, tolerance):
     >>> print(round(float(state.depth[-1]), 4))
     0.7675
     """
-    tolerance = _check.positive("tolerance", tolerance)
+    tolerance = _check.positive_number("tolerance", tolerance)
     most = 2 * medium.yield_line_load * profile.wall
     if force[0] >= most:
         raise ValueError(

@@ -117,8 +117,7 @@ class FreeImpact:
 
     def __post_init__(self):
         for name, unit in (("mass", "kg"), ("speed", "m/s")):
-            _check.number(f"FreeImpact {name}", getattr(self, name))
-            value = _check.positive(f"FreeImpact {name}", getattr(self, name), unit=unit)
+            value = _check.positive_number(f"FreeImpact {name}", getattr(self, name), unit=unit)
             object.__setattr__(self, name, value)
 
     def models(self, medium):

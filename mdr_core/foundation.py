@@ -6,10 +6,24 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from . import _check, elements
+from .arguments import check_types
 from .elements import Elements, Ramp
 from .grid import cell_edges
 from .medium import Medium
 from .profiles import Profile
+
+#: The most elements of a row: some GB.
+_MOST = 10**7
+
+
+def check_pair(profile, medium):
+    """Refuses what is not one indenter on one medium."""
+    check_types(profile, medium)
+    if profile.shape or medium.shape:
+        raise ValueError(
+            "the parameters of profile and medium are arrays, but a foundation is of one indenter on one "
+            "medium; take one at a time, as in profile.entries(i)"
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,23 +93,20 @@ class Foundation:
     history: tuple[tuple[float, float], ...] = field(default=(), init=False, repr=False)
 
     def __post_init__(self):
-        if not isinstance(self.profile, Profile):
-            raise TypeError(
-                f"profile must be an mdr_core shape such as Cone(slope=1), got {self.profile!r}"
+        check_pair(self.profile, self.medium)
+        n = _check.positive_number("n", self.n)
+        if n % 2 or n > _MOST:
+            raise ValueError(
+                f"n = {n:g} must be an even whole number up to {_MOST:g}: as many elements on either side"
             )
-        if not isinstance(self.medium, Medium):
-            raise TypeError(f"medium must be a Medium, got {self.medium!r}")
-        n = _check.positive("n", self.n)
-        if n % 2:
-            raise ValueError(f"n = {n:g} must be an even whole number: as many elements on either side")
-        half_width = _check.positive("half_width", self.half_width, unit="m")
+        half_width = _check.positive_number("half_width", self.half_width, unit="m")
         known = self.profile.known_radius
         if half_width > known:
             raise ValueError(
                 f"half_width = {half_width:g} m is beyond the radius up to which the shape is known, "
                 f"{known:g} m; give at most that"
             )
-        nodes = _check.finite_array("nodes", self.nodes, unit="m")
+        nodes = _check.finite_array("nodes", self.nodes, unit="m").ravel()
         edges = cell_edges(self.profile, int(n) // 2, half_width, nodes)
         middle = (edges[1:] + edges[:-1]) / 2
         # A little beyond the end: the row may end on the very contact radius.
@@ -146,7 +157,7 @@ class Foundation:
         22.0 6.0
         """
         depth = float(_check.finite_array("depth", _check.number("depth", depth), unit="m"))
-        ramp = self._ramp(depth, _check.positive("dt", dt, unit="s", infinite=True))
+        ramp = self._ramp(depth, _check.positive_number("dt", dt, unit="s", infinite=True))
         return self._after(ramp, *elements.advance(self._elements, ramp))
 
     def _ramp(self, depth, dt):

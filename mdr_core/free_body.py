@@ -18,7 +18,7 @@ from scipy.optimize import brentq
 
 from . import _check, elements
 from .bounds import least_depth, resistance
-from .foundation import Foundation
+from .foundation import Foundation, check_pair
 from .medium import Medium
 from .profiles import Profile
 
@@ -38,8 +38,9 @@ class Body:
     history: tuple[tuple[float, float], ...] = ()
 
     def __post_init__(self):
-        object.__setattr__(self, "mass", _check.positive("mass", self.mass, unit="kg"))
-        object.__setattr__(self, "speed", _check.positive("speed", self.speed, unit="m/s"))
+        check_pair(self.profile, self.medium)
+        object.__setattr__(self, "mass", _check.positive_number("mass", self.mass, unit="kg"))
+        object.__setattr__(self, "speed", _check.positive_number("speed", self.speed, unit="m/s"))
 
     @property
     def met_before(self):

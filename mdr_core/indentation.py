@@ -105,6 +105,8 @@ def indent_to_force(profile, medium, force, *, time=None, tolerance=1e-4):
     check_one(profile, medium)
     force = _check.finite_array("force", force, unit="N")
     _check.refuse("force", force, force < 0, "is negative", unit="N", remedy="there is no adhesion")
+    tiny = (force > 0) & (force < _check.SMALLEST)
+    _check.refuse("force", force, tiny, f"must be 0 or at least {_check.SMALLEST:g}", unit="N")
     if time is not None:
         time = check_times(time, force, "force")
         if medium.eta > 0:
@@ -114,9 +116,11 @@ def indent_to_force(profile, medium, force, *, time=None, tolerance=1e-4):
     _check.refuse("force", force, force >= most, bound, unit="N", remedy="press to a depth instead")
     area = force / (2 * medium.E_star)
     peak = np.maximum.accumulate(area, axis=-1) if area.ndim else area
-    deepest = _loading_depth(profile, medium, peak)
-    bound = f"presses deeper than the shape is known, {profile.deepest:g} m"
-    _check.refuse("force", force, np.isinf(deepest), bound, unit="N", remedy="press less")
+    with np.errstate(all="ignore"):
+        deepest = _loading_depth(profile, medium, peak)
+    known = min(profile.deepest, _check.LARGEST)
+    bound = f"presses deeper than the shape is known, {known:g} m"
+    _check.refuse("force", force, ~(deepest <= known), bound, unit="N", remedy="press less")
     front = first_loading(profile, medium, deepest).live
     length = np.where(area == peak, front.length, _live_length(profile, front, area))
     upper = np.where(area == peak, deepest, front.lower + length)
@@ -149,8 +153,8 @@ def _live_length(profile, front, area):
         live = LiveInterval(front.lower, front.lower + length, length)
         return superpose.radius_integral(profile, live), profile._radius(live.upper)
 
-    start = float(np.max(front.length, initial=0.0)) or 1.0
-    return np.minimum(increasing_root(unloading, area, start), front.length)
+    longest = np.where(front.length > 0, front.length, 1.0)
+    return np.minimum(increasing_root(unloading, area, longest, longest), front.length)
 
 
 @dataclass(frozen=True, eq=False)

@@ -56,6 +56,12 @@ class Medium:
         bound = "m is outside double precision"
         remedy = "check the units of q_c and E_star, or leave q_c out for no yield"
         _check.refuse("critical depth π q_c/(2 E_star)", depth, bad, bound, remedy=remedy)
+        with np.errstate(over="ignore", under="ignore"):
+            time, line_load = np.asarray(self.relaxation_time), np.asarray(self.yield_line_load)
+        bad, bound = np.isinf(time) | ((time == 0) & (self.eta > 0)), "s is outside double precision"
+        _check.refuse("relaxation time 4 eta/E_star", time, bad, bound, remedy="check the units of eta")
+        bad, bound = np.isinf(line_load) & (self.q_c < np.inf), "N/m is outside double precision"
+        _check.refuse("yield line load π q_c/2", line_load, bad, bound, remedy="check the unit of q_c")
 
     @classmethod
     def from_bodies(cls, E1, nu1, E2=np.inf, nu2=0.0, q_c=np.inf, eta=0.0):
@@ -77,16 +83,19 @@ class Medium:
         >>> print(round(Medium.from_bodies(210e9, 0.3).E_star / 1e9, 6))  # steel under a rigid indenter
         230.769231
         """
+        _check.common_shape("medium", E1=E1, nu1=nu1, E2=E2, nu2=nu2)
         compliance = 0.0
         for i, (modulus, ratio) in enumerate(((E1, nu1), (E2, nu2)), start=1):
             modulus = _check.positive(f"Young's modulus E{i}", modulus, unit="Pa", infinite=True)
             quantity = f"Poisson ratio nu{i}"
             ratio = _check.finite_array(quantity, ratio)
             _check.refuse(quantity, ratio, ~((ratio > -1) & (ratio <= 0.5)), "must lie in −1 < ν ≤ 0.5")
-            compliance = compliance + (1 - ratio) * (1 + ratio) / modulus
+            with np.errstate(over="ignore", under="ignore"):
+                compliance = compliance + (1 - ratio) * (1 + ratio) / modulus
         if np.any(compliance == 0):
             raise ValueError("E1 and E2 are both infinite; at least one body must be elastic")
-        return cls(1 / compliance, q_c, eta)
+        with np.errstate(over="ignore"):
+            return cls(1 / compliance, q_c, eta)
 
     @cached_property
     def shape(self):

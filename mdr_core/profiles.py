@@ -11,9 +11,9 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
-from scipy.special import gamma
 
 from . import _check
+from .abel import kappa
 from .panels import chunks
 from .zones import Zone
 
@@ -41,20 +41,21 @@ class Profile(ABC):
 
     def height(self, r):
         """Height z(r) (m) above the tip at radius r (m), of the shape of `r`; even in r."""
-        r = self._within(np.abs(_check.finite_array("radius r", r, unit="m")))
+        r = self._within(self._places("radius r", r))
         with np.errstate(over="ignore", under="ignore"):
             return self._height(r)[()]
 
     def reduced(self, x):
         """Height g(x) (m) of the equivalent 1D profile, Popov (2015), Eq. (3); even in x."""
-        x = self._within(np.abs(_check.finite_array("coordinate x", x, unit="m")))
+        x = self._within(self._places("coordinate x", x))
         with np.errstate(over="ignore", under="ignore"):
             return self._reduced(x)[()]
 
     def contact_radius(self, depth):
         """Contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
-        depth = self._known(_check.finite_array("depth", depth, unit="m"))
+        depth = self._places("depth", depth)
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
+        depth = self._known(depth)
         return self._radius(depth)[()]
 
     def zones_between(self, lower, upper):
@@ -103,8 +104,17 @@ class Profile(ABC):
         (zone,) = self.zones
         return zone.radius(zone.coordinate(depth))
 
+    def _places(self, quantity, values):
+        """Radii or depths (m), checked and broadcast to the indenters."""
+        values = _check.finite_array(quantity, values, unit="m")
+        shape = _check.common_shape(
+            type(self).__name__, **{quantity: values}, indenters=np.empty(self.shape)
+        )
+        return np.broadcast_to(values, shape)
+
     def _within(self, r):
-        """`r`, if the shape is known so far out."""
+        """The distance |r|, if the shape is known so far out."""
+        r = np.abs(r)
         bound = f"m is beyond the radius up to which the shape is known, {np.min(self.known_radius):g} m"
         return _check.refuse("radius", r, r > self.known_radius, bound)
 
@@ -120,11 +130,9 @@ def set_positive(profile, **units):
     """Replace each named field of a frozen profile by its checked value, a float or an array."""
     for name, unit in units.items():
         quantity = f"{type(profile).__name__} {name}"
-        value = _check.positive(quantity, getattr(profile, name), unit=unit)
-        if unit != "m^(1-n)":
-            outside = ~((np.asarray(value) >= 1e-100) & (np.asarray(value) <= 1e100))
-            bound = "must lie between 1e-100 and 1e100"
-            _check.refuse(quantity, np.asarray(value), outside, bound, unit=unit, remedy="check the unit")
+        # Lengths of a shape are divided by each other and squared; a coefficient may be of any size.
+        within = (0.0, np.inf) if unit == "m^(1-n)" else (1e-30, 1e30)
+        value = _check.positive(quantity, getattr(profile, name), unit=unit, within=within)
         object.__setattr__(profile, name, value)
     _check.common_shape(type(profile).__name__, **{name: getattr(profile, name) for name in units})
 
@@ -158,7 +166,7 @@ class FlatPunch(Profile):
     _reduced = _height
 
     def _radius(self, depth):
-        return np.full_like(depth, self.radius)
+        return np.zeros_like(depth) + self.radius
 
 
 @dataclass(frozen=True)
@@ -278,23 +286,3 @@ class PowerLaw(Profile):
 
     def _radius(self, depth):
         return (depth / self._reduced_coefficient) ** (1 / self.exponent)
-
-
-def kappa(n):
-    """Coefficient κₙ = √π n Γ(n/2)/(2 Γ((n+1)/2)) of a reduced power law.
-
-    Popov (2015), Eq. (7).
-
-    Examples
-    --------
-    >>> print(kappa(2.0))
-    2.0
-    """
-    n = np.asarray(n, dtype=float)
-    # n Γ(n/2)/2 = Γ(n/2 + 1), which stays finite as n → 0.
-    few = np.minimum(n, 300.0)
-    ratio = np.sqrt(np.pi) * gamma(few / 2 + 1) / gamma((few + 1) / 2)
-    # Γ(m + 1/2)/Γ(m) for large m, where the gamma functions overflow.
-    m = (np.maximum(n, 300.0) + 1) / 2
-    series = np.polyval([869 / 4194304, -399 / 262144, -21 / 32768, 5 / 1024, 1 / 128, -1 / 8, 1], 1 / m)
-    return np.where(n < 300, ratio, np.sqrt(np.pi * m) * series)[()]

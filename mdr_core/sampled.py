@@ -14,6 +14,9 @@ from .zones import Zone
 
 _UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9}
 
+#: Every sample meets every other one.
+_MOST_SAMPLES = 5000
+
 
 @dataclass(frozen=True)
 class Sampled(Profile):
@@ -53,6 +56,10 @@ class Sampled(Profile):
         if r.ndim != 1 or r.shape != z.shape or r.size < 2:
             raise ValueError(
                 f"Sampled r and z must be two lists of one length ≥ 2, got shapes {r.shape}, {z.shape}"
+            )
+        if r.size > _MOST_SAMPLES:
+            raise ValueError(
+                f"Sampled has {r.size} samples, more than {_MOST_SAMPLES}; thin them out, as in r[::10]"
             )
         if r[0] != 0:
             raise ValueError(f"Sampled r[0] = {r[0]:g} m must be 0: add the sample at the tip")
@@ -276,6 +283,8 @@ def _read(lines, unit, name):
                     f"{name}, line {number}: expected two numbers r, z, found {line.strip()!r:.60}"
                 )
             rows.append(values)
+            if len(rows) > _MOST_SAMPLES:
+                raise ValueError(f"{name}: more than {_MOST_SAMPLES} samples; thin them out")
     units = [unit, unit] if unit else named
     if len(units) != 2 or not set(units) <= set(_UNITS):
         raise ValueError(

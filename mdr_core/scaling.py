@@ -46,9 +46,7 @@ class ScalingLaw:
     def __post_init__(self):
         if self.hardness not in _FORCE_POWER:
             raise ValueError(f"hardness class = {self.hardness!r:.40} must be one of 'a', 'b', 'c'")
-        exponent = _check.positive(
-            "ScalingLaw exponent", _check.number("ScalingLaw exponent", self.exponent)
-        )
+        exponent = _check.positive_number("ScalingLaw exponent", self.exponent)
         object.__setattr__(self, "exponent", exponent)
 
     @property
@@ -117,10 +115,10 @@ def hardness_class(energy, radius, exponent):
     'b'
     """
     energy, radius = (
-        np.atleast_1d(_check.positive(name, np.atleast_1d(value), unit=unit))
+        np.atleast_1d(_check.positive(name, value, unit=unit))
         for name, value, unit in (("energy", energy, "J"), ("radius", radius, "m"))
     )
-    if energy.shape != radius.shape or np.ptp(energy) == 0:
+    if energy.shape != radius.shape or np.all(energy == energy[..., :1]):
         raise ValueError(
             f"energy {energy.shape} and radius {radius.shape} must be of one shape, with two energies or "
             "more that differ"

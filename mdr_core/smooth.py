@@ -50,8 +50,7 @@ class Smooth(Profile):
             raise ValueError(
                 f"Smooth slope_function must be a function of the radius, got {self.slope_function!r:.80}"
             )
-        _check.number("Smooth radius", self.radius)
-        radius = _check.positive("Smooth radius", self.radius, unit="m", infinite=True)
+        radius = _check.positive_number("Smooth radius", self.radius, unit="m", infinite=True)
         object.__setattr__(self, "radius", radius)
 
     shape = ()
@@ -116,15 +115,21 @@ class Smooth(Profile):
         return not isinstance(self._attempt(depth, True), ValueError)
 
     _zones = cached_property(lambda self: {})
+    _failures = cached_property(lambda self: [(np.inf, None)])
 
     def _attempt(self, depth, generous):
         """The zone up to a depth, generously or exactly, or the error it ends in; remembered."""
         result = self._zones.get((depth, generous))
         if result is None:
+            if generous and depth >= self._failures[-1][0]:
+                return self._failures[-1][1]
             try:
                 result = _fitted_zone(self, depth, 1e-2 if generous else 0.0)
             except ValueError as error:
                 result = error
+                if generous:
+                    # What contains it fails as well.
+                    self._failures.append((depth, error))
             if len(self._zones) > _MOST_ZONES:
                 self._zones.clear()
             self._zones[depth, generous] = result

@@ -56,7 +56,7 @@ def indent_in_time(profile, medium, depth, time, tolerance):
     TimedIndentation
         With the estimate reached, as `error`.
     """
-    tolerance = _check.positive("tolerance", tolerance)
+    tolerance = _check.positive_number("tolerance", tolerance)
     count, last = _ELEMENTS, None
     nodes = _nodes(profile, medium, depth, time)
     while True:

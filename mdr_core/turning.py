@@ -87,8 +87,7 @@ def _penetration(profile, target, d_c, remainder, before):
         return stored + spent, superpose.radius_integral(profile, live)
 
     start = np.where(np.isinf(d_c), 1.0, d_c)
-    # The search may begin far from the root, where powers leave double precision.
-    with np.errstate(over="ignore", under="ignore"):
+    with np.errstate(all="ignore"):
         return increasing_root(work, target, start, profile.deepest - before)
 
 

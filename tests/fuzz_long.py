@@ -12,7 +12,7 @@ import signal
 import sys
 import tempfile
 import warnings
-from pathlib import Path
+from dataclasses import fields
 
 import numpy as np
 
@@ -35,8 +35,7 @@ INTERNAL = (
 )  # fmt: skip
 SCALARS = ("FlatPunch", "Cone", "Paraboloid", "PowerLaw", "Sphere", "Hyperboloid", "RoundedCone",
            "ParabolicPunch", "TruncatedCone", "TruncatedParaboloid", "RoundedPunch")  # fmt: skip
-COUNTS = dict.fromkeys(("PowerLaw", "Hyperboloid", "RoundedCone", "ParabolicPunch", "TruncatedCone",
-                        "TruncatedParaboloid", "RoundedPunch"), 2)  # fmt: skip
+COUNTS = {name: len(fields(getattr(mdr, name))) for name in SCALARS}
 
 
 class Source:
@@ -79,8 +78,8 @@ class Source:
             return mdr.Smooth(self.pick((lambda r: r / R, lambda r: 0.3 * r / np.hypot(r, R))))
         name = self.pick(SCALARS)
         if name == "PowerLaw":
-            n = self.number(-1, 1.7)
-            return mdr.PowerLaw(self.number(-2, 2) * 1e-6 ** (1 - n), n)
+            n = 10.0 ** self.rng.uniform(-1, 1.7)
+            return mdr.PowerLaw(10.0 ** self.rng.uniform(-2, 2) * 1e-6 ** (1 - n), n)
         return getattr(mdr, name)(*(self.number(-8, -1) for _ in range(COUNTS.get(name, 1))))
 
     def medium(self, viscous=False):
@@ -105,9 +104,8 @@ def shapes(source):
 
 def odd_shapes(source):
     name = source.pick((*SCALARS, "Sampled", "Smooth"))
-    shape = getattr(mdr, name)(
-        *(source.pick(ODD) for _ in range(COUNTS.get(name, 1) + (name == "Sampled")))
-    )
+    count = COUNTS.get(name, 2 if name == "Sampled" else 1)
+    shape = getattr(mdr, name)(*(source.pick(ODD) for _ in range(count)))
     finite(shape.contact_radius(1e-9), shape.reduced(1e-9), infinite=True)
 
 
@@ -196,7 +194,8 @@ def foundations(source):
     row = mdr.Foundation(shape, medium, n, source.number(-8, -3), nodes=source.numbers(-9, -5))
     for _ in range(4):
         dt = np.inf if source.rng.random() < 0.3 else source.number(-8, 2)
-        row = row.advance(source.pick((1, 1, 0.3, -1)) * source.number(-11, -6), dt)
+        depth = source.number(-11, -6)
+        row = row.advance(-depth if isinstance(depth, float) and source.rng.random() < 0.2 else depth, dt)
     finite(row.force, row.stored_energy, row.plastic_work, row.viscous_work, row.line_load, row.elastic)
 
 
@@ -207,13 +206,16 @@ def chains(source):
     finite(hit.max_depth, hit.max_force, hit.restitution, hit.contact_time, hit.plastic_work)
 
 
+PIECES = (b"", b"0", b"7", b"3", b".", b"-", b"e", b"9" * 400, b"\0", b"\xff", b",", b"[", b'"', b"null",
+          b"NaN", b"1e999", b"{}")  # fmt: skip
+
+
 def mutated(source, text):
     """A text with a few bytes of it changed, dropped or doubled."""
     data = bytearray(text)
-    for _ in range(source.rng.integers(1, 6)):
-        at, length = source.rng.integers(0, max(len(data), 1)), source.rng.integers(0, 8)
-        new = source.pick((b"", b"0", b"-", b"e", b"9" * 400, b"\0", b"\xff", b",", b"[", b'"', b"null",
-                           b"NaN", b"1e999", b"{}", bytes(source.rng.integers(0, 256, 3).tolist())))  # fmt: skip
+    for _ in range(source.rng.integers(1, 3)):
+        at, length = source.rng.integers(0, max(len(data), 1)), source.rng.integers(0, 3)
+        new = source.pick((*PIECES, bytes(source.rng.integers(0, 256, 3).tolist())))
         data[at : at + length] = new
     return bytes(data)
 
@@ -233,14 +235,13 @@ def scenes(source):
 
 
 TIP = b"r (nm), z (nm)\n# a comment\n0, 0\n100, 10\n200, 30\n400, 90\n"
-FOLDER = Path(tempfile.gettempdir())
 
 
 def tips(source):
     data = (
         source.rng.bytes(source.rng.integers(0, 200)) if source.rng.random() < 0.2 else mutated(source, TIP)
     )
-    with tempfile.NamedTemporaryFile(suffix=".csv", dir=FOLDER) as file:
+    with tempfile.NamedTemporaryFile(suffix=".csv") as file:
         file.write(data)
         file.flush()
         tip = mdr.Sampled.from_csv(file.name, source.pick((None, "nm", "m", "furlong")))
@@ -250,8 +251,12 @@ def tips(source):
 def transforms(source):
     odd = Source(source.rng, 0.1)
     x = np.cumsum(10.0 ** odd.rng.uniform(-9, 0, odd.rng.integers(0, 6)))
-    x = x if odd.rng.random() < 0.9 else odd.numbers()
-    values = odd.numbers() if odd.rng.random() < 0.1 else odd.rng.normal(size=np.shape(x))
+    x = (
+        x
+        if odd.rng.random() < 0.9
+        else odd.pick(([], [1.0], [2.0, 1.0], [0.0, np.nan], 1.0, None, x[None]))
+    )
+    values = odd.numbers() if odd.rng.random() < 0.1 else odd.rng.normal(size=np.size(x))
     function = odd.pick((mdr.abel.stress_from_line_load, mdr.abel.line_load_from_stress))
     finite(function(x, values, odd.numbers()), infinite=True)
     finite(mdr.abel.reduce_slope(np.sqrt if odd.rng.random() < 0.1 else np.tanh, odd.numbers()))

@@ -1,0 +1,151 @@
+"""Whatever is handed in: a right answer, or an error that says what is wrong and what to do."""
+
+import threading
+
+import numpy as np
+import pytest
+
+pytest.importorskip("hypothesis")
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import mdr_core as mdr
+
+from .fuzz_long import ENTRIES, attempt
+
+#: The slow ones are tried less often; `fuzz_long` runs all of them by hand.
+EXAMPLES = {"viscous_impacts": 8, "timed": 8, "chains": 3, "foundations": 40}
+SEEDS = st.integers(0, 2**63 - 1)
+
+
+@pytest.mark.parametrize("entry", ENTRIES)
+def test_answers_or_refuses(entry):
+    @settings(deadline=None, derandomize=True, database=None, max_examples=EXAMPLES.get(entry, 60))
+    @given(SEEDS)
+    def tried(seed):
+        assert attempt(entry, seed) in ("answered", "refused")
+
+    tried()
+
+
+MEDIUM = mdr.Medium(1e9, 10.0)
+
+
+@pytest.mark.parametrize(
+    "depth",
+    [np.float32(2.0**-20), np.array(2.0**-20), np.longdouble(2.0**-20)],
+    ids=["float32", "0-d", "longdouble"],
+)
+def test_kinds_of_numbers_do_not_matter(depth):
+    """The same double, in whatever NumPy type it comes."""
+    cone = mdr.Cone(0.3)
+    assert mdr.indent(cone, MEDIUM, depth).force == mdr.indent(cone, MEDIUM, 2.0**-20).force
+    hit = mdr.impact(mdr.Cone(np.float32(0.25)), MEDIUM, depth, np.int8(2))
+    assert hit.max_depth == mdr.impact(mdr.Cone(0.25), MEDIUM, 2.0**-20, 2.0).max_depth
+
+
+@pytest.mark.parametrize(
+    "shape", [mdr.Cone([0.1, 0.2]), mdr.FlatPunch([1e-6, 2e-6]), mdr.Sphere([1.0, 2.0])]
+)
+def test_geometry_of_many_indenters(shape):
+    """Radii and depths broadcast against the indenters."""
+    for function in ("height", "reduced", "contact_radius"):
+        many = getattr(shape, function)([[0.0], [1e-7]])
+        one = [getattr(shape.entries(i), function)([0.0, 1e-7]) for i in range(2)]
+        np.testing.assert_array_equal(many, np.transpose(one))
+        with pytest.raises(ValueError, match=r"\(3,\), indenters \(2,\) do not broadcast"):
+            getattr(shape, function)([1e-7, 2e-7, 3e-7])
+
+
+def test_arrays_stay_what_they_are():
+    """Empty ones give empty ones, and read-only ones are taken."""
+    assert mdr.indent(mdr.Cone(0.3), MEDIUM, []).force.shape == (0,)
+    assert mdr.impact(mdr.Smooth(lambda r: 0.3 + 0 * r), MEDIUM, 1e-9, []).contact_time.shape == (0,)
+    depth = np.array([1e-6, 2e-6])
+    depth.setflags(write=False)
+    assert mdr.indent(mdr.Cone(0.3), MEDIUM, depth).force.shape == (2,)
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: mdr.Medium([1e9, [2e9]]), "E_star must be real numbers, got"),
+        (lambda: mdr.Medium(1e300), "E_star = 1e.300 Pa must lie between 1e-60 and 1e.60"),
+        (
+            lambda: mdr.Medium.from_bodies([1e9, 2e9], [0.3, 0.3, 0.3]),
+            r"E1 \(2,\), nu1 \(3,\) do not broadcast",
+        ),
+        (lambda: mdr.hardness_class([], [], 1.0), "two energies or more"),
+        (lambda: mdr.Foundation(mdr.Cone([0.1, 0.2]), MEDIUM, 10, 1e-6), "one indenter on one"),
+        (lambda: mdr.chain_impact(mdr.Cone(0.1), mdr.Medium([1e9, 2e9]), 1.0, 1.0), "one indenter on one"),
+        (lambda: mdr.chain_impact(3, MEDIUM, 1.0, 1.0), "profile must be an mdr_core shape"),
+        (lambda: mdr.Foundation(mdr.Cone(0.1), MEDIUM, 10**9, 1e-6), "even whole number up to 1e.07"),
+        (lambda: mdr.indent_to_force(mdr.Cone(0.1), MEDIUM, 1e-300), "must be 0 or at least 1e-60"),
+        (lambda: mdr.Sampled(np.arange(10**6), np.arange(10**6)), "1000000 samples, more than 5000; thin"),
+    ],
+)
+def test_refusals_name_the_bound_and_the_remedy(make, says):
+    with pytest.raises((ValueError, TypeError), match=says):
+        make()
+
+
+def test_an_imprint_deeper_than_the_shape_is_refused():
+    tip = mdr.Sampled([0.0, 1e-8], [0.0, 1e-9])
+    with pytest.raises(ValueError, match="plastic_depth = 1e-07 m is deeper than the shape is known"):
+        mdr.impact(tip, MEDIUM, 1e-9, 0.1, plastic_depth=1e-7)
+
+
+def test_forces_of_any_span_have_their_depths():
+    """A path from nN to N: unloaded parts are found as well as the peak."""
+    force = [3.8e-9, 9.4e-6, 1.5e-11, 3.8]
+    for shape in (mdr.TruncatedCone(1e-3, 0.1), mdr.Cone(2e-8)):
+        result = mdr.indent_to_force(shape, mdr.Medium(2e9), force)
+        # Depths of a virgin elastic medium do not depend on the past.
+        np.testing.assert_allclose(result.force, force, rtol=1e-12)
+
+
+class TestBigFiles:
+    def test_a_long_table_is_refused(self, tmp_path):
+        path = tmp_path / "tip.csv"
+        path.write_text("r (nm), z (nm)\n" + "".join(f"{i}, {i}\n" for i in range(10**6)))
+        with pytest.raises(ValueError, match="more than 5000 samples; thin them out"):
+            mdr.Sampled.from_csv(path)
+
+    @pytest.mark.parametrize("text", ["[" * 10**7, '{"a":' * 10**6, "9" * 10**7, b"\xff" * 10**6])
+    def test_deep_and_wide_json_is_refused(self, text):
+        with pytest.raises(ValueError, match="scene: "):
+            mdr.Scene.from_json(text)
+
+    def test_a_wide_path_is_read(self):
+        scene = mdr.Scene(mdr.Cone(0.3), MEDIUM, mdr.DepthPath(np.linspace(0, 1e-6, 10**5)))
+        assert mdr.Scene.from_json(scene.to_json()) == scene
+
+
+def test_eight_threads_get_the_same_digits():
+    """On shapes that remember what they have computed, from the first call on."""
+
+    def everything(shape):
+        hit = mdr.impact(shape, mdr.Medium(1e9, 10.0), 1e-9, [1e-3, 0.1])
+        state = hit[1].deepest
+        return np.hstack([hit.max_depth, hit.restitution, hit.contact_time, state.pressure([0.0, 1e-8])])
+
+    def fresh():
+        r = np.linspace(0.0, 1e-5, 12)
+        return mdr.Sampled(r, r**2 / 2e-5), mdr.Smooth(lambda r: r / 1e-5), mdr.RoundedCone(1e-6, 0.3)
+
+    expected = [everything(shape) for shape in fresh()]
+    shared, results, start = fresh(), [None] * 8, threading.Barrier(8)
+
+    def work(i):
+        start.wait()
+        results[i] = [everything(shape) for shape in shared]
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for result in results:
+        for one, other in zip(result, expected, strict=True):
+            np.testing.assert_array_equal(one, other)
