@@ -56,7 +56,10 @@ class Profile(ABC):
         depth = self._places("depth", depth)
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
         depth = self._known(depth)
-        return self._radius(depth)[()]
+        with np.errstate(over="ignore", under="ignore"):
+            radius = self._radius(depth)
+        _check.refuse("depth", depth, np.isinf(radius), "has a contact beyond double precision", unit="m")
+        return radius[()]
 
     def zones_between(self, lower, upper):
         """The zones that hold depths from `lower` to `upper` (m), from the tip outward."""

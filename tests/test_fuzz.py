@@ -149,3 +149,8 @@ def test_eight_threads_get_the_same_digits():
     for result in results:
         for one, other in zip(result, expected, strict=True):
             np.testing.assert_array_equal(one, other)
+
+
+def test_a_contact_beyond_double_precision_is_refused():
+    with pytest.raises(ValueError, match="depth = 1e-09 m has a contact beyond double precision"):
+        mdr.PowerLaw(1e-320, 2.0).contact_radius(1e-9)
