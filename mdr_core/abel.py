@@ -270,7 +270,8 @@ def _root(x, r):
 
 def _arcosh(x, r):
     """∫ dx/√(x² − r²) from r."""
-    return np.log1p((x - r + _root(x, r)) / r)
+    # Only beyond the digits of r does its lower bound count.
+    return np.log1p((x - r + _root(x, r)) / np.maximum(r, 1e-200))
 
 
 def _punch(x, r):
