@@ -10,6 +10,7 @@ import numpy as np
 from scipy.special import gamma
 
 from . import _check, cubic
+from .kernels import arcosh, chord, punch, segment
 from .treecode import superpose_kernel
 
 # Nodes tried in turn, and how closely two of them must agree.
@@ -206,7 +207,7 @@ def _polygon_stress(x, slope, even, r):
         curvature, slope[0] = 2 * slope[0] / x[1], 0.0
     # The kernel integrated once, arcosh(x/r), stands at each node times the change of slope.
     change = -np.diff(slope, prepend=0.0, append=0.0)
-    stress = superpose_kernel(_arcosh, x, change, r)
+    stress = superpose_kernel(arcosh, x, change, r)
     # On the axis the logarithms of r cancel, unless q has a tip there.
     tip = slope[0] if x[0] == 0 and len(slope) else 0.0
     behind = x > 0
@@ -220,7 +221,7 @@ def _polygon_stress(x, slope, even, r):
 def _jump_stress(x, jump, r):
     """Σ jump/√(x² − r²)."""
     behind = x > 0
-    return np.where(r == 0, np.sum(jump[behind] / x[behind]), superpose_kernel(_punch, x, jump, r))
+    return np.where(r == 0, np.sum(jump[behind] / x[behind]), superpose_kernel(punch, x, jump, r))
 
 
 def line_load_from_stress(r, stress, x):
@@ -255,7 +256,7 @@ def line_load_from_stress(r, stress, x):
     slope, jump = _slopes(r, stress)
     change = -np.diff(slope, prepend=0.0, append=0.0)
     at_tip = np.sum(change * r**2) / 2 + np.sum(jump * r)
-    moment = superpose_kernel(_segment, r, change, x) + superpose_kernel(_chord, r, jump, x)
+    moment = superpose_kernel(segment, r, change, x) + superpose_kernel(chord, r, jump, x)
     return (2 * np.where(x == 0, at_tip, moment))[()]
 
 
@@ -289,30 +290,3 @@ def _is_even(x, slope, jump, axis):
         return False
     # Slopes of an even parabola grow as x1 to x1 + x2.
     return abs(slope[0] * (x[1] + x[2]) - slope[1] * x[1]) <= 0.05 * abs(slope[1]) * x[1]
-
-
-def _root(x, r):
-    return np.sqrt((x - r) * (x + r))
-
-
-def _arcosh(x, r):
-    """∫ dx/√(x² − r²) from r."""
-    if np.min(x) > 1.5 * np.max(r):
-        # As exact, and faster.
-        return np.log((x + _root(x, r)) / r)
-    return np.log1p((x - r + _root(x, r)) / r)
-
-
-def _punch(x, r):
-    """1/√(x² − r²), the stress of a flat punch."""
-    return 1 / _root(x, r)
-
-
-def _chord(r, x):
-    """∫ r dr/√(r² − x²) from x."""
-    return _root(r, x)
-
-
-def _segment(r, x):
-    """∫ √(r² − x²) dr from x."""
-    return (r * _root(r, x) - x * x * _arcosh(r, x)) / 2

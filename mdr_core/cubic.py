@@ -7,6 +7,7 @@ near the radius r, by Gauss nodes and the sums of `treecode` farther away.
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from .kernels import punch, root
 from .treecode import superpose_kernel
 
 # Five Gauss nodes integrate 1/√(x² − r²) over a panel that is four of its widths away from r with an
@@ -90,7 +91,7 @@ def _far(begin, end, slope, until, r):
     weight = (end - begin)[:, None] * _WEIGHT / 2 * _parabola(slope[:, :, None], t)
     nodes = begin[:, None] + t
     until = np.repeat(until, _NODE.size)
-    return superpose_kernel(_inverse_root, nodes.ravel(), weight.ravel(), r, until, _LEAF)
+    return superpose_kernel(punch, nodes.ravel(), weight.ravel(), r, until, _LEAF)
 
 
 def _near(begin, end, slope, until, r):
@@ -127,7 +128,7 @@ def _panel(begin, end, slope, r):
     a third of x, and moments of x itself do.
     """
     low = np.maximum(begin, r)
-    root_low, root_end = _root(low, r), _root(end, r)
+    root_low, root_end = root(low, r), root(end, r)
     both = root_low + root_end
     with np.errstate(divide="ignore", invalid="ignore"):
         rise = (end - low) * (1 + (end + low) / both)
@@ -158,7 +159,7 @@ def _by_moments(begin, low, end, r, width, slope):
     # From powers of x − begin to powers of x.
     p0, p1, p2 = slope
     at_axis = p0 - begin * (p1 - begin * p2)
-    root_low, root_end = _root(low, r), _root(end, r)
+    root_low, root_end = root(low, r), root(end, r)
     with np.errstate(invalid="ignore"):
         logarithm = np.where(at_axis == 0, 0.0, at_axis * width)
         square = np.where(r > 0, r * r * width, 0.0)
@@ -168,11 +169,3 @@ def _by_moments(begin, low, end, r, width, slope):
 
 def _parabola(slope, t):
     return slope[0] + t * (slope[1] + t * slope[2])
-
-
-def _root(x, r):
-    return np.sqrt((x - r) * (x + r))
-
-
-def _inverse_root(x, r):
-    return 1 / _root(x, r)

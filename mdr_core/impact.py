@@ -93,7 +93,7 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
     bad = ~((energy > 0) & (energy < np.inf))
     _check.refuse("kinetic energy", energy, bad, "is outside double precision", unit="J")
     mass, speed, before = (np.broadcast_to(part, shape) for part in (mass, speed, before))
-    bound = f"is deeper than the shape is known, {np.min(profile.deepest):g} m"
+    bound = f"is deeper than the shape is known, {np.min(profile.deepest, initial=np.inf):g} m"
     _check.refuse("plastic_depth", before, before > profile.deepest, bound, unit="m")
     if in_time or np.any(np.asarray(medium.eta) > 0):
         live, growth, rebound = impacts_in_time(profile, medium, mass, speed, before, in_time)
@@ -105,7 +105,7 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
         rebound = None
     known = np.minimum(profile.deepest, _check.LARGEST)
     deep = ~(live.upper <= known)
-    bound = f"m/s presses deeper than the shape is known, {np.min(known):g} m"
+    bound = f"m/s presses deeper than the shape is known, {np.min(known, initial=np.inf):g} m"
     _check.refuse("speed", speed, deep, bound, remedy="hit less hard")
     deepest = Indentation(profile, medium, live.upper, live)
     return Impact(profile, medium, mass[()], speed[()], deepest, growth, rebound)

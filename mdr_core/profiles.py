@@ -56,7 +56,10 @@ class Profile(ABC):
         depth = self._places("depth", depth)
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
         depth = self._known(depth)
-        return self._radius(depth)[()]
+        with np.errstate(over="ignore", under="ignore"):
+            radius = self._radius(depth)
+        _check.refuse("depth", depth, np.isinf(radius), "has a contact beyond double precision", unit="m")
+        return radius[()]
 
     def zones_between(self, lower, upper):
         """The zones that hold depths from `lower` to `upper` (m), from the tip outward."""
@@ -114,16 +117,18 @@ class Profile(ABC):
 
     def _within(self, r):
         """The distance |r|, if the shape is known so far out."""
-        r = np.abs(r)
-        bound = f"m is beyond the radius up to which the shape is known, {np.min(self.known_radius):g} m"
+        r, known = np.abs(r), np.min(self.known_radius, initial=np.inf)
+        bound = f"m is beyond the radius up to which the shape is known, {known:g} m"
         return _check.refuse("radius", r, r > self.known_radius, bound)
 
     def _known(self, depth):
         """`depth`, if the shape is known so far."""
         if np.all(self.deepest == np.inf):
             return depth
-        deep, bound = depth > self.deepest, f"is deeper than the shape is known, {np.min(self.deepest):g} m"
-        return _check.refuse("depth", depth, deep, bound, unit="m", remedy="press less deep")
+        bound = f"is deeper than the shape is known, {np.min(self.deepest, initial=np.inf):g} m"
+        return _check.refuse(
+            "depth", depth, depth > self.deepest, bound, unit="m", remedy="press less deep"
+        )
 
 
 def set_positive(profile, **units):

@@ -170,7 +170,8 @@ def fast_limit(hit):
 
     with np.errstate(over="ignore", under="ignore"):
         depth = increasing_root(work, target, hit.max_depth, profile.deepest)
-    bound = f"m/s presses deeper than the shape is known, {np.min(profile.deepest):g} m, in this limit"
+    known = np.min(profile.deepest, initial=np.inf)
+    bound = f"m/s presses deeper than the shape is known, {known:g} m, in this limit"
     _check.refuse("speed", np.asarray(hit.speed), np.isinf(depth), bound, remedy="hit less hard")
     a = profile._radius(depth)
     area, restitution = np.pi * a**2, np.sqrt(medium.E_star * a * d_c**2 / energy)

@@ -80,8 +80,11 @@ class Smooth(Profile):
             if depth < _SHALLOWEST:
                 # Nowhere: the zone that is asked for will say why.
                 return np.inf
-        for factor in (2.0**10, 4.0, 1.1):
+        for factor in (2.0**10, 4.0):
             while depth < _DEEPEST and self._fits(depth * factor):
+                depth *= factor
+        for factor in (2.0, 2**0.5, 2**0.25, 2**0.125):
+            if depth < _DEEPEST and self._fits(depth * factor):
                 depth *= factor
         return depth
 

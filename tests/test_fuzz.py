@@ -149,3 +149,19 @@ def test_eight_threads_get_the_same_digits():
     for result in results:
         for one, other in zip(result, expected, strict=True):
             np.testing.assert_array_equal(one, other)
+
+
+def test_a_contact_beyond_double_precision_is_refused():
+    with pytest.raises(ValueError, match="depth = 1e-09 m has a contact beyond double precision"):
+        mdr.PowerLaw(1e-320, 2.0).contact_radius(1e-9)
+
+
+def test_no_indenters_at_all():
+    assert mdr.impact(mdr.Sphere([]), MEDIUM, 1.0, 1.0).max_depth.shape == (0,)
+
+
+def test_stress_at_a_radius_next_to_nothing():
+    """The stress of q = 1 − x² at the axis is that at any radius that is small enough."""
+    x = np.linspace(0, 1, 11)
+    stress = mdr.abel.stress_from_line_load(x, 1 - x * x, [1e-30, 5e-324])
+    assert np.all(np.isfinite(stress))
