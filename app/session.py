@@ -8,7 +8,8 @@ from .comparison import Comparing
 from .form import form, scale
 from .packet import Buffer, Drawing
 from .page import Page
-from .quantities import QUANTITIES
+from .presets import PRESETS
+from .quantities import CHOICES, QUANTITIES
 from .state import Explorer
 from .tip import read_tip
 from .trajectory import follow
@@ -45,7 +46,7 @@ class Session:
     def receive(self, message):
         """Do what a person asks for; if it is refused say why, and keep everything as it was."""
         self._answered = message.get("n") if isinstance(message.get("n"), int) else self._answered
-        act = _ACTIONS.get(message.get("do"))
+        act = _ACTIONS.get(message["do"]) if isinstance(message.get("do"), str) else None
         before, drawing, kept = self.state.snapshot(), self.drawing, (self.past, self.future)
         try:
             if act is not None and act(self, message):
@@ -103,10 +104,15 @@ class Session:
         return True
 
     def _choose(self, message):
-        self.state.choose(message["name"], message["option"])
+        name, option = message.get("name"), message.get("option")
+        if name not in CHOICES or not isinstance(option, str):
+            raise ValueError("this choice is not known")
+        self.state.choose(name, option)
         return True
 
     def _load(self, message):
+        if message.get("label") not in PRESETS:
+            raise ValueError("this preset is not known")
         self.state.load(message["label"])
         return True
 

@@ -28,7 +28,7 @@ def read_tip(text):
             raise ValueError(str(error).replace(str(path), "the file")) from None
     if len(tip.r) > MOST_SAMPLES:
         raise ValueError(
-            f"the tip has {len(tip.r)} samples, and at most {MOST_SAMPLES} are shown here: thin them, or use "
-            "mdr.Sampled.from_csv, which takes any number"
+            f"the tip has {len(tip.r)} samples, and at most {MOST_SAMPLES} are shown here: thin them, "
+            "or use mdr.Sampled.from_csv, which takes any number"
         )
     return tip.r, tip.z

@@ -219,8 +219,10 @@ class Explorer {
     this.notices.append(make("div", { class: "notice" }, text))
     for (let wait = FIRST_TRY; ; wait = Math.min(1.5 * wait, LAST_TRY)) {
       await new Promise((resolve) => setTimeout(resolve, wait))
-      const answer = await fetch(location.pathname, { method: "HEAD", cache: "no-store" }).catch(() => null)
-      if (answer?.ok || answer?.status === 405) location.reload()
+      // A script of the page: to ask for the page itself would begin a session.
+      const { src } = document.querySelector("script[src]")
+      const answer = await fetch(src, { method: "HEAD", cache: "no-store" }).catch(() => null)
+      if (answer?.ok) location.reload()
     }
   }
 
