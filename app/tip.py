@@ -7,6 +7,7 @@ import mdr_core as mdr
 
 #: Most samples: more would keep everybody waiting.
 MOST_SAMPLES = 300
+_MOST_HEADER = 100
 
 
 def read_tip(text):
@@ -17,8 +18,12 @@ def read_tip(text):
     ValueError
         If the text is not two columns of numbers, or no tip.
     """
-    if text.count("\n") > 20_000:
-        raise ValueError("the file has more than 20000 rows")
+    rows = text.count("\n")
+    if rows > MOST_SAMPLES + _MOST_HEADER:
+        raise ValueError(
+            f"the file has {rows} rows, and at most {MOST_SAMPLES} samples are shown here: thin them, "
+            "or use mdr.Sampled.from_csv, which takes any number"
+        )
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "tip.csv"
         path.write_text(text, encoding="utf-8")
@@ -26,9 +31,4 @@ def read_tip(text):
             tip = mdr.Sampled.from_csv(path)
         except ValueError as error:
             raise ValueError(str(error).replace(str(path), "the file")) from None
-    if len(tip.r) > MOST_SAMPLES:
-        raise ValueError(
-            f"the tip has {len(tip.r)} samples, and at most {MOST_SAMPLES} are shown here: thin them, "
-            "or use mdr.Sampled.from_csv, which takes any number"
-        )
     return tip.r, tip.z

@@ -141,11 +141,24 @@ def test_a_fault_is_told_logged_once_with_its_scene_and_over(person, monkeypatch
     assert person.ask("type", name="max_depth", text="6 nm")["notice"] == ""
 
 
-@pytest.mark.parametrize("rows", [301, 20_001])
+@pytest.mark.parametrize("rows", [450, 20_001])
 def test_tip_that_would_keep_everybody_waiting_is_refused(person, rows):
     text = "r (nm), z (nm)\n" + "".join(f"{k}, {k * k / 1e4}\n" for k in range(rows))
     assert person.ask("upload", kind="tip", text=text)["notice"]
     assert person.session.state.shape == "cone"
+
+
+@pytest.mark.parametrize(
+    ("drive", "said"),
+    [
+        (mdr.DepthPath(np.linspace(0, 1e-9, 400)), "400 numbers"),
+        (mdr.DepthPath((0.0, 1e-9), (0.0, 1.0)), "in time"),
+    ],
+)
+def test_scene_that_cannot_be_shown_is_refused(person, drive, said):
+    scene = mdr.Scene(mdr.Cone(0.3), mdr.Medium(1e9, 1.0, 1.0), drive)
+    assert said in person.ask("upload", kind="scene", text=scene.to_json())["notice"]
+    assert person.session.state.choices["damping"] == "none"
 
 
 def test_impact_of_a_tip_with_many_samples_is_refused(person):
