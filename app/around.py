@@ -5,6 +5,7 @@ import numpy as np
 import mdr_core as mdr
 
 from .presets import PRESETS
+from .quantities import CHOICES, QUANTITIES, USED, shape_quantities
 from .shapes import SHAPES
 from .units import digits, written
 
@@ -38,7 +39,7 @@ def lights(trajectory, density):
     small = slope <= SMALL_SLOPE
     rest = "a half-space at small slopes" if small else "beyond 0.3 small slopes are an approximation"
     found = [(small, f"Slopes reach {digits(slope, 2)}: {rest}")]
-    depth, critical = float(trajectory.deepest.depth), float(trajectory.scene.medium.critical_depth)
+    depth, critical = float(trajectory.deepest.depth), trajectory.scene.medium.critical_depth
     if critical < np.inf and trajectory.onset is not None:
         found.append(_depth_light(trajectory, depth / critical))
     if trajectory.hit is not None and density is not None:
@@ -63,6 +64,21 @@ def _depth_light(trajectory, ratio):
     return ratio >= DEEP, f"{text}: (24) is off by {digits(100 * error, 2)} % of the area"
 
 
+def summary(state):
+    """A scene in a line: its shape, medium and drive with their main numbers."""
+    medium, drive = state.medium(), USED["drive"][state.choices["drive"]]
+    values = [(q, state.numbers[name]) for name, q in shape_quantities(state.shape)]
+    parts = [f"{q.symbol} = {written(value, q.kind, 3)}" for q, value in values]
+    parts.append(f"E* = {written(medium.E_star, 'pressure', 3)}")
+    if medium.q_c < np.inf:
+        parts.append(f"q_c = {written(medium.q_c, 'yield constant', 3)}")
+    if medium.eta > 0:
+        parts.append(f"η = {written(medium.eta, 'viscosity', 3)}")
+    given = [(QUANTITIES[name], state.numbers[name]) for name in drive]
+    parts += [f"{q.symbol} = {written(value, q.kind, 3)}" for q, value in given]
+    return f"{CHOICES['shape'][state.shape]}, {', '.join(parts)}"
+
+
 def sources(preset):
     """The preset's numbers, each with where it comes from."""
     return [list(source) for source in PRESETS[preset].sources]
@@ -71,7 +87,7 @@ def sources(preset):
 def numbers(trajectory):
     """Results that belong to the scene rather than to one state: label, symbol, kind and value (SI)."""
     medium, onset, hit = trajectory.scene.medium, trajectory.onset, trajectory.hit
-    rows = [("d_c", "depth at onset", "length", float(medium.critical_depth))]
+    rows = [("d_c", "depth at onset", "length", medium.critical_depth)]
     if onset is not None:
         rows.append(("F_c", "force at onset", "force", float(onset.force)))
     if hit is not None:

@@ -113,7 +113,7 @@ KEYS = (
     "Numbers can be typed (2.5, 3e-6, 250 MPa) or dragged; on a slider arrow keys step, Page Up and Page "
     "Down leap, Home and End go to the ends, a double click resets. Drag along the force–depth curve to "
     "move through the states. Space plays, H holds the curves, R resets, Z undoes, Y does again, M shows "
-    "the map, D changes light and dark."
+    "the map, S speed against error, D changes light and dark."
 )
 
 MODEL = (

@@ -1,5 +1,6 @@
 """A whole page as a link and as a scene file, and back; what comes from outside is bounded or refused."""
 
+import json
 from math import inf, isfinite
 from urllib.parse import urlencode
 
@@ -9,6 +10,7 @@ from .presets import PRESETS
 from .quantities import CHOICES, QUANTITIES, shape_quantities, used
 from .shapes import SHAPES
 from .state import LAST_PROGRESS, Explorer
+from .tip import MOST_SAMPLES
 
 #: Longest link, and most characters of a file.
 LONGEST_LINK, LARGEST_FILE = 8000, 2_000_000
@@ -104,7 +106,10 @@ def from_scene(text, before):
     """
     if len(text) > LARGEST_FILE:
         raise ValueError("the file is larger than 2 MB")
+    _refuse_long(text)
     scene = mdr.Scene.from_json(text)
+    if getattr(scene.drive, "time", None) and scene.medium.eta > 0:
+        raise ValueError("a viscous path in time is not shown here: solve it with mdr.Scene.from_json(...)")
     state = Explorer(before.preset)
     _set_profile(state, scene.profile)
     medium = scene.medium
@@ -121,6 +126,22 @@ def from_scene(text, before):
     _set_drive(state, scene)
     state.resets = dict(state.numbers)
     return state
+
+
+def _refuse_long(text):
+    """Refuse a scene with long lists before anything is made of them."""
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError):
+        # What is wrong with it, the scene says.
+        return
+    parts = data.values() if isinstance(data, dict) else ()
+    lists = [value for part in parts if isinstance(part, dict) for value in part.values()]
+    longest = max((len(value) for value in lists if isinstance(value, list)), default=0)
+    if longest > MOST_SAMPLES:
+        raise ValueError(
+            f"the scene has a list of {longest} numbers, and at most {MOST_SAMPLES} are taken here"
+        )
 
 
 def _set_profile(state, profile):

@@ -4,5 +4,5 @@ import panel as pn
 
 from .session import Session
 
-pn.extension(reconnect=True, notifications=False)
+pn.extension(notifications=False)
 Session(pn.state.session_args).page.servable(title="Indentation explorer")

@@ -15,7 +15,7 @@ from .views import DOCUMENTS, PLOTS
 #: In the order in which they need each other: one module in the browser.
 _SCRIPTS = (
     *("numbers", "theme", "scene", "springs", "draw", "plots", "form", "readouts"),
-    *("player", "files", "tools", "talk", "page"),
+    *("compare", "player", "files", "tools", "talk", "page"),
 )
 _STYLE = (ASSETS / "style.css").read_text(encoding="utf-8")
 _STATIC = json.dumps(

@@ -20,7 +20,8 @@ FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
 _NOWHERE = {"text": ["", ""]}
 _FIELDS = ("x", "y", "x0", "x1", "text", "image", "dw", "dh")
 
-_TWO = np.zeros(2)
+# Positive, as logarithmic axes need.
+_TWO = np.ones(2)
 
 
 def curve(label, **options):
@@ -184,7 +185,7 @@ def _entry(item):
             "dash": dash,
         }
     if isinstance(glyph, Scatter):
-        return {"label": label, "mark": "dot", "colour": glyph.fill_color}
+        return {"label": label, "mark": "dot", "colour": glyph.fill_color, "edge": glyph.line_color}
     return {
         "label": label,
         "mark": "area",

@@ -4,10 +4,12 @@ import json
 import logging
 
 from . import around, export, link
+from .comparison import Comparing
 from .form import form, scale
 from .packet import Buffer, Drawing
 from .page import Page
-from .quantities import QUANTITIES
+from .presets import PRESETS
+from .quantities import CHOICES, QUANTITIES
 from .state import Explorer
 from .tip import read_tip
 from .trajectory import follow
@@ -25,6 +27,7 @@ class Session:
         self.past, self.future, self._last = [], [], None
         self.drawing = self.held = None
         self.axes, self._answered = {}, 0
+        self.comparing = Comparing(lambda message: self.page.send(message))
         if arguments:
             self._open(arguments)
         if self.drawing is None:
@@ -37,14 +40,13 @@ class Session:
             self.state = link.restore(arguments)
             self._solve()
         except Exception as error:
-            self._note_failure(error)
-            self.notice = f"The link was not opened: {error}"
+            self.notice = f"The link was not opened: {self._refusal(error)}"
             self.state, self.drawing = Explorer(), None
 
     def receive(self, message):
         """Do what a person asks for; if it is refused say why, and keep everything as it was."""
         self._answered = message.get("n") if isinstance(message.get("n"), int) else self._answered
-        act = _ACTIONS.get(message.get("do"))
+        act = _ACTIONS.get(message["do"]) if isinstance(message.get("do"), str) else None
         before, drawing, kept = self.state.snapshot(), self.drawing, (self.past, self.future)
         try:
             if act is not None and act(self, message):
@@ -52,18 +54,20 @@ class Session:
                 self._remember(before, message)
             self._show()
         except Exception as error:
-            self._note_failure(error)
-            self.notice = str(error) if isinstance(error, ValueError) else "This cannot be shown."
+            self.notice = self._refusal(error)
             self.state.restore(before)
             self.drawing, (self.past, self.future) = drawing, kept
             self._show()
 
-    @staticmethod
-    def _note_failure(error):
-        if not isinstance(error, ValueError):
-            _LOG.error("a change could not be shown", exc_info=error)
+    def _refusal(self, error):
+        """What is said of an error; one that is not the person's is logged with what led to it."""
+        if isinstance(error, ValueError):
+            return str(error)
+        _LOG.error("a change could not be shown, scene %s", self.state.described(), exc_info=error)
+        return "this cannot be shown, because of a fault of the explorer. Everything is as it was before."
 
     def _solve(self):
+        self.comparing.cancel()
         self.drawing = Drawing(follow(self.state.scene(), self.state.progress))
 
     def _remember(self, before, message):
@@ -100,10 +104,15 @@ class Session:
         return True
 
     def _choose(self, message):
-        self.state.choose(message["name"], message["option"])
+        name, option = message.get("name"), message.get("option")
+        if name not in CHOICES or not isinstance(option, str):
+            raise ValueError("this choice is not known")
+        self.state.choose(name, option)
         return True
 
     def _load(self, message):
+        if message.get("label") not in PRESETS:
+            raise ValueError("this preset is not known")
         self.state.load(message["label"])
         return True
 
@@ -129,6 +138,7 @@ class Session:
 
     def _hold(self, message):
         self.held = None if self.held is not None else self.drawing
+        self._held_name = around.summary(self.state)
         return False
 
     def _stand(self, message):
@@ -153,6 +163,14 @@ class Session:
         self.page.send(
             {"frames": self._sequence, "places": json.dumps(buffer.places), "values": buffer.joined()}
         )
+        return False
+
+    def _compare(self, message):
+        """Solve the scene by every model, beside all else, or no longer."""
+        if message.get("on"):
+            self.comparing.start(self.drawing.trajectory.scene, self._sequence)
+        else:
+            self.comparing.cancel()
         return False
 
     def _file(self, message):
@@ -203,7 +221,7 @@ class Session:
             "sources": around.sources(state.preset),
             "query": link.query(state),
             "undo": [bool(self.past), bool(self.future)],
-            "held": _named(held),
+            "held": self._held_name if held is not None else None,
             "notice": self.notice,
         }
         self.notice = ""
@@ -230,16 +248,10 @@ _ACTIONS = {
     "upload": Session._upload,
     "frames": Session._frames,
     "file": Session._file,
+    "compare": Session._compare,
 }
 
 
 def _onset(trajectory):
     onset = trajectory.onset
     return None if onset is None else [float(onset.depth), float(onset.force)]
-
-
-def _named(held):
-    if held is None:
-        return None
-    scene = held.trajectory.scene
-    return f"{type(scene.profile).__name__}, {type(scene.drive).__name__}"

@@ -1,5 +1,6 @@
 """What a person has set: numbers in SI within bounds, and choices; gives a `mdr.Scene`. No plotting."""
 
+import json
 from dataclasses import dataclass
 from math import inf
 
@@ -15,13 +16,17 @@ from .quantities import (
     PLASTICITY,
     QUANTITIES,
     shape_quantities,
+    used,
 )
 from .shapes import SHAPES
+from .tip import MOST_SAMPLES
 from .units import written
 
 #: From first contact (0) over the deepest state (1) to the loss of contact (2) and the tip back at the
 #: height of the undeformed surface.
 LAST_PROGRESS = 2.2
+#: Most samples of a measured tip whose impact is followed without keeping everybody waiting.
+MOST_IN_IMPACT = 60
 
 
 @dataclass(frozen=True)
@@ -152,7 +157,23 @@ class Explorer:
 
     def scene(self):
         """What is to be modelled: pressed once, or hit once."""
-        return mdr.Scene(self.profile(), self.medium(), self.drive())
+        drive = self.drive()
+        if self.shape == "sampled":
+            most = MOST_IN_IMPACT if isinstance(drive, mdr.FreeImpact) else MOST_SAMPLES
+            if len(self.samples[0]) > most:
+                raise ValueError(
+                    f"a measured tip of {len(self.samples[0])} samples is too much for this page: at most "
+                    f"{MOST_SAMPLES}, or {MOST_IN_IMPACT} for an impact; mdr_core itself takes any number"
+                )
+        return mdr.Scene(self.profile(), self.medium(), drive)
+
+    def described(self):
+        """The scene as JSON; if it cannot be made, what it would be made of."""
+        try:
+            return self.scene().to_json()
+        except Exception as error:
+            values = {name: self.numbers[name] for name in used(self.choices)}
+            return json.dumps({"choices": self.choices, "numbers": values, "error": str(error)})
 
     def solved(self):
         """The deepest state of the present scene, without its way there."""

@@ -5,7 +5,9 @@ from pathlib import Path
 
 import mdr_core as mdr
 
-_MOST = 20_000
+#: Most samples: more would keep everybody waiting.
+MOST_SAMPLES = 300
+_MOST_HEADER = 100
 
 
 def read_tip(text):
@@ -16,8 +18,12 @@ def read_tip(text):
     ValueError
         If the text is not two columns of numbers, or no tip.
     """
-    if text.count("\n") > _MOST:
-        raise ValueError(f"the file has more than {_MOST} rows")
+    rows = text.count("\n")
+    if rows > MOST_SAMPLES + _MOST_HEADER:
+        raise ValueError(
+            f"the file has {rows} rows, and at most {MOST_SAMPLES} samples are shown here: thin them, "
+            "or use mdr.Sampled.from_csv, which takes any number"
+        )
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "tip.csv"
         path.write_text(text, encoding="utf-8")

@@ -6,12 +6,12 @@ from functools import cached_property
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.motion import Motion
 from mdr_core.yielding import LiveInterval
 
 #: Denser towards both ends of a stretch by the cosine.
 _SPREAD = (1 - np.cos(np.linspace(0, np.pi, 33))) / 2
 _MOTION = 160
+_PLACES = (1 - np.cos(np.linspace(0, np.pi, 201))) / 2
 #: Points of an unloading curve from one state.
 _RELEASE = np.linspace(1, 0, 13)
 
@@ -41,7 +41,7 @@ class Trajectory:
     progress: np.ndarray
     states: mdr.Indentation
     now: int
-    motion: Motion | None = None
+    motion: mdr.Motion | None = None
     hit: mdr.Impact | None = None
 
     @cached_property
@@ -87,7 +87,9 @@ class Trajectory:
 
     def pressure(self, index, r):
         """Contact pressure (Pa) of a state, that of the dashpots included."""
-        pressure = self.states[index].pressure(r)
+        state = self.states[index]
+        measured = isinstance(self.scene.profile, mdr.Sampled) and float(state.contact_radius) > 0
+        pressure = _from_line_load(state, r) if measured else state.pressure(r)
         damping = 0.0 if self.motion is None else self._dashpot_load(index)
         if damping > 0:
             a = float(self.states.contact_radius[index])
@@ -109,6 +111,18 @@ class Trajectory:
         interval = LiveInterval(lower, lower + length, length)
         states = mdr.Indentation(self.states.profile, self.states.medium, interval.upper, interval)
         return interval.upper, states.force
+
+
+def _from_line_load(state, r):
+    """Contact pressure (Pa) by Eq. (10) of Popov (2015), the line load straight between its places.
+
+    For measured tips: their kinks each have an integral of their own, too many of them to wait for.
+    """
+    a, c = float(state.contact_radius), float(state.plastic_radius)
+    x = np.unique(np.concatenate([c * _PLACES, c + (a - c) * _PLACES]))
+    # The line load goes to zero at the rim but for a wall, where it ends with a jump.
+    q = state.line_load(np.minimum(x, a * (1 - 1e-12)))
+    return 0.0 - mdr.abel.stress_from_line_load(x, q, r)
 
 
 def follow(scene, progress):

@@ -97,7 +97,8 @@ _ZONE = Plot(
     "radii",
     _overlay(
         area("zone", color=YIELDED, alpha=0.13, show_legend=False),
-        curve("held", **_HELD),
+        curve("held a", **_HELD),
+        curve("held c", **(_HELD | {"line_dash": "dotted"})),
         curve("unloading", color=ELASTIC, line_width=1.8, line_dash="dashed"),
         curve("contact radius a", color=ELASTIC, line_width=2.2, **_TOOLS),
         curve("plastic zone c", color=YIELDED, line_width=3, **_TOOLS),
@@ -152,8 +153,23 @@ def _map():
     )
 
 
+_SPEED = Plot(
+    "speed",
+    "Speed against error",
+    "elements",
+    _overlay(
+        points("used on this page", marker="circle", size=20, color=PAPER, line_color=INK, line_width=1.5),
+        curve("chain line", color=YIELDED, line_width=1.4, line_dash="dashed", show_legend=False),
+        points("chain", marker="diamond", size=9, color=YIELDED, line_color=PAPER),
+        points("closed form", marker="square", size=10, color=ELASTIC, line_color=PAPER),
+        points("scalar ODE", marker="triangle", size=11, color=SPEED, line_color=PAPER),
+        names("names", text_align="left", text_font_style="normal"),
+    ).opts(hv.opts.Overlay(logx=True, logy=True, xlim=(1e-5, 10), ylim=(1e-17, 1))),
+    (),
+)
+
 #: Every plot of the page, in its order.
-PLOTS = {plot.name: plot for plot in (_SPRINGS, _FORCE, _MOTION, _PRESSURE, _ZONE, _ENERGY, _map())}
+PLOTS = {plot.name: plot for plot in (_SPRINGS, _FORCE, _MOTION, _PRESSURE, _ZONE, _ENERGY, _map(), _SPEED)}
 
 # One axis for both plots, so that what belongs together stands under each other.
 for _lower, _upper in (("pressure", "springs"), ("radii", "force"), ("energy", "motion")):
@@ -162,5 +178,5 @@ for _lower, _upper in (("pressure", "springs"), ("radii", "force"), ("energy", "
 #: What is built in a browser at the same time: the rest is, when it is seen for the first time.
 DOCUMENTS = [
     encoded([PLOTS[name] for name in group])
-    for group in (("springs", "force", "pressure", "radii"), ("motion", "energy"), ("map",))
+    for group in (("springs", "force", "pressure", "radii"), ("motion", "energy"), ("map",), ("speed",))
 ]

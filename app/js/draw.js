@@ -42,7 +42,7 @@ function curves(scene, x, y, first) {
 
 function forceNames(scene, dp) {
   const { axes, onset, impact, tau } = scene.meta
-  const [right, up] = [0.02 * axes.d.end, 0.035 * axes.F.end]
+  const [right, up] = [0.02 * axes.d.end, 0.045 * axes.F.end]
   const names = { x: [], y: [], text: [] }
   const add = (x, y, text) => {
     names.x.push(x)
@@ -54,7 +54,8 @@ function forceNames(scene, dp) {
     // To the left of its point where the picture ends on the right.
     add(x + (x < 0.85 * axes.d.end ? right : -8.5 * right), onset[1] / axes.F.factor - up, "(d_c, F_c)")
   }
-  if (dp > 0) add(dp - 2.2 * right, up, "d_p")
+  // Beside the axis on the left, never over it.
+  if (dp > 0) add(dp > 5 * right ? dp - 3 * right : Math.max(dp, 0) + right, up, "d_p")
   return names
 }
 
@@ -106,12 +107,7 @@ function drawRadii(scene, i) {
   const first = firstYielded(c, peak)
   const yielded = first <= peak
   const zone = column(d, c, Math.max(first - 1, 0), yielded ? peak + 1 : 0)
-  const held = scene.meta.held
-    ? {
-        x: [...scene.get("held d"), NaN, ...scene.get("held d")],
-        y: [...scene.get("held a"), NaN, ...scene.get("held c")],
-      }
-    : EMPTY
+  const held = (name) => (scene.meta.held ? { x: scene.get("held d"), y: scene.get(name) } : EMPTY)
   return {
     zone: yielded ? { x: [...zone.x, d[peak]], y: [...zone.y, 0] } : EMPTY,
     "contact radius a": column(d, a, 0, peak + 1),
@@ -121,7 +117,8 @@ function drawRadii(scene, i) {
       y: [...a.subarray(peak), NaN, ...(yielded ? [c[peak], c[peak]] : [NaN, NaN])],
     },
     now: { x: c[i] > 0 ? [d[i], d[i]] : [d[i]], y: c[i] > 0 ? [a[i], c[i]] : [a[i]] },
-    held,
+    "held a": held("held a"),
+    "held c": held("held c"),
   }
 }
 

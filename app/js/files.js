@@ -35,7 +35,10 @@ function swatch(entry, dark) {
     const stroke = `stroke-width="${entry.width}" stroke-dasharray="${entry.dash.join(" ")}"`
     return `<line x1="0" x2="20" y1="6" y2="6" stroke="${colour}" ${stroke}/>`
   }
-  if (entry.mark === "dot") return `<circle cx="10" cy="6" r="4.5" fill="${colour}"/>`
+  if (entry.mark === "dot") {
+    const edge = `stroke="${shade(entry.edge, dark)}"`
+    return `<circle cx="10" cy="6" r="4.5" fill="${colour}" ${edge}/>`
+  }
   const hatch = entry.hatch ? `<path d="M1 12 7 0M7 12 13 0M13 12 19 0" stroke="${colour}"/>` : ""
   return `<rect width="20" height="12" fill="${colour}" fill-opacity="${entry.alpha}"/>${hatch}`
 }

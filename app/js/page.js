@@ -2,6 +2,8 @@
 const BASE = ["springs", "force", "pressure", "radii"]
 const IN_TIME = ["motion", "energy"]
 const SETTLED = 300
+const MOST_NOTICES = 12
+const [FIRST_TRY, LAST_TRY] = [500, 8000]
 
 class Explorer {
   constructor(model) {
@@ -9,6 +11,7 @@ class Explorer {
     this.given = JSON.parse(model.static)
     this.units = this.given.units
     this.plots = new Plots(this.given.plots, this.given.documents)
+    this.compared = null
     this.ask = asker(
       (message) => model.send_msg(message),
       () => this.notify("The server does not answer."),
@@ -21,7 +24,7 @@ class Explorer {
       need: () => this.need(),
     })
     this.player.units = this.units
-    this.map = false
+    this.extra = new Set()
     this.dark =
       stored("theme", matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light") === "dark"
     this.build()
@@ -50,6 +53,8 @@ class Explorer {
       make("p", { class: "note" }, "non-local yield, solved by dimensionality reduction"),
     ]
     this.tiles = new Map(this.given.plots.map((plot) => [plot.name, tile(this, plot)]))
+    this.comparison = new Comparison(this.units)
+    this.tiles.get("speed").append(this.comparison.node)
     const grid = make("div", { class: "plots" }, ...this.tiles.values())
     this.grid = grid
     const results = make(
@@ -78,6 +83,7 @@ class Explorer {
     this.scene = new Scene(meta, values)
     this.scene.frames = frames
     this.node.dataset.scene = meta.seq
+    if (!again) this.comparison.wait()
     this.ask.answered(meta.answered)
     this.arrange(meta)
     this.player.load(this.scene)
@@ -96,12 +102,13 @@ class Explorer {
 
   // Which plots are seen.
   arrange({ impact }) {
-    const names = [...BASE, ...(impact ? IN_TIME : []), ...(this.map ? ["map"] : [])]
+    const names = [...BASE, ...(impact ? IN_TIME : []), ...this.extra]
     if (names.join() === [...this.plots.shown].join()) return
     this.plots.shown = new Set(names)
     this.plots.limits.clear()
     for (const [name, tile] of this.tiles) tile.hidden = !this.plots.shown.has(name)
-    this.grid.classList.toggle("wide", names.length > 4)
+    this.grid.classList.toggle("wide", names.filter((name) => name !== "speed").length > 4)
+    this.grid.classList.toggle("more", this.extra.has("speed"))
     this.grid.classList.toggle("impact", impact)
     this.draw()
   }
@@ -115,6 +122,7 @@ class Explorer {
       this.player.grab(this.plots.view("force"))
     }
     this.plots.draw(this.scene, this.player.at)
+    this.comparison.again(this.plots)
     this.paint()
     this.squareMap()
     this.node.dataset.drawn = this.plots.seen.join(" ")
@@ -131,9 +139,9 @@ class Explorer {
     this.buttons.undo.disabled = !meta.undo[0]
     this.buttons.redo.disabled = !meta.undo[1]
     this.buttons.hold.setAttribute("aria-pressed", String(Boolean(meta.held)))
-    this.heldNote.textContent = meta.held ? `held: ${meta.held}` : ""
+    this.heldNote.replaceChildren(...sentence("p", {}, meta.held ? `held: ${meta.held}` : "").childNodes)
     for (const tile of this.tiles.values())
-      tile.querySelector('[data-layer="held"]')?.toggleAttribute("hidden", !meta.held)
+      for (const entry of tile.querySelectorAll('[data-layer^="held"]')) entry.hidden = !meta.held
     if (meta.notice) this.notify(meta.notice)
   }
 
@@ -143,6 +151,15 @@ class Explorer {
     const url = query ? `?${query}` : location.pathname
     if (location.search !== `?${query}`) history.replaceState(null, "", url)
     this.need()
+    this.compare()
+  }
+
+  // Has the models compared on this scene, if that is looked at.
+  compare() {
+    const wanted = this.extra.has("speed") ? this.scene.meta.seq : null
+    if (wanted === this.compared) return
+    this.compared = wanted
+    this.ask({ do: "compare", on: wanted !== null })
   }
 
   need() {
@@ -164,6 +181,8 @@ class Explorer {
       }
       this.node.dataset.frames = message.frames
       if (this.player.at !== this.scene.meta.now) this.frame(this.player.at)
+    } else if (message.compared !== undefined) {
+      if (message.compared === this.scene.meta.seq) this.comparison.show(message, this.plots)
     } else if (message.what === "python") {
       this.dialog("This state with mdr_core", message.text)
     } else if (message.file) {
@@ -186,16 +205,38 @@ class Explorer {
   notify(text) {
     const note = make("div", { class: "notice" }, text)
     this.notices.append(note)
+    if (this.notices.childElementCount > MOST_NOTICES) this.notices.firstChild.remove()
     setTimeout(() => note.remove(), 7000)
   }
 
-  toggleMap() {
-    this.map = !this.map
-    this.buttons.map.setAttribute("aria-pressed", String(this.map))
+  // Without its server the page can only wait, and come back as the address says it was.
+  async lost() {
+    if (this.waiting) return
+    this.waiting = true
+    this.node.dataset.lost = ""
+    this.settle()
+    const text = "The connection is lost. The page comes back as it is when the server answers."
+    this.notices.append(make("div", { class: "notice" }, text))
+    for (let wait = FIRST_TRY; ; wait = Math.min(1.5 * wait, LAST_TRY)) {
+      await new Promise((resolve) => setTimeout(resolve, wait))
+      // A script of the page: to ask for the page itself would begin a session.
+      const { src } = document.querySelector("script[src]")
+      const answer = await fetch(src, { method: "HEAD", cache: "no-store" }).catch(() => null)
+      if (answer?.ok) location.reload()
+    }
+  }
+
+  // Shows or hides a plot that is seen on request.
+  toggle(name) {
+    const on = !this.extra.delete(name)
+    if (on) this.extra.add(name)
+    this.buttons[name].setAttribute("aria-pressed", String(on))
     this.arrange(this.scene.meta)
     this.plots.draw(this.scene, this.player.at)
     this.paint()
     this.squareMap()
+    this.compare()
+    if (on) this.tiles.get(name).scrollIntoView({ block: "nearest" })
   }
 
   // Once it has its place on the page, the map can be as wide as high.
@@ -232,7 +273,8 @@ class Explorer {
       r: () => (this.ask({ do: "reset" }), true),
       z: () => (this.ask({ do: "undo" }), true),
       y: () => (this.ask({ do: "redo" }), true),
-      m: () => (this.toggleMap(), true),
+      m: () => (this.toggle("map"), true),
+      s: () => (this.toggle("speed"), true),
       d: () => (this.toggleTheme(), true),
     }
     if (!typing && acts[event.key.toLowerCase()]?.()) event.preventDefault()
@@ -244,6 +286,7 @@ export function render({ model }) {
   model.on("msg:custom", (message) => explorer.hear(message))
   const key = (event) => explorer.key(event)
   document.addEventListener("keydown", key)
+  for (const each of Bokeh.documents) each.on_event("connection_lost", () => explorer.lost())
   model.on("remove", () => document.removeEventListener("keydown", key))
   explorer.load(model.meta, model.values)
   explorer.paint()

@@ -63,7 +63,8 @@ class Plots {
         this.map(scene, i)
         continue
       }
-      for (const [label, data] of Object.entries(DRAW[name](scene, i))) this.put(name, label, data)
+      const drawn = DRAW[name]?.(scene, i) ?? {}
+      for (const [label, data] of Object.entries(drawn)) this.put(name, label, data)
     }
   }
 
@@ -72,6 +73,7 @@ class Plots {
   }
 
   fit({ name, axes }, all) {
+    if (axes.length === 0) return
     const figure = this.figure(name)
     const [x, y, right] = axes.map((key) => all[key])
     const label = name === "pressure" || name === "map" ? x.other : x.label

@@ -82,9 +82,10 @@ function radiiLines(scene, i, top) {
     [a, "a"],
     [c, "c"],
   ].filter(([r]) => r > 0)
-  // Too close to stand side by side: each on the outside of its line.
-  const close = found.length === 2 && a - c < 0.06 * width
-  const places = found.map(([r, name]) => r + (close && name === "c" ? -0.025 : 0.025) * width)
+  // Too close to stand side by side: each on the outside of its line, or one name for both.
+  const close = found.length === 2 && a - c < 0.07 * width
+  if (close && a - c < 0.03 * width) found.splice(0, 2, [a + 0.1 * width, "c ≈ a"])
+  const places = found.map(([r, name]) => r + (close && name === "c" ? -0.03 : 0.03) * width)
   return {
     "a line": { x: a > 0 ? [-a, a] : [] },
     "c line": { x: c > 0 ? [-c, c] : [] },

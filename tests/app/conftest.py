@@ -74,8 +74,8 @@ window.explorer = {
 class Server:
     """`panel serve app` from the project root, on a free port, with its log."""
 
-    def __init__(self, *options):
-        command = [sys.executable, "-m", "panel", "serve", "app", *options, "--port", "0"]
+    def __init__(self, *options, port=0):
+        command = [sys.executable, "-m", "panel", "serve", "app", *options, "--port", str(port)]
         self.lines, self._ready = [], threading.Event()
         self.process = subprocess.Popen(
             command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
@@ -104,8 +104,8 @@ class Server:
         log = re.sub(closed, "", self.log, flags=re.DOTALL)
         return log if "Traceback" in log or "ERROR" in log else ""
 
-    def stop(self):
-        self.process.terminate()
+    def stop(self, kill=False):
+        (self.process.kill if kill else self.process.terminate)()
         self.process.wait(20)
         self._reader.join(20)
         self.process.stdout.close()
@@ -244,13 +244,21 @@ def browser():
         browser.close()
 
 
+@pytest.fixture(scope="session")
+def context(browser):
+    """One profile for all pages, so that scripts are fetched and compiled once."""
+    with browser.new_context(viewport={"width": 1440, "height": 900}) as context:
+        yield context
+
+
 @pytest.fixture
-def explorer(server, browser):
+def explorer(server, context):
     """A page freshly opened; afterwards nothing may have been complained about or left the host."""
-    page = browser.new_page(viewport={"width": 1440, "height": 900})
+    page = context.new_page()
     explorer = Explorer(page, server.url)
     yield explorer
     assert explorer.problems == []
     assert explorer.off_host() == []
+    page.evaluate("localStorage.clear()")
     page.close()
     assert server.faults == ""

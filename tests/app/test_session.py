@@ -99,6 +99,75 @@ def test_a_flat_punch_that_yields_all_over_is_refused_as_a_force(person):
     assert person.session.state.choices["drive"] == "depth"
 
 
+@pytest.mark.parametrize(
+    "message",
+    [
+        {},
+        {"do": None},
+        {"do": ["move"]},
+        {"do": "choose"},
+        {"do": "choose", "name": [], "option": {}},
+        {"do": "load", "label": "<img src=x>"},
+        {"do": "move", "name": {}, "position": 1},
+        {"do": "move", "name": "max_depth", "position": float("nan")},
+        {"do": "stand", "at": "x"},
+        {"do": "stand", "at": float("nan")},
+        {"do": "double", "name": ["q_c"]},
+        {"do": "file", "what": ["curves"]},
+        {"do": "upload", "kind": "tip", "text": 7},
+        {"do": "upload", "kind": "scene", "text": "[" * 100_000},
+    ],
+)
+def test_message_of_any_form_changes_nothing(person, message):
+    before = person.session.state.snapshot()
+    person.session.receive(message)
+    assert person.session.state.snapshot() == before
+    assert person.ask("type", name="max_depth", text="5 nm")["notice"] == ""
+
+
+def test_a_fault_is_told_logged_once_with_its_scene_and_over(person, monkeypatch, caplog):
+    before = person.session.state.snapshot()
+
+    def broken(scene, progress):
+        raise ZeroDivisionError
+
+    with monkeypatch.context() as patch:
+        patch.setattr("app.session.follow", broken)
+        assert "fault of the explorer" in person.ask("type", name="max_depth", text="5 nm")["notice"]
+    assert [record.levelname for record in caplog.records] == ["ERROR"]
+    logged = caplog.records[0].getMessage().partition("scene ")[2]
+    assert mdr.Scene.from_json(logged).drive.depth == pytest.approx(5e-9)
+    assert person.session.state.snapshot() == before
+    assert person.ask("type", name="max_depth", text="6 nm")["notice"] == ""
+
+
+@pytest.mark.parametrize("rows", [450, 20_001])
+def test_tip_that_would_keep_everybody_waiting_is_refused(person, rows):
+    text = "r (nm), z (nm)\n" + "".join(f"{k}, {k * k / 1e4}\n" for k in range(rows))
+    assert person.ask("upload", kind="tip", text=text)["notice"]
+    assert person.session.state.shape == "cone"
+
+
+@pytest.mark.parametrize(
+    ("drive", "said"),
+    [
+        (mdr.DepthPath(np.linspace(0, 1e-9, 400)), "400 numbers"),
+        (mdr.DepthPath((0.0, 1e-9), (0.0, 1.0)), "in time"),
+    ],
+)
+def test_scene_that_cannot_be_shown_is_refused(person, drive, said):
+    scene = mdr.Scene(mdr.Cone(0.3), mdr.Medium(1e9, 1.0, 1.0), drive)
+    assert said in person.ask("upload", kind="scene", text=scene.to_json())["notice"]
+    assert person.session.state.choices["damping"] == "none"
+
+
+def test_impact_of_a_tip_with_many_samples_is_refused(person):
+    text = "r (nm), z (nm)\n" + "".join(f"{k}, {k * k / 400}\n" for k in range(80))
+    assert person.ask("upload", kind="tip", text=text)["notice"] == ""
+    assert "80 samples is too much" in person.ask("choose", name="drive", option="impact")["notice"]
+    assert person.session.state.choices["drive"] == "depth"
+
+
 def test_undo_and_redo(person):
     start = person.number("max_depth")
     for position in (210, 220, 230):

@@ -58,7 +58,7 @@ def test_plots_are_saved_with_title_and_legend(explorer):
         assert all(name in drawing for name in tile.locator(".legend li:visible").all_inner_texts())
 
 
-def test_link_opens_the_same_page(explorer, server, browser):
+def test_link_opens_the_same_page(explorer):
     explorer.choose("Preset", DROP)
     explorer.choose("Shape", "Hyperboloid")
     explorer.page.wait_for_function("location.search.includes('hyperboloid')")
@@ -112,6 +112,7 @@ def test_keys_hold_undo_reset_and_switch(explorer):
     page.locator("h1").click()
     page.keyboard.press("h")
     page.wait_for_function("explorer.column('force', 'held', 'x').length > 10")
+    assert "Cone, s = 0.358" in page.locator(".toolbar .note").inner_text()
     with explorer.change():
         explorer.type("d_max", "5 nm")
     page.locator("h1").click()
@@ -134,9 +135,10 @@ def test_keys_hold_undo_reset_and_switch(explorer):
 
 
 def test_narrow_page_needs_no_sideways_scrolling_and_people_do_not_disturb_each_other(
-    explorer, server, browser
+    explorer, server, context
 ):
-    page = browser.new_page(viewport={"width": 400, "height": 800})
+    page = context.new_page()
+    page.set_viewport_size({"width": 400, "height": 800})
     other = type(explorer)(page, server.url)
     with other.change():
         other.type("d_max", "30")

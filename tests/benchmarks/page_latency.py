@@ -1,8 +1,9 @@
-"""Latency of the served page: from a key press on the depth slider to the last plot painted.
+"""Latency of the served page: key presses, drags and playback, until the last plot is painted.
 
 Run from the project root: python -m tests.benchmarks.page_latency
 """
 
+import math
 import os
 import statistics
 import time
@@ -58,6 +59,56 @@ def moves(page, key):
     return latencies
 
 
+# Counts the frames in which plots were painted.
+FRAMES = """() => {
+  window.frames = { count: 0, painted: false }
+  for (const name of ["springs", "force", "pressure", "radii"]) {
+    const view = Bokeh.index.find_one(explorer.figure(name))
+    const paint = view._actual_paint.bind(view)
+    view._actual_paint = () => { paint(); frames.painted = true }
+  }
+  const tick = () => {
+    if (frames.painted) frames.count += 1
+    frames.painted = false
+    requestAnimationFrame(tick)
+  }
+  requestAnimationFrame(tick)
+}"""
+
+
+def frames_per_second(page, act):
+    """Frames a second in which something was painted while `act` was under way."""
+    page.evaluate("frames.count = 0")
+    begin = time.perf_counter()
+    act()
+    return page.evaluate("frames.count") / (time.perf_counter() - begin)
+
+
+def drag(page, symbol):
+    """Drag a slider to and fro for two seconds, a step every 16 ms."""
+    box = page.locator(f'input[type="range"][aria-label^="{symbol},"]').bounding_box()
+    y = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + box["width"] / 2, y)
+    page.mouse.down()
+    begin = time.perf_counter()
+    while (seconds := time.perf_counter() - begin) < 2:
+        page.mouse.move(box["x"] + box["width"] * (0.5 + 0.15 * math.sin(4 * seconds)), y)
+        time.sleep(0.016)
+    page.mouse.up()
+
+
+def smoothness(page):
+    """Print the frame rates of a drag and of playback."""
+    page.evaluate(FRAMES)
+    print(f"drag of a slider: {frames_per_second(page, lambda: drag(page, 'd_max')):.0f} frames/s")
+    page.wait_for_function("explorer.main().dataset.frames === explorer.main().dataset.scene")
+    play = page.locator(".player button")
+    play.click()
+    rate = frames_per_second(page, lambda: page.wait_for_timeout(3000))
+    play.click()
+    print(f"playback: {rate:.0f} frames/s")
+
+
 def main():
     from playwright.sync_api import sync_playwright
 
@@ -69,6 +120,7 @@ def main():
             for visitor in ("first visitor", "second visitor"):
                 page, seconds, size = cold_load(browser, server.url)
                 print(f"cold load to last plot, {visitor}: {seconds:.2f} s, {size / 1e6:.2f} MB")
+            smoothness(page)
             page.evaluate(HOOK, FIGURES)
             page.locator('input[type="range"][aria-label^="d_max,"]').focus()
             before = cpu_seconds(server.process.pid)

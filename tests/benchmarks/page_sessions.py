@@ -16,7 +16,7 @@ from tornado.websocket import websocket_connect
 
 from tests.app.conftest import Server
 
-SESSIONS, RATE, SECONDS, OPENED = 12, 4.0, 8.0, 15
+SESSIONS, RATE, SECONDS, OPENED = 12, 4.0, 8.0, (15, 100, 300)
 
 
 class Client:
@@ -89,26 +89,30 @@ async def many(url, pid):
     )
 
 
-async def come_and_go(url):
+async def come_and_go(url, count):
     """Sessions that are opened, used and closed."""
-    for _ in range(OPENED):
+    for _ in range(count):
         client = await Client().open(url)
         await client.move(1)
         client.socket.close()
 
 
 def left_behind():
-    """Count the live Documents after sessions have come and gone."""
+    """Memory and live Documents after sessions have come and gone, more and more of them."""
     short = ("--unused-session-lifetime", "200", "--check-unused-sessions", "200")
     server = Server("tests/benchmarks/probe.py", *short)
     time.sleep(8)
     try:
         url = server.url.rpartition("/")[0]
-        asyncio.run(asyncio.wait_for(come_and_go(f"{url}/app"), 60))
-        time.sleep(3)
-        urlopen(f"{url}/probe").read()
-        time.sleep(1)
-        print(f"{OPENED} sessions opened and closed: {re.findall('live Documents.*', server.log)[-1]}")
+        done = 0
+        for count in OPENED:
+            asyncio.run(asyncio.wait_for(come_and_go(f"{url}/app", count - done), 240))
+            done = count
+            time.sleep(3)
+            urlopen(f"{url}/probe").read()
+            time.sleep(1)
+            alive, memory = re.findall("live Documents.*", server.log)[-1], resident(server.process.pid)
+            print(f"{count} sessions opened and closed: {alive}, {memory:.0f} MB resident", flush=True)
     finally:
         server.stop()
 

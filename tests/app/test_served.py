@@ -1,0 +1,166 @@
+"""The page as it is served to others: another's markup, a fault of the solver, a server that goes away."""
+
+import os
+import re
+import shlex
+import socket
+from contextlib import closing
+from http.client import HTTPConnection
+from pathlib import Path
+
+import pytest
+
+import mdr_core as mdr
+from app.state import Explorer as State
+
+from .conftest import CHROMIUM, ROOT, Explorer, Server
+from .test_page import DROP, assert_draws, now
+
+# Where the browser is required its absence is a failure.
+pytestmark = pytest.mark.skipif(
+    not Path(CHROMIUM).exists() and os.environ.get("MDR_BROWSER") != "required",
+    reason="the page's tests need Chromium; set CHROMIUM to its path",
+)
+
+MARKUP = "<img src=x onerror=alert(1)>"
+
+
+def deployed(port):
+    """Options of the line that the README gives for serving others, on loopback."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    line = re.search(r"panel serve app (--address.*?)\n```", text, re.DOTALL)[1].replace("\\\n", " ")
+    options = shlex.split(line.replace("explorer.example.org", f"127.0.0.1:{port}"))
+    at = options.index("--port")
+    return [*options[:at], *options[at + 2 :], "--setup", "tests/app/fault.py"]
+
+
+def serve(port):
+    return Server(*deployed(port), port=port)
+
+
+@pytest.fixture(scope="module")
+def port():
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        return free.getsockname()[1]
+
+
+def test_server_that_comes_back_finds_its_page_again(port, context):
+    server = serve(port)
+    page = context.new_page()
+    try:
+        explorer = Explorer(page, f"http://127.0.0.1:{port}/app")
+        with explorer.change():
+            explorer.type("d_max", "13.5 nm")
+        assert_a_fault_is_told(explorer, server)
+        assert_other_origins_are_refused(port)
+        server.stop(kill=True)
+        page.wait_for_selector("main[data-lost]")
+        assert "connection is lost" in page.locator(".notice").last.inner_text()
+        server = serve(port)
+        page.wait_for_function("!('lost' in (explorer.main()?.dataset ?? {lost: 0})) && explorer.idle()")
+        state = State()
+        state.set("max_depth", 13.5e-9)
+        assert_draws(explorer, state)
+        assert explorer.off_host() == []
+    finally:
+        page.close()
+        server.stop()
+
+
+def assert_a_fault_is_told(explorer, server):
+    kept = now(explorer)
+    explorer.type("d_max", "13 nm")
+    explorer.page.wait_for_function("explorer.notices() === 1 && explorer.idle()")
+    assert "fault of the explorer" in explorer.page.locator(".notice").inner_text()
+    assert now(explorer) == kept
+    assert server.log.count("ArithmeticError: made to fail") == 1
+    logged = re.search(r"scene (\{.*?\n\})", server.log, re.DOTALL)[1]
+    assert mdr.Scene.from_json(logged).drive.depth == pytest.approx(13e-9)
+    with explorer.change():
+        explorer.type("d_max", "12 nm")
+    with explorer.change():
+        explorer.type("d_max", "13.5 nm")
+
+
+def assert_other_origins_are_refused(port):
+    upgrade = {
+        "Connection": "Upgrade",
+        "Upgrade": "websocket",
+        "Sec-WebSocket-Version": "13",
+        "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA==",
+        "Origin": "http://elsewhere.example.org",
+    }
+    with closing(HTTPConnection("127.0.0.1", port, timeout=20)) as connection:
+        connection.request("GET", "/app/ws", headers=upgrade)
+        assert connection.getresponse().status == 403
+
+
+def test_connection_that_is_cut_comes_back(explorer):
+    with explorer.change():
+        explorer.type("d_max", "7 nm")
+    explorer.page.evaluate(
+        "Bokeh.documents[0].event_manager.send_event({event_name: 'connection_lost', origin: null})"
+    )
+    explorer.page.wait_for_selector("main[data-lost]")
+    explorer.page.wait_for_function(
+        "!('lost' in (explorer.main()?.dataset ?? {lost: 0})) && explorer.idle()"
+    )
+    assert now(explorer)[0] == pytest.approx(7e-9)
+
+
+def test_text_of_others_is_never_markup(explorer, tmp_path):
+    scene = mdr.Scene(mdr.Cone(0.5), mdr.Medium(2e9, 5.0), mdr.DepthPath(5e-9)).to_json()
+    files = [
+        ("Load a tip", f"{MARKUP} (nm), z (nm)\n0, 0\n1, {MARKUP}\n"),
+        ("Load a tip", f"r (nm), z ({MARKUP})\n0, 0\n1, 1\n"),
+        ("Load a scene", scene.replace("Cone", MARKUP)),
+        ("Load a scene", scene.replace('"slope"', f'"{MARKUP}"')),
+        ("Load a scene", scene.replace("mdr-scene", MARKUP)),
+        ("Load a scene", MARKUP),
+    ]
+    path = tmp_path / "brought"
+    for count, (label, text) in enumerate(files, start=1):
+        path.write_text(text, encoding="utf-8")
+        explorer.bring(label, path)
+        explorer.page.wait_for_function("(n) => explorer.notices() >= n", arg=count)
+    assert explorer.page.locator("main img").count() == 0
+    assert any("<img" in text for text in explorer.page.locator(".notice").all_inner_texts())
+    assert_draws(explorer, State())
+    explorer.page.wait_for_function("location.search.includes('preset=')")
+    for name in ("preset=", "shape="):
+        explorer.page.goto(explorer.page.url.replace(name, f"{name}{MARKUP}", 1))
+        explorer.page.wait_for_function("explorer.idle()")
+        assert "link was not opened" in explorer.page.locator(".notice").first.inner_text()
+        assert explorer.page.locator("main img").count() == 0
+        explorer.page.wait_for_function("!location.search.includes('img')")
+
+
+def test_speed_against_error_is_measured_while_it_is_looked_at(explorer):
+    page = explorer.page
+    page.locator("h1").click()
+    page.keyboard.press("s")
+    page.wait_for_function("explorer.figure('speed') !== undefined && explorer.idle()")
+    said = page.locator(".compared p").first
+    page.wait_for_function(
+        "/n elements in the chain/.test(explorer.main().querySelector('.compared').innerText)"
+    )
+    assert said.inner_text().startswith("Used on this page: closed form, the cheapest exact one: without")
+    assert len(explorer.column("speed", "chain", "x")) == 8
+    assert explorer.column("speed", "used on this page", "x") == explorer.column(
+        "speed", "closed form", "x"
+    )
+    assert page.locator(".compared tr").count() == 4
+    explorer.choose("Preset", DROP)
+    page.wait_for_function("explorer.column('speed', 'scalar ODE', 'y').length === 1")
+    page.wait_for_function("!/measuring/.test(explorer.main().querySelector('.compared').innerText)")
+    error = explorer.column("speed", "chain", "y")
+    assert 0 < error[-1] < error[0] < 1e-3
+    traffic = explorer.listen()
+    page.locator("h1").click()
+    page.keyboard.press("s")
+    page.wait_for_function("explorer.idle()")
+    assert page.locator('[data-plot="speed"]').is_hidden()
+    explorer.choose("Preset", next(iter(page.locator("select").first.locator("option").all_inner_texts())))
+    page.wait_for_timeout(500)
+    assert not any('"compare"' in text and '["on",true]' in text for text in traffic())
