@@ -83,9 +83,9 @@ function radiiLines(scene, i, top) {
     [c, "c"],
   ].filter(([r]) => r > 0)
   // Too close to stand side by side: each on the outside of its line, or one name for both.
-  const close = found.length === 2 && a - c < 0.07 * width
-  if (close && a - c < 0.03 * width) found.splice(0, 2, [a + 0.1 * width, "c ≈ a"])
-  const places = found.map(([r, name]) => r + (close && name === "c" ? -0.03 : 0.03) * width)
+  const close = found.length === 2 && a - c < 0.11 * width
+  if (close && a - c < 0.03 * width) found.splice(0, 2, [a + 0.08 * width, "c ≈ a"])
+  const places = found.map(([r, name]) => r + (close && name === "c" ? -0.05 : 0.05) * width)
   return {
     "a line": { x: a > 0 ? [-a, a] : [] },
     "c line": { x: c > 0 ? [-c, c] : [] },
