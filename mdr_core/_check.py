@@ -7,6 +7,9 @@ import numpy as np
 #: Beyond these the squares and products of quantities would leave double precision.
 SMALLEST, LARGEST = 1e-60, 1e60
 
+# Radii grow faster than depths below blunt exponents; their squares are still numbers.
+_FARTHEST = 1e140
+
 
 def number(quantity, value):
     """`value` as a float, if it is one real number (no bool, no text, no array)."""
@@ -59,8 +62,8 @@ def _real_array(quantity, value, what="real numbers"):
 def finite_array(quantity, value, *, unit=""):
     """`value` as a float array without NaN or infinity."""
     array, remedy = _real_array(quantity, value), "leave it out, or mend the data it comes from"
-    large = np.isfinite(array) & (np.abs(array) > LARGEST)
-    refuse(quantity, array, large, f"is beyond {LARGEST:g}", unit=unit, remedy="give it in SI units")
+    large = np.isfinite(array) & (np.abs(array) > _FARTHEST)
+    refuse(quantity, array, large, f"is beyond {_FARTHEST:g}", unit=unit, remedy="give it in SI units")
     return refuse(quantity, array, ~np.isfinite(array), "must be finite", unit=unit, remedy=remedy)
 
 

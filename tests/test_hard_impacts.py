@@ -83,8 +83,9 @@ class TestSmooth:
         together = mdr.impact(shape, medium, MASS, np.geomspace(1e-4, 1.0, 5))
         for i in range(5):
             alone = mdr.impact(self.smooth(), medium, MASS, together.speed[i])
-            assert alone.max_depth == together.max_depth[i]
-            assert alone.contact_time == together.contact_time[i]
+            # A search that goes on for its neighbours may end one digit better.
+            assert alone.max_depth == pytest.approx(together.max_depth[i], rel=4e-16)
+            assert alone.contact_time == pytest.approx(together.contact_time[i], rel=2e-15)
         alone = [self.smooth().contact_radius(each) for each in depth]
         np.testing.assert_array_equal(shape.contact_radius(depth), alone)
         # A series on the largest contact would hold the smallest with six digits less.
