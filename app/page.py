@@ -1,5 +1,6 @@
 """The page as one component: its scripts, and what travels between it and the session."""
 
+import base64
 import json
 from pathlib import Path
 
@@ -18,8 +19,10 @@ _SCRIPTS = (
     *("compare", "player", "files", "tools", "talk", "page"),
 )
 _STYLE = (ASSETS / "style.css").read_text(encoding="utf-8")
+_REPORT = base64.b64encode((ASSETS / "speed_against_error.svg").read_bytes()).decode()
 _STATIC = json.dumps(
     {
+        "report": f"data:image/svg+xml;base64,{_REPORT}",
         "plots": [plot.described() for plot in PLOTS.values()],
         "documents": DOCUMENTS,
         "equations": EQUATIONS,

@@ -104,7 +104,9 @@ def crossing(values, target, end=1.0):
     rows = np.arange(len(gap))
     low, high = edges[rows, np.maximum(index - 1, 0)], edges[rows, index]
     slope = np.einsum("ij,kj->ik", gap, _DERIVATIVE)
-    theta = (low + high) / 2
+    first, last = known[rows, np.maximum(index - 1, 0)], known[rows, index]
+    chord = np.divide(first, first - last, out=np.full_like(first, 0.5), where=first != last)
+    theta = low + (high - low) * np.clip(chord, 0.0, 1.0)
     for _ in range(60):
         weights = basis(theta)
         value, rate = interpolate(weights, gap), interpolate(weights, slope)

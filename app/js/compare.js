@@ -3,11 +3,14 @@ const EXACT = 1e-16
 const EMPTY_TEXT = { x: [], y: [], text: [] }
 
 class Comparison {
-  constructor(units) {
+  constructor(units, report) {
     this.units = units
     this.words = make("p", { class: "note", "aria-live": "polite" })
     this.table = make("table", { "aria-label": "Time and error of each model" })
-    this.node = make("div", { class: "compared" }, this.words, make("div", {}, this.table))
+    const alt = "Time against relative error of every method; lower left is better"
+    const title = make("summary", {}, "Measured on problems of all kinds, beside other programs")
+    const measured = make("details", {}, title, make("img", { src: report, alt }))
+    this.node = make("div", { class: "compared" }, this.words, make("div", {}, this.table), measured)
   }
 
   // The scene has changed: what is shown is no longer about it.

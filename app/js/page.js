@@ -53,7 +53,7 @@ class Explorer {
       make("p", { class: "note" }, "non-local yield, solved by dimensionality reduction"),
     ]
     this.tiles = new Map(this.given.plots.map((plot) => [plot.name, tile(this, plot)]))
-    this.comparison = new Comparison(this.units)
+    this.comparison = new Comparison(this.units, this.given.report)
     this.tiles.get("speed").append(this.comparison.node)
     const grid = make("div", { class: "plots" }, ...this.tiles.values())
     this.grid = grid
