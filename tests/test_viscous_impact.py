@@ -120,7 +120,7 @@ def test_force_of_a_flat_face_jumps_at_first_touch():
 
 
 @pytest.mark.parametrize("q_c", [math.inf, 10.0])
-@pytest.mark.parametrize("share", [0.0, 1e-8, 0.1, 10.0, 1e8])
+@pytest.mark.parametrize("share", [0.0, 1e-8, 1.0, 1e8])
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_energy_ledger_is_closed_at_every_instant(shape, share, q_c):
     motion = mdr.impact(shape, medium(share, shape, q_c), MASS, SPEED).motion(101)

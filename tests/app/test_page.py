@@ -215,9 +215,11 @@ def test_player_plays_the_impact_without_the_server(explorer):
         "(v) => explorer.main().querySelector('.player input').value !== v", arg=places.pop()
     )
     depths = set()
-    for _ in range(5):
+    for _ in range(60):
         depths.add(now(explorer)[0])
-        explorer.page.wait_for_timeout(120)
+        if len(depths) > 2:
+            break
+        explorer.page.wait_for_timeout(100)
     assert len(depths) > 2
     assert traffic() == []
     explorer.page.keyboard.press(" ")

@@ -142,23 +142,24 @@ def test_speed_against_error_is_measured_while_it_is_looked_at(explorer):
     page.keyboard.press("s")
     page.wait_for_function("explorer.figure('speed') !== undefined && explorer.idle()")
     said = page.locator(".compared p").first
+    # How far the chains come within the cap is the machine's business.
     page.wait_for_function(
-        "/n elements in the chain/.test(explorer.main().querySelector('.compared').innerText)"
+        "/n elements|chains beyond/.test(explorer.main().querySelector('.compared').innerText)"
     )
     assert said.inner_text().startswith("Used on this page: closed form, the cheapest exact one: without")
-    assert len(explorer.column("speed", "chain", "x")) == 8
+    assert 3 <= len(explorer.column("speed", "chain", "x")) <= 8
     assert explorer.column("speed", "used on this page", "x") == explorer.column(
         "speed", "closed form", "x"
     )
     assert page.locator(".compared tr").count() == 4
     # The report's figure, without a request.
     page.locator(".compared summary").click()
-    assert page.locator(".compared img").evaluate("image => image.complete && image.naturalWidth > 0")
+    page.wait_for_function("explorer.main().querySelector('.compared img').naturalWidth > 0")
     explorer.choose("Preset", DROP)
     page.wait_for_function("explorer.column('speed', 'scalar ODE', 'y').length === 1")
     page.wait_for_function("!/measuring/.test(explorer.main().querySelector('.compared').innerText)")
     error = explorer.column("speed", "chain", "y")
-    assert 0 < error[-1] < error[0] < 1e-3
+    assert 0 < error[-1] <= error[0] < 1e-3
     traffic = explorer.listen()
     page.locator("h1").click()
     page.keyboard.press("s")
