@@ -37,7 +37,7 @@ def by_similarity(bodies):
     """
     exponent = _exponent(bodies.profile)
     if exponent is None or np.ndim(exponent):
-        return np.zeros(bodies.speed.shape, bool), *np.empty((5, bodies.speed.size))
+        return np.zeros(bodies.speed.shape, bool), *np.zeros((5, bodies.speed.size))
     forever, nothing = np.full_like(bodies.speed, np.inf), np.zeros_like(bodies.speed)
     dry, _ = turning_point(bodies.profile, bodies.inertia * bodies.speed**2 / 2, forever, nothing, nothing)
     zeta = np.log(bodies.relaxation_time) + np.log(bodies.speed) - np.log(dry.upper)

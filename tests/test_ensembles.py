@@ -103,6 +103,17 @@ def test_dimensional_analysis_agrees_with_the_equation_of_motion(shape):
         np.testing.assert_allclose(getattr(hits, quantity)[some], expected, rtol=1e-8, err_msg=quantity)
 
 
+def test_a_thousand_exponents_are_solved_each_on_its_own():
+    """Series hold for one exponent; an ensemble of many is none the worse, in any memory."""
+    exponents = np.linspace(0.6, 4.0, 1000)
+    medium = mdr.Medium(1e9, 10.0, 3.0)
+    hits = mdr.impact(mdr.PowerLaw(1e-6 ** (1 - exponents), exponents), medium, 1e-9, 0.05)
+    one = mdr.impact(hits[321].profile, medium, 1e-9, 0.05)
+    for quantity in QUANTITIES:
+        # The same steps, summed in another order.
+        assert getattr(hits, quantity)[321] == pytest.approx(getattr(one, quantity), rel=1e-10), quantity
+
+
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
