@@ -1,26 +1,39 @@
-"""Steps of Gauss collocation: integrals from the beginning of a step to each of its nodes.
+"""Steps of Gauss collocation: integrals from the beginning of a step to each of its points.
 
-A step runs over θ from 0 to 1. Elapsed time is θ, or θ³ where fractional powers of the time begin,
-or 1 − (1 − θ)³ where they end: these three kinds of step are the rows of the tables here.
+A step runs over θ from 0 to 1; its points are 0 and 24 Gauss nodes, and 0 has no weight. Elapsed
+time is θ, or θ³ where fractional powers of the time begin, or 1 − (1 − θ)³ where they end: these
+three kinds of step are the rows of the tables here. Values of many steps are one row each; what is
+done to them is done row by row, so that no step feels its neighbours.
 """
 
 import numpy as np
 
 from .panels import integration_rule
 
-NODES, WEIGHTS, TAIL = integration_rule(24)
+_NODES, _WEIGHTS, _TAIL = integration_rule(24)
 
 PLAIN, OPENING, CLOSING = range(3)
 
-_RATE = np.stack([np.ones_like(NODES), 3 * NODES**2, 3 * (1 - NODES) ** 2])
-#: Share of the step's time at each node, (kind, node).
-ELAPSED = np.stack([NODES, NODES**3, NODES * (3 - NODES * (3 - NODES))])
-#: Weights of the integral over the time of a whole step, (kind, node).
-WHOLE = _RATE * WEIGHTS
-#: Matrix of the integrals over time from the beginning to each node, (kind, node, node).
-INTEGRATE = (WEIGHTS - TAIL) * _RATE[:, None, :]
+POINTS = np.append(0.0, _NODES)
+COUNT = POINTS.size
+
+_RATE = np.stack([np.ones(COUNT), 3 * POINTS**2, 3 * (1 - POINTS) ** 2])
+
+
+def _bordered(table):
+    """A table for the nodes with zeros for the point 0."""
+    return np.pad(table, [(0, 0)] * (table.ndim - 2) + [(1, 0), (1, 0)])
+
+
+#: Share of the step's time at each point, (kind, point).
+ELAPSED = np.stack([POINTS, POINTS**3, POINTS * (3 - POINTS * (3 - POINTS))])
+#: Weights of the integral over the time of a whole step, (kind, point).
+WHOLE = _RATE * np.append(0.0, _WEIGHTS)
+#: Matrix of the integrals over time from the beginning to each point, (kind, point, point).
+INTEGRATE = _bordered(_WEIGHTS - _TAIL) * _RATE[:, None, :]
 #: The same applied twice, for the path from the acceleration.
 TWICE = INTEGRATE @ INTEGRATE
+IDENTITY = np.eye(COUNT)
 
 
 def _interpolation(points):
@@ -34,26 +47,29 @@ def _interpolation(points):
     return weight, derivative
 
 
-#: The beginning and the nodes of a step.
-POINTS = np.append(0.0, NODES)
 _WEIGHT, _DERIVATIVE = _interpolation(POINTS)
-_INNER_DERIVATIVE = _interpolation(NODES)[1]
 
-#: Matrix that differentiates by the share of time elapsed, from values at the nodes, (kind, node, node).
-DIFFERENTIATE = _INNER_DERIVATIVE / _RATE[:, :, None]
-
-
-def _legendre_projection():
-    values = np.polynomial.legendre.legvander(2 * NODES - 1, NODES.size - 1)
-    return (values * WEIGHTS[:, None]).T * (2 * np.arange(NODES.size)[:, None] + 1)
+#: Matrix that differentiates by the share of time elapsed, from and at the nodes, (kind, point, point).
+DIFFERENTIATE = _bordered(_interpolation(_NODES)[1]) / np.where(_RATE > 0, _RATE, 1.0)[:, :, None]
 
 
-_LAST = _legendre_projection()[-3:]
+def _last_coefficients():
+    values = np.polynomial.legendre.legvander(2 * _NODES - 1, _NODES.size - 1)
+    projection = (values * _WEIGHTS[:, None]).T * (2 * np.arange(_NODES.size)[:, None] + 1)
+    return np.pad(projection[-3:], [(0, 0), (1, 0)])
+
+
+_LAST = _last_coefficients() * _RATE[:, None, :]
+
+
+def apply(matrices, values):
+    """Matrices, one or one for each row, applied to rows of values."""
+    return np.matmul(matrices, values[..., None])[..., 0]
 
 
 def unresolved(values, kind):
-    """Size of the last Legendre coefficients of values at the nodes times dt/dθ, one step a row."""
-    return np.abs(np.einsum("ij,kj->ik", values * _RATE[kind], _LAST)).max(axis=1)
+    """Size of the last Legendre coefficients of values times dt/dθ, one step a row."""
+    return np.maximum.reduce(np.abs(apply(_LAST[kind], values)), axis=1)
 
 
 def share(kind, theta):
@@ -68,75 +84,86 @@ def theta_at(kind, elapsed):
 
 
 def basis(theta):
-    """Weights that interpolate values at 0 and the nodes to θ, one row each."""
+    """Weights that interpolate values at the points to θ, one row each."""
     gap = theta[:, None] - POINTS
     # On a point its own weight outgrows the others.
     gap[gap == 0] = 1e-200
     row = _WEIGHT / gap
-    return row / row.sum(axis=1, keepdims=True)
+    return row / np.add.reduce(row, axis=1, keepdims=True)
 
 
-def with_start(start, values):
-    """Values at 0 and the nodes, as `basis` takes them."""
-    return np.column_stack([start, values])
+def weights(kind, theta):
+    """Weights of the integral over the share of time up to θ, one step a row."""
+    # At the end the quadrature is better than the interpolant.
+    result = WHOLE[kind]
+    cut = np.flatnonzero(theta < 1)
+    if cut.size:
+        result[cut] = np.matmul(basis(theta[cut])[:, None, :], INTEGRATE[kind[cut]])[:, 0]
+    return result
 
 
-def interpolate(weights, values):
-    """Values at 0 and the nodes, at the θ of `basis`."""
-    return np.einsum("ij,ij->i", weights, values)
+def dot(weights, values):
+    """Sums of weighted values, one row each: an interpolation or an integral."""
+    return np.matmul(weights[:, None, :], values[:, :, None])[:, 0, 0]
 
 
-def crossing(values, target, end=1.0):
-    """First θ at which the interpolant of values at 0 and the nodes crosses a target, one step a row.
+_EDGES = np.append(POINTS, 1.0)
 
-    The first value is on one side of the target, and some other one up to θ = `end`, or the
-    interpolant there, on the other.
+
+def crossing(values, target, end=None):
+    """First θ at which the interpolant of values at the points crosses a target, one step a row.
+
+    The first value is on one side of the target, and some other one up to θ = `end` (1 if not
+    given), or the interpolant there, on the other.
     """
-    gap = values - np.asarray(target)[:, None]
-    end = np.broadcast_to(end, len(gap))
-    inside = np.column_stack([end[:, None] > POINTS, np.zeros(len(gap), bool)])
-    edges = np.where(inside, np.append(POINTS, 1.0), end[:, None])
-    there = interpolate(basis(end), gap)[:, None]
-    known = np.where(inside, np.hstack([gap, there]), there)
+    gap = values - target[:, None]
+    end = np.ones(len(gap)) if end is None else end
+    edges = np.minimum(_EDGES, end[:, None])
+    known = np.empty(edges.shape)
+    known[:, :-1] = gap
+    there = dot(basis(end), gap)[:, None]
+    known = np.where(end[:, None] > _EDGES, known, there)
     side = np.sign(known[:, :1])
-    index = np.argmax(side * known <= 0, axis=1)
-    index = np.where((side * known <= 0).any(axis=1), index, edges.shape[1] - 1)
-    rows = np.arange(len(gap))
-    low, high = edges[rows, np.maximum(index - 1, 0)], edges[rows, index]
-    slope = np.einsum("ij,kj->ik", gap, _DERIVATIVE)
-    first, last = known[rows, np.maximum(index - 1, 0)], known[rows, index]
+    crossed = side * known <= 0
+    # None has, by rounding: the end itself.
+    crossed[:, -1] = True
+    index, rows = crossed.argmax(axis=1), np.arange(len(gap))
+    before = np.maximum(index - 1, 0)
+    low, high = edges[rows, before], edges[rows, index]
+    first, last = known[rows, before], known[rows, index]
     chord = np.divide(first, first - last, out=np.full_like(first, 0.5), where=first != last)
-    theta = low + (high - low) * np.clip(chord, 0.0, 1.0)
+    theta = low + (high - low) * np.minimum(np.maximum(chord, 0.0), 1.0)
+    slope, side = apply(_DERIVATIVE, gap), side[:, 0]
     for _ in range(60):
-        weights = basis(theta)
-        value, rate = interpolate(weights, gap), interpolate(weights, slope)
-        before = side[:, 0] * value > 0
-        low, high = np.where(before, theta, low), np.where(before, high, theta)
+        row = basis(theta)
+        value, rate = dot(row, gap), dot(row, slope)
+        short = side * value > 0
+        low, high = np.where(short, theta, low), np.where(short, high, theta)
         new = theta - np.divide(value, rate, out=np.full_like(value, np.inf), where=rate != 0)
         new = np.where((new >= low) & (new <= high), new, (low + high) / 2)
         moved, theta = np.abs(new - theta).max(initial=0.0), new
         # The error is the square of the last correction.
-        if moved <= 1e-9:
+        if moved <= 1e-8:
             break
     return theta
 
 
 def slope(values, theta):
-    """Derivative by θ of the interpolant of values at 0 and the nodes, one step a row."""
-    return interpolate(basis(theta), np.einsum("ij,kj->ik", values, _DERIVATIVE))
+    """Derivative by θ of the interpolant of values at the points, one step a row."""
+    return dot(basis(theta), apply(_DERIVATIVE, values))
 
 
 def largest(values, last):
-    """θ up to `last` at which the interpolant of values at 0 and the nodes is largest, one step a row."""
-    slope = np.einsum("ij,kj->ik", values, _DERIVATIVE)
-    bend = np.einsum("ij,kj->ik", slope, _DERIVATIVE)
+    """θ up to `last` at which the interpolant of values at the points is largest, one step a row."""
+    slope = apply(_DERIVATIVE, values)
+    bend = apply(_DERIVATIVE, slope)
     known = np.where(last[:, None] >= POINTS, values, -np.inf)
     index = np.argmax(known, axis=1)
-    low, high = POINTS[np.maximum(index - 1, 0)], np.minimum(np.append(POINTS, 1.0)[index + 1], last)
+    low, high = POINTS[np.maximum(index - 1, 0)], np.minimum(_EDGES[index + 1], last)
     theta = np.minimum(POINTS[index], last)
     for _ in range(6):
-        weights = basis(theta)
-        rate, change = interpolate(weights, slope), interpolate(weights, bend)
+        row = basis(theta)
+        rate, change = dot(row, slope), dot(row, bend)
         new = theta - np.divide(rate, change, out=np.zeros_like(rate), where=change < 0)
         new = np.clip(new, low, high)
         moved, theta = np.abs(new - theta).max(initial=0.0), new

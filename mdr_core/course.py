@@ -5,12 +5,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from . import collocation as gauss
-from . import superpose
 from .contact_time import power
-from .inverse import increasing_root
 from .profiles import Profile
-from .turning import plastic_integral, pressed
-from .yielding import LiveInterval
 
 #: Share of its depth to which a kink is met; between that and the kink the force is smooth enough.
 NEAR = 1e-6
@@ -55,33 +51,43 @@ class Course:
         self.lower, self.growth, self.deepest = bodies.before.copy(), np.zeros(count), np.zeros(count)
         #: ∫ a v² dt in contact, and τ ∫ a v v̇ dt on unloading (m³/s): viscous work over 2E* τ.
         self.slid, self.released = np.zeros((2, count))
-        #: Largest deceleration so far (m/s²).
-        self.peak = np.zeros(count)
+        #: Deceleration (m/s²) now, and the largest so far: a face that is met at speed pushes at once.
+        face = bodies.profile._radius(bodies.before)
+        self.load = bodies.relaxation_time * face * bodies.speed / bodies.inertia
+        self.peak = self.load.copy()
+        #: What the deceleration in the next step may be, at the points.
+        self.guess = np.repeat(self.load[:, None], gauss.COUNT, axis=1)
+        #: Kind of the steps in which contact or yield begins.
+        self.opening = _opening(bodies)
         #: Length (s) and kind of the next step, and what the length was before an edge cut it short.
-        self.step = 0.5 * _depth_scale(bodies) / bodies.speed
-        self.kind, self.uncut = opening(bodies), np.zeros(count)
+        self.step = 0.65 * _depth_scale(bodies) / bodies.speed
+        self.kind, self.uncut = self.opening.copy(), np.zeros(count)
         self.breaks = _breaks(bodies)
+        #: Whether any of them is viscous.
+        self.viscous = bool(np.any(bodies.relaxation_time > 0))
 
 
 def _depth_scale(bodies):
-    """Depth (m) at which pressing at the full speed has spent the kinetic energy."""
+    """Depth (m) at which pressing at the full speed has about spent the kinetic energy."""
+    target = bodies.inertia * bodies.speed**2 / 2
+    drag, d_c = bodies.relaxation_time * bodies.speed, bodies.critical_depth
+    highest = bodies.profile.deepest - bodies.before
 
     def work(y):
-        live, growth = pressed(y, bodies.critical_depth, bodies.remainder, bodies.before)
-        way = LiveInterval(bodies.before, bodies.before + y, y)
-        drag = bodies.relaxation_time * bodies.speed
-        stored = superpose.energy_integral(bodies.profile, live)
-        spent = plastic_integral(bodies.profile, live, bodies.critical_depth, growth)
-        slid = drag * superpose.radius_integral(bodies.profile, way)
-        force = superpose.radius_integral(bodies.profile, live) + drag * bodies.profile._radius(way.upper)
-        return stored + spent + slid, force
+        # As if the face had been flat from the beginning: about right, and cheap for every shape.
+        face, length = bodies.profile._radius(bodies.before + y), np.minimum(y, d_c)
+        return face * (length * (length / 2 + np.maximum(y - d_c, 0.0)) + drag * y)
 
-    start = np.where(np.isinf(bodies.critical_depth), 1.0, bodies.critical_depth)
-    highest = bodies.profile.deepest - bodies.before
-    return np.minimum(increasing_root(work, bodies.inertia * bodies.speed**2 / 2, start, highest), highest)
+    y = np.minimum(np.where(np.isinf(d_c), 1.0, d_c), highest)
+    # Newton's method on logarithms: a few steps from anywhere, for sums of powers.
+    for _ in range(4):
+        value = work(y)
+        exponent = np.log2(value / work(y / 2))
+        y = np.minimum(y * (target / value) ** (1 / exponent), highest)
+    return y
 
 
-def opening(bodies):
+def _opening(bodies):
     """Kind of the steps in which contact or yield begins, where radii grow as powers of the depth."""
     exponent = power(bodies.profile)
     # Whole powers are smooth in time itself, high ones nearly so.

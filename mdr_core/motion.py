@@ -62,7 +62,7 @@ def motion(hit, n):
     before = np.asarray(hit.plastic_depth - hit.growth)
     bodies = bodies_of(hit.profile, hit.medium, hit.mass, hit.speed, before)
     steps = []
-    course = solve(bodies, lambda *step: steps.append(_Stretch(bodies, *step)))
+    course = solve(bodies, lambda course, part: steps.append(_Stretch(bodies, course, part)))
     time = np.linspace(0.0, course.time[0], n)
     begins = np.array([stretch.time for stretch in steps])
     owner = np.searchsorted(begins, time, side="right") - 1
@@ -76,14 +76,14 @@ def motion(hit, n):
 class _Stretch:
     """One accepted step of one impact, and where it began."""
 
-    def __init__(self, bodies, course, step, last):
-        self.bodies, self.step, self.last = bodies, step, last
+    def __init__(self, bodies, course, part):
+        self.bodies, self.step, self.last = bodies, part.step, part.theta
         self.time, self.y = course.time[0], course.y[0]
         self.slid, self.released, self.lower = course.slid[0], course.released[0], course.lower[0]
         self.unloading = course.phase[0] == UNLOADING
-        rates = gathered(step, bodies.relaxation_time, self.unloading)
-        sums = (step.length * gauss.INTEGRATE[step.kind[0]] @ rate[0] for rate in rates)
-        self.sums = [np.append(0.0, each) for each in sums]
+        rates = gathered(self.step, bodies.relaxation_time, self.unloading)
+        matrix = self.step.length * gauss.INTEGRATE[self.step.kind[0]]
+        self.sums = [matrix @ rate[0] for rate in rates]
 
     def at(self, time, let_go):
         """y, v, ℓ, slid, released, energy of elements that have let go, unloading; at instants of it.
@@ -113,16 +113,15 @@ class _Stretch:
         """
         tau = self.bodies.relaxation_time[0]
         if not self.unloading or tau == 0:
-            return np.zeros(gauss.NODES.size + 1)
+            return np.zeros(gauss.COUNT)
         step = self.step
         a = self.bodies.profile._radius(np.abs(self.lower + step.coordinate[0]))
         velocity = step.velocity[0] - step.lost[0]
         # What has been taken over since the beginning, by parts: no derivative of the radius.
         taken = tau * self.sums[1] - (tau * velocity) ** 2 * a / 2
         taken -= taken[0]
-        matrix = 2 * step.length[0] / tau * gauss.INTEGRATE[step.kind[0]]
-        matrix[range(len(matrix)), range(len(matrix))] += 1
-        return np.append(let_go, np.linalg.solve(matrix, let_go + taken[1:]))
+        matrix = gauss.IDENTITY + 2 * step.length[0] / tau * gauss.INTEGRATE[step.kind[0]]
+        return np.linalg.solve(matrix, let_go + taken)
 
 
 def _ledger(hit, bodies, time, course, y, velocity, length, slid, released, let_go, unloading):

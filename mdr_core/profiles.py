@@ -290,4 +290,10 @@ class PowerLaw(Profile):
         return self._reduced_coefficient * x**self.exponent
 
     def _radius(self, depth):
-        return (depth / self._reduced_coefficient) ** (1 / self.exponent)
+        c, p = self._reduced_coefficient, 1 / self.exponent
+        flat = np.asarray(p < 0.25)
+        if not flat.any():
+            return (depth / c) ** p
+        # Where the shape is nearly flat d/c may underflow, and the radius is still a radius.
+        split = depth**p / c**p
+        return split if flat.all() else np.where(flat, split, (depth / c) ** p)

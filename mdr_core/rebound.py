@@ -16,7 +16,7 @@ live depth ℓ = D − p is carried itself, so that its last digits decide when 
 import numpy as np
 
 from . import collocation as gauss
-from .course import DONE, ELASTIC, NEAR, UNLOADING, YIELDING, Course, ahead, below, opening
+from .course import DONE, ELASTIC, NEAR, UNLOADING, YIELDING, Course, ahead, below
 from .panels import chunks
 from .stages import Loading, Unloading, collocate, gathered
 from .turning import pressed
@@ -33,7 +33,7 @@ def solve(bodies, record=None):
     ----------
     bodies : Bodies
     record : callable, optional
-        Called with the course, before it has moved, and the steps that are accepted.
+        Called with the course, before it has moved, and the parts of steps that are accepted.
 
     Raises
     ------
@@ -63,24 +63,26 @@ def _solve(bodies, record):
 
 def _resolved(bodies, course, step, settled):
     """Which steps are good enough; plans the length of the next one for each."""
-    rest = step.length * gauss.unresolved(step.deceleration[:, 1:], step.kind)
+    rest = step.length * gauss.unresolved(step.deceleration, step.kind)
     # What is left at the end must be resolved, small as it may be against the beginning.
     speed = np.abs(step.velocity - step.lost[:, -1])
     speed = np.maximum(speed, np.abs(step.deceleration[:, -1]) * step.length)
     live = np.maximum(np.abs(step.coordinate[:, -1]), speed * step.length)
     error = rest * np.maximum(1 / speed, step.lag / live) / TOLERANCE
-    if np.any(bodies.relaxation_time[step.rows] > 0):
-        slid = step.radius * (step.velocity[:, None] - step.lost[:, 1:]) ** 2
-        gained = course.slid[step.rows] + step.integral(slid, np.ones(step.rows.size))
+    plain = step.kind == gauss.PLAIN
+    # Next to the tip the radius is a fractional power: the other kinds of step are made for it.
+    if plain.any() and course.viscous:
+        slid = step.radius * (step.velocity[:, None] - step.lost) ** 2
+        gained = course.slid[step.rows] + step.length * gauss.dot(gauss.WHOLE[step.kind], slid)
         drag = step.length * gauss.unresolved(slid, step.kind) / gained / TOLERANCE
-        # Next to the tip the radius is a fractional power: the other kinds of step are made for it.
-        error = np.where(step.kind == gauss.PLAIN, np.fmax(error, drag), error)
+        error = np.where(plain, np.fmax(error, drag), error)
     good = settled & (error <= 1)
-    factor = np.where(good, np.clip(0.9 * error ** (-1 / 14), 0.5, 3.0), 0.5)
+    factor = np.where(good, np.minimum(np.maximum(0.9 * error ** (-1 / 14), 0.5), 3.0), 0.5)
     # Fractional powers resolve slowly, and so do layers that a step has overrun.
     factor = np.where(~settled | (error > 1e3), 0.25, factor)
     course.step[step.rows] = step.length * factor
-    course.kind[step.rows[~good & (step.kind == gauss.CLOSING)]] = gauss.PLAIN
+    if not plain.all():
+        course.kind[step.rows[~good & (step.kind == gauss.CLOSING)]] = gauss.PLAIN
     return good
 
 
@@ -99,6 +101,22 @@ def _up_to(course, step, missed, edge):
         course.kind[rows] = np.where(edge[past] == 0, gauss.CLOSING, cut.kind)
 
 
+def _redo(course, step, again, length, kind):
+    """Plans steps to be made again up to an edge, of these lengths and kinds."""
+    rows = step.rows[again]
+    course.uncut[rows] = np.maximum(course.uncut[rows], step.length[again] / 4)
+    course.step[rows], course.kind[rows] = length[again], kind[again]
+    _learn(course, step, again)
+
+
+def _learn(course, step, again):
+    """Steps that are made again begin with what was found."""
+    if again.any():
+        rows, step = step.rows[again], step.keep(again)
+        elapsed = gauss.ELAPSED[course.kind[rows]] * (course.step[rows] / step.length)[:, None]
+        course.guess[rows] = step.deceleration_at(elapsed)
+
+
 def _load(bodies, course, rows, record):
     """One step of loading."""
     stage = Loading(bodies, course, rows)
@@ -107,31 +125,53 @@ def _load(bodies, course, rows, record):
     edge = ahead(bodies, course, rows)
     smooth = (course.phase[rows] == ELASTIC) & (edge == bodies.critical_depth[rows])
     _up_to(course, step, settled & ~good & ~smooth, edge)
+    _learn(course, step, settled & ~good)
+    if not good.any():
+        return
     step, edge, smooth = step.keep(good), edge[good], smooth[good]
-    rows, last = step.rows, np.ones(step.rows.size)
-    turned = step.velocity <= np.maximum(step.moved(last)[1], step.lost.max(axis=1))
+    last = np.ones(step.rows.size)
+    part = step.until(last)
+    turned = step.velocity <= np.maximum(part.lost, np.maximum.reduce(step.lost, axis=1))
     if turned.any():
         last[turned] = gauss.crossing(step.lost[turned], step.velocity[turned])
         # Where yield began as the body stopped, rounding may have left it none of its speed.
         last[step.velocity <= 0] = 0.0
-    y = course.y[rows] + step.moved(last)[2]
+        part = step.until(last)
+    y = course.y[step.rows] + part.way
     arrived = ~turned & (edge < np.inf) & (np.abs(y - edge) <= np.where(smooth, 1e-10, NEAR) * y)
     beyond = (y > edge) & ~arrived
     if beyond.any():
         # Only up to the turning point: the way back crosses the edge again.
         last[beyond] = gauss.crossing(step.coordinate[beyond], edge[beyond], last[beyond])
-    # Where the step ran on smoothly it is cut at the edge, otherwise done again up to there.
-    again = beyond & ~smooth
-    course.uncut[rows[again]] = np.maximum(course.uncut[rows], step.length / 4)[again]
-    course.step[rows[again]] = (step.length * gauss.share(step.kind, last))[again]
-    keep = ~again
-    _advance(bodies, course, stage, step.keep(keep), last[keep], record)
-    arrived, turned = (arrived | beyond) & keep, turned & ~beyond
-    course.y[rows[arrived & smooth]] = edge[arrived & smooth]
-    _resume(course, rows[arrived])
-    course.kind[rows[keep]] = np.where(arrived, opening(bodies)[rows], gauss.PLAIN)[keep]
-    course.phase[rows[arrived & smooth]] = YIELDING
-    _turn(bodies, course, rows[turned])
+        # Where the step ran on smoothly it is cut at the edge, otherwise done again up to there.
+        keep = smooth | ~beyond
+        _redo(course, step, ~keep, step.length * gauss.share(step.kind, last), step.kind)
+        step, last, edge, smooth = step.keep(keep), last[keep], edge[keep], smooth[keep]
+        arrived, turned = (arrived | beyond)[keep], (turned & ~beyond)[keep]
+        part = step.until(last)
+    _advance(bodies, course, stage, part, record)
+    rows = step.rows
+    course.kind[rows] = np.where(arrived, course.opening[rows], gauss.PLAIN)
+    if arrived.any():
+        yielding = arrived & smooth
+        course.y[rows[yielding]], course.phase[rows[yielding]] = edge[yielding], YIELDING
+        _resume(course, rows[arrived])
+    if turned.any():
+        _turn(bodies, course, rows[turned])
+    if not turned.all():
+        _stop(bodies, course, step.keep(~turned))
+
+
+def _stop(bodies, course, step):
+    """Keeps the next step of loading from running far past the turning point."""
+    rows = step.rows
+    speed, load = course.velocity[rows], course.load[rows]
+    drag = bodies.relaxation_time[rows] * step.radius[:, -1] / bodies.inertia[rows]
+    # A body that a constant force and a dashpot bring to rest.
+    time = np.where(
+        drag * speed > 1e-3 * load, np.log1p(drag * speed / (load - drag * speed)) / drag, speed / load
+    )
+    course.step[rows] = np.fmin(course.step[rows], np.where(time > 0, 1.5 * time, np.inf))
 
 
 def _resume(course, rows):
@@ -147,6 +187,8 @@ def _turn(bodies, course, rows):
     live, growth = pressed(y, body.critical_depth, body.remainder, body.before)
     course.lower[rows], course.live[rows], course.growth[rows] = live.lower, live.length, growth
     course.deepest[rows], course.velocity[rows], course.phase[rows] = y, 0.0, UNLOADING
+    # About as long as a spring takes to let go.
+    course.step[rows] = np.minimum(course.step[rows], 2.0 * np.sqrt(live.length / course.load[rows]))
 
 
 def _unload(bodies, course, rows, record):
@@ -156,62 +198,69 @@ def _unload(bodies, course, rows, record):
     good = _resolved(bodies, course, step, settled)
     edge = below(course, rows)
     _up_to(course, step, settled & ~good & (step.kind != gauss.CLOSING), edge)
+    _learn(course, step, settled & ~good)
+    if not good.any():
+        return
     step, edge = step.keep(good), edge[good]
-    rows, last = step.rows, np.ones(step.rows.size)
-    free = edge == 0
-    _, lost, change = step.moved(last)
-    miss = course.live[rows] + change - edge
+    last, free, closing = np.ones(step.rows.size), edge == 0, step.kind == gauss.CLOSING
+    part = step.until(last)
+    miss = course.live[step.rows] + part.change - edge
     # So close to the edge that the rest of the way is straight.
-    load = gauss.interpolate(gauss.basis(last), step.deceleration)
-    left = miss / (lost - course.velocity[rows] + step.lag * np.maximum(load, 0.0))
+    load = gauss.dot(gauss.basis(last), step.deceleration)
+    left = miss / (part.lost - step.velocity + step.lag * np.maximum(load, 0.0))
     arrived = np.where(free, np.abs(left) <= 1e-9 * step.length, np.abs(miss) <= NEAR * edge)
     # A long step may run past the edge and come back.
-    beyond = (np.minimum(miss, (step.coordinate - edge[:, None]).min(axis=1)) < 0) & ~arrived
-    if beyond.any():
+    least = np.minimum.reduce(step.coordinate, axis=1)
+    beyond = (np.minimum(miss, least - edge) < 0) & ~arrived
+    short = closing & ~beyond & ~arrived & (left < 0.1 * step.length)
+    if (beyond | short).any():
         last[beyond] = gauss.crossing(step.coordinate[beyond], edge[beyond])
-    # The load ran on smoothly past the loss of contact if the tip was not yet reached.
-    smooth = free & (course.lower[rows] + step.coordinate.min(axis=1) > 0)
-    short = (step.kind == gauss.CLOSING) & ~beyond & ~arrived & (left < 0.1 * step.length)
-    again = (beyond & ~smooth) | short
-    plan = step.length * gauss.share(step.kind, last) + np.where(short, left, 0.0)
-    course.uncut[rows[again]] = np.maximum(course.uncut[rows], step.length / 4)[again]
-    course.step[rows[again]] = plan[again]
-    course.kind[rows[again]] = np.where(free, gauss.CLOSING, gauss.PLAIN)[again]
-    keep = ~again
-    _advance(bodies, course, stage, step.keep(keep), last[keep], record)
-    straight = arrived & free
+        # The load ran on smoothly past the loss of contact if the tip was not yet reached.
+        keep = ~short & ~(beyond & ~(free & (course.lower[step.rows] + least > 0)))
+        plan = step.length * gauss.share(step.kind, last) + np.where(short, left, 0.0)
+        _redo(course, step, ~keep, plan, np.where(free, gauss.CLOSING, gauss.PLAIN))
+        step, last, free, left = step.keep(keep), last[keep], free[keep], left[keep]
+        arrived, beyond = arrived[keep], beyond[keep]
+        part = step.until(last)
+    _advance(bodies, course, stage, part, record)
+    rows, straight = step.rows, arrived & free
     course.time[rows[straight]] += left[straight]
-    arrived |= beyond & keep
-    course.live[rows[arrived & free]] = 0.0
-    _resume(course, rows[arrived])
-    course.kind[rows[keep]] = np.where(arrived, gauss.OPENING, gauss.PLAIN)[keep]
-    course.phase[rows[arrived & free]] = DONE
+    arrived |= beyond
+    course.kind[rows] = np.where(arrived, gauss.OPENING, gauss.PLAIN)
+    if arrived.any():
+        done = rows[arrived & free]
+        course.live[done], course.phase[done] = 0.0, DONE
+        _resume(course, rows[arrived])
 
 
-def _advance(bodies, course, stage, step, last, record):
-    """Moves the course to θ = `last` of the steps."""
+def _advance(bodies, course, stage, part, record):
+    """Moves the course on by parts of steps."""
+    step = part.step
     if not step.rows.size:
         return
     if record is not None:
-        record(course, step, last)
+        record(course, part)
     rows, unloading = step.rows, isinstance(stage, Unloading)
-    way, lost, change = step.moved(last)
-    tau = bodies.relaxation_time[rows]
-    if np.any(tau > 0):
-        slid, released = gathered(step, tau, unloading)
-        course.slid[rows] += step.integral(slid, last)
-        course.released[rows] += step.integral(released, last)
-    _peak(bodies, course, stage, step, last)
-    course.time[rows] += step.length * gauss.share(step.kind, last)
-    course.y[rows] += way
-    course.live[rows] += np.where(unloading, change, 0.0)
-    course.velocity[rows] -= lost
+    if course.viscous:
+        slid, released = gathered(step, bodies.relaxation_time[rows], unloading)
+        course.slid[rows] += gauss.dot(part.weights, slid)
+        if unloading:
+            course.released[rows] += gauss.dot(part.weights, released)
+    _peak(bodies, course, stage, part)
+    course.time[rows] += part.duration
+    course.y[rows] += part.way
+    course.velocity[rows] -= part.lost
+    if unloading:
+        course.live[rows] += part.change
 
 
-def _peak(bodies, course, stage, step, last):
-    """Notes the largest deceleration so far."""
+def _peak(bodies, course, stage, part):
+    """Notes the deceleration at the end of parts of steps, and the largest so far."""
+    step, last = part.step, part.theta
     known = np.where(last[:, None] >= gauss.POINTS, step.deceleration, 0.0)
-    course.peak[step.rows] = np.maximum(course.peak[step.rows], known.max(axis=1))
+    course.peak[step.rows] = np.maximum(course.peak[step.rows], np.maximum.reduce(known, axis=1))
+    course.load[step.rows] = load = gauss.dot(gauss.basis(last), step.deceleration)
+    course.guess[step.rows] = load[:, None]
     if isinstance(stage, Unloading):
         return
     # Where the load still grows at the end of a step, its largest value is the beginning of the next.
@@ -220,7 +269,7 @@ def _peak(bodies, course, stage, step, last):
         return
     step, rows = step.keep(inside), step.rows[inside]
     weights = gauss.basis(gauss.largest(step.deceleration, last[inside]))
-    way, lost = (gauss.interpolate(weights, part)[:, None] for part in (step.way, step.lost))
+    way, lost = (gauss.dot(weights, values)[:, None] for values in (step.way, step.lost))
     # The load itself, because fractional powers are not interpolated well.
     there = Loading(bodies, course, rows).deceleration(way, lost)[0][:, 0]
     course.peak[rows] = np.maximum(course.peak[rows], there)

@@ -85,6 +85,14 @@ def test_limits_of_families():
     assert hyperboloid - cone == pytest.approx(2 / math.pi * blunt, rel=1e-5)
 
 
+@pytest.mark.parametrize("depth", [1e-3, 1e-25, 1e-140])
+def test_radius_of_a_nearly_flat_shape_where_depth_over_coefficient_underflows(depth):
+    shape = mdr.PowerLaw(coefficient=1e300, exponent=[3.0, 50.0, 120.0])
+    expected = np.exp((np.log(depth) - np.log(shape._reduced_coefficient)) / shape.exponent)
+    # The logarithms, up to 700, are rounded.
+    assert shape.contact_radius(np.full(3, depth))[1:] == pytest.approx(expected[1:], rel=1e-14)
+
+
 @pytest.mark.parametrize(
     ("make", "says"),
     [
