@@ -6,8 +6,8 @@ from scipy.integrate import quad
 import mdr_core as mdr
 
 from . import exact, peers
-from .harness import Method, Problem
-from .shapes import CONE, ELASTIC, PARABOLOID, SOFT, SPHERE, by_quadrature
+from .harness import ELEMENTS, TOLERANCES, Method, Problem, ladder
+from .shapes import CONE, ELASTIC, PARABOLOID, SOFT, SPHERE, solver
 
 
 def problems(quick=False):
@@ -31,31 +31,18 @@ def _problem(case, title, profile, medium, depths, quick):
             return exact.loading_force(profile, medium, [depth]).error(force)
         return at_probes.error(forces if len(forces) == len(probes) else forces[:: len(depths) // 10])
 
+    def quadrature(tolerance):
+        return _quad(profile, medium, probes, tolerance)
+
+    def chain(n):
+        return _chain(profile, medium, probes, n)
+
     methods = [
-        *(
-            Method(family, "", lambda shape=shape: lambda: mdr.indent(shape, medium, depths).force)
-            for family, shape in (("mdr_core", profile), ("mdr_core, quadrature", by_quadrature(profile)))
-        ),
+        *solver(profile, lambda shape: mdr.indent(shape, medium, depths).force),
         Method("difference of curves", "", lambda: lambda: _difference(profile, medium, depths)),
+        *ladder("scipy quad", "epsrel = {:g}", TOLERANCES, quadrature, len(probes)),
+        *ladder("chain", "n = {}", ELEMENTS[: 2 if quick else None], chain, len(probes)),
     ]
-    for tolerance in (1e-3, 1e-6, 1e-9):
-        methods.append(
-            Method(
-                "scipy quad",
-                f"epsrel = {tolerance:g}",
-                lambda tol=tolerance: lambda: _quad(profile, medium, probes, tol),
-                items=len(probes),
-            )
-        )
-    for n in (100, 1000) if quick else (100, 1000, 10_000, 100_000):
-        methods.append(
-            Method(
-                "chain",
-                f"n = {n}",
-                lambda n=n: lambda: _chain(profile, medium, probes, n),
-                items=len(probes),
-            )
-        )
     if medium is ELASTIC:
         for n in (32,) if quick else (64, 128, 256):
             methods += peers.boundary_elements(peers.Square(profile, medium, depths[-1], n), "force")

@@ -9,6 +9,8 @@ from time import perf_counter
 
 import numpy as np
 
+#: Settings of quadratures and chains.
+TOLERANCES, ELEMENTS = (1e-3, 1e-6, 1e-9), (100, 1000, 10_000, 100_000)
 #: A timed stretch lasts at least this long (s); shorter calls are repeated.
 _SHORTEST = 2e-3
 #: A call that takes longer (s) needs no warming up.
@@ -38,6 +40,14 @@ class Method:
     prepare: Callable
     forget: Callable | None = None
     items: int | None = None
+
+
+def ladder(family, setting, values, run, items=None):
+    """Methods that differ in one number: `setting` formats it, `run` takes it."""
+    return [
+        Method(family, setting.format(value), lambda value=value: lambda: run(value), items=items)
+        for value in values
+    ]
 
 
 @dataclass(frozen=True)

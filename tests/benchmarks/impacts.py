@@ -5,9 +5,9 @@ import numpy as np
 import mdr_core as mdr
 
 from . import exact
-from .harness import Method, Problem
-from .shapes import CONE, PARABOLOID, SOFT, by_quadrature
-from .stepping import Curve, chained, integrated, stepped
+from .harness import TOLERANCES, Problem, ladder
+from .shapes import CONE, PARABOLOID, SOFT, solver
+from .stepping import STEPPING, Curve, chained, integrated, stepped
 
 _MASS = 1e-9
 _QUANTITIES = {"restitution": "restitution", "contact time": "contact_time"}
@@ -42,44 +42,27 @@ def _problem(quantity, case, title, profile, speeds, quick):
             values = values[::step]
         return reference.error(values)
 
-    methods = [
-        Method(family, "", lambda shape=shape: lambda: _solved(shape, speeds, attribute))
-        for family, shape in (("mdr_core", profile), ("mdr_core, quadrature", by_quadrature(profile)))
-    ]
+    def looped(run):
+        """The quantity from one impact after the other."""
+        hits = [run(Curve(profile, SOFT, _MASS, speed)) for speed in probes.tolist()]
+        return np.array(hits)[:, list(_QUANTITIES).index(quantity)]
 
-    def looped(family, setting, run, *how):
-        return Method(
-            family,
-            setting,
-            lambda: lambda: _loop(profile, probes, quantity, lambda curve: run(curve, *how)),
-            items=len(probes),
-        )
+    def steps(method):
+        return lambda tolerance: looped(lambda curve: stepped(curve, method, tolerance))
 
-    for solver, tolerances in (("RK45", (1e-3, 1e-6)), ("DOP853", (1e-3, 1e-6, 1e-9, 1e-12))):
-        for tolerance in tolerances:
-            methods.append(
-                looped("solve_ivp " + solver, f"rtol = {tolerance:g}", stepped, solver, tolerance)
-            )
-    for tolerance in (1e-3, 1e-6, 1e-9) if quantity == "contact time" else ():
-        methods.append(looped("scipy quad", f"epsrel = {tolerance:g}", integrated, tolerance))
+    def quadrature(tolerance):
+        return looped(lambda curve: integrated(curve, tolerance))
+
+    def chain(tolerance):
+        return chained(profile, SOFT, _MASS, probes, tolerance, attribute)
+
+    methods = solver(profile, lambda shape: getattr(mdr.impact(shape, SOFT, _MASS, speeds), attribute))
+    for method, tolerances in STEPPING.items():
+        methods += ladder("solve_ivp " + method, "rtol = {:g}", tolerances, steps(method), len(probes))
+    if quantity == "contact time":
+        methods += ladder("scipy quad", "epsrel = {:g}", TOLERANCES, quadrature, len(probes))
     # It makes both quantities at once: a quick look needs one of them.
     quick_ones = (1e-4,) if quantity == "restitution" else ()
-    for tolerance in quick_ones if quick else (1e-4, 1e-6, 1e-8):
-        methods.append(
-            Method(
-                "chain_impact",
-                f"tolerance = {tolerance:g}",
-                lambda tol=tolerance: lambda: chained(profile, SOFT, _MASS, probes, tol, attribute),
-                items=len(probes),
-            )
-        )
+    tolerances = quick_ones if quick else (1e-4, 1e-6, 1e-8)
+    methods += ladder("chain_impact", "tolerance = {:g}", tolerances, chain, len(probes))
     return Problem(quantity, case, title, len(speeds), error, tuple(methods))
-
-
-def _solved(shape, speeds, attribute):
-    return getattr(mdr.impact(shape, SOFT, _MASS, speeds), attribute)
-
-
-def _loop(profile, speeds, quantity, run):
-    hits = [run(Curve(profile, SOFT, _MASS, speed)) for speed in speeds.tolist()]
-    return np.array(hits)[:, list(_QUANTITIES).index(quantity)]

@@ -8,8 +8,8 @@ from scipy.integrate import quad
 import mdr_core as mdr
 
 from . import exact, peers
-from .harness import Method, Problem
-from .shapes import CONE, ELASTIC, PARABOLOID, SOFT, by_quadrature
+from .harness import ELEMENTS, TOLERANCES, Method, Problem, ladder
+from .shapes import CONE, ELASTIC, PARABOLOID, SOFT, solver
 
 _DEEP = 1e8 * SOFT.critical_depth
 
@@ -32,17 +32,11 @@ def _field(title, profile, quick):
     methods = []
     for n in (32,) if quick else (64, 128, 256, 512):
         square = peers.Square(profile, ELASTIC, depth, n)
-        methods += _own(profile, ELASTIC, depth, square.r, f"{n}²")
+        methods += solver(
+            profile, lambda shape, r=square.r: mdr.indent(shape, ELASTIC, depth).pressure(r), f"{n}²"
+        )
         methods += peers.boundary_elements(square, "pressure")
     return Problem("pressure", "easy", title, 1, error, tuple(methods))
-
-
-def _own(profile, medium, depth, r, setting):
-    """The solver, in closed form and by quadrature."""
-    return [
-        Method(family, setting, lambda shape=shape: lambda: mdr.indent(shape, medium, depth).pressure(r))
-        for family, shape in (("mdr_core", profile), ("mdr_core, quadrature", by_quadrature(profile)))
-    ]
 
 
 def _yielded(quick):
@@ -56,21 +50,14 @@ def _yielded(quick):
         return reference.error(pressure if len(pressure) == len(probes) else pressure[::50])
 
     methods = [
-        *_own(CONE, SOFT, _DEEP, r, ""),
+        *solver(CONE, lambda shape: mdr.indent(shape, SOFT, _DEEP).pressure(r)),
         Method("difference of curves", "", lambda: lambda: _difference(a, c, r)),
         Method("mdr_core, samples", "line load at 0, c and a", lambda: lambda: _by_samples(a, c, r)),
+        *ladder(
+            "scipy quad", "epsrel = {:g}", TOLERANCES, lambda tol: _quad(a, c, probes, tol), len(probes)
+        ),
+        *ladder("chain", "n = {}", ELEMENTS[: 2 if quick else None], lambda n: _chain(n, a, r)),
     ]
-    for tolerance in (1e-3, 1e-6, 1e-9):
-        methods.append(
-            Method(
-                "scipy quad",
-                f"epsrel = {tolerance:g}",
-                lambda tol=tolerance: lambda: _quad(a, c, probes, tol),
-                items=len(probes),
-            )
-        )
-    for n in (100, 1000) if quick else (100, 1000, 10_000, 100_000):
-        methods.append(Method("chain", f"n = {n}", lambda n=n: lambda: _chain(n, a, r)))
     return Problem("pressure", "hard", "cone, 10⁸ critical depths deep", len(r), error, tuple(methods))
 
 

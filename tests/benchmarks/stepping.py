@@ -9,6 +9,9 @@ from scipy.optimize import brentq
 
 import mdr_core as mdr
 
+#: Methods of `solve_ivp` and their relative tolerances.
+STEPPING = {"RK45": (1e-3, 1e-6), "DOP853": (1e-3, 1e-6, 1e-9, 1e-12)}
+
 
 class Curve:
     """Force and work of a cone or a paraboloid, in units of d_c, v₀ and m v₀²."""

@@ -9,9 +9,9 @@ from scipy.integrate import solve_ivp
 import mdr_core as mdr
 
 from .exact import Exact, critical_depth
-from .harness import Method, Problem
+from .harness import Method, Problem, ladder
 from .shapes import CONE
-from .stepping import chained
+from .stepping import STEPPING, chained
 
 _MASS = 1e-9
 _MEDIA = {
@@ -43,30 +43,21 @@ def _problem(quantity, title, speeds, step, reference, quick):
     def solved():
         return getattr(mdr.impact(CONE, medium, _MASS, speeds), attribute)
 
-    def looped(solver, tolerance):
-        hits = np.array([_stepped(medium, speed, solver, tolerance) for speed in probes])
-        return hits[:, int(quantity == "contact time")]
+    def steps(method):
+        def run(tolerance):
+            hits = np.array([_stepped(medium, speed, method, tolerance) for speed in probes])
+            return hits[:, int(quantity == "contact time")]
+
+        return run
+
+    def chain(tolerance):
+        return chained(CONE, medium, _MASS, probes, tolerance, attribute)
 
     methods = [Method("mdr_core", "", lambda: solved)]
-    for solver, tolerances in (("RK45", (1e-3, 1e-6)), ("DOP853", (1e-3, 1e-6, 1e-9, 1e-12))):
-        for tolerance in tolerances:
-            methods.append(
-                Method(
-                    "solve_ivp " + solver,
-                    f"rtol = {tolerance:g}",
-                    lambda how=(solver, tolerance): lambda: looped(*how),
-                    items=len(probes),
-                )
-            )
-    for tolerance in (1e-4,) if quick else (1e-4, 1e-6):
-        methods.append(
-            Method(
-                "chain_impact",
-                f"tolerance = {tolerance:g}",
-                lambda tol=tolerance: lambda: chained(CONE, medium, _MASS, probes, tol, attribute),
-                items=len(probes),
-            )
-        )
+    for method, tolerances in STEPPING.items():
+        methods += ladder("solve_ivp " + method, "rtol = {:g}", tolerances, steps(method), len(probes))
+    tolerances = (1e-4,) if quick else (1e-4, 1e-6)
+    methods += ladder("chain_impact", "tolerance = {:g}", tolerances, chain, len(probes))
     return Problem(quantity, "viscous", title, len(speeds), error, tuple(methods))
 
 
