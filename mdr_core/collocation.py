@@ -153,20 +153,6 @@ def slope(values, theta):
     return dot(basis(theta), apply(_DERIVATIVE, values))
 
 
-def largest(values, last):
-    """θ up to `last` at which the interpolant of values at the points is largest, one step a row."""
-    slope = apply(_DERIVATIVE, values)
-    bend = apply(_DERIVATIVE, slope)
-    known = np.where(last[:, None] >= POINTS, values, -np.inf)
-    index = np.argmax(known, axis=1)
-    low, high = POINTS[np.maximum(index - 1, 0)], np.minimum(_EDGES[index + 1], last)
-    theta = np.minimum(POINTS[index], last)
-    for _ in range(6):
-        row = basis(theta)
-        rate, change = dot(row, slope), dot(row, bend)
-        new = theta - np.divide(rate, change, out=np.zeros_like(rate), where=change < 0)
-        new = np.clip(new, low, high)
-        moved, theta = np.abs(new - theta).max(initial=0.0), new
-        if moved <= 1e-6:
-            break
-    return theta
+def around(index, last):
+    """θ of the neighbours of points by number, up to `last`."""
+    return POINTS[np.maximum(index - 1, 0)], np.minimum(_EDGES[index + 1], last)

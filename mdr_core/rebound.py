@@ -24,6 +24,8 @@ from .turning import pressed
 #: What the deceleration of a step may leave unresolved, per velocity.
 TOLERANCE = 1e-6
 _MOST_STEPS = 3000
+#: Shares of an interval at which the largest load is looked for.
+_GRID = np.linspace(0.0, 1.0, 17)
 
 
 def solve(bodies, record=None):
@@ -114,7 +116,7 @@ def _learn(course, step, again):
     if again.any():
         rows, step = step.rows[again], step.keep(again)
         elapsed = gauss.ELAPSED[course.kind[rows]] * (course.step[rows] / step.length)[:, None]
-        course.guess[rows] = step.deceleration_at(elapsed)
+        course.guess[rows] = step.at(gauss.theta_at(step.kind[:, None], elapsed), step.deceleration)
 
 
 def _load(bodies, course, rows, record):
@@ -268,8 +270,18 @@ def _peak(bodies, course, stage, part):
     if not inside.any():
         return
     step, rows = step.keep(inside), step.rows[inside]
-    weights = gauss.basis(gauss.largest(step.deceleration, last[inside]))
-    way, lost = (gauss.dot(weights, values)[:, None] for values in (step.way, step.lost))
+    low, high = gauss.around(known[inside].argmax(axis=1), last[inside])
     # The load itself, because fractional powers are not interpolated well.
-    there = Loading(bodies, course, rows).deceleration(way, lost)[0][:, 0]
-    course.peak[rows] = np.maximum(course.peak[rows], there)
+    stage = Loading(bodies, course, rows)
+    for _ in range(2):
+        theta = low[:, None] + (high - low)[:, None] * _GRID
+        load = stage.deceleration(step.at(theta, step.way), step.at(theta, step.lost))[0]
+        best = np.minimum(np.maximum(load.argmax(axis=1), 1), _GRID.size - 2)
+        each = np.arange(rows.size)
+        low, high = theta[each, best - 1], theta[each, best + 1]
+    before, there, after = (load[each, best + side] for side in (-1, 0, 1))
+    # The top of the parabola through the last three, if it lies between them.
+    bend = 2 * there - before - after
+    rise = (after - before) ** 2 / (8 * np.where(bend > 0, bend, np.inf))
+    top = np.where(np.abs(after - before) < 2 * bend, there + rise, np.maximum(before, after))
+    course.peak[rows] = np.maximum(course.peak[rows], top)

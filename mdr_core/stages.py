@@ -118,11 +118,10 @@ class Step:
             return self
         return Step(*(getattr(self, field.name)[some] for field in fields(self)))
 
-    def deceleration_at(self, elapsed):
-        """Deceleration (m/s²) at shares of the time of each step, one row of them each."""
-        theta = gauss.theta_at(self.kind[:, None], elapsed)
+    def at(self, theta, values):
+        """Values at the points of each step, interpolated to a row of θ for each."""
         rows = gauss.basis(theta.ravel()).reshape(*theta.shape, gauss.COUNT)
-        return gauss.apply(rows, self.deceleration)
+        return gauss.apply(rows, values)
 
     def until(self, theta):
         """What happens up to θ: a `Part`."""
