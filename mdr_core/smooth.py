@@ -180,15 +180,21 @@ def _fitted_zone(shape, depth, margin):
     x = end * np.sin(np.linspace(0, np.pi / 2, 513)[1:]) ** 2
     if np.any(rate(x) <= 0):
         raise _not_compact(depth)
-    table = end * np.geomspace(1e-18, 1, 600)
-    heights = np.log(np.maximum(table * mean_slope(table), np.finfo(float).tiny))
+    table = end * np.geomspace(1e-10, 1, 400)
+    # Closer to the tip, where the series has few digits left, the profile goes on as a power.
+    table = table[np.argmax(mean_slope(table) > 1e-8 * mean_slope(end)) :]
+    heights, table = np.log(table * mean_slope(table)), np.log(table)
+    power = (table[5] - table[0]) / (heights[5] - heights[0])
 
     def coordinate(depths):
         depths = np.asarray(np.minimum(depths, depth))
         with np.errstate(divide="ignore"):
-            start = np.exp(np.interp(np.log(depths), heights, np.log(table)))
-        start = np.where(depths > 0, start, 0.0)
-        return newton(lambda x: (x * mean_slope(x) - depths) / rate(x), start, largest=end * (1 + 1e-12))
+            height = np.log(depths)
+        beside = np.minimum(height - heights[0], 0.0)
+        target = np.where(beside < 0, np.exp(heights[0]), depths)
+        start = np.exp(np.interp(height, heights, table))
+        t = newton(lambda x: (x * mean_slope(x) - target) / rate(x), start, largest=end * (1 + 1e-12))
+        return t * np.exp(power * beside)
 
     # A tip is sharp if the mean slope does not vanish towards it.
     order = 0 if mean_slope(0.0) > 1e-12 * np.abs(series).sum() else 1

@@ -69,3 +69,11 @@ def test_known_radius_is_respected():
         mdr.Smooth(0.3)
     with pytest.raises(ValueError, match="a Smooth cannot be written as JSON"):
         mdr.Scene(mdr.Smooth(slope), MEDIUM, mdr.DepthPath(1e-9)).to_json()
+
+
+def test_depths_with_no_digits_left_beside_the_shape():
+    """Next to the tip the fitted series has rounding errors only: there the shape goes on as a power."""
+    shape = mdr.Smooth(lambda r: r / 1e-5)
+    depth = np.array([1e-300, 1e-100, 1e-70])
+    # The exponent comes from g at 10⁻⁸ of the end of the series, and is used over 240 decades.
+    assert shape.contact_radius(depth) == pytest.approx(np.sqrt(depth * 1e-5), rel=1e-5)
