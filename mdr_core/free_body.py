@@ -124,10 +124,8 @@ class _Flight:
         """Ramp, new elements, exchange, impulse (N·s) and its slope dJ/dV (kg) for a step."""
         ramp = self.row._ramp(self.row.depth + rate * dt, dt)
         state, exchange = elements.advance(self.row._elements, ramp)
-        lag = (state.elastic < ramp.critical_depth) * (exchange.duration / 2) + ramp.tau
         row = self.row
-        slope = row._total(exchange.duration * lag)
-        return ramp, state, exchange, row._total(exchange.impulse), slope
+        return ramp, state, exchange, row._total(exchange.impulse), row._total(exchange.response)
 
     def step(self, dt):
         """One step of the given time, by Newton's method in V; with the new velocity."""
