@@ -81,17 +81,19 @@ class Ramp:
 class Exchange:
     """What each element did along a ramp; forces and energies are per unit of E* and of width.
 
-    `stroke` is the path (m) along which it was pushed or let out in contact, `mean` its mean
-    elastic part (m) in contact, `duration` the time (s) of contact, `springy` the share of it in
-    which the spring followed the indenter, `relaxed` the energy (m²) lost while free.
+    `touched` tells whether it was in contact. If so, `stroke` is the path (m) along which it was
+    pushed or let out, `mean` its mean elastic part (m), `duration` the time (s), 0 if not, `springy`
+    the share of it in which the spring followed the indenter. `elastic` are its elastic parts (m) at
+    the beginning and end of the ramp, with those at the beginning and end of contact in between.
     """
 
     ramp: Ramp
+    touched: np.ndarray
     stroke: np.ndarray
     mean: np.ndarray
     duration: np.ndarray
     springy: np.ndarray | float
-    relaxed: np.ndarray
+    elastic: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
     @property
     def impulse(self):
@@ -114,7 +116,13 @@ class Exchange:
     @property
     def viscous(self):
         """Energy (m²) dissipated by the dashpot: 4ηḋ along the stroke, and all that is lost while free."""
-        return self.ramp.lag * self.stroke + self.relaxed
+        before, first, last, after = self.elastic
+        # What is not met relaxes from beginning to end.
+        begun = np.where(self.touched, first, after)
+        relaxed = (before - begun) * (before + begun)
+        if last is not after:
+            relaxed += np.where(self.touched, (last - after) * (last + after), 0.0)
+        return np.where(self.touched, self.ramp.lag * self.stroke, 0.0) + relaxed / 2
 
 
 def advance(elements, ramp):
@@ -137,15 +145,13 @@ def _press(elements, ramp, above):
     contact = (above > relaxed) | held
     first, duration = _meeting_pressed(elements, ramp, above, contact & ~held)
     elastic = np.where(contact, np.minimum(above, ramp.critical_depth), relaxed)
-    stroke = np.where(contact, above - first, 0.0)
-    excess = np.where(contact, above - elastic, 0.0)
+    stroke, excess = above - first, np.maximum(above - ramp.critical_depth, 0.0)
     # On the capped part of the stroke the elastic part stays what it is.
     springy = 1 - excess / np.maximum(stroke, 1e-300)
-    mean = np.where(contact, elastic - springy * (elastic - first) / 2, 0.0)
-    lost = (before**2 - np.where(contact, first, relaxed) ** 2) / 2
+    mean = elastic - springy * ((elastic - first) / 2)
     still = np.where(contact, elastic, above)
     new = Elements(elements.reduced, still, elastic, elements.plastic + excess, contact)
-    return new, Exchange(ramp, stroke, mean, duration, springy, lost)
+    return new, Exchange(ramp, contact, stroke, mean, duration, springy, (before, first, elastic, elastic))
 
 
 def _meeting_pressed(elements, ramp, above, met):
@@ -188,19 +194,18 @@ def _withdraw(elements, ramp, above):
         first, touched = np.where(met, meeting, before), touched | met
     last = np.maximum(above, np.minimum(first, lag))
     contact = touched & (above > lag)
-    stroke = np.where(touched, first - last, 0.0)
+    stroke = first - last
     # Without a lag what has let go is relaxed at once.
     with np.errstate(over="ignore"):
         since = np.exp(np.minimum(above - last, 0.0) / lag) if lag > 0 else 0.0
     elastic = np.where(contact, above, np.where(touched, last * since, before * ramp.keep))
     duration = np.zeros_like(stroke)
     if ramp.time < np.inf:
-        duration = np.where(elements.contact & contact, ramp.time, stroke / -ramp.rise * ramp.time)
-    kept = np.where(touched, np.where(contact, 0.0, last**2 - elastic**2), -(elastic**2))
-    lost = (before**2 - np.where(touched, first**2, 0.0) + kept) / 2
-    mean = np.where(touched, (first + last) / 2, 0.0)
+        partly = np.where(touched, stroke * (ramp.time / -ramp.rise), 0.0)
+        duration = np.where(elements.contact & contact, ramp.time, partly)
     new = Elements(elements.reduced, above, elastic, elements.plastic, contact)
-    return new, Exchange(ramp, -stroke, mean, duration, 1.0, lost)
+    parts = before, first, last, elastic
+    return new, Exchange(ramp, touched, -stroke, (first + last) / 2, duration, 1.0, parts)
 
 
 def _meeting_withdrawn(elements, ramp, above, able):
