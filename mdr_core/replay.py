@@ -1,53 +1,16 @@
-"""The motion of one impact over time, with its energy ledger, for plots and playback."""
-
-from dataclasses import dataclass
+"""The motion of one impact at equal steps of time: its equation of motion solved anew, and read off."""
 
 import numpy as np
 
 from . import collocation as gauss
 from . import superpose
 from .course import UNLOADING
+from .motion import Motion
 from .rebound import solve
 from .stages import gathered
 from .turning import plastic_integral, pressed
 from .viscous import bodies_of
 from .yielding import LiveInterval
-
-
-@dataclass(frozen=True, eq=False)
-class Motion:
-    """One impact at equal steps of time: arrays of one length.
-
-    Elements of the foundation under the contact radius are in contact. On unloading of a viscous
-    medium its edge is where g = d_p + ℓ, ahead of the depth d itself; elements outside have let go
-    and relax. The energies sum to the kinetic energy at first contact, at every instant.
-
-    Attributes
-    ----------
-    time : ndarray
-        Time (s) since first contact.
-    depth, velocity, force : ndarray
-        Indentation depth d (m), its rate (m/s), force (N).
-    contact_radius, plastic_radius : ndarray
-        Radii a and c (m).
-    plastic_depth, live_depth : ndarray
-        Plastic depth d_p and length ℓ of the live interval [d_p, d_p + ℓ] (m).
-    kinetic_energy, stored_energy, plastic_work, viscous_work : ndarray
-        The ledger (J). Stored is the energy of all springs, of those too that have let go.
-    """
-
-    time: np.ndarray
-    depth: np.ndarray
-    velocity: np.ndarray
-    force: np.ndarray
-    contact_radius: np.ndarray
-    plastic_radius: np.ndarray
-    plastic_depth: np.ndarray
-    live_depth: np.ndarray
-    kinetic_energy: np.ndarray
-    stored_energy: np.ndarray
-    plastic_work: np.ndarray
-    viscous_work: np.ndarray
 
 
 def motion(hit, n):
