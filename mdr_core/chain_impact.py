@@ -14,7 +14,7 @@ from .model import CHAIN
 from .profiles import Profile
 
 #: Elements of the first run; every refinement takes twice as many, and half the steps in time.
-_ELEMENTS = 100
+_ELEMENTS = 150
 _REFINEMENTS = 8
 #: The deepest that the chain can tell the critical depth from rounding, in critical depths.
 _DEEPEST = 1e11
@@ -84,9 +84,10 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
         coarse, fine = (_quantities(runs[i]) for i in (max(level - 1, 0), level))
         depth = fine[1]
         limits.append(fine + (fine - coarse) / 3)
-        errors = _errors(limits, fine) / np.append(body.speed, np.abs(fine[1:]))
-        # Those small ones that come about by chance are not to be believed.
-        errors = Errors(*np.maximum(errors, tolerance / 100).tolist())
+        scale = np.append(body.speed, np.abs(fine[1:]))
+        errors = _errors(np.array(limits) / scale, fine / scale)
+        # Steps and elements err against each other, so that changes may be small by chance.
+        errors = Errors(*np.maximum(errors, tolerance / 2).tolist())
         if max(errors.restitution, errors.max_depth) <= tolerance:
             break
     return ChainImpact(profile, medium, body.mass, body.speed, errors, *runs[-2:])
@@ -114,13 +115,14 @@ def _errors(limits, finest):
 
     The limits are of fourth order where the motion is smooth. That is taken for granted ever more, but
     they are never trusted to be thirty times better than what they are made of; the first one only
-    four times, in time no better at all, and in force rather worse.
+    four times, in time no better at all, in force rather worse, and never to the last digits: errors of
+    steps and of elements may happen to cancel.
     """
     if len(limits) < 2:
         return np.full(finest.shape, np.inf)
     gained, changes = np.abs(limits[-1] - finest), np.abs(np.diff(limits, axis=0))
     if len(limits) == 2:
-        return gained * np.array([1 / 4, 1 / 4, 3, 1])
+        return np.maximum(gained * [1 / 4, 1 / 4, 3, 1], 2e-6)
     if len(limits) == 3:
         return np.maximum(changes[-1], gained / 4)
     return np.maximum(np.maximum(changes[-1], changes[-2] / 8), gained / 30)

@@ -10,6 +10,9 @@ from .foundation import Foundation, check_pair
 from .medium import Medium
 from .profiles import Profile
 
+#: Fewer elements stand evenly.
+_FEW = 16
+
 
 @dataclass(frozen=True)
 class Body:
@@ -34,13 +37,14 @@ class Body:
     def row(self, n, deepest):
         """The chain on which the body starts, wide enough for a depth (m).
 
-        Edges stand at the contact radii and plastic zones of that depth and of the largest one before.
+        Edges stand at the contact radii and plastic zones of that depth and of the largest one before,
+        unless elements are few; few also err in how deep the body comes.
         """
         past = self.met_before
         level = np.array([past, deepest])
         level = np.append(level, level - self.medium.critical_depth)
-        nodes = self.profile.contact_radius(level[level > 0])
-        widest = min(1.02 * max(past, deepest), self.profile.deepest)
+        nodes = self.profile.contact_radius(level[level > 0]) if n >= _FEW else ()
+        widest = min((1.02 + 2 / n) * max(past, deepest), self.profile.deepest)
         half_width = self.profile.contact_radius(widest)
         row = Foundation(self.profile, self.medium, n, half_width, nodes=tuple(nodes))
         for depth, dt in self.history:
