@@ -1,6 +1,6 @@
 """Impact of a free rigid body on the chain: also with viscosity, and on what an earlier one has left."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
@@ -41,7 +41,8 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
         What the body meets, and where it starts from; by default it touches the virgin surface.
         It is set up anew, through the same moves, on the grids of the solver.
     n : int, optional
-        A fixed number of elements; by default as many as the tolerance needs.
+        A fixed number of elements; by default as many as the tolerance needs. What a fixed number
+        errs by is not in the estimates.
     tolerance : float, optional
         Error allowed in the restitution coefficient, and in the largest depth relative to itself;
         positive. Elements and time steps are refined until the estimate is less, or eight times.
@@ -150,8 +151,8 @@ class ChainImpact:
     mass: float
     speed: float
     errors: Errors
-    _coarse: Run
-    _fine: Run
+    _coarse: Run = field(repr=False)
+    _fine: Run = field(repr=False)
 
     #: How it was found.
     model = CHAIN

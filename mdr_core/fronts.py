@@ -16,7 +16,8 @@ def force_and_radius(row):
     for inner in np.flatnonzero(contact[1:] != contact[:-1]).tolist():
         met, step = (inner, 1) if contact[inner] else (inner + 1, -1)
         radius = _front(row, load, met, step)
-        total += _beyond_edge(row, load, met, step, radius)
+        ring = _thin_ring(row, load, met, radius) if step > 0 else None
+        total += _beyond_edge(row, load, met, step, radius) if ring is None else ring
     if contact[-1]:
         radius = min(row.half_width, _touched(row))
     return 2 * total, radius
@@ -42,6 +43,22 @@ def _beyond_kink(row, load):
     inside = last + int(kink > x[last] + row._width[last] / 2)
     short = row._width[inside] / 2 - abs(kink - x[inside])
     return -slope * max(short, 0.0) ** 2 / 2
+
+
+def _thin_ring(row, load, met, front):
+    """What elements lack (N) while yield follows the front on a virgin surface within three of them."""
+    state, x, width = row._elements, row._middle, row._width
+    last, critical = int(np.count_nonzero(state.plastic)) - 1, row.medium.critical_depth
+    virgin = state.elastic[met + 1] == 0 == state.plastic[met + 1]
+    if not (0 < last <= met < last + 3 and row._lag >= 0 and state.elastic[last] == critical and virgin):
+        return None
+    edge = float(x[last] - width[last] / 2)
+    kink = float(row.profile._radius(np.asarray(row.depth - critical)))
+    if not edge <= kink <= front:
+        return None
+    rim = row.medium.E_star * row._lag
+    exact = load[last] * (kink - edge) + (load[last] + rim) / 2 * (front - kink)
+    return exact - float(load[last : met + 1] @ width[last : met + 1])
 
 
 def _beyond_edge(row, load, met, step, front):

@@ -59,7 +59,7 @@ def test_without_viscosity_it_is_the_dry_impact(shape):
 
 
 @pytest.mark.parametrize("times", [0.01, 0.1, 1.0, 10.0])
-@pytest.mark.parametrize("depth", [0.9, 3.0, 10.0])
+@pytest.mark.parametrize("depth", [0.9, 3.0, 10.0, 100.0])
 @pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.Paraboloid(1e-5), mdr.FlatPunch(1e-6)], ids=name)
 def test_every_estimate_covers_its_error(shape, depth, times):
     """Elastic or mostly plastic, hardly damped or overdamped: no result is worse than it is said to be."""
@@ -162,6 +162,10 @@ class TestSecondImpact:
         assert second.restitution == pytest.approx(1.0, abs=2e-6)
         assert second.max_depth == pytest.approx(first.max_depth, rel=2e-6)
         assert second.plastic_work == pytest.approx(0.0, abs=2e-6 * first.plastic_work)
+        # Contact begins at the bottom of the imprint, after the way there.
+        dry = mdr.impact(self.shape, DRY, MASS, first.rebound_speed, plastic_depth=first.plastic_depth)
+        assert second.contact_time == pytest.approx(dry.contact_time, rel=2e-5)
+        assert second.max_force == pytest.approx(dry.max_force, rel=1e-5)
 
     @pytest.mark.parametrize("wait", [0.05, 1.0, 100.0])
     def test_against_small_steps(self, wait):
