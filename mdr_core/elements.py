@@ -122,7 +122,7 @@ class Exchange:
         relaxed = (before - begun) * (before + begun)
         if last is not after:
             relaxed += np.where(self.touched, (last - after) * (last + after), 0.0)
-        return np.where(self.touched, self.ramp.lag * self.stroke, 0.0) + relaxed / 2
+        return self.ramp.lag * np.where(self.touched, self.stroke, 0.0) + relaxed / 2
 
 
 def advance(elements, ramp):
