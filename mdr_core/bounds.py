@@ -4,8 +4,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .grid import cell_edges
-
 
 class Resistance(NamedTuple):
     """What a virgin chain opposes to being pressed to some depth.
@@ -19,20 +17,19 @@ class Resistance(NamedTuple):
 
 
 def resistance(profile, medium, depth):
-    """The `Resistance` up to a depth (m), within a few parts in a thousand: 64 elements.
+    """The `Resistance` up to a depth (m), within a few parts in a hundred: 64 equal elements.
 
     Springs and caps take ∫F dd = 2E* ∫ (u_e²/2 + d_c u_p) dx, dashpots 8η ∫ a dd = 8η ∫ u dx.
     """
     if depth <= 0:
         return Resistance(0.0, 0.0, 0.0)
-    edges = cell_edges(profile, 64 + 2 * len(profile.kinks), profile.contact_radius(depth))
-    width = np.diff(edges)
-    u = np.maximum(depth - profile.reduced((edges[1:] + edges[:-1]) / 2), 0.0)
+    width = profile.contact_radius(depth) / 64
+    u = np.maximum(depth - profile.reduced((np.arange(64) + 0.5) * width), 0.0)
     elastic = np.minimum(u, medium.critical_depth)
     # u_e²/2 + d_c u_p, with u_e = d_c wherever u_p > 0.
-    work = 2 * medium.E_star * float((elastic * (u - elastic / 2)) @ width)
-    force = 2 * medium.E_star * float(elastic @ width)
-    return Resistance(work, force, 8 * medium.eta * float(u @ width))
+    work = 2 * medium.E_star * width * float(elastic @ (u - elastic / 2))
+    force = 2 * medium.E_star * width * float(np.sum(elastic))
+    return Resistance(work, force, 8 * medium.eta * width * float(np.sum(u)))
 
 
 def least_depth(profile, medium, stops, above=0.0):

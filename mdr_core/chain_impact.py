@@ -1,18 +1,20 @@
 """Impact of a free rigid body on the chain: also with viscosity, and on what an earlier one has left."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from . import _check
-from .free_body import Body, Motion, fly, halved, pace, reach
+from .flight import Run, fly, halved, pace
+from .free_body import Body, reach
 from .medium import Medium
 from .model import CHAIN
 from .profiles import Profile
 
 #: Elements of the first run; every refinement takes twice as many, and half the steps in time.
-_ELEMENTS = 100
+_ELEMENTS = 150
 _REFINEMENTS = 8
 #: The deepest that the chain can tell the critical depth from rounding, in critical depths.
 _DEEPEST = 1e11
@@ -39,7 +41,8 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
         What the body meets, and where it starts from; by default it touches the virgin surface.
         It is set up anew, through the same moves, on the grids of the solver.
     n : int, optional
-        A fixed number of elements; by default as many as the tolerance needs.
+        A fixed number of elements; by default as many as the tolerance needs. What a fixed number
+        errs by is not in the estimates.
     tolerance : float, optional
         Error allowed in the restitution coefficient, and in the largest depth relative to itself;
         positive. Elements and time steps are refined until the estimate is less, or eight times.
@@ -47,7 +50,8 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
     Returns
     -------
     ChainImpact
-        With the estimate reached, as `error`.
+        With the estimate reached as `error`, and those of largest force and contact time as well in
+        `errors`.
 
     Raises
     ------
@@ -73,20 +77,21 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
             f"speed = {body.speed:g} m/s presses down to {bound:g} m, over {_DEEPEST:g} critical depths, "
             "so that what springs back is lost in rounding; hit less hard, or use impact"
         )
-    motion = pace(body, body.row(n or _ELEMENTS, bound), bound)
-    scale = float(np.max(np.abs(motion.depth)))
-    legs, hits, values = motion.legs, [], []
+    (legs, depth), runs, limits = pace(body, body.row(n or _ELEMENTS, bound), bound), [], []
     for level in range(_REFINEMENTS):
-        legs = halved(legs) if level else legs
-        row = body.row(n or _ELEMENTS * 2**level, float(np.max(motion.depth)))
-        motion = fly(body, row, legs, bound, tolerance)
-        hits.append(motion)
-        reached = [_reached(motion, body.speed, scale) for motion in hits[-2:]]
-        values.append(reached[-1] + (reached[-1] - reached[0]) / 3)
-        error = _error(values, reached[-1])
-        if error <= tolerance:
+        legs = halved(legs)
+        row = body.row(n or _ELEMENTS * 2**level, depth)
+        runs.append(fly(body, row, legs, bound, tolerance))
+        coarse, fine = (_quantities(runs[i]) for i in (max(level - 1, 0), level))
+        depth = fine[1]
+        limits.append(fine + (fine - coarse) / 3)
+        scale = np.append(body.speed, np.abs(fine[1:]))
+        errors = _errors(np.array(limits) / scale, fine / scale)
+        # Steps and elements err against each other, so that changes may be small by chance.
+        errors = Errors(*np.maximum(errors, tolerance / 2).tolist())
+        if max(errors.restitution, errors.max_depth) <= tolerance:
             break
-    return ChainImpact(profile, medium, body.mass, body.speed, error, *hits[-2:])
+    return ChainImpact(profile, medium, body.mass, body.speed, errors, *runs[-2:])
 
 
 def _history(profile, medium, start):
@@ -101,48 +106,65 @@ def _history(profile, medium, start):
     return start.history
 
 
-def _reached(motion, speed, scale):
-    """Velocity at the end and largest depth of a run, in units of a speed (m/s) and a depth (m)."""
-    return np.array([motion.velocity[-1] / speed, np.max(motion.depth) / scale])
+def _quantities(run):
+    """Velocity (m/s) at the end, largest depth (m) and force (N), contact time (s) of a run."""
+    return np.array([run.motion.velocity[-1], np.max(run.motion.depth), run.max_force, run.contact_time])
 
 
-def _error(values, finest):
-    """Estimated error of the last of the limits `values`, given the finest run's own value.
+def _errors(limits, finest):
+    """Estimated errors of the last of some limits, given the finest run's own values.
 
-    The limits are of higher order than two, but never trusted to be thirty times better than what
-    they are made of.
+    The limits are of fourth order where the motion is smooth. That is taken for granted ever more, but
+    they are never trusted to be thirty times better than what they are made of; the first one only
+    four times, in time no better at all, in force rather worse, and never to the last digits: errors of
+    steps and of elements may happen to cancel.
     """
-    if len(values) < 2:
-        return np.inf
-    gained = np.max(np.abs(values[-1] - finest))
-    return float(
-        max(np.max(np.abs(values[-1] - values[-2])), gained / 30) if len(values) > 2 else gained / 4
-    )
+    if len(limits) < 2:
+        return np.full(finest.shape, np.inf)
+    gained, changes = np.abs(limits[-1] - finest), np.abs(np.diff(limits, axis=0))
+    if len(limits) == 2:
+        return np.maximum(gained * [1 / 4, 1 / 4, 3, 1], 2e-6)
+    if len(limits) == 3:
+        return np.maximum(changes[-1], gained / 4)
+    return np.maximum(np.maximum(changes[-1], changes[-2] / 8), gained / 30)
+
+
+class Errors(NamedTuple):
+    """Estimated errors: of the coefficient of restitution, and of others relative to themselves."""
+
+    restitution: float
+    max_depth: float
+    max_force: float
+    contact_time: float
 
 
 @dataclass(frozen=True, eq=False)
 class ChainImpact:
     """One impact on the chain; made by `chain_impact`.
 
-    Numbers are limits for vanishing steps and elements, from the last two runs; `error` is the
-    estimated error of the restitution coefficient and of the largest depth, relative to itself.
-    `motion` is the finest run as it is, whose ledger closes whatever the steps.
+    Numbers are limits for vanishing steps and elements, from the last two runs, with estimates of
+    their `errors`; if the number of elements is fixed, limits and errors of the steps alone.
     """
 
     profile: Profile
     medium: Medium
     mass: float
     speed: float
-    error: float
-    _coarse: Motion
-    _fine: Motion
+    errors: Errors
+    _coarse: Run = field(repr=False)
+    _fine: Run = field(repr=False)
 
     #: How it was found.
     model = CHAIN
 
+    @property
+    def error(self):
+        """The error that the tolerance is for: of the restitution coefficient, and of the largest depth."""
+        return max(self.errors.restitution, self.errors.max_depth)
+
     def motion(self):
-        """Time, depth, velocity, force and the energies of the finest run, step by step."""
-        return self._fine
+        """The `Motion` of the finest run as it is, step by step; its ledger closes whatever the steps."""
+        return self._fine.motion
 
     @property
     def foundation(self):
@@ -156,12 +178,12 @@ class ChainImpact:
     @cached_property
     def max_depth(self):
         """Largest indentation depth d_max (m)."""
-        return self._limit(lambda motion: np.max(motion.depth))
+        return self._limit(lambda run: np.max(run.motion.depth))
 
-    @property
+    @cached_property
     def max_force(self):
-        """Largest force (N) of the finest run."""
-        return float(np.max(self._fine.force))
+        """Largest force (N)."""
+        return self._limit(lambda run: run.max_force)
 
     @property
     def contact_radius(self):
@@ -187,7 +209,7 @@ class ChainImpact:
     def restitution(self):
         """Coefficient of restitution, the speed of leaving over the speed of coming."""
         # Where next to nothing comes back, the limit may miss zero by its error.
-        return max(0.0, -self._limit(lambda motion: motion.velocity[-1]) / self.speed)
+        return max(0.0, -self._limit(lambda run: run.motion.velocity[-1]) / self.speed)
 
     @property
     def rebound_speed(self):
@@ -197,18 +219,19 @@ class ChainImpact:
     @cached_property
     def contact_time(self):
         """Time (s) from first contact to the last one."""
-        return self._limit(lambda motion: motion.time[-1] - motion.met)
+        return self._limit(lambda run: run.contact_time)
 
     @cached_property
     def plastic_work(self):
         """Energy (J) dissipated by yielding in this impact."""
-        return self._limit(lambda motion: motion.plastic_work[-1] - motion.plastic_work[0])
+        return self._limit(lambda run: run.motion.plastic_work[-1] - run.motion.plastic_work[0])
 
     @cached_property
     def viscous_work(self):
         """Energy (J) dissipated by the dashpots, with what relaxing elements still store at the end."""
 
-        def lost(motion):
+        def lost(run):
+            motion = run.motion
             return np.sum(motion.viscous_work[[-1, 0]] * [1, -1] + motion.stored_energy[[-1, 0]] * [1, -1])
 
         return self._limit(lost)

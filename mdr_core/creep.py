@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 from . import _check
 from .bounds import least_depth, resistance
 from .foundation import Foundation
-from .fronts import beyond_edges, edge_of_contact
+from .fronts import force_and_radius
 from .timed import TimedIndentation
 
 #: Steps in each piece of the path, and elements, of the first run; both are doubled up to so often.
@@ -145,7 +145,7 @@ class _Run:
         row = self.row
         self.places.append(len(self.path) - 1)
         energies = row.stored_energy, row.plastic_work, row.viscous_work
-        self.record.append((row.depth, edge_of_contact(row), *energies))
+        self.record.append((row.depth, force_and_radius(row)[1], *energies))
 
     def go(self, dt, force, guess):
         """The move in a time dt (s) that ends under a force (N), by its rise (m) from a first guess."""
@@ -153,7 +153,7 @@ class _Run:
 
         def miss(rise):
             moved = row.advance(row.depth + rise, dt)
-            return moved.force + 2 * beyond_edges(moved) - force, moved
+            return force_and_radius(moved)[0] - force, moved
 
         rise = min(guess, room)
         if force <= self.least:
@@ -162,7 +162,8 @@ class _Run:
             self.row = row.advance(row.depth + rise, dt)
             return
         value, moved = miss(rise)
-        change = -value / _stiffness(moved, dt)
+        # Between the axis and the first element there is nothing to take a stiffness from.
+        change = float(np.clip(-value / _stiffness(moved, dt), -self.bound, self.bound))
         for _ in range(12):
             # Secants, after a first step of Newton's.
             new = min(rise + change, room)

@@ -81,26 +81,48 @@ class Ramp:
 class Exchange:
     """What each element did along a ramp; forces and energies are per unit of E* and of width.
 
-    `stroke` is the path (m) along which it was pushed or let out in contact, `mean` its mean
-    elastic part (m) in contact, `duration` the time (s) of contact, `relaxed` the energy (m²) lost
-    while free, `lag` that of the ramp (m).
+    `touched` tells whether it was in contact. If so, `stroke` is the path (m) along which it was
+    pushed or let out, `mean` its mean elastic part (m), `duration` the time (s), 0 if not, `springy`
+    the share of it in which the spring followed the indenter. `elastic` are its elastic parts (m) at
+    the beginning and end of the ramp, with those at the beginning and end of contact in between.
     """
 
+    ramp: Ramp
+    touched: np.ndarray
     stroke: np.ndarray
     mean: np.ndarray
     duration: np.ndarray
-    relaxed: np.ndarray
-    lag: float
+    springy: np.ndarray | float
+    elastic: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
     @property
     def impulse(self):
         """∫ q dt/E* (m s)."""
-        return (self.mean + self.lag) * self.duration
+        return (self.mean + self.ramp.lag) * self.duration
+
+    @property
+    def response(self):
+        """Change of the impulse with the ramp's rate, ∂(∫ q dt)/∂ḋ/E* (s²).
+
+        At a time t of the ramp the spring is compressed more by t, and what is met, is met sooner. Of
+        relaxing elements that are met it is an estimate.
+        """
+        ramp, springy = self.ramp, self.springy * self.duration
+        if ramp.rise < 0:
+            return self.duration * (self.duration / 2 + ramp.tau)
+        before = ramp.time - self.duration
+        return springy * (before + springy / 2) + ramp.tau * ramp.time * (self.duration > 0)
 
     @property
     def viscous(self):
         """Energy (m²) dissipated by the dashpot: 4ηḋ along the stroke, and all that is lost while free."""
-        return self.lag * self.stroke + self.relaxed
+        before, first, last, after = self.elastic
+        # What is not met relaxes from beginning to end.
+        begun = np.where(self.touched, first, after)
+        relaxed = (before - begun) * (before + begun)
+        if last is not after:
+            relaxed += np.where(self.touched, (last - after) * (last + after), 0.0)
+        return self.ramp.lag * np.where(self.touched, self.stroke, 0.0) + relaxed / 2
 
 
 def advance(elements, ramp):
@@ -118,55 +140,48 @@ def advance(elements, ramp):
 
 def _press(elements, ramp, above):
     """A ramp that goes deeper, or holds: what is met stays met."""
-    before, relaxed = elements.elastic, elements.elastic * ramp.keep
-    met = (above > relaxed) & ~elements.contact
-    contact = elements.contact | met
-    first, duration = before, np.where(elements.contact, ramp.time, 0.0)
-    if met.any():
-        first = np.where(met, _meeting_pressed(elements, ramp, above, met), before)
-        duration = np.where(met, _time_since(first, elements, ramp, above), duration)
+    before, held = elements.elastic, elements.contact
+    relaxed = before * ramp.keep
+    contact = (above > relaxed) | held
+    first, duration = _meeting_pressed(elements, ramp, above, contact & ~held)
     elastic = np.where(contact, np.minimum(above, ramp.critical_depth), relaxed)
-    stroke = np.where(contact, above - first, 0.0)
-    excess = np.where(contact, above - elastic, 0.0)
+    stroke, excess = above - first, np.maximum(above - ramp.critical_depth, 0.0)
     # On the capped part of the stroke the elastic part stays what it is.
-    rising = 1 - np.divide(excess, stroke, out=np.zeros_like(stroke), where=stroke > 0)
-    mean = np.where(contact, elastic - rising * (elastic - first) / 2, 0.0)
-    lost = (before**2 - np.where(contact, first, relaxed) ** 2) / 2
-    new = Elements(
-        elements.reduced,
-        np.where(contact, elastic, above),
-        elastic,
-        elements.plastic + excess,
-        contact,
-    )
-    return new, Exchange(stroke, mean, duration, lost, ramp.lag)
+    springy = 1 - excess / np.maximum(stroke, 1e-300)
+    mean = elastic - springy * ((elastic - first) / 2)
+    still = np.where(contact, elastic, above)
+    new = Elements(elements.reduced, still, elastic, elements.plastic + excess, contact)
+    return new, Exchange(ramp, contact, stroke, mean, duration, springy, (before, first, elastic, elastic))
 
 
 def _meeting_pressed(elements, ramp, above, met):
-    """Elastic part w (m) at which a relaxing element is met: w − w₀ = lag ln(u₀/w)."""
-    start = np.where(elements.plastic == 0, ramp.start - elements.reduced, elements.above)
-    low = np.maximum(start, 0.0)
-    if ramp.lag == 0 or not np.any(elements.elastic[met]):
-        return low
-    with np.errstate(divide="ignore", over="ignore", under="ignore"):
-        # w/lag + ln(w/lag) = w₀/lag + ln(u₀/lag).
-        scaled = np.where(met, start, 0.0) / ramp.lag + np.log(elements.elastic / ramp.lag)
-        root = ramp.lag * wrightomega(scaled)
-    return np.clip(np.where(scaled < np.inf, root, low), low, np.maximum(above, low))
+    """Elastic parts (m) at which elements begin to be pressed, and the times (s) for which they are.
 
-
-def _time_since(first, elements, ramp, above):
-    """Time (s) since an element was met; it counts in a ramp of finite time."""
+    What is in contact begins with what it has, a relaxed element with none; a relaxing one is met at
+    w − w₀ = lag ln(u₀/w).
+    """
+    held, before = elements.contact, elements.elastic
+    met_relaxing = met & (before > 0)
+    start = above - ramp.rise
+    low = np.where(held, before, np.maximum(start, 0.0))
     if ramp.time == np.inf:
-        return np.zeros_like(first)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        # One that was relaxed is met at 0, another once it has relaxed so far.
-        since = np.where(
-            elements.elastic > 0,
-            ramp.time - ramp.tau * (np.log(elements.elastic) - np.log(first)),
-            above / np.float64(ramp.rise) * ramp.time,
-        )
-    return np.clip(since, 0.0, ramp.time)
+        return low, np.zeros_like(low)
+    pace = ramp.rise / ramp.time
+    since = np.where(met, (above - low) / pace, 0.0) if pace > 0 else 0.0
+    duration = np.where(held, ramp.time, since)
+    if not met_relaxing.any():
+        return low, duration
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):
+        first = low
+        if ramp.lag > 0:
+            # w/lag + ln(w/lag) = w₀/lag + ln(u₀/lag).
+            scaled = np.where(met, start, 0.0) / ramp.lag + np.log(before / ramp.lag)
+            root = ramp.lag * wrightomega(scaled)
+            root = np.clip(np.where(scaled < np.inf, root, low), low, np.maximum(above, low))
+            first = np.where(met_relaxing, root, low)
+        since = ramp.time - ramp.tau * (np.log(before) - np.log(first))
+    duration = np.where(met_relaxing, np.clip(since, 0.0, ramp.time), duration)
+    return first, duration
 
 
 def _withdraw(elements, ramp, above):
@@ -179,19 +194,18 @@ def _withdraw(elements, ramp, above):
         first, touched = np.where(met, meeting, before), touched | met
     last = np.maximum(above, np.minimum(first, lag))
     contact = touched & (above > lag)
-    stroke = np.where(touched, first - last, 0.0)
+    stroke = first - last
     # Without a lag what has let go is relaxed at once.
     with np.errstate(over="ignore"):
         since = np.exp(np.minimum(above - last, 0.0) / lag) if lag > 0 else 0.0
     elastic = np.where(contact, above, np.where(touched, last * since, before * ramp.keep))
     duration = np.zeros_like(stroke)
     if ramp.time < np.inf:
-        duration = np.where(elements.contact & contact, ramp.time, stroke / -ramp.rise * ramp.time)
-    kept = np.where(touched, np.where(contact, 0.0, last**2 - elastic**2), -(elastic**2))
-    lost = (before**2 - np.where(touched, first**2, 0.0) + kept) / 2
-    mean = np.where(touched, (first + last) / 2, 0.0)
+        partly = np.where(touched, stroke * (ramp.time / -ramp.rise), 0.0)
+        duration = np.where(elements.contact & contact, ramp.time, partly)
     new = Elements(elements.reduced, above, elastic, elements.plastic, contact)
-    return new, Exchange(-stroke, mean, duration, lost, ramp.lag)
+    parts = before, first, last, elastic
+    return new, Exchange(ramp, touched, -stroke, (first + last) / 2, duration, 1.0, parts)
 
 
 def _meeting_withdrawn(elements, ramp, above, able):

@@ -1,6 +1,5 @@
 """The chain itself: a row of springs, dashpots and yield caps under an indenter, element by element."""
 
-import copy
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -108,7 +107,8 @@ class Foundation:
             )
         nodes = _check.finite_array("nodes", self.nodes, unit="m").ravel()
         edges = cell_edges(self.profile, int(n) // 2, half_width, nodes)
-        middle = (edges[1:] + edges[:-1]) / 2
+        # At the axis one of no width: what is touched first, and let go of last.
+        middle = np.append(0.0, (edges[1:] + edges[:-1]) / 2)
         # A little beyond the end: the row may end on the very contact radius.
         rim = self.profile.reduced(min(half_width * (1 + 1e-9), known))
         self._set(
@@ -116,7 +116,7 @@ class Foundation:
             half_width=half_width,
             nodes=tuple(nodes.tolist()),
             _middle=middle,
-            _width=np.diff(edges),
+            _width=np.append(0.0, np.diff(edges)),
             _rim=np.inf if half_width >= self.profile.wall else rim,
             _lag=0.0,
             _elements=Elements.virgin(self.profile.reduced(middle)),
@@ -164,24 +164,24 @@ class Foundation:
         medium = self.medium
         return Ramp(self.depth, depth, dt, medium.relaxation_time, medium.critical_depth)
 
-    def _after(self, ramp, state, exchange):
-        """This foundation with its elements at the end of a ramp."""
+    def _after(self, ramp, state, exchange, rate=None):
+        """This foundation with its elements at the end of a ramp; at another rate (m/s) there, if given."""
         self._refuse_overflow(ramp.depth)
-        new = copy.copy(self)
+        new = object.__new__(type(self))
         # What has been computed from the old state does not belong to the new one.
-        for name in _CACHED & vars(new).keys():
-            del new.__dict__[name]
-        new._set(
+        new.__dict__.update(item for item in vars(self).items() if item[0] not in _CACHED)
+        new.__dict__.update(
             depth=float(ramp.depth),
             viscous_work=self.viscous_work + self._total(exchange.viscous),
             history=(*self.history, (ramp.depth, ramp.time)),
-            _lag=ramp.lag,
+            _lag=ramp.lag if rate is None else ramp.tau * rate,
             _elements=state,
         )
         return new
 
     def _refuse_overflow(self, depth):
-        self.profile._known(np.asarray(depth))
+        if depth > self.profile.deepest:
+            self.profile._known(np.asarray(depth))
         if depth > self._rim:
             raise ValueError(
                 f"half_width = {self.half_width:g} m is less than the contact radius "
@@ -193,12 +193,12 @@ class Foundation:
         return float(2 * self.medium.E_star * (values @ self._width))
 
     def _mirrored(self, values):
-        return np.concatenate([values[::-1], values])
+        return np.concatenate([values[:0:-1], values[1:]])
 
     @_check.frozen_property
     def x(self):
         """Places of the elements (m), shape (n,), from −half_width to half_width."""
-        return np.concatenate([-self._middle[::-1], self._middle])
+        return np.concatenate([-self._middle[:0:-1], self._middle[1:]])
 
     @_check.frozen_property
     def width(self):
@@ -228,7 +228,7 @@ class Foundation:
     @property
     def _load(self):
         state = self._elements
-        return np.where(state.contact, self.medium.E_star * (state.elastic + self._lag), 0.0)
+        return np.where(state.contact, self.medium.E_star * np.maximum(state.elastic + self._lag, 0.0), 0.0)
 
     @_check.frozen_property
     def state(self):
@@ -249,8 +249,8 @@ class Foundation:
     @property
     def plastic_work(self):
         """Energy Σ (π q_c/2) u_p Δx (J) dissipated by yielding so far."""
-        plastic = self._elements.plastic
-        return self._total(plastic * self.medium.critical_depth) if np.any(plastic) else 0.0
+        yields = self.medium.critical_depth < np.inf
+        return self._total(self._elements.plastic) * self.medium.critical_depth if yields else 0.0
 
 
 _CACHED = {"x", "width", "elastic", "plastic", "contact", "line_load", "state"}

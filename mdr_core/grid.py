@@ -44,9 +44,10 @@ def cell_edges(profile, count, half_width, nodes=()):
     # One each to begin with; the rest rounded so that they add up.
     extra = np.diff(np.floor((count - len(share)) * np.append(0, np.cumsum(share)) + 0.5).astype(int))
     extra[-1] += count - len(share) - extra.sum()
-    stretches = zip(posts, posts[1:], 1 + extra, strict=False)
+    stretches = zip(posts, posts[1:], 1 + extra, _grading(profile, posts), strict=False)
     return np.append(
-        np.concatenate([_stretch(profile, low, high, cells) for low, high, cells in stretches]), half_width
+        np.concatenate([low + (high - low) * (np.arange(n) / n) ** p for low, high, n, p in stretches]),
+        half_width,
     )
 
 
@@ -62,16 +63,14 @@ def _posts(profile, half_width, nodes):
     return np.concatenate([[0.0], radii[apart], [half_width]])
 
 
-def _stretch(profile, low, high, cells):
-    """Edges of one stretch, without its last.
+def _grading(profile, posts):
+    """The power p with which the edges of each stretch are set as ξ^p, 1 for equal ones.
 
     Where g rises from the lower end with a vertical tangent, as (x − low)^n with n < 1, the cells
-    narrow toward it as ξ^p with p = 3/(1 + n): then h³ g″ is the same for all of them.
+    narrow toward it with p = 3/(1 + n): then h³ g″ is the same for all of them.
     """
-    share = np.arange(cells) / cells
+    low, long = posts[:-1], np.diff(posts)
     with np.errstate(all="ignore"):
-        foot, near, far = profile.reduced(low + (high - low) * np.array([0.0, 2.0**-20, 2.0**-19]))
+        foot, near, far = profile.reduced(low + long * np.array([[0.0], [2.0**-20], [2.0**-19]]))
         exponent = np.log2((far - foot) / (near - foot))
-    if not 0 < exponent < 0.99:
-        return low + (high - low) * share
-    return low + (high - low) * share ** (3 / (1 + exponent))
+    return np.where((exponent > 0) & (exponent < 0.99), 3 / (1 + exponent), 1.0)

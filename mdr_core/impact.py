@@ -14,8 +14,8 @@ from .contact_time import contact_time
 from .indentation import Indentation
 from .medium import Medium
 from .model import CLOSED_FORM, SCALAR_ODE
-from .motion import motion
 from .profiles import Profile
+from .replay import motion
 from .scaling import fast_limit
 from .turning import dry_restitution, plastic_integral, turning_point
 from .viscous import Rebound, impacts_in_time

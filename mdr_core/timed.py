@@ -7,7 +7,7 @@ import numpy as np
 from . import _check, abel, elements
 from .elements import Elements, Ramp
 from .foundation import Foundation
-from .fronts import beyond_edges, edge_of_contact
+from .fronts import force_and_radius
 from .grid import cell_edges
 from .medium import Medium
 from .model import CHAIN
@@ -105,8 +105,8 @@ def _run(profile, medium, depth, time, n, nodes):
     for i in range(len(depth)):
         if i:
             row = row.advance(depth[i], time[i] - time[i - 1])
-        force = row.force + 2 * beyond_edges(row)
-        record.append((force, edge_of_contact(row), row.stored_energy, row.plastic_work, row.viscous_work))
+        energies = row.stored_energy, row.plastic_work, row.viscous_work
+        record.append((*force_and_radius(row), *energies))
     return np.array(record)
 
 
