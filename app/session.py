@@ -215,7 +215,7 @@ class Session:
             "speed": float(trajectory.motion.velocity[0]) if trajectory.motion is not None else 0.0,
             "impact": trajectory.motion is not None,
             "numbers": around.numbers(trajectory),
-            "form": form(state),
+            "form": form(state, trajectory.scene.medium),
             "sketch": around.sketch(trajectory, state.shape),
             "lights": around.lights(trajectory, self._density()),
             "sources": around.sources(state.preset),
