@@ -8,8 +8,8 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.yielding import LiveInterval
 
-#: Denser towards both ends of a stretch by the cosine.
-_SPREAD = (1 - np.cos(np.linspace(0, np.pi, 33))) / 2
+#: Denser towards both ends of a stretch by the cosine, enough to be played at 30 frames a second.
+_SPREAD = (1 - np.cos(np.linspace(0, np.pi, 49))) / 2
 _MOTION = 160
 _PLACES = (1 - np.cos(np.linspace(0, np.pi, 201))) / 2
 #: Points of an unloading curve from one state.
