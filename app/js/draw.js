@@ -52,7 +52,8 @@ function forceNames(scene, dp) {
   if (onset && !(impact && tau > 0)) {
     const x = onset[0] / axes.d.factor
     // To the left of its point where the picture ends on the right.
-    add(x + (x < 0.85 * axes.d.end ? right : -8.5 * right), onset[1] / axes.F.factor - up, "(d_c, F_c)")
+    const y = Math.max(onset[1] / axes.F.factor - up, up)
+    add(x + (x < 0.85 * axes.d.end ? right : -8.5 * right), y, "(d_c, F_c)")
   }
   // Beside the axis on the left, never over it.
   if (dp > 0) add(dp > 5 * right ? dp - 3 * right : Math.max(dp, 0) + right, up, "d_p")

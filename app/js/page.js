@@ -152,6 +152,7 @@ class Explorer {
     if (location.search !== `?${query}`) history.replaceState(null, "", url)
     this.need()
     this.compare()
+    this.plots.point()
   }
 
   // Has the models compared on this scene, if that is looked at.

@@ -184,7 +184,7 @@ def test_keys_on_a_slider_move_every_plot(explorer):
 def test_dragging_along_the_curve_moves_every_plot_without_the_server(explorer):
     explorer.wait_for_frames()
     traffic = explorer.listen()
-    box = explorer.page.locator('[data-plot="force"] canvas').first.bounding_box()
+    box = explorer.page.locator('canvas[data-sheet="force"]').bounding_box()
     left, right = explorer.page.evaluate("explorer.frame('force')")
     explorer.page.mouse.move(box["x"] + right - 5, box["y"] + 40)
     explorer.page.mouse.down()
