@@ -11,6 +11,7 @@ from .quantities import (
     INERTIA,
     PLASTICITY,
     QUANTITIES,
+    SURFACE,
     USED,
     shape_quantities,
 )
@@ -23,6 +24,7 @@ _LABELS = {
     DAMPING: "Viscosity",
     DRIVE: "Press",
     INERTIA: "Density",
+    SURFACE: "Surface",
 }
 
 
@@ -80,6 +82,10 @@ def form(state, made):
         medium.append({"note": _damping(state, made)})
     drive = [_choice(state, DRIVE), *_numbers(state, USED[DRIVE][choices[DRIVE]])]
     if choices[DRIVE] == "impact":
+        drive += [_choice(state, SURFACE), *_numbers(state, USED[SURFACE][choices[SURFACE]])]
+        drive.append(
+            {"act": "again", "text": "Hit again", "title": "Hit the imprint that this impact leaves"}
+        )
         drive += [_choice(state, INERTIA), *_numbers(state, USED[INERTIA][choices[INERTIA]])]
     return {
         "preset": {"label": "Preset", "options": list(PRESETS), "value": state.preset},

@@ -191,6 +191,11 @@ class Explorer {
     }
   }
 
+  // Asks for something of the state that is seen, which the server may not have heard of yet.
+  askHere(message) {
+    this.ask({ ...message, at: this.player.stand() })
+  }
+
   showLink() {
     if (this.scene.meta.query)
       this.dialog("Link to this page", new URL(`?${this.scene.meta.query}`, location.href).href)
@@ -270,7 +275,7 @@ class Explorer {
       on.matches?.("input[type=text], textarea, select") || event.ctrlKey || event.altKey || event.metaKey
     const acts = {
       " ": () => !on.matches?.("button, summary, input[type=radio]") && (this.player.toggle(), true),
-      h: () => (this.ask({ do: "hold" }), true),
+      h: () => (this.askHere({ do: "hold" }), true),
       r: () => (this.ask({ do: "reset" }), true),
       z: () => (this.ask({ do: "undo" }), true),
       y: () => (this.ask({ do: "redo" }), true),

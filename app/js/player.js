@@ -92,6 +92,12 @@ class Player {
     requestAnimationFrame((then) => this.tick(then))
   }
 
+  // Stops, and tells where.
+  stand() {
+    this.stop()
+    return this.scene.meta.progress[this.at]
+  }
+
   stop() {
     this.playing = false
     this.button.textContent = "▶ Play"
