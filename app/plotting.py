@@ -6,7 +6,7 @@ import holoviews as hv
 import holoviews.plotting.bokeh
 import numpy as np
 from bokeh.document import Document
-from bokeh.models import ColumnDataSource, HoverTool, Legend, Line, LinearAxis, Range1d, Scatter
+from bokeh.models import ColorBar, ColumnDataSource, HoverTool, Legend, Line, LinearAxis, Range1d, Scatter
 
 hv.Store.set_current_backend("bokeh")
 
@@ -173,6 +173,11 @@ def _look(figure):
             axis_label_text_font_style="normal",
             axis_label_text_color=INK,
         )
+    for bar in figure.right:
+        if isinstance(bar, ColorBar):
+            bar.update(background_fill_color=PAPER, bar_line_color=None, major_tick_line_color=INK)
+            bar.update(major_label_text_color=INK, title_text_color=INK, title_text_font_style="normal")
+            bar.update(major_label_text_font=FONT, title_text_font=FONT, title_text_font_size="12px")
     for tool in figure.toolbar.tools:
         if isinstance(tool, HoverTool):
             tool.tooltips = [("x", "$x"), ("y", "$y")]
