@@ -12,7 +12,7 @@ function drawForce(scene, i) {
         ? { x: [onset[0] / axes.d.factor], y: [onset[1] / axes.F.factor] }
         : EMPTY,
     now: { x: [d[i]], y: [F[i]] },
-    names: forceNames(scene, dp[i]),
+    names: forceNames(scene, dp[i], dp[0]),
     held: scene.meta.held ? { x: scene.get("held d"), y: scene.get("held F") } : EMPTY,
   }
   if (fields) {
@@ -41,7 +41,7 @@ function curves(scene, x, y, first) {
   }
 }
 
-function forceNames(scene, dp) {
+function forceNames(scene, dp, before) {
   const { axes, onset, impact, tau } = scene.meta
   const [right, up] = [0.02 * axes.d.end, 0.045 * axes.F.end]
   const names = { x: [], y: [], text: [] }
@@ -50,7 +50,7 @@ function forceNames(scene, dp) {
     names.y.push(y)
     names.text.push(text)
   }
-  if (onset && !(impact && tau > 0)) {
+  if (onset && before === 0 && !(impact && tau > 0)) {
     const x = onset[0] / axes.d.factor
     // To the left of its point where the picture ends on the right.
     const y = Math.max(onset[1] / axes.F.factor - up, up)
