@@ -78,14 +78,37 @@ function titled(context, model, { across, side, edge, x, y }) {
   const size = write(context, model, "axis_label_text_")
   context.textAlign = "center"
   if (across) {
-    context.fillText(model.axis_label, x, edge + 24 + size)
+    letter(context, model.axis_label, x, edge + 24 + size, size)
     return
   }
   context.save()
   context.translate(edge + side * (46 + 0.35 * size), y)
   context.rotate((side * Math.PI) / 2)
-  context.fillText(model.axis_label, 0, 0)
+  letter(context, model.axis_label, 0, 0, size)
   context.restore()
+}
+
+// A text on one line, its indices small and low.
+function letter(context, text, x, y, size) {
+  if (!text.includes("_")) {
+    context.fillText(text, x, y)
+    return
+  }
+  const { font, textAlign } = context
+  const fonts = [font, font.replace(/[\d.]+px/, `${0.75 * size}px`)]
+  const parts = indexed(text).map((part, k) => {
+    context.font = fonts[k % 2]
+    return { part, width: context.measureText(part).width }
+  })
+  const length = parts.reduce((sum, { width }) => sum + width, 0)
+  let at = x - { left: 0, center: 0.5, right: 1 }[textAlign] * length
+  context.textAlign = "left"
+  parts.forEach(({ part, width }, k) => {
+    context.font = fonts[k % 2]
+    context.fillText(part, at, y + (k % 2 ? 0.25 * size : 0))
+    at += width
+  })
+  Object.assign(context, { font, textAlign })
 }
 
 // The font and the colour of a text of a model; the size of the font in pixels.

@@ -232,7 +232,7 @@ const PAINT = {
     // On the line of writing, which all viewers of an SVG know.
     const down = { top: 0.9, middle: 0.35, bottom: 0 }[style.text_baseline] * size
     data.text.forEach((text, k) => {
-      if (text && Number.isFinite(sx[k] + sy[k])) context.fillText(text, sx[k], sy[k] + down)
+      if (text && Number.isFinite(sx[k] + sy[k])) letter(context, text, sx[k], sy[k] + down, size)
     })
   },
 

@@ -70,7 +70,8 @@ function tile(page, plot) {
   const legend = make("ul", { class: "legend" })
   legend.append(
     ...plot.legend.map(({ label }) => {
-      const entry = make("li", { "data-layer": label }, label)
+      const name = indexed(label).map((part, k) => (k % 2 ? make("sub", {}, part) : part))
+      const entry = make("li", { "data-layer": label }, make("span", {}, ...name))
       entry.insertAdjacentHTML("afterbegin", '<svg width="20" height="12" aria-hidden="true"></svg>')
       return entry
     }),
