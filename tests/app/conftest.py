@@ -120,11 +120,11 @@ class Explorer:
         page.on("request", lambda request: self.requests.append(request.url))
         page.on("pageerror", lambda error: self.problems.append(str(error)))
         page.on("console", self._heard)
-        page.set_default_timeout(12_000)
+        # Long enough for a busy machine, on which the first page of a server waits for all its imports.
+        page.set_default_timeout(60_000)
         page.add_init_script(SCRIPT)
-        # The first page of a server waits for all that is imported.
-        page.goto(url, timeout=60_000)
-        page.wait_for_function("explorer.idle()", timeout=60_000)
+        page.goto(url)
+        page.wait_for_function("explorer.idle()")
 
     def _heard(self, message):
         if message.type in ("error", "warning"):
