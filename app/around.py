@@ -53,6 +53,8 @@ def lights(trajectory, density):
 
 def _depth_light(trajectory, ratio):
     text = f"Largest depth {digits(ratio, 3)} d_c"
+    if trajectory.before > 0:
+        return False, f"{text}: (23) (24) are for the first impact on a spot"
     profile, deepest = trajectory.scene.profile, trajectory.deepest
     if not isinstance(profile, mdr.Cone):
         holds = "holds" if ratio >= DEEP else "does not hold"
@@ -75,6 +77,8 @@ def summary(state):
     if medium.eta > 0:
         parts.append(f"η = {written(medium.eta, 'viscosity', 3)}")
     given = [(QUANTITIES[name], state.numbers[name]) for name in drive]
+    if getattr(state.drive(), "plastic_depth", 0.0) > 0:
+        given.append((QUANTITIES["plastic_depth"], state.numbers["plastic_depth"]))
     parts += [f"{q.symbol} = {written(value, q.kind, 3)}" for q, value in given]
     return f"{CHOICES['shape'][state.shape]}, {', '.join(parts)}"
 

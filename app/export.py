@@ -6,6 +6,8 @@ import numpy as np
 
 import mdr_core as mdr
 
+from .trajectory import INSTANTS
+
 _INPUT = "#   {}: {}"
 
 
@@ -19,7 +21,7 @@ def csv(trajectory):
         "plastic radius c (m)": states.plastic_radius,
         "plastic depth d_p (m)": states.live.lower,
         "stored energy U (J)": trajectory.stored_energy,
-        "plastic work W_p (J)": states.plastic_work,
+        "plastic work W_p (J)": trajectory.plastic_work,
     }
     if motion is not None:
         columns = {"time t (s)": motion.time} | columns
@@ -31,22 +33,32 @@ def csv(trajectory):
 
 def pressure_csv(trajectory, points=401):
     """Pressure, line load and reduced profile of the present state as CSV in SI."""
-    state = trajectory.state
+    state, profile = trajectory.state, trajectory.scene.profile
     largest = 1.25 * float(trajectory.deepest.contact_radius)
-    r = np.linspace(0, min(largest, trajectory.scene.profile.known_radius), points)
+    r = np.linspace(0, min(largest, profile.known_radius), points)
     columns = {
         "radius r (m)": r,
-        "sigma_zz (Pa)": -trajectory.pressure(trajectory.now, r),
+        "sigma_zz (Pa)": -trajectory.pressure(trajectory.now, r, exact=True),
         "line load q (N/m)": state.line_load(r),
-        "reduced profile g (m)": trajectory.scene.profile.reduced(r),
+        "reduced profile g (m)": profile.reduced(r),
     }
     depth, force = float(state.depth), float(trajectory.force[trajectory.now])
-    return _table(trajectory, f"state at depth d = {depth!r} m, force F = {force!r} N", columns)
+    notes = _MEASURED if isinstance(profile, mdr.Sampled) else ()
+    return _table(trajectory, f"state at depth d = {depth!r} m, force F = {force!r} N", columns, notes)
 
 
-def _table(trajectory, title, columns):
+#: How far the pressure of a measured tip can be trusted.
+_MEASURED = (
+    "sigma_zz: Eq. (10) of Popov (2015), to rounding for the tip with straight lines between its samples",
+    "every sample is a kink: next to a sharp one the pressure is that of the kink, not of the real tip",
+    "the page draws it from 402 values of the line load: within 0.2 % of the mean pressure but at a kink",
+)
+
+
+def _table(trajectory, title, columns, notes=()):
     lines = [f"# mdr_core {_version()}: {title}", "# inputs, SI units:"]
     lines += [_INPUT.format(name, value) for name, value in _inputs(trajectory.scene)]
+    lines += [f"# {note}" for note in notes]
     lines.append(",".join(columns))
     rows = zip(*(np.asarray(values, float).tolist() for values in columns.values()), strict=True)
     lines += [",".join(map(repr, row)) for row in rows]
@@ -74,28 +86,50 @@ def _profile(profile, limit=None):
     return repr(profile)
 
 
-def python(trajectory):
-    """A snippet that comes to the present state with `mdr_core`."""
+def python(trajectory, held=None):
+    """A snippet that comes to the present state with `mdr_core`, and to the one held beside it."""
+    lines = ["import mdr_core as mdr", "", *_solved(trajectory)]
+    if held is not None:
+        lines += ["", "# What is held to compare with:", *_solved(held, "held_")]
+    return "\n".join(lines) + "\n"
+
+
+def _solved(trajectory, prefix=""):
     scene = trajectory.scene
     medium = scene.medium
     q_c = "" if np.isinf(medium.q_c) else f", q_c={medium.q_c!r}"
     eta = f", eta={medium.eta!r}" if medium.eta > 0 else ""
+    profile = f"{prefix}profile"
     lines = [
-        "import mdr_core as mdr",
-        "",
-        f"profile = mdr.{_profile(scene.profile)}",
-        f"medium = mdr.Medium(E_star={medium.E_star!r}{q_c}{eta})  # Pa, N/m, Pa·s",
+        f"{profile} = mdr.{_profile(scene.profile)}",
+        f"{prefix}medium = mdr.Medium(E_star={medium.E_star!r}{q_c}{eta})  # Pa, N/m, Pa·s",
     ]
-    if isinstance(scene.drive, mdr.FreeImpact):
-        lines += [
-            f"hit = mdr.impact(profile, medium, mass={scene.drive.mass!r}, speed={scene.drive.speed!r})",
-            "print(hit.max_depth, hit.max_force, hit.restitution, hit.contact_time)",
-        ]
-    else:
-        deepest, now = float(trajectory.deepest.depth), float(trajectory.state.depth)
-        path = f"[{deepest!r}, {now!r}]" if trajectory.now > trajectory.peak else f"[{now!r}]"
-        lines += [
-            f"state = mdr.indent(profile, medium, {path})[-1]  # m",
-            "print(state.force, state.contact_radius, state.plastic_radius)",
-        ]
-    return "\n".join(lines) + "\n"
+    given = f"{profile}, {prefix}medium"
+    if trajectory.hit is not None:
+        return lines + _hit(trajectory, prefix, given)
+    deepest, now = float(trajectory.deepest.depth), float(trajectory.state.depth)
+    path = f"[{deepest!r}, {now!r}]" if trajectory.now > trajectory.peak else f"[{now!r}]"
+    state = f"{prefix}state"
+    return [
+        *lines,
+        f"{state} = mdr.indent({given}, {path})[-1]  # m",
+        f"print({state}.force, {state}.contact_radius, {state}.plastic_radius)",
+    ]
+
+
+def _hit(trajectory, prefix, given):
+    """Lines for an impact, and for the instant at which the page stands if it is not the turning point."""
+    drive, now, peak = trajectory.scene.drive, trajectory.now, trajectory.peak
+    before = f", plastic_depth={drive.plastic_depth!r}" if drive.plastic_depth > 0 else ""
+    hit, motion = f"{prefix}hit", f"{prefix}motion"
+    lines = [
+        f"{hit} = mdr.impact({given}, mass={drive.mass!r}, speed={drive.speed!r}{before})",
+        f"print({hit}.max_depth, {hit}.max_force, {hit}.restitution, {hit}.contact_time)",
+    ]
+    if now == peak:
+        return lines
+    # The turning point has been put among the instants of the motion.
+    instant = now - (now > peak)
+    values = ("time", "depth", "velocity", "force", "contact_radius", "plastic_radius")
+    shown = ", ".join(f"{motion}.{value}[i]" for value in values)
+    return [*lines, f"{motion} = {hit}.motion({INSTANTS})", f"i = {instant}", f"print({shown})"]

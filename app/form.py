@@ -11,6 +11,7 @@ from .quantities import (
     INERTIA,
     PLASTICITY,
     QUANTITIES,
+    SURFACE,
     USED,
     shape_quantities,
 )
@@ -23,6 +24,7 @@ _LABELS = {
     DAMPING: "Viscosity",
     DRIVE: "Press",
     INERTIA: "Density",
+    SURFACE: "Surface",
 }
 
 
@@ -64,22 +66,26 @@ def scale(state, name):
     return Scale(QUANTITIES[name], state.resets.get(name, value), value)
 
 
-def form(state):
-    """All controls of the page, group by group; only text and steps travel, units stay here."""
+def form(state, made):
+    """All controls of the page, group by group, with the medium `made` of them; units stay here."""
     choices = state.choices
     shape = _choice(state, "shape")
     if state.samples is None:
         del shape["options"]["sampled"]
     medium = [_choice(state, ELASTICITY), *_numbers(state, USED[ELASTICITY][choices[ELASTICITY]])]
     if choices[ELASTICITY] != "modulus":
-        medium.append({"note": f"E* = {written(state.medium().E_star, 'pressure')} (2)"})
+        medium.append({"note": f"E* = {written(made.E_star, 'pressure')} (2)"})
     medium += [_choice(state, PLASTICITY), *_numbers(state, USED[PLASTICITY][choices[PLASTICITY]])]
-    medium.append({"note": _yield(state)})
+    medium.append({"note": _yield(state, made)})
     medium += [_choice(state, DAMPING), *_numbers(state, USED[DAMPING][choices[DAMPING]])]
     if choices[DAMPING] != "none":
-        medium.append({"note": _damping(state)})
+        medium.append({"note": _damping(state, made)})
     drive = [_choice(state, DRIVE), *_numbers(state, USED[DRIVE][choices[DRIVE]])]
     if choices[DRIVE] == "impact":
+        drive += [_choice(state, SURFACE), *_numbers(state, USED[SURFACE][choices[SURFACE]])]
+        drive.append(
+            {"act": "again", "text": "Hit again", "title": "Hit the imprint that this impact leaves"}
+        )
         drive += [_choice(state, INERTIA), *_numbers(state, USED[INERTIA][choices[INERTIA]])]
     return {
         "preset": {"label": "Preset", "options": list(PRESETS), "value": state.preset},
@@ -121,8 +127,7 @@ def _numbers(state, names):
     return rows
 
 
-def _yield(state):
-    medium = state.medium()
+def _yield(state, medium):
     if state.choices[PLASTICITY] == "none":
         return "Nothing yields: q_c = ∞"
     depth = written(medium.critical_depth, "length")
@@ -132,8 +137,7 @@ def _yield(state):
     return f"Yield starts at d_c = π q_c/(2E*) = {depth} (19)"
 
 
-def _damping(state):
-    medium = state.medium()
+def _damping(state, medium):
     if state.choices[DAMPING] == "tau":
         text = f"η = {written(medium.eta, 'viscosity')}"
     else:

@@ -7,7 +7,7 @@ from urllib.parse import urlencode
 import mdr_core as mdr
 
 from .presets import PRESETS
-from .quantities import CHOICES, QUANTITIES, shape_quantities, used
+from .quantities import CHOICES, QUANTITIES, SURFACE, shape_quantities, used
 from .shapes import SHAPES
 from .state import LAST_PROGRESS, Explorer
 from .tip import MOST_SAMPLES
@@ -167,6 +167,9 @@ def _set_drive(state, scene):
         state.choices["drive"] = "impact"
         state.set("mass", drive.mass)
         state.set("speed", drive.speed)
+        if drive.plastic_depth > 0:
+            state.choices[SURFACE] = "imprint"
+            state.set("plastic_depth", drive.plastic_depth)
         return
     kind, path = "depth", getattr(drive, "depth", None)
     if isinstance(drive, mdr.ForcePath):

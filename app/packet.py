@@ -100,7 +100,7 @@ class Drawing:
         buffer.add("c", states.plastic_radius, unit["a"])
         energy = unit.get("E") or _axis("", "energy", float(np.max(_work(states))))["factor"]
         buffer.add("U", trajectory.stored_energy, energy)
-        buffer.add("W", states.plastic_work, energy)
+        buffer.add("W", trajectory.plastic_work, energy)
         if trajectory.motion is not None:
             motion = trajectory.motion
             buffer.add("t", motion.time, unit["t"])

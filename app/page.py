@@ -15,7 +15,7 @@ from .views import DOCUMENTS, PLOTS
 
 #: In the order in which they need each other: one module in the browser.
 _SCRIPTS = (
-    *("numbers", "theme", "scene", "springs", "draw", "plots", "form", "readouts"),
+    *("numbers", "theme", "scene", "springs", "draw", "axes", "layers", "plots", "form", "readouts"),
     *("compare", "player", "files", "tools", "talk", "page"),
 )
 _STYLE = (ASSETS / "style.css").read_text(encoding="utf-8")

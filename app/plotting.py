@@ -6,7 +6,7 @@ import holoviews as hv
 import holoviews.plotting.bokeh
 import numpy as np
 from bokeh.document import Document
-from bokeh.models import ColumnDataSource, HoverTool, Legend, Line, LinearAxis, Range1d, Scatter
+from bokeh.models import ColorBar, ColumnDataSource, HoverTool, Legend, Line, LinearAxis, Range1d, Scatter
 
 hv.Store.set_current_backend("bokeh")
 
@@ -111,6 +111,9 @@ class Plot:
         self.legend = [_entry(item) for legend in figure.legend for item in legend.items]
         figure.center = [part for part in figure.center if not isinstance(part, Legend)]
         _look(figure)
+        if "t" in self.axes:
+            # As wide as an axis on the right, so that times stand under each other.
+            figure.min_border_right = 66
         self.figure = figure
 
     def described(self):
@@ -149,7 +152,8 @@ def _look(figure):
         # Frames of plots that share an axis start and end at the same place.
         min_border_left=66,
         min_border_right=18,
-        min_border_top=4,
+        min_border_top=8,
+        min_border_bottom=44,
     )
     figure.toolbar.update(autohide=True, logo=None)
     for grid in figure.grid:
@@ -159,6 +163,8 @@ def _look(figure):
             axis_line_color="#9aa0a8",
             major_tick_line_color="#9aa0a8",
             minor_tick_line_color=None,
+            # The page draws these, in the margin.
+            visible=not isinstance(axis, LinearAxis),
             major_label_text_font=FONT,
             major_label_text_font_size="11px",
             major_label_text_color="#4a515b",
@@ -167,6 +173,11 @@ def _look(figure):
             axis_label_text_font_style="normal",
             axis_label_text_color=INK,
         )
+    for bar in figure.right:
+        if isinstance(bar, ColorBar):
+            bar.update(background_fill_color=PAPER, bar_line_color=None, major_tick_line_color=INK)
+            bar.update(major_label_text_color=INK, title_text_color=INK, title_text_font_style="normal")
+            bar.update(major_label_text_font=FONT, title_text_font=FONT, title_text_font_size="12px")
     for tool in figure.toolbar.tools:
         if isinstance(tool, HoverTool):
             tool.tooltips = [("x", "$x"), ("y", "$y")]

@@ -47,6 +47,7 @@ def _preset(scene, media, indenters):
         "plasticity": "q_c",
         "damping": "none",
         "drive": "depth" if "depth" in scene else "impact",
+        "surface": "virgin",
     }
     kinds = {"E": ("E", "pressure"), "nu": ("ν", "number"), "q_c": ("q_c", "yield constant")}
     shown = [(kinds[key], medium["label"], medium[key]) for key in ("E", "nu", "q_c")]

@@ -3,7 +3,7 @@
 from .shapes import SHAPES, Quantity
 
 ELASTICITY, PLASTICITY, DAMPING = "elasticity", "plasticity", "damping"
-DRIVE, INERTIA = "drive", "inertia"
+DRIVE, INERTIA, SURFACE = "drive", "inertia", "surface"
 
 #: The options of each choice; the first is where the page begins.
 CHOICES = {
@@ -13,6 +13,7 @@ CHOICES = {
     DAMPING: {"none": "none", "eta": "η", "tau": "τ"},
     DRIVE: {"depth": "to a depth", "force": "to a force", "impact": "impact"},
     INERTIA: {"unknown": "unknown", "density": "density"},
+    SURFACE: {"virgin": "virgin", "imprint": "earlier imprint"},
 }
 
 _MODULUS, _RATIO = (1.0, 1e14), (-0.99, 0.5)
@@ -32,6 +33,7 @@ _NUMBERS = (
     Quantity("max_depth", "d_max", "largest depth", "length", (1e-13, 10.0), 1e-6, 30.0),
     Quantity("max_force", "F_max", "largest force", "force", (1e-18, 1e15), 1.0, 30.0),
     Quantity("mass", "m", "mass", "mass", (1e-24, 1e9), 1.0, 30.0),
+    Quantity("plastic_depth", "d_0", "plastic depth left before", "length", (1e-15, 10.0), 1e-6, 30.0),
     Quantity("speed", "v_0", "speed at first contact", "speed", (1e-12, 1e5), 1.0, 30.0),
 )
 
@@ -57,6 +59,7 @@ USED = {
     DAMPING: {"none": (), "eta": ("eta",), "tau": ("tau",)},
     DRIVE: {"depth": ("max_depth",), "force": ("max_force",), "impact": ("mass", "speed")},
     INERTIA: {"unknown": (), "density": ("density",)},
+    SURFACE: {"virgin": (), "imprint": ("plastic_depth",)},
 }
 
 

@@ -136,10 +136,28 @@ class Session:
         self._last = None
         return True
 
+    def _again(self, message):
+        """The same body hits the same spot once more."""
+        hit = self.drawing.trajectory.hit
+        if hit is None:
+            raise ValueError("only an impact can be repeated")
+        if not hit.growth > 0:
+            raise ValueError("nothing has yielded further: the next impact is the same as this one")
+        self.state.hit_again(float(hit.plastic_depth))
+        return True
+
     def _hold(self, message):
+        """Hold what is seen, at the state at which the page stands just now; or let go of what is held."""
+        self._reach(message)
         self.held = None if self.held is not None else self.drawing
         self._held_name = around.summary(self.state)
         return False
+
+    def _reach(self, message):
+        """Stand where the page stands, which it tells only once it has been still."""
+        if "at" in message and float(message["at"]) != self.state.progress:
+            self.state.move(float(message["at"]))
+            self._solve()
 
     def _stand(self, message):
         """The page stands at another state; it has drawn that already."""
@@ -174,17 +192,21 @@ class Session:
         return False
 
     def _file(self, message):
+        self._reach(message)
         trajectory = self.drawing.trajectory
         files = {
             "curves": ("curves.csv", export.csv),
             "pressure": ("pressure.csv", export.pressure_csv),
             "scene": ("scene.json", link.scene_file),
-            "python": ("scene.py", export.python),
+            "python": ("scene.py", self._python),
         }
         if message.get("what") in files:
             name, write = files[message["what"]]
             self.page.send({"file": name, "what": message["what"], "text": write(trajectory)})
         return False
+
+    def _python(self, trajectory):
+        return export.python(trajectory, self.held and self.held.trajectory)
 
     _sequence = 0
 
@@ -215,7 +237,7 @@ class Session:
             "speed": float(trajectory.motion.velocity[0]) if trajectory.motion is not None else 0.0,
             "impact": trajectory.motion is not None,
             "numbers": around.numbers(trajectory),
-            "form": form(state),
+            "form": form(state, trajectory.scene.medium),
             "sketch": around.sketch(trajectory, state.shape),
             "lights": around.lights(trajectory, self._density()),
             "sources": around.sources(state.preset),
@@ -241,6 +263,7 @@ _ACTIONS = {
     "choose": Session._choose,
     "load": Session._load,
     "reset": Session._reset,
+    "again": Session._again,
     "undo": Session._undo,
     "redo": Session._redo,
     "hold": Session._hold,

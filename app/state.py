@@ -15,6 +15,7 @@ from .quantities import (
     INERTIA,
     PLASTICITY,
     QUANTITIES,
+    SURFACE,
     shape_quantities,
     used,
 )
@@ -149,11 +150,18 @@ class Explorer:
     def drive(self):
         """What is done with the indenter, up to the deepest state."""
         n = self.numbers
+        before = n["plastic_depth"] if self.choices[SURFACE] == "imprint" else 0.0
         return {
             "depth": mdr.DepthPath(n["max_depth"]),
             "force": mdr.ForcePath(n["max_force"]),
-            "impact": mdr.FreeImpact(n["mass"], n["speed"]),
+            "impact": mdr.FreeImpact(n["mass"], n["speed"], before),
         }[self.choices["drive"]]
+
+    def hit_again(self, left):
+        """Let the body hit the imprint, of a plastic depth (m), that it has left itself."""
+        self.set("plastic_depth", left)
+        self.choices[SURFACE] = "imprint"
+        self.resets = self.resets | {"plastic_depth": left}
 
     def scene(self):
         """What is to be modelled: pressed once, or hit once."""
@@ -246,6 +254,14 @@ def _drive(state, option):
     return {"mass": mass, "speed": (2 * work / mass) ** 0.5}
 
 
+def _surface(state, option):
+    """The imprint that the present impact leaves; a shallow one where it leaves none."""
+    if option == "virgin" or state.choices["drive"] != "impact":
+        return {}
+    deepest = state.solved()
+    return {"plastic_depth": float(deepest.live.lower) or float(f"{0.1 * float(deepest.depth):.2g}")}
+
+
 _CONVERT = {
     "shape": _shape,
     ELASTICITY: _elasticity,
@@ -253,4 +269,5 @@ _CONVERT = {
     DAMPING: _damping,
     DRIVE: _drive,
     INERTIA: lambda state, option: {},
+    SURFACE: _surface,
 }

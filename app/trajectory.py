@@ -8,9 +8,10 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.yielding import LiveInterval
 
-#: Denser towards both ends of a stretch by the cosine.
-_SPREAD = (1 - np.cos(np.linspace(0, np.pi, 33))) / 2
-_MOTION = 160
+#: Denser towards both ends of a stretch by the cosine, enough to be played at 30 frames a second.
+_SPREAD = (1 - np.cos(np.linspace(0, np.pi, 49))) / 2
+#: Instants of an impact, its turning point not among them.
+INSTANTS = 160
 _PLACES = (1 - np.cos(np.linspace(0, np.pi, 201))) / 2
 #: Points of an unloading curve from one state.
 _RELEASE = np.linspace(1, 0, 13)
@@ -50,6 +51,16 @@ class Trajectory:
         return self.states.force if self.motion is None else self.motion.force
 
     @property
+    def before(self):
+        """Plastic depth (m) that was left on this spot before."""
+        return getattr(self.scene.drive, "plastic_depth", 0.0)
+
+    @property
+    def plastic_work(self):
+        """Work (J) lost to yield so far, of an impact its own only."""
+        return self.states.plastic_work if self.motion is None else self.motion.plastic_work
+
+    @property
     def stored_energy(self):
         """Energy (J) of all springs, of those too that have let go of a viscous rebound."""
         return self.states.stored_energy if self.motion is None else self.motion.stored_energy
@@ -73,9 +84,13 @@ class Trajectory:
     def onset(self):
         """The state where yield starts; None if nothing yields or the shape is not known so deep."""
         medium, profile = self.scene.medium, self.scene.profile
-        if medium.critical_depth > min(profile.deepest, 1e300):
+        span = medium.critical_depth
+        depth = self.before + span
+        if not depth <= min(profile.deepest, 1e300):
             return None
-        return mdr.indent(profile, medium, medium.critical_depth)
+        return mdr.Indentation(
+            profile, medium, depth, LiveInterval(*map(np.asarray, (self.before, depth, span)))
+        )
 
     @cached_property
     def largest_slope(self):
@@ -85,10 +100,14 @@ class Trajectory:
             slope = np.diff(self.scene.profile.height(r)) / np.diff(r)
         return float(np.max(slope[np.isfinite(slope)], initial=0.0))
 
-    def pressure(self, index, r):
-        """Contact pressure (Pa) of a state, that of the dashpots included."""
+    def pressure(self, index, r, exact=False):
+        """Contact pressure (Pa) of a state, that of the dashpots included.
+
+        That of a measured tip is numerical unless it is to be `exact`, which takes a hundred times as long.
+        """
         state = self.states[index]
         measured = isinstance(self.scene.profile, mdr.Sampled) and float(state.contact_radius) > 0
+        measured = measured and not exact
         pressure = _from_line_load(state, r) if measured else state.pressure(r)
         damping = 0.0 if self.motion is None else self._dashpot_load(index)
         if damping > 0:
@@ -144,7 +163,7 @@ def follow(scene, progress):
 
 def _impact(scene, progress):
     hit = scene.solve()
-    path = _with_turning_point(hit, hit.motion(_MOTION))
+    path = _with_turning_point(hit, hit.motion(INSTANTS))
     peak = int(np.argmax(path.depth))
     turn, end = path.time[peak], path.time[-1]
     way = np.where(path.time <= turn, path.time / turn, 1 + (path.time - turn) / (end - turn))

@@ -103,7 +103,8 @@ def read(text, kind, shown):
             f"“{text:.40}” is not a number" + (f" with one of the units {known}" if known else "")
         )
     unit = units[match[2]] if match[2] else shown
-    value = float(match[1]) * unit.factor
+    # 15 nm as 1.5e-08, not as 1.5000000000000002e-08.
+    value = float(f"{float(match[1]) * unit.factor:.15g}")
     if not isfinite(value):
         raise ValueError(f"“{text}” is too large")
     return value

@@ -141,8 +141,9 @@ _ENERGY = Plot(
 
 def _map():
     image = hv.Image(np.zeros((2, 2)), bounds=(-1, -1, 1, 1), kdims=["x", "y"], vdims="p", label="image")
-    ring = curve("a ring", color="#ffffff", line_width=1.2, line_dash="dashed", show_legend=False)
-    zone = curve("c ring", color="#ffffff", line_width=1.2, line_dash="dotted", show_legend=False)
+    # A white that stays white in the dark.
+    ring = curve("a ring", color="#fefefe", line_width=1.2, line_dash="dashed", show_legend=False)
+    zone = curve("c ring", color="#fefefe", line_width=1.2, line_dash="dotted", show_legend=False)
     options = {"cmap": "cividis", "colorbar": True, "clim": (0, 1)}
     return Plot(
         "map",

@@ -110,22 +110,33 @@ class FreeImpact:
         Mass m (kg), positive.
     speed : float
         Speed v₀ (m/s) at first contact, positive.
+    plastic_depth : float
+        Plastic depth (m) that earlier impacts on the same spot have left; 0, the default, is a virgin
+        surface.
     """
 
     mass: float
     speed: float
+    plastic_depth: float = 0.0
 
     def __post_init__(self):
-        for name, unit in (("mass", "kg"), ("speed", "m/s")):
-            value = _check.positive_number(f"FreeImpact {name}", getattr(self, name), unit=unit)
-            object.__setattr__(self, name, value)
+        for name, unit in (("mass", "kg"), ("speed", "m/s"), ("plastic_depth", "m")):
+            quantity = f"FreeImpact {name}"
+            value = _check.number(quantity, getattr(self, name))
+            value = _check.positive(quantity, value, unit=unit, zero=name == "plastic_depth")
+            object.__setattr__(self, name, float(value))
 
     def models(self, medium):
-        """Names of the models that can solve it, the cheapest that is exact first."""
-        return (SCALAR_ODE, CHAIN) if medium.eta > 0 else (CLOSED_FORM, SCALAR_ODE, CHAIN)
+        """Names of the models that can solve it, the cheapest that is exact first.
+
+        The chain hits an imprint by `chain_impact(start=…)`: the depth alone does not set it up.
+        """
+        models = (SCALAR_ODE, CHAIN) if medium.eta > 0 else (CLOSED_FORM, SCALAR_ODE, CHAIN)
+        return models[:-1] if self.plastic_depth > 0 else models
 
     def solve(self, profile, medium, model):
         """The `Impact` of this body, or on the chain the `ChainImpact`."""
         if model == CHAIN:
             return chain_impact(profile, medium, self.mass, self.speed)
-        return solve_impact(profile, medium, self.mass, self.speed, in_time=model == SCALAR_ODE)
+        in_time = model == SCALAR_ODE
+        return solve_impact(profile, medium, self.mass, self.speed, self.plastic_depth, in_time=in_time)

@@ -160,6 +160,8 @@ def _untagged(what, data, kinds):
 def _build(what, data, kind):
     if isinstance(data, dict) and kind in (DepthPath, ForcePath):
         data = {"time": None} | data
+    if isinstance(data, dict) and kind is FreeImpact:
+        data = {"plastic_depth": 0.0} | data
     _keys(f"scene {what}", data, {field.name for field in fields(kind)})
     try:
         return kind(**data)

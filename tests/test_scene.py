@@ -13,7 +13,13 @@ SCENE = mdr.Scene(mdr.Cone(0.1), mdr.Medium(1e9, 1 / 3), mdr.DepthPath((0.0, 1e-
 
 
 @pytest.mark.parametrize(
-    "drive", [mdr.DepthPath(1e-9), mdr.DepthPath([1e-9, 0]), mdr.FreeImpact(1e-3, 0.1)]
+    "drive",
+    [
+        mdr.DepthPath(1e-9),
+        mdr.DepthPath([1e-9, 0]),
+        mdr.FreeImpact(1e-3, 0.1),
+        mdr.FreeImpact(1e-3, 0.1, plastic_depth=1e-9),
+    ],
 )
 @pytest.mark.parametrize("medium", [mdr.Medium(1e9), mdr.Medium(1 / 3, 0.1, 1e-300)])
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
@@ -29,6 +35,21 @@ def test_solve_gives_what_the_functions_give():
     )
     hit = mdr.Scene(SCENE.profile, SCENE.medium, mdr.FreeImpact(1e-3, 0.1)).solve()
     assert hit.restitution == mdr.impact(SCENE.profile, SCENE.medium, 1e-3, 0.1).restitution
+
+
+@pytest.mark.parametrize("eta", [0.0, 20.0])
+def test_impact_on_an_imprint_is_solved_as_one(eta):
+    medium, again = mdr.Medium(1e9, 10.0, eta), mdr.FreeImpact(1e-9, 0.1, plastic_depth=2e-8)
+    scene = mdr.Scene(mdr.Cone(0.1), medium, again)
+    expected = mdr.impact(scene.profile, medium, 1e-9, 0.1, plastic_depth=2e-8)
+    assert scene.solve().restitution == expected.restitution
+    assert "chain" not in scene.models
+    # Scenes from before it could be said have none.
+    old = json.loads(mdr.Scene(scene.profile, medium, mdr.FreeImpact(1e-9, 0.1)).to_json())
+    del old["drive"]["plastic_depth"]
+    assert mdr.Scene.from_json(json.dumps(old)).drive == mdr.FreeImpact(1e-9, 0.1)
+    with pytest.raises(ValueError, match="FreeImpact plastic_depth = -1"):
+        mdr.FreeImpact(1e-9, 0.1, plastic_depth=-1.0)
 
 
 def changed(**changes):

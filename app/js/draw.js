@@ -1,9 +1,9 @@
 // From the states of a scene to what each layer of each plot shows, all in the units of the axes.
 function drawForce(scene, i) {
   const { axes, peak, onset, impact, tau } = scene.meta
-  const [d, F, c, dp] = ["d", "F", "c", "dp"].map((name) => scene.get(name))
+  const [d, F, dp] = ["d", "F", "dp"].map((name) => scene.get(name))
   const fields = scene.fields(i)
-  const first = firstYielded(c, peak)
+  const first = firstYielded(dp, peak)
   const shown = {
     ...curves(scene, d, F, first),
     // With dashpots the curve does not pass there.
@@ -12,7 +12,7 @@ function drawForce(scene, i) {
         ? { x: [onset[0] / axes.d.factor], y: [onset[1] / axes.F.factor] }
         : EMPTY,
     now: { x: [d[i]], y: [F[i]] },
-    names: forceNames(scene, first <= peak ? dp[i] : 0),
+    names: forceNames(scene, dp[i], dp[0]),
     held: scene.meta.held ? { x: scene.get("held d"), y: scene.get("held F") } : EMPTY,
   }
   if (fields) {
@@ -26,8 +26,9 @@ function drawForce(scene, i) {
   return shown
 }
 
-function firstYielded(c, peak) {
-  const first = c.findIndex((radius) => radius > 0)
+// The first state that has yielded further than it was before.
+function firstYielded(dp, peak) {
+  const first = dp.findIndex((depth) => depth > dp[0])
   return first < 0 ? peak + 1 : first
 }
 
@@ -40,7 +41,7 @@ function curves(scene, x, y, first) {
   }
 }
 
-function forceNames(scene, dp) {
+function forceNames(scene, dp, before) {
   const { axes, onset, impact, tau } = scene.meta
   const [right, up] = [0.02 * axes.d.end, 0.045 * axes.F.end]
   const names = { x: [], y: [], text: [] }
@@ -49,10 +50,11 @@ function forceNames(scene, dp) {
     names.y.push(y)
     names.text.push(text)
   }
-  if (onset && !(impact && tau > 0)) {
+  if (onset && before === 0 && !(impact && tau > 0)) {
     const x = onset[0] / axes.d.factor
     // To the left of its point where the picture ends on the right.
-    add(x + (x < 0.85 * axes.d.end ? right : -8.5 * right), onset[1] / axes.F.factor - up, "(d_c, F_c)")
+    const y = Math.max(onset[1] / axes.F.factor - up, up)
+    add(x + (x < 0.85 * axes.d.end ? right : -8.5 * right), y, "(d_c, F_c)")
   }
   // Beside the axis on the left, never over it.
   if (dp > 0) add(dp > 5 * right ? dp - 3 * right : Math.max(dp, 0) + right, up, "d_p")
@@ -103,13 +105,14 @@ function meanPressure(scene, i) {
 
 function drawRadii(scene, i) {
   const { peak } = scene.meta
-  const [d, a, c] = ["d", "a", "c"].map((name) => scene.get(name))
-  const first = firstYielded(c, peak)
+  const [d, a, c, dp] = ["d", "a", "c", "dp"].map((name) => scene.get(name))
+  // An imprint from before is a plastic zone from the beginning.
+  const first = c[0] > 0 ? 0 : firstYielded(dp, peak)
   const yielded = first <= peak
   const zone = column(d, c, Math.max(first - 1, 0), yielded ? peak + 1 : 0)
   const held = (name) => (scene.meta.held ? { x: scene.get("held d"), y: scene.get(name) } : EMPTY)
   return {
-    zone: yielded ? { x: [...zone.x, d[peak]], y: [...zone.y, 0] } : EMPTY,
+    zone: yielded ? { x: [...zone.x, d[peak], zone.x[0]], y: [...zone.y, 0, 0] } : EMPTY,
     "contact radius a": column(d, a, 0, peak + 1),
     "plastic zone c": zone,
     unloading: {

@@ -12,6 +12,14 @@ function svgText(text) {
   return text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`)
 }
 
+// A line of text with its indices small and low.
+function svgLine(text) {
+  const index = (part) => `<tspan dy="3" font-size="8">${part}</tspan><tspan dy="-3">\u200b</tspan>`
+  return indexed(text)
+    .map((part, k) => (k % 2 ? index(svgText(part)) : svgText(part)))
+    .join("")
+}
+
 // Title and legend of a plot as the content of an SVG.
 function headSvg(plot, width, dark) {
   const font = "font-family='Helvetica, Arial, sans-serif'"
@@ -20,7 +28,7 @@ function headSvg(plot, width, dark) {
   const entries = plot.legend.map((entry) => {
     const at = x
     x += 34 + 6.2 * entry.label.length
-    const text = `<text x="25" y="10" font-size="11" ${font} fill="${ink}">${svgText(entry.label)}</text>`
+    const text = `<text x="25" y="10" font-size="11" ${font} fill="${ink}">${svgLine(entry.label)}</text>`
     return `<g transform="translate(${at} 25)">${swatch(entry, dark)}${text}</g>`
   })
   const ground = `<rect width="${width}" height="${HEAD}" fill="${shade("#ffffff", dark)}"/>`

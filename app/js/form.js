@@ -44,7 +44,7 @@ class Form {
     this.steps = form.steps
     const kinds = JSON.stringify(
       form.groups.map(({ rows }) =>
-        rows.map((row) => [row.number, row.choice, row.options, row.sketch, "note" in row]),
+        rows.map((row) => [row.number, row.choice, row.options, row.sketch, row.act, "note" in row]),
       ),
     )
     if (kinds !== this.kinds) {
@@ -84,6 +84,7 @@ class Form {
     if ("number" in row) return numberRow(row, this.ask, this.steps)
     if ("choice" in row) return choiceRow(row, this.ask)
     if ("sketch" in row) return sketchRow()
+    if ("act" in row) return actRow(row, this.ask)
     const node = make("p", { class: "note" })
     return [node, ({ note }) => node.replaceChildren(...sentence("p", {}, note).childNodes)]
   }
@@ -185,6 +186,12 @@ function numberRow(row, ask, steps) {
     slider.setAttribute("aria-valuetext", next.text)
   }
   return [node, show]
+}
+
+function actRow({ act, text, title }, ask) {
+  const button = make("button", { type: "button", title }, text)
+  button.addEventListener("click", () => ask({ do: act }))
+  return [make("p", { class: "act" }, button), () => {}]
 }
 
 function sketchRow() {

@@ -15,6 +15,11 @@ function digits(value, count = 4) {
   return `${mantissa} × 10${power}`.replace("-", "−")
 }
 
+// The parts of a text by turns plain and an index, as in σ_zz.
+function indexed(text) {
+  return text.split(/_([a-z0-9]+)/)
+}
+
 // The unit of a kind in which a value in SI has one to three digits before the point.
 function fitting(units, value) {
   const size = Number.isFinite(value) ? Math.abs(value) : 0

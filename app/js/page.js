@@ -152,6 +152,7 @@ class Explorer {
     if (location.search !== `?${query}`) history.replaceState(null, "", url)
     this.need()
     this.compare()
+    this.plots.point()
   }
 
   // Has the models compared on this scene, if that is looked at.
@@ -188,6 +189,11 @@ class Explorer {
     } else if (message.file) {
       save(message.file, message.text, "text/plain")
     }
+  }
+
+  // Asks for something of the state that is seen, which the server may not have heard of yet.
+  askHere(message) {
+    this.ask({ ...message, at: this.player.stand() })
   }
 
   showLink() {
@@ -269,7 +275,7 @@ class Explorer {
       on.matches?.("input[type=text], textarea, select") || event.ctrlKey || event.altKey || event.metaKey
     const acts = {
       " ": () => !on.matches?.("button, summary, input[type=radio]") && (this.player.toggle(), true),
-      h: () => (this.ask({ do: "hold" }), true),
+      h: () => (this.askHere({ do: "hold" }), true),
       r: () => (this.ask({ do: "reset" }), true),
       z: () => (this.ask({ do: "undo" }), true),
       y: () => (this.ask({ do: "redo" }), true),

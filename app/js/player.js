@@ -1,6 +1,7 @@
 // Moves through the states of a scene: by a slider, play and pause, and along the force–depth curve.
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2]
-const CYCLE = 5000
+// Milliseconds for each state on the average.
+const PACE = 24
 const STILL = 250
 
 class Player {
@@ -82,12 +83,19 @@ class Player {
 
   tick(now) {
     if (!this.playing) return
-    this.clock = (this.clock + (Number(this.speed.value) * Math.max(now - this.last, 0)) / CYCLE) % 1.12
+    const cycle = (PACE * this.times.length) / Number(this.speed.value)
+    this.clock = (this.clock + Math.max(now - this.last, 0) / cycle) % 1.12
     this.last = now
     // A moment of rest at the end of each round.
     const next = this.times.findIndex((time) => time >= this.clock)
     this.go(next < 0 ? this.times.length - 1 : next)
     requestAnimationFrame((then) => this.tick(then))
+  }
+
+  // Stops, and tells where.
+  stand() {
+    this.stop()
+    return this.scene.meta.progress[this.at]
   }
 
   stop() {

@@ -9,10 +9,16 @@ const DRAW = {
 }
 const PIXELS = 72
 
+// Bokeh is not told, so that it does not paint: the sheets do.
+function quietly(model, values) {
+  model.setv(values, { silent: true })
+}
+
 class Plots {
   constructor(described, documents) {
     Object.assign(this, { described, documents })
     this.figures = new Map()
+    this.sheets = new Map()
     this.shown = new Set()
     this.limits = new Map()
   }
@@ -34,7 +40,10 @@ class Plots {
       const roots = Object.fromEntries(ids.map((id, k) => [id, place(names[k])]))
       await Bokeh.embed.embed_items({ plots: document }, [{ docid: "plots", roots, root_ids: ids }])
       const found = Bokeh.documents.find((each) => each.get_model_by_id(ids[0]) !== null)
-      names.forEach((name, k) => this.figures.set(name, found.get_model_by_id(ids[k])))
+      names.forEach((name, k) => {
+        this.figures.set(name, found.get_model_by_id(ids[k]))
+        this.sheets.set(name, new Sheet(this.view(name)))
+      })
     }
     return missing.length > 0
   }
@@ -69,7 +78,13 @@ class Plots {
   }
 
   put(name, label, data) {
-    this.layer(name, label).data_source.data = data
+    quietly(this.layer(name, label).data_source, { data })
+    this.sheets.get(name).change()
+  }
+
+  // Lets tooltips find what is drawn.
+  point() {
+    for (const name of this.seen) this.sheets.get(name).point()
   }
 
   fit({ name, axes }, all) {
@@ -80,19 +95,18 @@ class Plots {
     const limits = JSON.stringify([x, y, right])
     if (this.limits.get(name) === limits) return
     this.limits.set(name, limits)
-    const set = (range, axis) =>
-      range.setv({ start: axis.start, end: axis.end, reset_start: axis.start, reset_end: axis.end })
+    const set = (range, { start, end }) => quietly(range, { start, end, reset_start: start, reset_end: end })
     set(figure.x_range, x)
     set(figure.y_range, y)
-    figure.below[0].setv({ axis_label: label })
-    figure.left[0].setv({ axis_label: name === "map" ? "" : y.label })
+    quietly(figure.below[0], { axis_label: label })
+    quietly(figure.left[0], { axis_label: name === "map" ? "" : y.label })
     if (right) {
       set(figure.extra_y_ranges.right ?? figure.extra_y_ranges.get("right"), right)
-      figure.right[0].setv({ axis_label: right.label })
+      quietly(figure.right[0], { axis_label: right.label })
     }
     if (name === "map") this.square({ meta: { axes: all } })
     const tooltips = [
-      [x.label.split(",")[0], `$x ${x.unit}`],
+      [label.split(",")[0], `$x ${x.unit}`],
       [y.label.split(",")[0], `$y ${y.unit}`],
     ]
     for (const tool of figure.toolbar.tools) {
@@ -106,9 +120,10 @@ class Plots {
     const half = scene.meta.axes.x.end
     if (!(width > 0) || !(height > 0)) return
     const across = half * Math.max(1, width / height)
-    const set = (range, end) => range.setv({ start: -end, end, reset_start: -end, reset_end: end })
+    const set = (range, end) => quietly(range, { start: -end, end, reset_start: -end, reset_end: end })
     set(this.figure("map").x_range, across)
     set(this.figure("map").y_range, (across * height) / width)
+    this.sheets.get("map").change()
   }
 
   // Pressure over the plane, from the pressure over the radius.

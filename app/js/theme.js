@@ -32,7 +32,8 @@ function recolour(figure, dark) {
       const to = shade(value, dark)
       changed[name] = wrapped ? { value: to } : to
     }
-    model.setv(changed)
+    // Layers are drawn by the page: what Bokeh would do about each of them is not needed.
+    model.setv(changed, { silent: glyphs.includes(model) })
   }
 }
 

@@ -9,12 +9,12 @@ function toolbar(page) {
     undo: button("Undo", "Undo the last change (Z)", () => page.ask({ do: "undo" })),
     redo: button("Redo", "Do it again (Y)", () => page.ask({ do: "redo" })),
     reset: button("Reset", "Back to the preset (R)", () => page.ask({ do: "reset" })),
-    hold: button("Hold", "Hold these curves to compare with the next (H)", () => page.ask({ do: "hold" })),
+    hold: button("Hold", "Hold these curves to compare with the next (H)", () => page.askHere({ do: "hold" })),
     map: button("Map", "Pressure over the plane (M)", () => page.toggle("map")),
     speed: button("Speed", "Speed against error of the models (S)", () => page.toggle("speed")),
     theme: button("Dark", "Light or dark (D)", () => page.toggleTheme()),
   }
-  const file = (text, what, title) => button(text, title, () => page.ask({ do: "file", what }))
+  const file = (text, what, title) => button(text, title, () => page.askHere({ do: "file", what }))
   const menu = make(
     "details",
     { class: "menu" },
@@ -70,7 +70,8 @@ function tile(page, plot) {
   const legend = make("ul", { class: "legend" })
   legend.append(
     ...plot.legend.map(({ label }) => {
-      const entry = make("li", { "data-layer": label }, label)
+      const name = indexed(label).map((part, k) => (k % 2 ? make("sub", {}, part) : part))
+      const entry = make("li", { "data-layer": label }, make("span", {}, ...name))
       entry.insertAdjacentHTML("afterbegin", '<svg width="20" height="12" aria-hidden="true"></svg>')
       return entry
     }),

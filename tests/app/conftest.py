@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 import threading
+from html import unescape
 from pathlib import Path
 from urllib.parse import parse_qsl, urlsplit
 
@@ -119,7 +120,8 @@ class Explorer:
         page.on("request", lambda request: self.requests.append(request.url))
         page.on("pageerror", lambda error: self.problems.append(str(error)))
         page.on("console", self._heard)
-        page.set_default_timeout(12_000)
+        # Long enough for a busy machine, on which the first page of a server waits for all its imports.
+        page.set_default_timeout(60_000)
         page.add_init_script(SCRIPT)
         page.goto(url)
         page.wait_for_function("explorer.idle()")
@@ -177,6 +179,11 @@ class Explorer:
         with self.page.expect_download() as download:
             self.page.locator(f'[data-plot="{figure}"] button', has_text=kind).click()
         return download.value.path()
+
+    def drawing(self, figure):
+        """All that is written in the SVG of a plot, and what stands between."""
+        text = re.sub("<[^>]*>", "", self.save(figure, "SVG").read_text(encoding="utf-8"))
+        return unescape(text).replace("\u200b", "")
 
     def bring(self, label, path):
         """Give the page a file."""

@@ -163,6 +163,22 @@ def test_impact_is_shown_over_time_with_its_ledger(explorer):
     assert explorer.page.locator('[data-plot="motion"]').is_hidden()
 
 
+def test_a_body_hits_the_same_spot_again(explorer):
+    explorer.choose("Preset", DROP)
+    hit = State(DROP).scene().solve()
+    for _ in range(2):
+        with explorer.change():
+            explorer.page.get_by_role("button", name="Hit again").click()
+        left = hit.plastic_depth
+        hit = mdr.impact(hit.profile, hit.medium, hit.mass, hit.speed, plastic_depth=left)
+        assert explorer.readout("e") == f"{float(hit.restitution):.4f}"
+        depth = np.array(explorer.column("force", "elastic", "x"))
+        scale = unit(explorer.axis("force")["labels"][0], "length")
+        assert depth[0] * scale == pytest.approx(float(left), rel=1e-6)
+        # Elastic again until it yields further.
+        assert depth[-1] * scale == pytest.approx(float(left + hit.medium.critical_depth), rel=0.05)
+
+
 def test_keys_on_a_slider_move_every_plot(explorer):
     state = State()
     for name in ("cone_slope", "E_1", "q_c", "max_depth"):
@@ -184,7 +200,7 @@ def test_keys_on_a_slider_move_every_plot(explorer):
 def test_dragging_along_the_curve_moves_every_plot_without_the_server(explorer):
     explorer.wait_for_frames()
     traffic = explorer.listen()
-    box = explorer.page.locator('[data-plot="force"] canvas').first.bounding_box()
+    box = explorer.page.locator('canvas[data-sheet="force"]').bounding_box()
     left, right = explorer.page.evaluate("explorer.frame('force')")
     explorer.page.mouse.move(box["x"] + right - 5, box["y"] + 40)
     explorer.page.mouse.down()

@@ -22,6 +22,7 @@ pytestmark = pytest.mark.skipif(
     reason="the page's tests need Chromium; set CHROMIUM to its path",
 )
 
+BACK = "!('lost' in (explorer.main()?.dataset ?? {lost: 0})) && explorer.idle()"
 MARKUP = "<img src=x onerror=alert(1)>"
 
 
@@ -58,7 +59,7 @@ def test_server_that_comes_back_finds_its_page_again(port, context):
         page.wait_for_selector("main[data-lost]")
         assert "connection is lost" in page.locator(".notice").last.inner_text()
         server = serve(port)
-        page.wait_for_function("!('lost' in (explorer.main()?.dataset ?? {lost: 0})) && explorer.idle()")
+        page.wait_for_function(BACK)
         state = State()
         state.set("max_depth", 13.5e-9)
         assert_draws(explorer, state)
@@ -103,9 +104,7 @@ def test_connection_that_is_cut_comes_back(explorer):
         "Bokeh.documents[0].event_manager.send_event({event_name: 'connection_lost', origin: null})"
     )
     explorer.page.wait_for_selector("main[data-lost]")
-    explorer.page.wait_for_function(
-        "!('lost' in (explorer.main()?.dataset ?? {lost: 0})) && explorer.idle()"
-    )
+    explorer.page.wait_for_function(BACK)
     assert now(explorer)[0] == pytest.approx(7e-9)
 
 

@@ -2,7 +2,6 @@
 
 import json
 import os
-from html import unescape
 from pathlib import Path
 
 import numpy as np
@@ -52,7 +51,7 @@ def test_plots_are_saved_with_title_and_legend(explorer):
         width, height = (int.from_bytes(picture[at : at + 4], "big") for at in (16, 20))
         assert width > 400
         assert height > 250
-        drawing = unescape(explorer.save(figure, "SVG").read_text(encoding="utf-8"))
+        drawing = explorer.drawing(figure)
         tile = explorer.page.locator(f'[data-plot="{figure}"]')
         assert tile.locator("h3").inner_text() in drawing
         assert all(name in drawing for name in tile.locator(".legend li:visible").all_inner_texts())
