@@ -186,8 +186,7 @@ def stress_from_line_load(x, q, r, axis="auto", interpolation="linear"):
         ("axis", axis, ("auto", "straight", "even")),
         ("interpolation", interpolation, ("linear", "cubic")),
     ):
-        if value not in known:
-            raise ValueError(f"{name} = {value!r} must be {' or '.join(map(repr, known))}")
+        _check.one_of(name, value, known)
     if x[-1] == 0:
         # All of the load stands on the axis, where it has no width.
         return np.zeros_like(r)[()]

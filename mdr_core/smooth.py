@@ -48,7 +48,8 @@ class Smooth(Profile):
     def __post_init__(self):
         if not callable(self.slope_function):
             raise ValueError(
-                f"Smooth slope_function must be a function of the radius, got {self.slope_function!r:.80}"
+                "Smooth slope_function must be a function of the radius, "
+                f"got {_check.shown(self.slope_function)}"
             )
         radius = _check.positive_number("Smooth radius", self.radius, unit="m", infinite=True)
         object.__setattr__(self, "radius", radius)

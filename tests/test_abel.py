@@ -186,7 +186,7 @@ class TestCubicLoad:
             assert actual == pytest.approx(total / math.pi, rel=1e-10)
 
     def test_another_interpolation_is_refused(self):
-        with pytest.raises(ValueError, match="interpolation = 'round' must be 'linear' or 'cubic'"):
+        with pytest.raises(ValueError, match="interpolation = 'round' must be one of 'linear', 'cubic'"):
             abel.stress_from_line_load([0, 1], [1, 0], 0.5, interpolation="round")
 
 

@@ -58,6 +58,13 @@ def test_geometry_of_many_indenters(shape):
             getattr(shape, function)([1e-7, 2e-7, 3e-7])
 
 
+def nested(depth):
+    value = 1.0
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
 def test_arrays_stay_what_they_are():
     """Empty ones give empty ones, and read-only ones are taken."""
     assert mdr.indent(mdr.Cone(0.3), MEDIUM, []).force.shape == (0,)
@@ -81,6 +88,16 @@ def test_arrays_stay_what_they_are():
         (lambda: mdr.chain_impact(mdr.Cone(0.1), mdr.Medium([1e9, 2e9]), 1.0, 1.0), "one indenter on one"),
         (lambda: mdr.chain_impact(3, MEDIUM, 1.0, 1.0), "profile must be an mdr_core shape"),
         (lambda: mdr.Foundation(mdr.Cone(0.1), MEDIUM, 10**9, 1e-6), "even whole number up to 1e.07"),
+        (lambda: mdr.Medium(nested(40)), r"E_star must be real numbers, got \[\[\[\[\[\[\[\.\.\."),
+        (
+            lambda: mdr.indent(nested(2000), MEDIUM, 1.0),
+            r"an mdr_core shape such as .*, got \[\[\[\[\[\[\[",
+        ),
+        (
+            lambda: mdr.abel.stress_from_line_load([0, 1], [1, 0], 0, np.array(["auto"] * 2)),
+            "must be one of",
+        ),
+        (lambda: mdr.ScalingLaw(["a"], 1.0), "must be one of 'a', 'b', 'c'"),
         (lambda: mdr.indent_to_force(mdr.Cone(0.1), MEDIUM, 1e-300), "must be 0 or at least 1e-60"),
         (lambda: mdr.Sampled(np.arange(10**6), np.arange(10**6)), "1000000 samples, more than 5000; thin"),
     ],
@@ -116,6 +133,13 @@ class TestBigFiles:
     def test_deep_and_wide_json_is_refused(self, text):
         with pytest.raises(ValueError, match="scene: "):
             mdr.Scene.from_json(text)
+
+    @pytest.mark.parametrize("depth", [33, 64, *range(980, 1000)])
+    def test_a_number_that_is_deep_is_refused(self, depth):
+        """Deep enough to be too much for NumPy, and for what quotes it, in a scene that is JSON."""
+        scene = mdr.Scene(mdr.Cone(0.3), MEDIUM, mdr.DepthPath(1e-6)).to_json()
+        with pytest.raises(ValueError, match="scene"):
+            mdr.Scene.from_json(scene.replace("1000000000.0", "[" * depth + "1" + "]" * depth))
 
     def test_a_wide_path_is_read(self):
         scene = mdr.Scene(mdr.Cone(0.3), MEDIUM, mdr.DepthPath(np.linspace(0, 1e-6, 10**5)))
