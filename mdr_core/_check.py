@@ -9,7 +9,7 @@ import numpy as np
 SMALLEST, LARGEST = 1e-60, 1e60
 
 # Radii grow faster than depths below blunt exponents; their squares are still numbers.
-_FARTHEST = 1e140
+FARTHEST = 1e140
 
 # NumPy broadcasts up to 32 dimensions, and a few are added on the way.
 _MOST_DIMENSIONS = 16
@@ -72,18 +72,20 @@ def positive_number(quantity, value, *, unit="", infinite=False):
 def _real_array(quantity, value, what="real numbers"):
     try:
         array = np.asarray(value)
-        if array.dtype.kind not in "iuf" or array.ndim > _MOST_DIMENSIONS:
+        if array.dtype.kind not in "iuf" or array.ndim > _MOST_DIMENSIONS or np.ma.is_masked(value):
             raise TypeError
-        return array.astype(float, copy=False)
+        # Longer types than double become infinite, and are refused as such.
+        with np.errstate(over="ignore"):
+            return array.astype(float, copy=False)
     except (TypeError, ValueError):
         raise ValueError(f"{quantity} must be {what}, got {shown(value)}") from None
 
 
-def finite_array(quantity, value, *, unit=""):
-    """`value` as a float array without NaN or infinity."""
+def finite_array(quantity, value, *, unit="", most=FARTHEST):
+    """`value` as a float array without NaN or infinity, of numbers up to a size."""
     array, remedy = _real_array(quantity, value), "leave it out, or mend the data it comes from"
-    large = np.isfinite(array) & (np.abs(array) > _FARTHEST)
-    refuse(quantity, array, large, f"is beyond {_FARTHEST:g}", unit=unit, remedy="give it in SI units")
+    large = np.isfinite(array) & (np.abs(array) > most)
+    refuse(quantity, array, large, f"is beyond {most:g}", unit=unit, remedy="give it in SI units")
     return refuse(quantity, array, ~np.isfinite(array), "must be finite", unit=unit, remedy=remedy)
 
 

@@ -4,13 +4,12 @@ Pure mathematics, for callables (`reduce_slope`, `height_from_reduced`) and for 
 (`stress_from_line_load`, `line_load_from_stress`).
 """
 
-from functools import lru_cache
-
 import numpy as np
 from scipy.special import gamma
 
 from . import _check, cubic
 from .kernels import arcosh, chord, punch, segment
+from .legendre import gauss_legendre
 from .treecode import superpose_kernel
 
 # Nodes tried in turn, and how closely two of them must agree.
@@ -60,7 +59,7 @@ def kappa(n):
     >>> print(kappa(2.0))
     2.0
     """
-    n = np.asarray(n, dtype=float)
+    n = np.asarray(_check.positive("exponent n", n, zero=True))
     # n Γ(n/2)/2 = Γ(n/2 + 1), which stays finite as n → 0.
     few = np.minimum(n, 300.0)
     ratio = np.sqrt(np.pi) * gamma(few / 2 + 1) / gamma((few + 1) / 2)
@@ -101,14 +100,11 @@ def height_from_reduced(reduced, r):
     return (2 / np.pi * _mean_over_quarter(reduced, r, "reduced height g"))[()]
 
 
-_legendre = lru_cache(np.polynomial.legendre.leggauss)
-
-
 def _mean_over_quarter(function, x, quantity):
     """∫ function(x sin t) dt over 0 < t < π/2, for an array of x."""
     result, open_, last = np.zeros(x.shape), np.ones(x.shape, bool), np.full(x.shape, np.nan)
     for count in _COUNTS:
-        node, weight = _legendre(count)
+        node, weight = gauss_legendre(count)
         points = x[open_][:, None] * np.sin(np.pi / 4 * (1 + node))
         with np.errstate(all="ignore"):
             values = np.asarray(function(points), dtype=float)
@@ -260,13 +256,15 @@ def line_load_from_stress(r, stress, x):
 
 
 def _samples(x, values, quantity, unit):
-    x = _check.finite_array("coordinate", x, unit="m")
-    values = _check.finite_array(quantity, values, unit=unit)
+    x = _check.finite_array("coordinate", x, unit="m", most=_check.LARGEST)
+    values = _check.finite_array(quantity, values, unit=unit, most=_check.LARGEST)
     if x.ndim != 1 or x.shape != values.shape or not x.size:
         raise ValueError(
             f"{quantity} of shape {values.shape} needs as many coordinates, got shape {x.shape}"
         )
     _check.refuse("coordinate", x, x < 0, "is negative", unit="m", remedy="give x ≥ 0; the load is even")
+    tiny, bound = (x > 0) & (x < _check.SMALLEST), f"must be 0 or at least {_check.SMALLEST:g}"
+    _check.refuse("coordinate", x, tiny, bound, unit="m", remedy="give it in SI units")
     back = np.append(False, np.diff(x) < 0)
     _check.refuse("coordinate", x, back, "comes after a larger one", unit="m", remedy="sort the samples")
     return x, values

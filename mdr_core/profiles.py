@@ -291,3 +291,8 @@ class PowerLaw(Profile):
 
     def _radius(self, depth):
         return (depth / self._reduced_coefficient) ** (1 / self.exponent)
+
+    def _known(self, depth):
+        with np.errstate(over="ignore"):
+            far = self._radius(np.maximum(depth, 0.0)) > _check.FARTHEST
+        return _check.refuse("depth", depth, far, "has a contact beyond double precision", unit="m")

@@ -128,6 +128,8 @@ class Scene:
     def _read(cls, text):
         try:
             data = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_duplicates)
+        except UnicodeDecodeError as error:
+            raise ValueError(f"scene: not UTF-8 text ({error.reason})") from None
         except ValueError as error:
             raise ValueError(f"scene: {error}") from None
         _keys("scene", data, {"format", "version", "profile", "medium", "drive"})

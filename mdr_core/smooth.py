@@ -242,6 +242,8 @@ def _contact_end(shape, depth, margin):
         if g_high >= depth:
             break
         low, g_low = high, g_high
+    if g_high < depth:
+        raise _too_deep(depth, low, g_low)
     for _ in range(60):
         if g_high < np.inf and high <= low * (1 + margin):
             return high
@@ -254,11 +256,15 @@ def _contact_end(shape, depth, margin):
         else:
             low = middle
     if height(low) < depth * (1 - 1e-12):
-        raise ValueError(
-            f"depth = {depth:g} m is deeper than the Smooth shape is known: at r = {low:g} m, where the "
-            f"slope ends or is not finite or smooth, g = {height(low):g} m; press less deep"
-        )
+        raise _too_deep(depth, low, height(low))
     return low
+
+
+def _too_deep(depth, radius, height):
+    return ValueError(
+        f"depth = {depth:g} m is deeper than the Smooth shape is known: at r = {radius:g} m, where the "
+        f"slope ends or is not finite or smooth, g = {height:g} m; press less deep"
+    )
 
 
 def _not_compact(depth):

@@ -15,7 +15,8 @@ import mdr_core as mdr
 from .fuzz_long import ENTRIES, attempt
 
 #: The slow ones are tried less often; `fuzz_long` runs all of them by hand.
-EXAMPLES = {"viscous_impacts": 8, "timed": 8, "chains": 3, "foundations": 40}
+EXAMPLES = {"viscous_impacts": 8, "timed": 8, "chains": 3, "foundations": 40, "many_viscous_impacts": 1}
+EXAMPLES |= {"many_impacts": 5, "many_forces": 10, "many_depths": 20}
 SEEDS = st.integers(0, 2**63 - 1)
 
 
@@ -97,6 +98,13 @@ def test_arrays_stay_what_they_are():
             lambda: mdr.abel.stress_from_line_load([0, 1], [1, 0], 0, np.array(["auto"] * 2)),
             "must be one of",
         ),
+        (lambda: mdr.Medium(np.longdouble("1e4000")), "E_star = inf Pa must be finite"),
+        (
+            lambda: mdr.Cone(np.ma.array([1.0, 2.0], mask=[0, 1])),
+            "slope must be real numbers, got masked_array",
+        ),
+        (lambda: mdr.abel.kappa([1.0, [2.0]]), "exponent n must be real numbers"),
+        (lambda: mdr.Scene.from_json(b'{"\xff"'), "scene: not UTF-8 text"),
         (lambda: mdr.ScalingLaw(["a"], 1.0), "must be one of 'a', 'b', 'c'"),
         (lambda: mdr.indent_to_force(mdr.Cone(0.1), MEDIUM, 1e-300), "must be 0 or at least 1e-60"),
         (lambda: mdr.Sampled(np.arange(10**6), np.arange(10**6)), "1000000 samples, more than 5000; thin"),
@@ -178,6 +186,10 @@ def test_eight_threads_get_the_same_digits():
 def test_a_contact_beyond_double_precision_is_refused():
     with pytest.raises(ValueError, match="depth = 1e-09 m has a contact beyond double precision"):
         mdr.PowerLaw(1e-320, 2.0).contact_radius(1e-9)
+    with pytest.raises(ValueError, match="depth = 1000 m has a contact beyond double precision"):
+        mdr.indent(mdr.PowerLaw(1.0, 0.01), MEDIUM, 1e3)
+    with pytest.raises(ValueError, match=r"depth = 1e\+140 m is beyond 1e\+60; give it in SI units"):
+        mdr.indent(mdr.Paraboloid(1e-6), MEDIUM, 1e140)
 
 
 def test_no_indenters_at_all():

@@ -59,6 +59,13 @@ def test_shapes_that_cannot_be_solved_are_refused(slope, says):
         _ = mdr.indent(mdr.Smooth(slope), MEDIUM, 200 * D_C).force
 
 
+@pytest.mark.parametrize(("radius", "depth"), [(10.0, 1e9), (np.inf, 1e140)])
+def test_depths_beyond_the_end_are_refused_far_out_too(radius, depth):
+    """Where the search for the contact radius has passed from 1 m to the end of the shape."""
+    with pytest.raises(ValueError, match="deeper than the Smooth shape is known"):
+        mdr.Smooth(lambda r: r, radius).contact_radius(depth)
+
+
 def test_known_radius_is_respected():
     slope = PAIRS["paraboloid"][0]
     with pytest.raises(ValueError, match="deeper than the Smooth shape is known"):
