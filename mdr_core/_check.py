@@ -8,6 +8,9 @@ import numpy as np
 #: Beyond these the squares and products of quantities would leave double precision.
 SMALLEST, LARGEST = 1e-60, 1e60
 
+#: Lengths of a shape are divided by each other and squared, too.
+SHORTEST, LONGEST = 1e-30, 1e30
+
 # Radii grow faster than depths below blunt exponents; their squares are still numbers.
 FARTHEST = 1e140
 

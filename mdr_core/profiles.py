@@ -135,8 +135,8 @@ def set_positive(profile, **units):
     """Replace each named field of a frozen profile by its checked value, a float or an array."""
     for name, unit in units.items():
         quantity = f"{type(profile).__name__} {name}"
-        # Lengths of a shape are divided by each other and squared; a coefficient may be of any size.
-        within = (0.0, np.inf) if unit == "m^(1-n)" else (1e-30, 1e30)
+        # A coefficient may be of any size.
+        within = (0.0, np.inf) if unit == "m^(1-n)" else (_check.SHORTEST, _check.LONGEST)
         value = _check.positive(quantity, getattr(profile, name), unit=unit, within=within)
         object.__setattr__(profile, name, value)
     _check.common_shape(type(profile).__name__, **{name: getattr(profile, name) for name in units})

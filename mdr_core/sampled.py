@@ -48,7 +48,7 @@ class Sampled(Profile):
 
     def __post_init__(self):
         r, z = (
-            _check.finite_array(f"Sampled {what}", values, unit="m")
+            _check.finite_array(f"Sampled {what}", values, unit="m", most=_check.LONGEST)
             for what, values in (("r", self.r), ("z", self.z))
         )
         if r.ndim != 1 or r.shape != z.shape or r.size < 2:
@@ -61,6 +61,9 @@ class Sampled(Profile):
             )
         if r[0] != 0:
             raise ValueError(f"Sampled r[0] = {r[0]:g} m must be 0: add the sample at the tip")
+        tiny, remedy = (r > 0) & (r < _check.SHORTEST), "give it in SI units"
+        bound = f"must be 0 or at least {_check.SHORTEST:g}"
+        _check.refuse("Sampled r", r, tiny, bound, unit="m", remedy=remedy)
         back = np.append(False, np.diff(r) <= 0)
         _check.refuse("Sampled r", r, back, "does not ascend", unit="m", remedy="sort, and drop duplicates")
         object.__setattr__(self, "r", tuple(r.tolist()))
