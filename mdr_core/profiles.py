@@ -53,7 +53,7 @@ class Profile(ABC):
 
     def contact_radius(self, depth):
         """Contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
-        depth = self._places("depth", depth)
+        depth = self._places("depth", depth, most=_check.LARGEST)
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
         depth = self._known(depth)
         with np.errstate(over="ignore", under="ignore"):
@@ -107,9 +107,9 @@ class Profile(ABC):
         (zone,) = self.zones
         return zone.radius(zone.coordinate(depth))
 
-    def _places(self, quantity, values):
+    def _places(self, quantity, values, most=_check.FARTHEST):
         """Radii or depths (m), checked and broadcast to the indenters."""
-        values = _check.finite_array(quantity, values, unit="m")
+        values = _check.finite_array(quantity, values, unit="m", most=most)
         shape = _check.common_shape(
             type(self).__name__, **{quantity: values}, indenters=np.empty(self.shape)
         )

@@ -90,8 +90,9 @@ class Smooth(Profile):
         return depth
 
     def _known(self, depth):
-        # A zone that cannot be fitted says itself why.
-        return depth
+        # A zone that cannot be fitted says itself why it does not reach so deep.
+        tiny, bound = (depth > 0) & (depth < _SHALLOWEST), f"must be 0 or at least {_SHALLOWEST:g}"
+        return _check.refuse("depth", depth, tiny, bound, unit="m", remedy="give it in SI units")
 
     def _shared(self, depth):
         """Rows of an array of positive depths (m) and the zone that they share, whatever their neighbours.

@@ -54,7 +54,7 @@ class Source:
             return self.pick(ODD)
         value = 10.0 ** self.rng.uniform(low, high)
         kind = self.rng.random()
-        if kind < 0.05:
+        if kind < 0.05 and 1e-37 < value < 1e37:
             return np.float32(value)
         return np.array(value) if kind < 0.1 else value
 
