@@ -91,7 +91,7 @@ class Server:
         self._reader.start()
         assert self._ready.wait(60), f"the server did not start:\n{self.log}"
         # Plots are built for the first page; on a busy machine a browser would not wait for that.
-        urlopen(self.url, timeout=60).read()
+        urlopen(self.url, timeout=180).read()
 
     def _read(self):
         for line in self.process.stdout:

@@ -17,7 +17,7 @@ from tornado.websocket import websocket_connect
 from tests.app.conftest import Server
 
 #: Seconds to wait for a page: the first one of a process builds all its plots.
-PATIENCE = 60.0
+PATIENCE = 180.0
 SESSIONS, RATE, SECONDS, OPENED = 12, 4.0, 8.0, (15, 100, 1000)
 
 

@@ -54,8 +54,8 @@ def transforms(source):
         )
     x = x * 10.0 ** odd.rng.uniform(-70, 70) if odd.chance(0.1) and isinstance(x, np.ndarray) else x
     values = odd.numbers() if odd.chance(0.1) else odd.rng.normal(size=np.size(x))
-    if odd.chance(0.1) and isinstance(values, np.ndarray):
-        values = values.astype(float) * 10.0 ** odd.rng.uniform(-70, 70)
+    if odd.chance(0.1) and isinstance(values, np.ndarray) and values.dtype.kind == "f":
+        values = np.asarray(values, dtype=float) * 10.0 ** odd.rng.uniform(-70, 70)
     kind = odd.rng.random()
     if kind < 0.5:
         axis, between = odd.pick(("auto", "straight", "even")), odd.pick(("linear", "cubic"))
