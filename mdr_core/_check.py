@@ -1,5 +1,6 @@
 """Checks of what a caller hands in: quantity, value, bound, and what to do about it."""
 
+import reprlib
 from functools import cached_property, wraps
 
 import numpy as np
@@ -7,8 +8,30 @@ import numpy as np
 #: Beyond these the squares and products of quantities would leave double precision.
 SMALLEST, LARGEST = 1e-60, 1e60
 
+#: Lengths of a shape are divided by each other and squared, too.
+SHORTEST, LONGEST = 1e-30, 1e30
+
 # Radii grow faster than depths below blunt exponents; their squares are still numbers.
-_FARTHEST = 1e140
+FARTHEST = 1e140
+
+# NumPy broadcasts up to 32 dimensions, and a few are added on the way.
+_MOST_DIMENSIONS = 16
+
+# What was handed in may be nested deeper or be longer than its own repr can bear.
+_short = reprlib.Repr()
+_short.maxstring = _short.maxother = 80
+
+
+def shown(value):
+    """`value` as a message quotes it, whatever it is."""
+    return _short.repr(value)
+
+
+def one_of(quantity, value, known):
+    """`value`, if it is one of the known names."""
+    if not isinstance(value, str) or value not in known:
+        raise ValueError(f"{quantity} = {shown(value)} must be one of {', '.join(map(repr, known))}")
+    return value
 
 
 def number(quantity, value):
@@ -18,7 +41,7 @@ def number(quantity, value):
         if array.dtype.kind not in "iuf" or array.ndim:
             raise TypeError
     except (TypeError, ValueError):
-        raise ValueError(f"{quantity} must be one real number, got {value!r:.80}") from None
+        raise ValueError(f"{quantity} must be one real number, got {shown(value)}") from None
     return float(array)
 
 
@@ -52,18 +75,20 @@ def positive_number(quantity, value, *, unit="", infinite=False):
 def _real_array(quantity, value, what="real numbers"):
     try:
         array = np.asarray(value)
-        if array.dtype.kind not in "iuf":
+        if array.dtype.kind not in "iuf" or array.ndim > _MOST_DIMENSIONS or np.ma.is_masked(value):
             raise TypeError
-        return array.astype(float, copy=False)
+        # Longer types than double become infinite, and are refused as such.
+        with np.errstate(over="ignore"):
+            return array.astype(float, copy=False)
     except (TypeError, ValueError):
-        raise ValueError(f"{quantity} must be {what}, got {value!r:.80}") from None
+        raise ValueError(f"{quantity} must be {what}, got {shown(value)}") from None
 
 
-def finite_array(quantity, value, *, unit=""):
-    """`value` as a float array without NaN or infinity."""
+def finite_array(quantity, value, *, unit="", most=FARTHEST):
+    """`value` as a float array without NaN or infinity, of numbers up to a size."""
     array, remedy = _real_array(quantity, value), "leave it out, or mend the data it comes from"
-    large = np.isfinite(array) & (np.abs(array) > _FARTHEST)
-    refuse(quantity, array, large, f"is beyond {_FARTHEST:g}", unit=unit, remedy="give it in SI units")
+    large = np.isfinite(array) & (np.abs(array) > most)
+    refuse(quantity, array, large, f"is beyond {most:g}", unit=unit, remedy="give it in SI units")
     return refuse(quantity, array, ~np.isfinite(array), "must be finite", unit=unit, remedy=remedy)
 
 

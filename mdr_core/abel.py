@@ -4,13 +4,12 @@ Pure mathematics, for callables (`reduce_slope`, `height_from_reduced`) and for 
 (`stress_from_line_load`, `line_load_from_stress`).
 """
 
-from functools import lru_cache
-
 import numpy as np
 from scipy.special import gamma
 
 from . import _check, cubic
 from .kernels import arcosh, chord, punch, segment
+from .legendre import gauss_legendre
 from .treecode import superpose_kernel
 
 # Nodes tried in turn, and how closely two of them must agree.
@@ -60,7 +59,7 @@ def kappa(n):
     >>> print(kappa(2.0))
     2.0
     """
-    n = np.asarray(n, dtype=float)
+    n = np.asarray(_check.positive("exponent n", n, zero=True))
     # n Γ(n/2)/2 = Γ(n/2 + 1), which stays finite as n → 0.
     few = np.minimum(n, 300.0)
     ratio = np.sqrt(np.pi) * gamma(few / 2 + 1) / gamma((few + 1) / 2)
@@ -101,14 +100,11 @@ def height_from_reduced(reduced, r):
     return (2 / np.pi * _mean_over_quarter(reduced, r, "reduced height g"))[()]
 
 
-_legendre = lru_cache(np.polynomial.legendre.leggauss)
-
-
 def _mean_over_quarter(function, x, quantity):
     """∫ function(x sin t) dt over 0 < t < π/2, for an array of x."""
     result, open_, last = np.zeros(x.shape), np.ones(x.shape, bool), np.full(x.shape, np.nan)
     for count in _COUNTS:
-        node, weight = _legendre(count)
+        node, weight = gauss_legendre(count)
         points = x[open_][:, None] * np.sin(np.pi / 4 * (1 + node))
         with np.errstate(all="ignore"):
             values = np.asarray(function(points), dtype=float)
@@ -181,13 +177,12 @@ def stress_from_line_load(x, q, r, axis="auto", interpolation="linear"):
     -0.509295817894
     """
     x, q = _samples(x, q, "line load q", "N/m")
-    r = np.abs(_check.finite_array("radius r", r, unit="m"))
+    r = _places("radius r", np.abs(_check.finite_array("radius r", r, unit="m")))
     for name, value, known in (
         ("axis", axis, ("auto", "straight", "even")),
         ("interpolation", interpolation, ("linear", "cubic")),
     ):
-        if value not in known:
-            raise ValueError(f"{name} = {value!r} must be {' or '.join(map(repr, known))}")
+        _check.one_of(name, value, known)
     if x[-1] == 0:
         # All of the load stands on the axis, where it has no width.
         return np.zeros_like(r)[()]
@@ -252,7 +247,7 @@ def line_load_from_stress(r, stress, x):
     1.6
     """
     r, stress = _samples(r, stress, "stress", "Pa")
-    x = np.abs(_check.finite_array("coordinate x", x, unit="m"))
+    x = _places("coordinate x", np.abs(_check.finite_array("coordinate x", x, unit="m")))
     slope, jump = _slopes(r, stress)
     change = -np.diff(slope, prepend=0.0, append=0.0)
     at_tip = np.sum(change * r**2) / 2 + np.sum(jump * r)
@@ -262,22 +257,34 @@ def line_load_from_stress(r, stress, x):
 
 def _samples(x, values, quantity, unit):
     x = _check.finite_array("coordinate", x, unit="m")
-    values = _check.finite_array(quantity, values, unit=unit)
+    values = _check.finite_array(quantity, values, unit=unit, most=_check.LARGEST)
     if x.ndim != 1 or x.shape != values.shape or not x.size:
         raise ValueError(
             f"{quantity} of shape {values.shape} needs as many coordinates, got shape {x.shape}"
         )
     _check.refuse("coordinate", x, x < 0, "is negative", unit="m", remedy="give x ≥ 0; the load is even")
-    back = np.append(False, np.diff(x) < 0)
+    back = np.append(False, np.diff(_places("coordinate", x)) < 0)
     _check.refuse("coordinate", x, back, "comes after a larger one", unit="m", remedy="sort the samples")
     return x, values
 
 
+def _places(quantity, x):
+    """Coordinates or radii (m) of which squares and quotients are double."""
+    outside = (x > 0) & (x < _check.SMALLEST) | (x > _check.LARGEST)
+    bound = f"must be 0 or lie between {_check.SMALLEST:g} and {_check.LARGEST:g}"
+    return _check.refuse(quantity, x, outside, bound, unit="m", remedy="give it in SI units")
+
+
 def _slopes(x, values):
-    """Slope of each panel, and jump at each node: between equal ones, and to 0 at the last."""
+    """Slope of each panel, and jump at each place: between equal nodes, and to 0 at the last."""
     step, rise = np.diff(x), np.diff(values)
     slope = np.divide(rise, step, out=np.zeros_like(step), where=step > 0)
-    return slope, np.append(np.where(step == 0, rise, 0.0), -values[-1])
+    jump = np.append(np.where(step == 0, rise, 0.0), -values[-1])
+    # Jumps of both signs at one place are one: apart they would be infinite there, and their sum NaN.
+    first = np.flatnonzero(np.append(True, step > 0))
+    merged = np.zeros_like(jump)
+    merged[np.append(first[1:] - 1, len(x) - 1)] = np.add.reduceat(jump, first)
+    return slope, merged
 
 
 def _is_even(x, slope, jump, axis):

@@ -1,5 +1,6 @@
 """Checks of the indenter and the medium that a caller hands in."""
 
+from ._check import shown
 from .medium import Medium
 from .profiles import Profile
 
@@ -7,9 +8,9 @@ from .profiles import Profile
 def check_types(profile, medium):
     """Refuses what is no indenter or no medium."""
     if not isinstance(profile, Profile):
-        raise TypeError(f"profile must be an mdr_core shape such as Cone(slope=1), got {profile!r:.80}")
+        raise TypeError(f"profile must be an mdr_core shape such as Cone(slope=1), got {shown(profile)}")
     if not isinstance(medium, Medium):
-        raise TypeError(f"medium must be a Medium, got {medium!r:.80}")
+        raise TypeError(f"medium must be a Medium, got {shown(medium)}")
 
 
 def check_one(profile, medium):

@@ -51,9 +51,20 @@ def slopes(x, q, even):
         if last > first:
             begin = (1, 0.0) if even and first == 0 else "not-a-knot"
             stretch = slice(first, last + 1)
-            spline = CubicSpline(x[stretch], q[stretch], bc_type=(begin, "not-a-knot"))
-            result[:, first:last] = spline.c[2::-1] * np.array([[1.0], [2.0], [3.0]])
+            result[:, first:last] = _slopes_of_stretch(x[stretch], q[stretch], begin)
     return result
+
+
+def _slopes_of_stretch(x, q, begin):
+    """p₀, p₁, p₂ on the panels of one spline."""
+    if len(x) == 3 and begin == "not-a-knot":
+        # One parabola, whatever the spacing: SciPy solves for it by a matrix of both spacings.
+        step = np.diff(x)
+        mean = np.diff(q) / step
+        bend = (mean[1] - mean[0]) / (x[2] - x[0])
+        return np.array([mean - bend * step, [2 * bend, 2 * bend], [0.0, 0.0]])
+    spline = CubicSpline(x, q, bc_type=(begin, "not-a-knot"))
+    return spline.c[2::-1] * np.array([[1.0], [2.0], [3.0]])
 
 
 def stress(x, slope, r):

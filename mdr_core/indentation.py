@@ -60,7 +60,7 @@ def indent(profile, medium, depth, *, time=None, tolerance=1e-6):
     3.0
     """
     check_one(profile, medium)
-    depth = profile._known(_check.finite_array("depth", depth, unit="m"))
+    depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LARGEST))
     if time is not None:
         time = check_times(time, depth, "depth")
         if medium.eta > 0:

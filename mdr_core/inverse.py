@@ -24,14 +24,15 @@ def newton(step, start, *, largest=np.inf, most=60):
     x = np.asarray(start, dtype=float)
     zero = x == 0
     x = np.where(zero, np.minimum(1.0, largest), x)
+    settled = zero
     for _ in range(most):
         change = step(x)
         # Never below a tenth: keeps x positive where f is flat.
         new = np.minimum(np.maximum(x - change, x / 10), largest)
-        settled = np.abs(change) <= 1e-8 * x
-        x = new
-        # The error of the new x is the square of the change.
-        if np.all(settled | zero):
+        # The error of the new x is the square of the change. What has settled stays, so that no root
+        # depends on its neighbours.
+        x, settled = np.where(settled, x, new), settled | (np.abs(change) <= 1e-8 * x)
+        if np.all(settled):
             return np.where(zero, 0.0, x)
     raise ValueError("the contact radius did not converge; check that the depth is in metres")
 

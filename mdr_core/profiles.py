@@ -53,7 +53,7 @@ class Profile(ABC):
 
     def contact_radius(self, depth):
         """Contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
-        depth = self._places("depth", depth)
+        depth = self._places("depth", depth, most=_check.LARGEST)
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
         depth = self._known(depth)
         with np.errstate(over="ignore", under="ignore"):
@@ -107,9 +107,9 @@ class Profile(ABC):
         (zone,) = self.zones
         return zone.radius(zone.coordinate(depth))
 
-    def _places(self, quantity, values):
+    def _places(self, quantity, values, most=_check.FARTHEST):
         """Radii or depths (m), checked and broadcast to the indenters."""
-        values = _check.finite_array(quantity, values, unit="m")
+        values = _check.finite_array(quantity, values, unit="m", most=most)
         shape = _check.common_shape(
             type(self).__name__, **{quantity: values}, indenters=np.empty(self.shape)
         )
@@ -135,8 +135,8 @@ def set_positive(profile, **units):
     """Replace each named field of a frozen profile by its checked value, a float or an array."""
     for name, unit in units.items():
         quantity = f"{type(profile).__name__} {name}"
-        # Lengths of a shape are divided by each other and squared; a coefficient may be of any size.
-        within = (0.0, np.inf) if unit == "m^(1-n)" else (1e-30, 1e30)
+        # A coefficient may be of any size.
+        within = (0.0, np.inf) if unit == "m^(1-n)" else (_check.SHORTEST, _check.LONGEST)
         value = _check.positive(quantity, getattr(profile, name), unit=unit, within=within)
         object.__setattr__(profile, name, value)
     _check.common_shape(type(profile).__name__, **{name: getattr(profile, name) for name in units})
@@ -291,9 +291,13 @@ class PowerLaw(Profile):
 
     def _radius(self, depth):
         c, p = self._reduced_coefficient, 1 / self.exponent
-        flat = np.asarray(p < 0.25)
-        if not flat.any():
-            return (depth / c) ** p
         # Where the shape is nearly flat d/c may underflow, and the radius is still a radius.
-        split = depth**p / c**p
-        return split if flat.all() else np.where(flat, split, (depth / c) ** p)
+        if np.all(p < 0.25):
+            return depth**p / c**p
+        joint = (depth / c) ** p
+        return np.where(p < 0.25, depth**p / c**p, joint) if np.any(p < 0.25) else joint
+
+    def _known(self, depth):
+        with np.errstate(over="ignore"):
+            far = self._radius(np.maximum(depth, 0.0)) > _check.FARTHEST
+        return _check.refuse("depth", depth, far, "has a contact beyond double precision", unit="m")

@@ -1,6 +1,5 @@
 """An indenter given by samples of its height, as a measured tip is."""
 
-import re
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,9 +9,8 @@ from . import _check
 from .inverse import newton
 from .panels import chunks
 from .profiles import Profile
+from .table import read_samples
 from .zones import Zone
-
-_UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9}
 
 #: Every sample meets every other one.
 _MOST_SAMPLES = 5000
@@ -50,7 +48,7 @@ class Sampled(Profile):
 
     def __post_init__(self):
         r, z = (
-            _check.finite_array(f"Sampled {what}", values, unit="m")
+            _check.finite_array(f"Sampled {what}", values, unit="m", most=_check.LONGEST)
             for what, values in (("r", self.r), ("z", self.z))
         )
         if r.ndim != 1 or r.shape != z.shape or r.size < 2:
@@ -63,6 +61,9 @@ class Sampled(Profile):
             )
         if r[0] != 0:
             raise ValueError(f"Sampled r[0] = {r[0]:g} m must be 0: add the sample at the tip")
+        tiny, remedy = (r > 0) & (r < _check.SHORTEST), "give it in SI units"
+        bound = f"must be 0 or at least {_check.SHORTEST:g}"
+        _check.refuse("Sampled r", r, tiny, bound, unit="m", remedy=remedy)
         back = np.append(False, np.diff(r) <= 0)
         _check.refuse("Sampled r", r, back, "does not ascend", unit="m", remedy="sort, and drop duplicates")
         object.__setattr__(self, "r", tuple(r.tolist()))
@@ -84,10 +85,9 @@ class Sampled(Profile):
         Raises
         ------
         ValueError
-            If a row is not two numbers, or no unit is given, or two that differ.
+            If the file is not in UTF-8, a row is not two numbers, or no unit is given, or two that differ.
         """
-        with open(path, encoding="utf-8-sig", newline="") as file:
-            return cls(*_read(file, unit, str(path)))
+        return cls(*read_samples(path, unit, _MOST_SAMPLES))
 
     @classmethod
     def convex_envelope(cls, r, z):
@@ -262,38 +262,3 @@ class _VertexSum:
 def _turns_down(first, middle, last):
     (r0, z0), (r1, z1), (r2, z2) = first, middle, last
     return (z1 - z0) * (r2 - r1) > (z2 - z1) * (r1 - r0)
-
-
-def _read(lines, unit, name):
-    """Radii and heights (m) in a CSV file."""
-    if unit is not None and unit not in _UNITS:
-        raise ValueError(f"unit = {unit!r} must be one of {', '.join(_UNITS)}")
-    rows, named = [], []
-    for number, line in enumerate(lines, start=1):
-        cells = [cell for cell in re.split(r"[;,\s]+", line.strip()) if cell]
-        try:
-            values = [float(cell) for cell in cells]
-        except ValueError:
-            values = None
-        if not rows and (values is None or line.startswith("#")):
-            named = re.findall(r"[(\[]\s*([^)\]\s]+)\s*[)\]]", line) or named
-        elif cells and not line.startswith("#"):
-            if values is None or len(values) != 2:
-                raise ValueError(
-                    f"{name}, line {number}: expected two numbers r, z, found {line.strip()!r:.60}"
-                )
-            rows.append(values)
-            if len(rows) > _MOST_SAMPLES:
-                raise ValueError(f"{name}: more than {_MOST_SAMPLES} samples; thin them out")
-    units = [unit, unit] if unit else named
-    if len(units) != 2 or not set(units) <= set(_UNITS):
-        raise ValueError(
-            f"{name}: the header must name the units of r and z, as in 'r (nm), z (nm)', out of "
-            f"{', '.join(_UNITS)}; or give unit='nm'"
-        )
-    if unit and named and set(named) != {unit}:
-        raise ValueError(f"{name}: unit={unit!r} was given, but the header says {', '.join(named)}")
-    if not rows:
-        raise ValueError(f"{name}: no samples; expected rows of two numbers r, z")
-    r, z = np.array(rows).T
-    return r * _UNITS[units[0]], z * _UNITS[units[1]]

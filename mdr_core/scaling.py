@@ -44,8 +44,7 @@ class ScalingLaw:
     exponent: float
 
     def __post_init__(self):
-        if self.hardness not in _FORCE_POWER:
-            raise ValueError(f"hardness class = {self.hardness!r:.40} must be one of 'a', 'b', 'c'")
+        _check.one_of("hardness class", self.hardness, _FORCE_POWER)
         exponent = _check.positive_number("ScalingLaw exponent", self.exponent)
         object.__setattr__(self, "exponent", exponent)
 
@@ -118,13 +117,14 @@ def hardness_class(energy, radius, exponent):
         np.atleast_1d(_check.positive(name, value, unit=unit))
         for name, value, unit in (("energy", energy, "J"), ("radius", radius, "m"))
     )
-    if energy.shape != radius.shape or np.all(energy == energy[..., :1]):
+    x, y = np.log(energy.ravel()), np.log(radius.ravel())
+    if energy.shape != radius.shape or np.all(x == x[:1]):
         raise ValueError(
             f"energy {energy.shape} and radius {radius.shape} must be of one shape, with two energies or "
             "more that differ"
         )
     laws = {name: ScalingLaw(name, exponent) for name in _FORCE_POWER}
-    x, y = (np.log(part.ravel()) - np.log(part.ravel()).mean() for part in (energy, radius))
+    x, y = x - x.mean(), y - y.mean()
     slope = (x @ y) / (x @ x)
     rest = y - slope * x
     error = np.sqrt(rest @ rest / max(x.size - 2, 1) / (x @ x))

@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass, fields
 import numpy as np
 
 from . import profiles, rounded, sampled, truncated
+from ._check import one_of, shown
 from .arguments import check_one
 from .drives import DepthPath, ForcePath, FreeImpact
 from .medium import Medium
@@ -62,7 +63,7 @@ class Scene:
     def __post_init__(self):
         for name, kind in (("profile", Profile), ("medium", Medium), ("drive", tuple(_DRIVES.values()))):
             if not isinstance(getattr(self, name), kind):
-                raise TypeError(f"scene {name} is of the wrong type: {getattr(self, name)!r:.80}")
+                raise TypeError(f"scene {name} is of the wrong type: {shown(getattr(self, name))}")
         check_one(self.profile, self.medium)
 
     @property
@@ -92,11 +93,7 @@ class Scene:
         """
         if model is None:
             return self.drive.solve(self.profile, self.medium, self.models[0])
-        if model not in self.models:
-            raise ValueError(
-                f"model {model!r:.40} cannot solve this scene; give one of "
-                f"{', '.join(map(repr, self.models))}"
-            )
+        one_of("model of this scene", model, self.models)
         return self.drive.solve(self.profile, self.medium, model)
 
     def to_json(self):
@@ -123,15 +120,22 @@ class Scene:
             If the text is not JSON, not a scene, or has a value out of its range.
         """
         try:
-            data = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_duplicates)
+            return cls._read(text)
         except RecursionError:
             raise ValueError("scene: JSON is nested too deeply") from None
+
+    @classmethod
+    def _read(cls, text):
+        try:
+            data = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_duplicates)
+        except UnicodeDecodeError as error:
+            raise ValueError(f"scene: not UTF-8 text ({error.reason})") from None
         except ValueError as error:
             raise ValueError(f"scene: {error}") from None
         _keys("scene", data, {"format", "version", "profile", "medium", "drive"})
         if data["format"] != _FORMAT or data["version"] != _VERSION:
             raise ValueError(
-                f"scene: format {data['format']!r:.40} version {data['version']!r:.40} cannot be read; "
+                f"scene: format {shown(data['format'])} version {shown(data['version'])} cannot be read; "
                 f"expected {_FORMAT!r} version {_VERSION}"
             )
         medium = data["medium"]

@@ -48,7 +48,8 @@ class Smooth(Profile):
     def __post_init__(self):
         if not callable(self.slope_function):
             raise ValueError(
-                f"Smooth slope_function must be a function of the radius, got {self.slope_function!r:.80}"
+                "Smooth slope_function must be a function of the radius, "
+                f"got {_check.shown(self.slope_function)}"
             )
         radius = _check.positive_number("Smooth radius", self.radius, unit="m", infinite=True)
         object.__setattr__(self, "radius", radius)
@@ -89,8 +90,9 @@ class Smooth(Profile):
         return depth
 
     def _known(self, depth):
-        # A zone that cannot be fitted says itself why.
-        return depth
+        # A zone that cannot be fitted says itself why it does not reach so deep.
+        tiny, bound = (depth > 0) & (depth < _SHALLOWEST), f"must be 0 or at least {_SHALLOWEST:g}"
+        return _check.refuse("depth", depth, tiny, bound, unit="m", remedy="give it in SI units")
 
     def _shared(self, depth):
         """Rows of an array of positive depths (m) and the zone that they share, whatever their neighbours.
@@ -247,6 +249,8 @@ def _contact_end(shape, depth, margin):
         if g_high >= depth:
             break
         low, g_low = high, g_high
+    if g_high < depth:
+        raise _too_deep(depth, low, g_low)
     for _ in range(60):
         if g_high < np.inf and high <= low * (1 + margin):
             return high
@@ -259,11 +263,15 @@ def _contact_end(shape, depth, margin):
         else:
             low = middle
     if height(low) < depth * (1 - 1e-12):
-        raise ValueError(
-            f"depth = {depth:g} m is deeper than the Smooth shape is known: at r = {low:g} m, where the "
-            f"slope ends or is not finite or smooth, g = {height(low):g} m; press less deep"
-        )
+        raise _too_deep(depth, low, height(low))
     return low
+
+
+def _too_deep(depth, radius, height):
+    return ValueError(
+        f"depth = {depth:g} m is deeper than the Smooth shape is known: at r = {radius:g} m, where the "
+        f"slope ends or is not finite or smooth, g = {height:g} m; press less deep"
+    )
 
 
 def _not_compact(depth):

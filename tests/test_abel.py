@@ -185,8 +185,38 @@ class TestCubicLoad:
             # Slopes of up to 10⁴ of both signs.
             assert actual == pytest.approx(total / math.pi, rel=1e-10)
 
+    @pytest.mark.parametrize("unit", [1e-40, 1e50])
+    def test_units_do_not_matter(self, unit):
+        for x in ([0.0, 1e-12, 1.0], [0.0, 0.2, 0.5, 1.0]):
+            q = 1 - np.array(x) ** 2
+            one = abel.stress_from_line_load(x, q, 0.3, interpolation="cubic")
+            other = abel.stress_from_line_load(np.array(x) * unit, q, 0.3 * unit, interpolation="cubic")
+            assert other * unit == pytest.approx(one, rel=1e-12)
+
+    @pytest.mark.parametrize(
+        ("x", "q", "says"),
+        [
+            ([0.0, 5e-324], [1.0, 0.0], r"coordinate\[1\] = .* must be 0 or lie between 1e-60 and 1e\+60"),
+            ([0.0, 1e-59, 1.0], [1e60, -1e60, 0.0], None),
+            ([1.0, 1.0 + 2**-52], [0, 1e70], r"line load q\[1\] = 1e\+70 N/m is beyond 1e\+60"),
+        ],
+    )
+    def test_what_leaves_double_precision_is_refused(self, x, q, says):
+        for between in ("linear", "cubic"):
+            if says:
+                with pytest.raises(ValueError, match=says):
+                    abel.stress_from_line_load(x, q, 0.5, interpolation=between)
+            else:
+                assert np.isfinite(abel.stress_from_line_load(x, q, 0.5, interpolation=between))
+
+    def test_jumps_at_one_place_are_one(self):
+        """A step down to −1 and the end of the load there are the end of the load before."""
+        for r in (0.0, 0.4, 1.0):
+            both = abel.stress_from_line_load([0, 0.5, 1, 1], [2, 2, 2, -1], r)
+            assert both == abel.stress_from_line_load([0, 0.5, 1], [2, 2, 2], r)
+
     def test_another_interpolation_is_refused(self):
-        with pytest.raises(ValueError, match="interpolation = 'round' must be 'linear' or 'cubic'"):
+        with pytest.raises(ValueError, match="interpolation = 'round' must be one of 'linear', 'cubic'"):
             abel.stress_from_line_load([0, 1], [1, 0], 0.5, interpolation="round")
 
 

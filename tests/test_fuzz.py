@@ -15,7 +15,8 @@ import mdr_core as mdr
 from .fuzz_long import ENTRIES, attempt
 
 #: The slow ones are tried less often; `fuzz_long` runs all of them by hand.
-EXAMPLES = {"viscous_impacts": 8, "timed": 8, "chains": 3, "foundations": 40}
+EXAMPLES = {"viscous_impacts": 8, "timed": 8, "chains": 3, "foundations": 40, "many_viscous_impacts": 1}
+EXAMPLES |= {"many_impacts": 5, "many_forces": 10, "many_depths": 20}
 SEEDS = st.integers(0, 2**63 - 1)
 
 
@@ -58,6 +59,13 @@ def test_geometry_of_many_indenters(shape):
             getattr(shape, function)([1e-7, 2e-7, 3e-7])
 
 
+def nested(depth):
+    value = 1.0
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
 def test_arrays_stay_what_they_are():
     """Empty ones give empty ones, and read-only ones are taken."""
     assert mdr.indent(mdr.Cone(0.3), MEDIUM, []).force.shape == (0,)
@@ -81,6 +89,23 @@ def test_arrays_stay_what_they_are():
         (lambda: mdr.chain_impact(mdr.Cone(0.1), mdr.Medium([1e9, 2e9]), 1.0, 1.0), "one indenter on one"),
         (lambda: mdr.chain_impact(3, MEDIUM, 1.0, 1.0), "profile must be an mdr_core shape"),
         (lambda: mdr.Foundation(mdr.Cone(0.1), MEDIUM, 10**9, 1e-6), "even whole number up to 1e.07"),
+        (lambda: mdr.Medium(nested(40)), r"E_star must be real numbers, got \[\[\[\[\[\[\[\.\.\."),
+        (
+            lambda: mdr.indent(nested(2000), MEDIUM, 1.0),
+            r"an mdr_core shape such as .*, got \[\[\[\[\[\[\[",
+        ),
+        (
+            lambda: mdr.abel.stress_from_line_load([0, 1], [1, 0], 0, np.array(["auto"] * 2)),
+            "must be one of",
+        ),
+        (lambda: mdr.Medium(np.longdouble("1e4000")), "E_star = inf Pa must be finite"),
+        (
+            lambda: mdr.Cone(np.ma.array([1.0, 2.0], mask=[0, 1])),
+            "slope must be real numbers, got masked_array",
+        ),
+        (lambda: mdr.abel.kappa([1.0, [2.0]]), "exponent n must be real numbers"),
+        (lambda: mdr.Scene.from_json(b'{"\xff"'), "scene: not UTF-8 text"),
+        (lambda: mdr.ScalingLaw(["a"], 1.0), "must be one of 'a', 'b', 'c'"),
         (lambda: mdr.indent_to_force(mdr.Cone(0.1), MEDIUM, 1e-300), "must be 0 or at least 1e-60"),
         (lambda: mdr.Sampled(np.arange(10**6), np.arange(10**6)), "1000000 samples, more than 5000; thin"),
     ],
@@ -116,6 +141,13 @@ class TestBigFiles:
     def test_deep_and_wide_json_is_refused(self, text):
         with pytest.raises(ValueError, match="scene: "):
             mdr.Scene.from_json(text)
+
+    @pytest.mark.parametrize("depth", [33, 64, *range(980, 1000)])
+    def test_a_number_that_is_deep_is_refused(self, depth):
+        """Deep enough to be too much for NumPy, and for what quotes it, in a scene that is JSON."""
+        scene = mdr.Scene(mdr.Cone(0.3), MEDIUM, mdr.DepthPath(1e-6)).to_json()
+        with pytest.raises(ValueError, match="scene"):
+            mdr.Scene.from_json(scene.replace("1000000000.0", "[" * depth + "1" + "]" * depth))
 
     def test_a_wide_path_is_read(self):
         scene = mdr.Scene(mdr.Cone(0.3), MEDIUM, mdr.DepthPath(np.linspace(0, 1e-6, 10**5)))
@@ -154,6 +186,10 @@ def test_eight_threads_get_the_same_digits():
 def test_a_contact_beyond_double_precision_is_refused():
     with pytest.raises(ValueError, match="depth = 1e-09 m has a contact beyond double precision"):
         mdr.PowerLaw(1e-320, 2.0).contact_radius(1e-9)
+    with pytest.raises(ValueError, match="depth = 1000 m has a contact beyond double precision"):
+        mdr.indent(mdr.PowerLaw(1.0, 0.01), MEDIUM, 1e3)
+    with pytest.raises(ValueError, match=r"depth = 1e\+140 m is beyond 1e\+60; give it in SI units"):
+        mdr.indent(mdr.Paraboloid(1e-6), MEDIUM, 1e140)
 
 
 def test_no_indenters_at_all():
@@ -163,5 +199,7 @@ def test_no_indenters_at_all():
 def test_stress_at_a_radius_next_to_nothing():
     """The stress of q = 1 − x² at the axis is that at any radius that is small enough."""
     x = np.linspace(0, 1, 11)
-    stress = mdr.abel.stress_from_line_load(x, 1 - x * x, [1e-30, 5e-324])
-    assert np.all(np.isfinite(stress))
+    stress = mdr.abel.stress_from_line_load(x, 1 - x * x, [1e-30, 1e-60, 0.0])
+    np.testing.assert_allclose(stress, stress[2], rtol=1e-13)
+    with pytest.raises(ValueError, match="radius r = 1e-300 m must be 0 or lie between 1e-60 and"):
+        mdr.abel.stress_from_line_load(x, 1 - x * x, 1e-300)

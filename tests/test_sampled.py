@@ -163,8 +163,23 @@ class TestCsv:
             ("r (nm), z (nm)\n0,0,0\n", {}, "line 2: expected two numbers"),
             ("r (nm), z (nm)\n", {}, "no samples"),
             ("r (nm), z (nm)\n0,0\n1,nan\n", {}, r"Sampled z\[1\] = nan m"),
+            (
+                "r (nm), z (nm)\n0,0\n1e-300,1\n2,3\n",
+                {},
+                r"Sampled r\[1\] = 1e-309 m must be 0 or at least 1e-30",
+            ),
+            ("r (nm), z (nm)\n0,0\n1,1\n1e50,1e51\n", {}, r"Sampled r\[2\] = 1e\+41 m is beyond 1e\+30"),
+            ("r (nm), z (nm)\n0,0\n1,1\n", {"unit": ["nm"]}, "must be one of"),
+            ("(" * 9999 + "\n0,0\n1,1\n", {}, "header must name the units"),
+            ("1 " * 10**6, {}, "a line is longer than 10000 characters"),
         ],
     )
     def test_bad_files_are_refused(self, tmp_path, text, options, says):
         with pytest.raises(ValueError, match=says):
             self.read(tmp_path, text, **options)
+
+    def test_text_of_another_encoding_is_named(self, tmp_path):
+        path = tmp_path / "tip.csv"
+        path.write_text("r (nm), z (nm)\n0,0\n1,1\n", encoding="utf-16")
+        with pytest.raises(ValueError, match=r"tip.csv is not UTF-8 text \(invalid start byte\)"):
+            mdr.Sampled.from_csv(path)

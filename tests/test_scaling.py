@@ -88,6 +88,7 @@ def test_imprints_tell_the_class(hardness, n):
     ("arguments", "says"),
     [
         (([1.0, 1.0], [1.0, 2.0], 1.0), "two energies or more that differ"),
+        (([1e60, np.nextafter(1e60, 0)], [1.0, 2.0], 1.0), "two energies or more that differ"),
         (([1.0, 2.0], [1.0], 1.0), "must be of one shape"),
         (([1.0, -2.0], [1.0, 2.0], 1.0), r"energy\[1\] = -2 J"),
         (([1.0, 2.0], [1.0, 2.0], 0.0), "exponent = 0"),

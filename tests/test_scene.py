@@ -151,7 +151,7 @@ class TestModel:
 
     def test_a_model_that_cannot_is_refused(self):
         scene = mdr.Scene(mdr.Cone(0.3), self.VISCOUS, self.HIT)
-        with pytest.raises(ValueError, match=r"model 'closed form' cannot.*'scalar ODE', 'chain'"):
+        with pytest.raises(ValueError, match="'closed form' must be one of 'scalar ODE', 'chain'"):
             scene.solve(model="closed form")
 
     def test_scenes_without_times_can_still_be_read(self):

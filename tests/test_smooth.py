@@ -59,6 +59,18 @@ def test_shapes_that_cannot_be_solved_are_refused(slope, says):
         _ = mdr.indent(mdr.Smooth(slope), MEDIUM, 200 * D_C).force
 
 
+@pytest.mark.parametrize(("radius", "depth"), [(10.0, 1e9), (np.inf, 1e50)])
+def test_depths_beyond_the_end_are_refused_far_out_too(radius, depth):
+    """Where the search for the contact radius has passed from 1 m to the end of the shape."""
+    with pytest.raises(ValueError, match="deeper than the Smooth shape is known"):
+        mdr.Smooth(lambda r: r, radius).contact_radius(depth)
+
+
+def test_depths_next_to_nothing_are_refused():
+    with pytest.raises(ValueError, match=r"depth = 1e-300 m must be 0 or at least 1e-60; give it in SI"):
+        mdr.Smooth(lambda r: r).contact_radius(1e-300)
+
+
 def test_known_radius_is_respected():
     slope = PAIRS["paraboloid"][0]
     with pytest.raises(ValueError, match="deeper than the Smooth shape is known"):
@@ -72,8 +84,8 @@ def test_known_radius_is_respected():
 
 
 def test_depths_with_no_digits_left_beside_the_shape():
-    """Next to the tip the fitted series has rounding errors only: there the shape goes on as a power."""
+    """Overdamped bodies leave at depths that nobody would hand in; the shape goes on as a power there."""
     shape = mdr.Smooth(lambda r: r / 1e-5)
     depth = np.array([1e-300, 1e-100, 1e-70])
     # The exponent comes from g at 10⁻⁸ of the end of the series, and is used over 240 decades.
-    assert shape.contact_radius(depth) == pytest.approx(np.sqrt(depth * 1e-5), rel=1e-5)
+    assert shape._radius(depth) == pytest.approx(np.sqrt(depth * 1e-5), rel=1e-5)

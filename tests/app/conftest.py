@@ -3,12 +3,14 @@
 import importlib.util
 import os
 import re
+import signal
 import subprocess
 import sys
 import threading
 from html import unescape
 from pathlib import Path
 from urllib.parse import parse_qsl, urlsplit
+from urllib.request import urlopen
 
 import pytest
 
@@ -79,17 +81,25 @@ class Server:
         command = [sys.executable, "-m", "panel", "serve", "app", *options, "--port", str(port)]
         self.lines, self._ready = [], threading.Event()
         self.process = subprocess.Popen(
-            command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+            command,
+            cwd=ROOT,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
         )
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
         assert self._ready.wait(60), f"the server did not start:\n{self.log}"
+        # Plots are built for the first page; on a busy machine a browser would not wait for that.
+        urlopen(self.url, timeout=180).read()
 
     def _read(self):
         for line in self.process.stdout:
             self.lines.append(line)
             if found := re.search(r"running at: (http\S+)", line):
                 self.url = found[1]
+                self.port = int(re.search(r":(\d+)", self.url)[1])
                 self._ready.set()
 
     @property
@@ -106,9 +116,11 @@ class Server:
         return log if "Traceback" in log or "ERROR" in log else ""
 
     def stop(self, kill=False):
-        (self.process.kill if kill else self.process.terminate)()
+        # The group, as a service manager does: a server of several processes would leave its children.
+        os.killpg(self.process.pid, signal.SIGKILL if kill else signal.SIGTERM)
         self.process.wait(20)
         self._reader.join(20)
+        assert not self._reader.is_alive(), "a process of the server did not end"
         self.process.stdout.close()
 
 

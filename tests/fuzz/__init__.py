@@ -1,0 +1,1 @@
+"""Random calls of every public function; `tests.fuzz_long` runs them."""
