@@ -1,4 +1,4 @@
-// Ticks, their numbers, grid and title of a linear axis, in the colours and fonts that it was declared with.
+// Ticks, their numbers, grid and title of a linear axis, in the colours and fonts of its declaration.
 const TICK = 5
 
 // Round numbers within a range, at most so many.

@@ -1,6 +1,7 @@
-// Draws what Bokeh declares. Bokeh styles and maps every glyph five times (as selected, muted, …) and measures
-// all axes whenever anything changes, 15 ms a plot; here everything moves with every frame. So Bokeh keeps frame,
-// tools and tooltips, and the rest is drawn on a sheet of its own, once a frame and only where it is seen.
+// Draws what Bokeh declares. Bokeh styles and maps every glyph five times (as selected, muted, …) and
+// measures all axes whenever anything changes, 15 ms a plot; here everything moves with every frame. So
+// Bokeh keeps frame, tools and tooltips. The rest is drawn on a sheet of the page's own, once a frame and
+// only where it is seen.
 class Sheet {
   constructor(view) {
     this.view = view
@@ -16,7 +17,8 @@ class Sheet {
     this.axes = views([...model.below, ...model.left, ...model.right], "LinearAxis")
     this.grids = this.axes.length > 0 ? views(model.center, "Grid") : []
     const hovers = model.toolbar.tools.filter(({ type }) => type === "HoverTool")
-    this.pointed = this.layers.filter((layer) => hovers.some((tool) => tool.renderers.includes(layer.model)))
+    const pointed = new Set(hovers.flatMap(({ renderers }) => renderers))
+    this.pointed = this.layers.filter((layer) => pointed.has(layer.model))
     this.replace(this.grids, paintGrid)
     this.replace(this.layers, paintLayer)
     this.replace(this.axes, paintAxis)

@@ -48,10 +48,8 @@ class Explorer {
       ...help.map((text) => make("p", {}, text)),
       make("dl", { class: "equations" }, ...rows.flat()),
     )
-    const head = [
-      make("h1", {}, "Indentation explorer"),
-      make("p", { class: "note" }, "non-local yield, solved by dimensionality reduction"),
-    ]
+    const subtitle = "non-local yield, solved by dimensionality reduction"
+    const head = [make("h1", {}, "Indentation explorer"), make("p", { class: "note" }, subtitle)]
     this.tiles = new Map(this.given.plots.map((plot) => [plot.name, tile(this, plot)]))
     this.comparison = new Comparison(this.units, this.given.report)
     this.tiles.get("speed").append(this.comparison.node)

@@ -95,7 +95,8 @@ class Plots {
     const limits = JSON.stringify([x, y, right])
     if (this.limits.get(name) === limits) return
     this.limits.set(name, limits)
-    const set = (range, { start, end }) => quietly(range, { start, end, reset_start: start, reset_end: end })
+    const set = (range, { start, end }) =>
+      quietly(range, { start, end, reset_start: start, reset_end: end })
     set(figure.x_range, x)
     set(figure.y_range, y)
     quietly(figure.below[0], { axis_label: label })

@@ -9,7 +9,9 @@ function toolbar(page) {
     undo: button("Undo", "Undo the last change (Z)", () => page.ask({ do: "undo" })),
     redo: button("Redo", "Do it again (Y)", () => page.ask({ do: "redo" })),
     reset: button("Reset", "Back to the preset (R)", () => page.ask({ do: "reset" })),
-    hold: button("Hold", "Hold these curves to compare with the next (H)", () => page.askHere({ do: "hold" })),
+    hold: button("Hold", "Hold these curves to compare with the next (H)", () =>
+      page.askHere({ do: "hold" }),
+    ),
     map: button("Map", "Pressure over the plane (M)", () => page.toggle("map")),
     speed: button("Speed", "Speed against error of the models (S)", () => page.toggle("speed")),
     theme: button("Dark", "Light or dark (D)", () => page.toggleTheme()),
