@@ -52,7 +52,10 @@ class Comparison {
         ...cells.map((text, k) => make("td", rows[k][0] === used ? { class: "used" } : {}, text)),
       )
     const time = ([, , seconds]) => written(this.units.time, seconds, 2).join(" ")
-    const error = ([, , , value]) => (value === null ? "exact" : value < EXACT ? "< 10⁻¹⁶" : digits(value, 2))
+    const error = ([, , , value]) => {
+      if (value === null) return "exact"
+      return value < EXACT ? "< 10⁻¹⁶" : digits(value, 2)
+    }
     this.table.replaceChildren(
       row(
         "model",
