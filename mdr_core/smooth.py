@@ -184,13 +184,22 @@ def _fitted_zone(shape, depth, margin):
         raise _not_compact(depth)
     table = end * np.geomspace(1e-18, 1, 600)
     heights = np.log(np.maximum(table * mean_slope(table), np.finfo(float).tiny))
+    heights = np.maximum.accumulate(heights)
+    # Where the slope is so small, next to the axis, rounding of the series is all that moves it.
+    rounding = 1e8 * np.finfo(float).eps * np.abs(series).sum()
 
     def coordinate(depths):
         depths = np.asarray(np.minimum(depths, depth))
         with np.errstate(divide="ignore"):
             start = np.exp(np.interp(np.log(depths), heights, np.log(table)))
         start = np.where(depths > 0, start, 0.0)
-        return newton(lambda x: (x * mean_slope(x) - depths) / rate(x), start, largest=end * (1 + 1e-12))
+        lost = mean_slope(start) < rounding
+
+        def step(x):
+            return (x * mean_slope(x) - depths) / rate(x)
+
+        root = newton(step, np.where(lost, 0.0, start), largest=end * (1 + 1e-12))
+        return np.where(lost, start, root)
 
     # A tip is sharp if the mean slope does not vanish towards it.
     order = 0 if mean_slope(0.0) > 1e-12 * np.abs(series).sum() else 1

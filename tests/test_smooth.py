@@ -81,3 +81,13 @@ def test_known_radius_is_respected():
         mdr.Smooth(0.3)
     with pytest.raises(ValueError, match="a Smooth cannot be written as JSON"):
         mdr.Scene(mdr.Smooth(slope), MEDIUM, mdr.DepthPath(1e-9)).to_json()
+
+
+def test_depths_far_apart_in_one_zone():
+    """The plastic depth just beyond yield, 10⁻³⁰ of the depth, where the series of g/x is but rounding."""
+    (zone,) = mdr.Smooth(lambda r: r).zones_between(0.0, 1.0)
+    depth = np.geomspace(1e-34, 1e-2, 2000)
+    np.testing.assert_allclose(
+        zone.coordinate(depth[depth > 1e-15]), np.sqrt(depth[depth > 1e-15]), rtol=1e-7
+    )
+    assert np.all(zone.coordinate(depth) < 1.1 * np.sqrt(depth) + 1e-8)
