@@ -20,7 +20,7 @@ from tests.app.conftest import Server
 #: Seconds to wait for a page: the first one of a process builds all its plots.
 PATIENCE = 180.0
 #: People at once, moves of each a second, for so long (s); the p95 (ms) beyond which no more are tried.
-SESSIONS, RATE, SECONDS, ENOUGH = (4, 8, 12, 16, 24, 32, 48), 2.0, 10.0, 200.0
+SESSIONS, RATE, SECONDS, ENOUGH = (8, 16, 24, 32, 40, 48), 2.0, 10.0, 200.0
 #: Sessions opened and closed before memory is looked at.
 OPENED = (15, 100, 1000)
 
