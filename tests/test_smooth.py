@@ -89,3 +89,13 @@ def test_depths_with_no_digits_left_beside_the_shape():
     depth = np.array([1e-300, 1e-100, 1e-70])
     # The exponent comes from g at 10⁻⁸ of the end of the series, and is used over 240 decades.
     assert shape._radius(depth) == pytest.approx(np.sqrt(depth * 1e-5), rel=1e-5)
+
+
+def test_depths_far_apart_in_one_zone():
+    """The plastic depth just beyond yield, 10⁻³⁰ of the depth, where the series of g/x is but rounding."""
+    (zone,) = mdr.Smooth(lambda r: r).zones_between(0.0, 1.0)
+    depth = np.geomspace(1e-34, 1e-2, 2000)
+    np.testing.assert_allclose(
+        zone.coordinate(depth[depth > 1e-15]), np.sqrt(depth[depth > 1e-15]), rtol=1e-7
+    )
+    assert np.all(zone.coordinate(depth) < 1.1 * np.sqrt(depth) + 1e-8)

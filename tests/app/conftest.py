@@ -34,7 +34,8 @@ window.explorer = {
   figure: (name) => Bokeh.documents.map((each) => each.get_model_by_name(name)).find((each) => each),
   column: (name, layer, key) => {
     const glyph = explorer.figure(name).renderers.find((each) => each.name === layer)
-    return Array.from(glyph.data_source.data[key])
+    // An image is an array of arrays, which not every playwright brings over as it is.
+    return Array.from(glyph.data_source.data[key], (each) => ArrayBuffer.isView(each) ? [...each] : each)
   },
   axis: (name) => {
     const { x_range, y_range, below, left } = explorer.figure(name)
@@ -90,9 +91,13 @@ class Server:
         )
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
-        assert self._ready.wait(60), f"the server did not start:\n{self.log}"
-        # Plots are built for the first page; on a busy machine a browser would not wait for that.
-        urlopen(self.url, timeout=180).read()
+        try:
+            assert self._ready.wait(60), f"the server did not start:\n{self.log}"
+            # Plots are built for the first page; on a busy machine a browser would not wait for that.
+            urlopen(self.url, timeout=180).read()
+        except BaseException:
+            self.stop(kill=True)
+            raise
 
     def _read(self):
         for line in self.process.stdout:
@@ -200,6 +205,10 @@ class Explorer:
     def bring(self, label, path):
         """Give the page a file."""
         self.page.locator(f'input[type="file"][aria-label^="{label}"]').set_input_files(path)
+
+    def hush(self):
+        """Take the notices away, which go by themselves after a while: how soon is no matter of a test."""
+        self.page.evaluate("explorer.main().querySelectorAll('.notice').forEach((each) => each.remove())")
 
     def link(self):
         """What the address of the page says, once it has settled."""

@@ -273,12 +273,13 @@ def test_numbers_are_typed_and_a_double_click_resets(explorer):
 def test_bad_numbers_give_a_notice_and_change_nothing(explorer):
     bad = ("", "abc", "1e999", "-3", "nan", "1e9 m", "3 MPa", "1,5", "<img src=x onerror=alert(1)>")
     notices = explorer.page.locator(".notice")
-    for count, text in enumerate(bad, start=1):
+    for text in bad:
+        explorer.hush()
         explorer.type("d_max", text)
-        explorer.page.wait_for_function("(n) => explorer.notices() >= n", arg=count)
+        explorer.page.wait_for_function("explorer.notices() === 1")
         assert text in notices.last.inner_text() or "out of bounds" in notices.last.inner_text()
         assert explorer.field("d_max").input_value() == "8.978 nm"
-    assert notices.locator("img").count() == 0
+        assert notices.locator("img").count() == 0
     assert_draws(explorer, State())
     with explorer.change():
         explorer.type("d_max", "5")
