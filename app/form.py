@@ -88,7 +88,12 @@ def form(state, made):
         )
         drive += [_choice(state, INERTIA), *_numbers(state, USED[INERTIA][choices[INERTIA]])]
     return {
-        "preset": {"label": "Preset", "options": list(PRESETS), "value": state.preset},
+        "preset": {
+            "label": "Preset",
+            "options": list(PRESETS),
+            "value": state.preset,
+            "altered": state.altered,
+        },
         "steps": Scale.STEPS,
         "groups": [
             {"title": "Indenter", "rows": [shape, {"sketch": True}, *_shape(state)]},

@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import dataclass
-from math import inf
+from math import inf, isclose
 
 import mdr_core as mdr
 
@@ -81,6 +81,14 @@ class Explorer:
         self.resets = dict(preset.values)
         self.choices |= preset.choices
         self.numbers |= preset.values
+
+    @property
+    def altered(self):
+        """Whether the preset has been altered."""
+        preset = PRESETS[self.preset]
+        numbers = (isclose(self.numbers[name], value) for name, value in preset.values.items())
+        choices = (self.choices[name] == option for name, option in preset.choices.items())
+        return not (all(numbers) and all(choices))
 
     def set(self, name, value):
         """Set one number, in SI, or refuse it.

@@ -52,6 +52,8 @@ class Form {
       this.build(form)
     }
     if (!this.ask.pending("load")) this.preset.value = form.preset.value
+    const origin = "Where the preset's numbers come from"
+    this.origin.textContent = form.preset.altered ? `Altered. ${origin}` : origin
     form.groups.forEach(({ rows }, g) => rows.forEach((row, r) => this.rows.get(`${g}.${r}`)(row, meta)))
     this.sources(meta.sources)
   }
@@ -63,10 +65,11 @@ class Form {
       form.preset.options.map((label) => [label, label]),
     )
     this.preset.addEventListener("change", () => this.ask({ do: "load", label: this.preset.value }))
+    this.origin = make("summary")
     this.where = make("dl")
     const parts = [
       field("Preset", this.preset),
-      make("details", {}, make("summary", {}, "Where the preset's numbers come from"), this.where),
+      make("details", {}, this.origin, this.where),
     ]
     form.groups.forEach(({ title, rows }, g) => {
       parts.push(make("h2", {}, title))

@@ -116,12 +116,15 @@ def test_presets(explorer):
 
 def test_shapes(explorer):
     state = State()
+    origin = explorer.page.get_by_text("Where the preset's numbers come from")
+    assert "Altered" not in origin.inner_text()
     for shape in [*(key for key in SHAPES if key != state.shape), state.shape]:
         explorer.choose("Shape", SHAPES[shape].label)
         state.choose("shape", shape)
         assert_draws(explorer, state)
         for _, quantity in shape_quantities(shape):
             assert explorer.field(quantity.symbol).count() == 1
+        assert origin.inner_text().startswith("Altered. ") == state.altered
 
 
 def test_drives_and_media(explorer):

@@ -31,6 +31,18 @@ def test_preset_solves_and_says_where_its_numbers_come_from(label):
     assert all(source for _, _, source in PRESETS[label].sources)
 
 
+@pytest.mark.parametrize("label", PRESETS)
+def test_preset_says_whether_it_has_been_altered(label):
+    state = Explorer(label)
+    assert not state.altered
+    before = state.snapshot()
+    state.set("cone_slope", 0.0625)
+    state.choose("shape", "cone")
+    assert state.altered
+    state.restore(before)
+    assert not state.altered
+
+
 def test_preset_combines_the_compliance_of_both_bodies():
     # Gold under diamond: 1/E* = (1 − 0.42²)/78 GPa + (1 − 0.07²)/1141 GPa, Eq. (2).
     expected = 1 / ((1 - 0.42**2) / 78e9 + (1 - 0.07**2) / 1141e9)
