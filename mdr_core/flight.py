@@ -24,7 +24,10 @@ from .peak import Step, largest_force
 #: Change of velocity, and path, of the first run's steps in units of the whole, and by how much less of
 #: the path on the way back; change in units of the velocity itself; growth of the steps.
 _SHARE, _FINER, _CREEP, _GROWTH = 1 / 4, 1.5, 0.6, 2.0
-_MOST_STEPS = 100_000
+#: What velocities are found to, per speed: also a rebound at a billionth of it is to be seen.
+_FINEST = 1e-12
+#: Time steps of a run, and of the first one, which only plans them.
+_MOST_STEPS, _MOST_PLANNED = 100_000, 5000
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +47,8 @@ class Run:
 class _Flight:
     """One run: the chain, the velocity, and what has been recorded so far."""
 
-    def __init__(self, body, row, precision):
-        self.body, self.row, self.velocity = body, row, body.speed
+    def __init__(self, body, row, precision, most=_MOST_STEPS):
+        self.body, self.row, self.velocity, self.most = body, row, body.speed, most
         self.precision = precision * body.speed
         self.acceleration = self.jerk = self.time = self.met = 0.0
         self.turned, self.steps, self.records = None, [], []
@@ -125,9 +128,9 @@ class _Flight:
 
     def go(self, dt, taken=None):
         """A step of the given time, or up to where the body turns round."""
-        if len(self.steps) > _MOST_STEPS:
+        if len(self.steps) > self.most:
             raise ValueError(
-                f"the impact takes more than {_MOST_STEPS} steps: the relaxation time tau = "
+                f"the impact takes more than {self.most} steps: the relaxation time tau = "
                 f"{self.row.medium.relaxation_time:g} s is out of proportion to the time of contact; "
                 "check the units, or leave out eta"
             )
@@ -159,7 +162,9 @@ class _Flight:
         After that no force acts, so that the straight line through the end is the motion itself.
         """
         row, v = self.row, self.velocity
-        return self.time - (row._elements.above[0] + row.medium.relaxation_time * v) / v
+        straight = self.time - (row._elements.above[0] + row.medium.relaxation_time * v) / v
+        # Not before the turning point, where next to nothing of v is left.
+        return max(straight, self.time - sum(self.steps[self.turned :]))
 
     @property
     def legs(self):
@@ -204,7 +209,7 @@ def _settled(function, slope, x, bracket, close):
 
 def pace(body, row, deepest):
     """Time steps (s) on either leg as long as velocity and depth allow, and the largest depth (m)."""
-    flight = _Flight(body, row, 1e-6)
+    flight = _Flight(body, row, _FINEST, _MOST_PLANNED)
     flight.approach(deepest)
     path = _SHARE * max(deepest - row.depth, _SHARE * deepest)
     longest = _SHARE * body.speed
@@ -234,7 +239,7 @@ def pace(body, row, deepest):
 
 def fly(body, row, legs, room, precision):
     """A run with given time steps (s) on either leg, the last one repeated as long as the leg lasts."""
-    flight = _Flight(body, row, min(1e-9, 1e-4 * precision))
+    flight = _Flight(body, row, min(_FINEST, 1e-4 * precision))
     flight.approach(room)
     down, up = legs
     for dt in chain(down, repeat(np.max(down[-3:]))):
