@@ -72,6 +72,17 @@ def positive_number(quantity, value, *, unit="", infinite=False):
     return positive(quantity, number(quantity, value), unit=unit, infinite=infinite)
 
 
+def set_positive(profile, **units):
+    """Replace each named field of a frozen profile by its checked value, a float or an array."""
+    for name, unit in units.items():
+        quantity = f"{type(profile).__name__} {name}"
+        # A coefficient may be of any size.
+        within = (0.0, np.inf) if unit == "m^(1-n)" else (SHORTEST, LONGEST)
+        value = positive(quantity, getattr(profile, name), unit=unit, within=within)
+        object.__setattr__(profile, name, value)
+    common_shape(type(profile).__name__, **{name: getattr(profile, name) for name in units})
+
+
 def _real_array(quantity, value, what="real numbers"):
     try:
         array = np.asarray(value)

@@ -116,14 +116,14 @@ def _errors(limits, finest):
 
     The limits are of fourth order where the motion is smooth. That is taken for granted ever more, but
     they are never trusted to be thirty times better than what they are made of; the first one only
-    four times, in time no better at all, in force rather worse, and never to the last digits: errors of
-    steps and of elements may happen to cancel.
+    four times, in force and time rather worse, and never to the last digits: errors of steps and of
+    elements may happen to cancel, and where τ outlasts the contact its end hangs on τ δv/v.
     """
     if len(limits) < 2:
         return np.full(finest.shape, np.inf)
     gained, changes = np.abs(limits[-1] - finest), np.abs(np.diff(limits, axis=0))
     if len(limits) == 2:
-        return np.maximum(gained * [1 / 4, 1 / 4, 3, 1], 2e-6)
+        return np.maximum(gained * [1 / 4, 1 / 4, 3, 4], 2e-6)
     if len(limits) == 3:
         return np.maximum(changes[-1], gained / 4)
     return np.maximum(np.maximum(changes[-1], changes[-2] / 8), gained / 30)

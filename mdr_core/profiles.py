@@ -131,17 +131,6 @@ class Profile(ABC):
         )
 
 
-def set_positive(profile, **units):
-    """Replace each named field of a frozen profile by its checked value, a float or an array."""
-    for name, unit in units.items():
-        quantity = f"{type(profile).__name__} {name}"
-        # A coefficient may be of any size.
-        within = (0.0, np.inf) if unit == "m^(1-n)" else (_check.SHORTEST, _check.LONGEST)
-        value = _check.positive(quantity, getattr(profile, name), unit=unit, within=within)
-        object.__setattr__(profile, name, value)
-    _check.common_shape(type(profile).__name__, **{name: getattr(profile, name) for name in units})
-
-
 @dataclass(frozen=True)
 class FlatPunch(Profile):
     """Flat-ended cylinder: z = 0 for r ≤ b, a wall beyond.
@@ -160,7 +149,7 @@ class FlatPunch(Profile):
     radius: float
 
     def __post_init__(self):
-        set_positive(self, radius="m")
+        _check.set_positive(self, radius="m")
 
     wall = property(lambda self: self.radius)
     zones = ()
@@ -193,7 +182,7 @@ class Cone(Profile):
     slope: float
 
     def __post_init__(self):
-        set_positive(self, slope="")
+        _check.set_positive(self, slope="")
 
     @property
     def zones(self):
@@ -227,7 +216,7 @@ class Paraboloid(Profile):
     radius: float
 
     def __post_init__(self):
-        set_positive(self, radius="m")
+        _check.set_positive(self, radius="m")
 
     @property
     def zones(self):
@@ -264,7 +253,7 @@ class PowerLaw(Profile):
     exponent: float
 
     def __post_init__(self):
-        set_positive(self, coefficient="m^(1-n)", exponent="")
+        _check.set_positive(self, coefficient="m^(1-n)", exponent="")
         exponent, reduced = np.asarray(self.exponent), np.asarray(self._reduced_coefficient)
         outside = ~((exponent >= 0.01) & (exponent <= 1000))
         bound = "must lie in 0.01 ≤ n ≤ 1000"

@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from . import _check
 from .inverse import arctan_gap, newton
-from .profiles import Profile, set_positive
+from .profiles import Profile
 from .zones import Zone
 
 
@@ -29,7 +30,7 @@ class Sphere(Profile):
     radius: float
 
     def __post_init__(self):
-        set_positive(self, radius="m")
+        _check.set_positive(self, radius="m")
 
     # There a is R to any precision, and the squares of hyperbolic functions are still finite.
     deepest = property(lambda self: 100 * self.radius)
@@ -94,7 +95,7 @@ class Hyperboloid(Profile):
     tip_radius: float
 
     def __post_init__(self):
-        set_positive(self, slope="", tip_radius="m")
+        _check.set_positive(self, slope="", tip_radius="m")
 
     @property
     def _length(self):
@@ -152,7 +153,7 @@ class RoundedCone(Profile):
     slope: float
 
     def __post_init__(self):
-        set_positive(self, tip_radius="m", slope="")
+        _check.set_positive(self, tip_radius="m", slope="")
 
     @property
     def _cap(self):
@@ -235,7 +236,7 @@ class ParabolicPunch(Profile):
     cylinder_radius: float
 
     def __post_init__(self):
-        set_positive(self, radius="m", cylinder_radius="m")
+        _check.set_positive(self, radius="m", cylinder_radius="m")
 
     wall = property(lambda self: self.cylinder_radius)
     kinks = property(lambda self: (self.cylinder_radius * (self.cylinder_radius / self.radius),))

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from . import _check
 from .inverse import arctan_gap, newton
-from .profiles import Profile, set_positive
+from .profiles import Profile
 from .zones import Zone
 
 
@@ -61,7 +62,7 @@ class TruncatedCone(_FlatFaced):
     slope: float
 
     def __post_init__(self):
-        set_positive(self, flat_radius="m", slope="")
+        _check.set_positive(self, flat_radius="m", slope="")
 
     def _height(self, r):
         return self.slope * np.maximum(r - self.flat_radius, 0.0)
@@ -109,7 +110,7 @@ class TruncatedParaboloid(_FlatFaced):
     radius: float
 
     def __post_init__(self):
-        set_positive(self, flat_radius="m", radius="m")
+        _check.set_positive(self, flat_radius="m", radius="m")
 
     @property
     def _depth_scale(self):
@@ -155,7 +156,7 @@ class RoundedPunch(_FlatFaced):
     _order = 2
 
     def __post_init__(self):
-        set_positive(self, flat_radius="m", edge_radius="m")
+        _check.set_positive(self, flat_radius="m", edge_radius="m")
 
     @property
     def _depth_scale(self):

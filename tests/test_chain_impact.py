@@ -229,6 +229,6 @@ def test_a_body_that_is_all_but_stopped():
     assert exact.restitution < 1e-9
     assert hit.restitution == pytest.approx(exact.restitution, rel=0.1)
     assert hit.max_depth == pytest.approx(exact.max_depth, rel=1e-3)
-    # The last elements at the axis let go far too late; the estimate, up to some times too good, says so.
-    assert abs(hit.contact_time - exact.contact_time) <= 5 * hit.errors.contact_time * hit.contact_time
+    # The end of contact hangs on τ δv/v, which is longer than all of it: the estimate says so.
+    assert abs(hit.contact_time - exact.contact_time) <= hit.errors.contact_time * hit.contact_time
     assert hit.motion().time.size < 3000

@@ -19,7 +19,8 @@ function drawForce(scene, i) {
     const [back, out] = [fields["out d"], fields["out F"]]
     shown.dissipated =
       first <= Math.min(i, peak) || scene.meta.tau > 0
-        ? { x: [...d.subarray(0, i + 1), ...back], y: [...F.subarray(0, i + 1), ...out] }
+        ? // From the axis up: on an imprint, or a flat face, dashpots push at once.
+          { x: [d[0], ...d.subarray(0, i + 1), ...back], y: [0, ...F.subarray(0, i + 1), ...out] }
         : EMPTY
     shown.recoverable = { x: [back[0], ...back], y: [0, ...out] }
   }

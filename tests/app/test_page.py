@@ -180,6 +180,21 @@ def test_a_body_hits_the_same_spot_again(explorer):
         assert depth[0] * scale == pytest.approx(float(left), rel=1e-6)
         # Elastic again until it yields further.
         assert depth[-1] * scale == pytest.approx(float(left + hit.medium.critical_depth), rel=0.05)
+    explorer.pick("damping", "tau", "τ")
+    labels = explorer.axis("force")["labels"]
+    joule = unit(labels[0], "length") * unit(labels[1], "force")
+    shaded = [
+        polygon_area(*(explorer.column("force", name, key) for key in "xy"))
+        for name in ("dissipated", "recoverable")
+    ]
+    # Dashpots push at first touch of an imprint. All the body had is spent where it turns; the curves are
+    # polygons of a hundred sides.
+    assert sum(shaded) * joule == pytest.approx(hit.mass * hit.speed**2 / 2, rel=5e-3)
+
+
+def polygon_area(x, y):
+    x, y = np.array(x), np.array(y)
+    return abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2
 
 
 def test_keys_on_a_slider_move_every_plot(explorer):
