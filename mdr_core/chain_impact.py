@@ -81,7 +81,7 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
     for level in range(_REFINEMENTS):
         legs = halved(legs)
         row = body.row(n or _ELEMENTS * 2**level, depth)
-        runs.append(fly(body, row, legs, bound, tolerance))
+        runs.append(fly(body, row, legs, bound))
         coarse, fine = (_quantities(runs[i]) for i in (max(level - 1, 0), level))
         depth = fine[1]
         limits.append(fine + (fine - coarse) / 3)

@@ -47,9 +47,9 @@ class Run:
 class _Flight:
     """One run: the chain, the velocity, and what has been recorded so far."""
 
-    def __init__(self, body, row, precision, most=_MOST_STEPS):
+    def __init__(self, body, row, most=_MOST_STEPS):
         self.body, self.row, self.velocity, self.most = body, row, body.speed, most
-        self.precision = precision * body.speed
+        self.precision = _FINEST * body.speed
         self.acceleration = self.jerk = self.time = self.met = 0.0
         self.turned, self.steps, self.records = None, [], []
         self.largest, self.around = 0.0, []
@@ -209,7 +209,7 @@ def _settled(function, slope, x, bracket, close):
 
 def pace(body, row, deepest):
     """Time steps (s) on either leg as long as velocity and depth allow, and the largest depth (m)."""
-    flight = _Flight(body, row, _FINEST, _MOST_PLANNED)
+    flight = _Flight(body, row, _MOST_PLANNED)
     flight.approach(deepest)
     path = _SHARE * max(deepest - row.depth, _SHARE * deepest)
     longest = _SHARE * body.speed
@@ -237,9 +237,9 @@ def pace(body, row, deepest):
     return flight.legs, max(record[1] for record in flight.records)
 
 
-def fly(body, row, legs, room, precision):
+def fly(body, row, legs, room):
     """A run with given time steps (s) on either leg, the last one repeated as long as the leg lasts."""
-    flight = _Flight(body, row, min(_FINEST, 1e-4 * precision))
+    flight = _Flight(body, row)
     flight.approach(room)
     down, up = legs
     for dt in chain(down, repeat(np.max(down[-3:]))):
