@@ -16,6 +16,8 @@ from .profiles import Profile
 #: Elements of the first run; every refinement takes twice as many, and half the steps in time.
 _ELEMENTS = 150
 _REFINEMENTS = 8
+#: What the velocity at the end is right to at best, relative to itself.
+_ROUNDING = 2e-15
 #: The deepest that the chain can tell the critical depth from rounding, in critical depths.
 _DEEPEST = 1e11
 
@@ -77,16 +79,19 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
             f"speed = {body.speed:g} m/s presses down to {bound:g} m, over {_DEEPEST:g} critical depths, "
             "so that what springs back is lost in rounding; hit less hard, or use impact"
         )
-    (legs, depth), runs, limits = pace(body, body.row(n or _ELEMENTS, bound), bound), [], []
+    tip = n is None
+    (legs, depth), runs, limits = pace(body, body.row(n or _ELEMENTS, bound, tip), bound), [], []
     for level in range(_REFINEMENTS):
         legs = halved(legs)
-        row = body.row(n or _ELEMENTS * 2**level, depth)
+        row = body.row(n or _ELEMENTS * 2**level, depth, tip)
         runs.append(fly(body, row, legs, bound))
         coarse, fine = (_quantities(runs[i]) for i in (max(level - 1, 0), level))
         depth = fine[1]
         limits.append(fine + (fine - coarse) / 3)
         scale = np.append(body.speed, np.abs(fine[1:]))
         errors = _errors(np.array(limits) / scale, fine / scale)
+        # Where the contact ends the body is as fast as the elements are, but for rounding.
+        errors[3] = max(errors[3], _ROUNDING * medium.relaxation_time / fine[3])
         # Steps and elements err against each other, so that changes may be small by chance.
         errors = Errors(*np.maximum(errors, tolerance / 2).tolist())
         if max(errors.restitution, errors.max_depth) <= tolerance:
@@ -219,7 +224,8 @@ class ChainImpact:
     @cached_property
     def contact_time(self):
         """Time (s) from first contact to the last one."""
-        return self._limit(lambda run: run.contact_time)
+        # Where it is all but unknown, the limit may lie anywhere.
+        return max(self._limit(lambda run: run.contact_time), self._fine.contact_time / 2)
 
     @cached_property
     def plastic_work(self):

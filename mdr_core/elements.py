@@ -45,8 +45,10 @@ class Ramp:
 
     Parameters
     ----------
-    start, depth : float
-        Depths (m) at its ends.
+    depth : float
+        Depth (m) at its end.
+    rise : float
+        Change of depth (m) along it: where next to nothing, no difference of depths.
     time : float
         Its duration (s), positive; infinite for an infinitely slow one.
     tau : float
@@ -55,16 +57,11 @@ class Ramp:
         d_c (m), at which they yield.
     """
 
-    start: float
     depth: float
+    rise: float
     time: float
     tau: float
     critical_depth: float
-
-    @property
-    def rise(self):
-        """Change of depth (m)."""
-        return self.depth - self.start
 
     @property
     def lag(self):

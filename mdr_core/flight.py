@@ -24,6 +24,9 @@ from .peak import Step, largest_force
 #: Change of velocity, and path, of the first run's steps in units of the whole, and by how much less of
 #: the path on the way back; change in units of the velocity itself; growth of the steps.
 _SHARE, _FINER, _CREEP, _GROWTH = 1 / 4, 1.5, 0.6, 2.0
+#: What follows the planned steps, should contact last longer than planned: for a body that all but
+#: floats on the dashpots it may be a thousand times as long.
+_TAIL = 1.2 ** np.arange(1, 100)
 #: What velocities are found to, per speed: also a rebound at a billionth of it is to be seen.
 _FINEST = 1e-12
 #: Time steps of a run, and of the first one, which only plans them.
@@ -49,7 +52,7 @@ class _Flight:
 
     def __init__(self, body, row, most=_MOST_STEPS):
         self.body, self.row, self.velocity, self.most = body, row, body.speed, most
-        self.precision = _FINEST * body.speed
+        self.precision = None
         self.acceleration = self.jerk = self.time = self.met = 0.0
         self.turned, self.steps, self.records = None, [], []
         self.largest, self.around = 0.0, []
@@ -71,7 +74,7 @@ class _Flight:
 
     def trial(self, rate, dt):
         """Ramp, new elements and exchange of a step, and its impulse (N·s)."""
-        ramp = self.row._ramp(self.row.depth + rate * dt, dt)
+        ramp = self.row._ramp(rate * dt, dt)
         state, exchange = elements.advance(self.row._elements, ramp)
         return ramp, state, exchange, self.row._total(exchange.impulse)
 
@@ -88,7 +91,7 @@ class _Flight:
             return 2 * m + self.row._total(taken[2].response)
 
         guess = v + (self.acceleration + self.jerk * (last + dt) / 2) * dt / 2
-        return _settled(excess, slope, guess, (-np.inf, np.inf), self.precision)
+        return _settled(excess, slope, guess, (-np.inf, np.inf), max(self.precision, _FINEST * abs(v)))
 
     def turn(self, longest, after):
         """The step that ends where the velocity is zero, J(v/2) = m v; less than one that ends beyond."""
@@ -145,6 +148,10 @@ class _Flight:
 
     def approach(self, room):
         """Fly freely to where the axis is met, but for a billionth of `room` (m)."""
+        medium, speed = self.row.medium, self.body.speed
+        # Where damping rules the body goes back as slowly as what is compressed relaxes; else τ is none.
+        tau = max(medium.relaxation_time, room * 1e-9 / speed)
+        self.precision = _FINEST * min(speed, min(room, medium.critical_depth) / tau)
         for _ in range(1000):
             state = self.row._elements
             gap = float(state.reduced[0] + state.plastic[0] + state.elastic[0]) - self.row.depth
@@ -234,7 +241,12 @@ def pace(body, row, deepest):
         elif not down:
             # A body that creeps out of the imprint does so on the scale of the time it has taken.
             dt = min(dt, 1.5 * _SHARE * flight.time)
-    return flight.legs, max(record[1] for record in flight.records)
+            # A flat face lets go exponentially, and contact ends by what little of the force is left.
+            before, after = (flight.records[i][3] for i in (-2, -1))
+            if after < before / 3:
+                dt = min(dt, flight.steps[-1])
+    down, up = flight.legs
+    return (down, np.append(up, up[-1] * _TAIL)), max(record[1] for record in flight.records)
 
 
 def fly(body, row, legs, room):

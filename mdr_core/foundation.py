@@ -157,12 +157,13 @@ class Foundation:
         22.0 6.0
         """
         depth = float(_check.finite_array("depth", _check.number("depth", depth), unit="m"))
-        ramp = self._ramp(depth, _check.positive_number("dt", dt, unit="s", infinite=True))
+        dt = _check.positive_number("dt", dt, unit="s", infinite=True)
+        ramp = self._ramp(depth - self.depth, dt, depth)
         return self._after(ramp, *elements.advance(self._elements, ramp))
 
-    def _ramp(self, depth, dt):
-        medium = self.medium
-        return Ramp(self.depth, depth, dt, medium.relaxation_time, medium.critical_depth)
+    def _ramp(self, rise, dt, depth=None):
+        medium, depth = self.medium, self.depth + rise if depth is None else depth
+        return Ramp(depth, rise, dt, medium.relaxation_time, medium.critical_depth)
 
     def _after(self, ramp, state, exchange, rate=None):
         """This foundation with its elements at the end of a ramp; at another rate (m/s) there, if given."""

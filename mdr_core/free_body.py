@@ -12,6 +12,10 @@ from .profiles import Profile
 
 #: Fewer elements stand evenly.
 _FEW = 16
+#: Further elements on each side close to the axis, and the radii they stand between, in elements' widths
+#: of the even grid: where damping rules, all but the last thousandth of the contact may be gone when it
+#: ends, and how long that takes is up to them.
+_TIP, _TIP_NODES = 16, 4.0 * 4.0 ** -np.arange(8)
 
 
 @dataclass(frozen=True)
@@ -34,8 +38,8 @@ class Body:
         """Largest depth (m) of the history, at least 0."""
         return max([0.0, *(depth for depth, _ in self.history)])
 
-    def row(self, n, deepest):
-        """The chain on which the body starts, wide enough for a depth (m).
+    def row(self, n, deepest, tip):
+        """The chain on which the body starts, wide enough for a depth (m), with a fine `tip` if asked to.
 
         Edges stand at the contact radii and plastic zones of that depth and of the largest one before,
         unless elements are few; few also err in how deep the body comes.
@@ -46,6 +50,9 @@ class Body:
         nodes = self.profile.contact_radius(level[level > 0]) if n >= _FEW else ()
         widest = min((1.02 + 2 / n) * max(past, deepest), self.profile.deepest)
         half_width = self.profile.contact_radius(widest)
+        # A plastic zone lets go as a whole.
+        if tip and self.medium.eta > 0 and deepest <= self.medium.critical_depth:
+            nodes, n = np.append(nodes, 2 * half_width / n * _TIP_NODES), n + 2 * _TIP
         row = Foundation(self.profile, self.medium, n, half_width, nodes=tuple(nodes))
         for depth, dt in self.history:
             row = row.advance(depth, dt)

@@ -28,7 +28,7 @@ class Step:
     def force(self, time):
         """Force (N) at a time (s) from its beginning."""
         velocity = self.before + self.acceleration * time
-        ramp = self.row._ramp(self.row.depth + (self.before + velocity) / 2 * time, time)
+        ramp = self.row._ramp((self.before + velocity) / 2 * time, time)
         moved = self.row._after(ramp, *elements.advance(self.row._elements, ramp), velocity)
         return force_and_radius(moved)[0]
 

@@ -180,9 +180,9 @@ class TimedIndentation:
         x = np.abs(_check.finite_array("coordinate x", x, unit="m"))
         medium, (time, depth) = self.medium, self._path
         state, lag = Elements.virgin(np.asarray(self.profile.reduced(x.ravel()))), 0.0
-        starts, steps = np.append(0.0, depth[:-1]), np.append(np.inf, np.diff(time))
+        rises, steps = np.diff(depth, prepend=0.0), np.append(np.inf, np.diff(time))
         for i in range(int(self._place) + 1):
-            ramp = Ramp(starts[i], depth[i], steps[i], medium.relaxation_time, medium.critical_depth)
+            ramp = Ramp(depth[i], rises[i], steps[i], medium.relaxation_time, medium.critical_depth)
             state, lag = elements.advance(state, ramp)[0], ramp.lag
         load = np.where(state.contact, medium.E_star * (state.elastic + lag), 0.0)
         return load.reshape(x.shape)[()]
