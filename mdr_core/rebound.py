@@ -216,7 +216,9 @@ def _unload(bodies, course, rows, record):
     beyond = (np.minimum(miss, least - edge) < 0) & ~arrived
     short = closing & ~beyond & ~arrived & (left < 0.1 * step.length)
     if (beyond | short).any():
-        last[beyond] = gauss.crossing(step.coordinate[beyond], edge[beyond])
+        theta = gauss.crossing(step.coordinate[beyond], edge[beyond])
+        # Of an edge far below the live depth rounding may hide where it is: it shows from closer by.
+        last[beyond] = np.where((theta < 1 - 1e-12) | free[beyond], theta, 0.99)
         # The load ran on smoothly past the loss of contact if the tip was not yet reached.
         keep = ~short & ~(beyond & ~(free & (course.lower[step.rows] + least > 0)))
         plan = step.length * gauss.share(step.kind, last) + np.where(short, left, 0.0)

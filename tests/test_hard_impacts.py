@@ -157,3 +157,17 @@ def test_largest_force(exponent, share, q_c):
     hit = mdr.impact(shape, mdr.Medium(E_STAR, q_c, tau * E_STAR / 4), MASS, dry.speed)
     # The fine grid misses the top by its spacing squared, the dense output adds about 10⁻⁹.
     assert hit.max_force == pytest.approx(largest, rel=1e-8)
+
+
+@pytest.mark.parametrize("tip", [2e-10, 3e-9, 1e-8, 5e-7])
+def test_blunt_tip_far_below_the_depth(tip):
+    """The kink where a blunt tip passes into its cone may be hidden by rounding when the body turns."""
+    medium = mdr.Medium(E_star=1e6, eta=1e-5)
+    blunted, sharp = (
+        mdr.impact(shape, medium, 1e-6, 20.0) for shape in (mdr.RoundedCone(tip, 1.5e-4), mdr.Cone(1.5e-4))
+    )
+    # The tip lies this much above the cone's, and the depth changes by less; both end to 1e-9.
+    height = tip * 1.5e-4 / sharp.max_depth
+    assert blunted.max_depth == pytest.approx(sharp.max_depth, rel=height + 1e-9)
+    assert blunted.contact_time == pytest.approx(sharp.contact_time, rel=height + 1e-9)
+    assert blunted.restitution == pytest.approx(sharp.restitution, abs=height + 1e-9)
