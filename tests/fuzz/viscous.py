@@ -47,5 +47,7 @@ def foundations(source):
 def chains(source):
     shape, medium = source.shape(), source.medium(source.chance(0.7))
     tolerance = 0.1 if source.chance(0.9) else source.number(-2, 0)
-    hit = mdr.chain_impact(shape, medium, source.number(-12, 0), source.number(-4, 2), tolerance=tolerance)
+    n = None if source.chance(0.9) else source.pick((40, np.int64(4), 16.0, 3, -2, "20", 1e9))
+    body = source.number(-12, 0), source.number(-4, 2)
+    hit = mdr.chain_impact(shape, medium, *body, n=n, tolerance=tolerance)
     finite(hit.max_depth, hit.max_force, hit.restitution, hit.contact_time, hit.plastic_work)
