@@ -58,7 +58,7 @@ def positive(quantity, value, *, unit="", infinite=False, zero=False, within=(SM
     if not infinite:
         bad = bad | (values == np.inf)
     bound = f"must be {'' if infinite else 'finite and '}{'not negative' if zero else 'positive'}"
-    remedy = f"give it in SI units{f' ({unit})' if unit else ''}"
+    remedy = f"give it in SI units ({unit})" if unit else "check it"
     refuse(quantity, values, bad, bound, unit=unit, remedy=remedy)
     least, most = (0.0 if zero else within[0]), within[1]
     outside = (values < least) | (values > most) & (values < np.inf)

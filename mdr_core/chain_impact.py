@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _check
 from .flight import Run, fly, halved, pace
+from .foundation import Foundation, element_count
 from .free_body import Body, reach
 from .medium import Medium
 from .model import CHAIN
@@ -79,7 +80,7 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
             f"speed = {body.speed:g} m/s presses down to {bound:g} m, over {_DEEPEST:g} critical depths, "
             "so that what springs back is lost in rounding; hit less hard, or use impact"
         )
-    tip = n is None
+    tip, n = n is None, n if n is None else element_count(n)
     (legs, depth), runs, limits = pace(body, body.row(n or _ELEMENTS, bound, tip), bound), [], []
     for level in range(_REFINEMENTS):
         legs = halved(legs)
@@ -103,6 +104,8 @@ def _history(profile, medium, start):
     """The moves that led to the foundation `start`, if it is one under this indenter on this medium."""
     if start is None:
         return ()
+    if not isinstance(start, Foundation):
+        raise TypeError(f"start must be a Foundation, as made by advance, got {type(start).__name__}")
     if start.profile != profile or start.medium != medium:
         raise ValueError(
             f"start is a foundation under {start.profile!r} on {start.medium!r}, which are not the profile "

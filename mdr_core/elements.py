@@ -164,7 +164,7 @@ def _meeting_pressed(elements, ramp, above, met):
     if ramp.time == np.inf:
         return low, np.zeros_like(low)
     pace = ramp.rise / ramp.time
-    since = np.where(met, (above - low) / pace, 0.0) if pace > 0 else 0.0
+    since = np.where(met, above - low, 0.0) / pace if pace > 0 else 0.0
     duration = np.where(held, ramp.time, since)
     if not met_relaxing.any():
         return low, duration
@@ -198,7 +198,7 @@ def _withdraw(elements, ramp, above):
     elastic = np.where(contact, above, np.where(touched, last * since, before * ramp.keep))
     duration = np.zeros_like(stroke)
     if ramp.time < np.inf:
-        partly = np.where(touched, stroke * (ramp.time / -ramp.rise), 0.0)
+        partly = np.where(touched, stroke, 0.0) / -ramp.rise * ramp.time
         duration = np.where(elements.contact & contact, ramp.time, partly)
     new = Elements(elements.reduced, above, elastic, elements.plastic, contact)
     parts = before, first, last, elastic

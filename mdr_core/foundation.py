@@ -25,6 +25,16 @@ def check_pair(profile, medium):
         )
 
 
+def element_count(n):
+    """A number of elements, if it is one for both sides of the axis."""
+    count = _check.positive_number("n", n)
+    if count % 2 or count > _MOST:
+        raise ValueError(
+            f"n = {count:g} must be an even whole number up to {_MOST:g}: as many elements on either side"
+        )
+    return int(count)
+
+
 @dataclass(frozen=True, eq=False)
 class Foundation:
     """The 1D foundation of Popov (2015), Fig. 1, as a row of independent elements.
@@ -93,11 +103,7 @@ class Foundation:
 
     def __post_init__(self):
         check_pair(self.profile, self.medium)
-        n = _check.positive_number("n", self.n)
-        if n % 2 or n > _MOST:
-            raise ValueError(
-                f"n = {n:g} must be an even whole number up to {_MOST:g}: as many elements on either side"
-            )
+        n = element_count(self.n)
         half_width = _check.positive_number("half_width", self.half_width, unit="m")
         known = self.profile.known_radius
         if half_width > known:
@@ -106,13 +112,13 @@ class Foundation:
                 f"{known:g} m; give at most that"
             )
         nodes = _check.finite_array("nodes", self.nodes, unit="m").ravel()
-        edges = cell_edges(self.profile, int(n) // 2, half_width, nodes)
+        edges = cell_edges(self.profile, n // 2, half_width, nodes)
         # At the axis one of no width: what is touched first, and let go of last.
         middle = np.append(0.0, (edges[1:] + edges[:-1]) / 2)
         # A little beyond the end: the row may end on the very contact radius.
         rim = self.profile.reduced(min(half_width * (1 + 1e-9), known))
         self._set(
-            n=int(n),
+            n=n,
             half_width=half_width,
             nodes=tuple(nodes.tolist()),
             _middle=middle,

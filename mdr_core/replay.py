@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from . import _check, superpose
 from . import collocation as gauss
-from . import superpose
 from .course import UNLOADING
 from .motion import Motion
 from .rebound import solve
@@ -21,7 +21,7 @@ def motion(hit, n):
             "result[0].motion()"
         )
     if isinstance(n, bool) or not isinstance(n, int | np.integer) or not 2 <= n <= 10**7:
-        raise ValueError(f"number of instants n = {n!r:.40} must be a whole number from 2 to 10⁷")
+        raise ValueError(f"number of instants n = {_check.shown(n)} must be a whole number from 2 to 10⁷")
     before = np.asarray(hit.plastic_depth - hit.growth)
     bodies = bodies_of(hit.profile, hit.medium, hit.mass, hit.speed, before)
     steps = []

@@ -13,7 +13,7 @@ import signal
 import sys
 import warnings
 
-from .fuzz import contact, geometry, texts, viscous
+from .fuzz import contact, geometry, odd, texts, viscous
 from .fuzz.source import Source
 
 #: Seconds of computing that one call may take, however busy the machine is.
@@ -33,7 +33,7 @@ ENTRIES = {
         *(geometry.scalings, texts.scenes, texts.tips, contact.indentations, contact.force_paths),
         *(contact.dry_impacts, contact.many_depths, contact.many_forces, contact.many_impacts),
         *(viscous.viscous_impacts, viscous.many_viscous_impacts, viscous.timed, viscous.foundations),
-        viscous.chains,
+        *(viscous.chains, odd.one_odd),
     )
 }
 

@@ -1,5 +1,6 @@
 """The chain as itself: against the closed forms, in small steps, and in its own energy balance."""
 
+import itertools
 import math
 
 import numpy as np
@@ -177,6 +178,20 @@ def test_without_yield_nothing_remains():
     assert row.plastic_work == 0.0
     assert not np.any(row.plastic)
     assert row.stored_energy == 0.0
+
+
+MOVES = ((1e-7, 1.0), (0.0, 1e-60), (1e-250, 1e60), (5e-324, 1e60), (1e-7, 1e-60), (-1e-7, 1e60))
+
+
+@pytest.mark.parametrize("moves", list(itertools.product(MOVES, repeat=3)))
+def test_moves_by_next_to_nothing_or_at_once(moves):
+    """However fast or slow: finite, none negative; a warning is an error."""
+    row = mdr.Foundation(mdr.Cone(1.0), VISCOUS, 4, 1e-6)
+    for move in moves:
+        row = row.advance(*move)
+        numbers = row.force, row.viscous_work, row.stored_energy, row.plastic_work
+        assert np.isfinite(numbers).all()
+        assert min(numbers) >= 0
 
 
 def test_a_million_elements():

@@ -28,6 +28,15 @@ def timed(source):
     finite(result.force, result.contact_radius, result.stored_energy, result.plastic_depth)
 
 
+_STARTS = (0, "row", (), np.zeros(3), mdr.Foundation(mdr.Cone(1.0), mdr.Medium(1e9), 4, 1e-3))
+
+
+def _pressed(source, shape, medium):
+    """A chain that has been pressed and left again."""
+    row = mdr.Foundation(shape, medium, 40, shape.contact_radius(1e-9))
+    return row.advance(10.0 ** source.rng.uniform(-11, -9), source.number(-6, 2)).advance(-1e-9)
+
+
 def foundations(source):
     shape, medium = source.shape(), source.medium(source.chance(0.5))
     n = 40 if source.chance(0.8) else source.pick((2, 100, 41, -2, 1e9, 0, 2.5, "4", np.int32(60)))
@@ -47,7 +56,8 @@ def foundations(source):
 def chains(source):
     shape, medium = source.shape(), source.medium(source.chance(0.7))
     tolerance = 0.1 if source.chance(0.9) else source.number(-2, 0)
-    n = None if source.chance(0.9) else source.pick((40, np.int64(4), 16.0, 3, -2, "20", 1e9))
+    n = None if source.chance(0.9) else source.pick((40, np.int64(4), 16.0, 0, 3, -2, "20", 1e9, True))
+    start = None if source.chance(0.9) else source.pick((*_STARTS, _pressed(source, shape, medium)))
     body = source.number(-12, 0), source.number(-4, 2)
-    hit = mdr.chain_impact(shape, medium, *body, n=n, tolerance=tolerance)
+    hit = mdr.chain_impact(shape, medium, *body, start=start, n=n, tolerance=tolerance)
     finite(hit.max_depth, hit.max_force, hit.restitution, hit.contact_time, hit.plastic_work)
