@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _check
 from .flight import Run, fly, halved, pace
-from .foundation import Foundation, element_count
+from .foundation import Foundation, check_pair, element_count
 from .free_body import Body, reach
 from .medium import Medium
 from .model import CHAIN
@@ -72,6 +72,7 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
     >>> print(round(hit.restitution, 5))  # ζ = 1/2: exp(−2π/(3√3))
     0.29844
     """
+    check_pair(profile, medium)
     body = Body(profile, medium, mass, speed, _history(profile, medium, start))
     tolerance = _check.positive_number("tolerance", tolerance)
     bound = reach(body)

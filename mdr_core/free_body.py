@@ -6,7 +6,7 @@ import numpy as np
 
 from . import _check
 from .bounds import least_depth, resistance
-from .foundation import Foundation, check_pair
+from .foundation import Foundation
 from .medium import Medium
 from .profiles import Profile
 
@@ -29,7 +29,6 @@ class Body:
     history: tuple[tuple[float, float], ...] = ()
 
     def __post_init__(self):
-        check_pair(self.profile, self.medium)
         object.__setattr__(self, "mass", _check.positive_number("mass", self.mass, unit="kg"))
         object.__setattr__(self, "speed", _check.positive_number("speed", self.speed, unit="m/s"))
 

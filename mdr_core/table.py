@@ -15,9 +15,10 @@ _LONGEST_LINE = 10_000
 
 def read_samples(path, unit, most):
     """Radii and heights (m) in a CSV file, at most so many; `unit` if its header names none."""
-    name = str(path)
     # A whole number would be taken for a file that is open already, and closed in the end.
-    with open(os.fspath(path), encoding="utf-8-sig", newline="") as file:
+    path = os.fspath(path)
+    name = str(path)
+    with open(path, encoding="utf-8-sig", newline="") as file:
         try:
             return _read(_lines(file, name), unit, most, name)
         except UnicodeDecodeError as error:
