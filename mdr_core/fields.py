@@ -29,29 +29,28 @@ def pressure_integral(profile, live, r):
 @pressure_integral.register
 def _(profile: Cone, live, r):
     a, c, r, result, inside = _contact(profile, live, r)
-    root_a = np.sqrt((a - r) * (a + r))
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        if c == 0:
-            # Nothing has yielded: arccosh(a/r).
-            ratio = ((a - r) + root_a) / r
-        else:
-            # arccosh(a/r) − arccosh(c/r), with the difference of the logarithms' arguments
-            # written out.
-            low = np.maximum(c, r)
-            drop = np.where(r < c, radius_drop(profile, live), a - r)
-            root_low = np.sqrt((low - r) * (low + r))
-            ratio = (drop + drop * ((a + low) / (root_a + root_low))) / (low + root_low)
-    result[inside] = np.pi / 2 * profile.slope * np.log1p(ratio)
+    root_a = _root(a, r)
+    if c == 0:
+        # Nothing has yielded: arccosh(a/r).
+        logarithm = _log_beyond((a - r) + root_a, r)
+    else:
+        # arccosh(a/r) − arccosh(c/r), with the difference of the logarithms' arguments
+        # written out.
+        low = np.maximum(c, r)
+        drop = np.where(r < c, radius_drop(profile, live), a - r)
+        root_low = _root(low, r)
+        logarithm = _log_beyond(drop + drop * ((a + low) / (root_a + root_low)), low + root_low)
+    result[inside] = np.pi / 2 * profile.slope * logarithm
     return result
 
 
 @pressure_integral.register
 def _(profile: Paraboloid, live, r):
     a, c, r, result, inside = _contact(profile, live, r)
-    root_a = np.sqrt((a - r) * (a + r))
+    root_a = _root(a, r)
     integral = 2 / profile.radius * root_a
     if c > 0:
-        root_c = np.sqrt(np.maximum(c - r, 0) * (c + r))
+        root_c = _root(c, r)
         with np.errstate(invalid="ignore"):
             yielded = 2 * live.length / (root_a + root_c)
         integral = np.where(r < c, yielded, integral)
@@ -105,10 +104,10 @@ def _pressure_by_quadrature(profile, live, r):
     np.divide(total * smooth, mass, out=total, where=scaled & (mass > 0))
     # An interval too short for its ends to differ is one flat punch.
     short = scaled & (mass == 0)
-    total[short] = smooth / np.sqrt((a - r[short]) * (a + r[short]))
+    total[short] = smooth / _root(a, r[short])
     if at_wall > 0:
         with np.errstate(divide="ignore"):
-            total += at_wall / np.sqrt((a - r) * (a + r))
+            total += at_wall / _root(a, r)
     result[inside] = total
     return result
 
@@ -125,8 +124,8 @@ def _zone_pressure(zone, t_low, t_high, r):
     t_low = np.where(below, t_low, np.maximum(t_low, beta))
     root_high, root_low = (np.where(below, np.hypot(t, beta), _root(t, beta)) for t in (t_high, t_low))
     bottom = t_low + root_low
-    rise = ((t_high - t_low) + (root_high - root_low)) / np.where(bottom > 0, bottom, 1.0)
-    width = np.where(bottom > 0, np.log1p(np.maximum(rise, 0.0)), np.inf)
+    above = (t_high - t_low) + (root_high - root_low)
+    width = _log_beyond(np.maximum(above, 0.0), bottom)
     if zone.order > 0:
         # t falls at least as fast as 2 e^λ below its largest.
         beyond = np.log(zone.stretch(t_high))
@@ -137,7 +136,7 @@ def _zone_pressure(zone, t_low, t_high, r):
         lam, weight, start = gauss_panels(-width[finite], _longest(zone.order))
         repeat = _repeater(start, len(lam))
         e = repeat((t_high + root_high)[finite]) * np.exp(lam)
-        inverse = repeat(np.where(below, -1.0, 1.0)[finite] * beta[finite] ** 2) / e
+        inverse = repeat(np.where(below, -beta, beta)[finite]) * (repeat(beta[finite]) / e)
         t = (e + inverse) / 2
         increment = weight * zone.rate(t)
         mass[finite] = np.add.reduceat((increment * (e - inverse) / 2).sum(axis=1), start)
@@ -216,16 +215,26 @@ def _zone_displacement(zone, t_low, t_high, r):
     rise = 2 * np.sinh(omega / 2) ** 2 + T * np.sinh(omega)
     t = t_high / (1 + rise)
     x = zone.radius(t)
-    square = t * t * rise * (2 + rise) / (zone.stretch(t) * zone.stretch(t_high)) ** 2
-    angle = np.arctan2(x, np.sqrt(np.maximum(r - x_high, 0.0) * (r + x_high) + square))
-    increment = weight * zone.rate(t) * t * ((T + tanh) / (1 + T * tanh))
+    # In units of r, whose square may underflow.
+    square = (t / r / (zone.stretch(t) * zone.stretch(t_high))) ** 2 * rise * (2 + rise)
+    angle = np.arctan2(x / r, np.sqrt(np.maximum(1 - x_high / r, 0.0) * (1 + x_high / r) + square))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # Radii that underflow count for nothing.
+        increment = weight * np.where(t > 0, zone.rate(t) * t, 0.0) * ((T + tanh) / (1 + T * tanh))
     total = np.add.reduceat((increment * angle).sum(axis=1), start)
     return total, np.add.reduceat(increment.sum(axis=1), start)
 
 
 def _root(x, r):
-    """√(x² − r²) without cancellation, 0 for x < r."""
-    return np.sqrt(np.maximum(x - r, 0.0) * (x + r))
+    """√(x² − r²) without cancellation or underflow, 0 for x < r."""
+    return np.sqrt(np.maximum(x - r, 0.0)) * np.sqrt(x + r)
+
+
+def _log_beyond(above, below):
+    """ln(1 + above/below), also where the quotient leaves double precision; infinite over 0."""
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        ratio = above / below
+        return np.where(ratio < np.inf, np.log1p(ratio), np.log(above) - np.log(below))
 
 
 def _longest(order):

@@ -58,7 +58,7 @@ class Zone:
         if self.equator < np.inf:
             with np.errstate(divide="ignore"):
                 return x / np.sqrt(np.maximum(1 - x / self.equator, 0.0) * (1 + x / self.equator))
-        return np.sqrt(np.maximum(x - self.kink, 0.0) * (x + self.kink))
+        return np.sqrt(np.maximum(x - self.kink, 0.0)) * np.sqrt(x + self.kink)
 
     def stretch(self, t):
         """√(1 + t²/L²): x² − r² is t² − t_r² over the squares of both stretches."""

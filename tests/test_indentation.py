@@ -285,3 +285,12 @@ def test_forces_of_any_size_are_found():
         force = mdr.indent(shape, MEDIUM, np.geomspace(0.3 * D_C, deepest, 400)[:, None]).force[:, 0]
         back = mdr.indent_to_force(shape, MEDIUM, force[:, None])
         np.testing.assert_allclose(back.force[:, 0], force, rtol=1e-12)
+
+
+@pytest.mark.parametrize("r", [1e-20, 1e-154, 1e-200, 1e-308, 5e-324])
+@pytest.mark.parametrize("tip", [mdr.Cone(1.0), mdr.PowerLaw(1.0, 1.0)], ids=name)
+def test_pressure_next_to_a_sharp_tip(tip, r):
+    """p = (E*/2) arcosh(a/r), down to the smallest number there is: a logarithm, though a/r overflows."""
+    state = mdr.indent(tip, mdr.Medium(E_star=1e9), 1e-7)
+    expected = 1e9 / 2 * (math.log(2 * state.contact_radius) - math.log(r))
+    assert state.pressure(r) == pytest.approx(expected, rel=1e-13)

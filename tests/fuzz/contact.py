@@ -35,7 +35,7 @@ def force_paths(source):
     result = mdr.indent_to_force(shape, medium, force)
     states(source, result)
     # Close to the plateau of a wide flat face the depth resolves the force no better.
-    np.testing.assert_allclose(result.force, force, rtol=1e-6, atol=1e-60)
+    np.testing.assert_allclose(result.force, np.asarray(force, dtype=float), rtol=1e-6, atol=1e-60)
 
 
 def many_depths(source):
