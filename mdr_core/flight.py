@@ -27,7 +27,7 @@ _SHARE, _FINER, _CREEP, _GROWTH = 1 / 4, 1.5, 0.6, 2.0
 #: What follows the planned steps, should contact last longer than planned: for a body that all but
 #: floats on the dashpots it may be a thousand times as long.
 _TAIL = 1.2 ** np.arange(1, 100)
-#: What velocities are found to, per speed: also a rebound at a billionth of it is to be seen.
+#: What velocities are found to, relative to themselves and to what damping leaves of the speed.
 _FINEST = 1e-12
 #: Time steps of a run, and of the first one, which only plans them.
 _MOST_STEPS, _MOST_PLANNED = 100_000, 5000
