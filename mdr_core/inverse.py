@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from . import _check
+
 
 def newton(step, start, *, largest=np.inf, most=60):
     """Roots by Newton's method, elementwise.
@@ -24,14 +26,17 @@ def newton(step, start, *, largest=np.inf, most=60):
     x = np.asarray(start, dtype=float)
     zero = x == 0
     x = np.where(zero, np.minimum(1.0, largest), x)
-    settled = zero
+    settled, last = zero, np.inf
     for _ in range(most):
         change = step(x)
         # Never below a tenth: keeps x positive where f is flat.
         new = np.minimum(np.maximum(x - change, x / 10), largest)
         # The error of the new x is the square of the change. What has settled stays, so that no root
         # depends on its neighbours.
-        x, settled = np.where(settled, x, new), settled | (np.abs(change) <= 1e-8 * x)
+        size = np.abs(change)
+        # Where f has few digits the changes end in rounding, and go round in circles.
+        circling = (size <= 1e-6 * x) & (size >= last / 2)
+        x, settled, last = np.where(settled, x, new), settled | (size <= 1e-8 * x) | circling, size
         if np.all(settled):
             return np.where(zero, 0.0, x)
     raise ValueError("the contact radius did not converge; check that the depth is in metres")
@@ -51,8 +56,8 @@ def increasing_root(function, target, start, highest=np.inf):
     start : float or ndarray
         First guesses.
     highest : float or ndarray
-        Largest x at which the function is known; where it falls short of the target there, the
-        result is infinite.
+        Largest x at which the function is known; where it falls short of the target there, or at
+        what a depth may be, the result is infinite.
     """
     target = np.asarray(target, dtype=float)
     x = np.zeros(target.shape) + np.minimum(start, highest)
@@ -83,7 +88,9 @@ def increasing_root(function, target, start, highest=np.inf):
         new = np.where((new >= low) & (new <= high) & ~halve, new, middle)
         # In the end the rounding of f decides: it no longer comes closer.
         settled = (np.abs(new - x) <= 4 * eps * x) | (least <= 8 * eps) | ((stalled > 5) & (least <= 1e-12))
-        if np.all(settled | ~sought):
+        # Of all but flat shapes no depth may be enough.
+        reachable &= low < _check.LARGEST
+        if np.all(settled | ~sought | ~reachable):
             return np.where(reachable, np.where(target > 0, best, 0.0), np.inf)
         x = np.where(sought, new, x)
     raise ValueError(

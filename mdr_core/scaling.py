@@ -170,7 +170,7 @@ def fast_limit(hit):
 
     with np.errstate(over="ignore", under="ignore"):
         depth = increasing_root(work, target, hit.max_depth, profile.deepest)
-    known = np.min(profile.deepest, initial=np.inf)
+    known = np.min(profile.deepest, initial=_check.LARGEST)
     bound = f"m/s presses deeper than the shape is known, {known:g} m, in this limit"
     _check.refuse("speed", np.asarray(hit.speed), np.isinf(depth), bound, remedy="hit less hard")
     a = profile._radius(depth)

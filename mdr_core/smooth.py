@@ -184,7 +184,7 @@ def _fitted_zone(shape, depth, margin):
         raise _not_compact(depth)
     table = end * np.geomspace(1e-10, 1, 400)
     # Closer to the tip, where the series has few digits left, the profile goes on as a power.
-    table = table[np.argmax(mean_slope(table) > 1e-8 * mean_slope(end)) :]
+    table = table[np.argmax(mean_slope(table) > 1e-5 * mean_slope(end)) :]
     heights, table = np.log(table * mean_slope(table)), np.log(table)
     power = (table[5] - table[0]) / (heights[5] - heights[0])
 

@@ -294,3 +294,12 @@ def test_pressure_next_to_a_sharp_tip(tip, r):
     state = mdr.indent(tip, mdr.Medium(E_star=1e9), 1e-7)
     expected = 1e9 / 2 * (math.log(2 * state.contact_radius) - math.log(r))
     assert state.pressure(r) == pytest.approx(expected, rel=1e-13)
+
+
+def test_force_that_no_depth_is_enough_for():
+    """z ∝ r⁵⁰ carries F ∝ d^(1/50) once it yields: a billion times the force needs 10⁴⁵⁰ times the depth."""
+    tip, medium = mdr.PowerLaw(1e294, 50.0), mdr.Medium(1e10, 1e-3)
+    force = mdr.indent(tip, medium, 1e-6).force
+    assert mdr.indent_to_force(tip, medium, force).depth == pytest.approx(1e-6, rel=1e-9)
+    with pytest.raises(ValueError, match=r"presses deeper than the shape is known, 1e\+60 m"):
+        mdr.indent_to_force(tip, medium, 1e9 * force)

@@ -99,3 +99,20 @@ def test_depths_far_apart_in_one_zone():
         zone.coordinate(depth[depth > 1e-15]), np.sqrt(depth[depth > 1e-15]), rtol=1e-7
     )
     assert np.all(zone.coordinate(depth) < 1.1 * np.sqrt(depth) + 1e-8)
+
+
+@pytest.mark.parametrize(
+    ("slope", "known"),
+    [
+        (lambda r: r / 1e-8, mdr.Paraboloid(1e-8)),
+        (lambda r: 1e12 * r**3, mdr.PowerLaw(1e12 / 4, 4.0)),
+        (lambda r: 0.3 * r / np.hypot(r, 1e-3), mdr.Hyperboloid(0.3, 1e-3 / 0.3)),
+    ],
+    ids=["paraboloid", "fourth power", "hyperboloid"],
+)
+def test_radius_of_a_depth_far_below_the_one_that_was_fitted(slope, known):
+    """A plastic zone may be a trillionth of the contact: its radius keeps nine digits or so."""
+    deepest = 1e-6
+    (zone,) = mdr.Smooth(slope).zones_between(0.0, deepest)
+    depth = deepest * np.logspace(-22, -4, 400)
+    np.testing.assert_allclose(zone.coordinate(depth), known.contact_radius(depth), rtol=1e-9)
