@@ -33,8 +33,10 @@ class Step:
         return force_and_radius(moved)[0]
 
     def until(self, depth):
-        """Time (s) at which a depth (m) is reached on the way down."""
+        """Time (s) at which a depth (m) is reached on the way down, if it is."""
         way, v = depth - self.row.depth, self.before
+        if way == np.inf:
+            return np.inf
         return 2 * way / (v + np.sqrt(max(v**2 + 2 * self.acceleration * way, 0.0))) if v > 0 else 0.0
 
 

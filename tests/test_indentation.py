@@ -297,7 +297,7 @@ def test_pressure_next_to_a_sharp_tip(tip, r):
 
 
 def test_force_that_no_depth_is_enough_for():
-    """z ∝ r⁵⁰ carries F ∝ d^(1/50) once it yields: a billion times the force needs 10⁴⁵⁰ times the depth."""
+    """Once r⁵⁰ yields, F ∝ d^(1/50): a billion times the force would need 10⁴⁵⁰ times the depth."""
     tip, medium = mdr.PowerLaw(1e294, 50.0), mdr.Medium(1e10, 1e-3)
     force = mdr.indent(tip, medium, 1e-6).force
     assert mdr.indent_to_force(tip, medium, force).depth == pytest.approx(1e-6, rel=1e-9)
