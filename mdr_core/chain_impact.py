@@ -81,11 +81,13 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
             f"speed = {body.speed:g} m/s presses down to {bound:g} m, over {_DEEPEST:g} critical depths, "
             "so that what springs back is lost in rounding; hit less hard, or use impact"
         )
-    tip, n = n is None, n if n is None else element_count(n)
-    (legs, depth), runs, limits = pace(body, body.row(n or _ELEMENTS, bound, tip), bound), [], []
+    fixed = None if n is None else element_count(n)
+    # To a number that is given none are added for the tip.
+    row = body.row(fixed or _ELEMENTS, bound, tip=fixed is None)
+    (legs, depth), runs, limits = pace(body, row, bound), [], []
     for level in range(_REFINEMENTS):
         legs = halved(legs)
-        row = body.row(n or _ELEMENTS * 2**level, depth, tip)
+        row = body.row(fixed or _ELEMENTS * 2**level, depth, tip=fixed is None)
         runs.append(fly(body, row, legs, bound))
         coarse, fine = (_quantities(runs[i]) for i in (max(level - 1, 0), level))
         depth = fine[1]

@@ -14,6 +14,7 @@ from .panels import PANEL, gauss_panels
 from .profiles import Cone, Paraboloid, PowerLaw
 from .quadrature import NEGLIGIBLE, wall_length
 from .superpose import depth_ratio, radius_drop
+from .zones import root
 
 
 @singledispatch
@@ -29,7 +30,7 @@ def pressure_integral(profile, live, r):
 @pressure_integral.register
 def _(profile: Cone, live, r):
     a, c, r, result, inside = _contact(profile, live, r)
-    root_a = _root(a, r)
+    root_a = root(a, r)
     if c == 0:
         # Nothing has yielded: arccosh(a/r).
         logarithm = _log_beyond((a - r) + root_a, r)
@@ -38,7 +39,7 @@ def _(profile: Cone, live, r):
         # written out.
         low = np.maximum(c, r)
         drop = np.where(r < c, radius_drop(profile, live), a - r)
-        root_low = _root(low, r)
+        root_low = root(low, r)
         logarithm = _log_beyond(drop + drop * ((a + low) / (root_a + root_low)), low + root_low)
     result[inside] = np.pi / 2 * profile.slope * logarithm
     return result
@@ -47,10 +48,10 @@ def _(profile: Cone, live, r):
 @pressure_integral.register
 def _(profile: Paraboloid, live, r):
     a, c, r, result, inside = _contact(profile, live, r)
-    root_a = _root(a, r)
+    root_a = root(a, r)
     integral = 2 / profile.radius * root_a
     if c > 0:
-        root_c = _root(c, r)
+        root_c = root(c, r)
         with np.errstate(invalid="ignore"):
             yielded = 2 * live.length / (root_a + root_c)
         integral = np.where(r < c, yielded, integral)
@@ -104,10 +105,10 @@ def _pressure_by_quadrature(profile, live, r):
     np.divide(total * smooth, mass, out=total, where=scaled & (mass > 0))
     # An interval too short for its ends to differ is one flat punch.
     short = scaled & (mass == 0)
-    total[short] = smooth / _root(a, r[short])
+    total[short] = smooth / root(a, r[short])
     if at_wall > 0:
         with np.errstate(divide="ignore"):
-            total += at_wall / _root(a, r)
+            total += at_wall / root(a, r)
     result[inside] = total
     return result
 
@@ -120,9 +121,9 @@ def _zone_pressure(zone, t_low, t_high, r):
     integral is ∫ rate(t) dλ: smooth however close r comes to the kink, or to 0.
     """
     below = r < zone.kink
-    beta = np.where(below, _root(zone.kink, r), zone.coordinate_at(r))
+    beta = np.where(below, root(zone.kink, r), zone.coordinate_at(r))
     t_low = np.where(below, t_low, np.maximum(t_low, beta))
-    root_high, root_low = (np.where(below, np.hypot(t, beta), _root(t, beta)) for t in (t_high, t_low))
+    root_high, root_low = (np.where(below, np.hypot(t, beta), root(t, beta)) for t in (t_high, t_low))
     bottom = t_low + root_low
     above = (t_high - t_low) + (root_high - root_low)
     width = _log_beyond(np.maximum(above, 0.0), bottom)
@@ -201,7 +202,7 @@ def _zone_displacement(zone, t_low, t_high, r):
     beta = np.where(beyond, np.inf, zone.coordinate_at(np.where(beyond, zone.kink, r)))
     t_high = np.minimum(t_high, beta)
     x_high = np.where(t_high < beta, zone.radius(t_high), r)
-    T = np.where(beyond, 1.0, _root(beta, t_high) / np.where(beyond, 1.0, beta))
+    T = np.where(beyond, 1.0, root(beta, t_high) / np.where(beyond, 1.0, beta))
     with np.errstate(divide="ignore"):
         top = t_high / t_low if t_low > 0 else np.full_like(r, np.inf)
     width = np.log((top + np.sqrt((top - 1) * (top + 1) + T * T)) / (1 + T))
@@ -223,11 +224,6 @@ def _zone_displacement(zone, t_low, t_high, r):
         increment = weight * np.where(t > 0, zone.rate(t) * t, 0.0) * ((T + tanh) / (1 + T * tanh))
     total = np.add.reduceat((increment * angle).sum(axis=1), start)
     return total, np.add.reduceat(increment.sum(axis=1), start)
-
-
-def _root(x, r):
-    """√(x² − r²) without cancellation or underflow, 0 for x < r."""
-    return np.sqrt(np.maximum(x - r, 0.0)) * np.sqrt(x + r)
 
 
 def _log_beyond(above, below):

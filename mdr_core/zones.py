@@ -6,6 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 
+def root(x, r):
+    """√(x² − r²) (m) of two radii without cancellation or underflow, 0 for x < r."""
+    return np.sqrt(np.maximum(x - r, 0.0)) * np.sqrt(x + r)
+
+
 @dataclass(frozen=True)
 class Zone:
     """A stretch of the reduced profile between two kinks.
@@ -58,7 +63,7 @@ class Zone:
         if self.equator < np.inf:
             with np.errstate(divide="ignore"):
                 return x / np.sqrt(np.maximum(1 - x / self.equator, 0.0) * (1 + x / self.equator))
-        return np.sqrt(np.maximum(x - self.kink, 0.0)) * np.sqrt(x + self.kink)
+        return root(x, self.kink)
 
     def stretch(self, t):
         """√(1 + t²/L²): x² − r² is t² − t_r² over the squares of both stretches."""
