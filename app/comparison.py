@@ -10,7 +10,7 @@ from time import perf_counter
 import panel as pn
 
 import mdr_core as mdr
-from mdr_core.model import CHAIN
+from mdr_core.results import CHAIN
 
 _LOG = logging.getLogger(__name__)
 

@@ -128,8 +128,6 @@ def _hit(trajectory, prefix, given):
     ]
     if now == peak:
         return lines
-    # The turning point has been put among the instants of the motion.
-    instant = now - (now > peak)
     values = ("time", "depth", "velocity", "force", "contact_radius", "plastic_radius")
     shown = ", ".join(f"{motion}.{value}[i]" for value in values)
-    return [*lines, f"{motion} = {hit}.motion({INSTANTS})", f"i = {instant}", f"print({shown})"]
+    return [*lines, f"{motion} = {hit}.motion({INSTANTS})", f"i = {now}", f"print({shown})"]

@@ -161,9 +161,14 @@ def _reduced(profile, x):
     return np.where(known, profile.reduced(np.where(known, x, 0.0)), np.nan)
 
 
+def _kinks(profile):
+    """Radii (m) of the flat face and of the kinks."""
+    return [profile.face_radius, *profile.contact_radius(np.array(profile.kinks)).tolist()]
+
+
 def _outline(profile, half):
     """Coordinates x from 0 to `half`, with the profile's kinks and its wall among them."""
-    kinks = [zone.kink for zone in profile.zones]
+    kinks = _kinks(profile)
     wall = [profile.wall, profile.wall * (1 + 1e-9)] if profile.wall < half else []
     x = np.unique(np.concatenate([np.linspace(0, half, 81), kinks[:200], wall]))
     return x[x <= half]
@@ -173,7 +178,7 @@ def _radii(trajectory, index, half):
     """Radii from 0 to `half`, dense where the pressure has an edge: at 0, c, a and at kinks."""
     states = trajectory.states
     a, c = float(states.contact_radius[index]), float(states.plastic_radius[index])
-    kinks = [zone.kink for zone in trajectory.scene.profile.zones if 0 < zone.kink < a]
+    kinks = [kink for kink in _kinks(trajectory.scene.profile) if 0 < kink < a]
     edges = np.array(sorted(edge for edge in {0.0, half, a, c, *kinks[:3]} if edge <= half))
     return np.unique((edges[:-1, None] + np.diff(edges)[:, None] * _EDGE).ravel())
 

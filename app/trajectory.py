@@ -1,6 +1,6 @@
 """All states of one scene from first contact to the end, as arrays. Asks the core, adds no physics."""
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -10,8 +10,8 @@ from mdr_core.yielding import LiveInterval
 
 #: Denser towards both ends of a stretch by the cosine, enough to be played at 30 frames a second.
 _SPREAD = (1 - np.cos(np.linspace(0, np.pi, 49))) / 2
-#: Instants of an impact, its turning point not among them.
-INSTANTS = 160
+#: Instants of an impact, its turning point among them.
+INSTANTS = 161
 _PLACES = (1 - np.cos(np.linspace(0, np.pi, 201))) / 2
 #: Points of an unloading curve from one state.
 _RELEASE = np.linspace(1, 0, 13)
@@ -108,19 +108,7 @@ class Trajectory:
         state = self.states[index]
         measured = isinstance(self.scene.profile, mdr.Sampled) and float(state.contact_radius) > 0
         measured = measured and not exact
-        pressure = _from_line_load(state, r) if measured else state.pressure(r)
-        damping = 0.0 if self.motion is None else self._dashpot_load(index)
-        if damping > 0:
-            a = float(self.states.contact_radius[index])
-            with np.errstate(divide="ignore", invalid="ignore"):
-                flat = damping / np.pi / np.sqrt(np.maximum(a - r, 0) * (a + r))
-            pressure = pressure + np.where(r < a, flat, np.where(r == a, np.inf, 0.0))
-        return pressure
-
-    def _dashpot_load(self, index):
-        # On the way in every dashpot carries 4ηḋ, Popov (2015), Eq. (1): a flat punch of radius a.
-        # On the way out the dashpots only shorten the live interval, which is in `states` already.
-        return 4 * self.scene.medium.eta * max(float(self.motion.velocity[index]), 0.0)
+        return _from_line_load(state, r) if measured else state.pressure(r)
 
     def released(self, indices):
         """Depths and elastic forces of unloading from each of some states: two arrays, a row each."""
@@ -163,40 +151,12 @@ def follow(scene, progress):
 
 def _impact(scene, progress):
     hit = scene.solve()
-    path = _with_turning_point(hit, hit.motion(INSTANTS))
+    path = hit.motion(INSTANTS)
     peak = int(np.argmax(path.depth))
     turn, end = path.time[peak], path.time[-1]
     way = np.where(path.time <= turn, path.time / turn, 1 + (path.time - turn) / (end - turn))
     way = np.array([float(f"{p:.6g}") for p in way])
-    live = LiveInterval(path.plastic_depth, path.plastic_depth + path.live_depth, path.live_depth)
-    states = mdr.Indentation(scene.profile, scene.medium, path.depth, live)
-    return Trajectory(scene, way, states, _nearest(way, progress), path, hit)
-
-
-def _with_turning_point(hit, path):
-    """A motion with the state at its turning point among its instants."""
-    after = int(np.argmax(path.velocity <= 0))
-    fast, slow = path.velocity[after - 1], -path.velocity[after]
-    deepest, before = hit.deepest, path.time[after - 1]
-    # Next to its zero the speed falls evenly.
-    time = before + (path.time[after] - before) * fast / (fast + slow)
-    spent = path.kinetic_energy[0] - deepest.stored_energy - hit.plastic_work
-    values = {
-        "time": time,
-        "depth": deepest.depth,
-        "velocity": 0.0,
-        "force": deepest.force,
-        "contact_radius": deepest.contact_radius,
-        "plastic_radius": deepest.plastic_radius,
-        "plastic_depth": deepest.plastic_depth,
-        "live_depth": deepest.live.length,
-        "kinetic_energy": 0.0,
-        "stored_energy": deepest.stored_energy,
-        "plastic_work": hit.plastic_work,
-        "viscous_work": spent if hit.medium.eta > 0 else 0.0,
-    }
-    names = [field.name for field in fields(path)]
-    return replace(path, **{name: np.insert(getattr(path, name), after, values[name]) for name in names})
+    return Trajectory(scene, way, path.states, _nearest(way, progress), path, hit)
 
 
 def _nearest(way, progress):

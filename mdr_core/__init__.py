@@ -6,21 +6,22 @@ V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 """
 
 from . import abel
-from .chain_impact import ChainImpact, chain_impact
-from .drives import DepthPath, ForcePath, FreeImpact
-from .foundation import Foundation
+from .foundation.depth_path import TimedIndentation, indent_in_time
+from .foundation.force_path import creep
+from .foundation.impact import ChainImpact, chain_impact
+from .foundation.row import Foundation
 from .impact import Impact, impact
 from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium
-from .motion import Motion
-from .profiles import Cone, FlatPunch, Paraboloid, PowerLaw, Profile
-from .rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
-from .sampled import Sampled
+from .results import Motion
 from .scaling import FastLimit, ScalingLaw, hardness_class
-from .scene import Scene
-from .smooth import Smooth
-from .timed import TimedIndentation
-from .truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
+from .scene import DepthPath, ForcePath, FreeImpact, Scene
+from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
+from .shapes.profile import Profile
+from .shapes.rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
+from .shapes.sampled import Sampled
+from .shapes.smooth import Smooth
+from .shapes.truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
 
 __all__ = [
     "ChainImpact",
@@ -52,8 +53,14 @@ __all__ = [
     "TruncatedParaboloid",
     "abel",
     "chain_impact",
+    "creep",
     "hardness_class",
     "impact",
     "indent",
+    "indent_in_time",
     "indent_to_force",
 ]
+
+
+def __dir__():
+    return __all__

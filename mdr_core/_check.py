@@ -60,9 +60,9 @@ def positive(quantity, value, *, unit="", infinite=False, zero=False, within=(SM
     bound = f"must be {'' if infinite else 'finite and '}{'not negative' if zero else 'positive'}"
     remedy = f"give it in SI units ({unit})" if unit else "check it"
     refuse(quantity, values, bad, bound, unit=unit, remedy=remedy)
-    least, most = (0.0 if zero else within[0]), within[1]
-    outside = (values < least) | (values > most) & (values < np.inf)
-    bound = f"must lie between {least:g} and {most:g}"
+    least, most = within
+    outside = (values > 0) & (values < least) | (values > most) & (values < np.inf)
+    bound = f"must {'be 0 or ' if zero else ''}lie between {least:g} and {most:g}"
     refuse(quantity, values, outside, bound, unit=unit, remedy=remedy)
     return values if values.ndim else float(values)
 
@@ -101,6 +101,14 @@ def finite_array(quantity, value, *, unit="", most=FARTHEST):
     large = np.isfinite(array) & (np.abs(array) > most)
     refuse(quantity, array, large, f"is beyond {most:g}", unit=unit, remedy="give it in SI units")
     return refuse(quantity, array, ~np.isfinite(array), "must be finite", unit=unit, remedy=remedy)
+
+
+def force(quantity, value):
+    """`value` as a float array of normal forces, which only press."""
+    array = finite_array(quantity, value, unit="N")
+    refuse(quantity, array, array < 0, "is negative", unit="N", remedy="there is no adhesion")
+    tiny = (array > 0) & (array < SMALLEST)
+    return refuse(quantity, array, tiny, f"must be 0 or at least {SMALLEST:g}", unit="N")
 
 
 def refuse(quantity, array, bad, bound, *, unit="", remedy=""):

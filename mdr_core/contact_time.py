@@ -5,12 +5,15 @@ from functools import lru_cache
 import numpy as np
 from scipy.special import gamma
 
-from . import superpose
-from .panels import chunks, integration_rule
-from .profiles import Cone, FlatPunch, Paraboloid, PowerLaw
-from .yielding import LiveInterval
+from ._numeric import chunks, gauss_integrals, gauss_legendre
+from .shapes.interpolated import interpolated
+from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
+from .superposition import energy_integral, radius_integral
+from .yielding import LiveInterval, virgin
 
-_NODE, _WEIGHT, _TAIL = integration_rule(40)
+_NODE, _WEIGHT = gauss_legendre(40)
+#: From values at the nodes to integrals from each of them to the end.
+_TAIL = _WEIGHT - gauss_integrals(40, _NODE)
 
 
 def contact_time(profile, inertia, speed, live, growth):
@@ -32,9 +35,9 @@ def contact_time(profile, inertia, speed, live, growth):
     lower, upper, length = (np.ravel(part) for part in (live.lower, live.upper, live.length))
     passage = np.broadcast_to(upper.reshape(shape) / speed, shape).ravel()
     # Of a power law, the contact time over d_max/v₀ depends on d_p/d_c alone.
-    virgin = growth == lower
-    known = virgin & (lower == 0) & (power(profile) is not None)
-    tabulated = virgin & (lower > 0) & isinstance(profile, Cone | Paraboloid)
+    fresh = growth == lower
+    known = fresh & (lower == 0) & (power(profile) is not None)
+    tabulated = fresh & (lower > 0) & isinstance(profile, Cone | Paraboloid)
     time = np.empty(upper.shape)
     if known.any():
         ratio = np.broadcast_to(elastic_time(power(profile)), shape).ravel()
@@ -43,6 +46,8 @@ def contact_time(profile, inertia, speed, live, growth):
         grown = lower[tabulated] / length[tabulated]
         time[tabulated] = _tabulated(type(profile), grown) * passage[tabulated]
     rest = np.flatnonzero(~(known | tabulated))
+    if rest.size:
+        profile = interpolated(profile, upper[rest].max())
     for part in chunks(rest.size, 512):
         rows = rest[part]
         indenters = profile.flat_entries(rows, shape)
@@ -98,8 +103,7 @@ def _table(kind):
     one = np.ones_like(X)
     live = LiveInterval(X, X + one, one)
     profile = kind(1.0)
-    past = LiveInterval(np.zeros_like(X), X, X)
-    energy = superpose.energy_integral(profile, live) + superpose.radius_integral(profile, past)
+    energy = energy_integral(profile, live) + radius_integral(profile, virgin(X))
     time = time_over_root(profile, live, X) * np.sqrt(energy) / live.upper
     coefficients = 2 / count * np.einsum("k,jk->j", time, np.cos(np.outer(np.arange(count), angle)))
     coefficients[0] /= 2
@@ -114,8 +118,8 @@ def time_over_root(profile, live, growth):
     contact or yield begins. What is still to be spent is integrated from the turning point back,
     so that it never cancels.
     """
-    # Besides kinks, depths at which a shape goes over from one power to another.
-    places = (*profile.kinks, *(profile.unit[2:] if profile.unit else ()))
+    # Besides kinks, the depth at which a shape goes over from one power to another.
+    places = (*profile.kinks, *(() if profile.scale is None else (profile.scale,)))
     kinks = np.column_stack(places) if places else np.empty((1, 0))
     base, whole = live.lower[:, None], live.length[:, None]
     start = base - growth[:, None]
@@ -161,8 +165,8 @@ def _stretch(profile, extent, breaks, interval, last, spent):
         rows = np.flatnonzero((high > low) & (extent > 0))
         if not rows.size:
             continue
-        # Behind a kink the force goes on with the root of the depth: squared.
-        square = (low > 0)[rows, None] & (profile.unit is not None or len(profile.kinks) > 0)
+        # Behind a break the force may go on with the root of the depth: squared.
+        square = (low > 0)[rows, None]
         node, slope = np.where(square, _NODE**2, _NODE), np.where(square, 2 * _NODE, 1.0)
         tau = low[rows, None] + (high - low)[rows, None] * node
         depth = np.zeros((len(extent), _NODE.size))
@@ -170,7 +174,7 @@ def _stretch(profile, extent, breaks, interval, last, spent):
         lower, length = (part[rows] for part in interval(depth))
         rate = extent[rows, None] * (high - low)[rows, None] * (6 * slope * tau**2 * (1 - tau**3))
         indenters = profile.entries((rows, None), (len(extent),))
-        flow = superpose.radius_integral(indenters, LiveInterval(lower, lower + length, length)) * rate
+        flow = radius_integral(indenters, LiveInterval(lower, lower + length, length)) * rate
         left = spent[rows, None] + np.einsum("ij,kj->ik", flow, _TAIL)
         time[rows] += np.einsum("ij,j->i", rate / np.sqrt(left), _WEIGHT)
         spent[rows] += np.einsum("ij,j->i", flow, _WEIGHT)

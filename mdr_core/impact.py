@@ -1,24 +1,29 @@
 """Impact of a free rigid body.
 
-A dry one is solved by energy balance and quadrature, without time stepping; a viscous one by its
-equation of motion (`rebound`).
+A dry one is solved by the balance of energy and quadrature, without time stepping; a viscous one by its
+equation of motion.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from . import _check
-from .arguments import check_types
+from ._numeric import chunks
 from .contact_time import contact_time
+from .energy_balance import dry_restitution, plastic_integral, pressed, turning_point
+from .equation_of_motion import Bodies, solve
 from .indentation import Indentation
-from .medium import Medium
-from .model import CLOSED_FORM, SCALAR_ODE
-from .profiles import Profile
-from .replay import motion
+from .medium import Medium, check_pair
+from .motion import motion
+from .results import CLOSED_FORM, SCALAR_ODE
 from .scaling import fast_limit
-from .turning import dry_restitution, plastic_integral, turning_point
-from .viscous import Rebound, impacts_in_time
+from .shapes.interpolated import interpolated
+from .shapes.profile import Profile
+from .superposition import radius_integral
+
+#: So many bodies ask for the radius often enough to pay for a table of it.
+_WORTH_A_TABLE = 16
 
 
 def impact(profile, medium, mass, speed, *, plastic_depth=0.0):
@@ -76,39 +81,81 @@ def impact(profile, medium, mass, speed, *, plastic_depth=0.0):
 
 def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=False):
     """`impact`; `in_time` the equation of motion is solved also where there is no viscosity."""
-    check_types(profile, medium)
+    check_pair(profile, medium)
     mass = _check.positive("mass", mass, unit="kg")
     speed = _check.positive("speed", speed, unit="m/s")
     before = _check.positive("plastic_depth", plastic_depth, unit="m", zero=True)
-    shape = _check.common_shape(
-        "impact",
-        mass=mass,
-        speed=speed,
-        plastic_depth=before,
-        profile=np.empty(profile.shape),
-        medium=np.empty(medium.shape),
-    )
-    with np.errstate(over="ignore", under="ignore"):
-        energy = np.asarray(mass * speed**2 / 2)
-    bad = ~((energy > 0) & (energy < np.inf))
-    _check.refuse("kinetic energy", energy, bad, "is outside double precision", unit="J")
+    sizes = {"profile": np.empty(profile.shape), "medium": np.empty(medium.shape)}
+    shape = _check.common_shape("impact", mass=mass, speed=speed, plastic_depth=before, **sizes)
     mass, speed, before = (np.broadcast_to(part, shape) for part in (mass, speed, before))
     bound = f"is deeper than the shape is known, {np.min(profile.deepest, initial=np.inf):g} m"
     _check.refuse("plastic_depth", before, before > profile.deepest, bound, unit="m")
-    if in_time or np.any(np.asarray(medium.eta) > 0):
-        live, growth, rebound = impacts_in_time(profile, medium, mass, speed, before, in_time)
-    else:
-        target = np.broadcast_to(energy / (2 * medium.E_star), shape)
-        # The search may begin far from the root, where powers leave double precision.
-        with np.errstate(all="ignore"):
-            live, growth = turning_point(profile, target, *medium._critical_depth_parts, before)
-        rebound = None
+    # The search may begin far from the root, where powers leave double precision.
+    with np.errstate(all="ignore"):
+        arguments = profile, medium, mass, speed, before
+        if in_time or np.any(np.asarray(medium.eta) > 0):
+            live, growth, rebound = _in_time(*arguments, in_time)
+        else:
+            live, growth, rebound = *_dry(*arguments), None
     known = np.minimum(profile.deepest, _check.LARGEST)
-    deep = ~(live.upper <= known)
     bound = f"m/s presses deeper than the shape is known, {np.min(known, initial=np.inf):g} m"
-    _check.refuse("speed", speed, deep, bound, remedy="hit less hard")
+    _check.refuse("speed", speed, ~(live.upper <= known), bound, remedy="hit less hard")
     deepest = Indentation(profile, medium, live.upper, live)
     return Impact(profile, medium, mass[()], speed[()], deepest, growth, rebound)
+
+
+@dataclass(frozen=True)
+class Rebound:
+    """What impacts solved in time end with: arrays of their shape.
+
+    Coefficient of restitution, contact time (s), viscous work (J), largest force (N).
+    """
+
+    restitution: np.ndarray
+    contact_time: np.ndarray
+    viscous_work: np.ndarray
+    max_force: np.ndarray
+
+    def __getitem__(self, index):
+        return Rebound(*(getattr(self, field.name)[index] for field in fields(self)))
+
+
+def _dry(profile, medium, mass, speed, before):
+    """Live interval at the turning point without viscosity, and growth of the plastic depth."""
+    target = np.broadcast_to(mass * speed**2 / (4 * medium.E_star), np.shape(speed))
+    return turning_point(profile, target, medium.critical_depth, before)
+
+
+def _in_time(profile, medium, mass, speed, before, dry_too):
+    """Live interval at the turning point, growth of the plastic depth, and `Rebound`, elementwise.
+
+    Where eta is 0 they are those of the energy balance, unless these too are to be solved in time.
+    """
+    shape, modulus, d_c = np.shape(speed), 2 * medium.E_star, medium.critical_depth
+    # Of many bodies on a tip with many kinks the depths to begin with are found in a table.
+    many = np.size(speed) > _WORTH_A_TABLE and np.all(np.isfinite(profile.deepest))
+    tip = interpolated(profile, profile.deepest) if many else profile
+    live, growth = _dry(tip, medium, mass, speed, before)
+    y = np.where(live.upper < np.inf, live.length + growth, np.inf)
+    bodies = Bodies.of(profile, medium, mass, speed, before, y)
+    wet = (bodies.tau[:, 0] > 0) | dry_too
+    ends = np.zeros((4, y.size))
+    for part in chunks(np.count_nonzero(wet), 256):
+        rows = np.flatnonzero(wet)[part]
+        course = solve(bodies.rows(rows))
+        y.reshape(-1)[rows] = course.deepest
+        ends[:, rows] = course.velocity, course.time, course.work, course.peak
+    velocity, time, work, peak = ends.reshape(4, *shape)
+    restitution, force, still = np.minimum(-velocity / speed, 1.0), peak * mass, ~wet.reshape(shape)
+    if still.any():
+        at_rest, grown = _dry(profile, medium, mass, speed, before)
+        y = np.where(still, np.where(at_rest.upper < np.inf, at_rest.length + grown, np.inf), y)
+    live, growth = pressed(y, d_c, before)
+    if still.any():
+        restitution = np.where(still, dry_restitution(profile, live, d_c, growth), restitution)
+        time = np.where(still, contact_time(profile, mass / modulus, speed, live, growth), time)
+        force = np.where(still, modulus * radius_integral(profile, live), force)
+    return live, growth, Rebound(*(part[()] for part in (restitution, time, modulus * work, force)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,7 +268,9 @@ class Impact:
         return fast_limit(self)
 
     def motion(self, n=200):
-        """The motion of one impact at n equal steps of time, from first contact to its loss.
+        """The motion of one impact at n instants, from first contact to its loss.
+
+        At equal steps up to the turning point, and from there on, about the same ones.
 
         Parameters
         ----------

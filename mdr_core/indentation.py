@@ -1,25 +1,23 @@
-"""Indentation along a prescribed depth path, infinitely slowly or in a rate-independent medium."""
+"""Indentation along a prescribed path of depth or force, followed infinitely slowly."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from . import _check, fields, superpose
-from .arguments import check_one
-from .creep import indent_to_force_in_time
-from .inverse import increasing_root
-from .medium import Medium
-from .model import CLOSED_FORM
-from .panels import chunks
-from .profiles import Profile
-from .timed import check_times, indent_in_time
-from .yielding import LiveInterval, live_interval
+from . import _check, fields
+from ._numeric import increasing_root, root
+from .medium import Medium, check_pair
+from .results import CLOSED_FORM
+from .shapes.profile import Profile
+from .superposition import energy_integral, radius_drop, radius_integral
+from .yielding import LiveInterval, live_interval, virgin
 
 
-def indent(profile, medium, depth, *, time=None, tolerance=1e-6):
+def indent(profile, medium, depth):
     """Press an indenter along a depth path: loading, unloading and reloading in any order.
 
-    Without times the path is followed infinitely slowly, so that the dashpots carry nothing.
+    The path is followed infinitely slowly, so that the dashpots of a viscous medium carry nothing;
+    `indent_in_time` follows it in time.
 
     Parameters
     ----------
@@ -30,22 +28,16 @@ def indent(profile, medium, depth, *, time=None, tolerance=1e-6):
     depth : float or array_like
         Indentation depth d (m), one number or a path along the last axis; each row of a larger
         array is a path of its own that starts on a virgin medium. Negative means lifted off.
-    time : array_like, optional
-        Increasing times (s) of a one-dimensional path, which is straight in between; its first
-        depth is reached infinitely slowly. They matter in a viscous medium.
-    tolerance : float, optional
-        Error allowed in force and energies in a viscous medium, each relative to its largest.
 
     Returns
     -------
     Indentation
-        Quantities of the shape of `depth`, computed when asked for; in a viscous medium with times
-        a `TimedIndentation`.
+        Quantities of the shape of `depth`, computed when asked for.
 
     Raises
     ------
     ValueError
-        If a depth is not finite, or deeper than the profile is known, or times do not increase.
+        If a depth is not finite, or deeper than the profile is known.
 
     Examples
     --------
@@ -59,17 +51,15 @@ def indent(profile, medium, depth, *, time=None, tolerance=1e-6):
     >>> print(round(state.force / critical_force, 12))
     3.0
     """
-    check_one(profile, medium)
+    check_pair(profile, medium, "an indentation")
     depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LARGEST))
-    if time is not None:
-        time = check_times(time, depth, "depth")
-        if medium.eta > 0:
-            return indent_in_time(profile, medium, depth, time, tolerance)
-    return Indentation(profile, medium, depth, live_interval(depth, *medium._critical_depth_parts))
+    return Indentation(profile, medium, depth, live_interval(depth, medium.critical_depth))
 
 
-def indent_to_force(profile, medium, force, *, time=None, tolerance=1e-4):
-    """Press an indenter along a force path: the inverse of `indent`, with the same memory.
+def indent_to_force(profile, medium, force):
+    """Press an indenter along a force path, infinitely slowly: the inverse of `indent`, with its memory.
+
+    How a viscous medium gives way under a force in time is for `creep`.
 
     Parameters
     ----------
@@ -78,16 +68,11 @@ def indent_to_force(profile, medium, force, *, time=None, tolerance=1e-4):
     force : float or array_like
         Normal force (N), not negative; one number or a path along the last axis. Where it falls
         to 0 the indenter rests at the bottom of the imprint.
-    time : array_like, optional
-        Increasing times (s) of a one-dimensional path, which is straight in between; its first
-        force is reached infinitely slowly. They matter in a viscous medium, which creeps.
-    tolerance : float, optional
-        Error allowed in the depth in a viscous medium, relative to the largest one.
 
     Returns
     -------
     Indentation
-        Quantities of the shape of `force`; in a viscous medium with times a `TimedIndentation`.
+        Quantities of the shape of `force`.
 
     Raises
     ------
@@ -102,15 +87,8 @@ def indent_to_force(profile, medium, force, *, time=None, tolerance=1e-4):
     >>> print(round(indent_to_force(cone, medium, indent(cone, medium, 5.0).force).depth, 12))
     5.0
     """
-    check_one(profile, medium)
-    force = _check.finite_array("force", force, unit="N")
-    _check.refuse("force", force, force < 0, "is negative", unit="N", remedy="there is no adhesion")
-    tiny = (force > 0) & (force < _check.SMALLEST)
-    _check.refuse("force", force, tiny, f"must be 0 or at least {_check.SMALLEST:g}", unit="N")
-    if time is not None:
-        time = check_times(time, force, "force")
-        if medium.eta > 0:
-            return indent_to_force_in_time(profile, medium, force, time, tolerance)
+    check_pair(profile, medium, "an indentation")
+    force = _check.force("force", force)
     most = 2 * medium.yield_line_load * profile.wall
     bound = f"must be less than the {most:g} N at which the whole flat face yields"
     _check.refuse("force", force, force >= most, bound, unit="N", remedy="press to a depth instead")
@@ -129,7 +107,7 @@ def indent_to_force(profile, medium, force, *, time=None, tolerance=1e-4):
 
 def first_loading(profile, medium, depth):
     """States reached by pressing a virgin medium to each of an array of depths (m) on its own."""
-    live = live_interval(depth[..., None], *medium._critical_depth_parts)[..., 0]
+    live = live_interval(depth[..., None], medium.critical_depth)[..., 0]
     return Indentation(profile, medium, depth, live)
 
 
@@ -138,8 +116,8 @@ def _loading_depth(profile, medium, area):
 
     def loading(depth):
         live = first_loading(profile, medium, depth).live
-        ring = np.where(live.lower > 0, superpose.radius_drop(profile, live), profile._radius(depth))
-        return superpose.radius_integral(profile, live), ring
+        ring = np.where(live.lower > 0, radius_drop(profile, live), profile._radius(depth))
+        return radius_integral(profile, live), ring
 
     start = medium.critical_depth if medium.critical_depth < np.inf else 1.0
     return increasing_root(loading, area, start, profile.deepest)
@@ -151,7 +129,7 @@ def _live_length(profile, front, area):
     def unloading(length):
         length = np.minimum(length, front.length)
         live = LiveInterval(front.lower, front.lower + length, length)
-        return superpose.radius_integral(profile, live), profile._radius(live.upper)
+        return radius_integral(profile, live), profile._radius(live.upper)
 
     longest = np.where(front.length > 0, front.length, 1.0)
     return np.minimum(increasing_root(unloading, area, longest, longest), front.length)
@@ -162,14 +140,17 @@ class Indentation:
     """States of an indentation, one for each point of its path; made by `indent` or `indent_to_force`.
 
     Every quantity has the shape of `depth`. `result[i]` picks a state; `pressure`, `line_load`,
-    `surface` and `imprint` are fields of one state. `live` is the interval of depths [d_p, d]
-    that everything is integrated over.
+    `surface` and `imprint` are fields of one state. `live` is the interval of depths [d_p, d_p + ℓ]
+    that everything is integrated over: it ends at the depth itself, but for a viscous body on its way
+    out, whose elements let go ahead of it. `dashpot_load` is what the dashpots add to the line load in
+    contact while a viscous medium is pressed at some speed, 4ηḋ (N/m); `Motion.states` has both.
     """
 
     profile: Profile
     medium: Medium
     depth: np.ndarray
     live: LiveInterval
+    dashpot_load: np.ndarray | float = 0.0
 
     #: How it was found.
     model = CLOSED_FORM
@@ -184,24 +165,30 @@ class Indentation:
     def __getitem__(self, index):
         shape = np.shape(self.depth)
         profile, medium = self.profile.entries(index, shape), self.medium.entries(index, shape)
-        return Indentation(profile, medium, np.asarray(self.depth[index]), self.live[index])
+        load = self.dashpot_load[index] if np.ndim(self.dashpot_load) else self.dashpot_load
+        return Indentation(profile, medium, np.asarray(self.depth[index]), self.live[index], load)
+
+    @property
+    def _ahead(self):
+        """How much more each element in contact is compressed than its load tells (m): −τḋ on unloading."""
+        return np.where(self.live.length > 0, self.depth - self.live.upper, 0.0)
 
     @_check.frozen_property
     def force(self):
-        """Normal force F = 2E* ∫ a(s) ds (N); Popov (2015), Eqs. (20), (22)."""
-        return 2 * self.medium.E_star * superpose.radius_integral(self.profile, self.live)[()]
+        """Normal force F = 2E* ∫ a(s) ds (N) and that of the dashpots; Popov (2015), Eqs. (20), (22)."""
+        springs = 2 * self.medium.E_star * radius_integral(self.profile, self.live)
+        return (springs + 2 * self.dashpot_load * self.contact_radius)[()]
 
     @_check.frozen_property
     def contact_radius(self):
         """Contact radius a (m), Popov (2015), Eq. (16); 0 without contact."""
-        radius = self.profile._radius(np.asarray(self.live.upper))
-        return np.where(self.live.length > 0, radius, 0.0)[()]
+        touching = (self.live.length > 0) | (self.dashpot_load > 0)
+        return np.where(touching, self.profile._radius(np.asarray(self.live.upper)), 0.0)[()]
 
     @_check.frozen_property
     def plastic_radius(self):
         """Radius c (m) of the plastic zone, Popov (2015), Eq. (21); 0 if nothing has yielded."""
-        radius = self.profile._radius(np.asarray(self.live.lower))
-        return np.where(self.live.lower > 0, radius, 0.0)[()]
+        return np.where(self.live.lower > 0, self.profile._radius(np.asarray(self.live.lower)), 0.0)[()]
 
     @property
     def plastic_depth(self):
@@ -210,18 +197,20 @@ class Indentation:
 
     @_check.frozen_property
     def stored_energy(self):
-        """Elastic energy U = 2E* ∫ (d − s) a(s) ds (J)."""
-        return 2 * self.medium.E_star * superpose.energy_integral(self.profile, self.live)[()]
+        """Elastic energy of the springs in contact, U = 2E* ∫ (d − s) a(s) ds (J)."""
+        energy, ahead = energy_integral(self.profile, self.live), self._ahead
+        if np.any(ahead > 0):
+            area = radius_integral(self.profile, self.live)
+            energy = energy + ahead * (area + ahead / 2 * self.contact_radius)
+        return (2 * self.medium.E_star * energy)[()]
 
     @_check.frozen_property
     def plastic_work(self):
         """Work W_p = d_c φ(d_p) (J) dissipated over the whole past, φ the elastic force."""
-        past = _virgin(np.asarray(self.live.lower))
-        integral = superpose.radius_integral(self.profile, past)
+        integral = radius_integral(self.profile, virgin(np.asarray(self.live.lower)))
         # π q_c a at every increment: the critical depth times the modulus, which may be infinite.
         yield_load = np.where(self.live.lower > 0, 2 * self.medium.yield_line_load, 0.0)
-        with np.errstate(invalid="ignore"):
-            return np.where(integral > 0, yield_load * integral, 0.0)[()]
+        return (yield_load * integral)[()]
 
     @_check.frozen_property
     def stiffness(self):
@@ -229,18 +218,18 @@ class Indentation:
 
         There it is the slope for going on deeper; unloading starts with 2E*a.
         """
-        elastic = self.contact_radius
+        width = self.contact_radius
         yielding = (self.live.lower > 0) & (self.live.length == self.medium.critical_depth)
         if np.any(yielding):
-            ring = superpose.radius_drop(self.profile, self.live)
-            elastic = np.where(yielding, ring, elastic)[()]
-        return 2 * self.medium.E_star * elastic
+            width = np.where(yielding, radius_drop(self.profile, self.live), width)[()]
+        return 2 * self.medium.E_star * width
 
     def pressure(self, r):
         """Contact pressure p = −σ_zz (Pa) at radii r (m), of the shape of `r`.
 
-        p(r) = (E*/π) ∫ ds/√(a(s)² − r²), from Popov (2015), Eq. (10). Zero outside the contact;
-        infinite at the rim of a flat face and under a sharp tip that has not yielded.
+        p(r) = (E*/π) ∫ ds/√(a(s)² − r²), from Popov (2015), Eq. (10), and for the dashpots that of a flat
+        punch. Zero outside the contact; infinite at the rim of a flat face, at a rim that the dashpots
+        press down, and under a sharp tip that has not yielded.
 
         Examples
         --------
@@ -250,35 +239,42 @@ class Indentation:
         0.063661977237
         """
         live, r = self._one_state("pressure"), self._radii(r)
-        integral, flat = np.empty(r.size), r.ravel()
-        for rows in chunks(r.size, 8192):
-            integral[rows] = fields.pressure_integral(self.profile, live, flat[rows])
-        integral *= self.medium.E_star / np.pi
-        return integral.reshape(r.shape)[()]
+        pressure = self.medium.E_star / np.pi * fields.pressure_integral(self.profile, live, r.ravel())
+        if self.dashpot_load > 0:
+            with np.errstate(divide="ignore"):
+                punch = self.dashpot_load / np.pi / root(self.contact_radius, r.ravel())
+            pressure += np.where(r.ravel() <= self.contact_radius, punch, 0.0)
+        return pressure.reshape(r.shape)[()]
 
     def line_load(self, x):
-        """Line load q(x) (N/m) of the 1D foundation at x (m); Popov (2015), Eqs. (17), (18)."""
+        """Line load q(x) (N/m) of the 1D foundation at x (m); Popov (2015), Eqs. (1), (17), (18)."""
         live, x = self._one_state("line_load"), self._radii(x)
         ring = live.upper - self.profile._reduced(np.minimum(x, self.contact_radius))
         # Inside c the compression is the interval's length itself, free of rounding.
         inside = np.where(x < self.plastic_radius, live.length, np.clip(ring, 0.0, live.length))
-        compression = np.where(x < self.contact_radius, inside, 0.0)
-        return (self.medium.E_star * compression)[()]
+        load = self.medium.E_star * inside + self.dashpot_load
+        return np.where(x < self.contact_radius, load, 0.0)[()]
 
     def surface(self, r):
         """Elastic displacement u(r) (m) of the surface at radii r (m), positive downward.
 
-        Together with `imprint` it is d − z(r) under the indenter.
+        Together with `imprint` it is d − z(r) under the indenter. What has let go of a viscous medium and
+        still relaxes is not in it.
         """
-        live, r = self._one_state("surface"), self._radii(r)
-        displacement = fields.displacement_integral(self.profile, live, r.ravel())
-        return displacement.reshape(r.shape)[()]
+        r, radius = self._radii(r), self.contact_radius
+        surface = self._displacement(self._one_state("surface"), r)
+        if self._ahead > 0:
+            with np.errstate(divide="ignore"):
+                surface += self._ahead * 2 / np.pi * np.arcsin(np.minimum(radius / r, 1.0))
+        return surface
 
     def imprint(self, r):
         """Depth (m) of the residual imprint at radii r (m): what is left once the load is gone."""
-        live, r = self._one_state("imprint"), self._radii(r)
-        past = _virgin(live.lower)
-        return fields.displacement_integral(self.profile, past, r.ravel()).reshape(r.shape)[()]
+        return self._displacement(virgin(self._one_state("imprint").lower), r)
+
+    def _displacement(self, live, r):
+        r = self._radii(r)
+        return fields.displacement_integral(self.profile, live, r.ravel()).reshape(r.shape)[()]
 
     def _one_state(self, field):
         if np.ndim(self.depth):
@@ -291,8 +287,3 @@ class Indentation:
     @staticmethod
     def _radii(r):
         return np.abs(_check.finite_array("radius", r, unit="m"))
-
-
-def _virgin(depth):
-    """Live interval of an elastic indentation from zero to `depth`."""
-    return LiveInterval(np.zeros_like(depth), depth, depth)

@@ -1,43 +1,127 @@
-"""The motion of one impact over time, with its energy ledger, for plots and playback."""
-
-from dataclasses import dataclass
+"""The motion of one impact over time: its equation of motion solved anew, and read off."""
 
 import numpy as np
 
+from .energy_balance import plastic_integral, pressed
+from .equation_of_motion import Bodies, solve
+from .indentation import Indentation
+from .results import Motion, instants
+from .yielding import LiveInterval
 
-@dataclass(frozen=True, eq=False)
-class Motion:
-    """One impact from first contact to its loss, as arrays of one length: at equal steps of time, or at
-    those of the chain.
+#: What the polynomials between the nodes may leave, and instants at which what has let go is followed.
+_TOLERANCE, _INSTANTS, _PARTS = 1e-10, 400, 33
 
-    On a virgin medium elements of the foundation under the contact radius are in contact. On
-    unloading of a viscous one its edge is where g = d_p + ℓ, ahead of the depth d itself; elements
-    outside have let go and relax. The energies sum to the same, at every instant.
 
-    Attributes
-    ----------
-    time : ndarray
-        Time (s) since first contact; of a chain that is not virgin, since the start.
-    depth, velocity, force : ndarray
-        Indentation depth d (m), its rate (m/s), force (N).
-    contact_radius, plastic_radius : ndarray
-        Radii a and c (m).
-    plastic_depth, live_depth : ndarray
-        Plastic depth d_p and length ℓ of the live interval [d_p, d_p + ℓ] (m): what the load has
-        compressed the spring at the axis by.
-    kinetic_energy, stored_energy, plastic_work, viscous_work : ndarray
-        The ledger (J). Stored is the energy of all springs, of those too that have let go.
+def motion(hit, n):
+    """The `Motion` of one `Impact` at n instants."""
+    if np.ndim(hit.mass):
+        raise ValueError(
+            f"motion is that of one impact, but these are {hit.mass.size}; pick one, as in "
+            "result[0].motion()"
+        )
+    before = np.asarray(hit.plastic_depth - hit.growth)
+    deepest = hit.deepest.live.length + hit.growth
+    bodies = Bodies.of(hit.profile, hit.medium, hit.mass, hit.speed, before, deepest)
+    course = solve(bodies, _TOLERANCE)
+    turn, end = float(course.unloading[0][1].start[2, 0, 0]), float(course.time[0])
+    time = instants(n, turn, end)
+    count = int(np.searchsorted(time, turn, side="right"))
+    y, velocity, work = _states(course.loading, time[:count])
+    # The turning point is known better than from the polynomials.
+    y = np.minimum(y, deepest)
+    y[time[:count] == turn], velocity[time[:count] == turn] = deepest, 0.0
+    loading, growth = pressed(y, hit.medium.critical_depth, before)
+    length, *falling = _unloading(hit, course, time[count:], turn, end)
+    live = _appended(loading, hit.deepest.live.lower, length)
+    growth = np.append(growth, np.full(length.size, hit.growth))
+    velocity, work, free = map(np.append, (velocity, work, np.zeros(count)), falling)
+    depth = live.upper - hit.medium.relaxation_time * np.minimum(velocity, 0.0)
+    depth[:count] = before + y
+    return _ledger(hit, time, depth, velocity, live, growth, work, free)
+
+
+def _unloading(hit, course, time, turn, end):
+    """Live depth, velocity, and over 2E* the work so far and the energy of what has let go, at instants."""
+    # Where the velocity falls quickly, the steps are short.
+    share = np.linspace(0.0, 1.0, _PARTS)[None]
+    within = [step.at(share)[2, 0] for _, step in course.unloading]
+    finer = np.unique(np.concatenate([time, np.linspace(turn, end, _INSTANTS), *within]).clip(turn, end))
+    length, velocity, work = _states(course.unloading, finer)
+    length[-1] = 0.0
+    free = _let_go(hit, finer, length, velocity)
+    asked = np.searchsorted(finer, time)
+    return length[asked], velocity[asked], work[asked], free[asked]
+
+
+def _appended(loading, lower, length):
+    """The live intervals on loading, then those of some `length` from a plastic depth `lower` on."""
+    lower = np.append(loading.lower, np.full(length.size, lower))
+    length = np.append(loading.length, length)
+    return LiveInterval(lower, lower + length, length)
+
+
+def _ledger(hit, time, depth, velocity, live, growth, work, free):
+    """The `Motion` from its states; `work` and `free` are over 2E* (m³)."""
+    medium, modulus = hit.medium, 2 * hit.medium.E_star
+    load = 4 * medium.eta * np.maximum(velocity, 0.0)
+    states = Indentation(hit.profile, medium, depth, live, load)
+    # What the elements that have let go took with them has been dissipated, or is still theirs.
+    taken = (medium.relaxation_time * np.minimum(velocity, 0.0)) ** 2 * states.contact_radius / 2
+    return Motion(
+        time=time,
+        depth=depth,
+        velocity=velocity,
+        force=states.force,
+        contact_radius=states.contact_radius,
+        plastic_radius=states.plastic_radius,
+        plastic_depth=live.lower,
+        live_depth=live.length,
+        kinetic_energy=hit.mass * velocity**2 / 2,
+        stored_energy=states.stored_energy + modulus * free,
+        plastic_work=modulus * plastic_integral(hit.profile, live, medium.critical_depth, growth),
+        viscous_work=modulus * (work - taken - free),
+        states=states,
+    )
+
+
+def _let_go(hit, time, length, velocity):
+    """Energy over 2E* (m³) of the springs that have let go, at instants of unloading.
+
+    Each lets go with an elastic part τ|v|, and relaxes as exp(−2t/τ); between two instants as many do at
+    every radius, with a squared speed that goes straight.
     """
+    tau, energy = hit.medium.relaxation_time, np.zeros_like(time)
+    if tau == 0:
+        return energy
+    a = hit.profile._radius(hit.deepest.live.lower + length)
+    taken = (tau * velocity) ** 2 / 2
+    fade = 2 * np.diff(time) / tau
+    kept = np.exp(-fade)
+    # Means of s and 1 − s with the weight exp(−fade (1 − s)).
+    with np.errstate(invalid="ignore", divide="ignore"):
+        late = np.where(fade > 1e-4, (fade - 1 + kept) / fade**2, 0.5 - fade / 6)
+        early = np.where(fade > 1e-4, (1 - kept * (1 + fade)) / fade**2, 0.5 - fade / 3)
+    fresh = (a[:-1] - a[1:]) * (early * taken[:-1] + late * taken[1:])
+    for i, (share, more) in enumerate(zip(kept, fresh, strict=True)):
+        energy[i + 1] = share * energy[i] + more
+    # In the end all that are left do at once.
+    energy[-1] += a[-1] * taken[-1]
+    return energy
 
-    time: np.ndarray
-    depth: np.ndarray
-    velocity: np.ndarray
-    force: np.ndarray
-    contact_radius: np.ndarray
-    plastic_radius: np.ndarray
-    plastic_depth: np.ndarray
-    live_depth: np.ndarray
-    kinetic_energy: np.ndarray
-    stored_energy: np.ndarray
-    plastic_work: np.ndarray
-    viscous_work: np.ndarray
+
+def _states(steps, time):
+    """Depth, velocity and viscous work over 2E* at instants along the steps of one impact."""
+    result, begins = np.empty((3, time.size)), np.array([step.start[2, 0, 0] for _, step in steps])
+    owner = np.maximum(np.searchsorted(begins, time, side="right") - 1, 0)
+    for i in np.unique(owner):
+        _, step = steps[i]
+        theta = np.linspace(0, 1, 65)[None]
+        theta = np.interp(time[owner == i], step.at(theta)[2, 0], theta[0])[None]
+        for _ in range(6):
+            # Newton's method, with a difference for the derivative.
+            shift = np.where(theta < 0.5, 1e-6, -1e-6)
+            there, beside = step.at(theta)[2], step.at(theta + shift)[2]
+            rate = np.maximum((beside - there) / shift, 1e-300)
+            theta = np.clip(theta + (time[owner == i] - there) / rate, 0.0, 1.0)
+        result[:, owner == i] = step.at(theta)[[0, 1, 3], 0]
+    return result

@@ -10,9 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import _check, superpose
-from .inverse import increasing_root
-from .yielding import LiveInterval
+from . import _check
+from ._numeric import increasing_root
+from .superposition import radius_integral
+from .yielding import virgin
 
 _FORCE_POWER = {"a": 2, "b": 1, "c": 0}
 
@@ -165,8 +166,7 @@ def fast_limit(hit):
     target = np.broadcast_to(energy / (np.pi * medium.q_c), shape)
 
     def work(depth):
-        live = LiveInterval(np.zeros_like(depth), depth, depth)
-        return superpose.radius_integral(profile, live), profile._radius(depth)
+        return radius_integral(profile, virgin(depth)), profile._radius(depth)
 
     with np.errstate(over="ignore", under="ignore"):
         depth = increasing_root(work, target, hit.max_depth, profile.deepest)

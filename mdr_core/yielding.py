@@ -26,7 +26,7 @@ class LiveInterval:
         return LiveInterval(self.lower[index], self.upper[index], self.length[index])
 
 
-def live_interval(depth, critical_depth, remainder=0.0):
+def live_interval(depth, critical_depth):
     """Live interval after each point of a depth path.
 
     Parameters
@@ -35,8 +35,6 @@ def live_interval(depth, critical_depth, remainder=0.0):
         Depth path (m) along the last axis; negative while the indenter is lifted off.
     critical_depth : float
         Depth d_c (m) at which yield starts; may be infinite.
-    remainder : float
-        What `critical_depth` lacks to d_c for being rounded.
 
     Returns
     -------
@@ -48,14 +46,13 @@ def live_interval(depth, critical_depth, remainder=0.0):
     >>> live_interval(np.array([0.5, 3.0, 2.5, 1.0]), 1.0).length.tolist()
     [0.5, 1.0, 0.5, 0.0]
     """
-    if depth.ndim == 0:
-        lower = np.maximum((depth - critical_depth) - remainder, 0.0)
-        return LiveInterval(lower, np.maximum(depth, lower), np.clip(depth, 0.0, critical_depth))
-    deepest = np.maximum.accumulate(depth, axis=-1)
-    lower = deepest - critical_depth
-    lower -= remainder
-    np.maximum(lower, 0.0, out=lower)
+    deepest = np.maximum.accumulate(depth, axis=-1) if depth.ndim else depth
+    lower = np.maximum(deepest - critical_depth, 0.0)
     # Before the first yield the length is the depth itself, afterwards what is left of d_c.
-    length = (critical_depth - (deepest - depth)) + remainder
-    np.minimum(depth, length, out=length)
-    return LiveInterval(lower, np.maximum(depth, lower), np.maximum(length, 0.0, out=length))
+    length = np.maximum(np.minimum(depth, critical_depth - (deepest - depth)), 0.0)
+    return LiveInterval(lower, np.maximum(depth, lower), length)
+
+
+def virgin(depth):
+    """Live interval of an elastic indentation from zero to `depth`."""
+    return LiveInterval(np.zeros_like(depth), depth, depth)

@@ -16,9 +16,10 @@ EXTREMES = (
 )
 # Depths in units of d_c, in the order of the path.
 REGIMES = {
-    "elastic, d = 0.3 d_c": (0.3,),
+    "elastic, d = 0.1 d_c": (0.1,),
     "d = d_c (1 − 10⁻⁹)": (1 - 1e-9,),
     "d = d_c (1 + 10⁻⁹)": (1 + 1e-9,),
+    "d = d_c (1 + 10⁻⁵)": (1 + 1e-5,),
     "d = 3 d_c": (3.0,),
     "3 d_c, back to 2.6 d_c": (3.0, 2.6),
     "d = 10⁴ d_c": (1e4,),
@@ -40,6 +41,16 @@ QUANTITIES = (
 BOUNDS = (
     dict.fromkeys(QUANTITIES[1:4], 1e-12) | dict.fromkeys(QUANTITIES[4:], 2e-11) | {"contact radius": 2e-14}
 )
+
+
+def bounds(regime):
+    """Bounds of a regime: next to the threshold plastic depth and c have the digits that d_c leaves them.
+
+    d − d_c is rounded to a few units of 10⁻¹⁶ d_c; radii and work are powers of it, up to the tenth.
+    """
+    excess = abs(REGIMES[regime][0] - 1)
+    digits = "plastic work", "pressure", "pressure at c", "pressure at a"
+    return BOUNDS | {quantity: max(BOUNDS[quantity], 1e-14 / excess) for quantity in digits}
 
 
 def errors(shape, medium, regime):

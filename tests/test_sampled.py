@@ -12,6 +12,10 @@ from .shapes import integrate
 MEDIUM = mdr.Medium(1e9, 1.0)
 D_C = MEDIUM.critical_depth
 HISTORIES = ((0.4,), (3.0,), (100.0,), (1000.0, 999.5))
+# What is left of a tip of 10 µm curvature with a noise of 2 nm.
+_R = np.linspace(0.0, 1e-5, 2000)
+_NOISE = 2e-9 * np.random.default_rng(11).standard_normal(_R.size) * (_R > 0)
+HULL = mdr.Sampled.convex_envelope(_R, _R**2 / 2e-5 + np.abs(_NOISE))
 
 
 def states(first, second, history):
@@ -127,6 +131,67 @@ def test_convex_envelope():
 def test_bad_samples_have_no_envelope(r, z):
     with pytest.raises(ValueError, match="two lists of one length"):
         mdr.Sampled.convex_envelope(r, z)
+
+
+def test_impact_of_the_polygon_of_a_paraboloid():
+    """Chords of a paraboloid: energy is kept, and results come as close as the polygon does."""
+    r = np.linspace(0.0, 3e-6, 40)
+    polygon, exact = mdr.Sampled(r, r**2 / 2e-5), mdr.Paraboloid(1e-5)
+    dry = mdr.impact(exact, mdr.Medium(1e9, 10.0), 1e-9, 0.03)
+    medium = mdr.Medium(1e9, 10.0, 0.3 * dry.contact_time * 1e9 / 4)
+    hits = [mdr.impact(shape, medium, 1e-9, 0.03) for shape in (polygon, exact)]
+    for quantity in ("max_depth", "restitution", "contact_time"):
+        # The chords lie above the curve by 1/8 of the squared spacing over R: 10⁻³ of the height.
+        assert getattr(hits[0], quantity) == pytest.approx(getattr(hits[1], quantity), rel=5e-3), quantity
+    lost = (hits[0].plastic_work + hits[0].viscous_work) / (1e-9 * 0.03**2 / 2)
+    assert hits[0].restitution ** 2 + lost == pytest.approx(1, rel=1e-9)
+
+
+TIPS = {
+    "three scales": ([0.0, 1.0, 1.0001, 1e5], [0.0, 1.0, 1.00021, 4e5]),
+    "next to nothing, then flat to 1": ([0.0, 1e-9, 1.0], [0.0, 0.0, 0.3]),
+    "a face and a corner next to it": ([0.0, 1e-6, 1.000001e-6, 1e-5], [0.0, 0.0, 1e-13, 5e-6]),
+    "six decades": ([0.0, *np.geomspace(1e-9, 1e-3, 7)], [0.0, *np.geomspace(1e-9, 1e-3, 7) ** 1.5]),
+    "convex hull of a noisy tip": (HULL.r, HULL.z),
+}
+
+
+@pytest.mark.parametrize("tip", TIPS)
+class TestInverse:
+    """g(a(d)) = d, on every side of every vertex, whatever the ratios of the radii."""
+
+    @staticmethod
+    def assert_inverted(tip, depth):
+        a = tip.contact_radius(depth)
+        # Behind a vertex g rises with a vertical tangent: only between neighbours of a can it be told that
+        # the depth is passed, but for the few roundings of g itself.
+        below, above = (tip.reduced(np.minimum(a * (1 + k), tip.r[-1])) for k in (-1e-15, 1e-15))
+        assert np.all(below <= depth * (1 + 4e-15))
+        assert np.all(above >= depth * (1 - 4e-15))
+
+    def test_everywhere(self, tip):
+        tip = mdr.Sampled(*TIPS[tip])
+        least = min(k for k in (*tip.kinks, tip.deepest))
+        depth = np.geomspace(1e-12 * least, tip.deepest, 3000)
+        depth[-1] = tip.deepest
+        self.assert_inverted(tip, depth)
+        # Behind a flat face neighbours may differ by less than their roundings.
+        a = tip.contact_radius(depth)
+        assert np.all(np.diff(a) >= -4e-16 * a[1:])
+
+    def test_some_units_of_rounding_around_the_vertices(self, tip):
+        tip = mdr.Sampled(*TIPS[tip])
+        steps = 1 + np.finfo(float).eps * np.arange(-4, 5)
+        depth = (np.array(tip.kinks)[:, None] * steps).ravel()
+        depth = np.append(depth, tip.deepest * steps[:5])
+        self.assert_inverted(tip, depth)
+
+    def test_the_deepest_itself_is_known(self, tip):
+        tip = mdr.Sampled(*TIPS[tip])
+        assert tip.contact_radius(tip.deepest) == pytest.approx(tip.r[-1], rel=4e-16)
+        assert mdr.indent(tip, MEDIUM, tip.deepest).contact_radius == pytest.approx(tip.r[-1], rel=4e-16)
+        with pytest.raises(ValueError, match="is deeper than the shape is known"):
+            tip.contact_radius(np.nextafter(tip.deepest, np.inf))
 
 
 class TestCsv:

@@ -92,7 +92,7 @@ def test_snippet_and_hold_are_of_the_state_that_is_seen(person):
     here, held = person.session.drawing.trajectory, person.session.held.trajectory
     assert (here.now, held.now) == (130, 40)
     for prefix, trajectory in (("", here), ("held_", held)):
-        instant = trajectory.now - (trajectory.now > trajectory.peak)
+        instant = trajectory.now
         motion = scope[f"{prefix}motion"]
         assert motion.time[instant] == trajectory.motion.time[trajectory.now]
         assert motion.force[instant] == trajectory.motion.force[trajectory.now]

@@ -1,21 +1,33 @@
-"""Worst error against references of many digits, quantity by regime, over all shapes and media.
+"""Worst errors against references of many digits, by quantity and regime.
 
     python -m tests.benchmarks.accuracy
 
-writes the table to assets/accuracy.md and prints it.
+writes the tables to assets/accuracy.md and prints them: states over all shapes and media, impacts without
+viscosity and with it, and what the chain says of its error beside its error.
 """
 
 from pathlib import Path
 
 import numpy as np
+from mpmath import mp, mpf
+
+import mdr_core as mdr
 
 from ..hard_cases import BOUNDS, EXTREMES, MEDIA, QUANTITIES, REGIMES, errors
 from ..shapes import name
+from . import exact, stepping
 
 TABLE = Path(__file__).parents[2] / "assets" / "accuracy.md"
+MEDIUM, MASS = mdr.Medium(1e9, 10.0), 1e-9
+POWERS = (mdr.Cone(0.3), mdr.Paraboloid(1e-5), mdr.PowerLaw(2e-4, 0.5), mdr.PowerLaw(1e11, 3.0))
+TIMES = (0.1, 1 + 1e-5, 3.0, 1e4, 2e8)
+#: Relaxation times over contact times (of elastic impacts).
+SHARES = (1e-4, 1e-2, 1.0, 1e2, 1e4)
+WITNESSES = (mdr.Cone(0.3), mdr.Paraboloid(1e-5), mdr.FlatPunch(1e-6))
 
 
-def main():
+def states():
+    """Cells of the table of states, and the bounds."""
     worst = {}
     for regime in REGIMES:
         for shape in EXTREMES:
@@ -23,25 +35,114 @@ def main():
                 for quantity, error in errors(shape, medium, regime).items():
                     key = regime, quantity
                     worst[key] = max(worst.get(key, (0.0, "")), (error, name(shape)))
+    for regime in REGIMES:
+        yield regime, *("{:.0e} {}".format(*worst[regime, q]) for q in QUANTITIES)
+    yield "**bound**", *(f"{BOUNDS[q]:.0e}" for q in QUANTITIES)
+
+
+def dry_impacts(times=TIMES):
+    """Errors of impacts that come some critical depths deep, against 50 digits."""
+    for depth in times:
+        worst = np.zeros(3)
+        for shape in POWERS:
+            state = mdr.indent(shape, MEDIUM, depth * MEDIUM.critical_depth)
+            speed = float(np.sqrt(2 * (state.stored_energy + state.plastic_work) / MASS))
+            hit = mdr.impact(shape, MEDIUM, MASS, speed)
+            found = hit.max_depth, hit.restitution, hit.contact_time
+            references = exact.impacts(shape, MEDIUM, MASS, (speed,))
+            worst = np.maximum(worst, [r.error(f) for r, f in zip(references, found, strict=True)])
+        yield f"{depth:.6g} d_c", *_digits(worst)
+
+
+def punch_impacts(shares=SHARES):
+    """Errors of a damped oscillator from next to no damping to next to nothing else, against 60 digits.
+
+    v̇ + d + ζ v = 0 until d + ζ v = 0, with ζ = τ ω; the dry contact lasts π/ω.
+    """
+    punch, omega = mdr.FlatPunch(1e-6), np.sqrt(2 * MEDIUM.E_star * 1e-6 / MASS)
+    for share in shares:
+        medium = mdr.Medium(MEDIUM.E_star, eta=share * np.pi / omega * MEDIUM.E_star / 4)
+        hit = mdr.impact(punch, medium, MASS, 0.1)
+        with mp.workdps(60):
+            w = mp.sqrt(2 * mpf(medium.E_star) * mpf(punch.radius) / mpf(MASS))
+            z = 4 * mpf(medium.eta) / mpf(medium.E_star) * w
+            root = mp.sqrt(mp.mpc(z * z - 4))
+            fast, slow = (-z - root) / 2, (-z + root) / 2
+
+            def motion(t, power, slow=slow, fast=fast, root=root):
+                return mp.re((slow**power * mp.exp(slow * t) - fast**power * mp.exp(fast * t)) / root)
+
+            # The first instants at which the velocity, and d + ζ v, are zero: d + ζ v = −v̇.
+            turn = mp.re(mp.log(fast / slow) / (slow - fast))
+            end = mp.re(mp.log((fast / slow) ** 2) / (slow - fast))
+            if end <= 0 or (z < 2 and end < turn):
+                end += 2 * mp.pi / mp.im(slow - fast)
+            depth = motion(turn, 0) * mpf(0.1) / w
+            references = [exact.Exact([value]) for value in (depth, -motion(end, 1), end / w)]
+        found = hit.max_depth, hit.restitution, hit.contact_time
+        yield (
+            f"flat punch, τ/T = {share:g}",
+            *_digits(r.error(f) for r, f in zip(references, found, strict=True)),
+        )
+
+
+def viscous_impacts():
+    """Errors of impacts of a cone that yields, against Taylor series of 40 digits."""
+    cone = mdr.Cone(0.3)
+    for eta, speed in ((0.3, 0.1), (3.0, 0.1), (3.0, 1.0), (30.0, 1.0)):
+        medium = mdr.Medium(MEDIUM.E_star, MEDIUM.q_c, eta)
+        hit = mdr.impact(cone, medium, MASS, speed)
+        references = stepping.exact(cone, medium, MASS, [speed], 40)
+        found = hit.max_depth, hit.restitution, hit.contact_time
+        title = f"cone, {hit.max_depth / medium.critical_depth:.2g} d_c deep, e = {hit.restitution:.2g}"
+        yield title, *_digits(r.error(f) for r, f in zip(references, found, strict=True))
+
+
+def chain_impacts(shares=(0.0, 1e-2, 1.0, 1e2, 1e3), tolerance=1e-6):
+    """The chain's estimate of the error of restitution and depth, and the largest error of three shapes."""
+    for share in shares:
+        said = missed = 0.0
+        for shape in WITNESSES:
+            dry = mdr.impact(shape, MEDIUM, MASS, 0.1)
+            medium = mdr.Medium(MEDIUM.E_star, MEDIUM.q_c, share * dry.contact_time * MEDIUM.E_star / 4)
+            hit = mdr.impact(shape, medium, MASS, 0.1)
+            chain = mdr.chain_impact(shape, medium, MASS, 0.1, tolerance=tolerance)
+            off = abs(chain.restitution - hit.restitution), abs(chain.max_depth / hit.max_depth - 1)
+            said, missed = max(said, chain.error), max(missed, *off)
+        yield f"τ/T = {share:g}", f"{said:.0e}", f"{missed:.0e}"
+
+
+def _digits(values):
+    return (f"{value:.0e}" for value in values)
+
+
+def _table(head, rows):
+    rows = [f"| {' | '.join(row)} |" for row in rows]
+    return [f"| {' | '.join(head)} |", "|---" * len(head) + "|", *rows, ""]
+
+
+def main():
+    kinds = ", ".join(sorted({type(s).__name__ for s in EXTREMES}))
+    impact = "largest depth", "restitution", "contact time"
     lines = [
         "# Accuracy",
         "",
-        "Worst relative error against 40-digit references, over "
-        f"{len(EXTREMES)} indenters ({', '.join(sorted({type(s).__name__ for s in EXTREMES}))}; exponents "
-        "from 0.1 to 50) and three media (E* = 1 MPa, 1 GPa, 1 TPa), with the indenter it occurs for.",
-        "Pressure at r = 10⁻⁹ a and a/2, at r = c(1 ± 10⁻⁶) and at r = 0.999999 a, per unit of its "
-        "condition number in r.",
+        f"States: worst relative error against 40-digit references, over {len(EXTREMES)} indenters "
+        f"({kinds}; exponents from 0.1 to 50) and three media (E* = 1 MPa, 1 GPa, 1 TPa), with the one "
+        "it occurs for. Pressure at r = 10⁻⁹ a and a/2, at r = c(1 ± 10⁻⁶) and at r = 0.999999 a, per unit "
+        "of its condition number in r. Within 10⁻⁶ of the threshold, plastic work and pressure have the "
+        "digits of d − d_c.",
         "",
-        "| regime | " + " | ".join(QUANTITIES) + " |",
-        "|---" * (len(QUANTITIES) + 1) + "|",
-        *(
-            f"| {regime} | "
-            + " | ".join(f"{worst[regime, q][0]:.0e} {worst[regime, q][1]}" for q in QUANTITIES)
-            + " |"
-            for regime in REGIMES
-        ),
-        "| **bound** | " + " | ".join(f"{BOUNDS[q]:.0e}" for q in QUANTITIES) + " |",
+        *_table(("regime", *QUANTITIES), states()),
+        "Impacts without viscosity so deep, worst of cone, paraboloid, √r and r³, against 50 digits:",
         "",
+        *_table(("depth", *impact), dry_impacts()),
+        "Impacts on a viscous medium, against 40 digits and more:",
+        "",
+        *_table(("impact", *impact), (*punch_impacts(), *viscous_impacts())),
+        "The chain at its tolerance of 10⁻⁶, worst of cone, paraboloid and flat punch:",
+        "",
+        *_table(("relaxation over contact time", "its estimate", "its error"), chain_impacts()),
         f"Made by `python -m tests.benchmarks.accuracy` with numpy {np.__version__}.",
         "",
     ]

@@ -9,12 +9,10 @@ from xml.sax.saxutils import escape
 _PANELS = (
     ("elastic cone, field on a grid", "pressure"),
     ("cone, 10⁸ critical depths deep", "pressure"),
-    ("sphere, 10⁸ critical depths deep", "force"),
-    ("fourth power, smooth load", "transform"),
-    ("yielded cone, kink between samples", "transform"),
     ("cone, 10⁶ critical depths deep", "contact time"),
+    ("viscous medium, 100 critical depths deep", "restitution"),
 )
-_COLUMNS, _WIDTH, _HEIGHT, _PLOT, _LEFT, _TOP = 3, 330, 352, (268, 196), 48, 42
+_COLUMNS, _WIDTH, _HEIGHT, _PLOT, _LEFT, _TOP = 2, 330, 352, (268, 196), 48, 42
 _OWN = ("#2f81f7", "#1f9e89", "#6e7bf2", "#4f9fb8")
 _OTHERS = ("#e5534b", "#bf8700", "#d6409f", "#c9510c", "#9a6cd8", "#8a929b", "#7d9b2f")
 _INK = "#7a828c"
@@ -25,11 +23,7 @@ def figure(results):
     """The SVG, from what `report.collect` gives."""
     panels = []
     for index, (title, question) in enumerate(_PANELS):
-        chosen = [
-            r
-            for r in results["records"]
-            if (r["title"], r["question"]) == (title, question) and not r["setting"].endswith("warm")
-        ]
+        chosen = [r for r in results["records"] if (r["title"], r["question"]) == (title, question)]
         x, y = index % _COLUMNS * _WIDTH, index // _COLUMNS * _HEIGHT
         if chosen:
             panels.append(f'<g transform="translate({x} {y})">' + _panel(title, question, chosen) + "</g>")

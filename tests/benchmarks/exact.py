@@ -83,33 +83,8 @@ class Power:
 
 
 @_precise
-def loading_force(profile, medium, depths):
-    curve = _sphere_force(profile, medium) if type(profile).__name__ == "Sphere" else None
-    power = None if curve else Power(profile, medium)
-    critical = critical_depth(medium) if medium.q_c < np.inf else mp.inf
-    curve = curve or power.force
-    forces = []
-    for depth in map(mpf, depths):
-        lower = depth - critical
-        forces.append(curve(depth) - (curve(lower) if lower > 0 else 0))
-    return Exact(forces)
-
-
-def _sphere_force(profile, medium):
-    """Elastic force of a rigid sphere, 2E*(a d − ∫ x artanh(x/R) dx), with a = R tanh y."""
-    R, modulus = mpf(profile.radius), mpf(medium.E_star)
-
-    def force(depth):
-        y = mp.findroot(lambda y: y * mp.tanh(y) - depth / R, mp.sqrt(depth / R))
-        a = R * mp.tanh(y)
-        return 2 * modulus * (a * depth - ((a**2 - R**2) * y + a * R) / 2)
-
-    return force
-
-
-@_precise
 def pressure(profile, medium, depth, radii):
-    """Pressure of z = c rⁿ, n = 1, 2 or 4, under first loading; 0 outside the contact."""
+    """Pressure of a cone under first loading; 0 outside the contact."""
     power = Power(profile, medium)
     modulus, depth = power.modulus, mpf(depth)
     a, lower = power.radius(depth), power.before(depth)
@@ -118,12 +93,7 @@ def pressure(profile, medium, depth, radii):
     def elastic(radius, r):
         if r >= radius:
             return mpf(0)
-        if power.n == 1:
-            return modulus * power.k / mp.pi * mp.acosh(radius / r)
-        root = mp.sqrt((radius - r) * (radius + r))
-        # ∫ n xⁿ⁻¹ dx/√(x² − r²)
-        integral = {2: 2 * root, 4: 4 * root * (root**2 / 3 + r**2)}[int(power.n)]
-        return modulus * power.k / mp.pi * integral
+        return modulus * power.k / mp.pi * mp.acosh(radius / r)
 
     return Exact([elastic(a, r) - elastic(c, r) for r in map(mpf, radii)])
 
@@ -131,7 +101,7 @@ def pressure(profile, medium, depth, radii):
 @cache
 @_precise
 def impacts(profile, medium, mass, speeds):
-    """Restitution and contact time of impacts at a tuple of speeds, as two lists of 50 digits."""
+    """Largest depth, restitution and contact time of dry impacts at a tuple of speeds."""
     power = Power(profile, medium)
     pairs = [_impact(power, mpf(mass), mpf(speed)) for speed in speeds]
     return tuple(Exact(values) for values in zip(*pairs, strict=True))
@@ -152,7 +122,7 @@ def _impact(power, mass, speed):
 
     ends = [mpf(0), power.critical, deepest] if lower else [mpf(0), deepest]
     time = _duration(loading, ends) + _duration(unloading, [lower, deepest])
-    return mp.sqrt(returned / energy), mp.sqrt(mass / 2) * time
+    return deepest, mp.sqrt(returned / energy), mp.sqrt(mass / 2) * time
 
 
 def _bisected(function):

@@ -7,10 +7,8 @@ from dataclasses import dataclass
 from statistics import median
 from time import perf_counter
 
-import numpy as np
-
 #: Settings of quadratures and chains.
-TOLERANCES, ELEMENTS = (1e-3, 1e-6, 1e-9), (100, 1000, 10_000, 100_000)
+TOLERANCES, ELEMENTS = (1e-3, 1e-6, 1e-9), (100, 1000, 10_000)
 #: A timed stretch lasts at least this long (s); shorter calls are repeated.
 _SHORTEST = 2e-3
 #: A call that takes longer (s) needs no warming up.
@@ -21,24 +19,13 @@ _LONG = 1.0
 class Method:
     """One way to an answer.
 
-    Parameters
-    ----------
-    family : str
-        What methods that differ in one setting have in common; a line of the figure.
-    setting : str
-        Resolution or tolerance.
-    prepare : callable
-        Untimed: sets everything up and gives the call to be timed, whose result the problem judges.
-    forget : callable, optional
-        Untimed, before every call: drops what the method remembers, so that it starts cold.
-    items : int, optional
-        How many of the problem's items the call treats, where one by one is too slow for all.
+    `prepare` sets everything up, untimed, and gives the call to be timed. Methods of one `family` differ in
+    one `setting`; `items` says how many of the problem's items the call treats, if not all.
     """
 
     family: str
     setting: str
     prepare: Callable
-    forget: Callable | None = None
     items: int | None = None
 
 
@@ -52,21 +39,12 @@ def ladder(family, setting, values, run, items=None):
 
 @dataclass(frozen=True)
 class Problem:
-    """A question with known answer, and the methods that answer it.
+    """A question with known answer ("pressure", and the state in words), and the methods that answer it.
 
-    Parameters
-    ----------
-    question, case, title : str
-        What is asked ("force"), how hard ("easy", "hard"), and the state in words.
-    items : int
-        How many numbers are asked for; times are for all of them.
-    error : callable
-        Relative error of a method's result against 50 digits.
-    methods : tuple of Method
+    Times are for all of its `items`; `error` is that of a method's result against 50 digits.
     """
 
     question: str
-    case: str
     title: str
     items: int
     error: Callable
@@ -92,30 +70,28 @@ def _repeats(call):
 
 
 def measure(problem, rounds=5, patience=10.0):
-    """One record for each method: error, median time and its spread.
+    """One record for each method: error and median time.
 
     The methods take turns, round by round, so that all of them meet the same disturbances; a method
     that has used up its patience (s) drops out after the first rounds.
     """
     calls, errors, repeats, times = [method.prepare() for method in problem.methods], [], [], []
-    for method, call in zip(problem.methods, calls, strict=True):
+    for call in calls:
         start = perf_counter()
         result = call()
         first = perf_counter() - start
         errors.append(problem.error(result))
         long = first > _LONG
         times.append([first] if long else [])
-        repeats.append(1 if long or method.forget else _repeats(call))
+        repeats.append(1 if long else _repeats(call))
     gc.collect()
     gc.disable()
     try:
         for _ in range(rounds):
-            for method, call, repeat, taken in zip(problem.methods, calls, repeats, times, strict=True):
+            for call, repeat, taken in zip(calls, repeats, times, strict=True):
                 if sum(taken) * repeat > patience:
                     continue
-                if method.forget:
-                    method.forget()
-                elif repeat > 1:
+                if repeat > 1:
                     # What came before has emptied the caches.
                     call()
                 taken.append(_once(call, repeat))
@@ -128,21 +104,10 @@ def _record(problem, method, error, taken):
     scale = problem.items / (method.items or problem.items)
     return {
         "question": problem.question,
-        "case": problem.case,
         "title": problem.title,
         "items": problem.items,
         "family": method.family,
         "setting": method.setting,
         "error": error,
         "seconds": scale * median(taken),
-        "fastest": scale * min(taken),
-        "slowest": scale * max(taken),
-        "runs": len(taken),
-        "measured_items": method.items or problem.items,
     }
-
-
-def exponent(sizes, times):
-    """Exponent p of time ∝ sizeᵖ, fitted over the larger half of the sizes."""
-    half = len(sizes) // 2
-    return float(np.polyfit(np.log(sizes[half:]), np.log(times[half:]), 1)[0])

@@ -1,8 +1,7 @@
-"""What people use today, set up as their documentation does: tamaas, ContactMechanics, PyAbel.
+"""What people use today, set up as their documentation does: tamaas, ContactMechanics.
 
-The first two find the elastic contact of any rough surface by boundary elements and FFT, here in
-their non-periodic mode; the third inverts the Abel transform of even samples, here without a basis
-on disk. None of them is needed: those that do not import are left out and reported.
+They find the elastic contact of any rough surface by boundary elements and FFT, here in their
+non-periodic mode. Neither is needed: those that do not import are left out and reported.
 """
 
 import warnings
@@ -16,7 +15,7 @@ from mdr_core import indent
 from . import exact
 from .harness import Method
 
-_NAMES = {"tamaas": "tamaas", "ContactMechanics": "ContactMechanics", "PyAbel": "abel"}
+_NAMES = "tamaas", "ContactMechanics"
 #: Contact radius over half the width of the box.
 _FILL = 0.8
 
@@ -25,11 +24,11 @@ _FILL = 0.8
 def versions():
     """Version of each peer, or why it is not there."""
     found = {}
-    for name, module in _NAMES.items():
+    for name in _NAMES:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                import_module(module)
+                import_module(name)
         except (ImportError, OSError) as reason:
             found[name] = f"not imported: {reason}"
         else:
@@ -75,24 +74,21 @@ def _field(profile, medium, depth, n):
     return field
 
 
-def boundary_elements(square, quantity):
-    """Both codes on one grid, for the "pressure" or for a depth and its "force"."""
+def boundary_elements(square):
+    """The pressure by both codes on one grid."""
     methods = []
     if is_there("tamaas"):
         methods += [
-            Method(
-                "tamaas", f"{square.n}², tolerance {tol:g}", lambda tol=tol: _tamaas(square, tol, quantity)
-            )
+            Method("tamaas", f"{square.n}², tolerance {tol:g}", lambda tol=tol: _tamaas(square, tol))
             for tol in (1e-3, 1e-6)
         ]
     if is_there("ContactMechanics"):
         setting = f"{square.n}², its tolerances"
-        methods.append(Method("ContactMechanics", setting, lambda: _contact_mechanics(square, quantity)))
+        methods.append(Method("ContactMechanics", setting, lambda: _contact_mechanics(square)))
     return methods
 
 
-def _tamaas(square, tolerance, quantity):
-    """The code prescribes the force; the depth costs one more application of its operator."""
+def _tamaas(square, tolerance):
     import tamaas
 
     tamaas.set_log_level(tamaas.LogLevel.error)
@@ -102,22 +98,16 @@ def _tamaas(square, tolerance, quantity):
     tamaas.ModelFactory.registerNonPeriodic(model, "free")
     solver = tamaas.PolonskyKeerRey(model, -height, tolerance)
     solver.setIntegralOperator("free")
-    displacement = np.zeros_like(height)
 
     def call():
         model.traction[:] = 0
         solver.solve(square.push / box**2)
-        if quantity == "pressure":
-            return model.traction * (square.unit / square.radius**2)
-        model.operators["free"](model.traction, displacement)
-        touching = model.traction > 0
-        depth = square.depth * np.mean((displacement + height)[touching])
-        return depth, square.push * square.unit
+        return model.traction * (square.unit / square.radius**2)
 
     return call
 
 
-def _contact_mechanics(square, quantity):
+def _contact_mechanics(square):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         from ContactMechanics import FreeFFTElasticHalfSpace, make_system
@@ -131,38 +121,6 @@ def _contact_mechanics(square, quantity):
 
     def call():
         forces = np.asarray(system.minimize_proxy(offset=1.0, pentol=penetration).jac)[:n, :n]
-        if quantity == "pressure":
-            return forces * (square.unit * (n / box / square.radius) ** 2)
-        return square.depth, forces.sum() * square.unit
+        return forces * (square.unit * (n / box / square.radius) ** 2)
 
     return call
-
-
-def abel_transforms(x, load, degrees=(0, 1, 2)):
-    """PyAbel's inverse transforms of a load on even samples, cold and warm."""
-    if not is_there("PyAbel"):
-        return []
-    from abel import dasch, daun, hansenlaw
-
-    step = x[1]
-    calls = {
-        "two_point": lambda: dasch.two_point_transform(load, basis_dir=None, dr=step),
-        "three_point": lambda: dasch.three_point_transform(load, basis_dir=None, dr=step),
-        "hansenlaw": lambda: hansenlaw.hansenlaw_transform(load, dr=step, hold_order=1),
-    } | {
-        f"daun, degree {degree}": lambda degree=degree: daun.daun_transform(
-            load, degree=degree, dr=step, verbose=False
-        )
-        for degree in degrees
-    }
-
-    def forget():
-        dasch.cache_cleanup()
-        daun.cache_cleanup()
-
-    size = f"N = {len(x)}"
-    methods = []
-    for name, call in calls.items():
-        methods.append(Method(f"PyAbel {name}", f"{size}, cold", lambda call=call: call, forget))
-        methods.append(Method(f"PyAbel {name}", f"{size}, warm", lambda call=call: call))
-    return methods

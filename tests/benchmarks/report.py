@@ -15,10 +15,10 @@ from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 
-from . import force, growth, impacts, peers, pressure, transform, viscous
-from .bars import bars
+from . import peers, speed
 from .chart import figure
 from .harness import measure
+from .problems import problems
 from .tables import document, summary
 
 ROOT = Path(__file__).parents[2]
@@ -27,24 +27,18 @@ _BEGIN, _END = "<!-- benchmarks: begin -->\n", "<!-- benchmarks: end -->"
 
 def collect(quick=False, say=lambda line: None):
     """Everything measured, as plain lists and dicts."""
-    floor = growth.floors(quick)
     records = []
-    for question in (force, pressure, impacts, viscous, transform):
-        for problem in question.problems(quick):
-            say(f"{problem.question}, {problem.case}: {problem.title}")
-            records += measure(problem, rounds=1 if quick else 5)
-    say("growth, floors")
-    million = growth.million(quick)
+    for problem in problems(quick):
+        say(f"{problem.question}: {problem.title}")
+        records += measure(problem, rounds=1 if quick else 5)
+    say("many at once")
     return {
         "date": datetime.now(UTC).date().isoformat(),
         "processors": os.cpu_count(),
         "versions": _versions(),
         "peers": peers.versions(),
-        "floors": floor,
         "records": records,
-        "growth": growth.growth(floor, quick),
-        "million": million,
-        "bars": bars(records, million),
+        "ratios": list(speed.rows(100 if quick else 10**6)),
     }
 
 
@@ -54,12 +48,17 @@ def _versions():
     return found | {name: metadata.version(name) for name in ("numpy", "scipy", "mpmath")}
 
 
-def _write(results):
+def write_assets(results):
+    """Figures and tables, from what `collect` gives."""
     assets = ROOT / "assets"
     text = json.dumps(results, indent=1, ensure_ascii=False)
     (assets / "benchmarks.json").write_text(text + "\n", encoding="utf-8")
     (assets / "benchmarks.md").write_text(document(results), encoding="utf-8")
     (assets / "speed_against_error.svg").write_text(figure(results), encoding="utf-8")
+
+
+def write_readme(results):
+    """The README's table."""
     readme = ROOT / "README.md"
     head, rest = readme.read_text(encoding="utf-8").split(_BEGIN)
     readme.write_text(head + _BEGIN + summary(results) + _END + rest.split(_END)[1], encoding="utf-8")
@@ -72,7 +71,8 @@ def main():
     results = collect(quick, say=lambda line: print(line, flush=True))
     print(document(results))
     if not quick:
-        _write(results)
+        write_assets(results)
+        write_readme(results)
 
 
 if __name__ == "__main__":

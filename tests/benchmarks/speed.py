@@ -1,67 +1,67 @@
-"""Time of the hot calls as ratios to NumPy's own functions in the same process.
+"""Time of what is called a million times, beside textbook formulas in NumPy in the same process.
 
-    python -m tests.benchmarks.speed
-
-Medians of several runs; 10⁶ depths or impacts, 500 radii, N nodes of a transform.
+python -m tests.benchmarks.speed
 """
-
-from statistics import median
-from time import perf_counter
 
 import numpy as np
 
 import mdr_core as mdr
 
 from ..shapes import SHAPES, name
+from .harness import seconds
+from .tables import time
 
-MEDIUM = mdr.Medium(1e9, 1.0)
-MILLION = np.linspace(1e-9, 1e-5, 10**6)
-
-
-def seconds(call, runs=7):
-    """Median time of a call."""
-    times = []
-    for _ in range(runs):
-        start = perf_counter()
-        call()
-        times.append(perf_counter() - start)
-    return median(times)
+MEDIUM, WET = mdr.Medium(1e9, 10.0), mdr.Medium(1e9, 10.0, eta=3.0)
 
 
-def main():
-    power = seconds(lambda: np.power(MILLION, 1.5))
-    arccosh = seconds(lambda: np.arccosh(1 + MILLION)) / MILLION.size
-    print(f"np.power(x, 1.5), 10⁶ doubles: {power * 1e3:.1f} ms; np.arccosh: {arccosh * 1e9:.1f} ns each")
-    print("\nindent(...) over 10⁶ depths, ratio to np.power; fields of one state at 500 radii, ms")
+def rows(count=10**6):
+    """What, how long, and against what: force, dry impacts and viscous ones of every shape."""
+    depths = np.linspace(1e-9, 1e-6, count)
+    # Forces of a cone that yields, and of a paraboloid, as they stand in textbooks.
+    d_c = MEDIUM.critical_depth
+    books = {
+        "cone": lambda: np.where(depths < d_c, depths**2, (2 * depths - d_c) * d_c) * (2e9 / np.pi / 0.3),
+        "paraboloid": lambda: 4 / 3 * 1e9 * np.sqrt(1e-5) * depths**1.5,
+    }
+    book = {what: seconds(call) for what, call in books.items()}
+    for what, taken in book.items():
+        yield f"{count} textbook forces of a {what}, NumPy", time(taken), ""
     for shape in SHAPES:
-        force, radius = (
-            seconds(lambda q=quantity, s=shape: getattr(mdr.indent(s, MEDIUM, MILLION), q), runs=3) / power
-            for quantity in ("force", "contact_radius")
+        taken = seconds(lambda s=shape: mdr.indent(s, MEDIUM, depths).force, runs=3)
+        yield f"{count} forces, {name(shape)}", time(taken), _ratio(taken, book["paraboloid"])
+    speeds = np.geomspace(1e-4, 0.3, count)
+    for shape in SHAPES:
+        few = speeds if name(shape) in ("Cone", "Paraboloid") else speeds[:: max(1, count // 10**4)]
+        hits = _impacts(shape, MEDIUM, few)
+        taken = seconds(lambda h=hits: h().restitution, runs=1) * count / few.size
+        yield (
+            f"{count} dry impacts, restitution, {name(shape)}",
+            time(taken),
+            _ratio(taken, book["paraboloid"]),
         )
-        state = mdr.indent(shape, MEDIUM, 3 * MEDIUM.critical_depth)
-        r = np.linspace(0, 1, 500) * state.contact_radius
-        pressure = seconds(lambda s=state, r=r: s.pressure(r), runs=21) * 1e3
-        print(f"{name(shape):20} force {force:6.1f}   radius {radius:6.1f}   pressure {pressure:.2f} ms")
-    cone = mdr.indent(mdr.Cone(0.3), MEDIUM, 3 * MEDIUM.critical_depth)
-    r = np.linspace(0.01, 0.99, 10**6) * cone.contact_radius
-    ratio = seconds(lambda: cone.pressure(r)) / 1e6 / arccosh
-    print(f"\nCone pressure per radius, ratio to np.arccosh: {ratio:.1f}")
-    print("\nimpact(...), 10⁵ at once, time of 10⁶ as ratio to np.power")
-    speed = np.geomspace(1e-4, 10, 10**5)
-    for shape in SHAPES[:3]:
-        restitution, contact_time = (
-            10
-            * seconds(lambda q=q, s=shape: getattr(mdr.impact(s, MEDIUM, 1e-6, speed), q), runs=1)
-            / power
-            for q in ("restitution", "contact_time")
+        taken = seconds(lambda h=hits: h().contact_time, runs=1) * count / few.size
+        yield (
+            f"{count} dry impacts, contact time, {name(shape)}",
+            time(taken),
+            _ratio(taken, book["paraboloid"]),
         )
-        print(f"{name(shape):20} restitution {restitution:7.1f}   contact time {contact_time:7.1f}")
-    print("\nstress_from_line_load at all of N nodes")
-    for count in (10**3, 2 * 10**4, 10**5):
-        x = np.linspace(0, 1, count)
-        time = seconds(lambda x=x: mdr.abel.stress_from_line_load(x, 1 - x * x, x), runs=3)
-        print(f"N = {count:7d}  {time * 1e3:8.1f} ms")
+    for shape in SHAPES:
+        taken = seconds(lambda s=shape: mdr.impact(s, WET, 1e-9, 0.1).restitution, runs=5)
+        yield f"one viscous impact, {name(shape)}", time(taken), ""
+        many = speeds[:: max(1, count // 1000)]
+        hits = _impacts(shape, WET, many)
+        taken = seconds(lambda h=hits: h().restitution, runs=1) / many.size
+        yield f"one of {many.size} viscous impacts, {name(shape)}", time(taken), ""
+
+
+def _impacts(shape, medium, speeds):
+    return lambda: mdr.impact(shape, medium, 1e-9, speeds)
+
+
+def _ratio(taken, unit):
+    return f"{taken / unit:.2g} × the paraboloid's formula"
 
 
 if __name__ == "__main__":
-    main()
+    for row in rows():
+        print("{:55} {:>8}   {}".format(*row), flush=True)

@@ -1,101 +1,97 @@
-"""One impact as one would write it down with SciPy, or with the chain: each gives e and T."""
+"""One impact of a cone as one would write it down with SciPy, dry or viscous: depth, e and T each.
 
-import math
-import warnings
+In units of length L = (m v₀²/k)^(1/3), with φ = k d², and of time L/v₀; τ and d_c in them are θ and D.
+"""
+
+from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import IntegrationWarning, quad, solve_ivp
-from scipy.optimize import brentq
+from mpmath import mp, mpf
+from scipy.integrate import solve_ivp
 
-import mdr_core as mdr
+from .exact import Exact, critical_depth
 
 #: Methods of `solve_ivp` and their relative tolerances.
 STEPPING = {"RK45": (1e-3, 1e-6), "DOP853": (1e-3, 1e-6, 1e-9, 1e-12)}
 
 
-class Curve:
-    """Force and work of a cone or a paraboloid, in units of d_c, v₀ and m v₀²."""
+@dataclass(frozen=True)
+class _Units:
+    """Length (m) and time (s), θ and D."""
 
-    def __init__(self, profile, medium, mass, speed):
-        self.profile, self.medium = profile, medium
-        unit = medium.critical_depth
-        self.time, self.length = unit / speed, unit
-        self.power = 2 if hasattr(profile, "slope") else 1.5
-        radius = float(profile.contact_radius(unit))
-        self.energy = mass * speed**2
-        self.scale = 2 * medium.E_star * unit**2 * radius / self.energy / self.power
-
-    def elastic(self, d):
-        return self.scale * max(d, 0.0) ** self.power
-
-    def work(self, d):
-        return self.elastic(d) * d / (self.power + 1)
-
-    def yielded(self, d):
-        """Force beyond the critical depth; for the cone Popov (2015), Eq. (22)."""
-        return self.scale * (2 * d - 1) if self.power == 2 else self.elastic(d) - self.elastic(d - 1)
-
-    def unloading(self, live, lower):
-        """Force at a depth above the plastic depth, written without cancellation for the cone."""
-        if self.power == 2:
-            return self.scale * live * (2 * lower + live)
-        return self.elastic(lower + live) - self.elastic(lower)
-
-    def loss(self, d):
-        """Work of loading to d, 1/2 at the turning point."""
-        return self.work(d) - (self.work(d - 1) if d > 1 else 0.0)
-
-    def stored(self, live, lower):
-        """Elastic energy at a depth above the plastic depth."""
-        return self.work(lower + live) - self.work(lower) - self.elastic(lower) * live
+    length: object
+    time: object
+    theta: object
+    critical: object
 
 
-def stepped(curve, solver, tolerance):
-    """Three smooth stretches between events, the last in the depth above the plastic depth."""
+def _units(cone, medium, mass, speed, pi=np.pi, number=float):
+    stiffness = 2 * number(medium.E_star) / (pi * number(cone.slope))
+    length = (number(mass) * number(speed) ** 2 / stiffness) ** (number(1) / 3)
+    theta = 4 * number(medium.eta) / number(medium.E_star) * number(speed) / length
+    return _Units(length, length / number(speed), theta, number(critical_depth(medium)) / length)
 
-    def run(force, state, event):
-        event.terminal = True
-        flow = solve_ivp(
-            lambda t, y: (y[1], -force(y[0])),
-            (0.0, 1e9),
-            state,
-            method=solver,
-            rtol=tolerance,
-            atol=1e-3 * tolerance,
-            events=event,
-        )
+
+def _stages(units):
+    """Decelerations: elastic, yielding, and on the way up in the live depth ℓ = d − P.
+
+    d (d + 2θ ḋ), then D (2d − D) + 2θ d ḋ; on the way up (d + θ ḋ)² − P² = (ℓ + θ ḋ)(ℓ + θ ḋ + 2P).
+    """
+    theta, D = units.theta, units.critical
+
+    def elastic(d, v):
+        return d * (d + 2 * theta * v)
+
+    def yielding(d, v):
+        return D * (2 * d - D) + 2 * theta * d * v
+
+    def unloading(plastic):
+        return lambda live, v: (live + theta * v) * (live + theta * v + 2 * plastic)
+
+    return elastic, yielding, unloading
+
+
+def _flown(units, run):
+    """Three smooth stretches between events: yield, the turning point, the loss of contact."""
+    elastic, yielding, unloading = _stages(units)
+    first, state = run(elastic, (0, 1), lambda d, v: units.critical - d)
+    second, state = run(yielding, state, lambda d, v: v)
+    plastic = state[0] - units.critical
+    third, last = run(unloading(plastic), (units.critical, 0), lambda depth, v: depth + units.theta * v)
+    return state[0] * units.length, -last[1], (first + second + third) * units.time
+
+
+def stepped(cone, medium, mass, speed, solver, tolerance):
+    """Largest depth, restitution and contact time of an impact that yields, by `solve_ivp`."""
+
+    def run(deceleration, state, left):
+        def event(t, y):
+            return left(*y)
+
+        event.terminal, event.direction = True, -1
+        options = {"method": solver, "rtol": tolerance, "atol": 1e-3 * tolerance, "events": event}
+        flow = solve_ivp(lambda t, y: (y[1], -deceleration(*y)), (0.0, 1e9), state, **options)
         return flow.t[-1], flow.y[:, -1]
 
-    first, state = run(curve.elastic, (0.0, 1.0), lambda t, y: y[0] - 1)
-    second, (deepest, _) = run(curve.yielded, state, lambda t, y: y[1])
-    third, state = run(lambda live: curve.unloading(live, deepest - 1), (1.0, 0.0), lambda t, y: y[0])
-    return -state[1], (first + second + third) * curve.time
+    return _flown(_units(cone, medium, mass, speed), run)
 
 
-def integrated(curve, tolerance):
-    """The turning point from the energy, contact time from dd/v as it stands."""
-    deepest = brentq(lambda d: curve.loss(d) - 0.5, 1.0, 1e9, xtol=1e-300, rtol=1e-15)
-    stored = curve.stored(1.0, deepest - 1)
+def exact(cone, medium, mass, speeds, digits):
+    """The same as three lists of so many digits, by Taylor series for each stretch."""
 
-    def loading(d):
-        return 1 / math.sqrt(max(1 - 2 * curve.loss(d), 1e-30))
+    def run(deceleration, state, left):
+        flow = mp.odefun(lambda t, y: [y[1], -deceleration(*y)], 0, [mpf(part) for part in state])
+        end = _root(lambda t: left(*flow(t)))
+        return end, flow(end)
 
-    def unloading(live):
-        return 1 / math.sqrt(max(2 * (stored - curve.stored(live, deepest - 1)), 1e-30))
-
-    with warnings.catch_warnings():
-        # Where rounding stops it, the error tells.
-        warnings.simplefilter("ignore", IntegrationWarning)
-        time = sum(
-            quad(function, *ends, epsabs=0, epsrel=tolerance, limit=200)[0]
-            for function, ends in ((loading, (0, 1)), (loading, (1, deepest)), (unloading, (0, 1)))
-        )
-    return math.sqrt(2 * stored), time * curve.time
+    with mp.workdps(digits):
+        flights = [_flown(_units(cone, medium, mass, speed, mp.pi, mpf), run) for speed in speeds]
+    return tuple(Exact(values) for values in zip(*flights, strict=True))
 
 
-def chained(profile, medium, mass, speeds, tolerance, attribute):
-    """The row of springs, dashpots and sliders under a mass, one impact after the other."""
-    hits = [
-        mdr.chain_impact(profile, medium, mass, speed, tolerance=tolerance) for speed in speeds.tolist()
-    ]
-    return np.array([getattr(hit, attribute) for hit in hits])
+def _root(function):
+    """First zero of a function that is positive at 0 and negative for good behind it."""
+    high = mpf(1) / 1024
+    while function(high) > 0:
+        high *= 2
+    return mp.findroot(function, (high / 2, high), solver="anderson")

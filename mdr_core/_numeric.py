@@ -1,0 +1,183 @@
+"""Rules of quadrature, roots on arrays, and functions that closed forms need."""
+
+from functools import lru_cache
+
+import numpy as np
+
+from . import _check
+
+
+@lru_cache
+def gauss_legendre(count):
+    """Nodes and weights on [0, 1]."""
+    node, weight = np.polynomial.legendre.leggauss(count)
+    return (1 + node) / 2, weight / 2
+
+
+def gauss_integrals(count, places):
+    """Matrix from values at Gauss–Legendre nodes on [0, 1] to the integrals of their polynomial from 0 on.
+
+    One row for each of the `places` to which they go.
+    """
+    node, weight = gauss_legendre(count)
+    k = np.arange(count)[:, None]
+    project = (2 * k + 1) * (np.polynomial.legendre.legvander(2 * node - 1, count - 1) * weight[:, None]).T
+    values = np.polynomial.legendre.legvander(2 * places - 1, count)
+    # ∫ P_k from 0 is (P_{k+1} − P_{k−1})/(2(2k + 1)), for k = 0 the way itself.
+    rise = np.column_stack([places, (values[:, 2:] - values[:, :-2]) / (2 * (2 * k[1:, 0] + 1))])
+    return rise @ project
+
+
+def collocate(derivative, first, length):
+    """Solutions of u′ = f(u) over intervals as polynomials through 24 Gauss nodes, one interval a row.
+
+    Parameters
+    ----------
+    derivative : callable
+        f and ∂f/∂u at the nodes (N, 24), as functions of u there.
+    first, length : ndarray, shape (N, 1)
+        u at the beginning, and the length of each interval.
+
+    Returns
+    -------
+    u : ndarray, shape (N, 24)
+        At the nodes; of one sign throughout an interval.
+    settled : ndarray of bool, shape (N,)
+        Whether Newton's method has found it.
+    """
+    integrate, one, _ = _collocation()
+    u, settled = np.repeat(first, len(one), axis=1), np.zeros(len(first), bool)
+    for _ in range(8):
+        value, rate = derivative(u)
+        matrix = one - length[..., None] * rate[:, None, :] * integrate
+        matrix[~np.isfinite(matrix).all(axis=(1, 2))] = one
+        change = np.linalg.solve(matrix, (u - first - length * (value @ integrate.T))[..., None])[..., 0]
+        u = np.where(change / u < 0.75, u - change, u / 4)
+        settled = np.all(np.abs(change) <= 1e-9 * np.abs(u), axis=1)
+        if settled.all():
+            break
+    return u, settled
+
+
+@lru_cache
+def _collocation():
+    node, weight = gauss_legendre(24)
+    last = np.polynomial.legendre.legvander(2 * node - 1, 23)[:, -3:] * weight[:, None]
+    return gauss_integrals(24, node), np.eye(24), last * (2 * np.arange(21, 24) + 1)
+
+
+def last_coefficient(values):
+    """Largest of the last three Legendre coefficients of polynomials through 24 Gauss nodes."""
+    return np.abs(values @ _collocation()[2]).max(axis=-1)
+
+
+def largest_value(function, low, high):
+    """Largest value of a function with one top between two places (N, 1), one a row.
+
+    `function` takes places (N, K). Two grids, and the parabola through the best three places.
+    """
+    rows = np.arange(len(low))
+    for _ in range(2):
+        places = low + (high - low) * np.linspace(0, 1, 17)
+        values = function(places)
+        best = np.clip(values.argmax(axis=1), 1, 15)
+        low, high = places[rows, best - 1, None], places[rows, best + 1, None]
+    before, there, after = (values[rows, best + side] for side in (-1, 0, 1))
+    bend = 2 * there - before - after
+    top = there + (after - before) ** 2 / (8 * np.maximum(bend, 1e-300))
+    return np.where(np.abs(after - before) < 2 * bend, top, values.max(axis=1))
+
+
+def cube_rise(begin, way):
+    """(b + δ)³ − b³ without cancellation."""
+    return way * (3 * begin * begin + way * (3 * begin + way))
+
+
+def cube_way(begin, rise):
+    """δ at (b + δ)³ − b³ = `rise`, the inverse of `cube_rise`."""
+    end = np.cbrt(begin**3 + rise)
+    squares = begin * begin + begin * end + end * end
+    way = np.divide(rise, squares, out=np.zeros_like(rise), where=rise > 0)
+    return np.where(rise < np.inf, way, np.inf)
+
+
+@lru_cache
+def tanh_sinh(step=1 / 28, last=3.4):
+    """Nodes and weights on [0, 1] that crowd at both ends, where the function may have any power.
+
+    u = 1/(1 + e^(−2s)), s = (π/2) sinh t: nodes come as close to 0 as 10⁻³⁹, so that a singularity
+    just outside of the interval is resolved at its own distance.
+    """
+    t = step * np.arange(-round(last / step), round(last / step) + 1)
+    s = np.pi / 2 * np.sinh(t)
+    node = 1 / (1 + np.exp(-2 * s))
+    weight = np.pi / 2 * np.cosh(t) / (2 * np.cosh(s) ** 2) * step
+    return node, weight / weight.sum()
+
+
+def root(x, r):
+    """√(x² − r²) of two lengths without cancellation or underflow, 0 for x < r."""
+    return np.sqrt(np.maximum(x - r, 0.0)) * np.sqrt(x + r)
+
+
+def chunks(size, most=4096):
+    """Slices of at most so many rows: enough to amortise a call, few enough to stay in the cache."""
+    return (slice(start, start + most) for start in range(0, size, most))
+
+
+@np.errstate(all="ignore")
+def increasing_root(function, target, start, highest=np.inf):
+    """Positive x with function(x) = target, elementwise, for a function that grows about as a power.
+
+    Newton's method on ln f against ln x, inside a bracket that every step narrows.
+
+    Parameters
+    ----------
+    function : callable
+        Values and derivatives at an array x > 0, as a pair.
+    target : ndarray
+        Values to reach; 0 is reached at 0.
+    start : float or ndarray
+        First guesses.
+    highest : float or ndarray
+        Largest x at which the function is known; where it falls short of the target there, or at
+        what a depth may be, the result is infinite.
+    """
+    target = np.asarray(target, dtype=float)
+    x = np.zeros(target.shape) + np.minimum(start, highest)
+    low, high = np.zeros_like(x), np.zeros_like(x) + highest
+    bounded = high < np.inf
+    if bounded.any():
+        reachable = ~bounded | (target <= function(np.where(bounded, high, x))[0])
+    else:
+        reachable = np.ones(target.shape, bool)
+    sought = (target > 0) & reachable
+    eps = np.finfo(float).eps
+    best, least, stalled = x.copy(), np.full(x.shape, np.inf), np.zeros(x.shape, int)
+    for iteration in range(300):
+        value, slope = function(x)
+        high = np.where(value >= target, x, high)
+        low = np.where(value <= target, x, low)
+        miss = np.log(target / value)
+        # At the edge of a flat face or a kink the slope may be infinite, and tells nothing.
+        step = np.where(slope < np.inf, miss * value / (slope * x), np.nan)
+        new = x * np.exp(np.clip(step, -3, 3))
+        middle = np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 16)
+        middle = np.where(high < np.inf, middle, 16 * x)
+        better = np.abs(miss) < least
+        stalled = np.where(better, 0, stalled + 1)
+        best, least = np.where(better, x, best), np.where(better, np.abs(miss), least)
+        # Long steps in a bracket take turns with halving it, so that none can go round in circles.
+        halve = (iteration % 3 == 2) & (np.abs(step) > 0.1) & (low > 0) & (high < np.inf)
+        new = np.where((new >= low) & (new <= high) & ~halve, new, middle)
+        # In the end the rounding of f decides: it no longer comes closer.
+        noisy = stalled > np.where(least <= 1e-14, 0, np.where(least <= 1e-13, 1, 5))
+        settled = (np.abs(new - x) <= 4 * eps * x) | (least <= 8 * eps) | (noisy & (least <= 1e-12))
+        # Of all but flat shapes no depth may be enough.
+        reachable &= low < _check.LARGEST
+        if np.all(settled | ~sought | ~reachable):
+            return np.where(reachable, np.where(target > 0, best, 0.0), np.inf)
+        x = np.where(sought, new, x)
+    raise ValueError(
+        "the depth of this force or energy was not found; check that all quantities are in SI units"
+    )

@@ -1,0 +1,133 @@
+"""The energy balance of an impact without viscosity: how deep it comes, and what it gives back.
+
+The indenter meets a medium with an imprint of plastic depth p₀ (0 if virgin). With y = d − p₀ the
+live interval is [p₀ + Δ, p₀ + Δ + ℓ], ℓ = min(y, d_c) and Δ = max(0, y − d_c), and the work is
+2E* [∫(d − s) a ds over it + d_c ∫a ds over [p₀, p₀ + Δ]]: stored, and dissipated by yielding.
+"""
+
+from functools import singledispatch
+
+import numpy as np
+
+from ._numeric import chunks, increasing_root
+from .shapes.power import Cone, Paraboloid
+from .superposition import energy_integral, radius_integral
+from .yielding import LiveInterval
+
+
+def turning_point(profile, target, d_c, before):
+    """Live interval at which a dry impact has spent its energy, elementwise.
+
+    Parameters
+    ----------
+    profile : Profile
+        One or many.
+    target : ndarray
+        Energy over 2E* (m³).
+    d_c, before : float or ndarray
+        Critical depth (m), and plastic depth p₀ (m) of the imprint that is already there. Everything
+        broadcasts to the shape of `target`.
+
+    Returns
+    -------
+    live : LiveInterval
+        At the turning point; infinite where the shape is not known as deep.
+    growth : ndarray
+        Δ, by which the plastic depth has grown (m); carried, because p₀ may be much larger.
+    """
+    if not np.any(before):
+        virgin = virgin_turning_point(profile, target, d_c)
+        if virgin is not None:
+            return virgin, virgin.lower
+    shape = target.shape
+    target, d_c, before = (np.broadcast_to(part, shape).ravel() for part in (target, d_c, before))
+    lower, upper, length, growth = np.empty((4, target.size))
+    for rows in chunks(target.size):
+        y = _penetration(profile.flat_entries(rows, shape), target[rows], d_c[rows], before[rows])
+        live, growth[rows] = pressed(np.where(np.isinf(y), 0.0, y), d_c[rows], before[rows])
+        lower[rows], length[rows] = live.lower, live.length
+        upper[rows] = np.where(np.isinf(y), np.inf, live.upper)
+    lower, upper, length, growth = (part.reshape(shape) for part in (lower, upper, length, growth))
+    return LiveInterval(lower, upper, length), growth
+
+
+def pressed(y, d_c, before):
+    """Live interval and growth of the plastic depth after pressing by y ≥ 0 (m) into an imprint."""
+    growth = np.maximum(y - d_c, 0.0)
+    lower, length = before + growth, np.minimum(y, d_c)
+    return LiveInterval(lower, np.maximum(before + y, lower), length), growth
+
+
+def plastic_integral(profile, live, d_c, growth):
+    """d_c ∫ a ds over the depths by which the imprint has grown: plastic work over 2E* (m³)."""
+    integral = radius_integral(profile, LiveInterval(live.lower - growth, live.lower, growth))
+    with np.errstate(invalid="ignore"):
+        return np.where(growth > 0, d_c * integral, 0.0)
+
+
+def dry_restitution(profile, live, d_c, growth):
+    """Coefficient of restitution e = √(U/(U + W_p)) of an impact without viscosity."""
+    stored = energy_integral(profile, live)
+    # U over the sum instead of U over the kinetic energy: never above 1.
+    return np.sqrt(stored / (stored + plastic_integral(profile, live, d_c, growth)))
+
+
+def _penetration(profile, target, d_c, before):
+    """y = d − p₀ (m) at which the work over 2E* is `target`; infinite beyond the known shape."""
+
+    def work(y):
+        live, growth = pressed(y, d_c, before)
+        stored = energy_integral(profile, live)
+        return stored + plastic_integral(profile, live, d_c, growth), radius_integral(profile, live)
+
+    start = np.where(np.isinf(d_c), 1.0, d_c)
+    with np.errstate(all="ignore"):
+        return increasing_root(work, target, start, profile.deepest - before)
+
+
+@singledispatch
+def virgin_turning_point(profile, target, d_c):
+    """Closed form of `turning_point` on a virgin medium, for work over 2E* (m³); else None."""
+    return None
+
+
+@virgin_turning_point.register
+def _(profile: Cone, target, d_c):
+    # d³/3 = πs·target; yielding, with X = d_p/d_c: X² + X = (λ³ − 1)/3.
+    elastic = np.cbrt(3 * np.pi * profile.slope * target)
+    ratio = elastic / d_c
+    surplus = np.maximum((ratio * ratio * ratio - 1) / 3, 0.0)
+    return _from_ratio(elastic, 2 * surplus / (1 + np.sqrt(1 + 4 * surplus)), d_c)
+
+
+@virgin_turning_point.register
+def _(profile: Paraboloid, target, d_c):
+    # (4/15) √R d^(5/2) = target; yielding, with A² = d/d_c = C² + 1: A⁵ − C⁵ = λ^(5/2).
+    elastic = (target * 3.75 / np.sqrt(profile.radius)) ** 0.4
+    ratio = elastic / d_c
+    work = np.maximum(ratio * ratio * np.sqrt(ratio), 1.0).ravel()
+    X = np.empty_like(work)
+    for rows in chunks(work.size):
+        X[rows] = _paraboloid_growth(work[rows])
+    return _from_ratio(elastic, X.reshape(elastic.shape), d_c)
+
+
+def _paraboloid_growth(work):
+    """X with (X + 1)^(5/2) − X^(5/2) = `work` ≥ 1."""
+    # In h = A + C it is (5h³ + 10/h + 1/h⁵)/16, nearly a cube.
+    h = np.cbrt(3.2 * work - 2.2)
+    X = ((h - 1 / h) / 2) ** 2
+    for _ in range(4):
+        A, C = np.sqrt(X + 1), np.sqrt(X)
+        cubes = (X + 1 + A * C + X) / (A + C)
+        fifths = ((X + 1) ** 2 + X * X + X * (X + 1) + A * C * (2 * X + 1)) / (A + C)
+        X = np.maximum(X - (fifths - work) / (2.5 * cubes), 0.0)
+    return X
+
+
+def _from_ratio(elastic, X, d_c):
+    yields = elastic > d_c
+    with np.errstate(invalid="ignore"):
+        lower = np.where(yields, X * d_c, 0.0)
+    length = np.minimum(elastic, d_c)
+    return LiveInterval(lower, lower + length, length)

@@ -1,0 +1,191 @@
+"""Viscous indentation under a prescribed force in time: creep, on the chain."""
+
+from itertools import pairwise
+
+import numpy as np
+from scipy.optimize import brentq
+
+from .. import _check
+from ..medium import check_pair
+from .depth_path import TimedIndentation, check_times
+from .fronts import force_and_radius
+from .reach import least_depth, resistance
+from .row import Foundation
+
+#: Steps in each piece of the path, and elements, of the first run; both are doubled up to so often.
+_STEPS, _ELEMENTS, _REFINEMENTS = 8, 200, 6
+#: Share of the largest force that still presses where none is prescribed, so that contact is kept.
+_TOUCH = 1e-10
+
+
+def creep(profile, medium, force, time, *, tolerance=1e-4):
+    """Press an indenter into a viscous medium along a path of force in time, under which it creeps.
+
+    By the chain, in steps of constant ḋ that end under the prescribed force, finer at the beginning of each
+    piece, where the dashpots give way; what is of first and second order in them is extrapolated away.
+
+    Parameters
+    ----------
+    profile, medium
+        The indenter and the medium.
+    force : array_like, shape (N,)
+        Forces (N), not negative, straight in between; the first one is reached infinitely slowly.
+    time : array_like, shape (N,)
+        Increasing times (s).
+    tolerance : float, optional
+        Error allowed in the depth, relative to the largest one.
+
+    Returns
+    -------
+    TimedIndentation
+        Quantities of the shape of `time`, with the estimate reached as `error`.
+
+    Raises
+    ------
+    ValueError
+        If a force is negative or not finite, the first one is more than a flat face carries at rest,
+        π q_c b (Popov 2015, Eq. (11)), any is where there is no viscosity, or one presses deeper than the
+        shape is known, or times do not increase.
+
+    Examples
+    --------
+    A flat punch under a force that grows for a time τ and is held as long again, d = F/(2E*b) times
+    1 − (e − 1)/e²:
+
+    >>> from mdr_core import FlatPunch, Medium
+    >>> medium = Medium(E_star=1.0, eta=0.25)
+    >>> state = creep(FlatPunch(1.0), medium, [0.0, 2.0, 2.0], [0.0, 1.0, 2.0], tolerance=1e-5)
+    >>> print(round(float(state.depth[-1]), 4))
+    0.7675
+    """
+    check_pair(profile, medium, "a path in time")
+    force = _check.force("force", force)
+    time = check_times(time, force, "force")
+    tolerance = _check.positive_number("tolerance", tolerance)
+    most = 2 * medium.yield_line_load * profile.wall
+    at_rest = (np.arange(force.size) == 0) | (medium.eta == 0)
+    bound = f"must be less than the {most:g} N at which the whole flat face yields"
+    _check.refuse("force", force, (force >= most) & at_rest, bound, unit="N", remedy="begin with less")
+    bound = _deepest(profile, medium, force, time)
+    rows, limit, error = [], None, np.inf
+    for level in range(_REFINEMENTS):
+        steps = _STEPS * 2**level
+        run = _Run(profile, medium, bound, _ELEMENTS * 2**level, 1e-2 * tolerance / (steps * len(time)))
+        run.follow(force, time, steps)
+        bound = 1.1 * max(depth for _, depth in run.path)
+        rows.append(np.array(run.record))
+        last, limit = limit, _extrapolated(rows[-3:])
+        if last is not None:
+            error = float(np.max(np.abs(limit - last)[:, 0]) / (np.max(np.abs(limit[:, 0])) or 1.0))
+        if error <= tolerance:
+            break
+    depth, _, stored, plastic_work, viscous = limit.T
+    # Of a contact that comes and goes there is no limit to extrapolate to.
+    radius = rows[-1][:, 1]
+    plastic_depth = np.maximum(np.maximum.accumulate(depth) - medium.critical_depth, 0.0)
+    energies = np.maximum((stored, plastic_work, viscous), 0.0)
+    path = tuple(np.array(run.path).T)
+    states = force, radius, *energies, plastic_depth
+    return TimedIndentation(profile, medium, time, depth, *states, error, np.array(run.places), path)
+
+
+def _extrapolated(rows):
+    """The limit of results with errors of first and second order, each run with half the step."""
+    for power in range(1, len(rows)):
+        rows = [fine + (fine - coarse) / (2**power - 1) for coarse, fine in pairwise(rows)]
+    return rows[-1]
+
+
+def _deepest(profile, medium, force, time):
+    """A depth (m) that is not exceeded: the less of what springs and dashpots alone allow."""
+    impulse = float(np.sum((force[1:] + force[:-1]) / 2 * np.diff(time)))
+    start = least_depth(profile, medium, lambda now: now.force >= force[0])
+    taken, largest = resistance(profile, medium, start).momentum, np.max(force)
+    return least_depth(
+        profile, medium, lambda now: now.force >= largest or now.momentum - taken >= impulse, start
+    )
+
+
+def _stiffness(row, dt):
+    """dF/dd (N/m) at the end of a move in a time dt (s), but for what a growing contact adds."""
+    state, medium = row._elements, row.medium
+    spring = (state.elastic < medium.critical_depth) + medium.relaxation_time / dt
+    return max(row._total(state.contact * spring), 1e-300)
+
+
+class _Run:
+    """One run: the chain, its path, and what has been recorded at the given times."""
+
+    def __init__(self, profile, medium, bound, n, precision):
+        self.bound = min(bound, profile.deepest)
+        self.close = precision * self.bound
+        self.row = Foundation(profile, medium, n, profile.contact_radius(self.bound))
+        self.rate = 0.0
+        self.path, self.places, self.record = [], [], []
+
+    def follow(self, force, time, steps):
+        """Follow a force path in so many steps for each of its pieces."""
+        self.least = _TOUCH * np.max(force)
+        # The pieces' beginnings resolved as the cube of the step.
+        share = (np.arange(steps + 1) / steps) ** 3
+        if force[0] > 0:
+            self.go(np.inf, force[0], 0.0)
+        self.note(time[0])
+        for k in range(1, len(force)):
+            for begin, end in pairwise(share):
+                dt = (time[k] - time[k - 1]) * (end - begin)
+                target = max(force[k - 1] + (force[k] - force[k - 1]) * end, self.least)
+                before = self.row.depth
+                self.go(dt, target, self.rate * dt)
+                self.rate = (self.row.depth - before) / dt
+                self.path.append((self.path[-1][0] + dt, self.row.depth))
+            self.note()
+
+    def note(self, time=None):
+        """Record a state at one of the given times."""
+        if time is not None:
+            self.path.append((time, self.row.depth))
+        row = self.row
+        self.places.append(len(self.path) - 1)
+        energies = row.stored_energy, row.plastic_work, row.viscous_work
+        self.record.append((row.depth, force_and_radius(row)[1], *energies))
+
+    def go(self, dt, force, guess):
+        """The move in a time dt (s) that ends under a force (N), by its rise (m) from a first guess."""
+        row, room = self.row, self.bound - self.row.depth
+
+        def miss(rise):
+            moved = row.advance(row.depth + rise, dt)
+            return force_and_radius(moved)[0] - force, moved
+
+        rise = min(guess, room)
+        if force <= self.least:
+            # Next to no force is next to none over a wide range of rises.
+            rise = self.bracketed(lambda rise: miss(rise)[0], guess, room)
+            self.row = row.advance(row.depth + rise, dt)
+            return
+        value, moved = miss(rise)
+        # Between the axis and the first element there is nothing to take a stiffness from.
+        change = float(np.clip(-value / _stiffness(moved, dt), -self.bound, self.bound))
+        for _ in range(12):
+            # Secants, after a first step of Newton's.
+            new = min(rise + change, room)
+            if not abs(new - rise) > self.close:
+                self.row = moved
+                return
+            new_value, moved = miss(new)
+            if new_value == value:
+                break
+            change, rise, value = -new_value * (new - rise) / (new_value - value), new, new_value
+        self.row = row.advance(row.depth + self.bracketed(lambda rise: miss(rise)[0], guess, room), dt)
+
+    def bracketed(self, miss, guess, room):
+        """The root of an increasing function of the rise (m), also across jumps."""
+        low = high = min(guess, room)
+        reach = max(abs(guess) / 8, 1e-9 * self.bound)
+        while miss(low) > 0:
+            low, reach = low - reach, 4 * reach
+        reach = max(abs(guess) / 8, 1e-9 * self.bound)
+        while high < room and miss(high) < 0:
+            high, reach = min(high + reach, room), 4 * reach
+        return brentq(miss, low, high, xtol=self.close) if low < high else low

@@ -1,0 +1,1 @@
+"""Indenter shapes: geometry only."""

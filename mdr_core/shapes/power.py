@@ -1,0 +1,166 @@
+"""Indenters that are a single power of r: flat punch, cone, paraboloid, any power law."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .. import _check
+from ..abel import kappa
+from .profile import Profile
+
+
+@dataclass(frozen=True)
+class FlatPunch(Profile):
+    """Flat-ended cylinder: z = 0 for r ≤ b, a wall beyond.
+
+    Parameters
+    ----------
+    radius : float
+        Radius b of the flat end (m), positive.
+
+    Examples
+    --------
+    >>> FlatPunch(radius=2.0).contact_radius([0.0, 1.0]).tolist()
+    [2.0, 2.0]
+    """
+
+    radius: float
+
+    def __post_init__(self):
+        _check.set_positive(self, radius="m")
+
+    wall = face_radius = property(lambda self: self.radius)
+
+    def _height(self, r):
+        return np.where(r <= self.radius, 0.0, np.inf)
+
+    _reduced = _reduced_slope = _height
+
+    def _radius(self, depth):
+        return np.zeros_like(depth) + self.radius
+
+
+@dataclass(frozen=True)
+class Cone(Profile):
+    """Cone z = s r, with g = (π/2) s x: Popov (2015), Eqs. (13), (14), (16).
+
+    Parameters
+    ----------
+    slope : float
+        Slope s of the generator (dimensionless), positive: the tangent of its angle to the
+        surface.
+
+    Examples
+    --------
+    >>> print(Cone(slope=1.0).reduced(1.0))  # π/2
+    1.5707963267948966
+    """
+
+    slope: float
+
+    def __post_init__(self):
+        _check.set_positive(self, slope="")
+
+    def _height(self, r):
+        return self.slope * r
+
+    def _reduced(self, x):
+        return np.pi / 2 * self.slope * x
+
+    def _reduced_slope(self, x):
+        return np.pi / 2 * self.slope + 0 * x
+
+    def _radius(self, depth):
+        return depth / (np.pi / 2 * self.slope)
+
+
+@dataclass(frozen=True)
+class Paraboloid(Profile):
+    """Paraboloid z = r²/(2R), with g = x²/R (the Hertzian contact).
+
+    Parameters
+    ----------
+    radius : float
+        Radius of curvature R at the tip (m), positive.
+
+    Examples
+    --------
+    >>> print(Paraboloid(radius=8.0).contact_radius(2.0))  # √(R d)
+    4.0
+    """
+
+    radius: float
+
+    def __post_init__(self):
+        _check.set_positive(self, radius="m")
+
+    def _height(self, r):
+        return r * (r / (2 * self.radius))
+
+    def _reduced(self, x):
+        return x * (x / self.radius)
+
+    def _reduced_slope(self, x):
+        return 2 * x / self.radius
+
+    def _radius(self, depth):
+        return np.sqrt(self.radius * depth)
+
+
+@dataclass(frozen=True)
+class PowerLaw(Profile):
+    """Power law z = c rⁿ, with g = κₙ c xⁿ: Popov (2015), Eqs. (4)–(7).
+
+    Parameters
+    ----------
+    coefficient : float or array_like
+        Coefficient c (m^(1−n)), positive.
+    exponent : float or array_like
+        Exponent n, from 0.01 to 1000.
+
+    Examples
+    --------
+    >>> print(round(PowerLaw(coefficient=1.0, exponent=2.0).reduced(3.0), 12))  # κ₂ = 2
+    18.0
+    """
+
+    coefficient: float
+    exponent: float
+
+    def __post_init__(self):
+        _check.set_positive(self, coefficient="m^(1-n)", exponent="")
+        exponent, reduced = np.asarray(self.exponent), np.asarray(self._reduced_coefficient)
+        outside = ~((exponent >= 0.01) & (exponent <= 1000))
+        bound = "must lie in 0.01 ≤ n ≤ 1000"
+        _check.refuse("PowerLaw exponent", exponent, outside, bound, remedy="FlatPunch is n → ∞")
+        bound = "m^(1-n), the coefficient of the reduced profile, leaves double precision"
+        outside = ~((reduced > 0) & (reduced < np.inf))
+        _check.refuse("κₙ c", reduced, outside, bound, remedy="use another unit of length")
+
+    @cached_property
+    def _reduced_coefficient(self):
+        with np.errstate(over="ignore"):
+            return _check.frozen(kappa(self.exponent) * self.coefficient)
+
+    def _height(self, r):
+        return self.coefficient * r**self.exponent
+
+    def _reduced(self, x):
+        return self._reduced_coefficient * x**self.exponent
+
+    def _reduced_slope(self, x):
+        return self.exponent * self._reduced_coefficient * x ** (self.exponent - 1)
+
+    def _radius(self, depth):
+        c, p = self._reduced_coefficient, 1 / self.exponent
+        # Where the shape is nearly flat d/c may underflow, and the radius is still a radius.
+        if np.all(p < 0.25):
+            return depth**p / c**p
+        joint = (depth / c) ** p
+        return np.where(p < 0.25, depth**p / c**p, joint) if np.any(p < 0.25) else joint
+
+    def _known(self, depth):
+        with np.errstate(over="ignore"):
+            far = self._radius(np.maximum(depth, 0.0)) > _check.FARTHEST
+        return _check.refuse("depth", depth, far, "has a contact beyond double precision", unit="m")

@@ -1,0 +1,239 @@
+"""What a shape is: its height z(r), its reduced height g(x), the slope g′(x), and where g has kinks."""
+
+from abc import ABC, abstractmethod
+from dataclasses import fields
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from .. import _check
+from .._numeric import increasing_root
+
+
+class Profile(ABC):
+    """A rigid axisymmetric indenter with its tip at the origin, growing outward.
+
+    Lengths are in m, slopes dimensionless. A shape of your own is a frozen dataclass that gives `_height`,
+    `_reduced` and `_reduced_slope` for arrays of radii that are not negative, and what it has of
+    `face_radius`, `wall` and `kinks`; everything else follows. Parameters may be arrays that broadcast with
+    each other, with radii and depths: many indenters at once, for `impact`.
+
+    Examples
+    --------
+    A cone on top of a paraboloid, z = s r + r²/(2R), which is not in the library. The transform to g
+    (Popov 2015, Eq. (3)) is linear, so that their reduced heights add up:
+
+    >>> from dataclasses import dataclass
+    >>> import numpy as np
+    >>> from mdr_core import Medium, Profile, indent
+    >>> @dataclass(frozen=True)
+    ... class Pencil(Profile):
+    ...     slope: float
+    ...     radius: float
+    ...
+    ...     def _height(self, r):
+    ...         return self.slope * r + r**2 / (2 * self.radius)
+    ...
+    ...     def _reduced(self, x):
+    ...         return np.pi / 2 * self.slope * x + x**2 / self.radius
+    ...
+    ...     def _reduced_slope(self, x):
+    ...         return np.pi / 2 * self.slope + 2 * x / self.radius
+    >>> state = indent(Pencil(0.1, 1e-6), Medium(E_star=1e9, q_c=1.0), 20e-9)
+    >>> print(f"a = {state.contact_radius * 1e9:.3f} nm, F = {state.force * 1e6:.4f} µN")
+    a = 83.227 nm, F = 0.2538 µN
+    """
+
+    #: Radius (m) of a vertical wall, where depth grows at constant contact radius.
+    wall = np.inf
+
+    #: Radius (m) of a flat face at the tip: the contact radius at depth 0.
+    face_radius = 0.0
+
+    #: Depth and radius (m) beyond which the shape is not known.
+    deepest = np.inf
+    known_radius = np.inf
+
+    #: Depths (m), ascending, at which the edge of the contact passes a kink of g, or reaches the wall.
+    kinks = ()
+
+    #: Depth (m) at which the tip goes over from one power of the radius to another, if that is known.
+    scale = None
+
+    #: For shapes with one length of their own: the shape with parameters of 1, and its units of length
+    #: and depth (m), so that g(x) is the unit of depth times the unit shape's g(x/length).
+    unit = None
+
+    @abstractmethod
+    def _height(self, r): ...
+
+    @abstractmethod
+    def _reduced(self, x): ...
+
+    @abstractmethod
+    def _reduced_slope(self, x): ...
+
+    def __getstate__(self):
+        # What is computed from the parameters is not worth keeping, and may hold functions.
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    def height(self, r):
+        """Height z(r) (m) above the tip at radius r (m), of the shape of `r`; even in r."""
+        return self._of_radius("radius r", r, self._height)
+
+    def reduced(self, x):
+        """Height g(x) (m) of the equivalent 1D profile, Popov (2015), Eq. (3); even in x."""
+        return self._of_radius("coordinate x", x, self._reduced)
+
+    def reduced_slope(self, x):
+        """Slope g′(x) (dimensionless) of the equivalent 1D profile, on the outer side where x is on a kink.
+
+        Odd in x; infinite at the edge of a flat face with a sharp edge, and from a wall on.
+
+        Examples
+        --------
+        >>> from mdr_core import Paraboloid
+        >>> Paraboloid(radius=2.0).reduced_slope([-1.0, 3.0]).tolist()  # 2x/R
+        [-1.0, 3.0]
+        """
+        sign = np.where(_check.finite_array("coordinate x", x, unit="m") < 0, -1.0, 1.0)
+        slope = self._of_radius("coordinate x", x, self._reduced_slope)
+        return (sign * np.where(np.abs(x) >= self.wall, np.inf, slope))[()]
+
+    def contact_radius(self, depth):
+        """Contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
+        depth = self._places("depth", depth, most=_check.LARGEST)
+        _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
+        depth = self._known(depth)
+        with np.errstate(all="ignore"):
+            radius = self._radius(depth)
+        _check.refuse("depth", depth, np.isinf(radius), "has a contact beyond double precision", unit="m")
+        return radius[()]
+
+    def _radius(self, depth):
+        """Contact radius (m) at depths that are not negative and not beyond what is known."""
+
+        def height(x):
+            return self._reduced(x), self._reduced_slope(x)
+
+        return np.maximum(increasing_root(height, depth, 1.0, self.known_radius), self.face_radius)
+
+    def _foot(self, depth):
+        """The last kink (m) above each depth, or the tip."""
+        return np.max([np.where(foot <= depth, foot, 0.0) for foot in (0.0, *self.kinks)], axis=0)
+
+    @cached_property
+    def shape(self):
+        """Shape to which array-valued parameters broadcast, () for one indenter."""
+        return np.broadcast_shapes(*map(np.shape, self.__getstate__().values()))
+
+    def entries(self, index, shape=None):
+        """The indenters at an index of the parameters, broadcast to `shape` before."""
+        if not self.shape:
+            return self
+        shape = self.shape if shape is None else shape
+        values = self.__getstate__().values()
+        return type(self)(*(np.broadcast_to(v, shape)[index] if np.ndim(v) else v for v in values))
+
+    def flat_entries(self, rows, shape):
+        """The indenters in some rows of an ensemble of a `shape`, counted flat."""
+        if not self.shape:
+            return self
+        return self.entries(np.unravel_index(np.arange(np.prod(shape, dtype=int))[rows], shape), shape)
+
+    def _of_radius(self, quantity, r, function):
+        r, known = np.abs(self._places(quantity, r)), np.min(self.known_radius, initial=np.inf)
+        bound = f"m is beyond the radius up to which the shape is known, {known:g} m"
+        _check.refuse("radius", r, r > self.known_radius, bound)
+        with np.errstate(all="ignore"):
+            return function(r)[()]
+
+    def _places(self, quantity, values, most=_check.FARTHEST):
+        """Radii or depths (m), checked and broadcast to the indenters."""
+        values = _check.finite_array(quantity, values, unit="m", most=most)
+        shape = _check.common_shape(
+            type(self).__name__, **{quantity: values}, indenters=np.empty(self.shape)
+        )
+        return np.broadcast_to(values, shape)
+
+    def _known(self, depth):
+        """`depth`, if the shape is known so far."""
+        if np.all(self.deepest == np.inf):
+            return depth
+        bound = f"is deeper than the shape is known, {np.min(self.deepest, initial=np.inf):g} m"
+        return _check.refuse(
+            "depth", depth, depth > self.deepest, bound, unit="m", remedy="press less deep"
+        )
+
+
+class OneLength(Profile):
+    """A shape with one length L of its own: z = H Z(r/L), g = H G(x/L), one function for all of them.
+
+    A subclass gives `_length` and `_depth` (L and H, m), and Z, G and G′ as functions of u = r/L, for
+    arrays. The inverse of G is found from a table of G, made once for the class, by Newton's method.
+    """
+
+    _length: float
+    _depth: float
+
+    #: Where G begins to grow, 0, or 1 behind a flat face; and where it ends.
+    _edge, _end = 0.0, np.inf
+
+    #: Places u that G is tabulated at: every forty-third part of an octave.
+    _grid = np.geomspace(1e-30, 1e30, 8600)
+
+    @staticmethod
+    @abstractmethod
+    def _Z(u): ...
+
+    @staticmethod
+    @abstractmethod
+    def _G(u): ...
+
+    @staticmethod
+    @abstractmethod
+    def _G_slope(u): ...
+
+    face_radius = property(lambda self: self._edge * self._length)
+    scale = property(lambda self: self._depth)
+
+    @cached_property
+    def unit(self):
+        return type(self)(*(1.0 for _ in fields(self))), self._length, self._depth
+
+    def _height(self, r):
+        return self._depth * self._Z(r / self._length)
+
+    def _reduced(self, x):
+        return self._depth * self._G(x / self._length)
+
+    def _reduced_slope(self, x):
+        u = x / self._length
+        # What is beyond an edge is so after rounding, too.
+        u = np.where(x > self._length, np.maximum(u, np.nextafter(1.0, 2.0)), u)
+        return self._depth / self._length * self._G_slope(u)
+
+    def _radius(self, depth):
+        return self._length * self._inverse(depth / self._depth)
+
+    @classmethod
+    def _inverse(cls, depth):
+        """u with G(u) = depth, elementwise."""
+        depths, places = _table(cls)
+        with np.errstate(all="ignore"):
+            u = np.exp(np.interp(np.log(depth), depths, places))
+            # Linear interpolation leaves 10⁻⁴ of u, or of u − 1 behind a flat face.
+            for _ in range(3):
+                step = (cls._G(u) - depth) / cls._G_slope(u)
+                u = np.where(np.isfinite(step), np.clip(u - step, u / 2, np.minimum(2 * u, cls._end)), u)
+        return np.where(depth > 0, np.maximum(u, cls._edge), cls._edge)
+
+
+@lru_cache
+def _table(shape):
+    """ln G and ln u of a class of shapes, in ascending order."""
+    u = shape._edge + shape._grid
+    with np.errstate(all="ignore"):
+        depth, place = np.log(shape._G(u)), np.log(u)
+        good = np.isfinite(depth) & (np.diff(depth, prepend=-np.inf) > 0)
+    return depth[good], place[good]

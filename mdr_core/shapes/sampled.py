@@ -1,0 +1,212 @@
+"""An indenter given by samples of its height, as a measured tip is."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .. import _check
+from .._numeric import chunks, root
+from .profile import Profile
+from .tables import read_samples
+
+#: Every sample meets every other one.
+_MOST_SAMPLES = 5000
+
+
+@dataclass(frozen=True)
+class Sampled(Profile):
+    """The polygon through samples of the height, solved exactly.
+
+    Its reduced height is x Σ sᵢ [arcsin(min(rᵢ₊₁, x)/x) − arcsin(rᵢ/x)] with the slopes sᵢ, from
+    Popov (2015), Eq. (3). The polygon must be convex: behind a vertex at which the slope falls,
+    g falls with a vertical tangent, and the contact would not be compact.
+
+    Parameters
+    ----------
+    r : array_like
+        Radii (m), strictly ascending from 0; at least two.
+    z : array_like
+        Heights (m) at `r`; they count from the first one.
+
+    Raises
+    ------
+    ValueError
+        If the samples are not as above, or pressed deeper than they reach.
+
+    Examples
+    --------
+    >>> tip = Sampled([0.0, 1.0, 2.0], [0.0, 1.0, 3.0])
+    >>> print(round(tip.reduced(1.0), 12), tip.deepest > 3)  # π/2
+    1.570796326795 True
+    """
+
+    r: tuple[float, ...]
+    z: tuple[float, ...]
+
+    def __post_init__(self):
+        r, z = (
+            _check.finite_array(f"Sampled {what}", values, unit="m", most=_check.LONGEST)
+            for what, values in (("r", self.r), ("z", self.z))
+        )
+        if r.ndim != 1 or r.shape != z.shape or r.size < 2:
+            raise ValueError(
+                f"Sampled r and z must be two lists of one length ≥ 2, got shapes {r.shape}, {z.shape}"
+            )
+        if r.size > _MOST_SAMPLES:
+            raise ValueError(
+                f"Sampled has {r.size} samples, more than {_MOST_SAMPLES}; thin them out, as in r[::10]"
+            )
+        if r[0] != 0:
+            raise ValueError(f"Sampled r[0] = {r[0]:g} m must be 0: add the sample at the tip")
+        tiny, remedy = (r > 0) & (r < _check.SHORTEST), "give it in SI units"
+        bound = f"must be 0 or at least {_check.SHORTEST:g}"
+        _check.refuse("Sampled r", r, tiny, bound, unit="m", remedy=remedy)
+        back = np.append(False, np.diff(r) <= 0)
+        _check.refuse("Sampled r", r, back, "does not ascend", unit="m", remedy="sort, and drop duplicates")
+        object.__setattr__(self, "r", tuple(r.tolist()))
+        object.__setattr__(self, "z", tuple((z - z[0]).tolist()))
+        self._refuse_concave()
+
+    @classmethod
+    def from_csv(cls, path, unit=None):
+        """The tip in a CSV file with two columns, radius and height.
+
+        Parameters
+        ----------
+        path : path-like
+            File with one sample a row: separated by commas, semicolons, tabs or blanks. Lines that
+            begin with # are passed over. A header may name the units, as in ``r (nm), z (nm)``.
+        unit : {"m", "mm", "um", "µm", "nm"}, optional
+            Unit of both columns, if the header does not name them.
+
+        Raises
+        ------
+        ValueError
+            If the file is not in UTF-8, a row is not two numbers, or no unit is given, or two that differ.
+        """
+        return cls(*read_samples(path, unit, _MOST_SAMPLES))
+
+    @classmethod
+    def convex_envelope(cls, r, z):
+        """The largest convex shape under the samples: what is left of a noisy tip for a compact contact.
+
+        Parameters
+        ----------
+        r, z : array_like
+            As for `Sampled`, convex or not.
+
+        Examples
+        --------
+        >>> Sampled.convex_envelope([0, 1, 2, 3], [0, 2, 2.5, 6]).r
+        (0.0, 2.0, 3.0)
+        """
+        r, z = (_check.finite_array(f"Sampled {n}", v, unit="m") for n, v in (("r", r), ("z", z)))
+        if r.ndim != 1 or r.shape != z.shape or r.size < 2:
+            raise ValueError(f"r, z must be two lists of one length ≥ 2, got shapes {r.shape}, {z.shape}")
+        hull = []
+        for point in zip(r.tolist(), z.tolist(), strict=True):
+            while len(hull) > 1 and _turns_down(*hull[-2:], point):
+                hull.pop()
+            hull.append(point)
+        return cls(*zip(*hull, strict=True))
+
+    def _refuse_concave(self):
+        r, z, slope = self._r, self._z, self._slope
+        # Straight within the rounding of the heights counts as straight.
+        noise = 4 * np.finfo(float).eps * (np.abs(z[1:]) + np.abs(z[:-1])) / np.diff(r)
+        fall = slope[:-1] - slope[1:]
+        concave = np.append(False, fall > noise[1:] + noise[:-1])
+        if slope[0] < 0:
+            raise ValueError(
+                f"Sampled z[1] = {z[1]:g} m lies below the tip; order the samples from the tip out"
+            )
+        if np.any(concave):
+            i = int(np.argmax(concave))
+            raise ValueError(
+                f"Sampled shape is concave at r[{i}] = {r[i]:g} m (slope {slope[i - 1]:g} before, "
+                f"{slope[i]:g} after), so that the contact would not be compact; smooth the samples or "
+                "take Sampled.convex_envelope(r, z)"
+            )
+        if not slope[-1] > 0:
+            raise ValueError("Sampled z is flat throughout; use FlatPunch")
+
+    # The polygon is a sum of truncated cones, one from each vertex, by the change of slope there.
+    _r = cached_property(lambda self: np.array(self.r))
+    _z = cached_property(lambda self: np.array(self.z))
+    _slope = cached_property(lambda self: np.diff(self._z) / np.diff(self._r))
+    _bend = cached_property(lambda self: np.diff(self._slope, prepend=0.0))
+
+    @cached_property
+    def _g(self):
+        """Reduced height at the vertices (m)."""
+        return self._reduced(self._r)
+
+    # The samples are one indenter, not many.
+    shape = ()
+    known_radius = property(lambda self: self.r[-1])
+    deepest = property(lambda self: float(self._g[-1]))
+    face_radius = property(lambda self: float(self._r[np.count_nonzero(self._g == 0) - 1]))
+
+    @cached_property
+    def kinks(self):
+        return tuple(g for g in self._g[1:-1].tolist() if g > 0)
+
+    @cached_property
+    def scale(self):
+        """Depth (m): a face's radius times the slope behind it; of a sharp tip that of the first kink."""
+        if self._g[1] > 0:
+            return self.kinks[0] if self.kinks else None
+        return float(self._slope[np.argmax(self._slope > 0)] * self.face_radius)
+
+    def _height(self, r):
+        beyond = np.maximum(r - self._r[-1], 0.0)
+        return np.interp(r, self._r, self._z) + self._slope[-1] * beyond
+
+    def _reduced(self, x):
+        return self._reduced_and_slope(x)[0]
+
+    def _reduced_slope(self, x):
+        return self._reduced_and_slope(x)[1]
+
+    def _reduced_and_slope(self, x):
+        """Sums over the vertices before x of their bends: times x arccos(r/x), and its slope."""
+        flat, r = np.ravel(x), self._r[:-1][self._bend != 0]
+        result, bend = np.empty((2, flat.size)), self._bend[self._bend != 0]
+        for rows in chunks(flat.size, max(1, 2**15 // r.size)):
+            place = flat[rows, None]
+            behind = root(place, r)
+            angle = np.where(r > 0, np.arctan2(behind, r), np.pi / 2)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                rate = np.where(place >= r, angle + r / behind, 0.0)
+            result[:, rows] = flat[rows] * (angle @ bend), rate @ bend
+        return result.reshape(2, *np.shape(x))
+
+    def _radius(self, depth):
+        # Behind a vertex g begins as a square root, and is smooth in t = √(x − r) there.
+        place = np.interp(depth, self._table, np.arange(self._table.size) / 8)
+        zone = np.minimum(place.astype(int), len(self.r) - 2)
+        vertex, end = self._r[zone], np.sqrt(np.diff(self._r))[zone]
+        t = np.maximum((place - zone) * end, np.sqrt(np.spacing(vertex)))
+        # Before the first vertex the tip is a cone; on a vertex the slope is infinite.
+        with np.errstate(all="ignore"):
+            t = np.where((zone > 0) | (depth == 0), t, np.sqrt(depth / (np.pi / 2 * self._slope[0])))
+            for _ in range(50):
+                reduced, slope = self._reduced_and_slope(vertex + t * t)
+                step = np.nan_to_num((reduced - depth) / (2 * t * slope), posinf=0.0, neginf=0.0)
+                way, t = t, np.clip(t - step, t / 8, end)
+                if np.all(np.abs(t * t - way * way) <= 8 * np.spacing(vertex + t * t)):
+                    break
+        radius = np.where(depth > 0, vertex + t * t, self.face_radius)
+        return np.where(depth <= self.deepest, radius, np.inf)
+
+    @cached_property
+    def _table(self):
+        """g (m) at eight places behind each vertex, at squares, for g begins there as a square root."""
+        steps = (np.arange(8) / 8) ** 2 * np.diff(self._r)[:, None]
+        return self._reduced(np.append(self._r[:-1, None] + steps, self._r[-1]))
+
+
+def _turns_down(first, middle, last):
+    (r0, z0), (r1, z1), (r2, z2) = first, middle, last
+    return (z1 - z0) * (r2 - r1) > (z2 - z1) * (r1 - r0)

@@ -1,0 +1,157 @@
+"""Indenters with a flat face: truncated cone and paraboloid, punch with a rounded edge."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import _check
+from .profile import OneLength
+
+
+class _FlatFaced(OneLength):
+    """A shape with a flat face of radius `flat_radius`, the length that G is written in.
+
+    With τ = √(u² − 1), arccos(1/u) = arctan τ.
+    """
+
+    flat_radius: float
+    _edge = 1.0
+    _length = property(lambda self: self.flat_radius)
+
+
+@dataclass(frozen=True)
+class TruncatedCone(_FlatFaced):
+    """Truncated cone z = s (r − b)₊, with g = s x arccos(b/x) for x > b.
+
+    From Popov (2015), Eq. (3).
+
+    Parameters
+    ----------
+    flat_radius : float
+        Radius b of the flat face (m), positive.
+    slope : float
+        Slope s of the cone, positive.
+
+    Examples
+    --------
+    >>> print(round(TruncatedCone(flat_radius=1.0, slope=3.0).reduced(2.0), 12))  # 2π
+    6.28318530718
+    """
+
+    flat_radius: float
+    slope: float
+
+    def __post_init__(self):
+        _check.set_positive(self, flat_radius="m", slope="")
+
+    _depth = property(lambda self: self.slope * self.flat_radius)
+
+    @staticmethod
+    def _Z(u):
+        return np.maximum(u - 1, 0.0)
+
+    @staticmethod
+    def _G(u):
+        return u * np.arctan(_tau(u))
+
+    @staticmethod
+    def _G_slope(u):
+        tau = _tau(u)
+        return np.where(u < 1, 0.0, np.arctan(tau) + 1 / tau)
+
+
+@dataclass(frozen=True)
+class TruncatedParaboloid(_FlatFaced):
+    """Truncated paraboloid z = (r² − b²)₊/(2R), with g = x √(x² − b²)/R for x > b.
+
+    From Popov (2015), Eq. (3).
+
+    Parameters
+    ----------
+    flat_radius : float
+        Radius b of the flat face (m), positive.
+    radius : float
+        Radius of curvature R of the paraboloid (m), positive.
+
+    Examples
+    --------
+    >>> print(round(TruncatedParaboloid(flat_radius=3.0, radius=1.0).reduced(5.0), 12))
+    20.0
+    """
+
+    flat_radius: float
+    radius: float
+
+    def __post_init__(self):
+        _check.set_positive(self, flat_radius="m", radius="m")
+
+    _depth = property(lambda self: self.flat_radius * (self.flat_radius / self.radius))
+
+    @staticmethod
+    def _Z(u):
+        return np.maximum(u - 1, 0.0) * ((u + 1) / 2)
+
+    @staticmethod
+    def _G(u):
+        return u * _tau(u)
+
+    @staticmethod
+    def _G_slope(u):
+        tau = _tau(u)
+        return np.where(u < 1, 0.0, tau + u * (u / tau))
+
+
+@dataclass(frozen=True)
+class RoundedPunch(_FlatFaced):
+    """Flat punch with a rounded edge: z = (r − b)₊²/(2R).
+
+    Reduced: g = (x/R)(√(x² − b²) − b arccos(b/x)) for x > b, from Popov (2015), Eq. (3).
+
+    Parameters
+    ----------
+    flat_radius : float
+        Radius b of the flat face (m), positive.
+    edge_radius : float
+        Radius of curvature R of the edge (m), positive.
+
+    Examples
+    --------
+    >>> print(round(RoundedPunch(flat_radius=1.0, edge_radius=1.0).reduced(2.0), 12))  # 2(√3 − π/3)
+    1.369706512745
+    """
+
+    flat_radius: float
+    edge_radius: float
+
+    def __post_init__(self):
+        _check.set_positive(self, flat_radius="m", edge_radius="m")
+
+    _depth = property(lambda self: self.flat_radius * (self.flat_radius / self.edge_radius))
+
+    @staticmethod
+    def _Z(u):
+        return np.maximum(u - 1, 0.0) ** 2 / 2
+
+    @staticmethod
+    def _G(u):
+        return u * _arctan_gap(_tau(u))
+
+    @staticmethod
+    def _G_slope(u):
+        tau = _tau(u)
+        return _arctan_gap(tau) + tau
+
+
+def _tau(u):
+    return np.sqrt(np.maximum(u - 1, 0.0) * (u + 1))
+
+
+# 1/3, −1/5, 1/7, …: enough for τ ≤ 1/2.
+_GAP = (1 / np.arange(3, 55, 2) * (-1.0) ** np.arange(26))[::-1]
+
+
+def _arctan_gap(tau):
+    """τ − arctan τ without cancellation, for τ ≥ 0."""
+    small = np.minimum(tau, 0.5)
+    square = small * small
+    return np.where(tau < 0.5, np.polyval(_GAP, square) * square * small, tau - np.arctan(tau))

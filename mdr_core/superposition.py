@@ -1,0 +1,268 @@
+"""Integrals over the live interval: each increment of depth is a flat punch of radius a(s).
+
+    radius_integral   ∫ a(s) ds over the depths s in [d_p, d]    force
+    energy_integral   ∫ (d − s) a(s) ds                          stored energy
+    radius_drop       a(d) − a(d_p)                              stiffness while yielding
+
+for arrays of states; `fields` has those that depend on the radius r. Moduli are the caller's business, here
+is geometry only, and of a shape no more is used than its contact radius a(s), g′(x) and its kinks.
+
+Far beyond the critical depth the interval is much shorter than the depths at its ends. Nodes are therefore
+depths *beyond d_p*, and closed forms are the interval's length times a positive mean; nothing here is a
+difference of two elastic curves.
+"""
+
+from functools import lru_cache, singledispatch
+
+import numpy as np
+from scipy.special import betainc
+
+from ._numeric import chunks, gauss_legendre
+from .shapes.interpolated import Interpolated
+from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
+from .yielding import LiveInterval
+
+_TINY = np.finfo(float).tiny
+
+
+@singledispatch
+def radius_integral(profile, live):
+    """∫ a(s) ds over the live interval (m²), elementwise."""
+    return _integrate(profile, live, _radius, moment=0)
+
+
+@singledispatch
+def energy_integral(profile, live):
+    """∫ (d − s) a(s) ds over the live interval (m³), elementwise."""
+    return _integrate(profile, live, _radius, moment=1)
+
+
+def _radius(profile, depth):
+    return profile._radius(depth)
+
+
+def _radius_rate(profile, depth):
+    """da/ds (dimensionless); 0 at a wall."""
+    with np.errstate(divide="ignore"):
+        return 1 / profile._reduced_slope(profile._radius(depth))
+
+
+def _integrate(profile, live, function, moment):
+    """∫ (d − s)^moment function(s) ds over the live interval, elementwise."""
+    if profile.shape:
+        unit, length, depth = profile.unit
+        parts = np.broadcast_arrays(live.lower / depth, live.upper / depth, live.length / depth)
+        return length * depth ** (moment + 1) * _integrate(unit, LiveInterval(*parts), function, moment)
+    lower, upper, length = (np.ravel(part) for part in (live.lower, live.upper, live.length))
+    result = np.zeros_like(length)
+    most = max(16, 2**16 // (1 + len(profile.kinks)))
+    for rows in chunks(length.size, most):
+        result[rows] = _sums(profile, lower[rows], upper[rows], length[rows], function, moment)
+    return result.reshape(np.shape(live.length))
+
+
+def _sums(profile, lower, upper, length, function, moment):
+    row, piece, begin, end, start = pieces(profile, lower, upper, length)
+    above = length[row] - end
+    # What lies between two cuts of one state is the same for all states.
+    inner = np.flatnonzero((row[2:] == row[:-2]) & _is_cut_by_shape(profile)) + 1
+    total = np.empty(row.size)
+    if inner.size:
+        zeroth, first = _whole_zones(profile, function)
+        total[inner] = zeroth[piece[inner]]
+        if moment:
+            total[inner] = first[piece[inner]] + above[inner] * zeroth[piece[inner]]
+    cut = np.ones(row.size, bool)
+    cut[inner] = False
+    beyond, weight = nodes(begin[cut], end[cut], start[cut], gauss_legendre(24))
+    values = weight * function(profile, lower[row[cut], None] + beyond)
+    if moment:
+        values *= length[row[cut], None] - beyond
+    total[cut] = values.sum(axis=1)
+    return np.bincount(row, total, minlength=length.size)
+
+
+@lru_cache(maxsize=64)
+def _whole_zones(profile, function):
+    """∫ function(s) ds and ∫ (top − s) function(s) ds over every stretch between two cuts, by number."""
+    cuts, feet = _cuts(profile)
+    zeroth, first = np.zeros((2, len(feet)))
+    low, end = cuts[:-1], np.diff(cuts)
+    beyond, weight = nodes(np.zeros_like(end), end, low - feet[1:-1], gauss_legendre(24))
+    values = weight * function(profile, low[:, None] + beyond)
+    zeroth[1:-1] = values.sum(axis=1)
+    first[1:-1] = (values * (end[:, None] - beyond)).sum(axis=1)
+    return zeroth, first
+
+
+def pieces(profile, lower, upper, length):
+    """Live intervals cut where a(s) is not smooth.
+
+    Returns
+    -------
+    row, piece : ndarray, shape (P,)
+        State that each piece belongs to, and the number of the stretch between cuts that it lies in.
+    begin, end : ndarray, shape (P,)
+        Its ends as depths beyond d_p (m), which do not feel the rounding of the depths.
+    start : ndarray, shape (P,)
+        Depth (m) of its beginning beyond the kink that it lies behind, or beyond the tip.
+    """
+    cuts, feet = _cuts(profile)
+    unit = np.ones_like(upper) if _is_cut_by_shape(profile) else np.where(upper > 0, upper, 1.0)
+    first = np.searchsorted(cuts, lower / unit, side="right")
+    count = np.maximum(np.searchsorted(cuts, upper / unit) - first, 0) + 1
+    row, behind = np.repeat(np.arange(len(count)), count), np.cumsum(count)
+    piece = first[row] + np.arange(len(row)) - (behind - count)[row]
+    ends = np.concatenate([[0.0], cuts])[piece] * unit[row] - lower[row]
+    begin = np.clip(ends, 0.0, length[row])
+    begin[behind - count] = 0.0
+    end = np.append(begin[1:], 0.0)
+    end[behind - 1] = length
+    kept = end > begin
+    row, piece, begin, end = row[kept], piece[kept], begin[kept], end[kept]
+    return row, piece, begin, end, np.maximum(lower[row] + begin - feet[piece] * unit[row], 0.0)
+
+
+def nodes(begin, end, start, rule):
+    """Nodes in pieces as depths beyond d_p (m), and their weights (m).
+
+    Behind a kink at the depth f the contact radius is smooth in σ = (s − f)^(1/4), whether it begins as a
+    root, as a third of a power, or straight: there the nodes of a rule on [0, 1] stand.
+    """
+    low, high = (np.sqrt(np.sqrt(part)) for part in (start, start + (end - begin)))
+    rise = (end - begin) / ((high * high + low * low) * (high + low))
+    low, rise, (node, share) = low[:, None], rise[:, None], rule
+    way = rise * node
+    beyond = begin[:, None] + way * (4 * low**3 + way * (6 * low**2 + way * (4 * low + way)))
+    return beyond, 4 * rise * share * (low + way) ** 3
+
+
+def _is_cut_by_shape(profile):
+    return profile.scale is not None or len(profile.kinks) > 0
+
+
+def _cuts(profile):
+    """Depths (m) at which live intervals are cut, and the kinks (or tip) behind which the pieces lie.
+
+    Where it is not known at which depths the shape changes, shares of the largest depth.
+    """
+    if not _is_cut_by_shape(profile):
+        return 1e-2 ** np.arange(4, 0, -1.0), np.zeros(5)
+    kinks = np.array(profile.kinks, dtype=float)
+    feet = np.append(0.0, kinks)
+    # Beyond a kink by as much as the depth there, a(s) goes over to another power.
+    over = feet + np.maximum(feet, profile.scale or 0.0)
+    over = over[(over > 0) & (over < np.append(kinks, np.inf))]
+    cuts = np.unique(np.concatenate([kinks, over]))
+    return cuts, feet[np.searchsorted(kinks, np.append(0.0, cuts), side="right")]
+
+
+@singledispatch
+def radius_drop(profile, live):
+    """a(d) − a(d_p) (m), elementwise: where something has yielded, the width of the elastic ring."""
+    if profile.shape:
+        unit, length, depth = profile.unit
+        parts = np.broadcast_arrays(live.lower / depth, live.upper / depth, live.length / depth)
+        return length * radius_drop(unit, LiveInterval(*parts))
+    a, c = profile._radius(live.upper), profile._radius(live.lower)
+    narrow = live.length < 1e-2 * live.upper
+    if not np.any(narrow):
+        return a - c
+    # ∫ da: the difference of the radii has few digits in a short interval. At the very tip, where it has
+    # all of them, the rate may be infinite.
+    with np.errstate(invalid="ignore"):
+        return np.where(narrow, _integrate(profile, live, _radius_rate, moment=0), a - c)
+
+
+@radius_integral.register
+def _(profile: Interpolated, live):
+    total = profile.area(live.upper) - profile.area(live.lower)
+    # In a short interval the difference has few digits.
+    short = live.length < 1e-3 * live.upper
+    return np.where(short, _integrate(profile, live, _radius, moment=0), total) if np.any(short) else total
+
+
+@radius_integral.register
+def _(profile: FlatPunch, live):
+    return profile.radius * live.length
+
+
+@energy_integral.register
+def _(profile: FlatPunch, live):
+    return profile.radius / 2 * live.length**2
+
+
+@radius_drop.register
+def _(profile: FlatPunch, live):
+    return np.zeros_like(live.length)
+
+
+@radius_integral.register
+def _(profile: Cone, live):
+    return (live.upper + live.lower) * live.length / (np.pi * profile.slope)
+
+
+@energy_integral.register
+def _(profile: Cone, live):
+    return live.length**2 * (live.upper + 2 * live.lower) / (3 * np.pi * profile.slope)
+
+
+@radius_drop.register
+def _(profile: Cone, live):
+    return live.length / (np.pi / 2 * profile.slope)
+
+
+@radius_integral.register
+def _(profile: Paraboloid, live):
+    # A³ − C³ with A² − C² = length.
+    A, C = np.sqrt(live.upper), np.sqrt(live.lower)
+    mean = (live.upper + A * C + live.lower) / np.maximum(A + C, _TINY)
+    return (2 / 3 * np.sqrt(profile.radius)) * mean * live.length
+
+
+@energy_integral.register
+def _(profile: Paraboloid, live):
+    # ∫ 2x²(A² − x²) dx from C to A = C + e, as a polynomial with positive terms in e.
+    C = np.sqrt(live.lower)
+    e = live.length / np.maximum(np.sqrt(live.upper) + C, _TINY)
+    polynomial = ((4 / 15 * e + 4 / 3 * C) * e + 8 / 3 * C**2) * e + 2 * C**3
+    return np.sqrt(profile.radius) * e**2 * polynomial
+
+
+@radius_drop.register
+def _(profile: Paraboloid, live):
+    both = np.sqrt(live.upper) + np.sqrt(live.lower)
+    return np.sqrt(profile.radius) * live.length / np.maximum(both, _TINY)
+
+
+@radius_integral.register
+def _(profile: PowerLaw, live):
+    q = 1 + 1 / profile.exponent
+    # 1 − (1 − fraction)^q without cancellation.
+    with np.errstate(divide="ignore"):
+        drop = -np.expm1(q * np.log1p(-_fraction(live)))
+    return profile._radius(live.upper) * live.upper / q * drop
+
+
+@energy_integral.register
+def _(profile: PowerLaw, live):
+    q = 1 + 1 / profile.exponent
+    a = profile._radius(live.upper)
+    return a * live.upper**2 * betainc(2, q, _fraction(live)) / (q * (q + 1))
+
+
+@radius_drop.register
+def _(profile: PowerLaw, live):
+    return -profile._radius(live.upper) * np.expm1(_log_ratio(live) / profile.exponent)
+
+
+def _fraction(live):
+    """Length of the live interval as a fraction of the depth, 0 where both vanish."""
+    return np.divide(live.length, live.upper, out=np.zeros_like(live.upper), where=live.upper > 0)
+
+
+def _log_ratio(live):
+    """ln(d_p/d) without cancellation: from the length where that is short, else from the ends."""
+    fraction = _fraction(live)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(fraction < 0.5, np.log1p(-fraction), np.log(live.lower / live.upper))

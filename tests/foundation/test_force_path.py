@@ -1,0 +1,83 @@
+"""Creep under a force in time: a Kelvin–Voigt foundation, against its own equations."""
+
+import math
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+
+MEDIUM = mdr.Medium(E_star=1e9, q_c=1.0, eta=0.25)
+DRY = mdr.Medium(E_star=1e9, q_c=1.0)
+D_C, TAU = MEDIUM.critical_depth, MEDIUM.relaxation_time
+
+
+def test_flat_punch_creeps_exponentially():
+    """Ramped in t₁ and held: d = (F/2E*b)(1 − (τ/t₁)(e^(t₁/τ) − 1) e^(−t/τ))."""
+    radius, depth, ramp = 1e-6, 0.8 * D_C, 0.2
+    force = 2 * MEDIUM.E_star * radius * depth * np.array([0, 1, 1, 1])
+    time = np.array([0, ramp, 1.0, 5.0])
+    result = mdr.creep(mdr.FlatPunch(radius), MEDIUM, np.array([0, 1, 1, 1]) * force, time * TAU)
+    expected = depth * (1 - (math.exp(ramp) - 1) / ramp * np.exp(-time[1:]))
+    # The default tolerance.
+    np.testing.assert_allclose(result.depth[1:], expected, rtol=0, atol=1e-4 * depth)
+    assert result.error <= 1e-4
+    np.testing.assert_array_equal(result.force, force)
+
+
+def test_beyond_yield_a_flat_punch_flows_at_a_constant_rate():
+    """The springs carry π q_c b at most; the dashpots the rest: 8ηb ḋ."""
+    radius, most = 1e-6, math.pi * MEDIUM.q_c * 1e-6
+    force = np.array([0, 1.5, 1.5, 1.5]) * most
+    time = np.array([0, 0.1, 20.0, 22.0]) * TAU
+    result = mdr.creep(mdr.FlatPunch(radius), MEDIUM, force, time)
+    rate = (result.depth[3] - result.depth[2]) / (time[3] - time[2])
+    assert rate == pytest.approx(0.5 * most / (8 * MEDIUM.eta * radius), rel=1e-3)
+
+
+@pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.Sphere(1e-5)])
+def test_creep_ends_at_the_depth_of_the_slow_path_and_recovery_at_the_imprint(shape):
+    slow = mdr.indent(shape, DRY, 3 * D_C)
+    force = np.array([0, 1, 1, 0, 0]) * slow.force
+    time = np.array([0, 0.1, 100.0, 100.1, 140.0]) * TAU
+    result = mdr.creep(shape, MEDIUM, force, time, tolerance=1e-3)
+    assert np.all(np.diff(result.depth[:3]) > 0)
+    assert result.depth[1] < 0.9 * 3 * D_C
+    # All dashpots against the springs of the ring: e^(−100(a − c)/a), less than e^(−18), is left.
+    assert result.depth[2] == pytest.approx(3 * D_C, rel=1e-3)
+    assert result.depth[4] == pytest.approx(slow.plastic_depth, rel=2e-3)
+    assert result.plastic_depth[4] == pytest.approx(slow.plastic_depth, rel=2e-3)
+    x = np.linspace(0, 1.1, 20) * slow.contact_radius
+    atol = 3e-3 * MEDIUM.yield_line_load
+    np.testing.assert_allclose(result[2].line_load(x), slow.line_load(x), rtol=0, atol=atol)
+
+
+def test_depths_lead_back_to_the_forces():
+    """Indented along the depths found, the chain carries on the average what was prescribed."""
+    slow = mdr.indent(mdr.Paraboloid(1e-5), DRY, 3 * D_C)
+    time = np.linspace(0, 2, 21) * TAU
+    force = slow.force * np.linspace(0, 1, 21)
+    result = mdr.creep(mdr.Paraboloid(1e-5), MEDIUM, force, time, tolerance=1e-3)
+    back = mdr.indent_in_time(mdr.Paraboloid(1e-5), MEDIUM, result.depth, time, tolerance=1e-4)
+    # Force at the end of a straight piece with its mean rate: half a step late, in first order.
+    late = (force[1:] + force[:-1]) / 2
+    np.testing.assert_allclose(back.force[5:], late[4:], rtol=0, atol=0.03 * slow.force)
+
+
+def test_without_viscosity_times_do_not_matter():
+    force = np.array([0.0, 1e-6, 2e-6])
+    timed = mdr.creep(mdr.Cone(0.3), DRY, force, [0, 1, 2])
+    slow = mdr.indent_to_force(mdr.Cone(0.3), DRY, force)
+    # The default tolerance.
+    np.testing.assert_allclose(timed.depth, slow.depth, rtol=0, atol=1e-4 * slow.depth[-1])
+
+
+def test_bad_arguments_are_refused():
+    with pytest.raises(ValueError, match=r"time\[1\] = 0 s does not increase"):
+        mdr.creep(mdr.Cone(0.3), MEDIUM, [0.0, 1e-6], [0, 0])
+    with pytest.raises(ValueError, match=r"force\[1\] = -1e-06 N is negative"):
+        mdr.creep(mdr.Cone(0.3), MEDIUM, [0.0, -1e-6], [0, 1])
+    with pytest.raises(ValueError, match=r"force\[1\] = 2 N must be less than"):
+        mdr.creep(mdr.FlatPunch(1e-6), DRY, [0.0, 2.0], [0, 1])
+    with pytest.raises(ValueError, match=r"force\[0\] = 1 N must be less than"):
+        mdr.creep(mdr.FlatPunch(1e-6), MEDIUM, [1.0, 1.0], [0, 1])

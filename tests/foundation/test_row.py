@@ -1,0 +1,154 @@
+"""The chain as itself: against the closed forms, in small steps, and in its own energy balance."""
+
+import math
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+
+from ..shapes import POWER_LAWS, SHAPES, name
+
+MEDIUM = mdr.Medium(E_star=1e9, q_c=1.0)
+D_C = MEDIUM.critical_depth
+HISTORIES = (
+    (0.4 * D_C,),
+    (3.0 * D_C,),
+    (40.0 * D_C,),
+    (3.0 * D_C, 2.6 * D_C),
+    (4.0 * D_C, 2.9 * D_C, 5 * D_C),
+)
+# τ = 1 ns.
+VISCOUS = mdr.Medium(E_star=1e9, q_c=1.0, eta=0.25)
+TAU = VISCOUS.relaxation_time
+
+
+def pressed(shape, history, n, medium=MEDIUM):
+    """The chain after a history, with edges on the last contact and plastic radius; and the closed form."""
+    closed = mdr.indent(shape, medium, history)
+    state = closed[-1]
+    nodes = (state.contact_radius, state.plastic_radius)
+    row = mdr.Foundation(shape, medium, n, np.max(closed.contact_radius), nodes=nodes)
+    for depth in history:
+        row = row.advance(depth)
+    return row, state
+
+
+@pytest.mark.parametrize("history", HISTORIES)
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+class TestClosedForm:
+    """Infinitely slowly, the chain is the rate-independent solution element by element."""
+
+    def test_line_load_and_states(self, shape, history):
+        row, state = pressed(shape, history, 400)
+        # d − g(x) loses the digits by which the depth exceeds d_c.
+        scale = MEDIUM.E_star * max(history)
+        np.testing.assert_allclose(row.line_load, state.line_load(row.x), rtol=0, atol=4e-15 * scale)
+        contact, plastic = (np.abs(row.x) < r for r in (state.contact_radius, state.plastic_radius))
+        expected = np.where(plastic, "yielded", np.where(contact, "elastic", "free"))
+        np.testing.assert_array_equal(row.state, expected)
+        imprint = np.maximum(state.plastic_depth - shape.reduced(row.x), 0.0)
+        np.testing.assert_allclose(row.plastic, imprint, rtol=0, atol=4e-15 * max(history))
+
+    def test_sums_converge_in_second_order(self, shape, history):
+        errors = []
+        for n in (200, 400):
+            row, state = pressed(shape, history, n)
+            sums = np.array([row.force, row.stored_energy, row.plastic_work])
+            exact = np.array([state.force, state.stored_energy, state.plastic_work])
+            errors.append(np.abs(sums - exact) / np.where(exact > 0, exact, 1.0))
+        # Halved elements quarter the error; 3.4 allows for a whole number of them in every stretch.
+        assert np.all((errors[1] <= errors[0] / 3.4) | (errors[1] < 1e-12))
+        # The midpoint rule errs by up to about h², h = 1/100 where a zone has half of the elements.
+        assert np.max(errors[1]) < 1e-4
+
+
+@pytest.mark.parametrize("history", HISTORIES)
+@pytest.mark.parametrize("shape", POWER_LAWS, ids=name)
+def test_a_thousand_elements_give_the_force_to_a_millionth(shape, history):
+    row, state = pressed(shape, history, 1000)
+    assert len(row.x) == 1000
+    # h²/24 g″ summed, with h = a/500: 0.5e-6 for the paraboloid, 1.0e-6 for n = 1/2.
+    assert row.force == pytest.approx(state.force, rel=1e-6)
+
+
+def test_force_is_the_sum_over_the_picture():
+    row, state = pressed(mdr.Cone(0.3), (3 * D_C,), 100)
+    assert np.all(np.diff(row.x) > 0)
+    np.testing.assert_array_equal(row.x, -row.x[::-1])
+    assert np.sum(row.width) == pytest.approx(2 * row.half_width, rel=1e-14)
+    # A straight line load, with its kinks on edges: exact.
+    assert np.sum(row.line_load * row.width) == pytest.approx(state.force, rel=1e-14)
+    assert row.force == pytest.approx(state.force, rel=1e-14)
+
+
+@pytest.mark.parametrize("shape", [mdr.FlatPunch(1e-6), mdr.ParabolicPunch(1e-5, 1e-6)], ids=name)
+def test_elements_beyond_a_wall_stay_free(shape):
+    row = mdr.Foundation(shape, VISCOUS, 40, 2e-6).advance(5 * D_C, TAU).advance(2 * D_C, TAU)
+    beyond = np.abs(row.x) > 1e-6
+    assert np.any(beyond)
+    assert not np.any(row.contact[beyond] | (row.elastic + row.plastic > 0)[beyond])
+    assert np.isfinite(row.force)
+
+
+def test_a_foundation_does_not_change():
+    row = mdr.Foundation(mdr.Cone(0.3), MEDIUM, 10, 1e-6)
+    before = row.force, row.line_load.copy()
+    deeper = row.advance(D_C)
+    assert row.depth == 0.0
+    assert deeper.depth == D_C
+    np.testing.assert_array_equal(row.line_load, before[1])
+    with pytest.raises(ValueError, match="read-only"):
+        row.line_load[0] = 1.0
+
+
+def test_unloaded_far_beyond_the_critical_depth():
+    """At 10⁹ d_c the elements carry their live depth, not the difference of two depths."""
+    punch, deep = mdr.FlatPunch(1e-6), 1e9 * D_C
+    row = mdr.Foundation(punch, MEDIUM, 10, 1e-6).advance(deep)
+    live = (deep - 0.25 * D_C) - deep + D_C
+    back = row.advance(deep - 0.25 * D_C)
+    assert back.elastic[0] == pytest.approx(live, rel=1e-15)
+    assert back.line_load[0] == pytest.approx(MEDIUM.E_star * live, rel=1e-15)
+
+
+def test_without_yield_nothing_remains():
+    row = (
+        mdr.Foundation(mdr.Cone(0.3), mdr.Medium(1e9, eta=1.0), 100, 1e-6).advance(1e-7, 1e-9).advance(0.0)
+    )
+    assert row.plastic_work == 0.0
+    assert not np.any(row.plastic)
+    assert row.stored_energy == 0.0
+
+
+def test_a_million_elements():
+    """Many elements in a call: the force of a sphere to the rounding of the sum."""
+    shape = mdr.Sphere(1e-5)
+    row, state = pressed(shape, (3 * D_C,), 10**6)
+    assert row.force == pytest.approx(state.force, rel=1e-11)
+
+
+def test_bad_arguments_are_refused():
+    cone = mdr.Cone(0.3)
+    for n, message in (
+        (7, "n = 7 must be an even whole number"),
+        (0, "n = 0 must be"),
+        (2.5, "even whole"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            mdr.Foundation(cone, MEDIUM, n, 1e-6)
+    with pytest.raises(ValueError, match=r"half_width = -1 m must be finite and positive"):
+        mdr.Foundation(cone, MEDIUM, 10, -1.0)
+    with pytest.raises(ValueError, match=r"half_width = 3 m is beyond .* 2 m"):
+        mdr.Foundation(mdr.Sampled([0, 1, 2], [0, 1, 3]), MEDIUM, 10, 3.0)
+    with pytest.raises(ValueError, match=r"n = 2 elements cannot stand on the 3 stretches"):
+        mdr.Foundation(mdr.TruncatedCone(1e-6, 0.3), MEDIUM, 2, 3e-6, nodes=[2e-6])
+    row = mdr.Foundation(cone, MEDIUM, 10, 1e-6)
+    with pytest.raises(ValueError, match=r"half_width = 1e-06 m is less than the contact radius"):
+        row.advance(1e-6)
+    with pytest.raises(ValueError, match=r"dt = 0 s must be positive"):
+        row.advance(1e-9, 0.0)
+    with pytest.raises(ValueError, match="depth = nan m must be finite"):
+        row.advance(math.nan)
+    with pytest.raises(TypeError, match="profile must be"):
+        mdr.Foundation(0.3, MEDIUM, 10, 1e-6)

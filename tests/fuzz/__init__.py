@@ -1,1 +1,0 @@
-"""Random calls of every public function; `tests.fuzz_long` runs them."""

@@ -1,0 +1,184 @@
+"""Whatever is handed in: a right answer, or an error that says what is wrong and what to do."""
+
+import threading
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+
+MEDIUM = mdr.Medium(1e9, 10.0)
+
+
+@pytest.mark.parametrize(
+    "depth",
+    [np.float32(2.0**-20), np.array(2.0**-20), np.longdouble(2.0**-20)],
+    ids=["float32", "0-d", "longdouble"],
+)
+def test_kinds_of_numbers_do_not_matter(depth):
+    """The same double, in whatever NumPy type it comes."""
+    cone = mdr.Cone(0.3)
+    assert mdr.indent(cone, MEDIUM, depth).force == mdr.indent(cone, MEDIUM, 2.0**-20).force
+    hit = mdr.impact(mdr.Cone(np.float32(0.25)), MEDIUM, depth, np.int8(2))
+    assert hit.max_depth == mdr.impact(mdr.Cone(0.25), MEDIUM, 2.0**-20, 2.0).max_depth
+
+
+@pytest.mark.parametrize(
+    "shape", [mdr.Cone([0.1, 0.2]), mdr.FlatPunch([1e-6, 2e-6]), mdr.Sphere([1.0, 2.0])]
+)
+def test_geometry_of_many_indenters(shape):
+    """Radii and depths broadcast against the indenters."""
+    for function in ("height", "reduced", "contact_radius"):
+        many = getattr(shape, function)([[0.0], [1e-7]])
+        one = [getattr(shape.entries(i), function)([0.0, 1e-7]) for i in range(2)]
+        # A few roundings, of arrays of other lengths.
+        np.testing.assert_allclose(many, np.transpose(one), rtol=2e-15)
+        with pytest.raises(ValueError, match=r"\(3,\), indenters \(2,\) do not broadcast"):
+            getattr(shape, function)([1e-7, 2e-7, 3e-7])
+
+
+def nested(depth):
+    value = 1.0
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
+def test_arrays_stay_what_they_are():
+    """Empty ones give empty ones, and read-only ones are taken."""
+    assert mdr.indent(mdr.Cone(0.3), MEDIUM, []).force.shape == (0,)
+    assert mdr.impact(mdr.Smooth(lambda r: 0.3 + 0 * r), MEDIUM, 1e-9, []).contact_time.shape == (0,)
+    depth = np.array([1e-6, 2e-6])
+    depth.setflags(write=False)
+    assert mdr.indent(mdr.Cone(0.3), MEDIUM, depth).force.shape == (2,)
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: mdr.Medium([1e9, [2e9]]), "E_star must be real numbers, got"),
+        (lambda: mdr.Medium(1e300), "E_star = 1e.300 Pa must lie between 1e-60 and 1e.60"),
+        (
+            lambda: mdr.Medium.from_bodies([1e9, 2e9], [0.3, 0.3, 0.3]),
+            r"E1 \(2,\), nu1 \(3,\) do not broadcast",
+        ),
+        (lambda: mdr.hardness_class([], [], 1.0), "two energies or more"),
+        (lambda: mdr.Foundation(mdr.Cone([0.1, 0.2]), MEDIUM, 10, 1e-6), "one indenter on one"),
+        (lambda: mdr.chain_impact(mdr.Cone(0.1), mdr.Medium([1e9, 2e9]), 1.0, 1.0), "one indenter on one"),
+        (lambda: mdr.chain_impact(3, MEDIUM, 1.0, 1.0), "profile must be an mdr_core shape"),
+        (lambda: mdr.Foundation(mdr.Cone(0.1), MEDIUM, 10**9, 1e-6), "even whole number up to 1e.07"),
+        (lambda: mdr.Medium(nested(40)), r"E_star must be real numbers, got \[\[\[\[\[\[\[\.\.\."),
+        (
+            lambda: mdr.indent(nested(2000), MEDIUM, 1.0),
+            r"an mdr_core shape such as .*, got \[\[\[\[\[\[\[",
+        ),
+        (
+            lambda: mdr.abel.stress_from_line_load([0, 1], [1, 0], 0, np.array(["auto"] * 2)),
+            "must be one of",
+        ),
+        (lambda: mdr.Medium(np.longdouble("1e4000")), "E_star = inf Pa must be finite"),
+        (
+            lambda: mdr.Cone(np.ma.array([1.0, 2.0], mask=[0, 1])),
+            "slope must be real numbers, got masked_array",
+        ),
+        (lambda: mdr.abel.kappa([1.0, [2.0]]), "exponent n must be real numbers"),
+        (lambda: mdr.Scene.from_json(b'{"\xff"'), "scene: not UTF-8 text"),
+        (lambda: mdr.ScalingLaw(["a"], 1.0), "must be one of 'a', 'b', 'c'"),
+        (lambda: mdr.indent_to_force(mdr.Cone(0.1), MEDIUM, 1e-300), "must be 0 or at least 1e-60"),
+        (lambda: mdr.Sampled(np.arange(10**6), np.arange(10**6)), "1000000 samples, more than 5000; thin"),
+    ],
+)
+def test_refusals_name_the_bound_and_the_remedy(make, says):
+    with pytest.raises((ValueError, TypeError), match=says):
+        make()
+
+
+def test_an_imprint_deeper_than_the_shape_is_refused():
+    tip = mdr.Sampled([0.0, 1e-8], [0.0, 1e-9])
+    with pytest.raises(ValueError, match="plastic_depth = 1e-07 m is deeper than the shape is known"):
+        mdr.impact(tip, MEDIUM, 1e-9, 0.1, plastic_depth=1e-7)
+
+
+def test_forces_of_any_span_have_their_depths():
+    """A path from nN to N: unloaded parts are found as well as the peak."""
+    force = [3.8e-9, 9.4e-6, 1.5e-11, 3.8]
+    for shape in (mdr.TruncatedCone(1e-3, 0.1), mdr.Cone(2e-8)):
+        result = mdr.indent_to_force(shape, mdr.Medium(2e9), force)
+        # Depths of a virgin elastic medium do not depend on the past.
+        np.testing.assert_allclose(result.force, force, rtol=1e-12)
+
+
+class TestBigFiles:
+    def test_a_long_table_is_refused(self, tmp_path):
+        path = tmp_path / "tip.csv"
+        path.write_text("r (nm), z (nm)\n" + "".join(f"{i}, {i}\n" for i in range(10**6)))
+        with pytest.raises(ValueError, match="more than 5000 samples; thin them out"):
+            mdr.Sampled.from_csv(path)
+
+    @pytest.mark.parametrize("text", ["[" * 10**7, '{"a":' * 10**6, "9" * 10**7, b"\xff" * 10**6])
+    def test_deep_and_wide_json_is_refused(self, text):
+        with pytest.raises(ValueError, match="scene: "):
+            mdr.Scene.from_json(text)
+
+    @pytest.mark.parametrize("depth", [33, 64, *range(980, 1000)])
+    def test_a_number_that_is_deep_is_refused(self, depth):
+        """Deep enough to be too much for NumPy, and for what quotes it, in a scene that is JSON."""
+        scene = mdr.Scene(mdr.Cone(0.3), MEDIUM, mdr.DepthPath(1e-6)).to_json()
+        with pytest.raises(ValueError, match="scene"):
+            mdr.Scene.from_json(scene.replace("1000000000.0", "[" * depth + "1" + "]" * depth))
+
+    def test_a_wide_path_is_read(self):
+        scene = mdr.Scene(mdr.Cone(0.3), MEDIUM, mdr.DepthPath(np.linspace(0, 1e-6, 10**5)))
+        assert mdr.Scene.from_json(scene.to_json()) == scene
+
+
+def test_eight_threads_get_the_same_results():
+    """On shapes that remember what they have computed, from the first call on."""
+
+    def everything(shape):
+        hit = mdr.impact(shape, mdr.Medium(1e9, 10.0), 1e-9, [1e-3, 0.1])
+        state = hit[1].deepest
+        return np.hstack([hit.max_depth, hit.restitution, hit.contact_time, state.pressure([0.0, 1e-8])])
+
+    def fresh():
+        r = np.linspace(0.0, 1e-5, 12)
+        return mdr.Sampled(r, r**2 / 2e-5), mdr.Smooth(lambda r: r / 1e-5), mdr.RoundedCone(1e-6, 0.3)
+
+    expected = [everything(shape) for shape in fresh()]
+    shared, results, start = fresh(), [None] * 8, threading.Barrier(8)
+
+    def work(i):
+        start.wait()
+        results[i] = [everything(shape) for shape in shared]
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for result in results:
+        for one, other in zip(result, expected, strict=True):
+            # Half a table would be wrong in its first digits.
+            np.testing.assert_allclose(one, other, rtol=1e-13)
+
+
+def test_a_contact_beyond_double_precision_is_refused():
+    with pytest.raises(ValueError, match="depth = 1e-09 m has a contact beyond double precision"):
+        mdr.PowerLaw(1e-320, 2.0).contact_radius(1e-9)
+    with pytest.raises(ValueError, match="depth = 1000 m has a contact beyond double precision"):
+        mdr.indent(mdr.PowerLaw(1.0, 0.01), MEDIUM, 1e3)
+    with pytest.raises(ValueError, match=r"depth = 1e\+140 m is beyond 1e\+60; give it in SI units"):
+        mdr.indent(mdr.Paraboloid(1e-6), MEDIUM, 1e140)
+
+
+def test_no_indenters_at_all():
+    assert mdr.impact(mdr.Sphere([]), MEDIUM, 1.0, 1.0).max_depth.shape == (0,)
+
+
+def test_stress_at_a_radius_next_to_nothing():
+    """The stress of q = 1 − x² at the axis is that at any radius that is small enough."""
+    x = np.linspace(0, 1, 11)
+    stress = mdr.abel.stress_from_line_load(x, 1 - x * x, [1e-30, 1e-60, 0.0])
+    np.testing.assert_allclose(stress, stress[2], rtol=1e-13)
+    with pytest.raises(ValueError, match="radius r = 1e-300 m must be 0 or lie between 1e-60 and"):
+        mdr.abel.stress_from_line_load(x, 1 - x * x, 1e-300)

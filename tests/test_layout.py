@@ -1,0 +1,109 @@
+"""How the package is laid out: what it shows, and that imports point down only."""
+
+import ast
+import inspect
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+
+PACKAGE = Path(mdr.__file__).parent
+# From the bottom up; a module may import what stands before it.
+ORDER = (
+    "_check", "_numeric", "abel", "shapes.tables", "shapes.profile", "shapes.power", "shapes.rounded",
+    "shapes.truncated", "shapes.sampled", "shapes.smooth", "shapes.interpolated", "medium", "results",
+    "foundation.element", "foundation.fronts", "foundation.reach", "foundation.row",
+    "foundation.depth_path", "foundation.force_path", "foundation.free_body", "foundation.impact",
+    "yielding", "superposition", "fields", "indentation", "energy_balance", "contact_time", "scaling",
+    "equation_of_motion", "motion", "impact", "scene", "__init__",
+)  # fmt: skip
+# What the chain bears witness of.
+CHECKED = {
+    "yielding", "superposition", "fields", "indentation", "impact", "energy_balance", "contact_time",
+    "equation_of_motion", "motion", "scaling", "shapes.interpolated",
+}  # fmt: skip
+
+
+def modules():
+    for path in sorted(PACKAGE.rglob("*.py")):
+        name = ".".join(path.relative_to(PACKAGE).with_suffix("").parts)
+        # Folders have no content of their own.
+        if not name.endswith(".__init__"):
+            yield name, path
+
+
+def imports(name, path):
+    """Modules of the package that one of them imports, but for names of types in annotations."""
+    here = name.split(".")[:-1]
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    typing = [n for n in ast.walk(tree) if isinstance(n, ast.If) and "TYPE_CHECKING" in ast.unparse(n.test)]
+    skipped = {id(n) for each in typing for n in ast.walk(each)}
+    found = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            assert not any(alias.name.startswith("mdr_core") for alias in node.names), name
+        if not isinstance(node, ast.ImportFrom) or not node.level or id(node) in skipped:
+            continue
+        base = [*here[: len(here) + 1 - node.level], *(node.module.split(".") if node.module else [])]
+        parts = [".".join([*base, alias.name]) for alias in node.names]
+        found |= {part if part in KNOWN else ".".join(base) for part in parts}
+    return found
+
+
+KNOWN = {name for name, _ in modules()}
+IMPORTS = {name: imports(name, path) for name, path in modules()}
+
+
+def test_every_module_has_its_place():
+    assert set(ORDER) == KNOWN
+    assert len({name.split(".")[0] for name in KNOWN}) <= 22
+
+
+@pytest.mark.parametrize("name", ORDER)
+def test_imports_point_down(name):
+    assert IMPORTS[name] <= set(ORDER[: ORDER.index(name)])
+
+
+def test_the_chain_imports_nothing_that_it_checks():
+    reached, new = set(), {name for name in KNOWN if name.startswith("foundation.")}
+    while new:
+        reached |= new
+        new = set().union(*(IMPORTS[name] for name in new)) - reached
+    # The search has gone down to the bottom.
+    assert {"medium", "shapes.profile", "_check"} <= reached
+    assert not reached & CHECKED
+
+
+def test_only_public_names_are_shown():
+    assert dir(mdr) == sorted(mdr.__all__)
+    assert all(hasattr(mdr, name) for name in mdr.__all__)
+
+
+@pytest.mark.parametrize("function", [mdr.indent, mdr.indent_to_force])
+def test_slow_paths_take_no_times(function):
+    assert "time" not in inspect.signature(function).parameters
+    state = function(mdr.Cone(0.3), mdr.Medium(1e9, 1.0, 1.0), [1e-9, 2e-9])
+    assert type(state) is mdr.Indentation
+
+
+@pytest.mark.parametrize("function", [mdr.indent_in_time, mdr.creep])
+@pytest.mark.parametrize("eta", [0.0, 1.0])
+def test_paths_in_time_are_of_one_type(function, eta):
+    path = function(mdr.Cone(0.3), mdr.Medium(1e9, 1.0, eta), [0.0, 1e-9], [0.0, 1.0], tolerance=1e-2)
+    assert type(path) is mdr.TimedIndentation
+
+
+def test_both_impacts_answer_the_same_names():
+    """Besides them one has its closed form's parts and limits, the other its chain and error estimates."""
+    shape, medium = mdr.Cone(0.3), mdr.Medium(1e9, 10.0)
+    hit, chain = mdr.impact(shape, medium, 1e-9, 0.1), mdr.chain_impact(shape, medium, 1e-9, 0.1)
+    names, others = ({n for n in dir(each) if not n.startswith("_")} for each in (hit, chain))
+    assert names - others == {"deepest", "growth", "rebound", "fast_limit"}
+    assert others - names == {"error", "errors", "foundation"}
+    for name in sorted(names & others - {"profile", "medium", "model", "motion"}):
+        one, other = getattr(hit, name), getattr(chain, name)
+        # The tolerance of the chain is 1e-6 of the depth, of which forces, areas and times are powers.
+        assert other == pytest.approx(one, rel=3e-5), name
+        assert isinstance(one, float | np.floating), name
