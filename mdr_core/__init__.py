@@ -22,6 +22,7 @@ from .shapes.rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
 from .shapes.sampled import Sampled
 from .shapes.smooth import Smooth
 from .shapes.truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
+from .stress import Stress, StressPeak
 
 __all__ = [
     "ChainImpact",
@@ -48,6 +49,8 @@ __all__ = [
     "Scene",
     "Smooth",
     "Sphere",
+    "Stress",
+    "StressPeak",
     "TimedIndentation",
     "TruncatedCone",
     "TruncatedParaboloid",

@@ -115,6 +115,26 @@ def tanh_sinh(step=1 / 28, last=3.4):
     return node, weight / weight.sum()
 
 
+@lru_cache
+def crowded(step=0.4, last=33.0):
+    """Nodes and weights on [0, 1] for a function that is singular at 0, or just beside it.
+
+    Nodes stand at e^(−y), at even steps of t. As y grows as t, a singularity at a distance δ beside the
+    interval stays π/2 away from all t, however small δ is: the error is e^(−π²/step), and down to 10⁻¹³ no
+    distance costs more than another. At both ends y runs off as an exponential, for what is left there.
+
+    Returns
+    -------
+    node, gap, weight : ndarray
+        With `gap` = 1 − `node`, free of rounding.
+    """
+    t = np.arange(-3.2, last, step)
+    rise = 1 / (1 + np.exp(np.exp(-t) - t))
+    y = np.logaddexp(0.0, t - np.exp(-t)) + np.exp(t - last + 6)
+    weight = np.exp(-y) * (rise * (1 + np.exp(-t)) + np.exp(t - last + 6))
+    return np.exp(-y), -np.expm1(-y), weight / weight.sum()
+
+
 def root(x, r):
     """√(x² − r²) of two lengths without cancellation or underflow, 0 for x < r."""
     return np.sqrt(np.maximum(x - r, 0.0)) * np.sqrt(x + r)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import _check, fields
+from . import _check, fields, stress
 from ._numeric import increasing_root, root
 from .medium import Medium, check_pair
 from .results import CLOSED_FORM
@@ -275,6 +275,67 @@ class Indentation:
     def _displacement(self, live, r):
         r = self._radii(r)
         return fields.displacement_integral(self.profile, live, r.ravel()).reshape(r.shape)[()]
+
+    def stress(self, r, z):
+        """Stress tensor (Pa) at radii r and depths z ≥ 0 below the surface (m), which broadcast.
+
+        Each increment of depth adds that of a flat punch, and so do the dashpots; residual stresses of the
+        imprint are not in it. Even in r; at z = 0 with σ_zz = −p, and infinite where p is. Of one state, a
+        `Stress` right to 10⁻⁸ of the largest one, and to 10⁻⁶ closer to the surface than 10⁻³ a; next to the
+        axis of a tip of exponent n < 1/2 that has not yielded, to 10⁻⁴.
+
+        Parameters
+        ----------
+        r, z : float or array_like
+            Radius and depth (m); 0 < z < 10⁻¹³ of the ring between c and a counts as that deep.
+
+        Examples
+        --------
+        >>> from mdr_core import Medium, Paraboloid
+        >>> state = indent(Paraboloid(radius=1.0), Medium(E_star=1.0), 0.01)
+        >>> print(round(state.stress(0.0, state.contact_radius).zz / state.pressure(0.0), 9))  # Huber: −1/2
+        -0.5
+        """
+        self._one_state("stress")
+        r, z = self._radii(r), stress.depths(z)
+        shape = _check.common_shape("stress", r=r, z=z)
+        return stress.stress(self, np.broadcast_to(r, shape), np.broadcast_to(z, shape))
+
+    def stress_peak(self, quantity="max_shear"):
+        """Where in one state the shear stress, or `quantity="von_mises"`, is largest, and how large.
+
+        Infinite at the rim of a flat face and at one that the dashpots press down; for ν < 1/2 also at an
+        edge of the shape and at a sharp tip that have not yielded. A `StressPeak` with `value` (Pa) to
+        10⁻⁸, and the place `r`, `z` (m) to about 10⁻⁴ of the contact radius.
+
+        Examples
+        --------
+        >>> from mdr_core import Medium, Paraboloid
+        >>> state = indent(Paraboloid(radius=1.0), Medium(E_star=1.0, poisson=0.3), 0.01)
+        >>> peak = state.stress_peak()
+        >>> print(f"{peak.value / state.pressure(0.0):.3f} p0 at {peak.z / state.contact_radius:.3f} a")
+        0.310 p0 at 0.481 a
+        """
+        self._one_state("stress_peak")
+        return stress.stress_peak(self, _check.one_of("quantity", quantity, stress.SIZES))
+
+    def largest_stress(self, z, quantity="max_shear"):
+        """Largest shear stress (Pa), or `quantity="von_mises"`, at each depth z ≥ 0 (m) below the surface.
+
+        Over all radii and all states of a path: of an impact that of `motion.states`.
+
+        Examples
+        --------
+        >>> from mdr_core import Medium, Paraboloid, impact
+        >>> medium = Medium(E_star=1.0, poisson=0.3)
+        >>> hit = impact(Paraboloid(radius=1.0), medium, 1.0, 0.01)
+        >>> largest = hit.motion(9).states.largest_stress(0.481 * hit.contact_radius)
+        >>> print(f"{largest / hit.deepest.pressure(0.0):.3f} p0")
+        0.310 p0
+        """
+        return stress.largest_stress(
+            self, stress.depths(z), _check.one_of("quantity", quantity, stress.SIZES)
+        )
 
     def _one_state(self, field):
         if np.ndim(self.depth):

@@ -23,6 +23,12 @@ def check_pair(profile, medium, what=None):
         )
 
 
+def _poisson(quantity, ratio):
+    """A Poisson ratio as a float array."""
+    ratio, bound = _check.finite_array(quantity, ratio), "must lie in −1 < ν ≤ 0.5"
+    return _check.refuse(quantity, ratio, ~((ratio > -1) & (ratio <= 0.5)), bound)
+
+
 @dataclass(frozen=True)
 class Medium:
     """A visco-elastic half-space with hardness inversely proportional to the contact radius.
@@ -37,6 +43,8 @@ class Medium:
         is q_c/a. Positive; infinite (the default) means that nothing yields.
     eta : float, optional
         Dynamic viscosity η (Pa·s), not negative; 0 (the default) means rate-independent.
+    poisson : float, optional
+        Poisson ratio ν of the half-space, −1 < ν ≤ 1/2; beside E* only the stress below feels it.
 
     Each may be an array for many impacts at once (`impact`); then every property is one too.
 
@@ -55,6 +63,7 @@ class Medium:
     E_star: float
     q_c: float = np.inf
     eta: float = 0.0
+    poisson: float = 0.5
 
     def __post_init__(self):
         set_ = object.__setattr__
@@ -62,7 +71,8 @@ class Medium:
         q_c = _check.positive("yield constant q_c", self.q_c, unit="N/m", infinite=True)
         set_(self, "q_c", q_c)
         set_(self, "eta", _check.positive("viscosity eta", self.eta, unit="Pa·s", zero=True))
-        _check.common_shape("medium", E_star=self.E_star, q_c=self.q_c, eta=self.eta)
+        set_(self, "poisson", _check.frozen(_poisson("Poisson ratio poisson", self.poisson).copy()))
+        _check.common_shape("medium", E_star=self.E_star, q_c=self.q_c, eta=self.eta, poisson=self.poisson)
 
     @classmethod
     def from_bodies(cls, E1, nu1, E2=np.inf, nu2=0.0, q_c=np.inf, eta=0.0):
@@ -75,7 +85,7 @@ class Medium:
         E1, E2 : float
             Young's moduli (Pa), positive; infinite for a rigid body. Not both infinite.
         nu1, nu2 : float
-            Poisson ratios, −1 < ν ≤ 1/2.
+            Poisson ratios, −1 < ν ≤ 1/2. The first is the medium's `poisson`: stresses are in body 1.
         q_c, eta : float
             As in `Medium`.
 
@@ -88,28 +98,29 @@ class Medium:
         compliance = 0.0
         for i, (modulus, ratio) in enumerate(((E1, nu1), (E2, nu2)), start=1):
             modulus = _check.positive(f"Young's modulus E{i}", modulus, unit="Pa", infinite=True)
-            quantity = f"Poisson ratio nu{i}"
-            ratio = _check.finite_array(quantity, ratio)
-            _check.refuse(quantity, ratio, ~((ratio > -1) & (ratio <= 0.5)), "must lie in −1 < ν ≤ 0.5")
+            ratio = _poisson(f"Poisson ratio nu{i}", ratio)
             with np.errstate(over="ignore", under="ignore"):
                 compliance = compliance + (1 - ratio) * (1 + ratio) / modulus
         if np.any(compliance == 0):
             raise ValueError("E1 and E2 are both infinite; at least one body must be elastic")
         with np.errstate(over="ignore"):
-            return cls(1 / compliance, q_c, eta)
+            return cls(1 / compliance, q_c, eta, nu1)
 
     @cached_property
     def shape(self):
         """Shape to which array-valued parameters broadcast, () for one medium."""
-        return np.broadcast_shapes(np.shape(self.E_star), np.shape(self.q_c), np.shape(self.eta))
+        return np.broadcast_shapes(*map(np.shape, self._values))
 
     def entries(self, index, shape=None):
         """The media at an index of the parameters, broadcast to `shape` before."""
         if not self.shape:
             return self
         shape = self.shape if shape is None else shape
-        values = (self.E_star, self.q_c, self.eta)
-        return Medium(*(np.broadcast_to(v, shape)[index] if np.ndim(v) else v for v in values))
+        return Medium(*(np.broadcast_to(v, shape)[index] if np.ndim(v) else v for v in self._values))
+
+    @property
+    def _values(self):
+        return self.E_star, self.q_c, self.eta, self.poisson
 
     @property
     def critical_depth(self):

@@ -1,7 +1,7 @@
 """A scene: what is to be modelled, as a value that can be saved, loaded and solved."""
 
 import json
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 
 import numpy as np
 
@@ -97,7 +97,7 @@ def _on_the_chain(path, time, medium):
     """Path, times and medium as the chain takes them: infinitely slow is without viscosity."""
     path = np.atleast_1d(path)
     if time is None:
-        return path, np.arange(float(path.size)), Medium(medium.E_star, medium.q_c)
+        return path, np.arange(float(path.size)), replace(medium, eta=0.0)
     return path, np.asarray(time), medium
 
 
@@ -295,6 +295,8 @@ def _untagged(what, data, kinds):
 def _build(what, data, kind):
     if isinstance(data, dict) and kind in (DepthPath, ForcePath):
         data = {"time": None} | data
+    if isinstance(data, dict) and kind is Medium:
+        data = {"poisson": 0.5} | data
     if isinstance(data, dict) and kind is FreeImpact:
         data = {"plastic_depth": 0.0} | data
     _keys(f"scene {what}", data, {field.name for field in fields(kind)})

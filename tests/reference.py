@@ -9,6 +9,7 @@ import itertools
 from dataclasses import fields
 
 from mpmath import mp, mpf
+from numpy.polynomial.legendre import leggauss
 
 mp.dps = 45
 
@@ -185,3 +186,39 @@ class Reference:
             rim = self.depth - max(self.plastic_depth, self.g(self.wall))
             total += rim / mp.sqrt((self.wall - r) * (self.wall + r))
         return self.modulus / mp.pi * total
+
+    def stress(self, r, z, nu):
+        """σ_rr, σ_θθ, σ_zz, σ_rz at r and z > 0, each increment dg(x) a flat punch of radius x."""
+        r, z, nu = mpf(r), mpf(z), mpf(nu)
+        inner = max(self.c, self.flat)
+        ends = sorted({inner, self.a, *(x for x in (r, *self.kinks) if inner < x < self.a)})
+        # Panels that halve towards both ends, where the integrand is as narrow as z, or goes as a power.
+        halves = [mpf(2) ** -k for k in range(70, 0, -1)]
+        panels = [mpf(0), *halves, *(1 - half for half in halves[-2::-1]), mpf(1)]
+        total = [mpf(0)] * 4
+        for left, right in itertools.pairwise(ends):
+            for low, high in itertools.pairwise(panels):
+                for node, weight in _GAUSS:
+                    x = left + (right - left) * (low + (high - low) * node)
+                    share = self._slope(x) * weight * (right - left) * (high - low)
+                    total = [
+                        part + share * each for part, each in zip(total, _punch(x, r, z, nu), strict=True)
+                    ]
+        if self.wall <= self.a:
+            rim = self.depth - max(self.plastic_depth, self.g(self.wall))
+            total = [
+                part + rim * each for part, each in zip(total, _punch(self.wall, r, z, nu), strict=True)
+            ]
+        return [self.modulus / mp.pi * part for part in total]
+
+
+_GAUSS = [((1 + node) / 2, weight / 2) for node, weight in zip(*map(list, leggauss(14)), strict=True)]
+
+
+def _punch(x, r, z, nu):
+    """Stress of a flat punch of radius x, over E*/π and its depth; in its complex form, for z > 0."""
+    w = mp.mpc(z, -x)
+    S = mp.sqrt(r * r + w * w)
+    J, K = mp.im(1 / S), z * mp.im(w / S**3)
+    around = -(2 * nu * J + (1 - 2 * nu) * mp.im(1 / (S + w)) - z * mp.im(1 / (S * (S + w))))
+    return -((1 + 2 * nu) * J - K) - around, around, -(J + K), -z * r * mp.im(1 / S**3)

@@ -16,13 +16,13 @@ ORDER = (
     "shapes.truncated", "shapes.sampled", "shapes.smooth", "shapes.interpolated", "medium", "results",
     "foundation.element", "foundation.fronts", "foundation.reach", "foundation.row",
     "foundation.depth_path", "foundation.force_path", "foundation.free_body", "foundation.impact",
-    "yielding", "superposition", "fields", "indentation", "energy_balance", "contact_time", "scaling",
-    "equation_of_motion", "motion", "impact", "scene", "__init__",
+    "yielding", "superposition", "fields", "stress", "indentation", "energy_balance", "contact_time",
+    "scaling", "equation_of_motion", "motion", "impact", "scene", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {
     "yielding", "superposition", "fields", "indentation", "impact", "energy_balance", "contact_time",
-    "equation_of_motion", "motion", "scaling", "shapes.interpolated",
+    "equation_of_motion", "motion", "scaling", "shapes.interpolated", "stress",
 }  # fmt: skip
 
 

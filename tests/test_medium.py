@@ -71,3 +71,12 @@ def test_bad_medium_is_refused(arguments, says):
 def test_bad_bodies_are_refused(arguments, says):
     with pytest.raises(ValueError, match=says):
         mdr.Medium.from_bodies(*arguments)
+
+
+def test_poisson_ratio_is_that_of_the_first_body():
+    assert mdr.Medium(1e9).poisson == 0.5
+    assert mdr.Medium.from_bodies(1e9, 0.3, 2e9, 0.2).poisson == 0.3
+    assert mdr.Medium([1e9, 2e9], poisson=[0.1, 0.2]).entries(1).poisson == 0.2
+    for bad in (-1.0, 0.51):
+        with pytest.raises(ValueError, match=f"Poisson ratio poisson = {bad:g} must lie in −1 < ν ≤ 0.5"):
+            mdr.Medium(1e9, poisson=bad)

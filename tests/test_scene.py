@@ -164,3 +164,11 @@ class TestModel:
     def test_a_scene_is_one_indenter_on_one_medium(self):
         with pytest.raises(ValueError, match="one indenter on one medium"):
             mdr.Scene(mdr.Cone([0.1, 0.2]), self.DRY, self.HIT)
+
+
+def test_poisson_ratio_is_kept_and_scenes_without_are_incompressible():
+    scene = mdr.Scene(mdr.Cone(0.1), mdr.Medium(1e9, poisson=0.3), mdr.DepthPath(1e-9))
+    assert mdr.Scene.from_json(scene.to_json()) == scene
+    old = json.loads(scene.to_json())
+    del old["medium"]["poisson"]
+    assert mdr.Scene.from_json(json.dumps(old)).medium.poisson == 0.5

@@ -178,7 +178,8 @@ class Sampled(Profile):
             behind = root(place, r)
             angle = np.where(r > 0, np.arctan2(behind, r), np.pi / 2)
             with np.errstate(divide="ignore", invalid="ignore"):
-                rate = np.where(place >= r, angle + r / behind, 0.0)
+                # Of a sharp tip the slope is that of its cone, down to the axis.
+                rate = np.where(place >= r, angle + np.where(r > 0, r / behind, 0.0), 0.0)
             result[:, rows] = flat[rows] * (angle @ bend), rate @ bend
         return result.reshape(2, *np.shape(x))
 
