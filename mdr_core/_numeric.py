@@ -19,13 +19,18 @@ def gauss_integrals(count, places):
 
     One row for each of the `places` to which they go.
     """
-    node, weight = gauss_legendre(count)
-    k = np.arange(count)[:, None]
-    project = (2 * k + 1) * (np.polynomial.legendre.legvander(2 * node - 1, count - 1) * weight[:, None]).T
     values = np.polynomial.legendre.legvander(2 * places - 1, count)
     # ∫ P_k from 0 is (P_{k+1} − P_{k−1})/(2(2k + 1)), for k = 0 the way itself.
-    rise = np.column_stack([places, (values[:, 2:] - values[:, :-2]) / (2 * (2 * k[1:, 0] + 1))])
-    return rise @ project
+    rise = np.column_stack([places, (values[:, 2:] - values[:, :-2]) / (4 * np.arange(1, count) + 2)])
+    return rise @ _to_legendre(count)
+
+
+@lru_cache
+def _to_legendre(count):
+    """Matrix from values at Gauss–Legendre nodes to coefficients of Legendre polynomials."""
+    node, weight = gauss_legendre(count)
+    polynomials = np.polynomial.legendre.legvander(2 * node - 1, count - 1)
+    return (2 * np.arange(count)[:, None] + 1) * (polynomials * weight[:, None]).T
 
 
 def collocate(derivative, first, length):

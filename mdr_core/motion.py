@@ -117,10 +117,10 @@ def _states(steps, time):
         _, step = steps[i]
         theta = np.linspace(0, 1, 65)[None]
         theta = np.interp(time[owner == i], step.at(theta)[2, 0], theta[0])[None]
-        for _ in range(6):
+        for _ in range(3):
             # Newton's method, with a difference for the derivative.
             shift = np.where(theta < 0.5, 1e-6, -1e-6)
-            there, beside = step.at(theta)[2], step.at(theta + shift)[2]
+            there, beside = np.hsplit(step.at(np.hstack([theta, theta + shift]))[2], 2)
             rate = np.maximum((beside - there) / shift, 1e-300)
             theta = np.clip(theta + (time[owner == i] - there) / rate, 0.0, 1.0)
         result[:, owner == i] = step.at(theta)[[0, 1, 3], 0]

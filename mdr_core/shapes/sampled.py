@@ -171,10 +171,12 @@ class Sampled(Profile):
 
     def _reduced_and_slope(self, x):
         """Sums over the vertices before x of their bends: times x arccos(r/x), and its slope."""
-        flat, r = np.ravel(x), self._r[:-1][self._bend != 0]
-        result, bend = np.empty((2, flat.size)), self._bend[self._bend != 0]
-        for rows in chunks(flat.size, max(1, 2**15 // r.size)):
+        flat, vertices = np.ravel(x), self._r[:-1][self._bend != 0]
+        result, bends = np.empty((2, flat.size)), self._bend[self._bend != 0]
+        for rows in chunks(flat.size, max(1, 2**15 // vertices.size)):
             place = flat[rows, None]
+            before = np.searchsorted(vertices, place.max(), side="right")
+            r, bend = vertices[:before], bends[:before]
             behind = root(place, r)
             angle = np.where(r > 0, np.arctan2(behind, r), np.pi / 2)
             with np.errstate(divide="ignore", invalid="ignore"):
@@ -185,10 +187,9 @@ class Sampled(Profile):
 
     def _radius(self, depth):
         # Behind a vertex g begins as a square root, and is smooth in t = √(x − r) there.
-        place = np.interp(depth, self._table, np.arange(self._table.size) / 8)
-        zone = np.minimum(place.astype(int), len(self.r) - 2)
+        zone, guess = self._first_guess(depth)
         vertex, end = self._r[zone], np.sqrt(np.diff(self._r))[zone]
-        t = np.maximum((place - zone) * end, np.sqrt(np.spacing(vertex)))
+        t = np.clip(np.nan_to_num(guess), np.sqrt(np.spacing(vertex)), end)
         # Before the first vertex the tip is a cone; on a vertex the slope is infinite.
         with np.errstate(all="ignore"):
             t = np.where((zone > 0) | (depth == 0), t, np.sqrt(depth / (np.pi / 2 * self._slope[0])))
@@ -201,11 +202,32 @@ class Sampled(Profile):
         radius = np.where(depth > 0, vertex + t * t, self.face_radius)
         return np.where(depth <= self.deepest, radius, np.inf)
 
+    def _first_guess(self, depth):
+        """Number of the vertex behind which the contact ends, and about the root of the distance from it."""
+        g, t, rate = self._table
+        zone = np.clip(np.searchsorted(self._g, depth, side="right") - 1, 0, len(self.r) - 2)
+        cell = np.clip((g[zone] <= depth[..., None]).sum(axis=-1) - 1, 0, 7)
+        low, high = (zone, cell), (zone, cell + 1)
+        width = g[high] - g[low]
+        # Hermite's cubic; on a flat face it has no meaning.
+        u = np.divide(depth - g[low], width, out=np.zeros_like(width), where=width > 0)
+        rise = t[high] - t[low]
+        bow = (1 - u) * (width * rate[low] - rise) - u * (width * rate[high] - rise)
+        return zone, t[low] + u * (rise + (1 - u) * bow)
+
     @cached_property
     def _table(self):
-        """g (m) at eight places behind each vertex, at squares, for g begins there as a square root."""
-        steps = (np.arange(8) / 8) ** 2 * np.diff(self._r)[:, None]
-        return self._reduced(np.append(self._r[:-1, None] + steps, self._r[-1]))
+        """g, t and dt/dg at nine t behind each vertex, up to the next one."""
+        t = np.linspace(0, 1, 9) * np.sqrt(np.diff(self._r))[:, None]
+        with np.errstate(all="ignore"):
+            g, slope = self._reduced_and_slope(self._r[:-1, None] + t * t)
+            rate = 1 / (2 * t * slope)
+            # On the vertex g begins as its bend times √(2r) t.
+            rate[:, 0] = 1 / (self._bend * np.sqrt(2 * self._r[:-1]))
+        # The last one stands on the next vertex, whose own bend does not count yet.
+        rate[:, -1] = rate[:, -2]
+        rate = np.where(np.isfinite(rate), rate, np.append(rate[:, 1:], rate[:, -1:], axis=1))
+        return g, t, rate
 
 
 def _turns_down(first, middle, last):
