@@ -11,7 +11,7 @@ from .trajectory import INSTANTS
 _INPUT = "#   {}: {}"
 
 
-def csv(trajectory):
+def csv(trajectory, explorer):
     """Every state along the way as CSV in SI, with inputs, units and version in its header."""
     states, motion = trajectory.states, trajectory.motion
     columns = {
@@ -28,23 +28,25 @@ def csv(trajectory):
         columns["velocity v (m/s)"] = motion.velocity
         columns["kinetic energy (J)"] = motion.kinetic_energy
         columns["viscous work (J)"] = motion.viscous_work
-    return _table(trajectory, "states along the way", columns)
+    return _table(trajectory, explorer, "states along the way", columns)
 
 
-def pressure_csv(trajectory, points=401):
+def pressure_csv(trajectory, explorer, points=401):
     """Pressure, line load and reduced profile of the present state as CSV in SI."""
     state, profile = trajectory.state, trajectory.scene.profile
     largest = 1.25 * float(trajectory.deepest.contact_radius)
     r = np.linspace(0, min(largest, profile.known_radius), points)
     columns = {
         "radius r (m)": r,
-        "sigma_zz (Pa)": -trajectory.pressure(trajectory.now, r, exact=True),
+        "sigma_zz (Pa)": 0.0 - state.pressure(r),
         "line load q (N/m)": state.line_load(r),
         "reduced profile g (m)": profile.reduced(r),
     }
     depth, force = float(state.depth), float(trajectory.force[trajectory.now])
     notes = _MEASURED if isinstance(profile, mdr.Sampled) else ()
-    return _table(trajectory, f"state at depth d = {depth!r} m, force F = {force!r} N", columns, notes)
+    return _table(
+        trajectory, explorer, f"state at depth d = {depth!r} m, force F = {force!r} N", columns, notes
+    )
 
 
 #: How far the pressure of a measured tip can be trusted.
@@ -55,9 +57,9 @@ _MEASURED = (
 )
 
 
-def _table(trajectory, title, columns, notes=()):
+def _table(trajectory, explorer, title, columns, notes=()):
     lines = [f"# mdr_core {_version()}: {title}", "# inputs, SI units:"]
-    lines += [_INPUT.format(name, value) for name, value in _inputs(trajectory.scene)]
+    lines += [_INPUT.format(name, value) for name, value in _inputs(trajectory.scene, explorer)]
     lines += [f"# {note}" for note in notes]
     lines.append(",".join(columns))
     rows = zip(*(np.asarray(values, float).tolist() for values in columns.values()), strict=True)
@@ -65,10 +67,15 @@ def _table(trajectory, title, columns, notes=()):
     return "\n".join(lines) + "\n"
 
 
-def _inputs(scene):
+def _inputs(scene, explorer):
     medium = scene.medium
+    if explorer.preset:
+        yield "preset", f"{explorer.preset}{', altered' if explorer.altered else ''}"
     yield "profile", _profile(scene.profile, limit=6)
     yield "medium", f"E_star = {medium.E_star!r} Pa, q_c = {medium.q_c!r} N/m, eta = {medium.eta!r} Pa·s"
+    # What the medium was made of.
+    given = [name for name in explorer.used() if name not in ("E_star", "q_c", "eta")]
+    yield "set on the page", ", ".join(f"{name} = {getattr(explorer, name)!r}" for name in given)
     yield "drive", repr(scene.drive)
 
 

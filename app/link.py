@@ -2,37 +2,44 @@
 
 import json
 from math import inf, isfinite
-from urllib.parse import urlencode
+from urllib.parse import parse_qs, urlencode
 
 import mdr_core as mdr
 
+from .explorer import FROM_FILE, LAST_PROGRESS
 from .presets import PRESETS
-from .quantities import CHOICES, QUANTITIES, SURFACE, shape_quantities, used
-from .shapes import SHAPES
-from .state import LAST_PROGRESS, Explorer
+from .quantities import CHOICES, SURFACE
+from .shapes import QUANTITIES, SHAPES, shape_quantities
 from .tip import MOST_SAMPLES
 
 #: Longest link, and most characters of a file.
 LONGEST_LINK, LARGEST_FILE = 8000, 2_000_000
-_SAMPLES = 120
 
 
-def query(state):
-    """The page as the query of a link, with every number that is used; empty if it is too long for one."""
-    pairs = {"preset": state.preset} | state.choices
-    pairs |= {name: f"{state.numbers[name]!r}" for name in used(state.choices)}
-    pairs["at"] = f"{state.progress:.6g}"
-    if state.shape == "sampled":
-        r, z = state.samples
-        if len(r) > _SAMPLES:
-            return ""
-        pairs["samples"] = " ".join(f"{x!r},{y!r}" for x, y in zip(r, z, strict=True))
+def query(explorer, view=True):
+    """The page as the query of a link, with every number that is used; empty if it is too long for one.
+
+    With `view` also what is held, which plots are shown, and whether it is dark.
+    """
+    pairs = {"preset": explorer.preset} | explorer.choices
+    pairs |= {name: f"{getattr(explorer, name)!r}" for name in explorer.used()}
+    pairs["at"] = f"{explorer.progress:.6g}"
+    if explorer.shape == "sampled":
+        pairs["samples"] = " ".join(f"{x!r},{y!r}" for x, y in zip(*explorer.samples, strict=True))
+    if view:
+        pairs |= {name: str(int(getattr(explorer, name))) for name in ("map", "speed_plot", "dark")}
+        pairs |= {"hold": explorer.hold} if explorer.hold else {}
     text = urlencode(pairs)
     return text if len(text) <= LONGEST_LINK else ""
 
 
-def restore(arguments):
-    """The state that `query` wrote, from the arguments of a request: lists of bytes by name.
+def arguments(text):
+    """The arguments of a query: lists of bytes by name, as a request has them."""
+    return {name: [value.encode() for value in values] for name, values in parse_qs(text, True).items()}
+
+
+def restore(explorer, arguments):
+    """Set an explorer to the state that `query` wrote, from the arguments of a request.
 
     Raises
     ------
@@ -41,29 +48,40 @@ def restore(arguments):
     """
     if (
         len(arguments) > 60
-        or sum(len(text) for values in arguments.values() for text in values) > LONGEST_LINK
+        or sum(len(text) for texts in arguments.values() for text in texts) > LONGEST_LINK
     ):
         raise ValueError("this link is too long")
-    if any(len(values) > 1 for values in arguments.values()):
+    if any(len(values) != 1 for values in arguments.values()):
         raise ValueError("this link says the same thing twice")
     pairs = {name: values[0].decode("utf-8", "replace") for name, values in arguments.items()}
-    if pairs.get("preset") not in PRESETS:
+    preset = pairs.pop("preset", None)
+    if preset != FROM_FILE and preset not in PRESETS:
         raise ValueError("this link names no preset that is known")
-    state = Explorer(pairs.pop("preset"))
+    if preset != FROM_FILE:
+        explorer.load(preset)
+    changes = {"preset": preset, "hold": pairs.pop("hold", "")}
     if "samples" in pairs:
-        state.samples = _samples(pairs.pop("samples"))
-    for name in CHOICES.keys() & pairs.keys():
-        option = pairs.pop(name)
-        if option not in CHOICES[name] or (option == "sampled" and state.samples is None):
+        tip = _samples(pairs.pop("samples"))
+        changes["samples"] = (tip.r, tip.z)
+    for name in explorer.choices.keys() & pairs.keys():
+        changes[name] = option = pairs.pop(name)
+        known = explorer.param[name].objects
+        if option not in known or (option == "sampled" and "samples" not in changes):
             raise ValueError(f"{name} = {option:.40} in this link is not known")
-        state.choices[name] = option
-    state.move(_number("at", pairs.pop("at", "1")))
+    for name in ("map", "speed_plot", "dark"):
+        changes[name] = pairs.pop(name, "0") == "1"
+    changes["progress"] = _number("at", pairs.pop("at", "1"))
+    low, high = explorer.param.progress.bounds
+    if not low <= changes["progress"] <= high:
+        raise ValueError(f"the position {changes['progress']:g} is out of bounds: {low} to {high}")
     for name, value in pairs.items():
         if name not in QUANTITIES:
             raise ValueError(f"this link sets {name:.40}, which is not known")
-        state.set(name, _number(name, value))
-    state.resets = dict(state.numbers)
-    return state
+        changes[name] = explorer.checked(name, _number(name, value))
+    explorer.param.update(**changes)
+    explorer.resets = {name: getattr(explorer, name) for name in QUANTITIES}
+    explorer.sized = frozenset({explorer.shape})
+    explorer.settle()
 
 
 def _number(name, text):
@@ -78,11 +96,10 @@ def _number(name, text):
 
 def _samples(text):
     points = [point.split(",") for point in text.split(" ")]
-    if len(points) > _SAMPLES or any(len(point) != 2 for point in points):
+    if len(points) > MOST_SAMPLES or any(len(point) != 2 for point in points):
         raise ValueError("the samples in this link are not pairs")
     r, z = zip(*((_number("samples", a), _number("samples", b)) for a, b in points), strict=True)
-    tip = mdr.Sampled(r, z)
-    return tip.r, tip.z
+    return mdr.Sampled(r, z)
 
 
 def scene_file(trajectory):
@@ -96,8 +113,8 @@ def scene_file(trajectory):
     return scene.to_json()
 
 
-def from_scene(text, before):
-    """The state of a scene file, with what the file does not say taken from `before`.
+def load_scene(explorer, text):
+    """Set an explorer to the scene of a file; what the file does not say stays.
 
     Raises
     ------
@@ -108,24 +125,29 @@ def from_scene(text, before):
         raise ValueError("the file is larger than 2 MB")
     _refuse_long(text)
     scene = mdr.Scene.from_json(text)
-    if getattr(scene.drive, "time", None) and scene.medium.eta > 0:
-        raise ValueError("a viscous path in time is not shown here: solve it with mdr.Scene.from_json(...)")
-    state = Explorer(before.preset)
-    _set_profile(state, scene.profile)
     medium = scene.medium
-    state.choices |= {
+    if getattr(scene.drive, "time", None) and medium.eta > 0:
+        raise ValueError("a viscous path in time is not shown here: solve it with mdr.Scene.from_json(...)")
+    changes = {
+        "preset": FROM_FILE,
         "elasticity": "modulus",
         "plasticity": "q_c" if medium.q_c < inf else "none",
         "damping": "eta" if medium.eta > 0 else "none",
+        "inertia": "unknown",
+        "progress": 1.0,
     }
-    state.set("E_star", medium.E_star)
-    if medium.q_c < inf:
-        state.set("q_c", medium.q_c)
-    if medium.eta > 0:
-        state.set("eta", medium.eta)
-    _set_drive(state, scene)
-    state.resets = dict(state.numbers)
-    return state
+    numbers = {"E_star": medium.E_star, "q_c": medium.q_c, "eta": medium.eta}
+    numbers = {name: value for name, value in numbers.items() if 0 < value < inf}
+    for more, values in (_profile(scene.profile), _drive(scene)):
+        changes |= more
+        numbers |= values
+    changes |= {name: explorer.checked(name, value) for name, value in numbers.items()}
+    explorer.resets = {
+        name: value for name, value in changes.items() if name in QUANTITIES or name in CHOICES
+    }
+    explorer.resets["shape"] = changes["shape"]
+    explorer.sized = frozenset({changes["shape"]})
+    explorer.param.update(**changes)
 
 
 def _refuse_long(text):
@@ -144,46 +166,38 @@ def _refuse_long(text):
         )
 
 
-def _set_profile(state, profile):
+def _profile(profile):
+    """Choices and numbers of an indenter."""
     if isinstance(profile, mdr.Sampled):
-        state.samples, state.choices["shape"] = (profile.r, profile.z), "sampled"
-        return
+        return {"samples": (profile.r, profile.z), "tip_note": "", "shape": "sampled"}, {}
     if isinstance(profile, mdr.PowerLaw):
         width = 1e-6
-        height = profile.height(width)
-        values = {"exponent": profile.exponent, "height": float(height), "width": width}
+        values = {"exponent": profile.exponent, "height": float(profile.height(width)), "width": width}
         shape = "power_law"
     else:
         shape = next(key for key, each in SHAPES.items() if each.build is type(profile))
         values = {q.name: getattr(profile, q.name) for _, q in shape_quantities(shape)}
-    state.choices["shape"] = shape
-    for name, value in values.items():
-        state.set(f"{shape}_{name}", value)
+    return {"shape": shape}, {f"{shape}_{name}": value for name, value in values.items()}
 
 
-def _set_drive(state, scene):
+def _drive(scene):
+    """Choices and numbers of a drive, and where on the way its last state is."""
     drive = scene.drive
     if isinstance(drive, mdr.FreeImpact):
-        state.choices["drive"] = "impact"
-        state.set("mass", drive.mass)
-        state.set("speed", drive.speed)
+        numbers = {"mass": drive.mass, "speed": drive.speed}
         if drive.plastic_depth > 0:
-            state.choices[SURFACE] = "imprint"
-            state.set("plastic_depth", drive.plastic_depth)
-        return
-    kind, path = "depth", getattr(drive, "depth", None)
-    if isinstance(drive, mdr.ForcePath):
-        kind, path = "force", drive.force
+            return {"drive": "impact", SURFACE: "imprint"}, numbers | {"plastic_depth": drive.plastic_depth}
+        return {"drive": "impact", SURFACE: "virgin"}, numbers
+    kind, path = ("force", drive.force) if isinstance(drive, mdr.ForcePath) else ("depth", drive.depth)
     path = path if isinstance(path, tuple) else (path,)
-    state.choices["drive"] = kind
-    state.set(f"max_{kind}", max(path))
-    if path[-1] == max(path):
-        return
-    result = scene.solve()
-    # All that the way there leaves behind is the largest depth: the last state is one of unloading.
-    recovered = min(scene.medium.critical_depth, float(max(result.depth)))
-    below = float(max(result.depth) - result.depth[-1])
-    rest = float(result.depth[-1])
-    lifted = 2.2 - 0.2 * rest / max(float(max(result.depth)) - recovered, 1e-300)
-    progress = 1 + below / recovered if below <= recovered else lifted
-    state.move(min(max(progress, 1.0), LAST_PROGRESS))
+    choices = {"drive": kind, SURFACE: "virgin"}
+    if path[-1] < max(path):
+        # All that the way there leaves behind is the largest depth: the last state is one of unloading.
+        result, critical = scene.solve(), scene.medium.critical_depth
+        largest, rest = float(max(result.depth)), float(result.depth[-1])
+        recovered = min(critical, largest)
+        back = largest - rest
+        lifted = 2.2 - 0.2 * rest / max(largest - recovered, 1e-300)
+        progress = 1 + back / recovered if back <= recovered else lifted
+        choices["progress"] = min(max(progress, 1.0), LAST_PROGRESS)
+    return choices, {f"max_{kind}": max(path)}

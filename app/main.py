@@ -2,7 +2,7 @@
 
 import panel as pn
 
-from .session import Session
+from .page import Page
 
-pn.extension(notifications=False)
-Session(pn.state.session_args).page.servable(title="Indentation explorer")
+pn.extension(notifications=True, reconnect=True, css_files=["app/static/style.css"])
+Page(pn.state.session_args).view.servable(title="Indentation explorer")

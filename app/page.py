@@ -1,72 +1,310 @@
-"""The page as one component: its scripts, and what travels between it and the session."""
+"""The page of one session: one change is one solve and one array of columns; playing is the browser's."""
 
-import base64
-import json
+import logging
+from dataclasses import replace
+from html import escape
 from pathlib import Path
 
 import numpy as np
 import panel as pn
-import param
+from bokeh.events import DocumentReady
+from bokeh.models import ColumnDataSource, CustomJS, Div, Select, Slider, Toggle
 
-from .equations import EQUATIONS, KEYS, MODEL
-from .presets import ASSETS
-from .units import UNITS
-from .views import DOCUMENTS, PLOTS
+from . import link, readouts
+from .comparison import Comparing
+from .controls import JS, WIDE, Controls, html, marked, symbol
+from .explorer import Explorer
+from .figures import DARK, LIGHT
+from .grid import FULL, STYLE, Grid, button
+from .packet import packed
+from .plots import PLOTS
+from .takeaway import TakeAway
+from .tip import read_tip
+from .trajectory import follow
+from .view import View
 
-#: In the order in which they need each other: one module in the browser.
-_SCRIPTS = (
-    *("numbers", "theme", "scene", "springs", "draw", "axes", "layers", "plots", "form", "readouts"),
-    *("compare", "player", "files", "tools", "talk", "page"),
-)
-_STYLE = (ASSETS / "style.css").read_text(encoding="utf-8")
-_REPORT = base64.b64encode((ASSETS / "speed_against_error.svg").read_bytes()).decode()
-_STATIC = json.dumps(
-    {
-        "report": f"data:image/svg+xml;base64,{_REPORT}",
-        "plots": [plot.described() for plot in PLOTS.values()],
-        "documents": DOCUMENTS,
-        "equations": EQUATIONS,
-        "help": [MODEL, KEYS],
-        "units": {kind: [[unit.name, unit.factor] for unit in units] for kind, units in UNITS.items()},
-    }
-)
-
-_NOTHING = np.zeros(1, np.float32)
+_LOG = logging.getLogger(__name__)
+_HERE = Path(__file__).parent
+#: Milliseconds without a change after which the address follows.
+SETTLED = 300
+_IN_TIME = ("motion", "energy")
+_FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
 
 
-def _script(name):
-    return (Path(__file__).parent / "js" / f"{name}.js").read_text(encoding="utf-8")
+class Page:
+    """What one person sees and does."""
 
+    def __init__(self, arguments=None):
+        self.document, self.explorer, self.held = pn.state.curdoc, Explorer(), None
+        self.held_summary, self._serial, self._waiting = "", 0, None
+        nothing = {"values": np.zeros(1, np.float32)}
+        self.packet = ColumnDataSource(nothing, name="packet", tags=[0, [0], [[]], [""], [], [[], []]])
+        self.frames = ColumnDataSource(nothing, name="frames", tags=[-1, [], [], []])
+        self._widgets()
+        notice = self._open(arguments or {})
+        self.comparing = Comparing(self.document)
+        self.controls = Controls(self.explorer, self.attempt, self.tell)
+        self.away = TakeAway(self)
+        self._connect()
+        self._solve()
+        self._layout()
+        self._watch()
+        self._around()
+        if notice:
+            self.notify(notice)
 
-class Page(pn.custom.JSComponent):
-    """Everything a person sees. All drawing is done in the browser, from one buffer of numbers.
+    def _open(self, arguments):
+        """The state of a link; what is said if it cannot be opened."""
+        try:
+            if arguments:
+                link.restore(self.explorer, arguments)
+                follow(self.explorer.scene(), self.explorer.progress)
+                self._hold()
+        except Exception as error:
+            self.explorer, self.held = Explorer(), None
+            return f"The link was not opened: {self._refusal(error)}"
+        return ""
 
-    A change goes out as one message with `meta`, all that is text as JSON, and `values`, all arrays
-    end to end; the first one as properties of the same names. What a person does comes back as one message.
-    """
+    # What is on the page.
 
-    static = param.String(_STATIC, constant=True)
-    meta = param.String()
-    values = param.Parameter()
+    def _widgets(self):
+        click, toggle = pn.widgets.Button, pn.widgets.Toggle
+        keys = (("Undo", "z"), ("Redo", "y"), ("Reset", "r"))
+        self.undo, self.redo, self.reset = (button(click, *each) for each in keys)
+        keys = (("Hold", "h"), ("Map", "m"), ("Speed", "s"), ("Dark", "d"), ("Take with you", "t"))
+        self.hold, self.map, self.speed, self.dark, self.take = (button(toggle, *each) for each in keys)
+        paces = [(str(pace), f"{pace} ×") for pace in (0.1, 0.25, 0.5, 1, 2)]
+        styled = {"stylesheets": STYLE, "margin": 0}
+        self.play = Toggle(label="▶ Play", css_classes=["button", "key-space"], width=84, **styled)
+        self.state = Slider(
+            start=0, end=1, value=1, show_value=False, css_classes=["slider"], title=None, **styled
+        )
+        self.state.update(tooltips=False, sizing_mode="stretch_width")
+        self.pace = Select(options=paces, value="1", width=70, css_classes=["choice", "pace"], **styled)
+        self.readout = Div(css_classes=["readouts"], sizing_mode="stretch_width", **styled)
+        self.standing = Div(text="<output></output>", css_classes=["standing"], width=160, **styled)
+        self.address = Div(visible=False)
+        self.lights, self.held_note = html("", css_classes=["lights"]), html("", css_classes=["held"])
 
-    _esm = "\n".join(_script(name) for name in _SCRIPTS)
-    _stylesheets = (_STYLE,)
+    def _layout(self):
+        title = html("<h1>Indentation explorer</h1>non-local yield, solved by dimensionality reduction")
+        about = html((_HERE / "static" / "about.html").read_text(encoding="utf-8"))
+        side = pn.Column(
+            title, self.controls.form, about, css_classes=["side"], stylesheets=STYLE, width=320,
+            sizing_mode="stretch_height", margin=0,
+        )  # fmt: skip
+        buttons = (self.undo, self.redo, self.reset, self.hold, self.map, self.speed, self.dark, self.take)
+        tools = pn.Row(*buttons, self.held_note, css_classes=["tools"], stylesheets=STYLE, **WIDE)
+        parts = (self.play, self.state, self.pace, self.standing, self.address)
+        player = pn.Row(*map(pn.pane.Bokeh, parts), css_classes=["player"], stylesheets=STYLE, **WIDE)
+        parts = (tools, self.away.panel, pn.pane.Bokeh(self.readout), self.lights, player, self.grid.view)
+        results = pn.Column(*parts, css_classes=["results"], **FULL)
+        self.view = pn.Row(side, results, css_classes=["page"], **FULL)
 
-    def __init__(self, receive):
-        self._receive = receive
-        super().__init__(values=_NOTHING, sizing_mode="stretch_both", margin=0)
+    def _connect(self):
+        """What happens in the browser alone."""
+        parts = {"packet": self.packet, "frames": self.frames, "slider": self.state}
+        parts |= {"readout": self.readout, "standing": self.standing}
+        self.show = CustomJS(args=parts | {"layers": []}, code=JS["show"])
+        self.paint = CustomJS(args={"light": LIGHT, "dark": DARK, "figures": []}, code=JS["theme"])
+        for source, name in ((self.packet, "data"), (self.state, "value")):
+            source.js_on_change(name, self.show)
+        # The slider waits where it stands until the states are there.
+        again = CustomJS(args={"show": self.show, "slider": self.state}, code="show.execute(slider)")
+        self.frames.js_on_change("data", again)
+        parts = {"packet": self.packet, "frames": self.frames, "slider": self.state}
+        self.play.js_on_change("active", CustomJS(args=parts | {"pace": self.pace}, code=JS["play"]))
+        drag = CustomJS(args=parts | {"play": self.play}, code=JS["drag"])
+        self.grid = Grid(self.show, self.paint, drag, self.comparing)
+        self.dark.jscallback(args={"paint": self.paint}, value="paint.execute(cb_obj)")
+        self.paint.js_on_change("args", CustomJS(args={"paint": self.paint}, code="paint.execute(paint)"))
+        self.address.js_on_change("text", CustomJS(code="history.replaceState(null, '', cb_obj.text)"))
+        named = {
+            "slider": "State along the way",
+            "pace": "Speed of the player",
+            "tip": "CSV file of a measured tip: r, z",
+            "scene": "Load a scene (JSON)",
+        }
+        parts = {"named": named, "show": self.show, "paint": self.paint, "packet": self.packet}
+        if self.document is not None:
+            self.document.js_on_event(DocumentReady, CustomJS(args=parts, code=JS["ready"]))
 
-    def _handle_msg(self, message):
-        if isinstance(message, dict):
-            self._receive(message)
+    def _watch(self):
+        explorer = self.explorer
+        names = [name for name in explorer.param if name not in (*explorer.VIEW, "name")]
+        explorer.param.watch(self._changed, names)
+        for widget, act in ((self.undo, "undo"), (self.redo, "redo")):
+            widget.on_click(lambda event, act=act: self.tell(getattr(self.explorer, act)))
+        self.reset.on_click(lambda event: self.tell(lambda: self.explorer.load(self.explorer.preset)))
+        self.controls.again.on_click(lambda event: self.tell(lambda: self.explorer.hit_again(self.way.hit)))
+        self.controls.tip.param.watch(self._bring_tip, "value")
+        self.hold.param.watch(self._held, "value")
+        for toggle, name in ((self.map, "map"), (self.speed, "speed_plot"), (self.dark, "dark")):
+            toggle.value = getattr(explorer, name)
+            toggle.param.watch(lambda event, name=name: self._toggled(name, event.new), "value")
+        self.state.on_change("value", self._scrubbed)
+        self.state.on_change("value_throttled", self._stood)
+        self.play.on_change("active", lambda attr, old, new: self._send_frames() if new else None)
 
-    def show(self, meta, values):
-        """Draw anew: as a message, so that nothing of it is kept."""
-        if self._models:
-            self.send({"meta": meta, "values": values})
-        else:
-            self.param.update(meta=meta, values=values)
+    # What a person does, and what is refused.
 
-    def send(self, message):
-        """Say something to the page, once."""
-        self._send_msg(message)
+    def attempt(self, act):
+        """Make a change and show it, or leave everything as it was.
+
+        Raises
+        ------
+        ValueError
+            With what the person is told, if it is refused.
+        """
+        with pn.io.hold(self.document):
+            try:
+                return act()
+            except Exception as error:
+                said = self._refusal(error)
+                self.explorer.refuse()
+                raise ValueError(said) from None
+
+    def tell(self, act):
+        """Make a change; a refusal is a notice."""
+        try:
+            self.attempt(act)
+        except ValueError as error:
+            self.notify(str(error))
+            self.controls.show(self.way.scene.medium)
+
+    def notify(self, text):
+        """Tell the person, who may have written some of it."""
+        if pn.state.notifications is not None:
+            pn.state.notifications.error(escape(text), duration=7000)
+
+    def _refusal(self, error):
+        """What is said of an error; one that is not the person's is logged with what led to it."""
+        if isinstance(error, ValueError):
+            return str(error)
+        _LOG.error("a change could not be shown, scene %s", self.explorer.described(), exc_info=error)
+        return _FAULT
+
+    def _changed(self, *events):
+        with pn.io.hold(self.document):
+            self._solve()
+            self.explorer.accept()
+            self._around()
+
+    def _bring_tip(self, event):
+        if event.new:
+            self.tell(lambda: self.explorer.take_tip(*read_tip(event.new.decode("utf-8", "replace"))))
+
+    def _toggled(self, name, on):
+        with pn.io.hold(self.document):
+            setattr(self.explorer, name, on)
+            if name != "dark":
+                self._show()
+            self._around()
+
+    def _held(self, event):
+        if event.new == bool(self.explorer.hold):
+            return
+        with pn.io.hold(self.document):
+            self.explorer.hold = link.query(self.explorer, view=False) if event.new else ""
+            self._hold()
+            self._show()
+            self._around()
+
+    def _hold(self):
+        """Solve the scene that is held, from its query."""
+        self.held, self.held_summary = None, ""
+        if self.explorer.hold:
+            other = Explorer()
+            link.restore(other, link.arguments(self.explorer.hold))
+            self.held, self.held_summary = follow(other.scene(), other.progress), readouts.summary(other)
+
+    # What changes what is drawn.
+
+    def _solve(self):
+        self.way = follow(self.explorer.scene(), self.explorer.progress)
+        count = len(self.way)
+        self.cells = readouts.cells(self.way)
+        self.state.update(end=count - 1, value=self.way.now)
+        self._show()
+
+    def _show(self):
+        """Draw the present state: one array of all columns."""
+        self.drawn = View(self.way, self.held)
+        self.grid.show(self.drawn, self._shown())
+        values, starts, labels = packed(self.drawn, self.grid.layers, [self.way.now])
+        motion, count = self.way.motion, len(self.way)
+        times = motion.time / motion.time[-1] if motion is not None else np.linspace(0, 1, count)
+        path = [self.drawn.d.tolist(), self.drawn.F.tolist()]
+        words = [readouts.values(self.way, self.cells, self.way.now)]
+        self._serial += 1
+        self.readout.text = readouts.heads(self.cells, symbol)
+        self.packet.tags = [self._serial, starts, labels, words, times.tolist(), path]
+        self.packet.data = {"values": values}
+        if self.play.active:
+            self._send_frames()
+
+    def _shown(self):
+        """The plots that are seen, in their order."""
+        wanted = {"map": self.explorer.map, "speed": self.explorer.speed_plot}
+        wanted |= dict.fromkeys(_IN_TIME, self.way.motion is not None)
+        names = [name for name in PLOTS if wanted.get(name, True)]
+        if self.explorer.map and self.way.motion is None:
+            # Beside the springs and the force, so that the pressure stays below the springs.
+            names.insert(2, names.pop(names.index("map")))
+        return names
+
+    def _send_frames(self):
+        """Send all states, once, so that the browser can move through them alone."""
+        if self.frames.tags[0] == self._serial:
+            return
+        states = range(len(self.way))
+        values, starts, labels = packed(self.drawn, self.grid.layers, states, moving_only=True)
+        words = [readouts.values(self.way, self.cells, i) for i in states]
+        with pn.io.hold(self.document):
+            self.frames.tags = [self._serial, starts, labels, words]
+            self.frames.data = {"values": values}
+
+    def _scrubbed(self, attr, old, new):
+        if int(new) != self.way.now:
+            self._send_frames()
+
+    def _stood(self, attr, old, new):
+        """The page stands at another state; it has drawn that already."""
+        now = min(int(new), len(self.way) - 1)
+        with pn.io.hold(self.document):
+            self.way = replace(self.way, now=now)
+            self.drawn.way = self.way
+            self.state.value = now
+            self.explorer.progress = float(self.way.progress[now])
+            self._around()
+
+    def _around(self):
+        """Everything beside the plots."""
+        explorer, way = self.explorer, self.way
+        self.controls.show(way.scene.medium)
+        drawing, formulas = readouts.sketch(way, explorer.shape)
+        self.controls.notes["sketch"].object = drawing.format(*map(marked, formulas))
+        found = readouts.lights(way, *readouts.density_and_ratio(explorer))
+        self.lights.object = "".join(
+            f'<span class="{level}">{marked(text)}</span>' for level, text in found
+        )
+        self.undo.disabled, self.redo.disabled = not explorer.past, not explorer.future
+        self.hold.value = bool(explorer.hold)
+        self.held_note.object = f"held: {marked(self.held_summary)}" if self.held is not None else ""
+        self.grid.tell(readouts.summary(explorer))
+        self.away.show()
+        self._settle()
+
+    def _settle(self):
+        """The address follows once the input is still."""
+        if self.document is None or self.document.session_context is None:
+            return
+        if self._waiting is not None:
+            self.document.remove_timeout_callback(self._waiting)
+        self._waiting = self.document.add_timeout_callback(self._settled, SETTLED)
+
+    def _settled(self):
+        self._waiting = None
+        query = link.query(self.explorer)
+        self.address.text = f"?{query}" if query else "?"
+        self.comparing.follow(self.way.scene if self.explorer.speed_plot else None)

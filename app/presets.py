@@ -36,7 +36,7 @@ def _preset(scene, media, indenters):
     )
     values = {f"{shape}_{name}": number["value"] for name, number in indenter["parameters"].items()}
     values |= {f"{key}_{i}": body[key]["value"] for i, body in bodies for key in ("E", "nu")}
-    values |= {"q_c": built.q_c, "E_star": built.E_star}
+    values |= {"q_c": built.q_c, "E_star": built.E_star, "density": medium["density"]["value"]}
     if "depth" in scene:
         values["max_depth"] = float(scene["depth"] * built.critical_depth)
     else:
@@ -47,10 +47,16 @@ def _preset(scene, media, indenters):
         "plasticity": "q_c",
         "damping": "none",
         "drive": "depth" if "depth" in scene else "impact",
+        "inertia": "density",
         "surface": "virgin",
     }
-    kinds = {"E": ("E", "pressure"), "nu": ("ν", "number"), "q_c": ("q_c", "yield constant")}
-    shown = [(kinds[key], medium["label"], medium[key]) for key in ("E", "nu", "q_c")]
+    kinds = {
+        "E": ("E", "pressure"),
+        "nu": ("ν", "number"),
+        "q_c": ("q_c", "yield constant"),
+        "density": ("ρ", "density"),
+    }
+    shown = [(kinds[key], medium["label"], medium[key]) for key in ("E", "nu", "q_c", "density")]
     shown += [
         ((q.symbol, q.kind), indenter["label"], indenter["parameters"][q.name])
         for q in SHAPES[shape].quantities

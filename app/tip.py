@@ -1,34 +1,62 @@
-"""The samples of a measured tip from the text of a CSV file."""
+"""A measured tip from the text of a CSV file: noisy, two-sided or long ones are made fit to be pressed."""
 
 import tempfile
 from pathlib import Path
 
-import mdr_core as mdr
+import numpy as np
 
-#: Most samples: more would keep everybody waiting.
-MOST_SAMPLES = 300
-_MOST_HEADER = 100
+import mdr_core as mdr
+from mdr_core.shapes.tables import read_samples
+
+from .units import written
+
+#: Most samples that are pressed, and that hit, without keeping everybody waiting; most rows of a file.
+MOST_SAMPLES, MOST_IN_IMPACT, MOST_ROWS = 60, 30, 20_000
 
 
 def read_tip(text):
-    """Radii and heights (m) of an uploaded tip; a header names their unit, as in "r (nm), z (nm)".
+    """Radii and heights (m) of an uploaded tip, and a note on what was done to them.
+
+    A header names the units, as in "r (nm), z (nm)". Both sides of a profile are folded onto one another,
+    many rows are averaged to few, and what is not convex is replaced by the convex shape below it.
 
     Raises
     ------
     ValueError
         If the text is not two columns of numbers, or no tip.
     """
-    rows = text.count("\n")
-    if rows > MOST_SAMPLES + _MOST_HEADER:
-        raise ValueError(
-            f"the file has {rows} rows, and at most {MOST_SAMPLES} samples are shown here: thin them, "
-            "or use mdr.Sampled.from_csv, which takes any number"
-        )
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "tip.csv"
-        path.write_text(text, encoding="utf-8")
+        # A decimal comma is one where something else stands between the columns.
+        columns = text.replace(",", ".") if ";" in text or "\t" in text else text
+        path.write_text(columns, encoding="utf-8")
         try:
-            tip = mdr.Sampled.from_csv(path)
+            r, z = read_samples(path, None, MOST_ROWS)
         except ValueError as error:
             raise ValueError(str(error).replace(str(path), "the file")) from None
-    return tip.r, tip.z
+    return fit_to_press(r, z)
+
+
+def fit_to_press(r, z, most=MOST_SAMPLES):
+    """A convex tip of few samples from measured ones, and a note on what was done."""
+    try:
+        if len(r) <= most:
+            return (r, z), f"{len(r)} samples as they are"
+        mdr.Sampled(r, z)
+    except ValueError:
+        pass
+    rows = len(r)
+    if np.any(r < 0):
+        r = np.abs(r - r[np.argmin(z)])
+    order = np.argsort(r, kind="stable")
+    r, z = r[order], z[order]
+    # Averages over equal numbers of rows, the tip among them.
+    parts = np.array_split(np.arange(rows), min(most, rows))
+    mean_r, mean_z = (np.array([values[part].mean() for part in parts]) for values in (r, z))
+    mean_r, first = np.unique(np.append(0.0, mean_r), return_index=True)
+    mean_z = np.append(np.min(z[parts[0]]), mean_z)[first]
+    tip = mdr.Sampled.convex_envelope(mean_r, mean_z - mean_z[0])
+    shift = np.max(np.abs(np.interp(mean_r, tip.r, tip.z) - (mean_z - mean_z[0])))
+    moved = written(float(shift), "length", 2)
+    note = f"{len(tip.r)} samples of {rows} rows: averaged, and made convex by at most {moved}"
+    return (np.array(tip.r), np.array(tip.z)), note

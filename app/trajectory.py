@@ -6,15 +6,19 @@ from functools import cached_property
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.yielding import LiveInterval
+from mdr_core.yielding import LiveInterval, live_interval
 
-#: Denser towards both ends of a stretch by the cosine, enough to be played at 30 frames a second.
-_SPREAD = (1 - np.cos(np.linspace(0, np.pi, 49))) / 2
-#: Instants of an impact, its turning point among them.
-INSTANTS = 161
+#: Instants of an impact.
+INSTANTS = 120
 _PLACES = (1 - np.cos(np.linspace(0, np.pi, 201))) / 2
+_EDGE = (1 - np.cos(np.linspace(0, np.pi, 40))) / 2
 #: Points of an unloading curve from one state.
 _RELEASE = np.linspace(1, 0, 13)
+
+
+def _spread(count):
+    """From 0 to 1, denser towards both ends: enough to be played at 30 frames a second."""
+    return (1 - np.cos(np.linspace(0, np.pi, count))) / 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,25 +34,29 @@ class Trajectory:
         the tip goes back to the height of the undeformed surface.
     states : mdr.Indentation
         The states with what is elastic of them.
-    now : int
-        The present one.
-    motion : Motion or None
-        Time, speeds and energies of an impact.
+    now, peak : int
+        The present one, and the deepest one.
     hit : mdr.Impact or None
         The impact.
+    motion : mdr.Motion or None
+        Time, speeds and energies of an impact.
     """
 
     scene: mdr.Scene
     progress: np.ndarray
     states: mdr.Indentation
     now: int
-    motion: mdr.Motion | None = None
+    peak: int
     hit: mdr.Impact | None = None
+    motion: mdr.Motion | None = None
 
-    @cached_property
+    def __len__(self):
+        return len(self.progress)
+
+    @property
     def force(self):
         """Normal force (N), with that of the dashpots."""
-        return self.states.force if self.motion is None else self.motion.force
+        return self.states.force
 
     @property
     def before(self):
@@ -65,17 +73,12 @@ class Trajectory:
         """Energy (J) of all springs, of those too that have let go of a viscous rebound."""
         return self.states.stored_energy if self.motion is None else self.motion.stored_energy
 
-    @cached_property
-    def peak(self):
-        """Number of the deepest state."""
-        return int(np.argmax(self.states.depth))
-
     @property
     def state(self):
         """The present state."""
         return self.states[self.now]
 
-    @property
+    @cached_property
     def deepest(self):
         """The deepest state."""
         return self.states[self.peak]
@@ -88,9 +91,8 @@ class Trajectory:
         depth = self.before + span
         if not depth <= min(profile.deepest, 1e300):
             return None
-        return mdr.Indentation(
-            profile, medium, depth, LiveInterval(*map(np.asarray, (self.before, depth, span)))
-        )
+        live = LiveInterval(*map(np.asarray, (self.before, depth, span)))
+        return mdr.Indentation(profile, medium, depth, live)
 
     @cached_property
     def largest_slope(self):
@@ -100,36 +102,49 @@ class Trajectory:
             slope = np.diff(self.scene.profile.height(r)) / np.diff(r)
         return float(np.max(slope[np.isfinite(slope)], initial=0.0))
 
-    def pressure(self, index, r, exact=False):
-        """Contact pressure (Pa) of a state, that of the dashpots included.
+    def nearest(self, progress):
+        """Number of the state nearest to a progress."""
+        return int(np.argmin(np.abs(self.progress - progress)))
 
-        That of a measured tip is numerical unless it is to be `exact`, which takes a hundred times as long.
-        """
+    def pressure(self, index, r):
+        """Contact pressure (Pa) of a state, that of the dashpots included."""
         state = self.states[index]
-        measured = isinstance(self.scene.profile, mdr.Sampled) and float(state.contact_radius) > 0
-        measured = measured and not exact
-        return _from_line_load(state, r) if measured else state.pressure(r)
+        if not isinstance(self.scene.profile, mdr.Sampled) or not state.live.length > 0:
+            return state.pressure(r)
+        pressure = _from_line_load(state, r)
+        a, load = float(state.contact_radius), float(state.dashpot_load)
+        if load > 0:
+            with np.errstate(divide="ignore", invalid="ignore"):
+                pressure += np.where(r <= a, load / np.pi / np.sqrt((a - r) * (a + r)), 0.0)
+        return pressure
 
-    def released(self, indices):
-        """Depths and elastic forces of unloading from each of some states: two arrays, a row each."""
-        live = self.states[indices].live
-        length = live.length[:, None] * _RELEASE
-        lower = np.broadcast_to(live.lower[:, None], length.shape)
-        interval = LiveInterval(lower, lower + length, length)
+    def radii(self, index, half):
+        """Radii from 0 to `half`, dense where the pressure has an edge: at 0, c, a and at kinks."""
+        a, c = float(self.states.contact_radius[index]), float(self.states.plastic_radius[index])
+        kinks = () if isinstance(self.scene.profile, mdr.Sampled) else self.scene.profile.kinks[:3]
+        inner = [float(self.scene.profile.contact_radius(kink)) for kink in kinks]
+        edges = np.array(sorted({0.0, half, *(e for e in (a, c, *inner) if e <= half)}))
+        return np.unique(np.append(edges[:-1, None] + np.diff(edges)[:, None] * _EDGE, edges))
+
+    def released(self, index):
+        """Depths and elastic forces of unloading from one state."""
+        live = self.states.live[index]
+        length = live.length * _RELEASE
+        interval = LiveInterval(np.full_like(length, live.lower), live.lower + length, length)
         states = mdr.Indentation(self.states.profile, self.states.medium, interval.upper, interval)
         return interval.upper, states.force
 
 
 def _from_line_load(state, r):
-    """Contact pressure (Pa) by Eq. (10) of Popov (2015), the line load straight between its places.
+    """Contact pressure (Pa) of the springs by Eq. (10), the line load straight between places.
 
     For measured tips: their kinks each have an integral of their own, too many of them to wait for.
     """
     a, c = float(state.contact_radius), float(state.plastic_radius)
     x = np.unique(np.concatenate([c * _PLACES, c + (a - c) * _PLACES]))
-    # The line load goes to zero at the rim but for a wall, where it ends with a jump.
-    q = state.line_load(np.minimum(x, a * (1 - 1e-12)))
-    return 0.0 - mdr.abel.stress_from_line_load(x, q, r)
+    # The load of the springs goes to zero at the rim; only that of the dashpots ends there with a jump.
+    springs = np.where(x < a, state.line_load(x) - state.dashpot_load, 0.0)
+    return 0.0 - mdr.abel.stress_from_line_load(x, np.maximum(springs, 0.0), r)
 
 
 def follow(scene, progress):
@@ -137,27 +152,42 @@ def follow(scene, progress):
     if isinstance(scene.drive, mdr.FreeImpact):
         return _impact(scene, progress)
     deepest = scene.solve()
-    largest = float(deepest.depth)
-    critical = min(scene.medium.critical_depth, largest)
-    share = critical / largest if largest > 0 else 1.0
-    loading = np.concatenate([share * _SPREAD, share + (1 - share) * _SPREAD])
-    way = np.concatenate([loading, 1 + _SPREAD, [2 + 1e-6], 2 + 0.2 * np.linspace(0, 1, 9)[1:], [progress]])
+    depth, length = float(deepest.depth), float(deepest.live.length)
+    way = _way(scene, depth, progress)
+    down = np.minimum(way, 1.0) * depth
+    live = live_interval(down[:, None], scene.medium.critical_depth)[:, 0]
+    lower, back = float(deepest.live.lower), np.maximum(2.0 - way, 0.0) * length
+    lower = np.where(way < 1, live.lower, lower)
+    length = np.where(way < 1, live.length, back)
+    lifted = np.where(way > 2, lower * np.maximum(2.2 - way, 0.0) / 0.2, lower + length)
+    states = mdr.Indentation(
+        scene.profile,
+        scene.medium,
+        np.where(way == 1, depth, lifted),
+        LiveInterval(lower, lower + length, length),
+    )
+    now, peak = (int(np.argmin(np.abs(way - place))) for place in (progress, 1.0))
+    return Trajectory(scene, way, states, now, peak)
+
+
+def _way(scene, largest, progress):
+    """Progress of every state of a scene that is pressed to a largest depth (m)."""
+    # A measured tip has an integral for each of its samples.
+    count = 13 if isinstance(scene.profile, mdr.Sampled) else 41
+    share = min(scene.medium.critical_depth / largest, 1.0) if largest > 0 else 1.0
+    loading = np.concatenate([share * _spread(count), share + (1 - share) * _spread(count)])
+    lifted = 2 + 0.2 * np.linspace(0, 1, 9)
     # Six digits: what the page says about where it stands is read back as the same number.
-    way = np.unique([float(f"{p:.6g}") for p in way])
-    depth = np.where(way <= 1, way * largest, largest - (np.clip(way, 1, 2) - 1) * critical)
-    depth = np.where(way > 2, (largest - critical) * np.maximum(2.2 - way, 0) / 0.2, depth)
-    return Trajectory(scene, way, mdr.indent(scene.profile, scene.medium, depth), _nearest(way, progress))
+    way = np.concatenate([loading, 1 + _spread(count), lifted, [progress]])
+    return np.unique([float(f"{p:.6g}") for p in way])
 
 
 def _impact(scene, progress):
     hit = scene.solve()
-    path = hit.motion(INSTANTS)
-    peak = int(np.argmax(path.depth))
-    turn, end = path.time[peak], path.time[-1]
-    way = np.where(path.time <= turn, path.time / turn, 1 + (path.time - turn) / (end - turn))
+    motion = hit.motion(INSTANTS)
+    peak = motion.turning_point
+    turn, end = motion.time[peak], motion.time[-1]
+    way = np.where(motion.time <= turn, motion.time / turn, 1 + (motion.time - turn) / (end - turn))
     way = np.array([float(f"{p:.6g}") for p in way])
-    return Trajectory(scene, way, path.states, _nearest(way, progress), path, hit)
-
-
-def _nearest(way, progress):
-    return int(np.argmin(np.abs(way - progress)))
+    now = int(np.argmin(np.abs(way - progress)))
+    return Trajectory(scene, way, motion.states, now, peak, hit, motion)

@@ -81,33 +81,38 @@ def entry(value, kind):
 
 
 _KEYBOARD = str.maketrans("µ·³²", "u*32")
-_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
+_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
 
 
 def read(text, kind, shown):
-    """A value in SI from what was typed: a number, in the unit that is shown if it names none.
+    """A value in SI from what was typed, and whether what it was read as is worth showing.
+
+    A bare number is in the unit that is shown, one with an exponent in SI; a comma is a decimal comma.
 
     Raises
     ------
     ValueError
         If the text is not a finite number with a unit of that kind.
     """
-    text = text.strip().replace("−", "-").replace("μ", "µ")
-    match = _NUMBER.fullmatch(text) if len(text) <= 40 else None
+    plain = text.strip().replace("−", "-").replace("μ", "µ")
+    if plain.count(",") == 1 and "." not in plain:
+        plain = plain.replace(",", ".")
+    match = _NUMBER.fullmatch(plain) if len(plain) <= 40 else None
     units = {unit.name: unit for unit in UNITS[kind]}
     # u, * and 3 for µ, · and ³, as on any keyboard.
     units |= {name.translate(_KEYBOARD): unit for name, unit in units.items()}
-    if match is None or (match[2] and match[2] not in units):
+    if match is None or (match[3] and match[3] not in units):
         known = ", ".join(unit.name for unit in UNITS[kind] if unit.name)
         raise ValueError(
             f"“{text:.40}” is not a number" + (f" with one of the units {known}" if known else "")
         )
-    unit = units[match[2]] if match[2] else shown
+    in_si = bool(match[2]) and not match[3] and shown.factor != 1
+    factor = units[match[3]].factor if match[3] else 1.0 if in_si else shown.factor
     # 15 nm as 1.5e-08, not as 1.5000000000000002e-08.
-    value = float(f"{float(match[1]) * unit.factor:.15g}")
+    value = float(f"{float(match[1]) * factor:.15g}")
     if not isfinite(value):
         raise ValueError(f"“{text}” is too large")
-    return value
+    return value, in_si
 
 
 _ROUND = np.array([1, 1.5, 2, 3, 4, 5, 6, 8, 10])

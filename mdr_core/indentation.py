@@ -281,7 +281,7 @@ class Indentation:
 
         Each increment of depth adds that of a flat punch, and so do the dashpots; residual stresses of the
         imprint are not in it. Even in r; at z = 0 with σ_zz = −p, and infinite where p is. Of one state, a
-        `Stress` right to 10⁻⁸ of the largest one, and to 10⁻⁶ closer to the surface than 10⁻³ a; next to the
+        `Stress` right to 10⁻⁸ of the largest one, to 10⁻⁶ closer to the surface than 10⁻³ a; next to the
         axis of a tip of exponent n < 1/2 that has not yielded, to 10⁻⁴.
 
         Parameters

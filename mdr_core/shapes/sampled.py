@@ -203,7 +203,7 @@ class Sampled(Profile):
         return np.where(depth <= self.deepest, radius, np.inf)
 
     def _first_guess(self, depth):
-        """Number of the vertex behind which the contact ends, and about the root of the distance from it."""
+        """Number of the vertex behind which the contact ends, and about the root of the way from it."""
         g, t, rate = self._table
         zone = np.clip(np.searchsorted(self._g, depth, side="right") - 1, 0, len(self.r) - 2)
         cell = np.clip((g[zone] <= depth[..., None]).sum(axis=-1) - 1, 0, 7)

@@ -7,11 +7,11 @@ import signal
 import subprocess
 import sys
 import threading
-from html import unescape
 from pathlib import Path
 from urllib.parse import parse_qsl, urlsplit
 from urllib.request import urlopen
 
+import numpy as np
 import pytest
 
 collect_ignore_glob = [] if importlib.util.find_spec("panel") else ["*.py"]
@@ -28,48 +28,37 @@ FLAGS = [
     "--disable-sync",
 ]
 
-# What the page draws: layers by name, axes, colours, and whether all is painted.
+# What the page draws: rows by name, axes, and whether all is done.
 SCRIPT = """
 window.explorer = {
-  figure: (name) => Bokeh.documents.map((each) => each.get_model_by_name(name)).find((each) => each),
-  column: (name, layer, key) => {
-    const glyph = explorer.figure(name).renderers.find((each) => each.name === layer)
-    // An image is an array of arrays, which not every playwright brings over as it is.
-    return Array.from(glyph.data_source.data[key], (each) => ArrayBuffer.isView(each) ? [...each] : each)
+  model: (name) => window.Bokeh?.documents[0]?.get_model_by_name(name),
+  row: (figure, row) => {
+    for (const { data_source: { data } } of explorer.model(figure).renderers) {
+      const k = data.row?.indexOf(row) ?? -1
+      if (k < 0 || (!data.symbol && !data.xs && data.x.length !== data.row.length)) continue
+      // Polygons are nested twice more.
+      const flat = (part) => Array.from(part[0]?.[0]?.length === undefined ? part : part[0][0])
+      return data.xs ? [flat(data.xs[k]), flat(data.ys[k])] : [[data.x[k]], [data.y[k]]]
+    }
   },
-  axis: (name) => {
-    const { x_range, y_range, below, left } = explorer.figure(name)
+  labels: (figure) =>
+    explorer.model(figure).renderers.find(({ name }) => name === "labels").data_source.data.Label,
+  axis: (figure) => {
+    const { x_range, y_range, below, left } = explorer.model(figure)
     return { x: [x_range.start, x_range.end], y: [y_range.start, y_range.end],
              labels: [below[0].axis_label, left[0].axis_label] }
   },
-  frame: (name) => {
-    const { left, right } = Bokeh.index.find_one(explorer.figure(name)).frame.bbox
-    return [left, right]
-  },
-  notices: () => explorer.main().querySelectorAll(".notice").length,
+  serial: () => explorer.model("packet").tags[0],
+  played: () => explorer.model("frames").tags[0] === explorer.serial(),
+  idle: () => Boolean(explorer.model("packet")) && Bokeh.documents.every((each) => each.is_idle) &&
+    explorer.row("force", "now")?.[0][0] > 0,
   listen: () => {
     explorer.sent = []
-    const send = explorer.send ?? WebSocket.prototype.send
-    explorer.send = send
+    const send = WebSocket.prototype.send
     WebSocket.prototype.send = function (data) {
       explorer.sent.push(String(data).slice(0, 200))
       send.call(this, data)
     }
-  },
-  main: () => Bokeh.index.roots[0]?.shadow_el?.querySelector("main"),
-  idle: () => window.Bokeh !== undefined && Bokeh.documents.length > 0 &&
-    Bokeh.documents.every((each) => each.is_idle) &&
-    Boolean(explorer.main()?.dataset.drawn) && explorer.main().getAttribute("aria-busy") !== "true",
-  colours: (name) => {
-    const view = Bokeh.index.find_one(explorer.figure(name))
-    const canvas = view.export("png", false).canvas
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height)
-    const counts = {}
-    for (let i = 0; i < data.length; i += 4) {
-      const key = [data[i], data[i + 1], data[i + 2]].join()
-      counts[key] = (counts[key] ?? 0) + 1
-    }
-    return counts
   },
 }
 """
@@ -138,7 +127,7 @@ class Explorer:
         page.on("pageerror", lambda error: self.problems.append(str(error)))
         page.on("console", self._heard)
         # Long enough for a busy machine, on which the first page of a server waits for all its imports.
-        page.set_default_timeout(60_000)
+        page.set_default_timeout(30_000)
         page.add_init_script(SCRIPT)
         page.goto(url)
         page.wait_for_function("explorer.idle()")
@@ -152,14 +141,17 @@ class Explorer:
         inside = ("localhost", "127.0.0.1", None)
         return [url for url in self.requests if urlsplit(url).hostname not in inside]
 
-    def column(self, figure, layer, key):
-        return self.page.evaluate("(args) => explorer.column(...args)", [figure, layer, key])
+    def row(self, figure, row):
+        """Columns x and y of a row as they are drawn."""
+        return [
+            np.array(part, float) for part in self.page.evaluate("(a) => explorer.row(...a)", [figure, row])
+        ]
+
+    def labels(self, figure):
+        return self.page.evaluate("(name) => explorer.labels(name)", figure)
 
     def axis(self, figure):
         return self.page.evaluate("(name) => explorer.axis(name)", figure)
-
-    def colours(self, figure):
-        return self.page.evaluate("(name) => explorer.colours(name)", figure)
 
     def slider(self, symbol):
         return self.page.locator(f'input[type="range"][aria-label^="{symbol},"]')
@@ -167,75 +159,77 @@ class Explorer:
     def field(self, symbol):
         return self.page.locator(f'input[type="text"][aria-label^="{symbol},"]')
 
-    def readout(self, symbol):
+    def said(self, symbol):
+        """What is said below a field."""
+        number = self.page.locator(".number", has=self.field(symbol))
+        return number.locator("#said").inner_text()
+
+    def readout(self, symbol, label=None):
         """A number of the strip above the plots, with its unit."""
-        return (
-            self.page.locator(f'.readouts [data-symbol="{symbol}"] dd')
-            .inner_text()
-            .replace("\n", "")
-            .strip()
-        )
+        cells = self.page.locator(f'.cell[data-symbol="{symbol}"]')
+        return (cells if label is None else cells.filter(has_text=label)).locator("dd").first.inner_text()
 
-    def pick(self, name, option, label):
-        """Pick an option of a choice, however it is offered, and wait until it is drawn."""
+    def press(self, name):
+        """Press a button of the page by its name."""
+        self.page.get_by_role("button", name=name, exact=True).click()
+
+    def pick(self, option):
+        """Pick an option of a choice by its text, and wait until it is drawn."""
         with self.change():
-            self.page.locator(f'input[type="radio"][name="{name}"][value="{option}"]').check()
-
-    def menu(self, label):
-        self.page.locator(".menu summary").click()
-        self.page.get_by_role("button", name=label).click()
-
-    def take(self, label):
-        """Path of the file that an entry of the menu gives."""
-        with self.page.expect_download() as download:
-            self.menu(label)
-        return download.value.path()
-
-    def save(self, figure, kind):
-        """Path of the picture of a plot."""
-        with self.page.expect_download() as download:
-            self.page.locator(f'[data-plot="{figure}"] button', has_text=kind).click()
-        return download.value.path()
-
-    def drawing(self, figure):
-        """All that is written in the SVG of a plot, and what stands between."""
-        text = re.sub("<[^>]*>", "", self.save(figure, "SVG").read_text(encoding="utf-8"))
-        return unescape(text).replace("\u200b", "")
-
-    def bring(self, label, path):
-        """Give the page a file."""
-        self.page.locator(f'input[type="file"][aria-label^="{label}"]').set_input_files(path)
-
-    def hush(self):
-        """Take the notices away, which go by themselves after a while: how soon is no matter of a test."""
-        self.page.evaluate("explorer.main().querySelectorAll('.notice').forEach((each) => each.remove())")
-
-    def link(self):
-        """What the address of the page says, once it has settled."""
-        self.page.wait_for_function("explorer.idle()")
-        self.page.wait_for_timeout(400)
-        query = dict(parse_qsl(urlsplit(self.page.url).query))
-        return query | {"at": float(query["at"])}
-
-    def wait_for_frames(self):
-        """Wait until the fields of all states are in the browser."""
-        self.page.wait_for_function(
-            "explorer.main().dataset.frames === explorer.main().dataset.scene && explorer.idle()"
-        )
-
-    def listen(self):
-        """What the page sends from now on: a function that gives the messages so far."""
-        self.page.evaluate("explorer.listen()")
-        return lambda: self.page.evaluate("explorer.sent")
+            self.page.get_by_label(option, exact=True).first.check()
 
     def choose(self, label, option):
-        """Choose from a list, and wait until what is drawn has changed and been painted."""
+        """Choose from a list, and wait until it is drawn."""
         with self.change():
             self.page.get_by_label(label, exact=True).select_option(label=option)
 
     def type(self, symbol, text):
         self.field(symbol).fill(text)
         self.field(symbol).press("Enter")
+
+    def lights(self):
+        """What is said of the assumptions: pairs of level and sentence."""
+        spans = self.page.locator(".lights span").all()
+        return [(span.get_attribute("class"), span.inner_text()) for span in spans]
+
+    def save(self, figure, kind):
+        """Path of the picture of a plot."""
+        with self.page.expect_download() as download:
+            self.page.locator(f".card.{figure}").get_by_role("button", name=kind).click()
+        return download.value.path()
+
+    def hover(self, figure, row, at):
+        """The tooltip over one point of a row, by its number."""
+        x, y = (part[at] for part in self.row(figure, row))
+        place = """([name, x, y]) => {
+            const view = Bokeh.index.find_one(explorer.model(name))
+            const { left, top } = view.el.getBoundingClientRect()
+            return [left + view.frame.x_scale.compute(x), top + view.frame.y_scale.compute(y)]
+        }"""
+        self.page.mouse.move(*self.page.evaluate(place, [figure, x, y]))
+        return self.tooltip(row)
+
+    def tooltip(self, row):
+        """The lines of the tooltip that is seen, once it is that of a row."""
+        text = """(row) => {
+            const all = (root) => [...root.querySelectorAll("*")].flatMap(
+                (each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
+            const tips = all(document).filter((on) => on.classList.contains("bk-Tooltip") && on.shadowRoot)
+            const parts = tips.flatMap((tip) => [...tip.shadowRoot.querySelectorAll("div")])
+            const said = parts.map((part) => part.innerText)
+            return said.find((each) => each?.trim().startsWith(row)) ?? ""
+        }"""
+        self.wait(text, row)
+        return [line.strip() for line in self.page.evaluate(text, row).splitlines() if line.strip()]
+
+    def wait(self, condition, arg=None):
+        """Wait until a condition in the browser holds."""
+        self.page.wait_for_function(condition, arg=arg, timeout=20_000)
+
+    def link(self, expected):
+        """The arguments of the address, once it has a text in it."""
+        self.wait("(text) => location.search.includes(text)", expected)
+        return dict(parse_qsl(urlsplit(self.page.url).query))
 
     def change(self):
         """Context in which something is done, left when a new scene is there and all is painted."""
@@ -247,11 +241,11 @@ class _Change:
         self.page = page
 
     def __enter__(self):
-        self.page.evaluate("window.before = explorer.main().dataset.scene")
+        self.page.evaluate("window.before = explorer.serial()")
 
     def __exit__(self, kind, *_):
         if kind is None:
-            self.page.wait_for_function("explorer.main().dataset.scene !== before && explorer.idle()")
+            self.page.wait_for_function("explorer.serial() !== before && explorer.idle()")
 
 
 @pytest.fixture(scope="session")
@@ -287,6 +281,5 @@ def explorer(server, context):
     yield explorer
     assert explorer.problems == []
     assert explorer.off_host() == []
-    page.evaluate("localStorage.clear()")
     page.close()
     assert server.faults == ""

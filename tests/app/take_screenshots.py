@@ -18,7 +18,7 @@ def main():
             explorer = Explorer(page, server.url)
             page.screenshot(path=ROOT / "assets/explorer.png")
             explorer.choose("Preset", DROP)
-            explorer.pick("damping", "tau", "τ")
+            explorer.pick("τ")
             page.locator("h1").click()
             page.keyboard.press("d")
             page.wait_for_timeout(800)

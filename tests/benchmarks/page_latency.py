@@ -14,8 +14,7 @@ from tests.app.conftest import CHROMIUM, FLAGS, SCRIPT, Server
 PRESSES = 60
 FIGURES = ["springs", "force", "pressure", "radii"]
 
-# Notes the time of each key press and of every paint of a plot, by Bokeh or by the page, which begins by
-# clearing its canvas.
+# Notes the time of each key press and of every paint of a plot, which begins by clearing its canvas.
 HOOK = """(names) => {
   window.bench = { painted: new Map(), pressed: 0, frames: 0, any: false }
   const note = (name) => {
@@ -26,16 +25,19 @@ HOOK = """(names) => {
     bench.pressed = performance.now()
     bench.painted.clear()
   }, true)
+  const owner = new Map()
   for (const name of names) {
-    const view = Bokeh.index.find_one(explorer.figure(name))
-    const paint = view._actual_paint.bind(view)
-    view._actual_paint = () => { paint(); note(name) }
+    const all = (root) => [...root.querySelectorAll("*")].flatMap(
+      (each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
+    const { el } = Bokeh.index.find_one(explorer.model(name))
+    for (const each of all(el.shadowRoot)) if (each.tagName === "CANVAS") owner.set(each, name)
   }
   const clear = CanvasRenderingContext2D.prototype.clearRect
   CanvasRenderingContext2D.prototype.clearRect = function (...box) {
     clear.apply(this, box)
-    const { sheet } = this.canvas.dataset
-    if (sheet) queueMicrotask(() => note(sheet))
+    const name = owner.get(this.canvas)
+    // What is drawn after the canvas was cleared is drawn in the same turn.
+    if (name) queueMicrotask(() => note(name))
   }
   const tick = () => {
     if (bench.any) bench.frames += 1
@@ -100,9 +102,9 @@ def drag(page, symbol):
 def smoothness(page):
     """Print the frame rates of a drag and of playback."""
     print(f"drag of a slider: {frames_per_second(page, lambda: drag(page, 'd_max')):.0f} frames/s")
-    page.wait_for_function("explorer.main().dataset.frames === explorer.main().dataset.scene")
-    play = page.locator(".player button")
+    play = page.locator(".key-space button")
     play.click()
+    page.wait_for_function("explorer.played()")
     rate = frames_per_second(page, lambda: page.wait_for_timeout(3000))
     play.click()
     print(f"playback: {rate:.0f} frames/s")

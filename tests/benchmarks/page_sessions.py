@@ -25,6 +25,22 @@ SESSIONS, RATE, SECONDS, ENOUGH = (8, 16, 24, 32, 40, 48), 2.0, 10.0, 200.0
 OPENED = (15, 100, 1000)
 
 
+def objects(part):
+    """Every object within a document as it was sent."""
+    if isinstance(part, dict):
+        yield part
+        part = list(part.values())
+    for each in part if isinstance(part, list) else ():
+        yield from objects(each)
+
+
+def dig(part, *keys):
+    """What lies in nested objects under some keys, None if it is not there."""
+    for key in keys:
+        part = part.get(key) if isinstance(part, dict) else None
+    return part
+
+
 class Client:
     """A person's browser as far as the server sees it."""
 
@@ -38,8 +54,16 @@ class Client:
         await self._message()
         # Another process than the one that sent the page may hold the session: its models are what counts.
         await self._send("PULL-DOC-REQ", "pull", {})
-        _, content = await self._message()
-        self.root = json.loads(content)["doc"]["roots"][0]["id"]
+        kind = None
+        while kind != "PULL-DOC-REPLY":
+            kind, content = await self._message()
+        # The control of the largest depth, by what it is called.
+        self.control = next(
+            each["id"]
+            for each in objects(json.loads(content))
+            if dig(each, "attributes", "data", "attributes", "spoken") == "d_max, largest depth"
+        )
+        self.count = 0
         return self
 
     async def _send(self, kind, name, content):
@@ -57,9 +81,10 @@ class Client:
 
     async def move(self, n):
         """Move a slider; seconds until the server has answered with a new picture."""
-        data = {"do": "move", "name": "max_depth", "position": 150 + n % 100, "n": n}
+        data = {"position": 150 + n % 100}
+        self.count += 1
         values = [
-            ["model", {"id": self.root}],
+            ["model", {"id": self.control}],
             ["data", {"type": "map", "entries": [list(item) for item in data.items()]}],
         ]
         event = {"type": "event", "name": "data_event", "values": {"type": "map", "entries": values}}
@@ -68,7 +93,7 @@ class Client:
         await self._send("PATCH-DOC", n, content)
         while True:
             _, content = await self._message()
-            if f'\\"answered\\": {n},' in content:
+            if f'"attr":"answered","new":{self.count}' in content.replace(" ", ""):
                 return time.perf_counter() - begin
 
     async def work(self, offset):

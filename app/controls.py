@@ -1,0 +1,243 @@
+"""The controls: Panel widgets over what can be set, each with its symbol, name, unit and an explanation."""
+
+import re
+from html import escape
+from pathlib import Path
+
+import panel as pn
+import param
+
+from .explorer import FROM_FILE
+from .plots import PLOTS
+from .presets import PRESETS
+from .quantities import (
+    CHOICES,
+    DAMPING,
+    DRIVE,
+    ELASTICITY,
+    INERTIA,
+    LABELS,
+    PLASTICITY,
+    SURFACE,
+    USED,
+    Scale,
+)
+from .shapes import QUANTITIES, SHAPES, shape_quantities
+from .units import UNITS, entry, written
+
+JS = {path.stem: path.read_text(encoding="utf-8") for path in (Path(__file__).parent / "js").glob("*.js")}
+WIDE = {"sizing_mode": "stretch_width", "margin": 0}
+
+
+def marked(text):
+    """A text as HTML, in which every symbol such as d_c has its index."""
+    index = r"(\b[a-zA-Z]|[σντηρ])_([a-zA-Z0-9]+)"
+    return re.sub(index, r"<i>\1</i><sub>\2</sub>", escape(text))
+
+
+def symbol(text):
+    """A symbol as HTML: q_c with its index."""
+    return marked(text) if "_" in text else f"<i>{escape(text)}</i>"
+
+
+def html(text, **options):
+    """A piece of the page."""
+    return pn.pane.HTML(text, **({"css_classes": ["note"]} | WIDE | options))
+
+
+def _about(quantity):
+    low, high = (written(bound, quantity.kind, 2) for bound in quantity.bounds)
+    units = ", ".join(unit.name for unit in UNITS[quantity.kind] if unit.name)
+    rows = [marked(quantity.help), f"<em>{marked(quantity.equation)}</em>" if quantity.equation else ""]
+    rows.append(f"Usual: {marked(quantity.typical)}." if quantity.typical else "")
+    rows.append(f"From {low} to {high}" + (f"; units {units}." if units else "."))
+    return "".join(f"<p>{row}</p>" for row in rows if row)
+
+
+def legend(name, shown):
+    """The legend of a plot, of those rows that are shown, as HTML."""
+    return "".join(
+        f'<span class="{row.role}"><i class="{row.kind} {_style(row)}"></i>{row.name}</span>'
+        for row in PLOTS[name].rows
+        if row.legend and row.name in shown
+    )
+
+
+def _style(row):
+    words = {"hatch": {" ": ""}.get(row.look.get("hatch"), "hatch")} if "hatch" in row.look else row.look
+    return " ".join(str(words.get(key, "")) for key in ("hatch", "dash", "marker"))
+
+
+class Number(pn.custom.JSComponent):
+    """A quantity that is typed with its unit, or dragged on its scale."""
+
+    label, spoken, about = param.String(), param.String(), param.String()
+    text, said, refused = param.String(), param.String(), param.Boolean()
+    position, steps, answered = param.Integer(), param.Integer(Scale.STEPS), param.Integer()
+
+    _esm = JS["quantity"]
+
+    def __init__(self, explorer, name, attempt):
+        quantity = QUANTITIES[name]
+        self.explorer, self.key, self.kind, self.attempt = explorer, name, quantity.kind, attempt
+        super().__init__(
+            label=f"{symbol(quantity.symbol)} {escape(quantity.label)}",
+            spoken=f"{quantity.symbol}, {quantity.label}",
+            about=_about(quantity),
+            css_classes=["number"],
+            **WIDE,
+        )
+        self.on_msg(self._asked)
+        explorer.param.watch(lambda event: self.show(), name)
+        self.show()
+
+    def _asked(self, event):
+        said = ""
+        with pn.io.hold():
+            try:
+                said = self.attempt(lambda: self._change(event.data)) or ""
+                self.refused = False
+            except ValueError as error:
+                said, self.refused = str(error), "text" in event.data
+            self.param.update(said=said, answered=self.answered + 1)
+            self.show()
+
+    def _change(self, message):
+        if isinstance(message.get("text"), str):
+            return self.explorer.type(self.key, message["text"])
+        if isinstance(message.get("position"), int | float):
+            self.explorer.slide(self.key, message["position"])
+        elif "reset" in message:
+            self.explorer.reset(self.key)
+        return ""
+
+    def show(self):
+        """Show the value as it stands."""
+        value = getattr(self.explorer, self.key)
+        position = self.explorer.scale(self.key).position(value)
+        self.param.update(text=entry(value, self.kind), position=position)
+
+
+class Controls:
+    """The form: built once for a session, its parts shown where they are used.
+
+    `attempt` makes a change and tells the person if it is refused.
+    """
+
+    def __init__(self, explorer, attempt, tell):
+        self.explorer, self.attempt, self.tell = explorer, attempt, tell
+        self.numbers, self.choices, self.notes = {}, {}, {}
+        labels = {label or "Scene from a file": label for label in (*PRESETS, FROM_FILE)}
+        self.preset = pn.widgets.Select(name="Preset", options=labels, css_classes=["choice"], **WIDE)
+        self.preset.param.watch(self._load, "value")
+        shapes = {shape.label: key for key, shape in SHAPES.items()} | {"Measured tip (CSV)": "sampled"}
+        self.choices["shape"] = pn.widgets.Select(
+            name="Shape", options=shapes, css_classes=["choice"], **WIDE
+        )
+        for name, options in CHOICES.items():
+            options = {text: option for option, text in options.items()}
+            self.choices[name] = pn.widgets.RadioBoxGroup(
+                name=LABELS[name], options=options, inline=True, css_classes=["choice"], **WIDE
+            )
+        for name, widget in self.choices.items():
+            widget.param.watch(lambda event, name=name: self._choose(name, event), "value")
+        for name in ("sources", "sketch", "tip", ELASTICITY, PLASTICITY, DAMPING):
+            self.notes[name] = html("")
+        self.tip = pn.widgets.FileInput(accept=".csv,.txt,text/csv", css_classes=["file", "tip"], **WIDE)
+        self.again = pn.widgets.Button(name="Hit again", css_classes=["button"], margin=(4, 0), width=90)
+        self.heads = {title: html(f"<h2>{title}</h2>") for title in ("Indenter", "Medium", "Drive")}
+        self.heads["tip"] = html("or a measured tip, as CSV (r, z):")
+        self.rows = {
+            name: pn.Row(
+                html(LABELS[name], css_classes=["legend"]),
+                self.choices[name],
+                css_classes=["fieldset"],
+                **WIDE,
+            )
+            for name in CHOICES
+        }
+        self.form = pn.Column(**WIDE)
+
+    def _load(self, event):
+        self.tell(lambda: self.explorer.load(event.new))
+        self.preset.value = self.explorer.preset
+
+    def _choose(self, name, event):
+        self.tell(lambda: self.explorer.choose(name, event.new))
+        self.choices[name].value = getattr(self.explorer, name)
+
+    def named(self):
+        """Widgets that have no label of their own, with what they are called."""
+        rows = [[self.choices[name], LABELS[name]] for name in CHOICES]
+        return [*rows, [self.tip, "CSV file of a measured tip: r, z"]]
+
+    def number(self, name):
+        """The control of a number, made when it is used for the first time."""
+        if name not in self.numbers:
+            self.numbers[name] = Number(self.explorer, name, self.attempt)
+        return self.numbers[name]
+
+    def show(self, made):
+        """Everything that is used, with its values; `made` is the medium."""
+        explorer = self.explorer
+        self.preset.value = explorer.preset
+        for name, widget in self.choices.items():
+            widget.value = getattr(explorer, name)
+        self._write(made)
+        rows = [self.preset, self.notes["sources"], self.heads["Indenter"], self.choices["shape"]]
+        rows += [
+            self.heads["tip"],
+            self.tip,
+            self.notes["tip"],
+            self.notes["sketch"],
+            *(self.number(n) for n, _ in shape_quantities(explorer.shape)),
+        ]
+        rows.append(self.heads["Medium"])
+        for choice in (ELASTICITY, PLASTICITY, DAMPING):
+            rows += [*self._choice(choice), self.notes[choice]]
+        rows += [self.heads["Drive"], *self._choice(DRIVE)]
+        if explorer.drive == "impact":
+            rows += [*self._choice(SURFACE), self.again, *self._choice(INERTIA)]
+        if rows != list(self.form):
+            self.form[:] = rows
+
+    def _choice(self, choice):
+        return [self.rows[choice], *map(self.number, USED[choice][getattr(self.explorer, choice)])]
+
+    def _write(self, made):
+        explorer, known = self.explorer, PRESETS.get(self.explorer.preset)
+        sources = known.sources if known else ()
+        rows = "".join(
+            f"<dt>{marked(f'{what} = {value}')}</dt><dd>{escape(where)}</dd>"
+            for what, value, where in sources
+        )
+        altered = "Altered. " if explorer.altered else ""
+        title = f"{altered}Where the preset's numbers come from"
+        origin = f"<details><summary>{title}</summary><dl>{rows}</dl></details>"
+        self.notes["sources"].object = origin if rows else f"{altered}A scene from a file."
+        self.notes["tip"].object = escape(explorer.tip_note if explorer.shape == "sampled" else "")
+        bodies = explorer.elasticity != "modulus"
+        self.notes[ELASTICITY].object = (
+            marked(f"E* = {written(made.E_star, 'pressure')} (2)") if bodies else ""
+        )
+        self.notes[PLASTICITY].object = marked(_yield(explorer, made))
+        self.notes[DAMPING].object = marked(_damping(explorer, made))
+
+
+def _yield(explorer, medium):
+    if explorer.plasticity == "none":
+        return "Nothing yields: q_c = ∞"
+    depth = written(medium.critical_depth, "length")
+    if explorer.plasticity == "hardness":
+        return f"q_c = σ_c a_c = {written(medium.q_c, 'yield constant')} (11); d_c = {depth} (19)"
+    return f"Yield starts at d_c = π q_c/(2E*) = {depth} (19)"
+
+
+def _damping(explorer, medium):
+    if explorer.damping == "none":
+        return ""
+    if explorer.damping == "tau":
+        text = f"η = {written(medium.eta, 'viscosity')}"
+    else:
+        text = f"τ = 4η/E* = {written(medium.relaxation_time, 'time')} (1)"
+    return text if explorer.drive == "impact" else f"{text}; no effect here: pressing is infinitely slow"

@@ -1,0 +1,87 @@
+"""Numbers that mean the same under another option of a choice, so that looking at it changes no result."""
+
+from math import inf
+
+from .quantities import DAMPING, DRIVE, ELASTICITY, INERTIA, PLASTICITY, SURFACE
+from .shapes import shape_quantities
+
+
+def _shape(state, shape):
+    """Numbers with which another shape has the size of the present contact."""
+    if shape == "sampled":
+        return {}
+    radius = float(state.solved().contact_radius)
+    values = {}
+    for name, quantity in shape_quantities(shape):
+        is_length = quantity.kind == "length"
+        value = float(f"{quantity.default * radius:.2g}") if is_length else quantity.default
+        values[name] = min(max(value, quantity.bounds[0]), quantity.bounds[1])
+    return values
+
+
+def _elasticity(state, option):
+    """Numbers with which the effective modulus stays as it is, Popov (2015), Eq. (2)."""
+    modulus = state.medium().E_star
+    if option == "modulus":
+        return {"E_star": modulus}
+    other = (1 - state.nu_2**2) / state.E_2 if option == "bodies" else 0.0
+    compliance = 1 / modulus - other
+    if compliance > 0.01 / modulus:
+        return {"E_1": (1 - state.nu_1**2) / compliance}
+    return {"E_1": 2 * modulus * (1 - state.nu_1**2), "E_2": 2 * modulus * (1 - state.nu_2**2)}
+
+
+def _plasticity(state, option):
+    """Numbers with which the yield constant stays as it is; none is remembered from before."""
+    q_c = state.medium().q_c
+    if q_c == inf:
+        return {}
+    if option == "q_c":
+        return {"q_c": q_c}
+    radius = float(f"{float(state.solved().contact_radius):.1g}")
+    return {"hardness": q_c / radius, "hardness_radius": radius} if option == "hardness" else {}
+
+
+def _damping(state, option):
+    """Numbers with which viscosity and relaxation time mean the same."""
+    medium = state.medium()
+    if state.damping == "none":
+        # A relaxation time that shows, and does not rule, at the time scale of an impact.
+        scale = float(state.solved().depth) / state.speed if state.drive == "impact" else 1e-3
+        tau = float(f"{scale / 10:.1g}")
+        return {"tau": tau, "eta": tau * medium.E_star / 4}
+    return {"eta": medium.eta, "tau": medium.relaxation_time} if option != "none" else {}
+
+
+def _drive(state, option):
+    """Numbers with which the deepest state stays as it is."""
+    deepest = state.solved()
+    if option == "depth":
+        return {"max_depth": float(deepest.depth)}
+    if option == "force":
+        # The force at which all of a flat face yields is not reached.
+        most = 2 * deepest.medium.yield_line_load * deepest.profile.wall
+        return {"max_force": min(float(deepest.force), 0.9 * most)}
+    # A body as heavy as a ball of the contact's size times ten, of steel.
+    mass = float(f"{4.2 * 7800 * (10 * float(deepest.contact_radius)) ** 3:.1g}")
+    work = float(deepest.stored_energy + deepest.plastic_work)
+    return {"mass": mass, "speed": (2 * work / mass) ** 0.5}
+
+
+def _surface(state, option):
+    """The imprint that the present impact leaves; a shallow one where it leaves none."""
+    if option == "virgin" or state.drive != "impact":
+        return {}
+    deepest = state.solved()
+    return {"plastic_depth": float(deepest.live.lower) or float(f"{0.1 * float(deepest.depth):.2g}")}
+
+
+CONVERT = {
+    "shape": _shape,
+    ELASTICITY: _elasticity,
+    PLASTICITY: _plasticity,
+    DAMPING: _damping,
+    DRIVE: _drive,
+    INERTIA: lambda state, option: {},
+    SURFACE: _surface,
+}

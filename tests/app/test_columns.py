@@ -1,0 +1,237 @@
+"""What the plots show, as arrays: every column against the core, without a browser."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+from app import columns, readouts
+from app.comparison import Row, compare, points
+from app.controls import legend
+from app.explorer import Explorer
+from app.figures import figure
+from app.packet import drawn, layers, packed
+from app.plots import PLOTS, Plot, line, mark
+from app.presets import PRESETS
+from app.shapes import SHAPES
+from app.trajectory import follow
+from app.view import View
+
+APP = Path(__file__).parents[2] / "app"
+DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
+
+
+def seen(explorer, progress=1.0):
+    return View(follow(explorer.scene(), progress))
+
+
+def viscous():
+    explorer = Explorer(DROP)
+    explorer.choose("damping", "tau")
+    return explorer
+
+
+def measured():
+    explorer = Explorer()
+    r = np.linspace(0, 100e-9, 30)
+    explorer.take_tip((r, r**2 / 200e-9), "")
+    return explorer
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_loading_curve_and_pressure_are_those_of_the_core(shape):
+    explorer = Explorer()
+    explorer.choose("shape", shape)
+    view = seen(explorer)
+    rows = columns.force_still(view)
+    for name in ("elastic", "yielding"):
+        depth, force = rows[name]
+        result = mdr.indent(explorer.profile(), explorer.medium(), depth[:, None] * view.unit["d"])
+        np.testing.assert_allclose(force * view.unit["F"], result.force[:, 0], rtol=1e-9, atol=1e-30)
+    r, p = columns.pressure(view, view.way.now)["−σzz(r)"]
+    expected = view.way.state.pressure(r * view.unit["r"]) / view.unit["p"]
+    np.testing.assert_allclose(p, np.minimum(expected, 1e3 * view.end["p"]), rtol=1e-9)
+
+
+@pytest.mark.parametrize("explorer", [Explorer(), Explorer(DROP), viscous(), measured()], ids=str)
+def test_every_plot_of_every_state_can_be_drawn(explorer):
+    view = seen(explorer)
+    names = [
+        n for n, plot in PLOTS.items() if plot.axes and (plot.axes[0] != "t" or view.way.motion is not None)
+    ]
+    for name in names:
+        rows = PLOTS[name].still(view)
+        for i in range(0, len(view.way), 9):
+            rows |= PLOTS[name].moving(view, i)
+            for x, y, *_ in rows.values():
+                assert np.size(x) == np.size(y) or PLOTS[name].image
+        assert rows.keys() >= {row.name for row in PLOTS[name].rows}
+
+
+def test_springs_are_yielded_elastic_or_free_where_the_core_says():
+    view = seen(Explorer())
+    rows, state = columns.springs(view, view.way.now), view.way.state
+    reach = {name: np.nanmax(np.abs(rows[name][0])) * view.unit["x"] for name in ("yielded", "elastic")}
+    spacing = 2 * view.end["x"] * view.unit["x"] / columns.SPRINGS
+    assert reach["yielded"] == pytest.approx(state.plastic_radius, abs=spacing)
+    assert reach["elastic"] == pytest.approx(state.contact_radius, abs=spacing)
+
+
+def test_a_measured_tip_ends_at_its_rim_without_pressure():
+    view = seen(measured())
+    r, p = view.pressure(view.way.now)
+    a = float(view.way.state.contact_radius)
+    assert np.all(np.isfinite(p))
+    assert p[np.argmin(np.abs(r - a))] == pytest.approx(0.0, abs=0.05 * p.max())
+    assert view.beyond(view.way.now) == ""
+    exact = view.way.state.pressure(r)
+    assert np.max(np.abs(p - exact)[r < 0.97 * a]) < 0.01 * exact.max()
+
+
+def test_the_contact_radius_falls_by_a_step_where_the_load_is_gone():
+    for explorer in (Explorer(), Explorer(DROP), Explorer("Flat steel punch on glass-fibre epoxy")):
+        view = seen(explorer)
+        depth, radius = columns.radii_still(view)["unloading"]
+        step = int(np.flatnonzero(radius == 0)[0])
+        assert depth[step] == depth[step - 1]
+        last = view.c[-1] if np.isfinite(view.c[-1]) else view.scaled("a", explorer.profile().face_radius)
+        assert radius[step - 1] == pytest.approx(last)
+
+
+def test_no_state_is_in_contact_without_a_force():
+    for explorer in (Explorer(), measured()):
+        way = follow(explorer.scene(), 2.0)
+        assert way.progress[way.now] == 2.0
+        assert way.state.contact_radius == 0
+        assert np.all((way.states.contact_radius > 0) == (way.force > 0))
+
+
+def test_a_peak_that_the_axis_does_not_reach_is_named():
+    view = seen(Explorer())
+    tops = {i: view.pressure(i)[1] for i in range(view.way.peak)}
+    cut = [i for i, p in tops.items() if np.max(p) > view.end["p"] * view.unit["p"]]
+    assert cut
+    for i in tops:
+        assert bool(view.beyond(i)) == (i in cut)
+    first = view.first
+    value, unit = re.search(r"= ([\d.]+) (\wPa)", view.beyond(first)).groups()
+    factor = {"GPa": 1e9, "TPa": 1e12}[unit]
+    assert float(value) * factor == pytest.approx(np.max(view.pressure(first)[1]), rel=0.01)
+    assert "∞ at the rim" in seen(Explorer("Flat steel punch on glass-fibre epoxy")).beyond(50)
+
+
+def lit(explorer):
+    return readouts.lights(follow(explorer.scene(), 1.0), *readouts.density_and_ratio(explorer))
+
+
+def test_lights_of_the_presets_warn_of_nothing():
+    for label in PRESETS:
+        assert [level for level, _ in lit(Explorer(label))].count("beyond") == 0, label
+
+
+def test_a_viscous_impact_has_the_error_of_the_fast_limit_and_its_poisson_ratio():
+    explorer = viscous()
+    found = lit(explorer)
+    error = 100 * float(explorer.scene().solve().fast_limit.contact_area_error)
+    assert error > 50
+    assert any(
+        level == "note" and f"+{error:.0f} %" in text and "does not hold" in text for level, text in found
+    )
+    assert any(level == "beyond" and "ν = ½" in text for level, text in found)
+    explorer.nu_1 = 0.5
+    assert any(level == "good" and "ν = ½" in text for level, text in lit(explorer))
+    explorer.choose("elasticity", "modulus")
+    assert any(level == "note" and "ν = ½" in text for level, text in lit(explorer))
+
+
+def test_steep_slopes_and_fast_bodies_are_warned_of():
+    explorer = Explorer(DROP)
+    explorer.speed = 500.0
+    assert [level for level, _ in lit(explorer)][:2] == ["beyond", "beyond"]
+
+
+def test_after_another_hit_depth_and_force_of_yield_belong_together():
+    explorer = Explorer(DROP)
+    hit = explorer.scene().solve()
+    explorer.hit_again(hit)
+    way = follow(explorer.scene(), 1.0)
+    cells = {symbol: float(value) for symbol, _, _, value in readouts.cells(way) if np.ndim(value) == 0}
+    again = float(hit.plastic_depth) + explorer.medium().critical_depth
+    assert cells["d_y"] == pytest.approx(again)
+    assert not cells.keys() & {"d_c", "F_c"}
+    assert cells["F_y"] == pytest.approx(float(way.onset.force))
+    np.testing.assert_allclose(
+        columns.force_still(View(way))["onset of yield"][0] * View(way).unit["d"], again
+    )
+
+
+def test_the_ledger_of_an_impact_sums_up():
+    view = seen(viscous())
+    t, top = columns.energy_still(view)["kinetic"]
+    np.testing.assert_allclose(top[: len(top) // 2] * view.unit["E"], 5.5 / 2, rtol=1e-6)
+    assert t.max() * view.unit["t"] == pytest.approx(float(view.way.hit.contact_time))
+
+
+def test_a_new_plot_is_one_entry(monkeypatch):
+    """The example of how to add a plot."""
+
+    def work(view, some):
+        return view.scaled("F", view.way.plastic_work[some] / view.way.scene.medium.critical_depth)
+
+    plot = Plot(
+        "Plastic work",
+        "W_p = d_c φ(d_p)",
+        ("d", "F"),
+        (line("W_p/d_c", "yielded", 2.5, symbol="W_p/d_c"), mark("now")),
+        still=lambda view: {"W_p/d_c": (view.d, work(view, slice(None)))},
+        moving=lambda view, i: {"now": (view.d[[i]], work(view, [i]))},
+    )
+    monkeypatch.setitem(PLOTS, "work", plot)
+    view, made = seen(Explorer()), figure("work")
+    shown = layers({"work": made})
+    values, starts, labels = packed(view, shown, [0, view.way.now])
+    assert [layer.rows for layer in shown] == [["W_p/d_c"], ["now"]]
+    assert len(starts) == len(labels) == 2
+    assert values[0] == len(view.way)
+    assert legend("work", drawn(view, "work", [view.way.now])).count("<span") == 2
+
+
+def test_legends_name_what_is_drawn_only():
+    shown = drawn(seen(Explorer()), "force", [50])
+    assert "held" not in shown
+    elastic = drawn(seen(Explorer("Steel ball 16 mm on epoxy, elastic")), "force", [20])
+    assert not elastic & {"yielding", "dissipated"} or "yielding" not in elastic
+
+
+def test_every_model_is_timed_alike_and_the_chains_go_from_left_to_right():
+    scene = Explorer().scene()
+    rows = list(compare(scene, scene.solve(), cap=0.3))
+    assert {row.model for row in rows} == {"closed form", "chain"}
+    shuffled = [Row("chain", n, t, 1e-3) for n, t in ((32, 3e-3), (64, 1e-3), (128, 2e-3))]
+    assert points(shuffled, "closed form")["chain"][0] == [1e-3, 2e-3, 3e-3]
+
+
+#: What the first version used that no documentation of Bokeh, Panel or HoloViews has.
+PRIVATE = re.compile(
+    r"\b(_actual_paint|is_forcing_paint|map_data|mark_finished|canvas_view|plot_view|renderer_views|repainted"
+    r"|_send_msg|_handle_msg|_models|_debounce|get_serialized_svg|embed_items|events_el|v_compute|pixel_ratio"
+    r"|source_range|getContext|silent)\b"
+)
+
+
+def test_nothing_private_of_the_toolkit_is_used():
+    for path in [*APP.glob("*.py"), *(APP / "js").glob("*.js")]:
+        text = path.read_text(encoding="utf-8")
+        assert PRIVATE.findall(text) == [], path.name
+        if path.suffix == ".js":
+            assert re.findall(r"\.(_\w+)", text) == [], path.name
+
+
+def test_the_page_stays_small():
+    lines = {
+        kind: sum(len(p.read_text().splitlines()) for p in APP.rglob(f"*.{kind}")) for kind in ("js", "css")
+    }
+    assert lines["js"] <= 200
+    assert lines["css"] <= 250
