@@ -148,6 +148,11 @@ def test_impact_of_the_polygon_of_a_paraboloid():
 
 
 TIPS = {
+    # Straight but for rounding: vertices that are none.
+    "straight": (
+        np.append(0, np.geomspace(1e-4, 1, 399)) / 0.35809,
+        np.append(0, np.geomspace(1e-4, 1, 399)),
+    ),
     "three scales": ([0.0, 1.0, 1.0001, 1e5], [0.0, 1.0, 1.00021, 4e5]),
     "next to nothing, then flat to 1": ([0.0, 1e-9, 1.0], [0.0, 0.0, 0.3]),
     "a face and a corner next to it": ([0.0, 1e-6, 1.000001e-6, 1e-5], [0.0, 0.0, 1e-13, 5e-6]),

@@ -114,9 +114,7 @@ class Sampled(Profile):
     def _refuse_concave(self):
         r, z, slope = self._r, self._z, self._slope
         # Straight within the rounding of the heights counts as straight.
-        noise = 4 * np.finfo(float).eps * (np.abs(z[1:]) + np.abs(z[:-1])) / np.diff(r)
-        fall = slope[:-1] - slope[1:]
-        concave = np.append(False, fall > noise[1:] + noise[:-1])
+        concave = self._bend < 0
         if slope[0] < 0:
             raise ValueError(
                 f"Sampled z[1] = {z[1]:g} m lies below the tip; order the samples from the tip out"
@@ -135,7 +133,18 @@ class Sampled(Profile):
     _r = cached_property(lambda self: np.array(self.r))
     _z = cached_property(lambda self: np.array(self.z))
     _slope = cached_property(lambda self: np.diff(self._z) / np.diff(self._r))
-    _bend = cached_property(lambda self: np.diff(self._slope, prepend=0.0))
+
+    @cached_property
+    def _noise(self):
+        """What rounding of the heights may make of the slopes."""
+        z = np.abs(self._z)
+        return 4 * np.finfo(float).eps * (z[1:] + z[:-1]) / np.diff(self._r)
+
+    @cached_property
+    def _bend(self):
+        bend = np.diff(self._slope, prepend=0.0)
+        straight = np.append(False, np.abs(bend[1:]) <= self._noise[1:] + self._noise[:-1])
+        return np.where(straight, 0.0, bend)
 
     @cached_property
     def _g(self):
@@ -189,15 +198,18 @@ class Sampled(Profile):
         # Behind a vertex g begins as a square root, and is smooth in t = √(x − r) there.
         zone, guess = self._first_guess(depth)
         vertex, end = self._r[zone], np.sqrt(np.diff(self._r))[zone]
+        # On the next vertex the slope is infinite, and Newton's method would not leave it.
+        before = np.nextafter(self._r[zone + 1], 0)
         t = np.clip(np.nan_to_num(guess), np.sqrt(np.spacing(vertex)), end)
-        # Before the first vertex the tip is a cone; on a vertex the slope is infinite.
+        # Before the first vertex the tip is a cone.
         with np.errstate(all="ignore"):
             t = np.where((zone > 0) | (depth == 0), t, np.sqrt(depth / (np.pi / 2 * self._slope[0])))
             for _ in range(50):
-                reduced, slope = self._reduced_and_slope(vertex + t * t)
+                x = np.minimum(vertex + t * t, before)
+                reduced, slope = self._reduced_and_slope(x)
                 step = np.nan_to_num((reduced - depth) / (2 * t * slope), posinf=0.0, neginf=0.0)
                 way, t = t, np.clip(t - step, t / 8, end)
-                if np.all(np.abs(t * t - way * way) <= 8 * np.spacing(vertex + t * t)):
+                if np.all(np.abs(t * t - way * way) <= 8 * np.spacing(x)):
                     break
         radius = np.where(depth > 0, vertex + t * t, self.face_radius)
         return np.where(depth <= self.deepest, radius, np.inf)
@@ -220,12 +232,11 @@ class Sampled(Profile):
         """g, t and dt/dg at nine t behind each vertex, up to the next one."""
         t = np.linspace(0, 1, 9) * np.sqrt(np.diff(self._r))[:, None]
         with np.errstate(all="ignore"):
-            g, slope = self._reduced_and_slope(self._r[:-1, None] + t * t)
+            x = np.minimum(self._r[:-1, None] + t * t, np.nextafter(self._r[1:, None], 0))
+            g, slope = self._reduced_and_slope(x)
             rate = 1 / (2 * t * slope)
             # On the vertex g begins as its bend times √(2r) t.
             rate[:, 0] = 1 / (self._bend * np.sqrt(2 * self._r[:-1]))
-        # The last one stands on the next vertex, whose own bend does not count yet.
-        rate[:, -1] = rate[:, -2]
         rate = np.where(np.isfinite(rate), rate, np.append(rate[:, 1:], rate[:, -1:], axis=1))
         return g, t, rate
 

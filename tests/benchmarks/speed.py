@@ -17,11 +17,11 @@ MEDIUM, WET = mdr.Medium(1e9, 10.0), mdr.Medium(1e9, 10.0, eta=3.0)
 def rows(count=10**6):
     """What, how long, and against what: force, dry impacts and viscous ones of every shape."""
     depths = np.linspace(1e-9, 1e-6, count)
-    # Forces of a cone that yields, and of a paraboloid, as they stand in textbooks.
+    # The elastic forces of textbooks, at the depth and beyond the plastic one: a difference of curves.
     d_c = MEDIUM.critical_depth
     books = {
-        "cone": lambda: np.where(depths < d_c, depths**2, (2 * depths - d_c) * d_c) * (2e9 / np.pi / 0.3),
-        "paraboloid": lambda: 4 / 3 * 1e9 * np.sqrt(1e-5) * depths**1.5,
+        "cone": lambda: (depths**2 - np.maximum(depths - d_c, 0) ** 2) * (2e9 / np.pi / 0.3),
+        "paraboloid": lambda: (depths**1.5 - np.maximum(depths - d_c, 0) ** 1.5) * (4e9 / 3 * 1e-5**0.5),
     }
     book = {what: seconds(call) for what, call in books.items()}
     for what, taken in book.items():
