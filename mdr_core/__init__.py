@@ -64,6 +64,8 @@ __all__ = [
     "indent_to_force",
 ]
 
+__version__ = "0.2.0"
+
 
 def __dir__():
     return __all__

@@ -1,9 +1,26 @@
 """Checks of what a caller hands in: quantity, value, bound, and what to do about it."""
 
 import reprlib
+from collections.abc import Callable
+from dataclasses import fields
 from functools import cached_property, wraps
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    class Array(np.ndarray[tuple[Any, ...], np.dtype[np.float64]]):
+        """A quantity: an array, or NumPy's scalar of one state, which can do all that an array can."""
+
+        def __round__(self, ndigits: int = ...) -> float: ...
+
+else:
+    Array, ArrayLike = np.ndarray, Any
+
+#: A parameter: any number or array is given, a float or an array is kept, which no one type says.
+Parameter = Any
 
 #: Beyond these the squares and products of quantities would leave double precision.
 SMALLEST, LARGEST = 1e-60, 1e60
@@ -34,8 +51,9 @@ def one_of(quantity, value, known):
     return value
 
 
-def number(quantity, value):
+def number(quantity, value, unit=""):
     """`value` as a float, if it is one real number (no bool, no text, no array)."""
+    value = in_unit(quantity, value, unit)
     try:
         array = np.asarray(value)
         if array.dtype.kind not in "iuf" or array.ndim:
@@ -45,11 +63,44 @@ def number(quantity, value):
     return float(array)
 
 
+def in_unit(quantity, value, unit):
+    """`value` without its unit, if it carries one that can be converted; what carries none stays as it is.
+
+    What pint, astropy and unyt have in common is asked for: a `unit` or `units`, and `to`. Labelled axes
+    (xarray) are refused, for arrays broadcast by the order of their axes here.
+    """
+    if hasattr(value, "dims") and hasattr(value, "coords"):
+        raise ValueError(
+            f"{quantity} has dimensions with names, {shown(value.dims)}, which would be lost: arrays "
+            "broadcast by the order of their axes; give its .values, transposed to what is meant"
+        )
+    if isinstance(value, list | tuple) and any(map(_carries_unit, value)):
+        return [in_unit(quantity, part, unit) for part in value]
+    if not _carries_unit(value):
+        return value
+    wanted = (unit or "").replace("·", "*").replace("³", "**3").replace("²", "**2")
+    try:
+        # Astropy's number without a unit is "", that of the others "dimensionless".
+        value = value.to(wanted if wanted or hasattr(value, "unit") else "dimensionless")
+        bare = value.magnitude if hasattr(value, "magnitude") else value.value
+    except Exception as error:
+        wanted = unit or "a number without a unit"
+        raise ValueError(
+            f"{quantity} = {value!s:.80} cannot be converted to {wanted} ({type(error).__name__})"
+        ) from None
+    return np.asarray(bare)[()]
+
+
+def _carries_unit(value):
+    return (hasattr(value, "units") or hasattr(value, "unit")) and hasattr(value, "to")
+
+
 def positive(quantity, value, *, unit="", infinite=False, zero=False, within=(SMALLEST, LARGEST)):
     """`value` as a float or a read-only array, if positive (or zero, or infinite, where allowed).
 
     Other numbers must lie within bounds that physical quantities in SI units keep.
     """
+    value = in_unit(quantity, value, unit)
     many = isinstance(value, list | tuple | np.ndarray)
     values = _real_array(quantity, value, "real numbers" if many else "one real number").copy()
     values.setflags(write=False)
@@ -69,7 +120,7 @@ def positive(quantity, value, *, unit="", infinite=False, zero=False, within=(SM
 
 def positive_number(quantity, value, *, unit="", infinite=False):
     """`value` as a float, if it is one positive number."""
-    return positive(quantity, number(quantity, value), unit=unit, infinite=infinite)
+    return positive(quantity, number(quantity, value, unit), unit=unit, infinite=infinite)
 
 
 def set_positive(profile, **units):
@@ -97,7 +148,10 @@ def _real_array(quantity, value, what="real numbers"):
 
 def finite_array(quantity, value, *, unit="", most=FARTHEST):
     """`value` as a float array without NaN or infinity, of numbers up to a size."""
-    array, remedy = _real_array(quantity, value), "leave it out, or mend the data it comes from"
+    array, remedy = (
+        _real_array(quantity, in_unit(quantity, value, unit)),
+        "leave it out, or mend the data it comes from",
+    )
     large = np.isfinite(array) & (np.abs(array) > most)
     refuse(quantity, array, large, f"is beyond {most:g}", unit=unit, remedy="give it in SI units")
     return refuse(quantity, array, ~np.isfinite(array), "must be finite", unit=unit, remedy=remedy)
@@ -127,7 +181,8 @@ def refuse(quantity, array, bad, bound, *, unit="", remedy=""):
 def common_shape(what, **values):
     """Shape to which the values broadcast, or an error that names their shapes."""
     for name, value in values.items():
-        _real_array(name, value)
+        if not _carries_unit(value):
+            _real_array(name, value)
     try:
         return np.broadcast_shapes(*map(np.shape, values.values()))
     except ValueError:
@@ -142,6 +197,25 @@ def frozen(values):
     return values[()]
 
 
-def frozen_property(function):
+def frozen_property(function: "Callable[[Any], Any]") -> "cached_property[Array]":
     """A property that is computed once and handed out as `frozen`."""
     return cached_property(wraps(function)(lambda self: frozen(function(self))))
+
+
+class Comparable:
+    """A frozen dataclass whose parameters may be arrays: equal where all entries are, and hashable."""
+
+    def __eq__(self, other):
+        if type(other) is not type(self):
+            return NotImplemented
+        pairs = ((getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
+        return all(np.array_equal(one, another) for one, another in pairs)
+
+    def __hash__(self):
+        values = (getattr(self, field.name) for field in fields(self))
+        return hash(
+            (
+                type(self),
+                *((v.shape, *v.ravel().tolist()) if isinstance(v, np.ndarray) else v for v in values),
+            )
+        )

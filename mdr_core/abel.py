@@ -4,11 +4,13 @@ Pure mathematics, for callables (`reduce_slope`, `height_from_reduced`) and for 
 (`stress_from_line_load`, `line_load_from_stress`).
 """
 
+from collections.abc import Callable
+
 import numpy as np
-from scipy.interpolate import CubicSpline
-from scipy.special import gamma
+import scipy
 
 from . import _check
+from ._check import Array, ArrayLike
 from ._numeric import chunks, gauss_legendre, root, tanh_sinh
 
 # Steps of the rule tried in turn, and how closely two of them must agree: the error of the finer one is
@@ -17,7 +19,7 @@ _STEPS = (1 / 14, 1 / 28, 1 / 56, 1 / 112)
 _AGREE = 1e-9
 
 
-def reduce_slope(slope, x):
+def reduce_slope(slope: Callable[[Array], Array], x: ArrayLike) -> Array:
     """Reduced height g(x) of the shape with slope dz/dr, Popov (2015), Eq. (3).
 
     g(x) = x ∫ z′(x sin t) dt over 0 < t < π/2, by a rule whose nodes crowd at both ends, with as many
@@ -54,7 +56,7 @@ def height_from_slope(slope, r):
     return (r * _mean_over_quarter(slope, r, "slope dz/dr", np.cos))[()]
 
 
-def kappa(n):
+def kappa(n: ArrayLike) -> Array:
     """Coefficient κₙ = √π n Γ(n/2)/(2 Γ((n+1)/2)) of a reduced power law.
 
     Popov (2015), Eq. (7).
@@ -67,14 +69,14 @@ def kappa(n):
     n = np.asarray(_check.positive("exponent n", n, zero=True))
     # n Γ(n/2)/2 = Γ(n/2 + 1), which stays finite as n → 0.
     few = np.minimum(n, 300.0)
-    ratio = np.sqrt(np.pi) * gamma(few / 2 + 1) / gamma((few + 1) / 2)
+    ratio = np.sqrt(np.pi) * scipy.special.gamma(few / 2 + 1) / scipy.special.gamma((few + 1) / 2)
     # Γ(m + 1/2)/Γ(m) for large m, where the gamma functions overflow.
     m = (np.maximum(n, 300.0) + 1) / 2
     series = np.polyval([869 / 4194304, -399 / 262144, -21 / 32768, 5 / 1024, 1 / 128, -1 / 8, 1], 1 / m)
     return np.where(n < 300, ratio, np.sqrt(np.pi * m) * series)[()]
 
 
-def height_from_reduced(reduced, r):
+def height_from_reduced(reduced: Callable[[Array], Array], r: ArrayLike) -> Array:
     """Height z(r) (m) of the shape whose reduced height is g(x), the inverse of Popov (2015), Eq. (3).
 
     z(r) = (2/π) ∫ g(r sin t) dt over 0 < t < π/2, for radii r (m) of any shape, and g (m) as a vectorised
@@ -115,7 +117,9 @@ def _mean_over_quarter(function, x, quantity, times=None):
     )
 
 
-def stress_from_line_load(x, q, r, axis="auto", interpolation="linear"):
+def stress_from_line_load(
+    x: ArrayLike, q: ArrayLike, r: ArrayLike, axis="auto", interpolation="linear"
+) -> Array:
     """Normal stress σ_zz(r) from samples of the line load q(x), Popov (2015), Eq. (10).
 
     σ_zz = (1/π) ∫ q′(x)/√(x² − r²) dx over x > r, exactly for the q that is linear between the
@@ -202,9 +206,9 @@ def _spline_stress(x, q, even, r):
     x, r, total = x / unit, r / unit, np.zeros_like(r)
     for first, last in zip(np.append(0, breaks + 1), np.append(breaks, len(x) - 1), strict=True):
         if last > first:
-            begin = (1, 0.0) if even and first == 0 else "not-a-knot"
+            ends = (1, 0.0) if even and first == 0 else "not-a-knot", "not-a-knot"
             stretch = slice(first, last + 1)
-            slope = CubicSpline(x[stretch], q[stretch], bc_type=(begin, "not-a-knot")).derivative()
+            slope = scipy.interpolate.CubicSpline(x[stretch], q[stretch], bc_type=ends).derivative()
             total = total + _parabolas_stress(slope.x, slope.c[::-1], r)
     return total / unit
 
@@ -243,7 +247,7 @@ def _moments(low, high, c, r):
     return logarithm + p1 * (second - first) + c2 / 2 * (high * second - low * first + square)
 
 
-def line_load_from_stress(r, stress, x):
+def line_load_from_stress(r: ArrayLike, stress: ArrayLike, x: ArrayLike) -> Array:
     """Line load q(x) from samples of the normal stress σ_zz(r), the inverse of Popov (2015), Eq. (10).
 
     q = −2 ∫ r σ_zz/√(r² − x²) dr over r > x, exactly for the stress that is linear between the

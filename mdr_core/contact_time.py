@@ -3,7 +3,7 @@
 from functools import lru_cache
 
 import numpy as np
-from scipy.special import gamma
+import scipy
 
 from ._numeric import chunks, gauss_integrals, gauss_legendre
 from .shapes.interpolated import interpolated
@@ -75,6 +75,7 @@ def elastic_time(p):
     2.9432751843
     """
     q = 1 / (p + 1)
+    gamma = scipy.special.gamma
     return 2 * np.sqrt(np.pi) * gamma(1 + q) / gamma(0.5 + q)
 
 

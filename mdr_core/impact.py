@@ -4,11 +4,14 @@ A dry one is solved by the balance of energy and quadrature, without time steppi
 equation of motion.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+from typing import Any, ClassVar
 
 import numpy as np
 
 from . import _check
+from ._check import Array, ArrayLike
 from ._numeric import chunks
 from .contact_time import contact_time
 from .energy_balance import dry_restitution, plastic_integral, pressed, turning_point
@@ -16,8 +19,20 @@ from .equation_of_motion import Bodies, solve
 from .indentation import Indentation
 from .medium import Medium, check_pair
 from .motion import motion
-from .results import CLOSED_FORM, SCALAR_ODE
-from .scaling import fast_limit
+from .report import Report
+from .results import (
+    CLOSED_FORM,
+    IMPACT_QUANTITIES,
+    IMPACT_SHOWN,
+    SCALAR_ODE,
+    Limit,
+    Model,
+    Motion,
+    contact_limits,
+    sealed,
+    speed_limit,
+)
+from .scaling import FastLimit, fast_limit, how_fast
 from .shapes.interpolated import interpolated
 from .shapes.profile import Profile
 from .superposition import radius_integral
@@ -26,7 +41,14 @@ from .superposition import radius_integral
 _WORTH_A_TABLE = 16
 
 
-def impact(profile, medium, mass, speed, *, plastic_depth=0.0):
+def impact(
+    profile: Profile,
+    medium: Medium,
+    mass: ArrayLike,
+    speed: ArrayLike,
+    *,
+    plastic_depth: ArrayLike = 0.0,
+) -> "Impact":
     """Let a body of given mass hit the medium at given speed, with no other force acting.
 
     Contact begins at the bottom of the imprint that is there, on a virgin medium at depth 0, and
@@ -100,7 +122,7 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
     known = np.minimum(profile.deepest, _check.LARGEST)
     bound = f"m/s presses deeper than the shape is known, {np.min(known, initial=np.inf):g} m"
     _check.refuse("speed", speed, ~(live.upper <= known), bound, remedy="hit less hard")
-    deepest = Indentation(profile, medium, live.upper, live)
+    deepest = Indentation(profile, medium, live.upper, live, in_time=True)
     return Impact(profile, medium, mass[()], speed[()], deepest, growth, rebound)
 
 
@@ -158,8 +180,8 @@ def _in_time(profile, medium, mass, speed, before, dry_too):
     return live, growth, Rebound(*(part[()] for part in (restitution, time, modulus * work, force)))
 
 
-@dataclass(frozen=True, eq=False)
-class Impact:
+@dataclass(frozen=True, eq=False, repr=False)
+class Impact(Report):
     """One impact or many; made by `impact`. Every quantity has the shape of the ensemble.
 
     `deepest` is the state at the turning point, `growth` what the impact added to the plastic depth
@@ -168,55 +190,82 @@ class Impact:
 
     profile: Profile
     medium: Medium
-    mass: np.ndarray
-    speed: np.ndarray
+    mass: Array
+    speed: Array
     deepest: Indentation
     growth: np.ndarray
     rebound: Rebound | None = None
+    _made_of: tuple[Any, ...] = field(default=(), repr=False)
 
-    def __getitem__(self, index):
+    _quantities: ClassVar[tuple[str, ...]] = IMPACT_QUANTITIES
+    _shown: ClassVar[tuple[str, ...]] = IMPACT_SHOWN
+    _dimensions: ClassVar[tuple[str, ...]] = ("impact",)
+    _noun: ClassVar[str] = "impact"
+
+    def __post_init__(self):
+        sealed(self, "profile", "medium", "mass", "speed", "deepest", "growth")
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """Where the model's assumptions end for these impacts, and the fast limit (23), (24), as data.
+
+        Examples
+        --------
+        >>> from mdr_core import Cone, Medium
+        >>> for limit in impact(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), 1e-12, 0.1).limits:
+        ...     print(limit.what, limit.holds, limit.sentence)
+        slope True Slopes reach 0.3 within the contact, which is small.
+        """
+        limits = contact_limits(self.profile, self.medium, self.contact_radius)
+        return (*limits, *how_fast(self))
+
+    def speed_limit(self, density: float) -> Limit:
+        """The speed over the wave speed √(E*/ρ) of a medium of some density ρ (kg/m³)."""
+        return speed_limit(self, density)
+
+    def __getitem__(self, index: Any) -> "Impact":
         deepest = self.deepest[index]
         mass, speed, growth = self.mass[index], self.speed[index], self.growth[index]
         rebound = self.rebound and self.rebound[index]
         return Impact(deepest.profile, deepest.medium, mass, speed, deepest, growth, rebound)
 
     @property
-    def model(self):
+    def model(self) -> Model:
         """How it was found: energy balance in closed form, or the equation of motion."""
         return CLOSED_FORM if self.rebound is None else SCALAR_ODE
 
     @property
-    def max_depth(self):
+    def max_depth(self) -> Array:
         """Largest indentation depth d_max (m), from the virgin surface."""
         return self.deepest.depth
 
     @property
-    def max_force(self):
+    def max_force(self) -> Array:
         """Largest force (N); a viscous impact has it before the turning point."""
         return self.deepest.force if self.rebound is None else self.rebound.max_force
 
     @property
-    def contact_radius(self):
+    def contact_radius(self) -> Array:
         """Largest contact radius a (m)."""
         return self.deepest.contact_radius
 
     @property
-    def plastic_radius(self):
+    def plastic_radius(self) -> Array:
         """Radius c (m) of the plastic zone that remains."""
         return self.deepest.plastic_radius
 
     @property
-    def plastic_depth(self):
+    def plastic_depth(self) -> Array:
         """Plastic depth d_p (m) that remains."""
         return self.deepest.plastic_depth
 
     @property
-    def damaged_area(self):
+    def damaged_area(self) -> Array:
         """Area π c² (m²) of the plastic zone; in the fast limit that of the contact, π a²."""
         return np.pi * self.plastic_radius**2
 
     @property
-    def stored_energy(self):
+    def stored_energy(self) -> Array:
         """Elastic energy (J) at the turning point; a dry impact returns all of it."""
         return self.deepest.stored_energy
 
@@ -227,7 +276,7 @@ class Impact:
         return 2 * self.medium.E_star * plastic_integral(self.profile, self.deepest.live, d_c, self.growth)
 
     @property
-    def viscous_work(self):
+    def viscous_work(self) -> Array:
         """Energy (J) dissipated by viscosity, with what the foundation relaxes after the contact."""
         return np.zeros(self.mass.shape)[()] if self.rebound is None else self.rebound.viscous_work
 
@@ -239,7 +288,7 @@ class Impact:
         return dry_restitution(self.profile, self.deepest.live, self.medium.critical_depth, self.growth)
 
     @property
-    def rebound_speed(self):
+    def rebound_speed(self) -> Array:
         """Speed e v₀ (m/s) at which the body leaves."""
         return self.restitution * self.speed
 
@@ -252,7 +301,7 @@ class Impact:
         return contact_time(self.profile, inertia, self.speed, self.deepest.live, self.growth)
 
     @property
-    def fast_limit(self):
+    def fast_limit(self) -> FastLimit:
         """The impact in the limit of Popov (2015), Eqs. (23), (24), with its error: a `FastLimit`.
 
         Examples
@@ -267,7 +316,7 @@ class Impact:
         """
         return fast_limit(self)
 
-    def motion(self, n=200):
+    def motion(self, n: int = 200) -> Motion:
         """The motion of one impact at n instants, from first contact to its loss.
 
         At equal steps up to the turning point, and from there on, about the same ones.

@@ -1,19 +1,23 @@
 """Indentation along a prescribed path of depth or force, followed infinitely slowly."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, ClassVar
 
 import numpy as np
 
 from . import _check, fields, stress
-from ._numeric import increasing_root, root
+from ._check import Array, ArrayLike
+from ._numeric import root
 from .medium import Medium, check_pair
-from .results import CLOSED_FORM
+from .report import Report
+from .results import CLOSED_FORM, Limit, contact_limits, sealed
 from .shapes.profile import Profile
-from .superposition import energy_integral, radius_drop, radius_integral
-from .yielding import LiveInterval, live_interval, virgin
+from .superposition import energy_integral, live_length, loading_depth, radius_drop, radius_integral
+from .yielding import LiveInterval, first_loading, live_interval, virgin
 
 
-def indent(profile, medium, depth):
+def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
     """Press an indenter along a depth path: loading, unloading and reloading in any order.
 
     The path is followed infinitely slowly, so that the dashpots of a viscous medium carry nothing;
@@ -56,7 +60,7 @@ def indent(profile, medium, depth):
     return Indentation(profile, medium, depth, live_interval(depth, medium.critical_depth))
 
 
-def indent_to_force(profile, medium, force):
+def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Indentation":
     """Press an indenter along a force path, infinitely slowly: the inverse of `indent`, with its memory.
 
     How a viscous medium gives way under a force in time is for `creep`.
@@ -95,48 +99,18 @@ def indent_to_force(profile, medium, force):
     area = force / (2 * medium.E_star)
     peak = np.maximum.accumulate(area, axis=-1) if area.ndim else area
     with np.errstate(all="ignore"):
-        deepest = _loading_depth(profile, medium, peak)
+        deepest = loading_depth(profile, medium.critical_depth, peak)
     known = min(profile.deepest, _check.LARGEST)
     bound = f"presses deeper than the shape is known, {known:g} m"
     _check.refuse("force", force, ~(deepest <= known), bound, unit="N", remedy="press less")
-    front = first_loading(profile, medium, deepest).live
-    length = np.where(area == peak, front.length, _live_length(profile, front, area))
+    front = first_loading(deepest, medium.critical_depth)
+    length = np.where(area == peak, front.length, live_length(profile, front, area))
     upper = np.where(area == peak, deepest, front.lower + length)
     return Indentation(profile, medium, upper, LiveInterval(front.lower, upper, length))
 
 
-def first_loading(profile, medium, depth):
-    """States reached by pressing a virgin medium to each of an array of depths (m) on its own."""
-    live = live_interval(depth[..., None], medium.critical_depth)[..., 0]
-    return Indentation(profile, medium, depth, live)
-
-
-def _loading_depth(profile, medium, area):
-    """Depth (m) at which a first loading has ∫ a ds = `area`, elementwise."""
-
-    def loading(depth):
-        live = first_loading(profile, medium, depth).live
-        ring = np.where(live.lower > 0, radius_drop(profile, live), profile._radius(depth))
-        return radius_integral(profile, live), ring
-
-    start = medium.critical_depth if medium.critical_depth < np.inf else 1.0
-    return increasing_root(loading, area, start, profile.deepest)
-
-
-def _live_length(profile, front, area):
-    """Live depth (m) left under the force 2E*·`area` after unloading from the state `front`."""
-
-    def unloading(length):
-        length = np.minimum(length, front.length)
-        live = LiveInterval(front.lower, front.lower + length, length)
-        return radius_integral(profile, live), profile._radius(live.upper)
-
-    longest = np.where(front.length > 0, front.length, 1.0)
-    return np.minimum(increasing_root(unloading, area, longest, longest), front.length)
-
-
-@dataclass(frozen=True, eq=False)
-class Indentation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Indentation(Report):
     """States of an indentation, one for each point of its path; made by `indent` or `indent_to_force`.
 
     Every quantity has the shape of `depth`. `result[i]` picks a state; `pressure`, `line_load`,
@@ -144,29 +118,46 @@ class Indentation:
     that everything is integrated over: it ends at the depth itself, but for a viscous body on its way
     out, whose elements let go ahead of it. `dashpot_load` is what the dashpots add to the line load in
     contact while a viscous medium is pressed at some speed, 4ηḋ (N/m); `Motion.states` has both.
+    `in_time` tells that it is of a motion; else the path is followed infinitely slowly.
     """
 
     profile: Profile
     medium: Medium
-    depth: np.ndarray
+    depth: Array
     live: LiveInterval
     dashpot_load: np.ndarray | float = 0.0
+    in_time: bool = False
+    _made_of: tuple[Any, ...] = field(default=(), repr=False)
 
     #: How it was found.
     model = CLOSED_FORM
+    _quantities: ClassVar[tuple[str, ...]] = (
+        "depth", "force", "stiffness", "contact_radius", "plastic_radius", "plastic_depth",
+        "mean_pressure", "stored_energy", "plastic_work",
+    )  # fmt: skip
+    _shown: ClassVar[tuple[str, ...]] = (
+        "depth", "force", "contact_radius", "plastic_radius", "plastic_depth", "mean_pressure",
+    )  # fmt: skip
+    _dimensions: ClassVar[tuple[str, ...]] = ("path", "state")
 
     def __post_init__(self):
-        # A copy: what the caller does with the path later must not change the result.
-        object.__setattr__(self, "depth", _check.frozen(np.array(self.depth)))
+        if not self._made_of:
+            # A copy: what the caller does with the path later must not change the result.
+            object.__setattr__(self, "depth", _check.frozen(np.array(self.depth)))
+        sealed(self, "profile", "medium", "depth", "live")
 
-    def __len__(self):
-        return len(self.depth)
-
-    def __getitem__(self, index):
+    def __getitem__(self, index: Any) -> "Indentation":
         shape = np.shape(self.depth)
         profile, medium = self.profile.entries(index, shape), self.medium.entries(index, shape)
         load = self.dashpot_load[index] if np.ndim(self.dashpot_load) else self.dashpot_load
-        return Indentation(profile, medium, np.asarray(self.depth[index]), self.live[index], load)
+        depth, live = np.asarray(self.depth[index]), self.live[index]
+        return Indentation(profile, medium, depth, live, load, self.in_time)
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """Where the model's assumptions end for these states, as data."""
+        slow = not self.in_time
+        return contact_limits(self.profile, self.medium, self.contact_radius, slow=slow)
 
     @property
     def _ahead(self):
@@ -190,8 +181,15 @@ class Indentation:
         """Radius c (m) of the plastic zone, Popov (2015), Eq. (21); 0 if nothing has yielded."""
         return np.where(self.live.lower > 0, self.profile._radius(np.asarray(self.live.lower)), 0.0)[()]
 
+    @_check.frozen_property
+    def mean_pressure(self):
+        """Mean contact pressure F/(π a²) (Pa), the hardness at this radius; 0 without contact."""
+        a = np.asarray(self.contact_radius)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(a > 0, self.force / a / a / np.pi, 0.0)[()]
+
     @property
-    def plastic_depth(self):
+    def plastic_depth(self) -> Array:
         """Plastic depth d_p (m): the depth of the residual imprint in the 1D foundation."""
         return _check.frozen(self.live.lower)
 
@@ -224,7 +222,7 @@ class Indentation:
             width = np.where(yielding, radius_drop(self.profile, self.live), width)[()]
         return 2 * self.medium.E_star * width
 
-    def pressure(self, r):
+    def pressure(self, r: ArrayLike) -> Array:
         """Contact pressure p = −σ_zz (Pa) at radii r (m), of the shape of `r`.
 
         p(r) = (E*/π) ∫ ds/√(a(s)² − r²), from Popov (2015), Eq. (10), and for the dashpots that of a flat
@@ -246,7 +244,7 @@ class Indentation:
             pressure += np.where(r.ravel() <= self.contact_radius, punch, 0.0)
         return pressure.reshape(r.shape)[()]
 
-    def line_load(self, x):
+    def line_load(self, x: ArrayLike) -> Array:
         """Line load q(x) (N/m) of the 1D foundation at x (m); Popov (2015), Eqs. (1), (17), (18)."""
         live, x = self._one_state("line_load"), self._radii(x)
         ring = live.upper - self.profile._reduced(np.minimum(x, self.contact_radius))
@@ -255,7 +253,7 @@ class Indentation:
         load = self.medium.E_star * inside + self.dashpot_load
         return np.where(x < self.contact_radius, load, 0.0)[()]
 
-    def surface(self, r):
+    def surface(self, r: ArrayLike) -> Array:
         """Elastic displacement u(r) (m) of the surface at radii r (m), positive downward.
 
         Together with `imprint` it is d − z(r) under the indenter. What has let go of a viscous medium and
@@ -268,7 +266,7 @@ class Indentation:
                 surface += self._ahead * 2 / np.pi * np.arcsin(np.minimum(radius / r, 1.0))
         return surface
 
-    def imprint(self, r):
+    def imprint(self, r: ArrayLike) -> Array:
         """Depth (m) of the residual imprint at radii r (m): what is left once the load is gone."""
         return self._displacement(virgin(self._one_state("imprint").lower), r)
 

@@ -2,11 +2,12 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from . import _check
-from ._check import shown
+from ._check import Array, ArrayLike, Parameter, shown
 from .shapes.profile import Profile
 
 
@@ -14,6 +15,9 @@ def check_pair(profile, medium, what=None):
     """Refuses what is no indenter or no medium, and more than one of either for `what` is of one only."""
     if not isinstance(profile, Profile):
         raise TypeError(f"profile must be an mdr_core shape such as Cone(slope=1), got {shown(profile)}")
+    if type(profile).__hash__ is None:
+        name = type(profile).__name__
+        raise TypeError(f"{name} must not change once it is made: declare it with @dataclass(frozen=True)")
     if not isinstance(medium, Medium):
         raise TypeError(f"medium must be a Medium, got {shown(medium)}")
     if what and (profile.shape or medium.shape):
@@ -29,8 +33,8 @@ def _poisson(quantity, ratio):
     return _check.refuse(quantity, ratio, ~((ratio > -1) & (ratio <= 0.5)), bound)
 
 
-@dataclass(frozen=True)
-class Medium:
+@dataclass(frozen=True, eq=False)
+class Medium(_check.Comparable):
     """A visco-elastic half-space with hardness inversely proportional to the contact radius.
 
     Parameters
@@ -44,7 +48,8 @@ class Medium:
     eta : float, optional
         Dynamic viscosity η (Pa·s), not negative; 0 (the default) means rate-independent.
     poisson : float, optional
-        Poisson ratio ν of the half-space, −1 < ν ≤ 1/2; beside E* only the stress below feels it.
+        Poisson ratio ν of the half-space, −1 < ν ≤ 1/2; beside E* only the stress below feels it. The
+        dashpots are exact for 1/2.
 
     Each may be an array for many impacts at once (`impact`); then every property is one too.
 
@@ -60,10 +65,10 @@ class Medium:
     31.415927
     """
 
-    E_star: float
-    q_c: float = np.inf
-    eta: float = 0.0
-    poisson: float = 0.5
+    E_star: Parameter
+    q_c: Parameter = np.inf
+    eta: Parameter = 0.0
+    poisson: Parameter = 0.5
 
     def __post_init__(self):
         set_ = object.__setattr__
@@ -75,7 +80,44 @@ class Medium:
         _check.common_shape("medium", E_star=self.E_star, q_c=self.q_c, eta=self.eta, poisson=self.poisson)
 
     @classmethod
-    def from_bodies(cls, E1, nu1, E2=np.inf, nu2=0.0, q_c=np.inf, eta=0.0):
+    def from_hardness(
+        cls, E_star: ArrayLike, hardness: ArrayLike, radius: ArrayLike, **rest: ArrayLike
+    ) -> "Medium":
+        """The medium whose fully yielded contact of some radius has a given hardness: q_c = σ_c a.
+
+        Parameters
+        ----------
+        E_star : float
+            Effective modulus E* (Pa).
+        hardness : float
+            Mean pressure σ_c (Pa) under a fully yielded contact, Popov (2015), Eq. (11).
+        radius : float
+            Contact radius a (m) at which it was measured.
+        **rest
+            `eta` and `poisson`, as in `Medium`.
+
+        Examples
+        --------
+        >>> print(Medium.from_hardness(95e9, hardness=1e9, radius=100e-9).q_c)
+        100.0
+        """
+        if "q_c" in rest:
+            raise ValueError("q_c and hardness both say when it yields; give one of them")
+        hardness = _check.positive("hardness", hardness, unit="Pa")
+        radius = _check.positive("radius of the hardness", radius, unit="m")
+        _check.common_shape("medium", hardness=hardness, radius=radius)
+        return cls(E_star, hardness * radius, **rest)
+
+    @classmethod
+    def from_bodies(
+        cls,
+        E1: ArrayLike,
+        nu1: ArrayLike,
+        E2: ArrayLike = np.inf,
+        nu2: ArrayLike = 0.0,
+        q_c: ArrayLike = np.inf,
+        eta: ArrayLike = 0.0,
+    ) -> "Medium":
         """The medium equivalent to two elastic bodies in contact.
 
         1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, Popov (2015), Eq. (2).
@@ -107,11 +149,11 @@ class Medium:
             return cls(1 / compliance, q_c, eta, nu1)
 
     @cached_property
-    def shape(self):
+    def shape(self) -> tuple[int, ...]:
         """Shape to which array-valued parameters broadcast, () for one medium."""
         return np.broadcast_shapes(*map(np.shape, self._values))
 
-    def entries(self, index, shape=None):
+    def entries(self, index: Any, shape: tuple[int, ...] | None = None) -> "Medium":
         """The media at an index of the parameters, broadcast to `shape` before."""
         if not self.shape:
             return self
@@ -123,16 +165,16 @@ class Medium:
         return self.E_star, self.q_c, self.eta, self.poisson
 
     @property
-    def critical_depth(self):
+    def critical_depth(self) -> Array:
         """Indentation depth d_c = π q_c/(2E*) (m) at which yield starts, Popov (2015), Eq. (19)."""
         return np.pi / 2 * (self.q_c / self.E_star)
 
     @property
-    def yield_line_load(self):
+    def yield_line_load(self) -> Array:
         """Largest line load π q_c/2 (N/m) that a 1D element carries, Popov (2015), Eq. (12)."""
         return np.pi / 2 * self.q_c
 
     @property
-    def relaxation_time(self):
+    def relaxation_time(self) -> Array:
         """Relaxation time τ = 4η/E* (s) of a spring and its dashpot, Popov (2015), Eq. (1)."""
         return 4 * self.eta / self.E_star

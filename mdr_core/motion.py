@@ -27,7 +27,8 @@ def motion(hit, n):
     time = instants(n, turn, end)
     count = int(np.searchsorted(time, turn, side="right"))
     y, velocity, work = _states(course.loading, time[:count])
-    # The turning point is known better than from the polynomials.
+    # First contact and the turning point are known better than from the polynomials.
+    y[0], velocity[0], work[0] = 0.0, hit.speed, 0.0
     y = np.minimum(y, deepest)
     y[time[:count] == turn], velocity[time[:count] == turn] = deepest, 0.0
     loading, growth = pressed(y, hit.medium.critical_depth, before)
@@ -64,7 +65,7 @@ def _ledger(hit, time, depth, velocity, live, growth, work, free):
     """The `Motion` from its states; `work` and `free` are over 2E* (m³)."""
     medium, modulus = hit.medium, 2 * hit.medium.E_star
     load = 4 * medium.eta * np.maximum(velocity, 0.0)
-    states = Indentation(hit.profile, medium, depth, live, load)
+    states = Indentation(hit.profile, medium, depth, live, load, in_time=True)
     # What the elements that have let go took with them has been dissipated, or is still theirs.
     taken = (medium.relaxation_time * np.minimum(velocity, 0.0)) ** 2 * states.contact_radius / 2
     return Motion(
@@ -81,6 +82,7 @@ def _ledger(hit, time, depth, velocity, live, growth, work, free):
         plastic_work=modulus * plastic_integral(hit.profile, live, medium.critical_depth, growth),
         viscous_work=modulus * (work - taken - free),
         states=states,
+        impact=hit,
     )
 
 

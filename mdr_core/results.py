@@ -1,14 +1,20 @@
-"""What results share: the model that was solved and why that one, and the motion of a body in time."""
+"""What results share: the model that was solved and why that one, where it ends, and the motion in time."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ._check import shown
+from . import _check
+from ._check import Array, shown
+from .report import Report, engineering
 
 if TYPE_CHECKING:
     from .indentation import Indentation
+
+#: Slopes up to which they count as small, beyond which they hardly are what was meant, contact radius over
+#: that of the body, and share of the wave speed that is slow.
+_SMALL, _NEEDLE, _BODY, _SLOW = 0.3, 3.0, 0.5, 0.1
 
 
 class Model(str):
@@ -48,8 +54,133 @@ CHAIN = Model(
 )
 
 
-@dataclass(frozen=True, eq=False)
-class Motion:
+#: Quantities of an impact, solved in whatever way, and those that its `repr` shows.
+IMPACT_QUANTITIES = (
+    "mass", "speed", "restitution", "rebound_speed", "contact_time", "max_depth", "max_force",
+    "contact_radius", "plastic_radius", "plastic_depth", "damaged_area", "stored_energy", "plastic_work",
+    "viscous_work",
+)  # fmt: skip
+IMPACT_SHOWN = (
+    "speed", "restitution", "max_depth", "max_force", "contact_time", "stored_energy", "plastic_work",
+    "viscous_work",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Limit:
+    """An assumption of the model, and how far a result goes towards its end; an entry of `result.limits`.
+
+    Attributes
+    ----------
+    what : str
+        What is bounded: "slope", "contact radius", "Poisson ratio", "viscosity", "speed", "fast limit".
+    value, bound : float
+        Its worst value over all states, and the one up to which the assumption usually is good.
+    exceeded : bool
+        Whether the value is beyond the bound.
+    sentence : str
+        The same in words, with what to do.
+    concerns : str
+        "result", or the formula of the paper that it is about while the result itself is exact.
+    """
+
+    what: str
+    value: float
+    bound: float
+    exceeded: bool
+    sentence: str
+    concerns: str = "result"
+
+    @property
+    def holds(self) -> bool:
+        """Whether the value is within the bound."""
+        return not self.exceeded
+
+
+def contact_limits(profile, medium, radius, *, slow=False):
+    """Limits of a contact that has reached some radii (m); `slow` its dashpots have carried nothing."""
+    found = [_slope_limit(profile, radius), *_body_limit(profile, radius)]
+    if np.any(np.asarray(medium.eta) > 0):
+        found.append(_viscosity_limit(medium) if slow else _poisson_limit(medium))
+    return tuple(found)
+
+
+def _slope_limit(profile, radius):
+    """The largest slope of the indenter within the contact: at its edge, or on the way there."""
+    a = np.asarray(radius) if profile.shape else np.max(radius, initial=0.0)
+    with np.errstate(all="ignore"):
+        top = profile._height(a)
+        edge = (top - profile._height(a * (1 - 1e-6))) / (1e-6 * a)
+        slope = np.where(a > 0, np.fmax(edge, top / a), 0.0)
+    # A difference has nine digits.
+    value = float(f"{np.max(slope, initial=0.0):.9g}")
+    text = f"Slopes reach {value:.3g} within the contact"
+    if value > _NEEDLE and hasattr(profile, "slope"):
+        text += (
+            ": a needle, far from a half-space. A slope is the tangent of the angle to the surface; for a "
+            "cone by its half-angle in degrees take Cone.from_half_angle(degrees)."
+        )
+    elif value > _SMALL:
+        text += f": beyond {_SMALL:g} a half-space and small slopes are an approximation."
+    else:
+        text += ", which is small."
+    return Limit("slope", value, _SMALL, value > _SMALL, text)
+
+
+def _body_limit(profile, radius):
+    """Contact radius over the radius of the body that the tip belongs to, if it has one."""
+    if np.all(profile.body_radius == np.inf):
+        return
+    value = float(np.max(radius / profile.body_radius, initial=0.0))
+    text = f"The contact radius reaches {value:.3g} R"
+    far = (
+        f": it is of the order of the radius, the equator is at R; up to {_BODY:g} R a half-space is near."
+    )
+    yield Limit("contact radius", value, _BODY, value > _BODY, text + (far if value > _BODY else "."))
+
+
+def _poisson_limit(medium):
+    value = float(np.min(medium.poisson))
+    text = f"Dashpots beside springs are exact for ν = 1/2 only, and ν = {value:.3g}"
+    text += ": take viscous results as an estimate." if value < 0.5 else "."
+    return Limit("Poisson ratio", value, 0.5, value < 0.5, text)
+
+
+def _viscosity_limit(medium):
+    value = float(np.max(medium.relaxation_time))
+    text = (
+        "Without times the path is followed infinitely slowly: the viscosity carries nothing; τ = "
+        f"{engineering(value, 's')}. indent_in_time and creep follow it in time."
+    )
+    return Limit("viscosity", value, 0.0, True, text)
+
+
+def speed_limit(result, density):
+    """Speed of an impact over the wave speed √(E*/ρ) of a medium of some density (kg/m³), as a `Limit`."""
+    density = _check.positive("density", density, unit="kg/m³")
+    value = float(np.max(result.speed / np.sqrt(result.medium.E_star / density)))
+    text = f"The speed is {value:.3g} of the wave speed √(E*/ρ)"
+    text += ": waves carry energy away." if value > _SLOW else ": quasi-static."
+    return Limit("speed", value, _SLOW, value > _SLOW, text)
+
+
+def sealed(result, *names):
+    """Keeps what a result was made of, and refuses one that is made of another's parts.
+
+    `dataclasses.replace` would pair the old force with a new medium.
+    """
+    parts = tuple(getattr(result, name) for name in names)
+    if result._made_of and any(one is not other for one, other in zip(parts, result._made_of, strict=True)):
+        name = type(result).__name__
+        raise ValueError(
+            f"the {', '.join(names)} of an existing {name} cannot be replaced: its results belong to them; "
+            "call the function that made it anew, as in mdr.indent(profile, medium, depth)"
+        )
+    object.__setattr__(result, "_made_of", parts)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Motion(Report):
     """One impact from first contact to its loss, as arrays of one length, its turning point among them.
 
     On a virgin medium elements of the foundation under the contact radius are in contact. On
@@ -72,24 +203,47 @@ class Motion:
     states : Indentation or None
         The states of contact: load, pressure and surface at each instant; None for the chain, whose
         elements each have a state of their own.
+    impact : Impact, ChainImpact or None
+        The impact whose motion it is.
     """
 
-    time: np.ndarray
-    depth: np.ndarray
-    velocity: np.ndarray
-    force: np.ndarray
-    contact_radius: np.ndarray
-    plastic_radius: np.ndarray
-    plastic_depth: np.ndarray
-    live_depth: np.ndarray
-    kinetic_energy: np.ndarray
-    stored_energy: np.ndarray
-    plastic_work: np.ndarray
-    viscous_work: np.ndarray
+    time: Array
+    depth: Array
+    velocity: Array
+    force: Array
+    contact_radius: Array
+    plastic_radius: Array
+    plastic_depth: Array
+    live_depth: Array
+    kinetic_energy: Array
+    stored_energy: Array
+    plastic_work: Array
+    viscous_work: Array
     states: "Indentation | None" = None
+    impact: Any = None
+
+    _quantities: ClassVar[tuple[str, ...]] = (
+        "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "plastic_depth",
+        "live_depth", "kinetic_energy", "stored_energy", "plastic_work", "viscous_work",
+    )  # fmt: skip
+    _shown: ClassVar[tuple[str, ...]] = _quantities[:6]
+    _dimensions: ClassVar[tuple[str, ...]] = ("time",)
+    _noun: ClassVar[str] = "instant"
+
+    def __getitem__(self, index: Any) -> "Motion":
+        parts = {name: getattr(self, name)[index] for name in self._quantities}
+        return replace(self, **parts, states=self.states and self.states[index])
+
+    def _source(self):
+        return self.impact if self.impact is not None else self
 
     @property
-    def turning_point(self):
+    def limits(self) -> tuple[Limit, ...]:
+        """Where the model's assumptions end, for the impact whose motion it is."""
+        return () if self.impact is None else self.impact.limits
+
+    @property
+    def turning_point(self) -> int:
         """Number of the instant at which the body turns round."""
         return int(np.argmax(self.depth))
 

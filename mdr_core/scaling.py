@@ -6,16 +6,22 @@ volume, surface and line processes. Under a fully yielded contact the force goes
 i = 2, 1, 0. For a shape z = c rⁿ that gives powers of the impact energy.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
 
 import numpy as np
 
 from . import _check
+from ._check import Array, ArrayLike
 from ._numeric import increasing_root
+from .report import Report
+from .results import Limit
 from .superposition import radius_integral
 from .yielding import virgin
 
 _FORCE_POWER = {"a": 2, "b": 1, "c": 0}
+#: Relative error up to which the fast limit is near.
+_NEAR = 0.1
 
 
 @dataclass(frozen=True)
@@ -50,27 +56,27 @@ class ScalingLaw:
         object.__setattr__(self, "exponent", exponent)
 
     @property
-    def radius(self):
+    def radius(self) -> float:
         """Power of W that the contact radius goes with."""
         return 1 / (self.exponent + _FORCE_POWER[self.hardness])
 
     @property
-    def depth(self):
+    def depth(self) -> float:
         """Power of W that the depth goes with: 1 in class (c)."""
         return self.exponent * self.radius
 
     @property
-    def area(self):
+    def area(self) -> float:
         """Power of W that the contact area goes with: 1 for a cone in class (b)."""
         return 2 * self.radius
 
     @property
-    def volume(self):
+    def volume(self) -> float:
         """Power of W that the expelled volume goes with: 1 in class (a)."""
         return (self.exponent + 2) * self.radius
 
     @property
-    def restitution(self):
+    def restitution(self) -> float:
         """Power of the *speed* that the coefficient of restitution goes with."""
         return (_FORCE_POWER[self.hardness] - 1 - self.exponent) * self.radius
 
@@ -79,20 +85,24 @@ class ScalingLaw:
 class HardnessClass:
     """Which class measured imprints belong to; made by `hardness_class`.
 
-    `hardness` is the nearest class, `slope` the measured power of the energy with its standard error
-    `slope_error`, `laws` the `ScalingLaw` of each class.
+    `hardness` is the class, None where none fits or the data do not tell, and `reason` says why; `slope`
+    the measured power of the energy with its standard error `slope_error`, infinite from two energies;
+    `laws` the `ScalingLaw` of each class.
     """
 
-    hardness: str
+    hardness: str | None
     slope: float
     slope_error: float
-    laws: dict
+    laws: dict[str, ScalingLaw] = field(repr=False)
+    reason: str
 
 
-def hardness_class(energy, radius, exponent):
+def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> HardnessClass:
     """The class of hardness that imprints of fast impacts tell: how their radius grows with energy.
 
-    Fits ln(radius) against ln(energy) and compares the slope with 1/(n + i).
+    Fits ln(radius) against ln(energy) and compares the slope with 1/(n + i): a class fits within two
+    standard errors, or a tenth, for impacts are never quite fast. The answer is None where no class fits or
+    more than one, and from two energies alone, which leave no error to judge by.
 
     Parameters
     ----------
@@ -128,13 +138,29 @@ def hardness_class(energy, radius, exponent):
     x, y = x - x.mean(), y - y.mean()
     slope = (x @ y) / (x @ x)
     rest = y - slope * x
-    error = np.sqrt(rest @ rest / max(x.size - 2, 1) / (x @ x))
-    nearest = min(laws, key=lambda name: abs(laws[name].radius - slope))
-    return HardnessClass(nearest, float(slope), float(error), laws)
+    enough = np.unique(x).size > 2
+    error = np.sqrt(rest @ rest / (x.size - 2) / (x @ x)) if enough else np.inf
+    found, reason = _class_of(laws, slope, error)
+    return HardnessClass(found, float(slope), float(error), laws, reason)
 
 
-@dataclass(frozen=True, eq=False)
-class FastLimit:
+def _class_of(laws, slope, error):
+    """The one class that a measured power fits, if it is one, and the reason."""
+    expected = ", ".join(f"{name}: {law.radius:.3g}" for name, law in laws.items())
+    measured = f"the slope {slope:.3g} ± {error:.2g}, where the classes have {expected}"
+    if error == np.inf:
+        return (
+            None,
+            f"insufficient: two energies leave no error of the slope {slope:.3g}; give three or more",
+        )
+    fits = [n for n, law in laws.items() if abs(slope - law.radius) <= max(2 * error, 0.1 * law.radius)]
+    if len(fits) == 1:
+        return fits[0], f"class {fits[0]} alone fits {measured}"
+    return None, f"{'none' if not fits else 'more than one class'} fits {measured}"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FastLimit(Report):
     """An impact in the limit in which everything under the indenter yields, beside the exact one.
 
     Popov (2015), Eqs. (23), (24): the work is π q_c ∫ a dd, for a cone q_c d²/s, and all of the
@@ -148,12 +174,23 @@ class FastLimit:
         Their relative errors against the exact impact; large where the limit does not hold.
     """
 
-    max_depth: np.ndarray
-    contact_area: np.ndarray
-    restitution: np.ndarray
-    max_depth_error: np.ndarray
-    contact_area_error: np.ndarray
-    restitution_error: np.ndarray
+    max_depth: Array
+    contact_area: Array
+    restitution: Array
+    max_depth_error: Array
+    contact_area_error: Array
+    restitution_error: Array
+
+    _quantities: ClassVar[tuple[str, ...]] = (
+        "max_depth", "contact_area", "restitution", "max_depth_error", "contact_area_error",
+        "restitution_error",
+    )  # fmt: skip
+    _shown: ClassVar[tuple[str, ...]] = _quantities
+    _dimensions: ClassVar[tuple[str, ...]] = ("impact",)
+    _noun: ClassVar[str] = "impact"
+
+    def __getitem__(self, index: Any) -> "FastLimit":
+        return FastLimit(*(getattr(self, name)[index] for name in self._quantities))
 
 
 def fast_limit(hit):
@@ -178,3 +215,20 @@ def fast_limit(hit):
     exact = hit.max_depth, np.pi * hit.contact_radius**2, hit.restitution
     errors = (limit / value - 1 for limit, value in zip((depth, area, restitution), exact, strict=True))
     return FastLimit(*(_check.frozen(part) for part in (depth, area, restitution, *errors)))
+
+
+def how_fast(hit):
+    """How far the fast limit (23), (24) is off for an `Impact`, as `Limit`s: none where nothing yields."""
+    if np.any(np.isinf(hit.medium.critical_depth)) or 0 in hit.shape:
+        return ()
+    equations, first = "Eqs. (23), (24)", np.all(hit.plastic_depth == hit.growth)
+    try:
+        limit = hit.fast_limit
+    except ValueError as error:
+        return (Limit("fast limit", np.inf, _NEAR, True, f"{equations} do not hold: {error}.", equations),)
+    errors = np.abs([limit.max_depth_error, limit.contact_area_error])
+    value = float(np.max(errors))
+    text = f"{equations} are off by up to {100 * value:.3g} % of the depth or the area"
+    if not first:
+        text += ", for they are for the first impact on a spot"
+    return (Limit("fast limit", value, _NEAR, value > _NEAR or not first, f"{text}.", equations),)

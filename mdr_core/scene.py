@@ -1,19 +1,20 @@
 """A scene: what is to be modelled, as a value that can be saved, loaded and solved."""
 
 import json
+import os
 from dataclasses import asdict, dataclass, fields, replace
 
 import numpy as np
 
 from . import _check
-from ._check import one_of, shown
-from .foundation.depth_path import check_times, indent_in_time
+from ._check import ArrayLike, Parameter, one_of, shown
+from .foundation.depth_path import TimedIndentation, check_times, indent_in_time
 from .foundation.force_path import creep
-from .foundation.impact import chain_impact
-from .impact import solve_impact
-from .indentation import indent, indent_to_force
+from .foundation.impact import ChainImpact, chain_impact
+from .impact import Impact, solve_impact
+from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium, check_pair
-from .results import CHAIN, CLOSED_FORM, SCALAR_ODE
+from .results import CHAIN, CLOSED_FORM, SCALAR_ODE, Model
 from .shapes import power, rounded, sampled, truncated
 from .shapes.profile import Profile
 
@@ -43,14 +44,14 @@ class DepthPath:
         Increasing times (s) of a path; without them it is followed infinitely slowly.
     """
 
-    depth: float | tuple[float, ...]
-    time: tuple[float, ...] | None = None
+    depth: Parameter
+    time: ArrayLike | None = None
 
     def __post_init__(self):
         object.__setattr__(self, "depth", _path("DepthPath depth", self.depth, "m"))
         object.__setattr__(self, "time", _times("depth", self.time, self.depth))
 
-    def models(self, medium):
+    def models(self, medium: Medium) -> tuple[Model, ...]:
         """Names of the models that can solve it, the cheapest that is exact first."""
         return (CHAIN,) if self.time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
 
@@ -75,8 +76,8 @@ class ForcePath:
         Increasing times (s) of a path; without them it is followed infinitely slowly.
     """
 
-    force: float | tuple[float, ...]
-    time: tuple[float, ...] | None = None
+    force: Parameter
+    time: ArrayLike | None = None
 
     def __post_init__(self):
         object.__setattr__(self, "force", _path("ForcePath force", self.force, "N"))
@@ -123,11 +124,11 @@ class FreeImpact:
     def __post_init__(self):
         for name, unit in (("mass", "kg"), ("speed", "m/s"), ("plastic_depth", "m")):
             quantity = f"FreeImpact {name}"
-            value = _check.number(quantity, getattr(self, name))
+            value = _check.number(quantity, getattr(self, name), unit)
             value = _check.positive(quantity, value, unit=unit, zero=name == "plastic_depth")
             object.__setattr__(self, name, float(value))
 
-    def models(self, medium):
+    def models(self, medium: Medium) -> tuple[Model, ...]:
         """Names of the models that can solve it, the cheapest that is exact first.
 
         The chain hits an imprint by `chain_impact(start=…)`: the depth alone does not set it up.
@@ -198,11 +199,11 @@ class Scene:
         check_pair(self.profile, self.medium, "a scene")
 
     @property
-    def models(self):
+    def models(self) -> tuple[Model, ...]:
         """Models that can solve the scene, the cheapest that is exact for it first."""
         return self.drive.models(self.medium)
 
-    def solve(self, model=None):
+    def solve(self, model: str | None = None) -> Indentation | TimedIndentation | Impact | ChainImpact:
         """Results of the scene; `result.model` says how they were found, `result.model.reason` why.
 
         Parameters
@@ -227,7 +228,7 @@ class Scene:
         one_of("model of this scene", model, self.models)
         return self.drive.solve(self.profile, self.medium, model)
 
-    def to_json(self):
+    def to_json(self) -> str:
         """The scene as JSON text, every number exact; an infinite yield constant as null."""
         return json.dumps(
             {
@@ -242,7 +243,7 @@ class Scene:
         )
 
     @classmethod
-    def from_json(cls, text):
+    def from_json(cls, text: str | bytes) -> "Scene":
         """The scene that `to_json` wrote.
 
         Raises
@@ -250,6 +251,11 @@ class Scene:
         ValueError
             If the text is not JSON, not a scene, or has a value out of its range.
         """
+        if isinstance(text, os.PathLike) or (isinstance(text, str) and text.strip().endswith(".json")):
+            raise ValueError(
+                f"scene: {shown(str(text))} is the name of a file, not JSON text; read it first, as in "
+                "Scene.from_json(pathlib.Path(name).read_text())"
+            )
         try:
             return cls._read(text)
         except RecursionError:

@@ -15,12 +15,12 @@ difference of two elastic curves.
 from functools import lru_cache, singledispatch
 
 import numpy as np
-from scipy.special import betainc
+import scipy
 
-from ._numeric import chunks, gauss_legendre
+from ._numeric import chunks, gauss_legendre, increasing_root
 from .shapes.interpolated import Interpolated
 from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
-from .yielding import LiveInterval
+from .yielding import LiveInterval, first_loading
 
 _TINY = np.finfo(float).tiny
 
@@ -248,7 +248,7 @@ def _(profile: PowerLaw, live):
 def _(profile: PowerLaw, live):
     q = 1 + 1 / profile.exponent
     a = profile._radius(live.upper)
-    return a * live.upper**2 * betainc(2, q, _fraction(live)) / (q * (q + 1))
+    return a * live.upper**2 * scipy.special.betainc(2, q, _fraction(live)) / (q * (q + 1))
 
 
 @radius_drop.register
@@ -266,3 +266,27 @@ def _log_ratio(live):
     fraction = _fraction(live)
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(fraction < 0.5, np.log1p(-fraction), np.log(live.lower / live.upper))
+
+
+def loading_depth(profile, critical_depth, area):
+    """Depth (m) at which a first loading has ∫ a ds = `area` (m²), elementwise."""
+
+    def loading(depth):
+        live = first_loading(depth, critical_depth)
+        ring = np.where(live.lower > 0, radius_drop(profile, live), profile._radius(depth))
+        return radius_integral(profile, live), ring
+
+    start = critical_depth if critical_depth < np.inf else 1.0
+    return increasing_root(loading, area, start, profile.deepest)
+
+
+def live_length(profile, front, area):
+    """Live depth (m) with ∫ a ds = `area` (m²) after unloading from the live interval `front`."""
+
+    def unloading(length):
+        length = np.minimum(length, front.length)
+        live = LiveInterval(front.lower, front.lower + length, length)
+        return radius_integral(profile, live), profile._radius(live.upper)
+
+    longest = np.where(front.length > 0, front.length, 1.0)
+    return np.minimum(increasing_root(unloading, area, longest, longest), front.length)

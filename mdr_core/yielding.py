@@ -53,6 +53,11 @@ def live_interval(depth, critical_depth):
     return LiveInterval(lower, np.maximum(depth, lower), length)
 
 
+def first_loading(depth, critical_depth):
+    """Live intervals after pressing a virgin medium to each of an array of depths (m) on its own."""
+    return live_interval(depth[..., None], critical_depth)[..., 0]
+
+
 def virgin(depth):
     """Live interval of an elastic indentation from zero to `depth`."""
     return LiveInterval(np.zeros_like(depth), depth, depth)

@@ -267,3 +267,9 @@ def test_force_that_no_depth_is_enough_for():
     assert mdr.indent_to_force(tip, medium, force).depth == pytest.approx(1e-6, rel=1e-9)
     with pytest.raises(ValueError, match=r"presses deeper than the shape is known, 1e\+60 m"):
         mdr.indent_to_force(tip, medium, 1e9 * force)
+
+
+def test_mean_pressure_of_a_cone_is_half_its_slope_times_the_modulus():
+    path = mdr.indent(mdr.Cone(0.3), mdr.Medium(1e9), [-1e-9, 0.0, 1e-9, 1e-6])
+    # Sneddon: p_m = E* s/2; a few roundings.
+    np.testing.assert_allclose(path.mean_pressure, [0.0, 0.0, 0.15e9, 0.15e9], rtol=1e-14)

@@ -13,7 +13,8 @@ PACKAGE = Path(mdr.__file__).parent
 # From the bottom up; a module may import what stands before it.
 ORDER = (
     "_check", "_numeric", "abel", "shapes.tables", "shapes.profile", "shapes.power", "shapes.rounded",
-    "shapes.truncated", "shapes.sampled", "shapes.smooth", "shapes.interpolated", "medium", "results",
+    "shapes.truncated", "shapes.sampled", "shapes.smooth", "shapes.interpolated", "medium", "report",
+    "results",
     "foundation.element", "foundation.fronts", "foundation.reach", "foundation.row",
     "foundation.depth_path", "foundation.force_path", "foundation.free_body", "foundation.impact",
     "yielding", "superposition", "fields", "stress", "indentation", "energy_balance", "contact_time",
@@ -102,7 +103,8 @@ def test_both_impacts_answer_the_same_names():
     names, others = ({n for n in dir(each) if not n.startswith("_")} for each in (hit, chain))
     assert names - others == {"deepest", "growth", "rebound", "fast_limit"}
     assert others - names == {"error", "errors", "foundation"}
-    for name in sorted(names & others - {"profile", "medium", "model", "motion"}):
+    assert hit.shape == chain.shape == ()
+    for name in hit.to_dict():
         one, other = getattr(hit, name), getattr(chain, name)
         # The tolerance of the chain is 1e-6 of the depth, of which forces, areas and times are powers.
         assert other == pytest.approx(one, rel=3e-5), name

@@ -80,3 +80,25 @@ def test_poisson_ratio_is_that_of_the_first_body():
     for bad in (-1.0, 0.51):
         with pytest.raises(ValueError, match=f"Poisson ratio poisson = {bad:g} must lie in −1 < ν ≤ 0.5"):
             mdr.Medium(1e9, poisson=bad)
+
+
+def test_media_of_arrays_are_compared_and_hashed():
+    one, other = mdr.Medium([1e9, 2e9], 1.0), mdr.Medium([1e9, 2e9], 1.0)
+    assert one == other
+    assert len({one, other, mdr.Medium([1e9, 3e9], 1.0), mdr.Medium(1e9)}) == 3
+    assert mdr.Cone([0.1, 0.2]) == mdr.Cone([0.1, 0.2]) != mdr.Cone([0.1, 0.3])
+    assert hash(mdr.Cone([0.1, 0.2])) == hash(mdr.Cone([0.1, 0.2])) != hash(mdr.Cone([[0.1, 0.2]]))
+    assert mdr.Cone(0.1) != mdr.Paraboloid(0.1)
+    assert mdr.Medium(1.0) != 1.0
+
+
+def test_medium_from_a_hardness():
+    medium = mdr.Medium.from_hardness(95e9, 1e9, 100e-9, eta=2.0, poisson=0.4)
+    assert medium == mdr.Medium(95e9, 1e9 * 100e-9, 2.0, 0.4)
+    # Deep below the critical depth the mean pressure at a radius is q_c/a: Popov (2015), Eq. (11).
+    state = mdr.indent(mdr.Cone(0.01), medium, 1e4 * medium.critical_depth)
+    assert state.mean_pressure * state.contact_radius == pytest.approx(medium.q_c, rel=1e-4)
+    with pytest.raises(ValueError, match="q_c and hardness both"):
+        mdr.Medium.from_hardness(95e9, 1e9, 100e-9, q_c=3.0)
+    with pytest.raises(ValueError, match="hardness = -1 Pa"):
+        mdr.Medium.from_hardness(95e9, -1.0, 100e-9)

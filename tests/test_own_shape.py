@@ -136,3 +136,18 @@ class TestPencil:
         assert hit.restitution == pytest.approx(chain.restitution, abs=chain.error)
         assert hit.max_depth == pytest.approx(chain.max_depth, rel=chain.error)
         assert 0.1 < hit.restitution < 0.9
+
+
+def test_a_shape_that_may_change_is_refused():
+    @dataclass
+    class Loose(Pencil.__base__):
+        slope: float
+        _height = _reduced = _reduced_slope = Pencil._height
+
+    for use in (
+        lambda: mdr.indent(Loose(0.1), MEDIUM, 1e-9),
+        lambda: mdr.impact(Loose(0.1), MEDIUM, 1e-9, 0.1),
+        lambda: mdr.chain_impact(Loose(0.1), MEDIUM, 1e-9, 0.1),
+    ):
+        with pytest.raises(TypeError, match=r"Loose must not change .* @dataclass\(frozen=True\)"):
+            use()

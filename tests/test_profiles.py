@@ -141,3 +141,21 @@ def test_limits_of_families():
 def test_bad_shapes_and_arguments_are_refused(make, says):
     with pytest.raises(ValueError, match=says):
         make()
+
+
+@pytest.mark.parametrize(("degrees", "slope"), [(45.0, 1.0), (60.0, 3**-0.5), (30.0, 3**0.5)])
+def test_cone_from_its_half_angle(degrees, slope):
+    assert mdr.Cone.from_half_angle(degrees).slope == pytest.approx(slope, rel=1e-15)
+
+
+def test_the_cone_of_a_berkovich_tip():
+    """Oliver and Pharr: half-angle 70.3°, A = 24.5 h² (three figures as they are quoted)."""
+    cone = mdr.Cone.berkovich()
+    assert cone.slope == pytest.approx(mdr.Cone.from_half_angle(70.3).slope, rel=3e-4)
+    assert np.pi / cone.slope**2 == pytest.approx(24.5, abs=0.05)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 90.0, -70.3, np.nan, [45.0, 91.0]])
+def test_bad_half_angles_are_refused(degrees):
+    with pytest.raises(ValueError, match="half-angle"):
+        mdr.Cone.from_half_angle(degrees)

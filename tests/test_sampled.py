@@ -210,6 +210,11 @@ class TestCsv:
         [
             "r (nm), z (nm)\n0, 0\n100, 10\n200, 30\n",
             "# a tip\nr [nm];z [nm]\n0;0\n100;10\n200;30",
+            "r (nm);z (nm)\n0,0;0,0\n100,0;10,0\n2,0e2;30\n",
+            "radius/nm\theight/µm\n0\t0\n1,0e2\t0,01\n2e2\t0,03\n",
+            '"r (nm)","z (nm)","error (nm)"\n"0","0","1"\n100,10,1\n200,30,1\n',
+            "r (nm);z (nm);\n0;0;\n100;10;\n200;30;\n",
+            "r (nm) z (nm)\n0,0 0,0\n100,0 10,0\n2,0e2 30,0\n",
             "# r (nm)\tz (nm)\r\n0\t0\r\n1e2\t1e1\r\n\r\n2e2\t3e1\r\n",
             "\ufeffr (um) z (nm)\n0 0\n.1 10\n.2 30\n",
         ],
@@ -221,6 +226,7 @@ class TestCsv:
 
     def test_units_given(self, tmp_path):
         assert self.read(tmp_path, "0,0\n1,1\n", unit="mm").r == (0.0, 1e-3)
+        assert self.read(tmp_path, "0;0;7\n0,5;1;7\n", unit="mm").r == (0.0, 5e-4)
 
     @pytest.mark.parametrize(
         ("text", "options", "says"),
@@ -231,6 +237,8 @@ class TestCsv:
             ("0,0\n1,1\n", {"unit": "inch"}, "unit = 'inch' must be one of"),
             ("r (nm), z (nm)\n0,0\n1;x\n", {}, "line 3: expected two numbers"),
             ("r (nm), z (nm)\n0,0,0\n", {}, "line 2: expected two numbers"),
+            ("r (nm); z (nm); e (nm)\n0;0;1\n1;1\n", {}, "line 3: expected 3 numbers, r and z first"),
+            ("r (nm);z (nm)\n0;0\n;1\n", {}, "line 3: expected two numbers"),
             ("r (nm), z (nm)\n", {}, "no samples"),
             ("r (nm), z (nm)\n0,0\n1,nan\n", {}, r"Sampled z\[1\] = nan m"),
             (
@@ -253,3 +261,83 @@ class TestCsv:
         path.write_text("r (nm), z (nm)\n0,0\n1,1\n", encoding="utf-16")
         with pytest.raises(ValueError, match=r"tip.csv is not UTF-8 text \(invalid start byte\)"):
             mdr.Sampled.from_csv(path)
+
+
+class TestFit:
+    """Least squares over noisy, two-sided samples of a paraboloid."""
+
+    shape, depth = mdr.Paraboloid(1e-6), 40e-9
+    r = np.linspace(-4e-7, 4e-7, 401)
+
+    def measured(self, seed):
+        return self.shape.height(self.r) + 1e-9 * np.random.default_rng(seed).standard_normal(self.r.size)
+
+    def test_noise_has_no_preference(self):
+        force = [
+            mdr.indent(mdr.Sampled.fit(self.r, self.measured(seed)), MEDIUM, self.depth).force
+            for seed in range(50)
+        ]
+        error = np.array(force) / mdr.indent(self.shape, MEDIUM, self.depth).force - 1
+        # Three standard errors of the mean of 50; one tip scatters by 1 %, as its height at the apex does.
+        assert abs(np.mean(error)) < 3 * np.std(error) / np.sqrt(50)
+        assert np.std(error) < 0.015
+
+    def test_order_side_and_height_do_not_matter(self):
+        z = self.measured(1)
+        order = np.random.default_rng(2).permutation(self.r.size)
+        one, other = mdr.Sampled.fit(self.r, z), mdr.Sampled.fit(-self.r[order], z[order] - 3e-8)
+        # Rounding of the solver, in units of the height.
+        np.testing.assert_allclose(one.height(one.r), other.height(one.r), atol=1e-12 * one.z[-1])
+
+    def test_what_is_convex_already_is_kept(self):
+        r = np.array([0.0, 1.0, 2.0, 4.0])
+        tip = mdr.Sampled.fit(np.append(-r, r), np.tile([5.0, 5.0, 5.5, 7.5], 2))
+        np.testing.assert_allclose(tip.height(r), [0.0, 0.0, 0.5, 2.5], atol=1e-14)
+
+    @pytest.mark.parametrize(
+        ("r", "z", "says"),
+        [
+            ([0, 1, 2], [0, 1], "two lists of one length"),
+            ([-1, 0, 1], [1, 0, 1], "three radii or more"),
+            ([0, 1, 2], [0, -1, -2], "does not rise from the axis outward"),
+            ([0, 1, 2], [0, math.inf, 2], r"z\[1\] = inf m must be finite"),
+        ],
+    )
+    def test_bad_samples_are_refused(self, r, z, says):
+        with pytest.raises(ValueError, match=says):
+            mdr.Sampled.fit(r, z)
+
+
+class TestAreaFunction:
+    @pytest.mark.parametrize(
+        ("coefficients", "shape", "tolerance"),
+        # A = C₀h² is a cone, which its polygon is; A = 2πRh a paraboloid, above which its chords lie.
+        [
+            ([24.5], mdr.Cone(math.sqrt(math.pi / 24.5)), 1e-12),
+            ([0.0, 2e-6 * math.pi], mdr.Paraboloid(1e-6), 1e-4),
+        ],
+    )
+    def test_known_tips(self, coefficients, shape, tolerance):
+        tip, depth = mdr.Sampled.from_area_function(coefficients, 1e-6), [1e-8, 1e-7, 5e-7]
+        force, exact = (mdr.indent(s, MEDIUM, depth).force for s in (tip, shape))
+        np.testing.assert_allclose(force, exact, rtol=tolerance)
+
+    def test_a_calibrated_tip_keeps_its_area(self):
+        """Slightly concave, as calibrated ones are: within the 3 % that are allowed."""
+        h = np.array([1e-8, 1e-7, 1e-6])
+        area = 24.5 * h**2 + 1e-7 * h + 1e-11 * h**0.5
+        tip = mdr.Sampled.from_area_function([24.5, 1e-7, 1e-11], 1e-6)
+        np.testing.assert_allclose(tip.height(np.sqrt(area / math.pi)), h, rtol=0.03)
+
+    @pytest.mark.parametrize(
+        ("arguments", "says"),
+        [
+            (([-24.5], 1e-6), r"area A\(h\).* does not grow .* check the coefficients"),
+            (([24.5, *[0.0] * 7, 1e-12], 1e-6), "concave by more than 3 %"),
+            (([24.5], -1.0), "height = -1 m"),
+            (([24.5], 1e-6, 1), "samples = 1 must be a whole number from 2"),
+        ],
+    )
+    def test_bad_area_functions_are_refused(self, arguments, says):
+        with pytest.raises(ValueError, match=says):
+            mdr.Sampled.from_area_function(*arguments)

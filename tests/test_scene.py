@@ -1,6 +1,7 @@
 """Scenes survive JSON exactly, and nothing else passes for one."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -172,3 +173,9 @@ def test_poisson_ratio_is_kept_and_scenes_without_are_incompressible():
     old = json.loads(scene.to_json())
     del old["medium"]["poisson"]
     assert mdr.Scene.from_json(json.dumps(old)).medium.poisson == 0.5
+
+
+@pytest.mark.parametrize("name", ["scene.json", Path("somewhere/scene.json"), Path("scene")])
+def test_the_name_of_a_file_is_no_scene(name):
+    with pytest.raises(ValueError, match=r"scene: .* is the name of a file.*read_text\(\)"):
+        mdr.Scene.from_json(name)

@@ -1,12 +1,16 @@
 """Viscous indentation along a path in time: the chain, refined until its force is known to a tolerance."""
 
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
+from typing import Any, ClassVar
 
 import numpy as np
 
 from .. import _check, abel
+from .._check import Array, ArrayLike
 from ..medium import Medium, check_pair
-from ..results import CHAIN
+from ..report import Report
+from ..results import CHAIN, Limit, contact_limits, sealed
 from ..shapes.profile import Profile
 from . import element
 from .element import Elements, Ramp
@@ -39,7 +43,9 @@ def check_times(time, path, quantity):
     return _check.refuse("time", time, back, "does not increase", unit="s", remedy=remedy)
 
 
-def indent_in_time(profile, medium, depth, time, *, tolerance=1e-6):
+def indent_in_time(
+    profile: Profile, medium: Medium, depth: ArrayLike, time: ArrayLike, *, tolerance: float = 1e-6
+) -> "TimedIndentation":
     """Press an indenter into a viscous medium along a path of depth in time.
 
     By the chain, refined until the force no longer changes: an element that has let go relaxes, and may be
@@ -134,8 +140,8 @@ def _run(profile, medium, depth, time, n, nodes):
     return np.array(record)
 
 
-@dataclass(frozen=True, eq=False)
-class TimedIndentation:
+@dataclass(frozen=True, eq=False, repr=False)
+class TimedIndentation(Report):
     """States of a viscous indentation, one for each time of its path; made by `indent_in_time` or `creep`.
 
     Every quantity has the shape of `time`; `result[i]` picks a state. At a time at which the rate
@@ -154,36 +160,47 @@ class TimedIndentation:
     profile: Profile
     medium: Medium
     #: Time (s) and indentation depth d (m), as given.
-    time: np.ndarray
-    depth: np.ndarray
+    time: Array
+    depth: Array
     #: Normal force (N) with the part of the dashpots, and contact radius a (m), 0 without contact.
-    force: np.ndarray
-    contact_radius: np.ndarray
+    force: Array
+    contact_radius: Array
     #: Elastic energy (J), that of relaxing elements out of contact included.
-    stored_energy: np.ndarray
+    stored_energy: Array
     #: Energy (J) dissipated so far by yielding, and by the dashpots.
-    plastic_work: np.ndarray
-    viscous_work: np.ndarray
+    plastic_work: Array
+    viscous_work: Array
     #: Plastic depth d_p (m): the depth of the residual imprint in the 1D foundation.
-    plastic_depth: np.ndarray
+    plastic_depth: Array
     #: Estimated error of force and energies, each relative to its largest.
     error: float
-    _place: np.ndarray
+    _place: Array
     _path: tuple[np.ndarray, np.ndarray] = ()
+    _made_of: tuple[Any, ...] = ()
 
     #: How it was found.
     model = CHAIN
+    _quantities: ClassVar[tuple[str, ...]] = (
+        "time", "depth", "force", "contact_radius", "plastic_radius", "plastic_depth", "stored_energy",
+        "plastic_work", "viscous_work",
+    )  # fmt: skip
+    _shown: ClassVar[tuple[str, ...]] = _quantities[:6]
+    _dimensions: ClassVar[tuple[str, ...]] = ("time",)
+    _noun: ClassVar[str] = "instant"
 
     def __post_init__(self):
+        sealed(self, "profile", "medium")
         if not self._path:
             object.__setattr__(self, "_path", (np.array(self.time), np.array(self.depth)))
         for name in _ARRAYS:
             object.__setattr__(self, name, _check.frozen(np.array(getattr(self, name))))
 
-    def __len__(self):
-        return len(self.time)
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """Where the model's assumptions end along this path, as data."""
+        return contact_limits(self.profile, self.medium, self.contact_radius)
 
-    def __getitem__(self, index):
+    def __getitem__(self, index: Any) -> "TimedIndentation":
         return replace(self, **{name: np.asarray(getattr(self, name)[index]) for name in _ARRAYS})
 
     @_check.frozen_property
@@ -192,7 +209,7 @@ class TimedIndentation:
         radius = self.profile.contact_radius(self.plastic_depth)
         return np.where(np.asarray(self.plastic_depth) > 0, radius, 0.0)[()]
 
-    def line_load(self, x):
+    def line_load(self, x: ArrayLike) -> Array:
         """Line load q = E* u_e + 4ηḋ (N/m) of one state at x (m); Popov (2015), Eqs. (1), (17), (18).
 
         The elements at x follow the whole path anew: no grid is involved.
@@ -208,7 +225,7 @@ class TimedIndentation:
         load = np.where(state.contact, medium.E_star * (state.elastic + lag), 0.0)
         return load.reshape(x.shape)[()]
 
-    def pressure(self, r):
+    def pressure(self, r: ArrayLike) -> Array:
         """Contact pressure p = −σ_zz (Pa) of one state at radii r (m); Popov (2015), Eq. (10).
 
         From the line load at 4000 places, straight in between. Infinite at the rim while the
@@ -232,4 +249,4 @@ class TimedIndentation:
             )
 
 
-_ARRAYS = [f.name for f in fields(TimedIndentation) if f.type == "np.ndarray" or f.type is np.ndarray]
+_ARRAYS = [f.name for f in fields(TimedIndentation) if f.type is Array]

@@ -14,7 +14,7 @@ Nothing here knows a shape; all quantities are lengths, and everything is vector
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import wrightomega
+import scipy
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,7 +173,7 @@ def _meeting_pressed(elements, ramp, above, met):
         if ramp.lag > 0:
             # w/lag + ln(w/lag) = w₀/lag + ln(u₀/lag).
             scaled = np.where(met, start, 0.0) / ramp.lag + np.log(before / ramp.lag)
-            root = ramp.lag * wrightomega(scaled)
+            root = ramp.lag * scipy.special.wrightomega(scaled)
             root = np.clip(np.where(scaled < np.inf, root, low), low, np.maximum(above, low))
             first = np.where(met_relaxing, root, low)
         since = ramp.time - ramp.tau * (np.log(before) - np.log(first))

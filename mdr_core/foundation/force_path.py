@@ -3,10 +3,12 @@
 from itertools import pairwise
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from .. import _check
-from ..medium import check_pair
+from .._check import ArrayLike
+from ..medium import Medium, check_pair
+from ..shapes.profile import Profile
 from .depth_path import TimedIndentation, check_times
 from .fronts import force_and_radius
 from .reach import least_depth, resistance
@@ -18,7 +20,9 @@ _STEPS, _ELEMENTS, _REFINEMENTS = 8, 200, 6
 _TOUCH = 1e-10
 
 
-def creep(profile, medium, force, time, *, tolerance=1e-4):
+def creep(
+    profile: Profile, medium: Medium, force: ArrayLike, time: ArrayLike, *, tolerance: float = 1e-4
+) -> TimedIndentation:
     """Press an indenter into a viscous medium along a path of force in time, under which it creeps.
 
     By the chain, in steps of constant ḋ that end under the prescribed force, finer at the beginning of each
@@ -188,4 +192,4 @@ class _Run:
         reach = max(abs(guess) / 8, 1e-9 * self.bound)
         while high < room and miss(high) < 0:
             high, reach = min(high + reach, room), 4 * reach
-        return brentq(miss, low, high, xtol=self.close) if low < high else low
+        return scipy.optimize.brentq(miss, low, high, xtol=self.close) if low < high else low

@@ -5,15 +5,26 @@ errors are of second order: limits are f + (f − c)/3, and the last change of a
 err by.
 """
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from .. import _check
 from ..medium import Medium, check_pair
-from ..results import CHAIN, Motion, instants
+from ..report import Report
+from ..results import (
+    CHAIN,
+    IMPACT_QUANTITIES,
+    IMPACT_SHOWN,
+    Limit,
+    Motion,
+    contact_limits,
+    instants,
+    sealed,
+    speed_limit,
+)
 from ..shapes.profile import Profile
 from .free_body import Body, Flight, Run
 from .row import Foundation, element_count
@@ -24,7 +35,16 @@ _ELEMENTS, _STEPS, _RUNS = 150, 12, 8
 _TRUST = np.array([0.1, 0.1, 2.0, 1.0])
 
 
-def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=1e-6):
+def chain_impact(
+    profile: Profile,
+    medium: Medium,
+    mass: float,
+    speed: float,
+    *,
+    start: Foundation | None = None,
+    n: int | None = None,
+    tolerance: float = 1e-6,
+) -> "ChainImpact":
     """Let a body hit the chain of springs, dashpots and yield caps, with no other force acting.
 
     Parameters
@@ -116,8 +136,8 @@ class Errors(NamedTuple):
     contact_time: float
 
 
-@dataclass(frozen=True, eq=False)
-class ChainImpact:
+@dataclass(frozen=True, eq=False, repr=False)
+class ChainImpact(Report):
     """One impact on the chain; made by `chain_impact`.
 
     Numbers are limits for vanishing steps and elements, from the last two runs, with estimates of
@@ -131,33 +151,47 @@ class ChainImpact:
     errors: Errors
     _coarse: Run = field(repr=False)
     _fine: Run = field(repr=False)
+    _made_of: tuple[Any, ...] = ()
 
     #: How it was found.
     model = CHAIN
+    _quantities: ClassVar[tuple[str, ...]] = IMPACT_QUANTITIES
+    _shown: ClassVar[tuple[str, ...]] = IMPACT_SHOWN
+    _dimensions: ClassVar[tuple[str, ...]] = ("impact",)
+    _noun: ClassVar[str] = "impact"
+
+    def __post_init__(self):
+        sealed(self, "profile", "medium", "mass", "speed", "_fine")
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """Where the model's assumptions end for this impact, as data."""
+        return contact_limits(self.profile, self.medium, self.contact_radius)
+
+    def speed_limit(self, density: float) -> Limit:
+        """The speed over the wave speed √(E*/ρ) of a medium of some density ρ (kg/m³)."""
+        return speed_limit(self, density)
 
     @property
-    def error(self):
+    def error(self) -> float:
         """The error that the tolerance is for: of the restitution coefficient, and of the largest depth."""
         return max(self.errors.restitution, self.errors.max_depth)
 
-    def motion(self, n=None):
+    def motion(self, n: int | None = None) -> Motion:
         """The `Motion` of the finest run step by step, or at n equally spaced instants in between.
 
         Its ledger closes whatever the steps.
         """
-        steps = self._fine.motion
+        steps = replace(self._fine.motion, impact=self)
         if n is None:
             return steps
         time = instants(n, steps.time[steps.turning_point], steps.time[-1], steps.time[0])
-        columns = {
-            f.name: getattr(steps, f.name) for f in fields(steps) if f.name not in ("time", "states")
-        }
-        return Motion(
-            time, **{name: np.interp(time, steps.time, values) for name, values in columns.items()}
-        )
+        columns = {name: values for name, values in steps.to_dict().items() if name != "time"}
+        values = {name: np.interp(time, steps.time, column) for name, column in columns.items()}
+        return Motion(time, **values, impact=self)
 
     @property
-    def foundation(self):
+    def foundation(self) -> Foundation:
         """The chain when contact ends: what a next body meets."""
         return self._fine.foundation
 
@@ -166,63 +200,63 @@ class ChainImpact:
         return float(fine + (fine - coarse) / 3)
 
     @cached_property
-    def max_depth(self):
+    def max_depth(self) -> float:
         """Largest indentation depth d_max (m)."""
         return self._limit(lambda run: run.quantities[1])
 
     @cached_property
-    def max_force(self):
+    def max_force(self) -> float:
         """Largest force (N)."""
         return self._limit(lambda run: run.quantities[2])
 
     @cached_property
-    def contact_time(self):
+    def contact_time(self) -> float:
         """Time (s) from first contact to the last one."""
         return self._limit(lambda run: run.quantities[3])
 
     @property
-    def contact_radius(self):
+    def contact_radius(self) -> float:
         """Largest contact radius a (m)."""
         return self.profile.contact_radius(self.max_depth)
 
     @property
-    def plastic_depth(self):
+    def plastic_depth(self) -> float:
         """Plastic depth d_p (m) that remains."""
         return max(0.0, self.max_depth - self.medium.critical_depth)
 
     @property
-    def plastic_radius(self):
+    def plastic_radius(self) -> float:
         """Radius c (m) of the plastic zone that remains."""
         return self.profile.contact_radius(self.plastic_depth) if self.plastic_depth > 0 else 0.0
 
     @property
-    def damaged_area(self):
+    def damaged_area(self) -> float:
         """Area π c² (m²) of the plastic zone."""
         return np.pi * self.plastic_radius**2
 
     @cached_property
-    def restitution(self):
+    def restitution(self) -> float:
         """Coefficient of restitution, the speed of leaving over the speed of coming."""
         # Where next to nothing comes back, the limit may miss zero by its error.
         return max(0.0, -self._limit(lambda run: run.quantities[0]) / self.speed)
 
     @property
-    def rebound_speed(self):
+    def rebound_speed(self) -> float:
         """Speed e v₀ (m/s) at which the body leaves."""
         return self.restitution * self.speed
 
     @cached_property
-    def stored_energy(self):
+    def stored_energy(self) -> float:
         """Elastic energy (J) at the turning point."""
         return self._limit(lambda run: run.motion.stored_energy[run.motion.turning_point])
 
     @cached_property
-    def plastic_work(self):
+    def plastic_work(self) -> float:
         """Energy (J) dissipated by yielding in this impact."""
         return self._limit(lambda run: run.motion.plastic_work[-1] - run.motion.plastic_work[0])
 
     @cached_property
-    def viscous_work(self):
+    def viscous_work(self) -> float:
         """Energy (J) dissipated by the dashpots, with what relaxing elements still store at the end."""
 
         def lost(run):

@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import _check
 from ..medium import Medium, check_pair
+from ..report import described, engineering
 from ..shapes.profile import Profile
 from . import element
 from .element import Elements, Ramp
@@ -29,7 +30,7 @@ def element_count(n):
     return int(count)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Foundation:
     """The 1D foundation of Popov (2015), Fig. 1, as a row of independent elements.
 
@@ -126,7 +127,18 @@ class Foundation:
         for name, value in values.items():
             object.__setattr__(self, name, value)
 
-    def advance(self, depth, dt=np.inf):
+    def __repr__(self) -> str:
+        lines = (
+            f"Foundation: {self.n} elements to ±{engineering(self.half_width, 'm')}, after "
+            f"{len(self.history)} moves",
+            f"  indenter                 {described(self.profile)}",
+            f"  medium                   {described(self.medium)}",
+            f"  depth d                  {engineering(self.depth, 'm')}",
+            f"  force F                  {engineering(self.force, 'N')}",
+        )
+        return "\n".join(lines)
+
+    def advance(self, depth: float, dt: float = np.inf) -> "Foundation":
         """The foundation after the indenter has moved there, along a straight ramp of depth over time.
 
         Parameters
@@ -156,7 +168,7 @@ class Foundation:
         >>> print(moved.force, moved.advance(3.0, dt=1.0).force)  # 2E*b d + 8ηb ḋ
         22.0 6.0
         """
-        depth = float(_check.finite_array("depth", _check.number("depth", depth), unit="m"))
+        depth = float(_check.finite_array("depth", _check.number("depth", depth, "m"), unit="m"))
         dt = _check.positive_number("dt", dt, unit="s", infinite=True)
         ramp = self._ramp(depth - self.depth, dt, depth)
         return self._after(ramp, *element.advance(self._elements, ramp))
@@ -197,32 +209,32 @@ class Foundation:
         return np.concatenate([values[:0:-1], values[1:]])
 
     @_check.frozen_property
-    def x(self):
+    def x(self) -> np.ndarray:
         """Places of the elements (m), shape (n,), from −half_width to half_width."""
         return np.concatenate([-self._middle[:0:-1], self._middle[1:]])
 
     @_check.frozen_property
-    def width(self):
+    def width(self) -> np.ndarray:
         """Widths Δx (m) of the elements: what sums over them are weighted with."""
         return self._mirrored(self._width)
 
     @_check.frozen_property
-    def elastic(self):
+    def elastic(self) -> np.ndarray:
         """Elastic part u_e (m) of each element's compression, the one that its spring carries."""
         return self._mirrored(self._elements.elastic)
 
     @_check.frozen_property
-    def plastic(self):
+    def plastic(self) -> np.ndarray:
         """Plastic part u_p (m) of each element's compression: the residual imprint."""
         return self._mirrored(self._elements.plastic)
 
     @_check.frozen_property
-    def contact(self):
+    def contact(self) -> np.ndarray:
         """Whether each element is in contact; one that is not may still be relaxing."""
         return self._mirrored(self._elements.contact)
 
     @_check.frozen_property
-    def line_load(self):
+    def line_load(self) -> np.ndarray:
         """Line load q = E* u_e + 4ηḋ (N/m), 0 out of contact; Popov (2015), Eqs. (1), (17), (18)."""
         return self._mirrored(self._load)
 
@@ -232,23 +244,23 @@ class Foundation:
         return np.where(state.contact, self.medium.E_star * np.maximum(state.elastic + self._lag, 0.0), 0.0)
 
     @_check.frozen_property
-    def state(self):
+    def state(self) -> np.ndarray:
         """State of each element: "yielded" with a plastic part, else "elastic" in contact, else "free"."""
         names = np.where(self._elements.contact, "elastic", "free")
         return self._mirrored(np.where(self._elements.plastic > 0, "yielded", names))
 
     @property
-    def force(self):
+    def force(self) -> float:
         """Normal force F = Σ q Δx (N); Popov (2015), Eq. (9)."""
         return float(2 * (self._load @ self._width))
 
     @property
-    def stored_energy(self):
+    def stored_energy(self) -> float:
         """Elastic energy U = Σ E* u_e² Δx/2 (J), that of relaxing elements out of contact included."""
         return self._total(self._elements.elastic**2 / 2)
 
     @property
-    def plastic_work(self):
+    def plastic_work(self) -> float:
         """Energy Σ (π q_c/2) u_p Δx (J) dissipated by yielding so far."""
         yields = self.medium.critical_depth < np.inf
         return self._total(self._elements.plastic) * self.medium.critical_depth if yields else 0.0

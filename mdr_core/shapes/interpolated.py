@@ -1,7 +1,7 @@
 """The contact radius of any shape as a piecewise polynomial, for solvers that often ask for it."""
 
 import numpy as np
-from scipy.interpolate import PPoly
+import scipy
 
 from .power import Cone, FlatPunch, Paraboloid, PowerLaw
 from .profile import Profile
@@ -58,12 +58,12 @@ class Interpolated(Profile):
         powers = (
             _TO_POWERS @ (_TO_SERIES @ radius.T) / width ** np.arange(_POINTS.size - 1, -1, -1)[:, None]
         )
-        self._polynomial = PPoly(powers, edges)
+        self._polynomial = scipy.interpolate.PPoly(powers, edges)
         # ds = 4σ³ dσ, with σ from the beginning of the zone.
         begin, rate = edges[:-1] - self._begin[zone], np.zeros((_POINTS.size + 3, len(width)))
         for k, factor in enumerate((4, 12 * begin, 12 * begin**2, 4 * begin**3)):
             rate[k : k + _POINTS.size] += factor * powers
-        self._area = PPoly(rate, edges).antiderivative()
+        self._area = scipy.interpolate.PPoly(rate, edges).antiderivative()
 
     def _radius(self, depth):
         if self.shape:

@@ -1,16 +1,18 @@
 """Indenters that are a single power of r: flat punch, cone, paraboloid, any power law."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from .. import _check
+from .._check import ArrayLike, Parameter
 from ..abel import kappa
 from .profile import Profile
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FlatPunch(Profile):
     """Flat-ended cylinder: z = 0 for r ≤ b, a wall beyond.
 
@@ -25,7 +27,7 @@ class FlatPunch(Profile):
     [2.0, 2.0]
     """
 
-    radius: float
+    radius: Parameter
 
     def __post_init__(self):
         _check.set_positive(self, radius="m")
@@ -41,7 +43,7 @@ class FlatPunch(Profile):
         return np.zeros_like(depth) + self.radius
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Cone(Profile):
     """Cone z = s r, with g = (π/2) s x: Popov (2015), Eqs. (13), (14), (16).
 
@@ -57,10 +59,36 @@ class Cone(Profile):
     1.5707963267948966
     """
 
-    slope: float
+    slope: Parameter
 
     def __post_init__(self):
         _check.set_positive(self, slope="")
+
+    @classmethod
+    def from_half_angle(cls, degrees: ArrayLike) -> "Cone":
+        """The cone with a half-angle between its axis and its generator, in degrees between 0 and 90.
+
+        Examples
+        --------
+        >>> print(round(Cone.from_half_angle(45.0).slope, 12))  # the slope is cot of it
+        1.0
+        """
+        angle = _check.finite_array("half-angle", degrees, unit="deg")
+        bound, remedy = "must lie between 0 and 90", "it is the angle between axis and generator"
+        _check.refuse("half-angle", angle, ~((angle > 0) & (angle < 90)), bound, unit="deg", remedy=remedy)
+        return cls((np.sin(np.radians(90 - angle)) / np.sin(np.radians(angle)))[()])
+
+    @classmethod
+    def berkovich(cls) -> "Cone":
+        """The cone of half-angle 70.3° that has the area of a Berkovich pyramid at each height.
+
+        Examples
+        --------
+        >>> print(round(3.14159 / Cone.berkovich().slope ** 2, 1))  # A = 24.5 h²
+        24.5
+        """
+        # Berkovich: A = 3√3 tan²(65.27°) h².
+        return cls(math.sqrt(math.pi / (3 * math.sqrt(3.0))) / math.tan(math.radians(65.27)))
 
     def _height(self, r):
         return self.slope * r
@@ -75,7 +103,7 @@ class Cone(Profile):
         return depth / (np.pi / 2 * self.slope)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Paraboloid(Profile):
     """Paraboloid z = r²/(2R), with g = x²/R (the Hertzian contact).
 
@@ -90,10 +118,12 @@ class Paraboloid(Profile):
     4.0
     """
 
-    radius: float
+    radius: Parameter
 
     def __post_init__(self):
         _check.set_positive(self, radius="m")
+
+    body_radius = property(lambda self: self.radius)
 
     def _height(self, r):
         return r * (r / (2 * self.radius))
@@ -108,7 +138,7 @@ class Paraboloid(Profile):
         return np.sqrt(self.radius * depth)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PowerLaw(Profile):
     """Power law z = c rⁿ, with g = κₙ c xⁿ: Popov (2015), Eqs. (4)–(7).
 
@@ -125,8 +155,8 @@ class PowerLaw(Profile):
     18.0
     """
 
-    coefficient: float
-    exponent: float
+    coefficient: Parameter
+    exponent: Parameter
 
     def __post_init__(self):
         _check.set_positive(self, coefficient="m^(1-n)", exponent="")

@@ -3,14 +3,16 @@
 from abc import ABC, abstractmethod
 from dataclasses import fields
 from functools import cached_property, lru_cache
+from typing import Any, Self
 
 import numpy as np
 
 from .. import _check
+from .._check import Array, ArrayLike
 from .._numeric import increasing_root
 
 
-class Profile(ABC):
+class Profile(_check.Comparable, ABC):
     """A rigid axisymmetric indenter with its tip at the origin, growing outward.
 
     Lengths are in m, slopes dimensionless. A shape of your own is a frozen dataclass that gives `_height`,
@@ -54,6 +56,9 @@ class Profile(ABC):
     deepest = np.inf
     known_radius = np.inf
 
+    #: Radius (m) of the body that the tip belongs to, which a contact is small against.
+    body_radius = np.inf
+
     #: Depths (m), ascending, at which the edge of the contact passes a kink of g, or reaches the wall.
     kinks = ()
 
@@ -77,15 +82,15 @@ class Profile(ABC):
         # What is computed from the parameters is not worth keeping, and may hold functions.
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
-    def height(self, r):
+    def height(self, r: ArrayLike) -> Array:
         """Height z(r) (m) above the tip at radius r (m), of the shape of `r`; even in r."""
         return self._of_radius("radius r", r, self._height)
 
-    def reduced(self, x):
+    def reduced(self, x: ArrayLike) -> Array:
         """Height g(x) (m) of the equivalent 1D profile, Popov (2015), Eq. (3); even in x."""
         return self._of_radius("coordinate x", x, self._reduced)
 
-    def reduced_slope(self, x):
+    def reduced_slope(self, x: ArrayLike) -> Array:
         """Slope g′(x) (dimensionless) of the equivalent 1D profile, on the outer side where x is on a kink.
 
         Odd in x; infinite at the edge of a flat face with a sharp edge, and from a wall on.
@@ -100,7 +105,7 @@ class Profile(ABC):
         slope = self._of_radius("coordinate x", x, self._reduced_slope)
         return (sign * np.where(np.abs(x) >= self.wall, np.inf, slope))[()]
 
-    def contact_radius(self, depth):
+    def contact_radius(self, depth: ArrayLike) -> Array:
         """Contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
         depth = self._places("depth", depth, most=_check.LARGEST)
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
@@ -123,11 +128,11 @@ class Profile(ABC):
         return np.max([np.where(foot <= depth, foot, 0.0) for foot in (0.0, *self.kinks)], axis=0)
 
     @cached_property
-    def shape(self):
+    def shape(self) -> tuple[int, ...]:
         """Shape to which array-valued parameters broadcast, () for one indenter."""
         return np.broadcast_shapes(*map(np.shape, self.__getstate__().values()))
 
-    def entries(self, index, shape=None):
+    def entries(self, index: Any, shape: tuple[int, ...] | None = None) -> Self:
         """The indenters at an index of the parameters, broadcast to `shape` before."""
         if not self.shape:
             return self

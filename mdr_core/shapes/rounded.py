@@ -5,10 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import _check
+from .._check import Parameter
 from .profile import OneLength
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Sphere(OneLength):
     """Sphere z = R − √(R² − r²), with g = x artanh(x/R).
 
@@ -25,12 +26,12 @@ class Sphere(OneLength):
     0.274653072167
     """
 
-    radius: float
+    radius: Parameter
 
     def __post_init__(self):
         _check.set_positive(self, radius="m")
 
-    _length = _depth = property(lambda self: self.radius)
+    _length = _depth = body_radius = property(lambda self: self.radius)
 
     # There a is R to any precision.
     deepest = property(lambda self: 100 * self.radius)
@@ -51,7 +52,7 @@ class Sphere(OneLength):
         return np.where(u < 1, np.arctanh(np.minimum(u, 1.0)) + u / ((1 - u) * (1 + u)), np.inf)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Hyperboloid(OneLength):
     """Hyperboloid z = √(s²r² + s⁴R²) − s²R, a cone smoothly rounded at the tip.
 
@@ -70,8 +71,8 @@ class Hyperboloid(OneLength):
     0.785398163397
     """
 
-    slope: float
-    tip_radius: float
+    slope: Parameter
+    tip_radius: Parameter
 
     def __post_init__(self):
         _check.set_positive(self, slope="", tip_radius="m")
@@ -92,7 +93,7 @@ class Hyperboloid(OneLength):
         return np.arctan(u) + u / (1 + u * u)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RoundedCone(OneLength):
     """Cone with a parabolic cap: z = r²/(2R) up to b = sR, then s r − s²R/2.
 
@@ -111,8 +112,8 @@ class RoundedCone(OneLength):
     1.0
     """
 
-    tip_radius: float
-    slope: float
+    tip_radius: Parameter
+    slope: Parameter
 
     def __post_init__(self):
         _check.set_positive(self, tip_radius="m", slope="")
@@ -139,7 +140,7 @@ class RoundedCone(OneLength):
         return np.where(u <= 1, 2 * u, 2 / (v + tau) + np.arctan(tau))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ParabolicPunch(OneLength):
     """Cylinder with a parabolic cap: z = r²/(2R) for r ≤ b, a wall beyond; g = x²/R.
 
@@ -156,8 +157,8 @@ class ParabolicPunch(OneLength):
     [0.2, 0.5]
     """
 
-    radius: float
-    cylinder_radius: float
+    radius: Parameter
+    cylinder_radius: Parameter
 
     def __post_init__(self):
         _check.set_positive(self, radius="m", cylinder_radius="m")
@@ -165,6 +166,7 @@ class ParabolicPunch(OneLength):
     _length = wall = property(lambda self: self.cylinder_radius)
     _depth = property(lambda self: self.cylinder_radius * (self.cylinder_radius / self.radius))
     kinks = property(lambda self: (self._depth,))
+    body_radius = property(lambda self: self.radius)
 
     @staticmethod
     def _Z(u):

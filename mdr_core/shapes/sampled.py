@@ -2,13 +2,15 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from os import PathLike
 
 import numpy as np
 
 from .. import _check
+from .._check import ArrayLike, Parameter
 from .._numeric import chunks, root
 from .profile import Profile
-from .tables import read_samples
+from .tables import area_samples, convex_fit, read_samples
 
 #: Every sample meets every other one.
 _MOST_SAMPLES = 5000
@@ -41,8 +43,8 @@ class Sampled(Profile):
     1.570796326795 True
     """
 
-    r: tuple[float, ...]
-    z: tuple[float, ...]
+    r: Parameter
+    z: Parameter
 
     def __post_init__(self):
         r, z = (
@@ -69,14 +71,15 @@ class Sampled(Profile):
         self._refuse_concave()
 
     @classmethod
-    def from_csv(cls, path, unit=None):
-        """The tip in a CSV file with two columns, radius and height.
+    def from_csv(cls, path: str | PathLike[str], unit: str | None = None) -> "Sampled":
+        """The tip in a text file with columns radius and height, as spreadsheets write them.
 
         Parameters
         ----------
         path : path-like
-            File with one sample a row: separated by commas, semicolons, tabs or blanks. Lines that
-            begin with # are passed over. A header may name the units, as in ``r (nm), z (nm)``.
+            File with one sample a row: separated by commas, semicolons, tabs or blanks. Decimals may
+            have a comma where something else separates. Further columns are left out, lines that
+            begin with # passed over. A header may name the units: ``r (nm), z (nm)`` or ``r/nm; z/nm``.
         unit : {"m", "mm", "um", "µm", "nm"}, optional
             Unit of both columns, if the header does not name them.
 
@@ -88,7 +91,7 @@ class Sampled(Profile):
         return cls(*read_samples(path, unit, _MOST_SAMPLES))
 
     @classmethod
-    def convex_envelope(cls, r, z):
+    def convex_envelope(cls, r: ArrayLike, z: ArrayLike) -> "Sampled":
         """The largest convex shape under the samples: what is left of a noisy tip for a compact contact.
 
         Parameters
@@ -111,6 +114,58 @@ class Sampled(Profile):
             hull.append(point)
         return cls(*zip(*hull, strict=True))
 
+    @classmethod
+    def fit(cls, r: ArrayLike, z: ArrayLike) -> "Sampled":
+        """The convex tip that is nearest to noisy samples, by least squares in the height.
+
+        Samples may lie on both sides of the axis at r = 0, in any order; the height of the tip is found
+        with its shape. Noise makes it a little higher or lower, with no preference where the contact has
+        many samples, while `convex_envelope` runs along the lowest ones. An apex is found no sharper than
+        noise and spacing allow.
+
+        Parameters
+        ----------
+        r, z : array_like
+            Radii (m), negative on the other side of the axis, and heights (m); at least three radii.
+
+        Examples
+        --------
+        >>> tip = Sampled.fit([-2.0, -1.0, 0.0, 1.0, 2.0], [2.1, 0.9, 0.0, 1.1, 1.9])
+        >>> print(round(tip.height(2.0), 12))
+        2.0
+        """
+        r, z = (_check.finite_array(f"Sampled.fit {n}", v, unit="m") for n, v in (("r", r), ("z", z)))
+        if r.ndim != 1 or r.shape != z.shape or np.unique(np.abs(r)).size < 3:
+            raise ValueError(
+                f"Sampled.fit r, z must be two lists of one length with three radii or more, got shapes "
+                f"{r.shape}, {z.shape}"
+            )
+        return cls(*convex_fit(np.abs(r), z))
+
+    @classmethod
+    def from_area_function(cls, coefficients: ArrayLike, height: float, samples: int = 400) -> "Sampled":
+        """The tip whose cross-section is A(h) = C₀h² + C₁h + C₂h^(1/2) + C₃h^(1/4) + … at a height h.
+
+        As instruments report their tips (Oliver and Pharr 1992), as a polygon up to some height. Where it
+        is slightly concave, as calibrated ones are, neighbouring slopes are averaged.
+
+        Parameters
+        ----------
+        coefficients : array_like
+            C₀, C₁, … for A in m² and h in m; Cᵢ belongs to h^(2/2ⁱ).
+        height : float
+            Height (m) up to which the function was calibrated.
+        samples : int, optional
+            Vertices, closer to each other towards the tip, from 10⁻⁴ of the height on.
+
+        Examples
+        --------
+        >>> tip = Sampled.from_area_function([24.5], 1e-6)  # an ideal Berkovich tip
+        >>> print(round(tip.height(1e-6) / 1e-6, 6))
+        0.35809
+        """
+        return cls(*area_samples(coefficients, height, samples, _MOST_SAMPLES))
+
     def _refuse_concave(self):
         r, z, slope = self._r, self._z, self._slope
         # Straight within the rounding of the heights counts as straight.
@@ -124,7 +179,7 @@ class Sampled(Profile):
             raise ValueError(
                 f"Sampled shape is concave at r[{i}] = {r[i]:g} m (slope {slope[i - 1]:g} before, "
                 f"{slope[i]:g} after), so that the contact would not be compact; smooth the samples or "
-                "take Sampled.convex_envelope(r, z)"
+                "take Sampled.fit(r, z)"
             )
         if not slope[-1] > 0:
             raise ValueError("Sampled z is flat throughout; use FlatPunch")

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import scipy
 from numpy.polynomial import Chebyshev, Polynomial
-from scipy.interpolate import PPoly
 
 from .. import _check, abel
 from .._numeric import increasing_root
@@ -94,7 +94,7 @@ class Smooth(Profile):
                 "Smooth slope_function is not finite, not smooth or not positive next to the axis; a "
                 "fractional power of r belongs to PowerLaw, kinks to Sampled"
             )
-        return PPoly(np.transpose(pieces), np.array(edges))
+        return scipy.interpolate.PPoly(np.transpose(pieces), np.array(edges))
 
     def _piece(self, low, high):
         """Coefficients of g/x between two values of ln x; None where g is not known or does not grow."""

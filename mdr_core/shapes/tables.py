@@ -1,13 +1,21 @@
-"""Tables of samples in text files, as instruments write them."""
+"""Samples of a tip: from text files, from noisy measurements, from an area function."""
 
 import os
 import re
 
 import numpy as np
+import scipy
 
 from .. import _check
 
 _UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9}
+
+# As in "height/nm".
+_SLASHED = re.compile(r"/\s*(mm|um|µm|μm|nm|m)\b")
+_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?|[+-]?\d+,([eE][+-]?\d+)?")
+
+#: Kinks that a fitted tip may have.
+_VERTICES = 200
 
 #: Characters of a line: one that is longer is no sample.
 _LONGEST_LINE = 10_000
@@ -39,33 +47,103 @@ def _read(lines, unit, most, name):
     """Radii and heights (m) in a CSV file."""
     if unit is not None:
         _check.one_of("unit", unit, _UNITS)
-    rows, named = [], []
+    rows, named, width = [], [], 0
     for number, line in enumerate(lines, start=1):
-        cells = [cell for cell in re.split(r"[;,\s]+", line.strip()) if cell]
+        cells = _cells(line)
         try:
             values = [float(cell) for cell in cells]
         except ValueError:
             values = None
         if not rows and (values is None or line.startswith("#")):
             # A bracket in brackets begins anew: otherwise a line of brackets takes their number squared.
-            named = re.findall(r"[(\[]\s*([^(\[)\]\s]+)\s*[)\]]", line) or named
+            named = re.findall(r"[(\[]\s*([^(\[)\]\s]+)\s*[)\]]", line) or _SLASHED.findall(line) or named
         elif cells and not line.startswith("#"):
-            if values is None or len(values) != 2:
-                raise ValueError(
-                    f"{name}, line {number}: expected two numbers r, z, found {line.strip()!r:.60}"
-                )
-            rows.append(values)
+            width = width or max(len(named), 2 if unit is None else len(cells))
+            if values is None or len(values) != width or width < 2:
+                expected = "two numbers r, z" if width <= 2 else f"{width} numbers, r and z first"
+                raise ValueError(f"{name}, line {number}: expected {expected}, found {line.strip()!r:.60}")
+            rows.append(values[:2])
             if len(rows) > most:
                 raise ValueError(f"{name}: more than {most} samples; thin them out")
-    units = [unit, unit] if unit else named
+    units = [unit, unit] if unit else named[:2]
     if len(units) != 2 or not set(units) <= set(_UNITS):
         raise ValueError(
             f"{name}: the header must name the units of r and z, as in 'r (nm), z (nm)', out of "
             f"{', '.join(_UNITS)}; or give unit='nm'"
         )
-    if unit and named and set(named) != {unit}:
+    if unit and named and set(named[:2]) != {unit}:
         raise ValueError(f"{name}: unit={unit!r} was given, but the header says {', '.join(named)}")
     if not rows:
         raise ValueError(f"{name}: no samples; expected rows of two numbers r, z")
     r, z = np.array(rows).T
     return r * _UNITS[units[0]], z * _UNITS[units[1]]
+
+
+def _cells(line):
+    """Cells of a line; where they are separated by something else, a comma is a decimal one."""
+    line = line.strip().replace('"', "")
+    parts = re.split(r"\s*[;\t]\s*", line) if ";" in line or "\t" in line else line.split()
+    if any(map(_COMMA.fullmatch, parts)) and len(parts) > 1:
+        parts = [part.replace(",", ".") for part in parts]
+    else:
+        parts = re.split(r"[;,\s]+", line)
+    while parts and not parts[-1]:
+        parts.pop()
+    return parts
+
+
+def convex_fit(r, z):
+    """Radii and heights (m) of the convex polygon nearest to samples at radii r ≥ 0 (m).
+
+    z₀ + Σ bₖ (r − ρₖ)₊ with bends bₖ ≥ 0 at kinks ρₖ from the axis out, by non-negative least squares.
+    """
+    places = np.unique(r)
+    # Behind the last kink a bend would be that of few samples.
+    kinks = np.unique(np.append(0.0, places[:-1][:: max(1, -(-places.size // _VERTICES))]))
+    ramps = np.maximum(r[:, None] - kinks, 0.0) / places[-1]
+    # The height at the axis has either sign.
+    columns = np.column_stack([np.ones_like(r), -np.ones_like(r), ramps])
+    size = np.ptp(z) or 1.0
+    _, _, *bends = scipy.optimize.nnls(columns, (z - z.mean()) / size)[0]
+    bends = np.array(bends) * size / places[-1]
+    if not np.any(bends > 0):
+        raise ValueError(
+            "Sampled.fit z does not rise from the axis outward: use FlatPunch, or turn its sign"
+        )
+    kinks, bends = kinks[(bends > 0) | (kinks == 0)], bends[(bends > 0) | (kinks == 0)]
+    vertices = np.append(kinks, places[-1])
+    return vertices, np.maximum(vertices[:, None] - kinks, 0.0) @ bends
+
+
+def area_samples(coefficients, height, samples, most):
+    """Radii and heights (m) of a tip with the cross-section A(h) = Σ Cᵢ h^(2/2ⁱ)."""
+    coefficients = _check.finite_array("area coefficients", coefficients).ravel()
+    height = _check.positive_number("height", height, unit="m")
+    samples = _check.positive_number("samples", samples)
+    if not 2 <= samples <= most or samples % 1:
+        raise ValueError(f"samples = {samples:g} must be a whole number from 2 to {most}")
+    h = height * np.geomspace(1e-4, 1.0, int(samples) - 1)
+    area = sum(c * h ** (2 / 2**i) for i, c in enumerate(coefficients.tolist()))
+    back = np.diff(area, prepend=0.0) <= 0
+    remedy = (
+        "A must be positive and grow with the height: check the coefficients and their unit, m^(2 - 2/2^i)"
+    )
+    _check.refuse("area A(h)", area, back, "does not grow", unit="m²", remedy=remedy)
+    r, h = np.append(0.0, np.sqrt(area / np.pi)), np.append(0.0, h)
+    z = np.append(0.0, np.cumsum(_ascending(np.diff(h) / np.diff(r), np.diff(r)) * np.diff(r)))
+    far = np.abs(z - h) > 0.03 * np.maximum(h, 0.1 * height)
+    bound, remedy = "m is where the tip is concave by more than 3 %", "the contact would not be compact"
+    _check.refuse("area function: height", h, far, bound, remedy=remedy)
+    return r, z
+
+
+def _ascending(values, weights):
+    """The ascending values nearest by weighted least squares: neighbours that fall are averaged."""
+    blocks = []
+    for value, weight in zip(values.tolist(), weights.tolist(), strict=True):
+        blocks.append((value, weight, 1))
+        while len(blocks) > 1 and blocks[-2][0] > blocks[-1][0]:
+            (one, first, count), (other, second, more) = blocks[-2:]
+            mean = (one * first + other * second) / (first + second)
+            blocks[-2:] = [(mean, first + second, count + more)]
+    return np.repeat([block[0] for block in blocks], [block[2] for block in blocks])

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import _check
+from .._check import Parameter
 from .profile import OneLength
 
 
@@ -14,12 +15,12 @@ class _FlatFaced(OneLength):
     With τ = √(u² − 1), arccos(1/u) = arctan τ.
     """
 
-    flat_radius: float
+    flat_radius: Parameter
     _edge = 1.0
     _length = property(lambda self: self.flat_radius)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TruncatedCone(_FlatFaced):
     """Truncated cone z = s (r − b)₊, with g = s x arccos(b/x) for x > b.
 
@@ -38,8 +39,8 @@ class TruncatedCone(_FlatFaced):
     6.28318530718
     """
 
-    flat_radius: float
-    slope: float
+    flat_radius: Parameter
+    slope: Parameter
 
     def __post_init__(self):
         _check.set_positive(self, flat_radius="m", slope="")
@@ -60,7 +61,7 @@ class TruncatedCone(_FlatFaced):
         return np.where(u < 1, 0.0, np.arctan(tau) + 1 / tau)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TruncatedParaboloid(_FlatFaced):
     """Truncated paraboloid z = (r² − b²)₊/(2R), with g = x √(x² − b²)/R for x > b.
 
@@ -79,8 +80,8 @@ class TruncatedParaboloid(_FlatFaced):
     20.0
     """
 
-    flat_radius: float
-    radius: float
+    flat_radius: Parameter
+    radius: Parameter
 
     def __post_init__(self):
         _check.set_positive(self, flat_radius="m", radius="m")
@@ -101,7 +102,7 @@ class TruncatedParaboloid(_FlatFaced):
         return np.where(u < 1, 0.0, tau + u * (u / tau))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RoundedPunch(_FlatFaced):
     """Flat punch with a rounded edge: z = (r − b)₊²/(2R).
 
@@ -120,8 +121,8 @@ class RoundedPunch(_FlatFaced):
     1.369706512745
     """
 
-    flat_radius: float
-    edge_radius: float
+    flat_radius: Parameter
+    edge_radius: Parameter
 
     def __post_init__(self):
         _check.set_positive(self, flat_radius="m", edge_radius="m")

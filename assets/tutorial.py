@@ -1,0 +1,66 @@
+# %% [markdown]
+# # From a first curve to an impact
+# Run it cell by cell, or as it is. It needs `pip install mdr-core xarray pandas matplotlib`.
+
+# %% A first curve: a sphere of 200 nm pressed into gold, let go, pressed again; shown, plotted, saved.
+import matplotlib.pyplot as plt
+import numpy as np
+
+import mdr_core as mdr
+
+medium = mdr.Medium.from_bodies(E1=78e9, nu1=0.42, q_c=100.0)  # hardness 100 N/m over the contact radius
+depth = np.concatenate(
+    [np.linspace(0, 10e-9, 200), np.linspace(10e-9, 9e-9, 50), np.linspace(9e-9, 12e-9, 50)]
+)
+path = mdr.indent(mdr.Sphere(radius=200e-9), medium, depth)
+print(path)
+data = path.to_xarray()
+data["force"].plot(x="depth")
+plt.savefig("curve.png")
+data.to_netcdf("curve.nc")  # path.to_pandas().to_csv("curve.csv") writes a table
+
+# %% [markdown]
+# Every quantity of the path is an array; a state of it has fields.
+
+# %%
+state = path[-1]
+print(f"a = {state.contact_radius * 1e9:.2f} nm, mean pressure {state.mean_pressure / 1e9:.3f} GPa")
+r = np.linspace(0, 1.2 * state.contact_radius, 200)
+pressure, imprint = state.pressure(r), state.imprint(r)
+
+# %% [markdown]
+# Where the model ends is part of the result: slopes here are small, a needle is told.
+
+# %%
+for limit in mdr.indent(mdr.Cone(slope=70.3), medium, 1e-9).limits:
+    print(limit.what, "exceeded:" if limit.exceeded else "holds:", limit.sentence)
+
+# %% [markdown]
+# Tips as they are measured: noisy, on both sides of the axis. Files of instruments are read by pandas or
+# `afmformats` into columns, and these are the arrays to go on with:
+# `table = pandas.read_csv(name, sep=";", decimal=",")`, then
+# `mdr.Sampled.fit(1e-9 * table["r"], 1e-9 * table["z"])`.
+
+# %%
+noise = np.random.default_rng(1).standard_normal(401)
+across = np.linspace(-400e-9, 400e-9, 401)
+tip = mdr.Sampled.fit(across, across**2 / 2e-6 + 1e-9 * noise)
+ideal = mdr.indent(mdr.Paraboloid(radius=1e-6), medium, 40e-9)
+print(f"force off by {mdr.indent(tip, medium, 40e-9).force / ideal.force - 1:.2%}")
+
+# %% [markdown]
+# A ball that falls on a polymer: the viscosity takes more than yielding does.
+
+# %%
+polymer = mdr.Medium(E_star=4e6, q_c=200.0, eta=30.0)
+hit = mdr.impact(mdr.Paraboloid(radius=2e-3), polymer, mass=1e-4, speed=0.5)
+print(hit)
+motion = hit.motion(200).to_xarray()
+motion["force"].plot(x="time")
+
+# %% [markdown]
+# Many impacts at once, as a table.
+
+# %%
+speeds = mdr.impact(mdr.Cone(slope=0.3), medium, mass=1e-12, speed=np.geomspace(0.01, 10, 7))
+print(speeds.to_pandas()[["speed", "restitution", "contact_time", "plastic_work"]])

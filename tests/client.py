@@ -1,0 +1,40 @@
+"""What a client's script looks like to a type checker."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mdr_core as mdr
+
+medium = mdr.Medium.from_bodies(E1=78e9, nu1=0.42, q_c=100.0)
+many = mdr.Medium(E_star=np.array([1e9, 2e9]), q_c=[1.0, 2.0])
+modulus: float = float(medium.E_star) * 2
+tip = mdr.Sphere(radius=200e-9)
+path = mdr.indent(tip, medium, depth=[10e-9, 5e-9, 8.5e-9])
+force: NDArray[np.float64] = path.force
+largest = force.max() + path.force.mean() + path.contact_radius[-1]
+state = path[-1]
+rounded: float = round(state.force, 3)
+text = f"{state.contact_radius * 1e9:.2f} nm, {state.pressure(0.0) / 1e9:.3f} GPa"
+pressure: NDArray[np.float64] = state.pressure(np.linspace(0.0, 1e-8, 5))
+for each in path:
+    print(each.depth, each.stored_energy, each.mean_pressure, len(path), path.shape)
+for limit in path.limits:
+    print(limit.what, limit.value + limit.bound, limit.exceeded, limit.sentence.upper())
+hit = mdr.impact(mdr.Cone(slope=[0.1, 0.3]), medium, mass=1e-12, speed=0.1)
+fast = hit.fast_limit.max_depth_error
+motion = hit[0].motion(50)
+energy = motion.kinetic_energy + motion.stored_energy + motion.plastic_work
+turning: int = motion.turning_point
+drop = mdr.impact(mdr.Paraboloid(2e-3), mdr.Medium(4e6, 200.0, 30.0), 1e-4, 0.5)
+chain = mdr.chain_impact(mdr.Paraboloid(2e-3), mdr.Medium(4e6, 200.0, 30.0), 1e-4, 0.5)
+difference = abs(chain.restitution - drop.restitution)
+ramp = mdr.indent_in_time(mdr.Cone.from_half_angle(70.3), medium, [0.0, 1e-9], [0.0, 1.0])
+hold = mdr.creep(mdr.Cone.berkovich(), medium, [0.0, 1e-6], np.array([0.0, 1.0]))
+settled = hold.depth[-1] - ramp.force.min()
+scene = mdr.Scene(tip, medium, mdr.DepthPath([1e-9, 2e-9]))
+again = mdr.Scene.from_json(scene.to_json()).solve()
+table: dict[str, float | NDArray[np.float64]] = path.to_dict()
+fitted = mdr.Sampled.fit([-1e-9, 0.0, 1e-9, 2e-9], [1e-9, 0.0, 1e-9, 3e-9])
+depth = mdr.indent_to_force(fitted, medium, 1e-9).depth
+cusp = mdr.PowerLaw(coefficient=2e-4, exponent=0.5).reduced([1e-9, 2e-9])[0]
+cap = mdr.Sphere([1e-6, 2e-6]).contact_radius(1e-9)

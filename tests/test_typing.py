@@ -1,0 +1,66 @@
+"""What an editor and a type checker see of the package, and how long it takes to import."""
+
+import importlib.util
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import mdr_core as mdr
+
+ROOT = Path(mdr.__file__).parents[1]
+CLIENT = ROOT / "tests" / "client.py"
+
+
+def run(*arguments):
+    return subprocess.run(
+        [sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, timeout=300, check=False
+    )
+
+
+@pytest.mark.parametrize(
+    "checker",
+    [
+        ("mypy", "--strict", "--follow-imports=silent", "--cache-dir", "/dev/null"),
+        ("pyright", "--outputjson"),
+    ],
+    ids=lambda checker: checker[0],
+)
+def test_a_client_script_passes_strict_type_checkers(checker, tmp_path):
+    if importlib.util.find_spec(checker[0]) is None:
+        pytest.skip(f"{checker[0]} is not installed")
+    arguments = ("-m", *checker, str(CLIENT))
+    if checker[0] == "pyright":
+        project = tmp_path / "pyrightconfig.json"
+        project.write_text(
+            f'{{"typeCheckingMode": "strict", "include": ["{CLIENT}"], "extraPaths": ["{ROOT}"]}}'
+        )
+        arguments = ("-m", "pyright", "--project", str(project), "--pythonpath", sys.executable)
+    result = run(*arguments)
+    assert result.returncode == 0, result.stdout + result.stderr
+
+
+def test_the_client_script_runs():
+    assert len(CLIENT.read_text(encoding="utf-8").splitlines()) >= 40
+    result = run("-m", "tests.client")
+    assert result.returncode == 0, result.stderr
+
+
+def test_the_package_says_that_it_is_typed():
+    assert (ROOT / "mdr_core" / "py.typed").exists()
+
+
+def test_version_is_that_of_the_project():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    assert mdr.__version__ == project["project"]["version"]
+
+
+def test_heavy_parts_of_scipy_wait_until_they_are_needed():
+    """They are what would make the import take a second; times themselves depend on the machine."""
+    heavy = (
+        "import sys, mdr_core; "
+        "print([n for n in ('interpolate', 'optimize', 'special') if 'scipy.' + n in sys.modules])"
+    )
+    assert run("-c", heavy).stdout.strip() == "[]"
