@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import _check
 from .profile import OneLength
 
 
@@ -26,9 +25,6 @@ class Sphere(OneLength):
     """
 
     radius: float
-
-    def __post_init__(self):
-        _check.set_positive(self, radius="m")
 
     _length = _depth = property(lambda self: self.radius)
 
@@ -73,9 +69,6 @@ class Hyperboloid(OneLength):
     slope: float
     tip_radius: float
 
-    def __post_init__(self):
-        _check.set_positive(self, slope="", tip_radius="m")
-
     _length = property(lambda self: self.slope * self.tip_radius)
     _depth = property(lambda self: self.slope * self._length)
 
@@ -113,9 +106,6 @@ class RoundedCone(OneLength):
 
     tip_radius: float
     slope: float
-
-    def __post_init__(self):
-        _check.set_positive(self, tip_radius="m", slope="")
 
     _length = property(lambda self: self.slope * self.tip_radius)
     _depth = property(lambda self: self.slope * self._length)
@@ -158,9 +148,6 @@ class ParabolicPunch(OneLength):
 
     radius: float
     cylinder_radius: float
-
-    def __post_init__(self):
-        _check.set_positive(self, radius="m", cylinder_radius="m")
 
     _length = wall = property(lambda self: self.cylinder_radius)
     _depth = property(lambda self: self.cylinder_radius * (self.cylinder_radius / self.radius))

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import _check
 from .profile import OneLength
 
 
@@ -40,9 +39,6 @@ class TruncatedCone(_FlatFaced):
 
     flat_radius: float
     slope: float
-
-    def __post_init__(self):
-        _check.set_positive(self, flat_radius="m", slope="")
 
     _depth = property(lambda self: self.slope * self.flat_radius)
 
@@ -82,9 +78,6 @@ class TruncatedParaboloid(_FlatFaced):
     flat_radius: float
     radius: float
 
-    def __post_init__(self):
-        _check.set_positive(self, flat_radius="m", radius="m")
-
     _depth = property(lambda self: self.flat_radius * (self.flat_radius / self.radius))
 
     @staticmethod
@@ -122,9 +115,6 @@ class RoundedPunch(_FlatFaced):
 
     flat_radius: float
     edge_radius: float
-
-    def __post_init__(self):
-        _check.set_positive(self, flat_radius="m", edge_radius="m")
 
     _depth = property(lambda self: self.flat_radius * (self.flat_radius / self.edge_radius))
 
