@@ -142,8 +142,12 @@ class _Run:
             moved = row.advance(row.depth + rise, dt)
             state = moved._elements
             spring = (state.elastic < medium.critical_depth) + medium.relaxation_time / dt
-            # But for what a growing contact adds.
+            total, radius = force_and_radius(moved)
             stiffness = max(moved._total(state.contact * spring), 1e-300)
-            return force_and_radius(moved)[0] - force, stiffness, moved
+            slope = row.profile.reduced_slope(radius)
+            if moved._lag > 0 and slope > 0:
+                # The dashpots that the growing contact meets.
+                stiffness += 2 * medium.E_star * moved._lag / slope
+            return total - force, stiffness, moved
 
         self.row = root_in_bracket(excess, min(guess, room), -row.depth, room, self.close)
