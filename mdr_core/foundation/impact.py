@@ -20,7 +20,7 @@ from .row import Foundation, element_count
 #: Elements, and steps in the time T₀, of the first run; each later one has twice as many, up to so often.
 _ELEMENTS, _STEPS, _RUNS = 150, 12, 8
 #: The part of what a limit has gained on its last run that it errs by at least, in the order of `Errors`.
-_TRUST = np.array([0.1, 0.2, 2.0, 1.0, 0.0, 0.0, 0.0])
+_TRUST = np.array([0.1, 0.2, 2.0, 1.0])
 
 
 def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=1e-6):
@@ -80,8 +80,9 @@ def chain_impact(profile, medium, mass, speed, *, start=None, n=None, tolerance=
         limits.append(fine + (fine - coarse) / 3)
         if level > 1:
             # Errors of steps and elements may cancel by chance.
-            changes = np.maximum(np.abs(limits[-1] - limits[-2]), np.abs(limits[-1] - fine) * _TRUST)[:4]
-            scale = np.append(1.0, np.abs(limits[-1][1:4]))
+            before, last = (limit[:4] for limit in limits[-2:])
+            changes = np.maximum(np.abs(last - before), np.abs(last - fine[:4]) * _TRUST)
+            scale = np.append(1.0, np.abs(last[1:]))
             errors = Errors(*np.maximum(changes / scale, tolerance / 2).tolist())
             if max(errors.restitution, errors.max_depth) <= tolerance:
                 break
