@@ -36,19 +36,9 @@ def _to_legendre(count):
 def collocate(derivative, first, length):
     """Solutions of u′ = f(u) over intervals as polynomials through 24 Gauss nodes, one interval a row.
 
-    Parameters
-    ----------
-    derivative : callable
-        f and ∂f/∂u at the nodes (N, 24), as functions of u there.
-    first, length : ndarray, shape (N, 1)
-        u at the beginning, and the length of each interval.
-
-    Returns
-    -------
-    u : ndarray, shape (N, 24)
-        At the nodes; of one sign throughout an interval.
-    settled : ndarray of bool, shape (N,)
-        Whether Newton's method has found it.
+    `derivative` gives f and ∂f/∂u at the nodes, from u there; `first` and `length`, of shape (N, 1), are u
+    at the beginning, and the length of each interval. Back come u at the nodes, of shape (N, 24) and of one
+    sign throughout an interval, and whether Newton's method has settled.
     """
     integrate, one, _ = _collocation()
     u, settled = np.repeat(first, len(one), axis=1), np.zeros(len(first), bool)
@@ -154,28 +144,17 @@ def chunks(size, most=4096):
 def increasing_root(function, target, start, highest=np.inf):
     """Positive x with function(x) = target, elementwise, for a function that grows about as a power.
 
-    Newton's method on ln f against ln x, inside a bracket that every step narrows.
-
-    Parameters
-    ----------
-    function : callable
-        Values and derivatives at an array x > 0, as a pair.
-    target : ndarray
-        Values to reach; 0 is reached at 0.
-    start : float or ndarray
-        First guesses.
-    highest : float or ndarray
-        Largest x at which the function is known; where it falls short of the target there, or at
-        what a depth may be, the result is infinite.
+    Newton's method on ln f against ln x from `start` on, inside a bracket that every step narrows. The
+    function gives values and derivatives at an array x > 0, up to the `highest` at which it is known; where
+    it falls short of the target there, or at what a depth may be, the result is infinite.
     """
     target = np.asarray(target, dtype=float)
     x = np.zeros(target.shape) + np.minimum(start, highest)
     low, high = np.zeros_like(x), np.zeros_like(x) + highest
     bounded = high < np.inf
+    reachable = ~bounded
     if bounded.any():
-        reachable = ~bounded | (target <= function(np.where(bounded, high, x))[0])
-    else:
-        reachable = np.ones(target.shape, bool)
+        reachable |= target <= function(np.where(bounded, high, x))[0]
     sought = (target > 0) & reachable
     eps = np.finfo(float).eps
     best, least, stalled = x.copy(), np.full(x.shape, np.inf), np.zeros(x.shape, int)
@@ -206,3 +185,21 @@ def increasing_root(function, target, start, highest=np.inf):
     raise ValueError(
         "the depth of this force or energy was not found; check that all quantities are in SI units"
     )
+
+
+def root_in_bracket(function, x, low, high, close):
+    """What `function` finds at its root, to within `close`: by Newton's method from x, inside a bracket.
+
+    `function` increases, and gives its value, its slope, and what it has found at x.
+    """
+    for count in range(80):
+        value, slope, found = function(x)
+        miss = value / slope
+        if abs(miss) <= close or high - low <= close:
+            break
+        low, high = (x, high) if miss < 0 else (low, x)
+        x -= miss
+        # Where the function bends sharply, or jumps: then halve the bracket by turns.
+        if not low < x < high or (count > 5 and count % 2 and high - low < np.inf):
+            x = (low + high) / 2
+    return found

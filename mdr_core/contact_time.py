@@ -4,6 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 import scipy
+from numpy.polynomial import chebyshev
 
 from ._numeric import chunks, gauss_integrals, gauss_legendre
 from .shapes.interpolated import interpolated
@@ -19,15 +20,8 @@ _TAIL = _WEIGHT - gauss_integrals(40, _NODE)
 def contact_time(profile, inertia, speed, live, growth):
     """Time (s) from first contact to its loss, elementwise.
 
-    Parameters
-    ----------
-    profile : Profile
-        One or many.
-    inertia, speed : float or ndarray
-        m/(2E*) (m s²) and v₀ (m/s).
-    live, growth : LiveInterval, ndarray
-        At the turning point, and what the impact added to the plastic depth (m). Everything
-        broadcasts to their shape.
+    From inertia m/(2E*) (m s²), speed v₀ (m/s), live interval at the turning point, and `growth` (m), what
+    the impact added to the plastic depth. Everything broadcasts to the shape of these two.
     """
     shape = np.shape(live.upper)
     factor = np.broadcast_to(np.sqrt(inertia / 2), shape).ravel()
@@ -59,11 +53,9 @@ def contact_time(profile, inertia, speed, live, growth):
 
 def power(profile):
     """Exponent p of the elastic force F ∝ dᵖ, None if it is not a power."""
-    if isinstance(profile, FlatPunch):
-        return 1.0
-    exponent = {Cone: 1.0, Paraboloid: 2.0}.get(type(profile))
-    exponent = profile.exponent if isinstance(profile, PowerLaw) else exponent
-    return None if exponent is None else 1 + 1 / exponent
+    if isinstance(profile, PowerLaw):
+        return 1 + 1 / profile.exponent
+    return {FlatPunch: 1.0, Cone: 2.0, Paraboloid: 1.5}.get(type(profile))
 
 
 def elastic_time(p):
@@ -81,34 +73,26 @@ def elastic_time(p):
 
 def _tabulated(kind, grown):
     """Contact time over d_max/v₀ of a cone or paraboloid, as a function of d_p/d_c > 0."""
-    coefficients = _table(kind)
     result = np.empty_like(grown)
     for rows in chunks(grown.size):
-        root = np.sqrt(grown[rows])
         # Powers of √(d_p/d_c) at the onset of yield, of its inverse far beyond.
-        twice = 2 * (2 * (root / (1 + root)) - 1)
-        first, second = np.full_like(root, coefficients[-1]), np.zeros_like(root)
-        for coefficient in coefficients[-2:0:-1]:
-            first, second = coefficient + twice * first - second, first
-        result[rows] = coefficients[0] + twice / 2 * first - second
+        root = np.sqrt(grown[rows])
+        result[rows] = chebyshev.chebval(2 * (root / (1 + root)) - 1, _table(kind))
     return result
 
 
 @lru_cache
 def _table(kind):
     """Chebyshev coefficients of `_tabulated` in 2v − 1, with v = √X/(1 + √X) and X = d_p/d_c."""
-    count = 72
-    angle = np.pi * (np.arange(count) + 0.5) / count
-    v = (1 + np.cos(angle)) / 2
-    X = (v / (1 - v)) ** 2
-    one = np.ones_like(X)
-    live = LiveInterval(X, X + one, one)
-    profile = kind(1.0)
-    energy = energy_integral(profile, live) + radius_integral(profile, virgin(X))
-    time = time_over_root(profile, live, X) * np.sqrt(energy) / live.upper
-    coefficients = 2 / count * np.einsum("k,jk->j", time, np.cos(np.outer(np.arange(count), angle)))
-    coefficients[0] /= 2
-    return coefficients[: np.flatnonzero(np.abs(coefficients) > 1e-15)[-1] + 1].tolist()
+
+    def time(place):
+        X = ((1 + place) / (1 - place)) ** 2
+        one = np.ones_like(X)
+        profile, live = kind(1.0), LiveInterval(X, X + one, one)
+        energy = energy_integral(profile, live) + radius_integral(profile, virgin(X))
+        return time_over_root(profile, live, X) * np.sqrt(energy) / live.upper
+
+    return chebyshev.chebtrim(chebyshev.chebinterpolate(time, 71), 1e-15)
 
 
 def time_over_root(profile, live, growth):
@@ -141,18 +125,9 @@ def time_over_root(profile, live, growth):
 def _stretch(profile, extent, breaks, interval, last, spent):
     """∫ ds/√spent over a stretch of depth, and what is spent when it ends, one impact a row.
 
-    Parameters
-    ----------
-    extent : ndarray, shape (N,)
-        Depth (m) from where the stretch begins to its turning point, at τ = 1.
-    breaks : ndarray, shape (N, K)
-        Depths (m) in it at which the force has a kink.
-    interval : callable
-        Lower end and length of the live interval at depths from the beginning.
-    last : ndarray, shape (N,)
-        End of the stretch in τ.
-    spent : ndarray, shape (N,)
-        What is still to be spent beyond `last`.
+    The stretch begins `extent` (m) before its turning point, at τ = 1, and ends at τ = `last`, beyond which
+    `spent` is still to be spent; `interval` gives lower end and length of the live interval at depths from
+    its beginning, and at depths `breaks`, of shape (N, K), the force has a kink.
     """
     room = np.where(extent > 0, extent, 1.0)[:, None]
     with np.errstate(over="ignore"):

@@ -16,24 +16,11 @@ from .yielding import LiveInterval
 
 
 def turning_point(profile, target, d_c, before):
-    """Live interval at which a dry impact has spent its energy, elementwise.
+    """Live interval at which a dry impact has spent its energy, and Δ (m), the growth of the plastic depth.
 
-    Parameters
-    ----------
-    profile : Profile
-        One or many.
-    target : ndarray
-        Energy over 2E* (m³).
-    d_c, before : float or ndarray
-        Critical depth (m), and plastic depth p₀ (m) of the imprint that is already there. Everything
-        broadcasts to the shape of `target`.
-
-    Returns
-    -------
-    live : LiveInterval
-        At the turning point; infinite where the shape is not known as deep.
-    growth : ndarray
-        Δ, by which the plastic depth has grown (m); carried, because p₀ may be much larger.
+    Elementwise for energies `target` over 2E* (m³), to whose shape indenters, critical depths d_c (m) and
+    plastic depths p₀ (m) `before` the impact broadcast. The interval is infinite where the shape is not
+    known as deep; Δ is carried, because p₀ may be much larger.
     """
     if not np.any(before):
         virgin = virgin_turning_point(profile, target, d_c)

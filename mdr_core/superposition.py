@@ -51,8 +51,7 @@ def _integrate(profile, live, function, moment):
     """∫ (d − s)^moment function(s) ds over the live interval, elementwise."""
     if profile.shape:
         unit, length, depth = profile.unit
-        parts = np.broadcast_arrays(live.lower / depth, live.upper / depth, live.length / depth)
-        return length * depth ** (moment + 1) * _integrate(unit, LiveInterval(*parts), function, moment)
+        return length * depth ** (moment + 1) * _integrate(unit, live.over(depth), function, moment)
     lower, upper, length = (np.ravel(part) for part in (live.lower, live.upper, live.length))
     result = np.zeros_like(length)
     most = max(16, 2**16 // (1 + len(profile.kinks)))
@@ -65,15 +64,12 @@ def _sums(profile, lower, upper, length, function, moment):
     row, piece, begin, end, start = pieces(profile, lower, upper, length)
     above = length[row] - end
     # What lies between two cuts of one state is the same for all states.
-    inner = np.flatnonzero((row[2:] == row[:-2]) & _is_cut_by_shape(profile)) + 1
-    total = np.empty(row.size)
-    if inner.size:
-        zeroth, first = _whole_zones(profile, function)
-        total[inner] = zeroth[piece[inner]]
-        if moment:
-            total[inner] = first[piece[inner]] + above[inner] * zeroth[piece[inner]]
-    cut = np.ones(row.size, bool)
-    cut[inner] = False
+    inner, total = np.zeros(row.size, bool), np.empty(row.size)
+    inner[1:-1] = (row[2:] == row[:-2]) & _is_cut_by_shape(profile)
+    if inner.any():
+        zeroth, first = (zone[piece[inner]] for zone in _whole_zones(profile, function))
+        total[inner] = first + above[inner] * zeroth if moment else zeroth
+    cut = ~inner
     beyond, weight = nodes(begin[cut], end[cut], start[cut], gauss_legendre(24))
     values = weight * function(profile, lower[row[cut], None] + beyond)
     if moment:
@@ -162,8 +158,7 @@ def radius_drop(profile, live):
     """a(d) − a(d_p) (m), elementwise: where something has yielded, the width of the elastic ring."""
     if profile.shape:
         unit, length, depth = profile.unit
-        parts = np.broadcast_arrays(live.lower / depth, live.upper / depth, live.length / depth)
-        return length * radius_drop(unit, LiveInterval(*parts))
+        return length * radius_drop(unit, live.over(depth))
     a, c = profile._radius(live.upper), profile._radius(live.lower)
     narrow = live.length < 1e-2 * live.upper
     if not np.any(narrow):

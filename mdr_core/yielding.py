@@ -25,21 +25,15 @@ class LiveInterval:
     def __getitem__(self, index):
         return LiveInterval(self.lower[index], self.upper[index], self.length[index])
 
+    def over(self, unit):
+        """The interval in units of a depth (m)."""
+        return LiveInterval(*np.broadcast_arrays(self.lower / unit, self.upper / unit, self.length / unit))
+
 
 def live_interval(depth, critical_depth):
-    """Live interval after each point of a depth path.
+    """Live interval after each point of a depth path (m) along the last axis, negative where lifted off.
 
-    Parameters
-    ----------
-    depth : ndarray
-        Depth path (m) along the last axis; negative while the indenter is lifted off.
-    critical_depth : float
-        Depth d_c (m) at which yield starts; may be infinite.
-
-    Returns
-    -------
-    LiveInterval
-        Arrays of the shape of `depth`.
+    Yield starts at the critical depth d_c (m), which may be infinite.
 
     Examples
     --------

@@ -25,13 +25,7 @@ _LEVELS = 300
 
 
 def check_times(time, path, quantity):
-    """`time` as an array of the shape of a path, if it increases.
-
-    Raises
-    ------
-    ValueError
-        If it does not, or the path is not one-dimensional.
-    """
+    """`time` as an array of the shape of a one-dimensional path, if it increases."""
     time = _check.finite_array("time", time, unit="s")
     if path.ndim != 1 or not path.size or time.shape != path.shape:
         raise ValueError(
@@ -53,10 +47,8 @@ def indent_in_time(
 
     Parameters
     ----------
-    profile : Profile
-        The indenter.
-    medium : Medium
-        The medium.
+    profile, medium
+        The indenter and the medium.
     depth : array_like, shape (N,)
         Indentation depths d (m), straight in between; the first one is reached infinitely slowly.
     time : array_like, shape (N,)

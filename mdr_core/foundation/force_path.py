@@ -7,11 +7,12 @@ import scipy
 
 from .. import _check
 from .._check import ArrayLike
+from .._numeric import root_in_bracket
 from ..medium import Medium, check_pair
 from ..shapes.profile import Profile
 from .depth_path import TimedIndentation, check_times
 from .fronts import force_and_radius
-from .reach import least_depth, resistance
+from .reach import reach
 from .row import Foundation
 
 #: Steps in each piece of the path, and elements, of the first run; both are doubled up to so often.
@@ -70,7 +71,10 @@ def creep(
     at_rest = (np.arange(force.size) == 0) | (medium.eta == 0)
     bound = f"must be less than the {most:g} N at which the whole flat face yields"
     _check.refuse("force", force, (force >= most) & at_rest, bound, unit="N", remedy="begin with less")
-    bound = _deepest(profile, medium, force, time)
+    # What springs, or dashpots from the first force on, alone allow.
+    first = reach(profile, medium, "force", force[0])
+    most = reach(profile, medium, "force", np.max(force))
+    bound = min(most, reach(profile, medium, "momentum", scipy.integrate.trapezoid(force, time), first))
     rows, limit, error = [], None, np.inf
     for level in range(_REFINEMENTS):
         steps = _STEPS * 2**level
@@ -100,23 +104,6 @@ def _extrapolated(rows):
     return rows[-1]
 
 
-def _deepest(profile, medium, force, time):
-    """A depth (m) that is not exceeded: the less of what springs and dashpots alone allow."""
-    impulse = float(np.sum((force[1:] + force[:-1]) / 2 * np.diff(time)))
-    start = least_depth(profile, medium, lambda now: now.force >= force[0])
-    taken, largest = resistance(profile, medium, start).momentum, np.max(force)
-    return least_depth(
-        profile, medium, lambda now: now.force >= largest or now.momentum - taken >= impulse, start
-    )
-
-
-def _stiffness(row, dt):
-    """dF/dd (N/m) at the end of a move in a time dt (s), but for what a growing contact adds."""
-    state, medium = row._elements, row.medium
-    spring = (state.elastic < medium.critical_depth) + medium.relaxation_time / dt
-    return max(row._total(state.contact * spring), 1e-300)
-
-
 class _Run:
     """One run: the chain, its path, and what has been recorded at the given times."""
 
@@ -129,26 +116,23 @@ class _Run:
 
     def follow(self, force, time, steps):
         """Follow a force path in so many steps for each of its pieces."""
-        self.least = _TOUCH * np.max(force)
+        least = _TOUCH * np.max(force)
         # The pieces' beginnings resolved as the cube of the step.
         share = (np.arange(steps + 1) / steps) ** 3
         if force[0] > 0:
             self.go(np.inf, force[0], 0.0)
-        self.note(time[0])
-        for k in range(1, len(force)):
+        self.path.append((time[0], self.row.depth))
+        self.note()
+        for (start, first), (stop, last) in pairwise(zip(time, force, strict=True)):
             for begin, end in pairwise(share):
-                dt = (time[k] - time[k - 1]) * (end - begin)
-                target = max(force[k - 1] + (force[k] - force[k - 1]) * end, self.least)
-                before = self.row.depth
-                self.go(dt, target, self.rate * dt)
+                dt, before = (stop - start) * (end - begin), self.row.depth
+                self.go(dt, max(first + (last - first) * end, least), self.rate * dt)
                 self.rate = (self.row.depth - before) / dt
                 self.path.append((self.path[-1][0] + dt, self.row.depth))
             self.note()
 
-    def note(self, time=None):
-        """Record a state at one of the given times."""
-        if time is not None:
-            self.path.append((time, self.row.depth))
+    def note(self):
+        """Record the present state as one of those at the given times."""
         row = self.row
         self.places.append(len(self.path) - 1)
         energies = row.stored_energy, row.plastic_work, row.viscous_work
@@ -156,40 +140,18 @@ class _Run:
 
     def go(self, dt, force, guess):
         """The move in a time dt (s) that ends under a force (N), by its rise (m) from a first guess."""
-        row, room = self.row, self.bound - self.row.depth
+        row, medium, room = self.row, self.row.medium, self.bound - self.row.depth
 
-        def miss(rise):
+        def excess(rise):
             moved = row.advance(row.depth + rise, dt)
-            return force_and_radius(moved)[0] - force, moved
+            state = moved._elements
+            spring = (state.elastic < medium.critical_depth) + medium.relaxation_time / dt
+            total, radius = force_and_radius(moved)
+            stiffness = max(moved._total(state.contact * spring), 1e-300)
+            slope = row.profile.reduced_slope(radius)
+            if moved._lag > 0 and slope > 0:
+                # The dashpots that the growing contact meets.
+                stiffness += 2 * medium.E_star * moved._lag / slope
+            return total - force, stiffness, moved
 
-        rise = min(guess, room)
-        if force <= self.least:
-            # Next to no force is next to none over a wide range of rises.
-            rise = self.bracketed(lambda rise: miss(rise)[0], guess, room)
-            self.row = row.advance(row.depth + rise, dt)
-            return
-        value, moved = miss(rise)
-        # Between the axis and the first element there is nothing to take a stiffness from.
-        change = float(np.clip(-value / _stiffness(moved, dt), -self.bound, self.bound))
-        for _ in range(12):
-            # Secants, after a first step of Newton's.
-            new = min(rise + change, room)
-            if not abs(new - rise) > self.close:
-                self.row = moved
-                return
-            new_value, moved = miss(new)
-            if new_value == value:
-                break
-            change, rise, value = -new_value * (new - rise) / (new_value - value), new, new_value
-        self.row = row.advance(row.depth + self.bracketed(lambda rise: miss(rise)[0], guess, room), dt)
-
-    def bracketed(self, miss, guess, room):
-        """The root of an increasing function of the rise (m), also across jumps."""
-        low = high = min(guess, room)
-        reach = max(abs(guess) / 8, 1e-9 * self.bound)
-        while miss(low) > 0:
-            low, reach = low - reach, 4 * reach
-        reach = max(abs(guess) / 8, 1e-9 * self.bound)
-        while high < room and miss(high) < 0:
-            high, reach = min(high + reach, room), 4 * reach
-        return scipy.optimize.brentq(miss, low, high, xtol=self.close) if low < high else low
+        self.row = root_in_bracket(excess, min(guess, room), -row.depth, room, self.close)

@@ -10,16 +10,18 @@
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from .. import _check
+from .._numeric import root_in_bracket
 from ..medium import Medium
 from ..results import Motion
 from ..shapes.profile import Profile
 from . import element
 from .fronts import force_and_radius
-from .reach import least_depth, resistance
+from .reach import reach
 from .row import Foundation
 
 _MOST_STEPS = 20_000
@@ -46,16 +48,13 @@ class Body:
         """Largest depth (m) of the history, at least 0."""
         return max([0.0, *(depth for depth, _ in self.history)])
 
-    def reach(self):
+    def room(self):
         """A depth (m) that the body does not exceed, beyond what was met before."""
-        profile, medium, momentum = self.profile, self.medium, self.mass * self.speed
-        past = resistance(profile, medium, self.met_before)
-
-        def stops(now):
-            spent = now.work - past.work >= momentum * self.speed / 2
-            return spent or (medium.eta > 0 and now.momentum - past.momentum >= momentum)
-
-        bound = least_depth(profile, medium, stops, self.met_before)
+        profile, medium, momentum, past = self.profile, self.medium, self.mass * self.speed, self.met_before
+        bound = min(
+            reach(profile, medium, "work", momentum * self.speed / 2, past),
+            reach(profile, medium, "momentum", momentum, past),
+        )
         if bound > _DEEPEST * medium.critical_depth:
             raise ValueError(
                 f"speed = {self.speed:g} m/s presses to {bound:g} m, over {_DEEPEST:g} critical depths, "
@@ -76,10 +75,11 @@ class Body:
         return row
 
 
-@dataclass(frozen=True, eq=False)
-class Run:
-    """One run: its motion, the chain and the velocity (m/s) at the end, largest depth (m) and force (N),
-    contact time (s).
+class Run(NamedTuple):
+    """One run: its motion, the chain when contact ends, and its `quantities`.
+
+    These are the coefficient of restitution, largest depth (m) and force (N), contact time (s), and the
+    energies (J) stored at the turning point, and dissipated by yielding and by the dashpots.
     """
 
     motion: Motion
@@ -111,7 +111,12 @@ class Flight:
         self._leg(1 / (np.sqrt(rate) + medium.relaxation_time * rate), self._free)
         motion = self._motion(max(self._left(), turn))
         lasts = motion.time[-1] - motion.time[first - 1]
-        return Run(motion, self.row, np.array([self.velocity, motion.depth.max(), peak, lasts]))
+        stored, plastic, viscous = motion.stored_energy, motion.plastic_work, motion.viscous_work
+        # What relaxing elements still store at the end is lost, too.
+        lost = viscous[-1] - viscous[0] + stored[-1] - stored[0]
+        energies = stored[motion.turning_point], plastic[-1] - plastic[0], lost
+        restitution = -self.velocity / self.body.speed
+        return Run(motion, self.row, np.array([restitution, motion.depth.max(), peak, lasts, *energies]))
 
     def _free(self):
         return self.velocity < 0 and not self.row._elements.contact.any()
@@ -199,7 +204,7 @@ class Flight:
             return 2 * m * (rate - v) + impulse, slope, (*taken, v - impulse / m)
 
         close = max(self.still, 1e-12 * abs(v))
-        return _root(excess, v + self.acceleration * dt / 2, -np.inf, np.inf, close)
+        return root_in_bracket(excess, v + self.acceleration * dt / 2, -np.inf, np.inf, close)
 
     def _turn(self, longest, after):
         """The step that ends where the velocity is zero, J(v/2) = m v; less than one that ends beyond."""
@@ -212,7 +217,7 @@ class Flight:
             return impulse - m * v, force or m * v / longest, (*taken, 0.0)
 
         guess = v / (v - after) * longest
-        return _root(excess, guess, 0.0, longest, max(self.still / v * guess, 1e-12 * longest))
+        return root_in_bracket(excess, guess, 0.0, longest, max(self.still / v * guess, 1e-12 * longest))
 
     def _accept(self, ramp, state, exchange, velocity):
         self.acceleration = (velocity - self.velocity) / ramp.time
@@ -238,18 +243,3 @@ class Flight:
         plastic = np.maximum(past - self.body.medium.critical_depth, 0.0)
         zone = np.where(plastic > 0, self.body.profile.contact_radius(plastic), 0.0)
         return Motion(time, depth, velocity, force, radius, zone, plastic, live, *ledger)
-
-
-def _root(function, x, low, high, close):
-    """What is found at the root of a function with slopes: by Newton's method inside a bracket."""
-    for count in range(80):
-        value, slope, found = function(x)
-        miss = value / slope
-        if abs(miss) <= close or high - low <= close:
-            break
-        low, high = (x, high) if miss < 0 else (low, x)
-        x -= miss
-        # Elements that let go within the step bend the impulse sharply: then halve the bracket by turns.
-        if not low < x < high or (count > 5 and count % 2 and high - low < np.inf):
-            x = (low + high) / 2
-    return found

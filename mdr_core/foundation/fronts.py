@@ -68,9 +68,12 @@ def _beyond_edge(row, load, met, step, front):
     slope = 0.0
     if 0 <= back < len(load) and row._elements.contact[back]:
         slope = (load[met] - load[back]) / (x[met] - x[back])
-    # The load is straight from the last element in contact to the front.
+    elif back < 0 and front > 0:
+        # Only the axis is met: down to what the dashpots carry at the front.
+        slope = (row.medium.E_star * max(row._lag, 0.0) - load[met]) / front
+    # The load is straight from the last element in contact to the front: beyond it the line goes on.
     middle = float(load[met] + slope * ((front + edge) / 2 - x[met]))
-    return step * (front - edge) * max(middle, 0.0)
+    return step * (front - edge) * middle
 
 
 def _front(row, load, met, step):

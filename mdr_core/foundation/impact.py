@@ -26,13 +26,13 @@ from ..results import (
     speed_limit,
 )
 from ..shapes.profile import Profile
-from .free_body import Body, Flight, Run
+from .free_body import Body, Flight
 from .row import Foundation, element_count
 
 #: Elements, and steps in the time T₀, of the first run; each later one has twice as many, up to so often.
 _ELEMENTS, _STEPS, _RUNS = 150, 12, 8
 #: The part of what a limit has gained on its last run that it errs by at least, in the order of `Errors`.
-_TRUST = np.array([0.1, 0.1, 2.0, 1.0])
+_TRUST = np.array([0.1, 0.2, 2.0, 1.0])
 
 
 def chain_impact(
@@ -49,14 +49,10 @@ def chain_impact(
 
     Parameters
     ----------
-    profile : Profile
-        The indenter.
-    medium : Medium
-        The medium, viscous or not.
-    mass : float
-        Mass m (kg), positive.
-    speed : float
-        Speed v₀ (m/s) at the start, positive.
+    profile, medium
+        The indenter, and the medium, viscous or not.
+    mass, speed : float
+        Mass m (kg), and speed v₀ (m/s) at the start, positive.
     start : Foundation, optional
         What the body meets, and where it starts from; by default it touches the virgin surface.
         It is set up anew, through the same moves, on the grids of the solver.
@@ -93,7 +89,7 @@ def chain_impact(
     body = Body(profile, medium, mass, speed, _history(profile, medium, start))
     tolerance = _check.positive_number("tolerance", tolerance)
     count = None if n is None else element_count(n)
-    room = body.reach()
+    room = body.room()
     # How deep the body comes, for the edges of the first run.
     depth = Flight(body, body.row(count or _ELEMENTS, room), _STEPS / 2, room).run().quantities[1]
     runs, limits = [], []
@@ -105,12 +101,18 @@ def chain_impact(
         limits.append(fine + (fine - coarse) / 3)
         if level > 1:
             # Errors of steps and elements may cancel by chance.
-            changes = np.maximum(np.abs(limits[-1] - limits[-2]), np.abs(limits[-1] - fine) * _TRUST)
-            scale = np.append(body.speed, np.abs(limits[-1][1:]))
+            before, last = (limit[:4] for limit in limits[-2:])
+            changes = np.maximum(np.abs(last - before), np.abs(last - fine[:4]) * _TRUST)
+            scale = np.append(1.0, np.abs(last[1:]))
             errors = Errors(*np.maximum(changes / scale, tolerance / 2).tolist())
             if max(errors.restitution, errors.max_depth) <= tolerance:
                 break
-    return ChainImpact(profile, medium, body.mass, body.speed, errors, *runs[-2:])
+    # Where next to nothing comes back, the limit may miss zero by its error.
+    restitution, *others = limits[-1].tolist()
+    values = max(0.0, restitution), *others
+    return ChainImpact(
+        profile, medium, body.mass, body.speed, *values, errors, runs[-1].foundation, runs[-1].motion
+    )
 
 
 def _history(profile, medium, start):
@@ -148,9 +150,22 @@ class ChainImpact(Report):
     medium: Medium
     mass: float
     speed: float
+    #: Coefficient of restitution, the speed of leaving over the speed of coming.
+    restitution: float
+    #: Largest indentation depth d_max (m), largest force (N), time (s) from first contact to the last one.
+    max_depth: float
+    max_force: float
+    contact_time: float
+    #: Elastic energy (J) at the turning point.
+    stored_energy: float
+    #: Energy (J) dissipated by yielding, and by the dashpots with what relaxing elements store at the end.
+    plastic_work: float
+    viscous_work: float
+    #: Estimated errors of the first four of these numbers.
     errors: Errors
-    _coarse: Run = field(repr=False)
-    _fine: Run = field(repr=False)
+    #: The chain when contact ends: what a next body meets.
+    foundation: Foundation = field(repr=False)
+    _motion: Motion = field(repr=False)
     _made_of: tuple[Any, ...] = ()
 
     #: How it was found.
@@ -161,7 +176,7 @@ class ChainImpact(Report):
     _noun: ClassVar[str] = "impact"
 
     def __post_init__(self):
-        sealed(self, "profile", "medium", "mass", "speed", "_fine")
+        sealed(self, "profile", "medium", "mass", "speed", "_motion")
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
@@ -182,37 +197,13 @@ class ChainImpact(Report):
 
         Its ledger closes whatever the steps.
         """
-        steps = replace(self._fine.motion, impact=self)
+        steps = replace(self._motion, impact=self)
         if n is None:
             return steps
         time = instants(n, steps.time[steps.turning_point], steps.time[-1], steps.time[0])
         columns = {name: values for name, values in steps.to_dict().items() if name != "time"}
         values = {name: np.interp(time, steps.time, column) for name, column in columns.items()}
         return Motion(time, **values, impact=self)
-
-    @property
-    def foundation(self) -> Foundation:
-        """The chain when contact ends: what a next body meets."""
-        return self._fine.foundation
-
-    def _limit(self, value):
-        coarse, fine = value(self._coarse), value(self._fine)
-        return float(fine + (fine - coarse) / 3)
-
-    @cached_property
-    def max_depth(self) -> float:
-        """Largest indentation depth d_max (m)."""
-        return self._limit(lambda run: run.quantities[1])
-
-    @cached_property
-    def max_force(self) -> float:
-        """Largest force (N)."""
-        return self._limit(lambda run: run.quantities[2])
-
-    @cached_property
-    def contact_time(self) -> float:
-        """Time (s) from first contact to the last one."""
-        return self._limit(lambda run: run.quantities[3])
 
     @property
     def contact_radius(self) -> float:
@@ -234,33 +225,7 @@ class ChainImpact(Report):
         """Area π c² (m²) of the plastic zone."""
         return np.pi * self.plastic_radius**2
 
-    @cached_property
-    def restitution(self) -> float:
-        """Coefficient of restitution, the speed of leaving over the speed of coming."""
-        # Where next to nothing comes back, the limit may miss zero by its error.
-        return max(0.0, -self._limit(lambda run: run.quantities[0]) / self.speed)
-
     @property
     def rebound_speed(self) -> float:
         """Speed e v₀ (m/s) at which the body leaves."""
         return self.restitution * self.speed
-
-    @cached_property
-    def stored_energy(self) -> float:
-        """Elastic energy (J) at the turning point."""
-        return self._limit(lambda run: run.motion.stored_energy[run.motion.turning_point])
-
-    @cached_property
-    def plastic_work(self) -> float:
-        """Energy (J) dissipated by yielding in this impact."""
-        return self._limit(lambda run: run.motion.plastic_work[-1] - run.motion.plastic_work[0])
-
-    @cached_property
-    def viscous_work(self) -> float:
-        """Energy (J) dissipated by the dashpots, with what relaxing elements still store at the end."""
-
-        def lost(run):
-            motion = run.motion
-            return np.sum(motion.viscous_work[[-1, 0]] * [1, -1] + motion.stored_energy[[-1, 0]] * [1, -1])
-
-        return self._limit(lost)

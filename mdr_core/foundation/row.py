@@ -41,10 +41,8 @@ class Foundation:
 
     Parameters
     ----------
-    profile : Profile
-        The indenter; at first it touches the virgin surface at depth 0.
-    medium : Medium
-        The medium.
+    profile, medium
+        The indenter, which at first touches the virgin surface at depth 0, and the medium.
     n : int
         Number of elements on both sides of the axis together, even, at least 2.
     half_width : float
@@ -270,29 +268,7 @@ _CACHED = {"x", "width", "elastic", "plastic", "contact", "line_load", "state"}
 
 
 def cell_edges(profile, count, half_width, nodes=()):
-    """Edges between the elements on one side of the axis.
-
-    Parameters
-    ----------
-    profile : Profile
-        The indenter.
-    count : int
-        Number of elements on this side, at least one for each stretch between nodes.
-    half_width : float
-        Where the row ends (m).
-    nodes : sequence of float, optional
-        Further radii (m) that must be edges, as those of the contact and of the plastic zone.
-
-    Returns
-    -------
-    ndarray, shape (count + 1,)
-        Ascending from 0 to `half_width`.
-
-    Raises
-    ------
-    ValueError
-        If there are fewer elements than stretches.
-    """
+    """Edges (m) between `count` elements on one side of the axis: 0, `half_width`, nodes and more."""
     posts = _posts(profile, half_width, nodes)
     share = np.diff(posts) / half_width
     if len(share) > count:
@@ -306,10 +282,8 @@ def cell_edges(profile, count, half_width, nodes=()):
     extra = np.diff(np.floor((count - len(share)) * np.append(0, np.cumsum(share)) + 0.5).astype(int))
     extra[-1] += count - len(share) - extra.sum()
     stretches = zip(posts, posts[1:], 1 + extra, _grading(profile, posts), strict=False)
-    return np.append(
-        np.concatenate([low + (high - low) * (np.arange(n) / n) ** p for low, high, n, p in stretches]),
-        half_width,
-    )
+    parts = [low + (high - low) * (np.arange(n) / n) ** p for low, high, n, p in stretches]
+    return np.concatenate([*parts, [half_width]])
 
 
 def _posts(profile, half_width, nodes):

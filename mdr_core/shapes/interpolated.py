@@ -32,11 +32,8 @@ class Interpolated(Profile):
     """The contact radius of a shape, interpolated in σ = (s − f)^(1/4) behind each kink at a depth f."""
 
     def __init__(self, profile, deepest, unit=None):
-        self.profile, self.shape, self.deepest = (
-            profile,
-            profile.shape,
-            np.min([np.max(deepest), np.min(profile.deepest)]),
-        )
+        self.profile, self.shape = profile, profile.shape
+        self.deepest = min(np.max(deepest), np.min(profile.deepest))
         self.kinks, self.scale, self.wall = profile.kinks, profile.scale, profile.wall
         if profile.shape:
             shape, length, depth = profile.unit
@@ -47,17 +44,15 @@ class Interpolated(Profile):
         panels = [_panels(feet, zone, deepest) for zone in range(len(feet))]
         # One coordinate for all zones, one after the other.
         self._feet, self._begin = feet, np.cumsum([0.0] + [edges[-1] for edges in panels])
-        edges = np.concatenate(
-            [[0.0]] + [begin + part[1:] for begin, part in zip(self._begin[:-1], panels, strict=True)]
-        )
+        inner = [begin + part[1:] for begin, part in zip(self._begin[:-1], panels, strict=True)]
+        edges = np.concatenate([[0.0], *inner])
         width = np.diff(edges)
         place = edges[:-1, None] + width[:, None] * _POINTS
         zone = np.searchsorted(self._begin, place[:, 0], side="right") - 1
         depth = feet[zone, None] + (place - self._begin[zone, None]) ** 4
         radius = profile._radius(np.minimum(depth, deepest))
-        powers = (
-            _TO_POWERS @ (_TO_SERIES @ radius.T) / width ** np.arange(_POINTS.size - 1, -1, -1)[:, None]
-        )
+        degree = np.arange(_POINTS.size)[::-1, None]
+        powers = _TO_POWERS @ (_TO_SERIES @ radius.T) / width**degree
         self._polynomial = scipy.interpolate.PPoly(powers, edges)
         # ds = 4σ³ dσ, with σ from the beginning of the zone.
         begin, rate = edges[:-1] - self._begin[zone], np.zeros((_POINTS.size + 3, len(width)))

@@ -187,6 +187,11 @@ class OneLength(Profile):
     #: Places u that G is tabulated at: every forty-third part of an octave.
     _grid = np.geomspace(1e-30, 1e30, 8600)
 
+    def __post_init__(self):
+        # A parameter is a slope, or a length.
+        units = {field.name: "" if field.name == "slope" else "m" for field in fields(self)}
+        _check.set_positive(self, **units)
+
     @staticmethod
     @abstractmethod
     def _Z(u): ...

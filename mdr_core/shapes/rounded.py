@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import _check
 from .._check import Parameter
 from .profile import OneLength
 
@@ -27,9 +26,6 @@ class Sphere(OneLength):
     """
 
     radius: Parameter
-
-    def __post_init__(self):
-        _check.set_positive(self, radius="m")
 
     _length = _depth = body_radius = property(lambda self: self.radius)
 
@@ -74,9 +70,6 @@ class Hyperboloid(OneLength):
     slope: Parameter
     tip_radius: Parameter
 
-    def __post_init__(self):
-        _check.set_positive(self, slope="", tip_radius="m")
-
     _length = property(lambda self: self.slope * self.tip_radius)
     _depth = property(lambda self: self.slope * self._length)
 
@@ -114,9 +107,6 @@ class RoundedCone(OneLength):
 
     tip_radius: Parameter
     slope: Parameter
-
-    def __post_init__(self):
-        _check.set_positive(self, tip_radius="m", slope="")
 
     _length = property(lambda self: self.slope * self.tip_radius)
     _depth = property(lambda self: self.slope * self._length)
@@ -159,9 +149,6 @@ class ParabolicPunch(OneLength):
 
     radius: Parameter
     cylinder_radius: Parameter
-
-    def __post_init__(self):
-        _check.set_positive(self, radius="m", cylinder_radius="m")
 
     _length = wall = property(lambda self: self.cylinder_radius)
     _depth = property(lambda self: self.cylinder_radius * (self.cylinder_radius / self.radius))

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import _check
 from .._check import Parameter
 from .profile import OneLength
 
@@ -41,9 +40,6 @@ class TruncatedCone(_FlatFaced):
 
     flat_radius: Parameter
     slope: Parameter
-
-    def __post_init__(self):
-        _check.set_positive(self, flat_radius="m", slope="")
 
     _depth = property(lambda self: self.slope * self.flat_radius)
 
@@ -83,9 +79,6 @@ class TruncatedParaboloid(_FlatFaced):
     flat_radius: Parameter
     radius: Parameter
 
-    def __post_init__(self):
-        _check.set_positive(self, flat_radius="m", radius="m")
-
     _depth = property(lambda self: self.flat_radius * (self.flat_radius / self.radius))
 
     @staticmethod
@@ -123,9 +116,6 @@ class RoundedPunch(_FlatFaced):
 
     flat_radius: Parameter
     edge_radius: Parameter
-
-    def __post_init__(self):
-        _check.set_positive(self, flat_radius="m", edge_radius="m")
 
     _depth = property(lambda self: self.flat_radius * (self.flat_radius / self.edge_radius))
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from mdr_core.foundation.fronts import force_and_radius
 
 from ..shapes import POWER_LAWS, SHAPES, name
 
@@ -70,6 +71,20 @@ def test_a_thousand_elements_give_the_force_to_a_millionth(shape, history):
     assert len(row.x) == 1000
     # h²/24 g″ summed, with h = a/500: 0.5e-6 for the paraboloid, 1.0e-6 for n = 1/2.
     assert row.force == pytest.approx(state.force, rel=1e-6)
+
+
+@pytest.mark.parametrize(("medium", "dt"), [(MEDIUM, np.inf), (VISCOUS, TAU)], ids=["slow", "viscous"])
+def test_force_with_its_fronts_grows_from_first_touch_on(medium, dt):
+    """Of a cone it is exact before the first element is met, and while contact ends within any other."""
+    cone, d = mdr.Cone(0.3), 0.5 * D_C
+    row = mdr.Foundation(cone, medium, 40, cone.contact_radius(1.1 * d))
+    for depth in np.linspace(0.003, 1.0, 400) * d:
+        force, radius = force_and_radius(row.advance(depth, dt))
+        rate = depth / dt
+        expected = (medium.E_star * depth + 8 * medium.eta * rate) * cone.contact_radius(depth)
+        # Straight line loads, summed over twenty elements.
+        assert force == pytest.approx(expected, rel=1e-12, abs=0)
+        assert radius == pytest.approx(cone.contact_radius(depth), rel=1e-14, abs=0)
 
 
 def test_force_is_the_sum_over_the_picture():
