@@ -4,6 +4,8 @@ x and y of a line, an area or a mark in the units of the axes; x, y and text of 
 values of an image.
 """
 
+from itertools import pairwise
+
 import numpy as np
 
 from .view import REST
@@ -20,6 +22,11 @@ def _both(values, sign=1):
     return np.concatenate([sign * values[::-1], values])
 
 
+def _curve(view, axes, *values):
+    """x and y (SI) in the units of two axes."""
+    return tuple(view.scaled(axis, value) for axis, value in zip(axes, values, strict=True))
+
+
 def _at_radii(view, i, bottom, top):
     """Lines at ±a and ±c, and their names beside them: c on the inside where they are close."""
     half, scale = view.end["x"], view.unit["a"] / view.unit["x"]
@@ -34,13 +41,9 @@ def _at_radii(view, i, bottom, top):
     }
 
 
-# 1D foundation.
-
-
 def _reduced(profile, x):
     """Reduced profile, not a number where the shape is not known."""
-    known = x <= profile.known_radius
-    return np.where(known, profile.reduced(np.where(known, x, 0.0)), np.nan)
+    return np.where(x <= profile.known_radius, profile.reduced(np.minimum(x, profile.known_radius)), np.nan)
 
 
 def _outline(view):
@@ -87,47 +90,34 @@ def springs(view, i):
     }  # fmt: skip
 
 
-# Force and depth.
-
-
 def force_still(view):
-    way, d, F = view.way, view.d, view.F
-    first, peak, onset, held = min(view.first, way.peak), way.peak, way.onset, view.held
-    rows = {
-        "unloading": (d[peak:], F[peak:]),
-        "elastic": (d[: first + 1], F[: first + 1]),
-        "yielding": (d[first : peak + 1], F[first : peak + 1]) if view.first <= peak else _NOTHING,
-        "onset of yield": _NOTHING,
-        "held": _NOTHING,
-    }
+    way, held, onset, peak = view.way, view.held, view.way.onset, view.way.peak
+    first = min(view.first, peak)
+    rows = dict.fromkeys(("onset of yield", "held", "yielding"), _NOTHING)
+    rows["unloading"] = view.d[peak:], view.F[peak:]
+    rows["elastic"] = view.d[: first + 1], view.F[: first + 1]
+    if view.first <= peak:
+        rows["yielding"] = view.d[first : peak + 1], view.F[first : peak + 1]
     if onset is not None and (way.motion is None or way.scene.medium.eta == 0):
-        at = (np.array([float(value)]) for value in (onset.depth, onset.force))
-        rows["onset of yield"] = tuple(view.scaled(axis, v) for axis, v in zip("dF", at, strict=True))
+        rows["onset of yield"] = _curve(view, "dF", [onset.depth], [onset.force])
     if held is not None:
-        rows["held"] = view.scaled("d", held.states.depth), view.scaled("F", held.force)
+        rows["held"] = _curve(view, "dF", held.states.depth, held.force)
     return rows
 
 
 def force(view, i):
     way, right = view.way, 0.02 * view.end["d"]
     deepest = min(i, way.peak)
-    lost, back = (
-        [view.scaled(axis, v) for axis, v in zip("dF", way.released(k), strict=True)] for k in (deepest, i)
-    )
+    (lost_d, lost_F), (back_d, back_F) = (_curve(view, "dF", *way.released(k)) for k in (deepest, i))
     d, F = view.d[: deepest + 1], view.F[: deepest + 1]
     lower = view.scaled("d", way.states.live.lower[i])
-    imprint = (
-        (max(lower - 3 * right, right), 0.09 * view.end["F"], "dₚ") if lower > 0 else (np.nan, np.nan, "")
-    )
+    place = (max(lower - 3 * right, right), 0.09 * view.end["F"], "dₚ")
     return {
-        "dissipated": (np.concatenate([d[:1], d, lost[0]]), np.concatenate([[0.0], F, lost[1]])),
-        "recoverable": (np.append(back[0][:1], back[0]), np.append(0.0, back[1])),
+        "dissipated": (np.concatenate([d[:1], d, lost_d]), np.concatenate([[0.0], F, lost_F])),
+        "recoverable": (np.append(back_d[:1], back_d), np.append(0.0, back_F)),
         "now": (view.d[[i]], view.F[[i]]),
-        "dₚ": imprint,
+        "dₚ": place if lower > 0 else (np.nan, np.nan, ""),
     }
-
-
-# Contact pressure.
 
 
 def pressure(view, i):
@@ -136,11 +126,7 @@ def pressure(view, i):
     r, p = view.scaled("x", r), np.minimum(view.scaled("p", p), 1e3 * top)
     curve, scale = (_both(r, -1), _both(p)), view.unit["a"] / view.unit["x"]
     a, c = view.a[i] * scale, view.c[i] * scale
-    mean = (
-        view.F[i] * view.unit["F"] / (np.pi * (a * view.unit["x"]) ** 2) / view.unit["p"]
-        if a > 0
-        else np.nan
-    )
+    mean = view.scaled("p", view.way.states.mean_pressure[i] or np.nan)
     return _at_radii(view, i, 0.0, top) | {
         "plastic zone r < c": (np.array([-c, c, c, -c]), np.array([0, 0, top, top])),
         "below": curve,
@@ -159,37 +145,29 @@ def pressure_still(view):
     return {"held": (_both(view.scaled("x", r), -1), _both(p))}
 
 
-# Contact radius and plastic zone.
-
-
-def _zone(way):
-    """Depths and radii of a way: the contact radius falls by a step where the load is gone."""
+def _zone(view, way):
+    """Loading, unloading and plastic zone: the contact radius falls by a step where the load is gone."""
     depth, a, c = way.states.depth, way.states.contact_radius, way.states.plastic_radius
-    gone = int(np.flatnonzero(way.states.live.length > 0)[-1]) + 1
-    lower = way.states.live.lower[-1:]
+    peak, gone = way.peak, int(np.flatnonzero(way.states.live.length > 0)[-1]) + 1
+    last = c[-1:] if way.states.live.lower[-1] > 0 else a[gone : gone + 1]
     back = (
-        np.concatenate([depth[way.peak : gone], depth[gone : gone + 1], depth[gone:]]),
-        np.concatenate(
-            [a[way.peak : gone], c[-1:] if lower[0] > 0 else a[gone : gone + 1], 0 * depth[gone:]]
-        ),
+        np.append(depth[peak : gone + 1], depth[gone:]),
+        np.concatenate([a[peak:gone], last, 0 * depth[gone:]]),
     )
-    return (depth[: way.peak + 1], a[: way.peak + 1]), back, (depth[: way.peak + 1], c[: way.peak + 1])
+    loading, zone = ((depth[: peak + 1], radius[: peak + 1]) for radius in (a, c))
+    return [_curve(view, "da", *rows) for rows in (loading, back, zone)]
 
 
 def radii_still(view):
-    def scaled(rows):
-        return view.scaled("d", rows[0]), view.scaled("a", rows[1])
-
-    loading, back, zone = map(scaled, _zone(view.way))
+    loading, back, (d, c) = _zone(view, view.way)
     some = slice(max(view.first - 1, 0), None) if view.first <= view.way.peak else slice(0, 0)
-    d, c = zone[0][some], zone[1][some]
-    closed = np.append(d, [d[-1], d[0]]) if len(d) else d, np.append(c, [0, 0]) if len(d) else c
-    rows = {"zone": closed, "contact radius a": loading, "unloading": back, "plastic zone c": (d, c)}
+    d, c = d[some], c[some]
+    rows = {"contact radius a": loading, "unloading": back, "plastic zone c": (d, c)}
+    rows["zone"] = np.append(d, [*d[-1:], *d[:1]]), np.append(c, [0, 0][: 2 * len(d)])
     rows |= {"held a": _NOTHING, "held c": _NOTHING}
     if view.held is not None:
-        loading, back, zone = map(scaled, _zone(view.held))
-        rows["held a"] = tuple(np.append(*pair) for pair in zip(loading, back, strict=True))
-        rows["held c"] = zone
+        loading, back, rows["held c"] = _zone(view, view.held)
+        rows["held a"] = tuple(map(np.append, loading, back))
     return rows
 
 
@@ -197,14 +175,11 @@ def radii_marks(view, i):
     return {"now": (view.d[[i]], view.a[[i]]), "c now": (view.d[[i]], view.c[[i]])}
 
 
-# An impact in time.
-
-
 def motion_still(view):
-    t = view.scaled("t", view.way.motion.time)
+    t, held = view.scaled("t", view.way.motion.time), view.held
     rows = {"depth d": (t, view.d), "force F": (t, view.F), "held": _NOTHING}
-    if view.held is not None and view.held.motion is not None:
-        rows["held"] = view.scaled("t", view.held.motion.time), view.scaled("F", view.held.force)
+    if held is not None and held.motion is not None:
+        rows["held"] = _curve(view, "tF", held.motion.time, held.force)
     return rows
 
 
@@ -218,15 +193,10 @@ def energy_still(view):
     m = view.way.motion
     t, parts = view.scaled("t", m.time), (m.plastic_work, m.viscous_work, m.stored_energy, m.kinetic_energy)
     sums = view.scaled("E", np.cumsum([np.zeros_like(m.time), *parts], axis=0))
-    names = ("plastic", "viscous", "stored", "kinetic")
     both = np.append(t, t[::-1])
-    rows = {
-        n: (both, np.append(upper, lower[::-1]))
-        for n, lower, upper in zip(names, sums, sums[1:], strict=False)
-    }
-    if not m.viscous_work.any():
-        rows["viscous"] = _NOTHING
-    return rows
+    between = [(both, np.append(upper, lower[::-1])) for lower, upper in pairwise(sums)]
+    rows = dict(zip(("plastic", "viscous", "stored", "kinetic"), between, strict=True))
+    return rows if m.viscous_work.any() else rows | {"viscous": _NOTHING}
 
 
 def energy(view, i):

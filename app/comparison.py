@@ -16,7 +16,7 @@ from mdr_core.results import CHAIN
 
 from .controls import WIDE, html
 from .plots import PLOTS
-from .presets import ASSETS
+from .quantities import ASSETS
 from .units import digits, written
 
 _LOG = logging.getLogger(__name__)
@@ -35,8 +35,7 @@ REPEATS = 3
 class Row:
     """One solution: its model, its elements if they are a fixed number, its time (s) and its error.
 
-    The error is that of the force relative to the force at the largest depth, or that of the restitution
-    coefficient; None for the model that the others are measured against.
+    The error is that of the restitution, or of the largest force relative to it; None of the first model.
     """
 
     model: str
@@ -48,26 +47,17 @@ class Row:
 def compare(scene, result, stopped=lambda: False, cap=CAP):
     """Yield a `Row` for each model of a scene, the cheapest exact one first, then chains of growing n.
 
-    Parameters
-    ----------
-    scene : mdr.Scene
-        Pressed once, or hit once.
-    result : mdr.Indentation or mdr.Impact
-        What `scene.solve()` gives.
-    stopped : callable
-        Asked before every solution; none is begun once it is true.
-    cap : float
-        Time (s) in all beyond which none is expected to end.
+    `result` is what `scene.solve()` gives. No solution is begun once `stopped` gives true, nor one that is
+    expected to end more than `cap` seconds after the first was begun.
     """
-    begin, exact = perf_counter(), _value(result)
+    begin, exact, models = perf_counter(), _value(result), scene.models
     scale = 1.0 if isinstance(scene.drive, mdr.FreeImpact) else abs(exact) or 1.0
-    for model in scene.models:
+    for model in models:
         if model != CHAIN and not stopped():
             seconds, value = _timed(lambda m=model: _value(scene.solve(m)))
-            error = None if model == scene.models[0] else abs(value - exact) / scale
-            yield Row(str(model), None, seconds, error)
+            yield Row(str(model), None, seconds, abs(value - exact) / scale if model != models[0] else None)
     last = 0.0
-    for n in ELEMENTS if CHAIN in scene.models else ():
+    for n in ELEMENTS if CHAIN in models else ():
         # Twice the elements take at most about twice the time.
         if stopped() or perf_counter() - begin + 2 * REPEATS * last > cap:
             return
@@ -104,7 +94,7 @@ class Comparing:
 
     def __init__(self, document):
         self._document, self._figure, self._key = document, None, None
-        self._stop, self.running, self._scene = threading.Event(), None, None
+        self._stop, self._scene = threading.Event(), None
         self.words, self.table = html("", css_classes=["note"]), html("", css_classes=["table"])
         report = base64.b64encode((ASSETS / "speed_against_error.svg").read_bytes()).decode()
         image = f'<img alt="{_ALT}" src="data:image/svg+xml;base64,{report}">'
@@ -117,74 +107,69 @@ class Comparing:
         self._figure, self._key = figure, key
         return self.view
 
-    def cancel(self):
-        """Begin no further solution of the comparison under way."""
-        self._stop.set()
-        self._scene = None
-
     def follow(self, scene):
         """Compare the models of a scene, unless that is under way or done; None: of no scene."""
-        if scene is None or scene == self._scene:
-            if scene is None:
-                self.cancel()
+        if scene == self._scene:
             return
-        self.cancel()
+        self._stop.set()
         self._stop, self._scene = threading.Event(), scene
-        thread = pn.state.as_cached("comparisons", ThreadPoolExecutor, max_workers=1)
-        self.running = thread.submit(self._run, scene, self._stop, _inside(pn.state.curdoc))
+        if scene is not None:
+            thread = pn.state.as_cached("comparisons", ThreadPoolExecutor, max_workers=1)
+            thread.submit(self._run, scene, self._stop, _inside(pn.state.curdoc))
 
     def _run(self, scene, stop, inside):
+        rows, result = [], None
+
+        def show(end):
+            known = tuple(rows)
+            inside(lambda: stop.is_set() or self.show(scene, result, known, end))
+
         if stop.is_set():
             return
-        rows, failed, result = [], False, None
         try:
             result = scene.solve()
             for row in compare(scene, result, stop.is_set):
                 rows.append(row)
-                inside(
-                    lambda rows=tuple(rows): stop.is_set() or self.show(scene, result, rows, "measuring …")
-                )
+                show("measuring …")
         except Exception:
             _LOG.exception("models could not be compared, scene %s", scene.to_json())
-            failed = True
+            show("the models could not be compared")
+            return
         largest = max((row.n for row in rows if row.n), default=0)
-        end = "n elements in the chain"
-        if largest < ELEMENTS[-1]:
-            end = f"chains beyond n = {largest} would take more than {CAP} s in all"
-        end = "the models could not be compared" if failed else end
-        inside(lambda: stop.is_set() or self.show(scene, result, tuple(rows), end))
+        beyond = f"chains beyond n = {largest} would take more than {CAP} s in all"
+        show(beyond if largest < ELEMENTS[-1] else "n elements in the chain")
 
     def show(self, scene, result, rows, end):
         """Draw what is known so far."""
-        if result is None or not rows:
+        if not rows:
             self.words.object = f"{end[0].upper()}{end[1:]}."
             return
         used, impact = str(result.model), isinstance(scene.drive, mdr.FreeImpact)
         what = "Error of e" if impact else "Relative error of F at the largest depth"
         text = f"Used on this page: {used}, the cheapest exact one: {result.model.reason}."
-        text += f" {what} against it; {end}."
-        times = f"Every time is the shortest of {REPEATS}."
+        text += f" {what} against it; {end}. Every time is the shortest of {REPEATS}."
         with pn.io.hold(self._document):
-            self.words.object = escape(f"{text} {times}")
-            self.table.object = _tabulated(rows, used)
-            figure = self._figure
-            _draw(figure, self._key, rows, used)
-            figure.below[0].axis_label = "time to solve (s)"
-            figure.left[0].axis_label = "error of e" if impact else "relative error of F"
+            self.words.object, self.table.object = escape(text), _tabulated(rows, used)
+            _draw(self._figure, self._key, rows, used)
+            self._figure.below[0].axis_label = "time to solve (s)"
+            self._figure.left[0].axis_label = "error of e" if impact else "relative error of F"
 
 
 def _tabulated(rows, used):
-    def cells(head, texts):
-        marks = ['<td class="used">' if row.model == used else "<td>" for row in rows]
-        body = "".join(f"{mark}{text}</td>" for mark, text in zip(marks, texts, strict=True))
-        return f'<tr><th scope="row">{head}</th>{body}</tr>'
-
     def error(value):
         return "exact" if value is None else "< 10⁻¹⁶" if value < EXACT else digits(value, 2)
 
-    body = cells("model", [row.model for row in rows]) + cells("n", [row.n or "–" for row in rows])
-    body += cells("time", [written(row.seconds, "time", 2) for row in rows])
-    body += cells("error", [error(row.error) for row in rows])
+    marks = ['<td class="used">' if row.model == used else "<td>" for row in rows]
+    lines = {
+        "model": [row.model for row in rows],
+        "n": [row.n or "–" for row in rows],
+        "time": [written(row.seconds, "time", 2) for row in rows],
+        "error": [error(row.error) for row in rows],
+    }
+    body = ""
+    for head, texts in lines.items():
+        cells = (f"{mark}{text}</td>" for mark, text in zip(marks, texts, strict=True))
+        body += f'<tr><th scope="row">{head}</th>{"".join(cells)}</tr>'
     return f'<table aria-label="Time and error of each model">{body}</table>'
 
 
@@ -195,49 +180,34 @@ def points(rows, used):
         some = sorted((row.seconds, max(row.error or EXACT, EXACT)) for row in some)
         return [x for x, _ in some], [y for _, y in some]
 
-    marks = {
-        name: place(row for row in rows if row.model == name)
-        for name in ("chain", "closed form", "scalar ODE")
-    }
-    marks["used on this page"] = place(row for row in rows if row.model == used and row.n is None)
-    return marks
+    models = ("chain", "closed form", "scalar ODE")
+    marks = {name: place(row for row in rows if row.model == name) for name in models}
+    return marks | {"used on this page": place(row for row in rows if row.model == used and row.n is None)}
 
 
 def _draw(figure, key, rows, used):
     marks = points(rows, used)
-    known = {row.name: row for row in PLOTS["speed"].rows}
+    known = [row for row in PLOTS["speed"].rows if row.name in marks]
+    drawn = [(x, y, row) for row in known for x, y in zip(*marks[row.name], strict=True)]
+    names = [row.name for *_, row in drawn]
+    columns = {"x": [x for x, *_ in drawn], "y": [y for _, y, _ in drawn], "row": names}
+    columns |= {"role": [row.role for *_, row in drawn]}
+    columns |= {each: [row.look[each] for *_, row in drawn] for each in ("edge", "marker", "size")}
+    chain = {"xs": [marks["chain"][0]], "ys": [marks["chain"][1]]}
     for renderer in figure.renderers:
-        if renderer.name == "lines":
-            line = {"xs": [marks["chain"][0]], "ys": [marks["chain"][1]]}
-            renderer.data_source.data = dict(renderer.data_source.data) | line
-        else:
-            each = [
-                (x, y, known[name])
-                for name in known
-                if name in marks
-                for x, y in zip(*marks[name], strict=True)
-            ]
-            looks = {key: [row.look[key] for *_, row in each] for key in ("edge", "marker", "size")}
-            names = {"row": [row.name for *_, row in each], "role": [row.role for *_, row in each]}
-            places = {"x": [x for x, *_ in each], "y": [y for _, y, _ in each]}
-            renderer.data_source.data = places | looks | names
-    present = [name for name in known if marks.get(name, ([],))[0]]
-    first = {name: renderer_index(present, marks, name) for name in present}
+        source = renderer.data_source
+        source.data = dict(source.data) | chain if renderer.name == "lines" else columns
     for item in key.items:
-        item.update(visible=item.name in first, index=first.get(item.name, 0))
+        shown = item.name in names
+        item.update(visible=shown, index=names.index(item.name) if shown else 0)
     times = [row.seconds for row in rows]
     start, end = 10 ** floor(log10(min(times)) - 0.3), 10 ** ceil(log10(max(times)) + 0.3)
     figure.x_range.update(start=start, end=end, reset_start=start, reset_end=end)
     figure.y_range.update(start=EXACT / 30, end=1, reset_start=EXACT / 30, reset_end=1)
 
 
-def renderer_index(present, marks, name):
-    """Place of the first point of a name among all that are drawn."""
-    return sum(len(marks[other][0]) for other in present[: present.index(name)])
-
-
 def _inside(document):
     """How to call a function with the lock of a session; without a server, directly."""
     if document is None or document.session_context is None:
         return lambda act: act()
-    return lambda act: document.add_next_tick_callback(act)
+    return document.add_next_tick_callback

@@ -10,19 +10,7 @@ import param
 from .explorer import FROM_FILE
 from .plots import PLOTS
 from .presets import PRESETS
-from .quantities import (
-    CHOICES,
-    DAMPING,
-    DRIVE,
-    ELASTICITY,
-    INERTIA,
-    LABELS,
-    PLASTICITY,
-    SURFACE,
-    USED,
-    Scale,
-)
-from .shapes import QUANTITIES, SHAPES, shape_quantities
+from .quantities import CHOICES, LABELS, QUANTITIES, SHAPES, USED, Scale, shape_quantities
 from .units import UNITS, entry, written
 
 JS = {path.stem: path.read_text(encoding="utf-8") for path in (Path(__file__).parent / "js").glob("*.js")}
@@ -64,8 +52,8 @@ def legend(name, shown):
 
 
 def _style(row):
-    words = {"hatch": {" ": ""}.get(row.look.get("hatch"), "hatch")} if "hatch" in row.look else row.look
-    return " ".join(str(words.get(key, "")) for key in ("hatch", "dash", "marker"))
+    hatch = "hatch" if row.look.get("hatch", " ") != " " else ""
+    return " ".join((hatch, row.look.get("dash", ""), row.look.get("marker", "")))
 
 
 class Number(pn.custom.JSComponent):
@@ -125,36 +113,30 @@ class Controls:
     """
 
     def __init__(self, explorer, attempt, tell):
-        self.explorer, self.attempt, self.tell = explorer, attempt, tell
-        self.numbers, self.choices, self.notes = {}, {}, {}
+        self.explorer, self.attempt, self.tell, self.numbers = explorer, attempt, tell, {}
         labels = {label or "Scene from a file": label for label in (*PRESETS, FROM_FILE)}
-        self.preset = pn.widgets.Select(name="Preset", options=labels, css_classes=["choice"], **WIDE)
+        look = {"css_classes": ["choice"], **WIDE}
+        self.preset = pn.widgets.Select(name="Preset", options=labels, **look)
         self.preset.param.watch(self._load, "value")
-        shapes = {shape.label: key for key, shape in SHAPES.items()} | {"Measured tip (CSV)": "sampled"}
-        self.choices["shape"] = pn.widgets.Select(
-            name="Shape", options=shapes, css_classes=["choice"], **WIDE
-        )
+        shapes = {f"{s.label}{' (CSV)' * (key == 'sampled')}": key for key, s in SHAPES.items()}
+        self.choices = {"shape": pn.widgets.Select(name="Shape", options=shapes, **look)}
         for name, options in CHOICES.items():
             options = {text: option for option, text in options.items()}
-            self.choices[name] = pn.widgets.RadioBoxGroup(
-                name=LABELS[name], options=options, inline=True, css_classes=["choice"], **WIDE
-            )
+            look["inline"] = True
+            self.choices[name] = pn.widgets.RadioBoxGroup(name=LABELS[name], options=options, **look)
         for name, widget in self.choices.items():
             widget.param.watch(lambda event, name=name: self._choose(name, event), "value")
-        for name in ("sources", "sketch", "tip", ELASTICITY, PLASTICITY, DAMPING):
-            self.notes[name] = html("")
+        noted = ("sources", "sketch", "tip", "elasticity", "plasticity", "damping")
+        self.notes = {name: html("") for name in noted}
         self.tip = pn.widgets.FileInput(accept=".csv,.txt,text/csv", css_classes=["file", "tip"], **WIDE)
         self.again = pn.widgets.Button(name="Hit again", css_classes=["button"], margin=(4, 0), width=90)
         self.heads = {title: html(f"<h2>{title}</h2>") for title in ("Indenter", "Medium", "Drive")}
         self.heads["tip"] = html("or a measured tip, as CSV (r, z):")
         self.rows = {
             name: pn.Row(
-                html(LABELS[name], css_classes=["legend"]),
-                self.choices[name],
-                css_classes=["fieldset"],
-                **WIDE,
+                html(label, css_classes=["legend"]), self.choices[name], css_classes=["fieldset"], **WIDE
             )
-            for name in CHOICES
+            for name, label in LABELS.items()
         }
         self.form = pn.Column(**WIDE)
 
@@ -165,11 +147,6 @@ class Controls:
     def _choose(self, name, event):
         self.tell(lambda: self.explorer.choose(name, event.new))
         self.choices[name].value = getattr(self.explorer, name)
-
-    def named(self):
-        """Widgets that have no label of their own, with what they are called."""
-        rows = [[self.choices[name], LABELS[name]] for name in CHOICES]
-        return [*rows, [self.tip, "CSV file of a measured tip: r, z"]]
 
     def number(self, name):
         """The control of a number, made when it is used for the first time."""
@@ -184,20 +161,16 @@ class Controls:
         for name, widget in self.choices.items():
             widget.value = getattr(explorer, name)
         self._write(made)
-        rows = [self.preset, self.notes["sources"], self.heads["Indenter"], self.choices["shape"]]
-        rows += [
-            self.heads["tip"],
-            self.tip,
-            self.notes["tip"],
-            self.notes["sketch"],
-            *(self.number(n) for n, _ in shape_quantities(explorer.shape)),
-        ]
-        rows.append(self.heads["Medium"])
-        for choice in (ELASTICITY, PLASTICITY, DAMPING):
-            rows += [*self._choice(choice), self.notes[choice]]
-        rows += [self.heads["Drive"], *self._choice(DRIVE)]
+        notes, heads = self.notes, self.heads
+        rows = [self.preset, notes["sources"], heads["Indenter"], self.choices["shape"]]
+        rows += [heads["tip"], self.tip, notes["tip"], notes["sketch"]]
+        rows += [self.number(name) for name, _ in shape_quantities(explorer.shape)]
+        rows.append(heads["Medium"])
+        for choice in ("elasticity", "plasticity", "damping"):
+            rows += [*self._choice(choice), notes[choice]]
+        rows += [heads["Drive"], *self._choice("drive")]
         if explorer.drive == "impact":
-            rows += [*self._choice(SURFACE), self.again, *self._choice(INERTIA)]
+            rows += [*self._choice("surface"), self.again, *self._choice("inertia")]
         if rows != list(self.form):
             self.form[:] = rows
 
@@ -205,23 +178,24 @@ class Controls:
         return [self.rows[choice], *map(self.number, USED[choice][getattr(self.explorer, choice)])]
 
     def _write(self, made):
-        explorer, known = self.explorer, PRESETS.get(self.explorer.preset)
-        sources = known.sources if known else ()
+        explorer, preset = self.explorer, PRESETS.get(self.explorer.preset)
+        altered = "Altered. " if explorer.altered else ""
         rows = "".join(
             f"<dt>{marked(f'{what} = {value}')}</dt><dd>{escape(where)}</dd>"
-            for what, value, where in sources
+            for what, value, where in (preset.sources if preset else ())
         )
-        altered = "Altered. " if explorer.altered else ""
         title = f"{altered}Where the preset's numbers come from"
         origin = f"<details><summary>{title}</summary><dl>{rows}</dl></details>"
-        self.notes["sources"].object = origin if rows else f"{altered}A scene from a file."
-        self.notes["tip"].object = escape(explorer.tip_note if explorer.shape == "sampled" else "")
         bodies = explorer.elasticity != "modulus"
-        self.notes[ELASTICITY].object = (
-            marked(f"E* = {written(made.E_star, 'pressure')} (2)") if bodies else ""
-        )
-        self.notes[PLASTICITY].object = marked(_yield(explorer, made))
-        self.notes[DAMPING].object = marked(_damping(explorer, made))
+        texts = {
+            "sources": origin if preset else f"{altered}A scene from a file.",
+            "tip": escape(explorer.tip_note if explorer.shape == "sampled" else ""),
+            "elasticity": marked(f"E* = {written(made.E_star, 'pressure')} (2)") if bodies else "",
+            "plasticity": marked(_yield(explorer, made)),
+            "damping": marked(_damping(explorer, made)),
+        }
+        for name, text in texts.items():
+            self.notes[name].object = text
 
 
 def _yield(explorer, medium):

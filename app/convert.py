@@ -2,21 +2,16 @@
 
 from math import inf
 
-from .quantities import DAMPING, DRIVE, ELASTICITY, INERTIA, PLASTICITY, SURFACE
-from .shapes import shape_quantities
+from .quantities import shape_quantities
 
 
 def _shape(state, shape):
     """Numbers with which another shape has the size of the present contact."""
-    if shape == "sampled":
-        return {}
     radius = float(state.solved().contact_radius)
-    values = {}
-    for name, quantity in shape_quantities(shape):
-        is_length = quantity.kind == "length"
-        value = float(f"{quantity.default * radius:.2g}") if is_length else quantity.default
-        values[name] = min(max(value, quantity.bounds[0]), quantity.bounds[1])
-    return values
+    return {
+        name: q.bounded(float(f"{q.default * radius:.2g}") if q.kind == "length" else q.default)
+        for name, q in shape_quantities(shape)
+    }
 
 
 def _elasticity(state, option):
@@ -78,10 +73,10 @@ def _surface(state, option):
 
 CONVERT = {
     "shape": _shape,
-    ELASTICITY: _elasticity,
-    PLASTICITY: _plasticity,
-    DAMPING: _damping,
-    DRIVE: _drive,
-    INERTIA: lambda state, option: {},
-    SURFACE: _surface,
+    "elasticity": _elasticity,
+    "plasticity": _plasticity,
+    "damping": _damping,
+    "drive": _drive,
+    "inertia": lambda state, option: {},
+    "surface": _surface,
 }

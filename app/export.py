@@ -1,6 +1,6 @@
 """What is taken away as text: curves as CSV, and the state as a Python snippet."""
 
-from importlib.metadata import PackageNotFoundError, version
+from dataclasses import asdict
 
 import numpy as np
 
@@ -8,7 +8,11 @@ import mdr_core as mdr
 
 from .trajectory import INSTANTS
 
-_INPUT = "#   {}: {}"
+#: How far the pressure of a measured tip can be trusted.
+_MEASURED = (
+    "sigma_zz: Eq. (10) of Popov (2015), to rounding for the tip with straight lines between its samples",
+    "every sample is a kink: next to a sharp one the pressure is that of the kink, not of the real tip",
+)
 
 
 def csv(trajectory, explorer):
@@ -42,55 +46,32 @@ def pressure_csv(trajectory, explorer, points=401):
         "line load q (N/m)": state.line_load(r),
         "reduced profile g (m)": profile.reduced(r),
     }
-    depth, force = float(state.depth), float(trajectory.force[trajectory.now])
+    title = f"state at depth d = {float(state.depth)!r} m, force F = {float(state.force)!r} N"
     notes = _MEASURED if isinstance(profile, mdr.Sampled) else ()
-    return _table(
-        trajectory, explorer, f"state at depth d = {depth!r} m, force F = {force!r} N", columns, notes
-    )
-
-
-#: How far the pressure of a measured tip can be trusted.
-_MEASURED = (
-    "sigma_zz: Eq. (10) of Popov (2015), to rounding for the tip with straight lines between its samples",
-    "every sample is a kink: next to a sharp one the pressure is that of the kink, not of the real tip",
-    "the page draws it from 402 values of the line load: within 0.2 % of the mean pressure but at a kink",
-)
+    return _table(trajectory, explorer, title, columns, notes)
 
 
 def _table(trajectory, explorer, title, columns, notes=()):
-    lines = [f"# mdr_core {_version()}: {title}", "# inputs, SI units:"]
-    lines += [_INPUT.format(name, value) for name, value in _inputs(trajectory.scene, explorer)]
-    lines += [f"# {note}" for note in notes]
-    lines.append(",".join(columns))
+    lines = [f"mdr_core {mdr.__version__}: {title}", "inputs, SI units:"]
+    lines += [f"  {name}: {value}" for name, value in _inputs(trajectory.scene, explorer)]
     rows = zip(*(np.asarray(values, float).tolist() for values in columns.values()), strict=True)
-    lines += [",".join(map(repr, row)) for row in rows]
-    return "\n".join(lines) + "\n"
+    table = [",".join(columns), *(",".join(map(repr, row)) for row in rows)]
+    return "\n".join([*(f"# {line}" for line in (*lines, *notes)), *table]) + "\n"
 
 
 def _inputs(scene, explorer):
-    medium = scene.medium
+    medium, profile = scene.medium, scene.profile
     if explorer.preset:
         yield "preset", f"{explorer.preset}{', altered' if explorer.altered else ''}"
-    yield "profile", _profile(scene.profile, limit=6)
-    yield "medium", f"E_star = {medium.E_star!r} Pa, q_c = {medium.q_c!r} N/m, eta = {medium.eta!r} Pa·s"
+    many = isinstance(profile, mdr.Sampled) and len(profile.r) > 6
+    ends = f"to r = {profile.r[-1]!r} m, z = {profile.z[-1]!r} m" if many else ""
+    yield "profile", f"Sampled of {len(profile.r)} samples {ends}" if many else repr(profile)
+    text = f"E_star = {medium.E_star!r} Pa, q_c = {medium.q_c!r} N/m, eta = {medium.eta!r} Pa·s"
+    yield "medium", f"{text}, poisson = {float(medium.poisson)!r}"
     # What the medium was made of.
     given = [name for name in explorer.used() if name not in ("E_star", "q_c", "eta")]
     yield "set on the page", ", ".join(f"{name} = {getattr(explorer, name)!r}" for name in given)
     yield "drive", repr(scene.drive)
-
-
-def _version():
-    try:
-        return version("mdr-core")
-    except PackageNotFoundError:
-        return "(not installed)"
-
-
-def _profile(profile, limit=None):
-    """A profile as Python makes it; of many samples only the first, if there is a limit."""
-    if isinstance(profile, mdr.Sampled) and limit and len(profile.r) > limit:
-        return f"Sampled of {len(profile.r)} samples to r = {profile.r[-1]!r} m, z = {profile.z[-1]!r} m"
-    return repr(profile)
 
 
 def python(trajectory, held=None):
@@ -102,35 +83,29 @@ def python(trajectory, held=None):
 
 
 def _solved(trajectory, prefix=""):
-    scene = trajectory.scene
-    medium = scene.medium
-    q_c = "" if np.isinf(medium.q_c) else f", q_c={medium.q_c!r}"
-    eta = f", eta={medium.eta!r}" if medium.eta > 0 else ""
-    profile = f"{prefix}profile"
+    """Lines for one state, its names with a prefix; what the core takes by default is left out."""
+    scene, now, peak = trajectory.scene, trajectory.now, trajectory.peak
+    drive, numbers = scene.drive, asdict(scene.medium)
+    plain = asdict(mdr.Medium(scene.medium.E_star)) | {"E_star": None}
+    numbers = {name: number for name, number in numbers.items() if number != plain[name]}
     lines = [
-        f"{profile} = mdr.{_profile(scene.profile)}",
-        f"{prefix}medium = mdr.Medium(E_star={medium.E_star!r}{q_c}{eta})  # Pa, N/m, Pa·s",
+        f"{prefix}profile = mdr.{scene.profile!r}",
+        f"{prefix}medium = mdr.Medium({_arguments(numbers)})  # Pa, N/m, Pa·s",
     ]
-    given = f"{profile}, {prefix}medium"
-    if trajectory.hit is not None:
-        return lines + _hit(trajectory, prefix, given)
-    deepest, now = float(trajectory.deepest.depth), float(trajectory.state.depth)
-    path = f"[{deepest!r}, {now!r}]" if trajectory.now > trajectory.peak else f"[{now!r}]"
-    state = f"{prefix}state"
-    return [
-        *lines,
-        f"{state} = mdr.indent({given}, {path})[-1]  # m",
-        f"print({state}.force, {state}.contact_radius, {state}.plastic_radius)",
-    ]
-
-
-def _hit(trajectory, prefix, given):
-    """Lines for an impact, and for the instant at which the page stands if it is not the turning point."""
-    drive, now, peak = trajectory.scene.drive, trajectory.now, trajectory.peak
-    before = f", plastic_depth={drive.plastic_depth!r}" if drive.plastic_depth > 0 else ""
+    given = f"{prefix}profile, {prefix}medium"
+    if trajectory.hit is None:
+        path = trajectory.states.depth[[peak, now] if now > peak else [now]].tolist()
+        state = f"{prefix}state"
+        return [
+            *lines,
+            f"{state} = mdr.indent({given}, {path})[-1]  # m",
+            f"print({state}.force, {state}.contact_radius, {state}.plastic_radius)",
+        ]
     hit, motion = f"{prefix}hit", f"{prefix}motion"
-    lines = [
-        f"{hit} = mdr.impact({given}, mass={drive.mass!r}, speed={drive.speed!r}{before})",
+    before = {"plastic_depth": drive.plastic_depth} if drive.plastic_depth > 0 else {}
+    numbers = {"mass": drive.mass, "speed": drive.speed} | before
+    lines += [
+        f"{hit} = mdr.impact({given}, {_arguments(numbers)})",
         f"print({hit}.max_depth, {hit}.max_force, {hit}.restitution, {hit}.contact_time)",
     ]
     if now == peak:
@@ -138,3 +113,7 @@ def _hit(trajectory, prefix, given):
     values = ("time", "depth", "velocity", "force", "contact_radius", "plastic_radius")
     shown = ", ".join(f"{motion}.{value}[i]" for value in values)
     return [*lines, f"{motion} = {hit}.motion({INSTANTS})", f"i = {now}", f"print({shown})"]
+
+
+def _arguments(numbers):
+    return ", ".join(f"{name}={float(number)!r}" for name, number in numbers.items())

@@ -19,7 +19,7 @@ from bokeh.models import (
 )
 
 from .columns import PIXELS
-from .plots import PLOTS, ROLES
+from .plots import PLOTS, ROLES, line
 
 hv.Store.set_current_backend("bokeh")
 
@@ -38,10 +38,16 @@ def _paths(element, rows, look):
     return element(data, vdims=["row", "role", *look]).opts(color="role", cmap=LIGHT)
 
 
+def _rows(plot):
+    """All rows of a plot; the edge of a body is a line, which ends where the body leaves the plot."""
+    edges = (line(row.name, "ink", 1.8, legend=False) for row in plot.rows if row.role == "body")
+    return (*edges, *plot.rows)
+
+
 def _elements(plot):
     """The plot in HoloViews: few elements, each with all rows of a kind on one axis."""
     rows = {(kind, axis): [] for axis in (1, 2) for kind in ("areas", "lines", "marks", "labels")}
-    for row in plot.rows:
+    for row in _rows(plot):
         rows[row.kind, row.axis].append(row)
     if plot.image:
         image = hv.Image(np.ones((PIXELS, PIXELS)), bounds=(-1, -1, 1, 1), group="image")
@@ -100,6 +106,9 @@ def _rendered(name):
             name=group, selection_glyph=None, nonselection_glyph=None, muted_glyph=None, hover_glyph=None
         )
         _finished(renderer, group, plot)
+        if not plot.log:
+            # On a canvas above the axes, which are not painted again with the data; it does not clip.
+            renderer.level = "overlay"
     # Of roles, where rows are to be named.
     figure.center = [part for part in figure.center if not isinstance(part, Legend)]
     _look(figure)
@@ -124,7 +133,7 @@ def legend(figure):
 def placed(plot):
     """Every row with the group it is drawn in, and its place there."""
     counts = {}
-    for row in plot.rows:
+    for row in _rows(plot):
         group = row.kind if row.axis == 1 else f"{row.kind} right"
         yield group, counts.setdefault(group, 0), row
         counts[group] += 1
@@ -144,8 +153,6 @@ def _finished(renderer, group, plot):
         glyph.update(fill_color=role, hatch_color=role, fill_alpha="alpha")
         if set(looks["hatch"]) != {" "}:
             glyph.update(hatch_pattern="hatch", hatch_alpha=0.35, hatch_scale=10)
-        if "body" in names["role"]:
-            glyph.update(line_color=LIGHT["ink"], line_alpha=1, line_width=1.8)
     elif kind == "lines":
         names |= {"symbol": [row.symbol for row in rows], "unit": [""] * len(rows)}
         glyph.update(line_color=role, line_dash="dash", line_width="width")
@@ -181,7 +188,8 @@ def _look(figure):
     figure.update(output_backend="canvas", sizing_mode="stretch_both", min_height=200)
     figure.update(min_border_left=66, min_border_right=18, min_border_top=8, min_border_bottom=46)
     figure.update(toolbar_location="above", toolbar_inner=True)
-    figure.title.update(visible=False, text_font=FONT, text_font_size="14px")
+    # Bokeh looks at titles at every paint, also at hidden ones: it is in the picture that is saved.
+    figure.title = None
     tips = [renderer for renderer in figure.renderers if renderer.name.startswith("tips")]
     told = {
         "tooltips": TIP,

@@ -3,12 +3,12 @@
 from pathlib import Path
 
 import panel as pn
-from bokeh.events import Pan, PanEnd, PanStart
+from bokeh.events import Pan, PanEnd, PanStart, RangesUpdate
 from bokeh.models import ColorBar, CustomJS, HoverTool, Title
 
 from . import figures
 from .controls import JS, WIDE, html, legend, marked
-from .figures import TIP
+from .figures import FONT, TIP
 from .packet import drawn, layers, moves
 from .plots import PLOTS
 
@@ -75,19 +75,20 @@ class Grid:
         for lower, upper in (("pressure", "springs"), ("radii", "force"), ("energy", "motion")):
             if name == lower and upper in self.figures:
                 figure.x_range = self.figures[upper].x_range
-        self._inputs[name] = Title(
-            visible=False, name="inputs", text_font_size="11px", text_font_style="normal"
-        )
-        figure.add_layout(self._inputs[name], "below")
+        self._inputs[name] = Title(text_font_size="11px", text_font_style="normal")
+        title = Title(text=PLOTS[name].title, text_font=FONT, text_font_size="14px")
         self._keys[name], self._legends[name] = figures.legend(figure), html("", css_classes=["key"])
         save = [button(pn.widgets.Button, kind, "none", width=40) for kind in ("PNG", "SVG")]
         for each in save:
             args = {"figure": figure, "kind": each.name.lower(), "legend": self._keys[name]}
+            args |= {"title": title, "inputs": self._inputs[name]}
             each.js_on_click(args=args, code=f"(async () => {{{JS['save']}}})()")
         if name == "force":
             for event in (PanStart, Pan, PanEnd):
                 figure.js_on_event(event, self._drag)
             self._drag.args = self._drag.args | {"figure": figure}
+        if not PLOTS[name].log:
+            figure.js_on_event(RangesUpdate, CustomJS(args={"figure": figure}, code=JS["zoom"]))
         if PLOTS[name].image:
             square = CustomJS(args={"figure": figure}, code=_SQUARE)
             for model, change in (

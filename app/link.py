@@ -1,6 +1,6 @@
 """A whole page as a link and as a scene file, and back; what comes from outside is bounded or refused."""
 
-import json
+from dataclasses import asdict
 from math import inf, isfinite
 from urllib.parse import parse_qs, urlencode
 
@@ -8,12 +8,12 @@ import mdr_core as mdr
 
 from .explorer import FROM_FILE, LAST_PROGRESS
 from .presets import PRESETS
-from .quantities import CHOICES, SURFACE
-from .shapes import QUANTITIES, SHAPES, shape_quantities
+from .quantities import QUANTITIES, SHAPES, shape_quantities
 from .tip import MOST_SAMPLES
 
 #: Longest link, and most characters of a file.
 LONGEST_LINK, LARGEST_FILE = 8000, 2_000_000
+_SHOWN = ("map", "speed_plot", "dark")
 
 
 def query(explorer, view=True):
@@ -27,7 +27,7 @@ def query(explorer, view=True):
     if explorer.shape == "sampled":
         pairs["samples"] = " ".join(f"{x!r},{y!r}" for x, y in zip(*explorer.samples, strict=True))
     if view:
-        pairs |= {name: str(int(getattr(explorer, name))) for name in ("map", "speed_plot", "dark")}
+        pairs |= {name: str(int(getattr(explorer, name))) for name in _SHOWN}
         pairs |= {"hold": explorer.hold} if explorer.hold else {}
     text = urlencode(pairs)
     return text if len(text) <= LONGEST_LINK else ""
@@ -41,25 +41,21 @@ def arguments(text):
 def restore(explorer, arguments):
     """Set an explorer to the state that `query` wrote, from the arguments of a request.
 
-    Raises
-    ------
-    ValueError
-        If anything in them is unknown, said twice, or out of bounds.
+    Raises ValueError if anything in them is unknown, said twice, or out of bounds.
     """
-    if (
-        len(arguments) > 60
-        or sum(len(text) for texts in arguments.values() for text in texts) > LONGEST_LINK
-    ):
+    length = sum(len(text) for texts in arguments.values() for text in texts)
+    if len(arguments) > 60 or length > LONGEST_LINK:
         raise ValueError("this link is too long")
     if any(len(values) != 1 for values in arguments.values()):
         raise ValueError("this link says the same thing twice")
     pairs = {name: values[0].decode("utf-8", "replace") for name, values in arguments.items()}
     preset = pairs.pop("preset", None)
-    if preset != FROM_FILE and preset not in PRESETS:
-        raise ValueError("this link names no preset that is known")
-    if preset != FROM_FILE:
+    if preset in PRESETS:
         explorer.load(preset)
+    elif preset != FROM_FILE:
+        raise ValueError("this link names no preset that is known")
     changes = {"preset": preset, "hold": pairs.pop("hold", "")}
+    changes |= {name: pairs.pop(name, "0") == "1" for name in _SHOWN}
     if "samples" in pairs:
         tip = _samples(pairs.pop("samples"))
         changes["samples"] = (tip.r, tip.z)
@@ -68,8 +64,6 @@ def restore(explorer, arguments):
         known = explorer.param[name].objects
         if option not in known or (option == "sampled" and "samples" not in changes):
             raise ValueError(f"{name} = {option:.40} in this link is not known")
-    for name in ("map", "speed_plot", "dark"):
-        changes[name] = pairs.pop(name, "0") == "1"
     changes["progress"] = _number("at", pairs.pop("at", "1"))
     low, high = explorer.param.progress.bounds
     if not low <= changes["progress"] <= high:
@@ -116,54 +110,39 @@ def scene_file(trajectory):
 def load_scene(explorer, text):
     """Set an explorer to the scene of a file; what the file does not say stays.
 
-    Raises
-    ------
-    ValueError
-        If it is no scene, or one that the page cannot show.
+    Raises ValueError if it is no scene, or one that the page cannot show.
     """
     if len(text) > LARGEST_FILE:
         raise ValueError("the file is larger than 2 MB")
-    _refuse_long(text)
     scene = mdr.Scene.from_json(text)
     medium = scene.medium
+    lists = [*asdict(scene.profile).values(), *asdict(scene.drive).values()]
+    longest = max((len(each) for each in lists if isinstance(each, tuple)), default=0)
+    if longest > MOST_SAMPLES:
+        most = f"at most {MOST_SAMPLES} are taken here"
+        raise ValueError(f"the scene has a list of {longest} numbers, and {most}")
     if getattr(scene.drive, "time", None) and medium.eta > 0:
         raise ValueError("a viscous path in time is not shown here: solve it with mdr.Scene.from_json(...)")
-    changes = {
-        "preset": FROM_FILE,
-        "elasticity": "modulus",
-        "plasticity": "q_c" if medium.q_c < inf else "none",
-        "damping": "eta" if medium.eta > 0 else "none",
-        "inertia": "unknown",
-        "progress": 1.0,
-    }
-    numbers = {"E_star": medium.E_star, "q_c": medium.q_c, "eta": medium.eta}
-    numbers = {name: value for name, value in numbers.items() if 0 < value < inf}
-    for more, values in (_profile(scene.profile), _drive(scene)):
-        changes |= more
+    choices, numbers = {"preset": FROM_FILE, "inertia": "unknown", "progress": 1.0}, {}
+    for more, values in (_medium(medium), _profile(scene.profile), _drive(scene)):
+        choices |= more
         numbers |= values
-    changes |= {name: explorer.checked(name, value) for name, value in numbers.items()}
-    explorer.resets = {
-        name: value for name, value in changes.items() if name in QUANTITIES or name in CHOICES
-    }
-    explorer.resets["shape"] = changes["shape"]
-    explorer.sized = frozenset({changes["shape"]})
-    explorer.param.update(**changes)
+    explorer.resets = {name: explorer.checked(name, value) for name, value in numbers.items()}
+    explorer.resets |= {name: choices[name] for name in explorer.choices}
+    explorer.sized = frozenset({choices["shape"]})
+    explorer.param.update(**choices | explorer.resets)
 
 
-def _refuse_long(text):
-    """Refuse a scene with long lists before anything is made of them."""
-    try:
-        data = json.loads(text)
-    except (ValueError, RecursionError):
-        # What is wrong with it, the scene says.
-        return
-    parts = data.values() if isinstance(data, dict) else ()
-    lists = [value for part in parts if isinstance(part, dict) for value in part.values()]
-    longest = max((len(value) for value in lists if isinstance(value, list)), default=0)
-    if longest > MOST_SAMPLES:
-        raise ValueError(
-            f"the scene has a list of {longest} numbers, and at most {MOST_SAMPLES} are taken here"
-        )
+def _medium(medium):
+    """Choices and numbers of a medium; one that is not incompressible is under a rigid tip."""
+    choices, numbers = {"elasticity": "modulus"}, {"E_star": medium.E_star}
+    if medium.poisson != 0.5:
+        modulus = (1 - medium.poisson) * (1 + medium.poisson) * medium.E_star
+        choices, numbers = {"elasticity": "rigid_tip"}, {"E_1": modulus, "nu_1": medium.poisson}
+    yields, viscous = medium.q_c < inf, medium.eta > 0
+    choices |= {"plasticity": "q_c" if yields else "none", "damping": "eta" if viscous else "none"}
+    numbers |= ({"q_c": medium.q_c} if yields else {}) | ({"eta": medium.eta} if viscous else {})
+    return choices, numbers
 
 
 def _profile(profile):
@@ -184,20 +163,18 @@ def _drive(scene):
     """Choices and numbers of a drive, and where on the way its last state is."""
     drive = scene.drive
     if isinstance(drive, mdr.FreeImpact):
-        numbers = {"mass": drive.mass, "speed": drive.speed}
-        if drive.plastic_depth > 0:
-            return {"drive": "impact", SURFACE: "imprint"}, numbers | {"plastic_depth": drive.plastic_depth}
-        return {"drive": "impact", SURFACE: "virgin"}, numbers
+        before = {"plastic_depth": drive.plastic_depth} if drive.plastic_depth > 0 else {}
+        numbers = {"mass": drive.mass, "speed": drive.speed} | before
+        return {"drive": "impact", "surface": "imprint" if before else "virgin"}, numbers
     kind, path = ("force", drive.force) if isinstance(drive, mdr.ForcePath) else ("depth", drive.depth)
     path = path if isinstance(path, tuple) else (path,)
-    choices = {"drive": kind, SURFACE: "virgin"}
+    choices = {"drive": kind, "surface": "virgin"}
     if path[-1] < max(path):
         # All that the way there leaves behind is the largest depth: the last state is one of unloading.
-        result, critical = scene.solve(), scene.medium.critical_depth
-        largest, rest = float(max(result.depth)), float(result.depth[-1])
+        depth, critical = scene.solve().depth, scene.medium.critical_depth
+        largest, rest = float(max(depth)), float(depth[-1])
         recovered = min(critical, largest)
-        back = largest - rest
+        back = (largest - rest) / recovered
         lifted = 2.2 - 0.2 * rest / max(largest - recovered, 1e-300)
-        progress = 1 + back / recovered if back <= recovered else lifted
-        choices["progress"] = min(max(progress, 1.0), LAST_PROGRESS)
+        choices["progress"] = min(max(1 + back if back <= 1 else lifted, 1.0), LAST_PROGRESS)
     return choices, {f"max_{kind}": max(path)}

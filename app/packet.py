@@ -12,6 +12,7 @@ class Layer:
     def __init__(self, name, figure, renderer):
         plot, source = PLOTS[name], renderer.data_source
         self.name, self.source, self.image = name, source, renderer.name == "image"
+        self.kind, _, self.right = renderer.name.partition(" ")
         self.rows = (
             ["image"] if self.image else [r.name for group, _, r in placed(plot) if group == renderer.name]
         )
@@ -55,7 +56,7 @@ def packed(view, layers, states, moving_only=False):
                 continue
             rows = still[layer.name] | moving[layer.name]
             for row in layer.rows:
-                for values in rows[row][:2]:
+                for values in inside(view, layer, rows[row][:2]):
                     values = np.atleast_1d(values)
                     parts += [[values.size], values]
                     at += 1 + values.size
@@ -63,6 +64,24 @@ def packed(view, layers, states, moving_only=False):
         labels.append(words)
     with np.errstate(over="ignore", under="ignore"):
         return np.concatenate(parts, dtype=np.float32, casting="unsafe"), starts, labels
+
+
+def inside(view, layer, row):
+    """A line or area as far as it is within its axes, for a canvas that does not clip."""
+    if layer.kind not in ("areas", "lines"):
+        return row
+    x, y, *right = (view.axes[key] for key in PLOTS[layer.name].axes)
+    y = right[0] if layer.right else y
+    for k, sign, bound in ((1, 1, y.end), (0, 1, x.end), (0, -1, -x.start)):
+        beyond = sign * row[k] > bound * (1 + 1e-9)
+        if not beyond.any():
+            continue
+        at = np.flatnonzero(beyond[:-1] != beyond[1:])
+        share = (sign * bound - row[k][at]) / (row[k][at + 1] - row[k][at])
+        row = [np.insert(part, at + 1, part[at] + share * (part[at + 1] - part[at])) for part in row]
+        cut = sign * bound if layer.kind == "areas" else np.nan
+        row[k] = np.where(np.insert(beyond, at + 1, False), cut, row[k])
+    return row
 
 
 def moves(layer, moving):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import panel as pn
-from bokeh.events import DocumentReady
+from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS, Div, Select, Slider, Toggle
 
 from . import link, readouts
@@ -128,6 +128,8 @@ class Page:
         parts = {"named": named, "show": self.show, "paint": self.paint, "packet": self.packet}
         if self.document is not None:
             self.document.js_on_event(DocumentReady, CustomJS(args=parts, code=JS["ready"]))
+            # What was shown is in the address; the session behind it may be gone.
+            self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
 
     def _watch(self):
         explorer = self.explorer

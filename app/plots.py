@@ -57,10 +57,6 @@ def label(name):
     return Row("labels", name, legend=False)
 
 
-def _nothing(view, *_):
-    return {}
-
-
 @dataclass(frozen=True)
 class Plot:
     """A plot: title, formula, keys of its axes (x, y, and one on the right), rows, and their columns."""
@@ -69,8 +65,8 @@ class Plot:
     formula: str
     axes: tuple[str, ...]
     rows: tuple[Row, ...]
-    still: Callable[[View], dict] = _nothing
-    moving: Callable[[View, int], dict] = _nothing
+    still: Callable[[View], dict] = lambda view: {}
+    moving: Callable[[View, int], dict] = lambda view, i: {}
     log: bool = False
     image: bool = False
 
@@ -81,8 +77,6 @@ _RADII = (
     label("a"),
     label("c"),
 )
-
-
 _HELD = {"role": "held", "width": 1.4}
 
 #: Every plot of the page, in its order.

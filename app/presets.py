@@ -2,14 +2,11 @@
 
 import json
 from dataclasses import dataclass
-from pathlib import Path
 
 import mdr_core as mdr
 
-from .shapes import SHAPES
+from .quantities import ASSETS, QUANTITIES, USED
 from .units import written
-
-ASSETS = Path(__file__).parent.parent / "assets"
 
 
 @dataclass(frozen=True)
@@ -28,61 +25,39 @@ class Preset:
 
 def _preset(scene, media, indenters):
     medium, indenter = media[scene["medium"]], indenters[scene["indenter"]]
-    shape = indenter["shape"]
-    bodies = ((1, medium), (2, indenter))
-    built = mdr.Medium.from_bodies(
-        *(body[key]["value"] for _, body in bodies for key in ("E", "nu")),
-        q_c=medium["q_c"]["value"],
-    )
-    values = {f"{shape}_{name}": number["value"] for name, number in indenter["parameters"].items()}
-    values |= {f"{key}_{i}": body[key]["value"] for i, body in bodies for key in ("E", "nu")}
-    values |= {"q_c": built.q_c, "E_star": built.E_star, "density": medium["density"]["value"]}
-    if "depth" in scene:
-        values["max_depth"] = float(scene["depth"] * built.critical_depth)
-    else:
-        values |= {name: scene[name]["value"] for name in ("mass", "speed")}
-    choices = {
-        "shape": shape,
-        "elasticity": "bodies",
-        "plasticity": "q_c",
-        "damping": "none",
-        "drive": "depth" if "depth" in scene else "impact",
-        "inertia": "density",
-        "surface": "virgin",
-    }
-    kinds = {
-        "E": ("E", "pressure"),
-        "nu": ("ν", "number"),
-        "q_c": ("q_c", "yield constant"),
-        "density": ("ρ", "density"),
-    }
-    shown = [(kinds[key], medium["label"], medium[key]) for key in ("E", "nu", "q_c", "density")]
-    shown += [
-        ((q.symbol, q.kind), indenter["label"], indenter["parameters"][q.name])
-        for q in SHAPES[shape].quantities
+    shape, drive = indenter["shape"], "depth" if "depth" in scene else "impact"
+    # Symbol, owner, name and number of everything that has a source.
+    given = [
+        *(("E", medium, "E_1", medium["E"]), ("ν", medium, "nu_1", medium["nu"])),
+        *((QUANTITIES[name].symbol, medium, name, medium[name]) for name in ("q_c", "density")),
+        *(
+            (QUANTITIES[f"{shape}_{name}"].symbol, indenter, f"{shape}_{name}", number)
+            for name, number in indenter["parameters"].items()
+        ),
+        *(("E", indenter, "E_2", indenter["E"]), ("ν", indenter, "nu_2", indenter["nu"])),
     ]
-    shown += [(kinds[key], indenter["label"], indenter[key]) for key in ("E", "nu")]
-    shown += [
-        ((symbol, name), "the impact", scene[name])
-        for symbol, name in (("m", "mass"), ("v_0", "speed"))
-        if name in scene
-    ]
+    impact = {"label": "the impact"}
+    given += [(QUANTITIES[n].symbol, impact, n, scene[n]) for n in USED["drive"]["impact"] if n in scene]
+    values = {name: number["value"] for _, _, name, number in given}
+    bodies = (values[name] for name in USED["elasticity"]["bodies"])
+    made = mdr.Medium.from_bodies(*bodies, q_c=values["q_c"])
+    values["E_star"] = made.E_star
+    if drive == "depth":
+        values["max_depth"] = float(scene["depth"] * made.critical_depth)
+    choices = {"shape": shape, "elasticity": "bodies", "plasticity": "q_c", "damping": "none"}
+    choices |= {"drive": drive, "inertia": "density", "surface": "virgin"}
     sources = tuple(
-        (f"{symbol} of {owner}", f"{written(number['value'], kind, 3)}", number["source"])
-        for (symbol, kind), owner, number in shown
+        (f"{symbol} of {owner['label']}", written(n["value"], QUANTITIES[name].kind, 3), n["source"])
+        for symbol, owner, name, n in given
     )
     remark = f", {scene['remark']}" if "remark" in scene else ""
     label = f"{indenter['label']} on {medium['label']}{remark}"
     return Preset(label[0].upper() + label[1:], choices, values, sources)
 
 
-def _load(path):
-    data = json.loads(path.read_text(encoding="utf-8"))
-    presets = (_preset(scene, data["media"], data["indenters"]) for scene in data["scenes"])
-    return {preset.label: preset for preset in presets}
-
-
-PRESETS = _load(ASSETS / "presets.json")
+_DATA = json.loads((ASSETS / "presets.json").read_text(encoding="utf-8"))
+_MADE = (_preset(scene, _DATA["media"], _DATA["indenters"]) for scene in _DATA["scenes"])
+PRESETS = {preset.label: preset for preset in _MADE}
 
 #: What the page opens on.
 OPENING = next(iter(PRESETS))

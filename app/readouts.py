@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from .quantities import USED
-from .shapes import QUANTITIES, SHAPES, shape_quantities
+from .quantities import QUANTITIES, SHAPES, USED, shape_quantities
 from .units import digits, written
 from .view import phase
 
@@ -15,17 +14,14 @@ CLOSE = 0.1
 
 def cells(way):
     """Symbol, label, kind and values of every number shown; one value, or one for each state."""
-    states, medium, motion, hit = way.states, way.scene.medium, way.motion, way.hit
-    a, area = states.contact_radius, np.pi * states.contact_radius**2
-    with np.errstate(divide="ignore", invalid="ignore"):
-        mean = np.where(a > 0, way.force / area, 0.0)
+    states, critical, motion, hit = way.states, way.scene.medium.critical_depth, way.motion, way.hit
     rows = [("F", "force", "force", way.force), ("d", "depth", "length", states.depth)]
-    if medium.critical_depth < np.inf:
-        rows.append(("d/d_c", "relative depth", "number", states.depth / medium.critical_depth))
+    if critical < np.inf:
+        rows.append(("d/d_c", "relative depth", "number", states.depth / critical))
     rows += [
-        ("a", "contact radius", "length", a),
+        ("a", "contact radius", "length", states.contact_radius),
         ("c", "plastic radius", "length", states.plastic_radius),
-        ("p_m", "mean pressure", "pressure", mean),
+        ("p_m", "mean pressure", "pressure", states.mean_pressure),
         ("U", "stored energy", "energy", way.stored_energy),
         ("W_p", "plastic work", "energy", way.plastic_work),
     ]
@@ -40,21 +36,19 @@ def cells(way):
             ("v_r", "rebound speed", "speed", hit.rebound_speed),
             ("W_p", "plastic work, in all", "energy", hit.plastic_work),
         ]
-        if float(hit.viscous_work) > 0:
+        if hit.viscous_work > 0:
             rows.append(("W_v", "viscous work, in all", "energy", hit.viscous_work))
     return rows
 
 
 def _onset(way):
     """Where yield starts; on an imprint, where it goes on."""
-    critical, onset = way.scene.medium.critical_depth, way.onset
-    if way.before > 0:
-        if onset is None:
-            return []
-        depth, force = "depth where it yields again", "force where it yields again"
-        return [("d_y", depth, "length", onset.depth), ("F_y", force, "force", onset.force)]
-    rows = [("d_c", "depth at onset", "length", critical)]
-    return rows if onset is None else [*rows, ("F_c", "force at onset", "force", onset.force)]
+    onset, again = way.onset, way.before > 0
+    index, words = ("y", "where it yields again") if again else ("c", "at onset")
+    depth, force = (f"d_{index}", f"depth {words}", "length"), (f"F_{index}", f"force {words}", "force")
+    if onset is not None:
+        return [(*depth, onset.depth), (*force, onset.force)]
+    return [] if again else [(*depth, way.scene.medium.critical_depth)]
 
 
 def values(way, rows, i):
@@ -66,15 +60,11 @@ def values(way, rows, i):
 def heads(rows, symbol):
     """The cells of all numbers, with room for them."""
     cells = "".join(
-        f'<div class="cell" data-symbol="{name}"><dt>{_ratio(name, symbol)} {label}</dt><dd></dd></div>'
+        f'<div class="cell" data-symbol="{name}"><dt>{"/".join(map(symbol, name.split("/")))} {label}</dt>'
+        "<dd></dd></div>"
         for name, label, *_ in rows
     )
     return f'<dl class="strip">{cells}</dl>'
-
-
-def _ratio(name, symbol):
-    head, slash, below = name.partition("/")
-    return f"{symbol(head)}{slash}{symbol(below) if below else ''}"
 
 
 def lights(way, density, ratio):
@@ -82,24 +72,12 @@ def lights(way, density, ratio):
 
     `density` is that of the medium, `ratio` its Poisson ratio; None where they are not known.
     """
-    found = [_slope_light(way.largest_slope)]
-    medium, hit = way.scene.medium, way.hit
-    if medium.eta > 0 and hit is not None:
+    found, medium, hit = [_slope_light(way.largest_slope)], way.scene.medium, way.hit
+    if hit is not None and medium.eta > 0:
         found.append(_dashpot_light(ratio))
-    if hit is None:
-        return found
-    if density is not None:
-        wave = (medium.E_star / density) ** 0.5
-        share = float(hit.speed) / wave
-        text = f"v_0 is {digits(share, 2)} of the wave speed √(E*/ρ) = {written(wave, 'speed', 3)}"
-        slow = share <= SLOW
-        found.append(
-            (
-                "good" if slow else "beyond",
-                text + (": quasi-static" if slow else ": waves carry energy away"),
-            )
-        )
-    if medium.critical_depth < np.inf:
+    if hit is not None and density is not None:
+        found.append(_wave_light(float(hit.speed), (medium.E_star / density) ** 0.5))
+    if hit is not None and medium.critical_depth < np.inf:
         found.append(_limit_light(way))
     return found
 
@@ -118,6 +96,14 @@ def _dashpot_light(ratio):
     if ratio >= 0.495:
         return "good", "Dashpots beside springs: exact at ν = ½"
     return "beyond", f"Dashpots beside springs are exact for ν = ½ only; here ν_1 = {digits(ratio, 2)}"
+
+
+def _wave_light(speed, wave):
+    share = speed / wave
+    text = f"v_0 is {digits(share, 2)} of the wave speed √(E*/ρ) = {written(wave, 'speed', 3)}"
+    if share <= SLOW:
+        return "good", f"{text}: quasi-static"
+    return "beyond", f"{text}: waves carry energy away"
 
 
 def _limit_light(way):
@@ -145,31 +131,24 @@ def sketch(way, shape):
         x, y = np.append(x, x[-1]), np.append(y, 4)
     x, y = np.concatenate([-x[::-1], x]) + width / 2, np.concatenate([y[::-1], y])
     points = " ".join(f"{px:.1f},{py:.1f}" for px, py in zip(x, y, strict=True))
-    described = SHAPES.get(shape)
-    name = described.label if described else "Measured tip"
-    formulas = (
-        (described.height, described.reduced) if described else ("z(r) through its samples", "g by (3)")
-    )
+    words, size = SHAPES[shape], f'width="{width}" height="{height}"'
     line = f'<line x1="0" y1="{height - 7}" x2="{width}" y2="{height - 7}"/>'
-    size = f'width="{width}" height="{height}"'
-    drawing = f'<svg {size} role="img" aria-label="{name}">{line}<polygon points="{points}"/></svg>'
-    return f"<figure>{drawing}<figcaption>{{}}<br>{{}}</figcaption></figure>", formulas
+    drawing = f'<svg {size} role="img" aria-label="{words.label}">{line}<polygon points="{points}"/></svg>'
+    caption = "<figcaption>{}<br>{}</figcaption>"
+    return f"<figure>{drawing}{caption}</figure>", (words.height, words.reduced)
 
 
 def summary(explorer):
     """A scene in a line: its shape, medium and drive with their main numbers."""
-    medium = explorer.medium()
-    parts = [(q, getattr(explorer, name)) for name, q in shape_quantities(explorer.shape)]
-    parts.append((QUANTITIES["E_star"], medium.E_star))
-    if medium.q_c < np.inf:
-        parts.append((QUANTITIES["q_c"], medium.q_c))
-    if medium.eta > 0:
-        parts.append((QUANTITIES["eta"], medium.eta))
-    used = USED["drive"][explorer.drive]
-    used += ("plastic_depth",) if explorer.drive == "impact" and explorer.surface == "imprint" else ()
-    parts += [(QUANTITIES[name], getattr(explorer, name)) for name in used]
-    shape = SHAPES[explorer.shape].label if explorer.shape in SHAPES else "Measured tip"
-    return f"{shape}, " + ", ".join(f"{q.symbol} = {written(value, q.kind, 3)}" for q, value in parts)
+    medium, imprint = explorer.medium(), explorer.drive == "impact" and explorer.surface == "imprint"
+    names = [name for name, _ in shape_quantities(explorer.shape)]
+    names += [name for name in ("E_star", "q_c", "eta") if 0 < getattr(medium, name) < np.inf]
+    names += [*USED["drive"][explorer.drive], *["plastic_depth"] * imprint]
+    words = [SHAPES[explorer.shape].label]
+    for name in names:
+        value = getattr(medium if name in ("E_star", "q_c", "eta") else explorer, name)
+        words.append(f"{QUANTITIES[name].symbol} = {written(value, QUANTITIES[name].kind, 3)}")
+    return ", ".join(words)
 
 
 def density_and_ratio(explorer):

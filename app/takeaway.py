@@ -19,34 +19,36 @@ class TakeAway:
 
     def __init__(self, page):
         self.page = page
-        files = (
-            ("Curves (CSV)", "curves.csv", lambda: export.csv(page.way, page.explorer)),
-            ("Pressure (CSV)", "pressure.csv", lambda: export.pressure_csv(page.way, page.explorer)),
-            ("Scene (JSON)", "scene.json", lambda: link.scene_file(page.way)),
-            ("Python", "scene.py", lambda: export.python(page.way, page.held)),
-        )
-        downloads = [
+        files = {
+            ("Curves (CSV)", "curves.csv"): lambda: export.csv(page.way, page.explorer),
+            ("Pressure (CSV)", "pressure.csv"): lambda: export.pressure_csv(page.way, page.explorer),
+            ("Scene (JSON)", "scene.json"): lambda: link.scene_file(page.way),
+            ("Python", "scene.py"): lambda: export.python(page.way, page.held),
+        }
+        look, plain = {"css_classes": ["choice"], **WIDE}, {"css_classes": ["button"], "margin": 0}
+        row = {"css_classes": ["tools"], **WIDE}
+        downloads = (
             pn.widgets.FileDownload(
-                callback=lambda write=write: StringIO(write()), filename=name, label=label, auto=True,
-                css_classes=["button"], margin=0,
+                callback=lambda write=write: StringIO(write()),
+                filename=name,
+                label=label,
+                auto=True,
+                **plain,
             )
-            for label, name, write in files
-        ]  # fmt: skip
+            for (label, name), write in files.items()
+        )
         self.scene = pn.widgets.FileInput(
             accept=".json,application/json", css_classes=["file", "scene"], width=230, margin=0
         )
         self.scene.param.watch(self._bring, "value")
-        self.link = pn.widgets.TextInput(name="Link to this page", css_classes=["choice"], **WIDE)
-        self.python = pn.widgets.TextAreaInput(
-            name="This state with mdr_core", rows=9, css_classes=["choice"], **WIDE
-        )
-        rows = [pn.Row(*downloads, css_classes=["tools"], **WIDE)]
+        self.link = pn.widgets.TextInput(name="Link to this page", **look)
+        self.python = pn.widgets.TextAreaInput(name="This state with mdr_core", rows=9, **look)
         title = pn.pane.HTML("Load a scene (JSON)", margin=0, css_classes=["note"])
-        rows.append(pn.Row(title, self.scene, css_classes=["tools"], **WIDE))
+        rows = [pn.Row(*downloads, **row), pn.Row(title, self.scene, **row)]
         for area in (self.link, self.python):
-            copy = pn.widgets.Button(name="Copy", css_classes=["button"], margin=0, width=70)
+            copy = pn.widgets.Button(name="Copy", width=70, **plain)
             copy.js_on_click(args={"area": area}, code=_COPY)
-            rows.append(pn.Row(area, copy, css_classes=["tools"], **WIDE))
+            rows.append(pn.Row(area, copy, **row))
         self.panel = pn.Column(*rows, css_classes=["away"], visible=False, stylesheets=[], **WIDE)
         page.take.param.watch(self._open, "value")
 
@@ -57,17 +59,13 @@ class TakeAway:
     def show(self):
         """Link and snippet of what is seen, if it is looked at."""
         if self.panel.visible:
-            query = link.query(self.page.explorer)
+            query, location = link.query(self.page.explorer), pn.state.location
+            here = location.href.split("?")[0] if location else ""
             long = "This tip has too many samples for a link: save the scene as JSON."
-            self.link.value = (
-                f"{pn.state.location.href.split('?')[0] if pn.state.location else ''}?{query}"
-                if query
-                else long
-            )
+            self.link.value = f"{here}?{query}" if query else long
             self.python.value = export.python(self.page.way, self.page.held)
 
     def _bring(self, event):
         if event.new:
-            self.page.tell(
-                lambda: link.load_scene(self.page.explorer, event.new.decode("utf-8", "replace"))
-            )
+            text = event.new.decode("utf-8", "replace")
+            self.page.tell(lambda: link.load_scene(self.page.explorer, text))

@@ -10,14 +10,12 @@ from mdr_core.yielding import LiveInterval, live_interval
 
 #: Instants of an impact.
 INSTANTS = 120
-_PLACES = (1 - np.cos(np.linspace(0, np.pi, 201))) / 2
-_EDGE = (1 - np.cos(np.linspace(0, np.pi, 40))) / 2
 #: Points of an unloading curve from one state.
 _RELEASE = np.linspace(1, 0, 13)
 
 
 def _spread(count):
-    """From 0 to 1, denser towards both ends: enough to be played at 30 frames a second."""
+    """From 0 to 1, denser towards both ends."""
     return (1 - np.cos(np.linspace(0, np.pi, count))) / 2
 
 
@@ -25,21 +23,9 @@ def _spread(count):
 class Trajectory:
     """States of a scene along its way; made by `follow`. Every array has one value for each state.
 
-    Parameters
-    ----------
-    scene : mdr.Scene
-        What was solved.
-    progress : ndarray
-        Where on the way a state stands: 0 first contact, 1 deepest, 2 loss of contact, beyond that
-        the tip goes back to the height of the undeformed surface.
-    states : mdr.Indentation
-        The states with what is elastic of them.
-    now, peak : int
-        The present one, and the deepest one.
-    hit : mdr.Impact or None
-        The impact.
-    motion : mdr.Motion or None
-        Time, speeds and energies of an impact.
+    `progress` is where on the way a state stands: 0 first contact, 1 deepest, 2 loss of contact, and 2.2
+    the tip back at the height of the undeformed surface. `now` is the number of the present state, `peak`
+    that of the deepest one. An impact has a `hit`, and times, speeds and energies in `motion`.
     """
 
     scene: mdr.Scene
@@ -87,36 +73,17 @@ class Trajectory:
     def onset(self):
         """The state where yield starts; None if nothing yields or the shape is not known so deep."""
         medium, profile = self.scene.medium, self.scene.profile
-        span = medium.critical_depth
-        depth = self.before + span
-        if not depth <= min(profile.deepest, 1e300):
-            return None
-        live = LiveInterval(*map(np.asarray, (self.before, depth, span)))
-        return mdr.Indentation(profile, medium, depth, live)
+        depth = self.before + medium.critical_depth
+        return mdr.indent(profile, medium, depth) if depth <= min(profile.deepest, 1e300) else None
 
     @cached_property
     def largest_slope(self):
         """Largest slope of the indenter within the largest contact, walls left out."""
-        r = self.deepest.contact_radius * np.linspace(0, 1, 65)
-        with np.errstate(invalid="ignore"):
-            slope = np.diff(self.scene.profile.height(r)) / np.diff(r)
-        return float(np.max(slope[np.isfinite(slope)], initial=0.0))
-
-    def nearest(self, progress):
-        """Number of the state nearest to a progress."""
-        return int(np.argmin(np.abs(self.progress - progress)))
+        return next(limit.value for limit in self.deepest.limits if limit.what == "slope")
 
     def pressure(self, index, r):
         """Contact pressure (Pa) of a state, that of the dashpots included."""
-        state = self.states[index]
-        if not isinstance(self.scene.profile, mdr.Sampled) or not state.live.length > 0:
-            return state.pressure(r)
-        pressure = _from_line_load(state, r)
-        a, load = float(state.contact_radius), float(state.dashpot_load)
-        if load > 0:
-            with np.errstate(divide="ignore", invalid="ignore"):
-                pressure += np.where(r <= a, load / np.pi / np.sqrt((a - r) * (a + r)), 0.0)
-        return pressure
+        return self.states[index].pressure(r)
 
     def radii(self, index, half):
         """Radii from 0 to `half`, dense where the pressure has an edge: at 0, c, a and at kinks."""
@@ -124,7 +91,7 @@ class Trajectory:
         kinks = () if isinstance(self.scene.profile, mdr.Sampled) else self.scene.profile.kinks[:3]
         inner = [float(self.scene.profile.contact_radius(kink)) for kink in kinks]
         edges = np.array(sorted({0.0, half, *(e for e in (a, c, *inner) if e <= half)}))
-        return np.unique(np.append(edges[:-1, None] + np.diff(edges)[:, None] * _EDGE, edges))
+        return np.unique(np.append(edges[:-1, None] + np.diff(edges)[:, None] * _spread(40), edges))
 
     def released(self, index):
         """Depths and elastic forces of unloading from one state."""
@@ -135,59 +102,38 @@ class Trajectory:
         return interval.upper, states.force
 
 
-def _from_line_load(state, r):
-    """Contact pressure (Pa) of the springs by Eq. (10), the line load straight between places.
-
-    For measured tips: their kinks each have an integral of their own, too many of them to wait for.
-    """
-    a, c = float(state.contact_radius), float(state.plastic_radius)
-    x = np.unique(np.concatenate([c * _PLACES, c + (a - c) * _PLACES]))
-    # The load of the springs goes to zero at the rim; only that of the dashpots ends there with a jump.
-    springs = np.where(x < a, state.line_load(x) - state.dashpot_load, 0.0)
-    return 0.0 - mdr.abel.stress_from_line_load(x, np.maximum(springs, 0.0), r)
-
-
 def follow(scene, progress):
     """The trajectory of a scene, with a state at the progress where the page stands."""
-    if isinstance(scene.drive, mdr.FreeImpact):
-        return _impact(scene, progress)
-    deepest = scene.solve()
-    depth, length = float(deepest.depth), float(deepest.live.length)
-    way = _way(scene, depth, progress)
-    down = np.minimum(way, 1.0) * depth
-    live = live_interval(down[:, None], scene.medium.critical_depth)[:, 0]
-    lower, back = float(deepest.live.lower), np.maximum(2.0 - way, 0.0) * length
-    lower = np.where(way < 1, live.lower, lower)
-    length = np.where(way < 1, live.length, back)
-    lifted = np.where(way > 2, lower * np.maximum(2.2 - way, 0.0) / 0.2, lower + length)
-    states = mdr.Indentation(
-        scene.profile,
-        scene.medium,
-        np.where(way == 1, depth, lifted),
-        LiveInterval(lower, lower + length, length),
-    )
-    now, peak = (int(np.argmin(np.abs(way - place))) for place in (progress, 1.0))
-    return Trajectory(scene, way, states, now, peak)
+    result = scene.solve()
+    if not isinstance(result, mdr.Impact):
+        return _pressed(scene, result, progress)
+    motion = result.motion(INSTANTS)
+    time, peak = motion.time, motion.turning_point
+    turn, end = time[peak], time[-1]
+    way = _rounded(np.where(time <= turn, time / turn, 1 + (time - turn) / (end - turn)))
+    return Trajectory(scene, way, motion.states, _nearest(way, progress), peak, result, motion)
 
 
-def _way(scene, largest, progress):
-    """Progress of every state of a scene that is pressed to a largest depth (m)."""
-    # A measured tip has an integral for each of its samples.
-    count = 13 if isinstance(scene.profile, mdr.Sampled) else 41
-    share = min(scene.medium.critical_depth / largest, 1.0) if largest > 0 else 1.0
-    loading = np.concatenate([share * _spread(count), share + (1 - share) * _spread(count)])
+def _pressed(scene, deepest, progress):
+    """To the deepest state, back until the load is gone, and up to the undeformed surface."""
+    depth, critical = float(deepest.depth), scene.medium.critical_depth
+    share = min(critical / depth, 1.0) if depth > 0 else 1.0
+    loading = np.concatenate([share * _spread(41), share + (1 - share) * _spread(41)])
     lifted = 2 + 0.2 * np.linspace(0, 1, 9)
-    # Six digits: what the page says about where it stands is read back as the same number.
-    way = np.concatenate([loading, 1 + _spread(count), lifted, [progress]])
-    return np.unique([float(f"{p:.6g}") for p in way])
+    way = np.unique(_rounded(np.concatenate([loading, 1 + _spread(41), lifted, [progress]])))
+    live = live_interval((np.minimum(way, 1.0) * depth)[:, None], critical)[:, 0]
+    # By its length, which is exactly zero where the load is gone.
+    length = np.clip(2 - way, 0.0, 1.0) * live.length
+    upper = np.where(way <= 1, live.upper, live.lower + length)
+    lifted = np.where(way <= 2, upper, live.lower * np.maximum(2.2 - way, 0.0) / 0.2)
+    states = mdr.Indentation(scene.profile, scene.medium, lifted, LiveInterval(live.lower, upper, length))
+    return Trajectory(scene, way, states, _nearest(way, progress), _nearest(way, 1.0))
 
 
-def _impact(scene, progress):
-    hit = scene.solve()
-    motion = hit.motion(INSTANTS)
-    peak = motion.turning_point
-    turn, end = motion.time[peak], motion.time[-1]
-    way = np.where(motion.time <= turn, motion.time / turn, 1 + (motion.time - turn) / (end - turn))
-    way = np.array([float(f"{p:.6g}") for p in way])
-    now = int(np.argmin(np.abs(way - progress)))
-    return Trajectory(scene, way, motion.states, now, peak, hit, motion)
+def _nearest(way, progress):
+    return int(np.argmin(np.abs(way - progress)))
+
+
+def _rounded(way):
+    """Six digits: what the page says about where it stands is read back as the same number."""
+    return np.array([float(f"{p:.6g}") for p in way])

@@ -6,6 +6,8 @@ from math import floor, isfinite, log10
 
 import numpy as np
 
+from .quantities import DATA
+
 
 @dataclass(frozen=True)
 class Unit:
@@ -19,25 +21,10 @@ class Unit:
         return f"{text} ({self.name})" if self.name else text
 
 
-def _family(text):
-    return tuple(Unit(name, float(factor)) for name, factor in (item.split() for item in text.split(", ")))
-
-
 #: The units of each kind of quantity, smallest first; the first of factor 1 is the SI unit.
 UNITS = {
-    "number": (Unit("", 1.0),),
-    "fraction": (Unit("%", 0.01),),
-    "length": _family("pm 1e-12, nm 1e-9, µm 1e-6, mm 1e-3, m 1"),
-    "force": _family("pN 1e-12, nN 1e-9, µN 1e-6, mN 1e-3, N 1, kN 1e3, MN 1e6, GN 1e9"),
-    "pressure": _family("mPa 1e-3, Pa 1, kPa 1e3, MPa 1e6, GPa 1e9, TPa 1e12"),
-    "energy": _family("aJ 1e-18, fJ 1e-15, pJ 1e-12, nJ 1e-9, µJ 1e-6, mJ 1e-3, J 1, kJ 1e3, MJ 1e6"),
-    "yield constant": _family("µN/m 1e-6, mN/m 1e-3, N/m 1, kN/m 1e3, MN/m 1e6, GN/m 1e9"),
-    "mass": _family("pg 1e-15, ng 1e-12, µg 1e-9, mg 1e-6, g 1e-3, kg 1, t 1e3"),
-    "speed": _family("nm/s 1e-9, µm/s 1e-6, mm/s 1e-3, m/s 1, km/s 1e3"),
-    "time": _family("ps 1e-12, ns 1e-9, µs 1e-6, ms 1e-3, s 1"),
-    "viscosity": _family("nPa·s 1e-9, µPa·s 1e-6, mPa·s 1e-3, Pa·s 1, kPa·s 1e3, MPa·s 1e6"),
-    "density": _family("kg/m³ 1"),
-    "area": _family("nm² 1e-18, µm² 1e-12, mm² 1e-6, m² 1"),
+    kind: tuple(Unit(name, float(factor)) for name, factor in units.items())
+    for kind, units in DATA["units"].items()
 }
 
 
@@ -45,11 +32,10 @@ def fitting(value, kind):
     """The unit of that kind in which a value in SI has one to three digits before the point."""
     units = UNITS[kind]
     size = abs(value) if isfinite(value) else 0.0
-    # A value a rounding error below the next unit is written in that unit: 1 mm, not 1000 µm.
-    reached = [unit for unit in units if unit.factor <= size * (1 + 1e-9)]
     if size == 0:
         return next((unit for unit in units if unit.factor == 1), units[0])
-    return reached[-1] if reached else units[0]
+    # A value a rounding error below the next unit is written in that unit: 1 mm, not 1000 µm.
+    return next((unit for unit in units[::-1] if unit.factor <= size * (1 + 1e-9)), units[0])
 
 
 def digits(value, count=4):
@@ -88,24 +74,17 @@ def read(text, kind, shown):
     """A value in SI from what was typed, and whether what it was read as is worth showing.
 
     A bare number is in the unit that is shown, one with an exponent in SI; a comma is a decimal comma.
-
-    Raises
-    ------
-    ValueError
-        If the text is not a finite number with a unit of that kind.
+    Raises ValueError if the text is not a finite number with a unit of that kind.
     """
     plain = text.strip().replace("−", "-").replace("μ", "µ")
     if plain.count(",") == 1 and "." not in plain:
         plain = plain.replace(",", ".")
     match = _NUMBER.fullmatch(plain) if len(plain) <= 40 else None
-    units = {unit.name: unit for unit in UNITS[kind]}
     # u, * and 3 for µ, · and ³, as on any keyboard.
-    units |= {name.translate(_KEYBOARD): unit for name, unit in units.items()}
+    units = {name: u for u in UNITS[kind] for name in (u.name, u.name.translate(_KEYBOARD))}
     if match is None or (match[3] and match[3] not in units):
         known = ", ".join(unit.name for unit in UNITS[kind] if unit.name)
-        raise ValueError(
-            f"“{text:.40}” is not a number" + (f" with one of the units {known}" if known else "")
-        )
+        raise ValueError(f"“{text:.40}” is not a number" + f" with one of the units {known}" * bool(known))
     in_si = bool(match[2]) and not match[3] and shown.factor != 1
     factor = units[match[3]].factor if match[3] else 1.0 if in_si else shown.factor
     # 15 nm as 1.5e-08, not as 1.5000000000000002e-08.

@@ -3,6 +3,7 @@
 import os
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import pytest
 import mdr_core as mdr
 from app import columns
 from app.explorer import Explorer as State
+from app.packet import inside
 from app.presets import PRESETS
 from app.trajectory import follow
 from app.units import UNITS
@@ -45,8 +47,13 @@ def assert_draws(explorer, state):
     way = view.way
     np.testing.assert_allclose(now(explorer), [way.state.depth, way.state.force], rtol=1e-6, atol=1e-30)
     rows = columns.springs(view, way.now) | columns.pressure(view, way.now)
-    for figure, name in (("springs", "yielded"), ("springs", "profile g(x)"), ("pressure", "−σzz(r)")):
-        for drawn, expected in zip(explorer.row(figure, name), rows[name], strict=True):
+    for figure, kind, name in (
+        ("springs", "lines", "yielded"),
+        ("springs", "areas", "profile g(x)"),
+        ("pressure", "lines", "−σzz(r)"),
+    ):
+        row = inside(view, SimpleNamespace(name=figure, kind=kind, right=""), rows[name])
+        for drawn, expected in zip(explorer.row(figure, name), row, strict=True):
             np.testing.assert_allclose(drawn, expected, rtol=1e-5, atol=1e-5 * view.end["z"])
 
 

@@ -47,11 +47,12 @@ def test_page_comes_back_with_what_it_showed(proxy, context):
             explorer.type("d_max", "13.5 nm")
         assert_a_fault_is_told(explorer, server)
         explorer.link("max_depth=1.35e-08")
+        page.evaluate("window.left = true")
         server.stop(kill=True)
         page.locator(".notyf__disconnect, .notyf__reconnect").first.wait_for()
         server = serve(proxy)
-        page.reload()
-        explorer.wait("window.explorer?.idle()")
+        # It loads itself again, once the server answers.
+        page.wait_for_function("!window.left && window.explorer?.idle()", timeout=60_000)
         state = State()
         state.max_depth = 13.5e-9
         assert_draws(explorer, state)

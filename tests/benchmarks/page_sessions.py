@@ -64,11 +64,18 @@ class Client:
             if dig(each, "attributes", "data", "attributes", "spoken") == "d_max, largest depth"
         )
         self.count = 0
+        # As a browser does: before this Panel holds back what a callback changes.
+        event = {"type": "event", "name": "document_ready", "values": {"type": "map", "entries": []}}
+        await self._event("ready", event)
         return self
 
     async def _send(self, kind, name, content):
         for part in ({"msgid": f"{id(self)}-{name}", "msgtype": kind}, {}, content):
             await self.socket.write_message(json.dumps(part))
+
+    async def _event(self, name, event):
+        patch = {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}
+        await self._send("PATCH-DOC", name, {"events": [patch]})
 
     async def _message(self):
         """The next message: its type and content, with the buffers that belong to it."""
@@ -88,9 +95,8 @@ class Client:
             ["data", {"type": "map", "entries": [list(item) for item in data.items()]}],
         ]
         event = {"type": "event", "name": "data_event", "values": {"type": "map", "entries": values}}
-        content = {"events": [{"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}]}
         begin = time.perf_counter()
-        await self._send("PATCH-DOC", n, content)
+        await self._event(n, event)
         while True:
             _, content = await self._message()
             if f'"attr":"answered","new":{self.count}' in content.replace(" ", ""):
