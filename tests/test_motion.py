@@ -13,8 +13,7 @@ from .test_equation_of_motion import E_STAR, MASS, SPEED, medium
 ENERGY = MASS * SPEED**2 / 2
 
 
-@pytest.mark.parametrize("q_c", [math.inf, 10.0])
-@pytest.mark.parametrize("share", [0.0, 1e-4, 1.0, 1e4])
+@pytest.mark.parametrize(("share", "q_c"), [(1e-4, 10.0), (1.0, math.inf), (1e4, 10.0)])
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_energy_ledger_is_closed_at_every_instant(shape, share, q_c):
     motion = mdr.impact(shape, medium(share, shape, q_c), MASS, SPEED).motion(101)
@@ -95,8 +94,7 @@ def test_bad_number_of_instants_is_refused(n):
         hit.motion(n)
 
 
-@pytest.mark.parametrize("n", [3, 12, 101])
-@pytest.mark.parametrize("eta", [0.0, 0.1, 20.0])
+@pytest.mark.parametrize(("n", "eta"), [(3, 20.0), (12, 0.0), (101, 0.1)])
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_the_turning_point_is_among_the_instants(shape, eta, n):
     hit = mdr.impact(shape, mdr.Medium(E_STAR, 10.0, eta), MASS, SPEED)

@@ -58,8 +58,8 @@ def test_without_viscosity_it_is_the_dry_impact(shape):
     assert hit.contact_time == pytest.approx(dry.contact_time, rel=3e-5)
 
 
-@pytest.mark.parametrize("times", [0.01, 0.1, 1.0, 10.0])
-@pytest.mark.parametrize("depth", [0.9, 3.0, 10.0, 100.0])
+@pytest.mark.parametrize("times", [0.01, 0.3, 10.0])
+@pytest.mark.parametrize("depth", [0.9, 3.0, 100.0])
 @pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.Paraboloid(1e-5), mdr.FlatPunch(1e-6)], ids=name)
 def test_every_estimate_covers_its_error(shape, depth, times):
     """Elastic or mostly plastic, hardly damped or overdamped: no result is worse than it is said to be."""
