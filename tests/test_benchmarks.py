@@ -55,7 +55,7 @@ def test_report_is_written_from_what_was_measured(results):
 
 
 def test_dry_impacts_keep_what_is_promised():
-    for _, depth, restitution, time in accuracy.dry_impacts():
+    for _, depth, restitution, time in accuracy.dry_impacts((1 + 1e-5, 3.0, 2e8)):
         assert max(float(depth), float(restitution)) <= 1e-10
         assert float(time) <= 1e-9
 
@@ -69,6 +69,6 @@ def test_viscous_impacts_keep_what_is_promised():
 
 
 def test_the_chain_covers_its_errors():
-    for row in accuracy.chain_impacts(tolerance=1e-4):
+    for row in accuracy.chain_impacts((0.0, 1.0, 1e3), tolerance=1e-4):
         said, missed = map(float, row[1:])
         assert missed <= said <= 1e-4, row
