@@ -3,13 +3,8 @@
 import numpy as np
 
 from .quantities import QUANTITIES, SHAPES, USED, shape_quantities
-from .units import digits, written
+from .units import written
 from .view import phase
-
-#: Slope that counts as small, slope that does no more; share of the wave speed that is slow.
-SMALL_SLOPE, STEEP_SLOPE, SLOW = 0.3, 0.5, 0.1
-#: Difference from a limit in which it is said to hold.
-CLOSE = 0.1
 
 
 def cells(way):
@@ -68,54 +63,18 @@ def heads(rows, symbol):
 
 
 def lights(way, density, ratio):
-    """How far the assumptions hold: pairs of "good", "note" or "beyond", and a sentence.
+    """How far the assumptions hold, as the core says: pairs of "good", "note" or "beyond", and a sentence.
 
     `density` is that of the medium, `ratio` its Poisson ratio; None where they are not known.
     """
-    found, medium, hit = [_slope_light(way.largest_slope)], way.scene.medium, way.hit
-    if hit is not None and medium.eta > 0:
-        found.append(_dashpot_light(ratio))
-    if hit is not None and density is not None:
-        found.append(_wave_light(float(hit.speed), (medium.E_star / density) ** 0.5))
-    if hit is not None and medium.critical_depth < np.inf:
-        found.append(_limit_light(way))
-    return found
-
-
-def _slope_light(slope):
-    text = f"Slopes reach {digits(slope, 2)}"
-    if slope <= SMALL_SLOPE:
-        return "good", f"{text}: small, as the model takes them"
-    text += f": small slopes are an approximation, good to about s² = {digits(100 * slope**2, 2)} %"
-    return "note" if slope <= STEEP_SLOPE else "beyond", text
-
-
-def _dashpot_light(ratio):
-    if ratio is None:
-        return "note", "Dashpots beside springs are exact for ν = ½; ν is not given with E*"
-    if ratio >= 0.495:
-        return "good", "Dashpots beside springs: exact at ν = ½"
-    return "beyond", f"Dashpots beside springs are exact for ν = ½ only; here ν_1 = {digits(ratio, 2)}"
-
-
-def _wave_light(speed, wave):
-    share = speed / wave
-    text = f"v_0 is {digits(share, 2)} of the wave speed √(E*/ρ) = {written(wave, 'speed', 3)}"
-    if share <= SLOW:
-        return "good", f"{text}: quasi-static"
-    return "beyond", f"{text}: waves carry energy away"
-
-
-def _limit_light(way):
-    """The paper's limit of fast impacts; no assumption: to be far from it is no fault."""
-    if way.before > 0:
-        return "note", "Fast limit (23) (24): for the first impact on a spot"
-    try:
-        error = float(way.hit.fast_limit.contact_area_error)
-    except ValueError:
-        return "note", "Fast limit (23) (24): beyond the depth to which the shape is known"
-    text = f"Fast limit (23) (24): {'+' if error > 0 else '−'}{digits(abs(100 * error), 2)} % of the area"
-    return ("good", f"{text}, holds") if abs(error) <= CLOSE else ("note", f"{text}, does not hold")
+    limits = list((way.states if way.hit is None else way.hit).limits)
+    if way.hit is not None and density is not None:
+        limits.append(way.hit.speed_limit(density))
+    for limit in sorted(limits, key=lambda limit: limit.concerns != "result"):
+        if limit.what == "Poisson ratio" and ratio is None:
+            yield "note", "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*."
+        else:
+            yield limit.level, limit.sentence
 
 
 def sketch(way, shape):

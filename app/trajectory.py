@@ -76,11 +76,6 @@ class Trajectory:
         depth = self.before + medium.critical_depth
         return mdr.indent(profile, medium, depth) if depth <= min(profile.deepest, 1e300) else None
 
-    @cached_property
-    def largest_slope(self):
-        """Largest slope of the indenter within the largest contact, walls left out."""
-        return next(limit.value for limit in self.deepest.limits if limit.what == "slope")
-
     def pressure(self, index, r):
         """Contact pressure (Pa) of a state, that of the dashpots included."""
         return self.states[index].pressure(r)

@@ -122,9 +122,8 @@ def _ceiling(way, half):
     """The largest pressure to draw: that of the deepest state, where it is infinite some times the mean."""
     pressure = way.pressure(way.peak, way.radii(way.peak, half))
     finite = np.isfinite(pressure)
-    largest, deepest = float(np.max(pressure[finite], initial=0.0)), way.deepest
-    mean = float(deepest.force / (np.pi * deepest.contact_radius**2)) if deepest.contact_radius > 0 else 0.0
-    return largest if finite.all() else min(largest, 4 * mean)
+    largest = float(np.max(pressure[finite], initial=0.0))
+    return largest if finite.all() else min(largest, 4 * float(way.deepest.mean_pressure))
 
 
 def phase(way, i):

@@ -12,9 +12,9 @@ from .report import Report, engineering
 if TYPE_CHECKING:
     from .indentation import Indentation
 
-#: Slopes up to which they count as small, beyond which they hardly are what was meant, contact radius over
-#: that of the body, and share of the wave speed that is slow.
-_SMALL, _NEEDLE, _BODY, _SLOW = 0.3, 3.0, 0.5, 0.1
+#: Slopes up to which they count as small, beyond which results are estimates, and beyond which they hardly
+#: are what was meant; contact radius over that of the body, and share of the wave speed that is slow.
+_SMALL, _STEEP, _NEEDLE, _BODY, _SLOW = 0.3, 0.5, 3.0, 0.5, 0.1
 
 
 class Model(str):
@@ -82,6 +82,8 @@ class Limit:
         The same in words, with what to do.
     concerns : str
         "result", or the formula of the paper that it is about while the result itself is exact.
+    severe : bool
+        Whether what is exceeded leaves of the result an estimate, and not most of its digits.
     """
 
     what: str
@@ -90,11 +92,19 @@ class Limit:
     exceeded: bool
     sentence: str
     concerns: str = "result"
+    severe: bool = True
 
     @property
     def holds(self) -> bool:
         """Whether the value is within the bound."""
         return not self.exceeded
+
+    @property
+    def level(self) -> str:
+        """In a word: "good", "note" where the result is hardly touched, else "beyond"."""
+        if self.holds:
+            return "good"
+        return "beyond" if self.severe and self.concerns == "result" else "note"
 
 
 def contact_limits(profile, medium, radius, *, slow=False):
@@ -121,10 +131,10 @@ def _slope_limit(profile, radius):
             "cone by its half-angle in degrees take Cone.from_half_angle(degrees)."
         )
     elif value > _SMALL:
-        text += f": beyond {_SMALL:g} a half-space and small slopes are an approximation."
+        text += f": small slopes are an approximation, good to about s² = {100 * value**2:.2g} %."
     else:
         text += ", which is small."
-    return Limit("slope", value, _SMALL, value > _SMALL, text)
+    return Limit("slope", value, _SMALL, value > _SMALL, text, severe=value > _STEEP)
 
 
 def _body_limit(profile, radius):
@@ -141,7 +151,7 @@ def _body_limit(profile, radius):
 
 def _poisson_limit(medium):
     value = float(np.min(medium.poisson))
-    text = f"Dashpots beside springs are exact for ν = 1/2 only, and ν = {value:.3g}"
+    text = f"Dashpots beside springs are exact for ν = ½ only, and ν = {value:.3g}"
     text += ": take viscous results as an estimate." if value < 0.5 else "."
     return Limit("Poisson ratio", value, 0.5, value < 0.5, text)
 
@@ -152,7 +162,7 @@ def _viscosity_limit(medium):
         "Without times the path is followed infinitely slowly: the viscosity carries nothing; τ = "
         f"{engineering(value, 's')}. indent_in_time and creep follow it in time."
     )
-    return Limit("viscosity", value, 0.0, True, text)
+    return Limit("viscosity", value, 0.0, True, text, severe=False)
 
 
 def speed_limit(result, density):

@@ -226,9 +226,14 @@ def how_fast(hit):
         limit = hit.fast_limit
     except ValueError as error:
         return (Limit("fast limit", np.inf, _NEAR, True, f"{equations} do not hold: {error}.", equations),)
-    errors = np.abs([limit.max_depth_error, limit.contact_area_error])
-    value = float(np.max(errors))
-    text = f"{equations} are off by up to {100 * value:.3g} % of the depth or the area"
+    area, depth = (
+        float(np.ravel(error)[np.argmax(np.abs(error))])
+        for error in (limit.contact_area_error, limit.max_depth_error)
+    )
+    value = max(abs(area), abs(depth))
+    exceeded = value > _NEAR or not first
+    text = f"The fast limit, {equations}, {'does not hold' if exceeded else 'holds'}: "
+    text += f"{100 * area:+.2g} % of the area, {100 * depth:+.2g} % of the depth".replace("-", "−")
     if not first:
-        text += ", for they are for the first impact on a spot"
-    return (Limit("fast limit", value, _NEAR, value > _NEAR or not first, f"{text}.", equations),)
+        text += ", for it is for the first impact on a spot"
+    return (Limit("fast limit", value, _NEAR, exceeded, f"{text}.", equations),)

@@ -123,7 +123,7 @@ def test_a_peak_that_the_axis_does_not_reach_is_named():
 
 
 def lit(explorer):
-    return readouts.lights(follow(explorer.scene(), 1.0), *readouts.density_and_ratio(explorer))
+    return list(readouts.lights(follow(explorer.scene(), 1.0), *readouts.density_and_ratio(explorer)))
 
 
 def test_lights_of_the_presets_warn_of_nothing():
