@@ -2,7 +2,9 @@
 
 import json
 import os
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, fields, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -32,8 +34,43 @@ def _times(quantity, values, path):
     return tuple(check_times(values, np.asarray(path), quantity).tolist())
 
 
+class _Path:
+    """A path of one quantity, the first field of a subclass, with or without `time`.
+
+    A subclass says its unit, and what follows it infinitely slowly and in time.
+    """
+
+    _unit: ClassVar[str]
+    _slowly: ClassVar[Callable[..., Indentation]]
+    _in_time: ClassVar[Callable[..., TimedIndentation]]
+    time: ArrayLike | None
+
+    def __post_init__(self):
+        name = self._name
+        object.__setattr__(self, name, _path(f"{type(self).__name__} {name}", self._path, self._unit))
+        object.__setattr__(self, "time", _times(name, self.time, self._path))
+
+    _name = property(lambda self: fields(self)[0].name)
+    _path = property(lambda self: getattr(self, self._name))
+
+    def models(self, medium: Medium) -> tuple[Model, ...]:
+        """Names of the models that can solve it, the cheapest that is exact first."""
+        return (CHAIN,) if self.time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
+
+    def solve(self, profile, medium, model):
+        """The `Indentation` along this path, or on the chain the `TimedIndentation`."""
+        if model == CLOSED_FORM:
+            return type(self)._slowly(profile, medium, self._path)
+        path, time = np.atleast_1d(self._path), self.time
+        if time is None:
+            # Infinitely slow is without viscosity, at whatever times.
+            time, medium = np.arange(float(path.size)), replace(medium, eta=0.0)
+        result = type(self)._in_time(profile, medium, path, np.asarray(time))
+        return result if np.ndim(self._path) else result[0]
+
+
 @dataclass(frozen=True)
-class DepthPath:
+class DepthPath(_Path):
     """Press along prescribed depths.
 
     Parameters
@@ -47,25 +84,11 @@ class DepthPath:
     depth: Parameter
     time: ArrayLike | None = None
 
-    def __post_init__(self):
-        object.__setattr__(self, "depth", _path("DepthPath depth", self.depth, "m"))
-        object.__setattr__(self, "time", _times("depth", self.time, self.depth))
-
-    def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models that can solve it, the cheapest that is exact first."""
-        return (CHAIN,) if self.time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
-
-    def solve(self, profile, medium, model):
-        """The `Indentation` along this path, or on the chain the `TimedIndentation`."""
-        if model == CLOSED_FORM:
-            return indent(profile, medium, self.depth)
-        path, time, medium = _on_the_chain(self.depth, self.time, medium)
-        result = indent_in_time(profile, medium, path, time)
-        return result if np.ndim(self.depth) else result[0]
+    _unit, _slowly, _in_time = "m", staticmethod(indent), staticmethod(indent_in_time)
 
 
 @dataclass(frozen=True)
-class ForcePath:
+class ForcePath(_Path):
     """Press with prescribed forces.
 
     Parameters
@@ -79,27 +102,7 @@ class ForcePath:
     force: Parameter
     time: ArrayLike | None = None
 
-    def __post_init__(self):
-        object.__setattr__(self, "force", _path("ForcePath force", self.force, "N"))
-        object.__setattr__(self, "time", _times("force", self.time, self.force))
-
-    models = DepthPath.models
-
-    def solve(self, profile, medium, model):
-        """The `Indentation` along this path, or on the chain the `TimedIndentation`."""
-        if model == CLOSED_FORM:
-            return indent_to_force(profile, medium, self.force)
-        path, time, medium = _on_the_chain(self.force, self.time, medium)
-        result = creep(profile, medium, path, time)
-        return result if np.ndim(self.force) else result[0]
-
-
-def _on_the_chain(path, time, medium):
-    """Path, times and medium as the chain takes them: infinitely slow is without viscosity."""
-    path = np.atleast_1d(path)
-    if time is None:
-        return path, np.arange(float(path.size)), replace(medium, eta=0.0)
-    return path, np.asarray(time), medium
+    _unit, _slowly, _in_time = "N", staticmethod(indent_to_force), staticmethod(creep)
 
 
 @dataclass(frozen=True)
