@@ -6,11 +6,11 @@ V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 """
 
 from . import abel
+from .dynamics.impact import Impact, impact
 from .foundation.depth_path import TimedIndentation, indent_in_time
 from .foundation.force_path import creep
 from .foundation.impact import ChainImpact, chain_impact
 from .foundation.row import Foundation
-from .impact import Impact, impact
 from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium
 from .results import Motion

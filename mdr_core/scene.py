@@ -10,10 +10,10 @@ import numpy as np
 
 from . import _check
 from ._check import ArrayLike, Parameter, one_of, shown
+from .dynamics.impact import Impact, solve_impact
 from .foundation.depth_path import TimedIndentation, check_times, indent_in_time
 from .foundation.force_path import creep
 from .foundation.impact import ChainImpact, chain_impact
-from .impact import Impact, solve_impact
 from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium, check_pair
 from .results import CHAIN, CLOSED_FORM, SCALAR_ODE, Model

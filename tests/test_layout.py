@@ -17,13 +17,15 @@ ORDER = (
     "results",
     "foundation.element", "foundation.fronts", "foundation.reach", "foundation.row",
     "foundation.depth_path", "foundation.force_path", "foundation.free_body", "foundation.impact",
-    "yielding", "superposition", "fields", "stress", "indentation", "energy_balance", "contact_time",
-    "scaling", "equation_of_motion", "motion", "impact", "scene", "__init__",
+    "yielding", "superposition", "fields", "stress", "indentation",
+    "dynamics.energy_balance", "dynamics.contact_time", "scaling", "dynamics.equation_of_motion",
+    "dynamics.motion", "dynamics.impact", "scene", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {
-    "yielding", "superposition", "fields", "indentation", "impact", "energy_balance", "contact_time",
-    "equation_of_motion", "motion", "scaling", "shapes.interpolated", "stress",
+    "yielding", "superposition", "fields", "indentation", "dynamics.impact",
+    "dynamics.energy_balance", "dynamics.contact_time", "dynamics.equation_of_motion", "dynamics.motion",
+    "scaling", "shapes.interpolated", "stress",
 }  # fmt: skip
 
 

@@ -27,13 +27,13 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from . import _numeric
-from ._numeric import cube_rise, cube_way
+from .. import _numeric
+from .._numeric import cube_rise, cube_way
+from ..shapes.interpolated import interpolated
+from ..shapes.profile import Profile
+from ..superposition import radius_integral
+from ..yielding import LiveInterval
 from .energy_balance import pressed
-from .shapes.interpolated import interpolated
-from .shapes.profile import Profile
-from .superposition import radius_integral
-from .yielding import LiveInterval
 
 #: What the last coefficients may leave of velocity, depth and time; the ends of steps are far better.
 TOLERANCE = 1e-5

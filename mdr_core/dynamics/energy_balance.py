@@ -9,10 +9,10 @@ from functools import singledispatch
 
 import numpy as np
 
-from ._numeric import chunks, increasing_root
-from .shapes.power import Cone, Paraboloid
-from .superposition import energy_integral, radius_integral
-from .yielding import LiveInterval
+from .._numeric import chunks, increasing_root
+from ..shapes.power import Cone, Paraboloid
+from ..superposition import energy_integral, radius_integral
+from ..yielding import LiveInterval
 
 
 def turning_point(profile, target, d_c, before):

@@ -6,11 +6,11 @@ import numpy as np
 import scipy
 from numpy.polynomial import chebyshev
 
-from ._numeric import chunks, gauss_integrals, gauss_legendre
-from .shapes.interpolated import interpolated
-from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
-from .superposition import energy_integral, radius_integral
-from .yielding import LiveInterval, virgin
+from .._numeric import chunks, gauss_integrals, gauss_legendre
+from ..shapes.interpolated import interpolated
+from ..shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
+from ..superposition import energy_integral, radius_integral
+from ..yielding import LiveInterval, virgin
 
 _NODE, _WEIGHT = gauss_legendre(40)
 #: From values at the nodes to integrals from each of them to the end.

@@ -10,17 +10,13 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from . import _check
-from ._check import Array, ArrayLike
-from ._numeric import chunks
-from .contact_time import contact_time
-from .energy_balance import dry_restitution, plastic_integral, pressed, turning_point
-from .equation_of_motion import Bodies, solve
-from .indentation import Indentation
-from .medium import Medium, check_pair
-from .motion import motion
-from .report import Report
-from .results import (
+from .. import _check
+from .._check import Array, ArrayLike
+from .._numeric import chunks
+from ..indentation import Indentation
+from ..medium import Medium, check_pair
+from ..report import Report
+from ..results import (
     CLOSED_FORM,
     IMPACT_QUANTITIES,
     IMPACT_SHOWN,
@@ -32,10 +28,14 @@ from .results import (
     sealed,
     speed_limit,
 )
-from .scaling import FastLimit, fast_limit, how_fast
-from .shapes.interpolated import interpolated
-from .shapes.profile import Profile
-from .superposition import radius_integral
+from ..scaling import FastLimit, fast_limit, how_fast
+from ..shapes.interpolated import interpolated
+from ..shapes.profile import Profile
+from ..superposition import radius_integral
+from .contact_time import contact_time
+from .energy_balance import dry_restitution, plastic_integral, pressed, turning_point
+from .equation_of_motion import Bodies, solve
+from .motion import motion
 
 #: So many bodies ask for the radius often enough to pay for a table of it.
 _WORTH_A_TABLE = 16

@@ -2,11 +2,11 @@
 
 import numpy as np
 
+from ..indentation import Indentation
+from ..results import Motion, instants
+from ..yielding import LiveInterval
 from .energy_balance import plastic_integral, pressed
 from .equation_of_motion import Bodies, solve
-from .indentation import Indentation
-from .results import Motion, instants
-from .yielding import LiveInterval
 
 #: What the polynomials between the nodes may leave, and instants at which what has let go is followed.
 _TOLERANCE, _INSTANTS, _PARTS = 1e-10, 400, 33
