@@ -130,20 +130,9 @@ def area_samples(coefficients, height, samples, most):
     )
     _check.refuse("area A(h)", area, back, "does not grow", unit="m²", remedy=remedy)
     r, h = np.append(0.0, np.sqrt(area / np.pi)), np.append(0.0, h)
-    z = np.append(0.0, np.cumsum(_ascending(np.diff(h) / np.diff(r), np.diff(r)) * np.diff(r)))
+    slopes = scipy.optimize.isotonic_regression(np.diff(h) / np.diff(r), weights=np.diff(r)).x
+    z = np.append(0.0, np.cumsum(slopes * np.diff(r)))
     far = np.abs(z - h) > 0.03 * np.maximum(h, 0.1 * height)
     bound, remedy = "m is where the tip is concave by more than 3 %", "the contact would not be compact"
     _check.refuse("area function: height", h, far, bound, remedy=remedy)
     return r, z
-
-
-def _ascending(values, weights):
-    """The ascending values nearest by weighted least squares: neighbours that fall are averaged."""
-    blocks = []
-    for value, weight in zip(values.tolist(), weights.tolist(), strict=True):
-        blocks.append((value, weight, 1))
-        while len(blocks) > 1 and blocks[-2][0] > blocks[-1][0]:
-            (one, first, count), (other, second, more) = blocks[-2:]
-            mean = (one * first + other * second) / (first + second)
-            blocks[-2:] = [(mean, first + second, count + more)]
-    return np.repeat([block[0] for block in blocks], [block[2] for block in blocks])
