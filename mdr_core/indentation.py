@@ -101,7 +101,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Inde
     with np.errstate(all="ignore"):
         deepest = loading_depth(profile, medium.critical_depth, peak)
     known = min(profile.deepest, _check.LARGEST)
-    bound = f"presses deeper than the shape is known, {known:g} m"
+    bound = f"presses {profile._too_deep()}"
     _check.refuse("force", force, ~(deepest <= known), bound, unit="N", remedy="press less")
     front = first_loading(deepest, medium.critical_depth)
     length = np.where(area == peak, front.length, live_length(profile, front, area))

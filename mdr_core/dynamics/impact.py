@@ -110,8 +110,8 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
     sizes = {"profile": np.empty(profile.shape), "medium": np.empty(medium.shape)}
     shape = _check.common_shape("impact", mass=mass, speed=speed, plastic_depth=before, **sizes)
     mass, speed, before = (np.broadcast_to(part, shape) for part in (mass, speed, before))
-    bound = f"is deeper than the shape is known, {np.min(profile.deepest, initial=np.inf):g} m"
-    _check.refuse("plastic_depth", before, before > profile.deepest, bound, unit="m")
+    too_deep = profile._too_deep()
+    _check.refuse("plastic_depth", before, before > profile.deepest, f"is {too_deep}", unit="m")
     # The search may begin far from the root, where powers leave double precision.
     with np.errstate(all="ignore"):
         arguments = profile, medium, mass, speed, before
@@ -120,7 +120,7 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
         else:
             live, growth, rebound = *_dry(*arguments), None
     known = np.minimum(profile.deepest, _check.LARGEST)
-    bound = f"m/s presses deeper than the shape is known, {np.min(known, initial=np.inf):g} m"
+    bound = f"m/s presses {too_deep}"
     _check.refuse("speed", speed, ~(live.upper <= known), bound, remedy="hit less hard")
     deepest = Indentation(profile, medium, live.upper, live, in_time=True)
     return Impact(profile, medium, mass[()], speed[()], deepest, growth, rebound)

@@ -54,6 +54,7 @@ class Profile(_check.Comparable, ABC):
 
     #: Depth and radius (m) beyond which the shape is not known.
     deepest = np.inf
+    _end_of_depth = "the shape is known"
     known_radius = np.inf
 
     #: Radius (m) of the body that the tip belongs to, which a contact is small against.
@@ -165,10 +166,14 @@ class Profile(_check.Comparable, ABC):
         """`depth`, if the shape is known so far."""
         if np.all(self.deepest == np.inf):
             return depth
-        bound = f"is deeper than the shape is known, {np.min(self.deepest, initial=np.inf):g} m"
+        bound = f"is {self._too_deep()}"
         return _check.refuse(
             "depth", depth, depth > self.deepest, bound, unit="m", remedy="press less deep"
         )
+
+    def _too_deep(self):
+        """What is wrong with a depth beyond `deepest`, for a refusal."""
+        return f"deeper than {self._end_of_depth}, {np.min(self.deepest, initial=_check.LARGEST):g} m"
 
 
 class OneLength(Profile):
