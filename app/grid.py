@@ -31,8 +31,8 @@ def button(kind, name, key, **options):
 class Grid:
     """The plots of one session: a figure is made when it is seen for the first time."""
 
-    def __init__(self, show, paint, drag, comparing):
-        self._show, self._paint, self._drag, self._comparing = show, paint, drag, comparing
+    def __init__(self, show, theme, drag, comparing):
+        self._show, self._theme, self._drag, self._comparing = show, theme, drag, comparing
         self.figures, self.layers, self.names = {}, [], []
         self._cards, self._inputs, self._keys, self._legends, self._axes, self._told = (
             {},
@@ -54,12 +54,9 @@ class Grid:
             return
         self.names, shown = names, {name: self.figures[name] for name in names}
         self.layers = layers(shown)
-        described = [
-            layer.described | {"moving": moves(layer, PLOTS[layer.name].moving(view, view.way.now))}
-            for layer in self.layers
-        ]
+        described = [layer.described | {"moving": moves(view, layer)} for layer in self.layers]
         self._show.args = self._show.args | {"layers": described}
-        self._paint.args = self._paint.args | {"figures": list(shown.values())}
+        self._theme.args = self._theme.args | {"figures": list(shown.values())}
         many = len(set(names) - {"speed"}) > 4
         self.view.css_classes = ["plots", *["wide"] * many, *["more"] * ("speed" in names)]
         self.view[:] = [self._cards[name] for name in names]

@@ -45,16 +45,15 @@ def packed(view, layers, states, moving_only=False):
     With `moving_only` those layers are left out that stay while a scene is played.
     """
     names = dict.fromkeys(layer.name for layer in layers)
-    still = {name: PLOTS[name].still(view) for name in names}
     parts, starts, labels, at = [], [], [], 0
     for i in states:
-        moving = {name: PLOTS[name].moving(view, i) for name in names}
+        columns = {name: view.columns(PLOTS[name], i) for name in names}
         starts.append(at)
         words = []
         for layer in layers:
-            if moving_only and not moves(layer, moving[layer.name]):
+            if moving_only and not moves(view, layer):
                 continue
-            rows = still[layer.name] | moving[layer.name]
+            rows = columns[layer.name]
             for row in layer.rows:
                 for values in inside(view, layer, rows[row][:2]):
                     values = np.atleast_1d(values)
@@ -84,17 +83,12 @@ def inside(view, layer, row):
     return row
 
 
-def moves(layer, moving):
+def moves(view, layer):
     """Whether any row of a layer changes from state to state."""
-    return any(row in moving for row in layer.rows)
+    return not view.still(PLOTS[layer.name]).keys() >= set(layer.rows)
 
 
 def drawn(view, name, states):
     """Names of the rows of a plot that have something to show in one of some states."""
-    found, still = set(), PLOTS[name].still(view)
-    for i in states:
-        rows = still | PLOTS[name].moving(view, i)
-        found |= {
-            row for row, values in rows.items() if np.isfinite(values[1]).any() and np.size(values[1])
-        }
-    return found
+    rows = [row for i in states for row in view.columns(PLOTS[name], i).items()]
+    return {row for row, values in rows if np.size(values[1]) and np.isfinite(values[1]).any()}

@@ -106,7 +106,7 @@ class Page:
         parts = {"packet": self.packet, "frames": self.frames, "slider": self.state}
         parts |= {"readout": self.readout, "standing": self.standing}
         self.show = CustomJS(args=parts | {"layers": []}, code=JS["show"])
-        self.paint = CustomJS(args={"light": LIGHT, "dark": DARK, "figures": []}, code=JS["theme"])
+        self.theme = CustomJS(args={"light": LIGHT, "dark": DARK, "figures": []}, code=JS["theme"])
         for source, name in ((self.packet, "data"), (self.state, "value")):
             source.js_on_change(name, self.show)
         # The slider waits where it stands until the states are there.
@@ -115,9 +115,9 @@ class Page:
         parts = {"packet": self.packet, "frames": self.frames, "slider": self.state}
         self.play.js_on_change("active", CustomJS(args=parts | {"pace": self.pace}, code=JS["play"]))
         drag = CustomJS(args=parts | {"play": self.play}, code=JS["drag"])
-        self.grid = Grid(self.show, self.paint, drag, self.comparing)
-        self.dark.jscallback(args={"paint": self.paint}, value="paint.execute(cb_obj)")
-        self.paint.js_on_change("args", CustomJS(args={"paint": self.paint}, code="paint.execute(paint)"))
+        self.grid = Grid(self.show, self.theme, drag, self.comparing)
+        self.dark.jscallback(args={"theme": self.theme}, value="theme.execute(cb_obj)")
+        self.theme.js_on_change("args", CustomJS(args={"theme": self.theme}, code="theme.execute(theme)"))
         self.address.js_on_change("text", CustomJS(code="history.replaceState(null, '', cb_obj.text)"))
         named = {
             "slider": "State along the way",
@@ -125,7 +125,7 @@ class Page:
             "tip": "CSV file of a measured tip: r, z",
             "scene": "Load a scene (JSON)",
         }
-        parts = {"named": named, "show": self.show, "paint": self.paint, "packet": self.packet}
+        parts = {"named": named, "show": self.show, "theme": self.theme, "packet": self.packet}
         if self.document is not None:
             self.document.js_on_event(DocumentReady, CustomJS(args=parts, code=JS["ready"]))
             # What was shown is in the address; the session behind it may be gone.

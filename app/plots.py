@@ -57,7 +57,7 @@ def label(name):
     return Row("labels", name, legend=False)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Plot:
     """A plot: title, formula, keys of its axes (x, y, and one on the right), rows, and their columns."""
 

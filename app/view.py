@@ -84,6 +84,26 @@ class View:
             self.pressures[i] = r, self.way.pressure(i, r)
         return self.pressures[i]
 
+    def still(self, plot):
+        """Rows of a plot that stay while the scene is played."""
+        if plot not in self.drawn:
+            self.drawn[plot] = plot.still(self)
+        return self.drawn[plot]
+
+    def columns(self, plot, i):
+        """All rows of a plot in state i; those of the states that the page stands at are kept."""
+        if (plot, i) in self.drawn:
+            return self.drawn[plot, i]
+        rows = self.still(plot) | plot.moving(self, i)
+        if i in (self.way.now, self.way.peak):
+            self.drawn[plot, i] = rows
+        return rows
+
+    @cached_property
+    def drawn(self):
+        """Rows that were asked for, by their plot, or by plot and state."""
+        return {}
+
     def beyond(self, i):
         """What is said of a pressure that the axis does not reach; nothing if it does."""
         r, p = self.pressure(i)
