@@ -84,6 +84,13 @@ class Axis:
         return cls(name, title, unit, factor, **ends)
 
     @property
+    def ends(self):
+        """Where it starts and ends, in its unit."""
+        return tuple(
+            end if end is None else float(f"{end / self.factor:.9g}") for end in (self.start, self.end)
+        )
+
+    @property
     def label(self):
         """The title with the unit."""
         return f"{self.title} ({self.unit})" if self.unit else self.title
@@ -265,9 +272,8 @@ def overlay(title, rows, columns, axes):
             element.opts(backend="bokeh", **_styled(row))
     made = hv.Overlay(made)
     if "bokeh" in hv.Store.loaded_backends():
-        ends = [tuple(end and end / axis.factor for end in (axis.start, axis.end)) for axis in axes]
         look = {"width": 600, "height": 400, "show_grid": True, "legend_position": "right"}
-        made.opts(backend="bokeh", title=title, xlim=ends[0], ylim=ends[1], **look)
+        made.opts(backend="bokeh", title=title, xlim=axes[0].ends, ylim=axes[1].ends, **look)
     return made
 
 
