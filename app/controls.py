@@ -8,7 +8,6 @@ import panel as pn
 import param
 
 from .explorer import FROM_FILE
-from .plots import PLOTS
 from .presets import PRESETS
 from .quantities import CHOICES, LABELS, QUANTITIES, SHAPES, USED, Scale, shape_quantities
 from .units import UNITS, entry, written
@@ -42,11 +41,11 @@ def _about(quantity):
     return "".join(f"<p>{row}</p>" for row in rows if row)
 
 
-def legend(name, shown):
+def legend(plot, shown):
     """The legend of a plot, of those rows that are shown, as HTML."""
     return "".join(
         f'<span class="{row.role}"><i class="{row.kind} {_style(row)}"></i>{row.name}</span>'
-        for row in PLOTS[name].rows
+        for row in plot.rows
         if row.legend and row.name in shown
     )
 
@@ -106,6 +105,10 @@ class Number(pn.custom.JSComponent):
         self.param.update(text=entry(value, self.kind), position=position)
 
 
+#: Choices of the form; others stand above the plots that they are of.
+_FORM = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface")
+
+
 class Controls:
     """The form: built once for a session, its parts shown where they are used.
 
@@ -122,8 +125,9 @@ class Controls:
         self.choices = {"shape": pn.widgets.Select(name="Shape", options=shapes, **look)}
         for name, options in CHOICES.items():
             options = {text: option for option, text in options.items()}
-            look["inline"] = True
-            self.choices[name] = pn.widgets.RadioBoxGroup(name=LABELS[name], options=options, **look)
+            kind = pn.widgets.RadioBoxGroup if name in _FORM else pn.widgets.Select
+            inline = {"inline": True} if name in _FORM else {}
+            self.choices[name] = kind(name=LABELS[name], options=options, **inline, **look)
         for name, widget in self.choices.items():
             widget.param.watch(lambda event, name=name: self._choose(name, event), "value")
         noted = ("sources", "sketch", "tip", "elasticity", "plasticity", "damping")
@@ -137,8 +141,9 @@ class Controls:
                 html(label, css_classes=["legend"]), self.choices[name], css_classes=["fieldset"], **WIDE
             )
             for name, label in LABELS.items()
+            if name in _FORM
         }
-        self.form = pn.Column(**WIDE)
+        self.form, self._above = pn.Column(**WIDE), []
 
     def _load(self, event):
         self.tell(lambda: self.explorer.load(event.new))
@@ -173,9 +178,25 @@ class Controls:
             rows += [*self._choice("surface"), self.again, *self._choice("inertia")]
         if rows != list(self.form):
             self.form[:] = rows
+        self._show_above()
 
     def _choice(self, choice):
         return [self.rows[choice], *map(self.number, USED[choice][getattr(self.explorer, choice)])]
+
+    def above(self, names):
+        """What stands above a plot: choices, each with the numbers that its option uses, and numbers."""
+        row = pn.Column(css_classes=["above"], **WIDE)
+        self._above.append((names, row))
+        return row
+
+    def _show_above(self):
+        for names, row in self._above:
+            parts = []
+            for name in names:
+                used = USED[name][getattr(self.explorer, name)] if name in USED else [name]
+                parts += [*[self.choices[name]] * (name in USED), *map(self.number, used)]
+            if parts != list(row):
+                row[:] = parts
 
     def _write(self, made):
         explorer, preset = self.explorer, PRESETS.get(self.explorer.preset)

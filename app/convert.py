@@ -77,6 +77,5 @@ CONVERT = {
     "plasticity": _plasticity,
     "damping": _damping,
     "drive": _drive,
-    "inertia": lambda state, option: {},
     "surface": _surface,
 }

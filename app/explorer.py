@@ -33,13 +33,12 @@ class Explorer(param.Parameterized):
     samples = param.Tuple(None, length=2, allow_None=True, doc="radii and heights (m) of a measured tip")
     tip_note = param.String(doc="what was done to the measured tip")
     hold = param.String(doc="query of the scene that is held to compare with")
-    map = param.Boolean(False, doc="the pressure over the plane is shown")
-    speed_plot = param.Boolean(False, doc="speed against error is shown")
+    plots = param.List([], item_type=str, doc="plots that are shown on request")
     dark = param.Boolean(False)
     shape = param.Selector(objects=list(SHAPES))
 
     #: Parameters that describe the view rather than the scene: undo leaves them alone.
-    VIEW = ("progress", "hold", "map", "speed_plot", "dark")
+    VIEW = ("progress", "hold", "plots", "dark")
 
     def __init__(self, preset=OPENING):
         super().__init__()
@@ -158,7 +157,7 @@ class Explorer(param.Parameterized):
         if option == getattr(self, name):
             return
         # A shape that has been looked at before keeps its values.
-        kept = name == "shape" and option in self.sized
+        kept = name not in CONVERT or (name == "shape" and option in self.sized)
         converted = {} if kept else {k: float(v) for k, v in CONVERT[name](self, option).items()}
         if name == "shape":
             self.sized |= {option}

@@ -63,9 +63,7 @@ def _inputs(scene, explorer):
     medium, profile = scene.medium, scene.profile
     if explorer.preset:
         yield "preset", f"{explorer.preset}{', altered' if explorer.altered else ''}"
-    many = isinstance(profile, mdr.Sampled) and len(profile.r) > 6
-    ends = f"to r = {profile.r[-1]!r} m, z = {profile.z[-1]!r} m" if many else ""
-    yield "profile", f"Sampled of {len(profile.r)} samples {ends}" if many else repr(profile)
+    yield "profile", repr(profile)
     text = f"E_star = {medium.E_star!r} Pa, q_c = {medium.q_c!r} N/m, eta = {medium.eta!r} Pa·s"
     yield "medium", f"{text}, poisson = {float(medium.poisson)!r}"
     # What the medium was made of.
@@ -88,8 +86,9 @@ def _solved(trajectory, prefix=""):
     drive, numbers = scene.drive, asdict(scene.medium)
     plain = asdict(mdr.Medium(scene.medium.E_star)) | {"E_star": None}
     numbers = {name: number for name, number in numbers.items() if number != plain[name]}
+    shape = ", ".join(f"{name}={value!r}" for name, value in asdict(scene.profile).items())
     lines = [
-        f"{prefix}profile = mdr.{scene.profile!r}",
+        f"{prefix}profile = mdr.{type(scene.profile).__name__}({shape})",
         f"{prefix}medium = mdr.Medium({_arguments(numbers)})  # Pa, N/m, Pa·s",
     ]
     given = f"{prefix}profile, {prefix}medium"

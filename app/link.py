@@ -7,13 +7,13 @@ from urllib.parse import parse_qs, urlencode
 import mdr_core as mdr
 
 from .explorer import FROM_FILE, LAST_PROGRESS
+from .plots import PLOTS
 from .presets import PRESETS
 from .quantities import QUANTITIES, SHAPES, shape_quantities
 from .tip import MOST_SAMPLES
 
 #: Longest link, and most characters of a file.
 LONGEST_LINK, LARGEST_FILE = 8000, 2_000_000
-_SHOWN = ("map", "speed_plot", "dark")
 
 
 def query(explorer, view=True):
@@ -22,12 +22,13 @@ def query(explorer, view=True):
     With `view` also what is held, which plots are shown, and whether it is dark.
     """
     pairs = {"preset": explorer.preset} | explorer.choices
-    pairs |= {name: f"{getattr(explorer, name)!r}" for name in explorer.used()}
+    above = [name for plot in explorer.plots for name in PLOTS[plot].controls if name in QUANTITIES]
+    pairs |= {name: f"{getattr(explorer, name)!r}" for name in (*explorer.used(), *above)}
     pairs["at"] = f"{explorer.progress:.6g}"
     if explorer.shape == "sampled":
         pairs["samples"] = " ".join(f"{x!r},{y!r}" for x, y in zip(*explorer.samples, strict=True))
     if view:
-        pairs |= {name: str(int(getattr(explorer, name))) for name in _SHOWN}
+        pairs |= {"plots": " ".join(explorer.plots), "dark": str(int(explorer.dark))}
         pairs |= {"hold": explorer.hold} if explorer.hold else {}
     text = urlencode(pairs)
     return text if len(text) <= LONGEST_LINK else ""
@@ -55,7 +56,8 @@ def restore(explorer, arguments):
     elif preset != FROM_FILE:
         raise ValueError("this link names no preset that is known")
     changes = {"preset": preset, "hold": pairs.pop("hold", "")}
-    changes |= {name: pairs.pop(name, "0") == "1" for name in _SHOWN}
+    plots = pairs.pop("plots", "").split()
+    changes |= {"dark": pairs.pop("dark", "0") == "1", "plots": [name for name in PLOTS if name in plots]}
     if "samples" in pairs:
         tip = _samples(pairs.pop("samples"))
         changes["samples"] = (tip.r, tip.z)
@@ -128,7 +130,7 @@ def load_scene(explorer, text):
         choices |= more
         numbers |= values
     explorer.resets = {name: explorer.checked(name, value) for name, value in numbers.items()}
-    explorer.resets |= {name: choices[name] for name in explorer.choices}
+    explorer.resets |= {name: choices[name] for name in explorer.choices if name in choices}
     explorer.sized = frozenset({choices["shape"]})
     explorer.param.update(**choices | explorer.resets)
 

@@ -10,22 +10,19 @@ class Layer:
     """One renderer of a figure, with the rows of its plot that it draws."""
 
     def __init__(self, name, figure, renderer):
-        plot, source = PLOTS[name], renderer.data_source
-        self.name, self.source, self.image = name, source, renderer.name == "image"
-        self.kind, _, self.right = renderer.name.partition(" ")
-        self.rows = (
-            ["image"] if self.image else [r.name for group, _, r in placed(plot) if group == renderer.name]
-        )
+        self.plot, group = PLOTS[name], renderer.name
+        self.kind, _, self.right = group.partition(" ")
+        rows = [row for each, row in placed(self.plot) if each == group]
+        self.rows = [row.name for row in rows] or [group]
+        looks = {key: [row.look[key] for row in rows] for key in (rows[0].look if rows else ())}
+        looks |= {key: [getattr(row, key) for row in rows] for key in ("role", "symbol")}
         sources = {each.name: each.data_source for each in figure.renderers}
         self.described = {
-            "source": source,
-            "rows": len(self.rows),
-            "nested": type(renderer.glyph).__name__ == "MultiPolygons",
-            "image": self.image,
-            "labels": renderer.name == "labels",
-            "tips": sources.get(renderer.name.replace("lines", "tips"))
-            if "lines" in renderer.name
-            else None,
+            "source": renderer.data_source,
+            "rows": self.rows,
+            "kind": self.kind,
+            "looks": looks | {"row": self.rows},
+            "tips": sources.get(group.replace("lines", "tips")) if self.kind == "lines" else None,
         }
 
 
@@ -35,7 +32,7 @@ def layers(figures):
         Layer(name, figure, renderer)
         for name, figure in figures.items()
         for renderer in figure.renderers
-        if not renderer.name.startswith("tips") and not PLOTS[name].log
+        if not renderer.name.startswith("tips")
     ]
 
 
@@ -44,36 +41,42 @@ def packed(view, layers, states, moving_only=False):
 
     With `moving_only` those layers are left out that stay while a scene is played.
     """
-    names = dict.fromkeys(layer.name for layer in layers)
-    still = {name: PLOTS[name].still(view) for name in names}
+    chosen = [layer for layer in layers if not moving_only or moves(view, layer)]
+    plots = dict.fromkeys(layer.plot for layer in chosen)
     parts, starts, labels, at = [], [], [], 0
     for i in states:
-        moving = {name: PLOTS[name].moving(view, i) for name in names}
+        columns = {plot: view.columns(plot, i) for plot in plots}
         starts.append(at)
         words = []
-        for layer in layers:
-            if moving_only and not moves(layer, moving[layer.name]):
-                continue
-            rows = still[layer.name] | moving[layer.name]
+        for layer in chosen:
+            rows, sizes = columns[layer.plot], _units(view, layer)
             for row in layer.rows:
-                for values in inside(view, layer, rows[row][:2]):
-                    values = np.atleast_1d(values)
-                    parts += [[values.size], values]
-                    at += 1 + values.size
-            words += [rows[row][2] for row in layer.rows if len(rows[row]) == 3]
+                for values, size in zip(inside(view, layer, rows[row]), sizes, strict=False):
+                    parts += [[np.size(values)], np.ravel(values) / size]
+                    at += 1 + parts[-1].size
+            words += [rows[row][2] for row in layer.rows if layer.kind == "labels"]
         labels.append(words)
     with np.errstate(over="ignore", under="ignore"):
-        return np.concatenate(parts, dtype=np.float32, casting="unsafe"), starts, labels
+        packet = np.concatenate([*parts, [0.0]], dtype=np.float32, casting="unsafe")
+    return packet, starts, labels
+
+
+def _units(view, layer):
+    """Sizes of the units in which a layer has its columns."""
+    sizes = [axis.factor for axis in view.axes_of(layer.plot)] or [1.0, 1.0]
+    if layer.kind == "image":
+        return sizes
+    return sizes[0], sizes[2 if layer.right else 1]
 
 
 def inside(view, layer, row):
     """A line or area as far as it is within its axes, for a canvas that does not clip."""
-    if layer.kind not in ("areas", "lines"):
+    axes = view.axes_of(layer.plot)
+    if layer.kind not in ("areas", "lines") or not axes:
         return row
-    x, y, *right = (view.axes[key] for key in PLOTS[layer.name].axes)
-    y = right[0] if layer.right else y
+    x, y, row = axes[0], axes[2 if layer.right else 1], row[:2]
     for k, sign, bound in ((1, 1, y.end), (0, 1, x.end), (0, -1, -x.start)):
-        beyond = sign * row[k] > bound * (1 + 1e-9)
+        beyond = sign * row[k] > bound + 1e-9 * abs(bound)
         if not beyond.any():
             continue
         at = np.flatnonzero(beyond[:-1] != beyond[1:])
@@ -84,17 +87,12 @@ def inside(view, layer, row):
     return row
 
 
-def moves(layer, moving):
+def moves(view, layer):
     """Whether any row of a layer changes from state to state."""
-    return any(row in moving for row in layer.rows)
+    return not view.moves(layer.plot).isdisjoint(layer.rows)
 
 
-def drawn(view, name, states):
+def drawn(view, plot, states):
     """Names of the rows of a plot that have something to show in one of some states."""
-    found, still = set(), PLOTS[name].still(view)
-    for i in states:
-        rows = still | PLOTS[name].moving(view, i)
-        found |= {
-            row for row, values in rows.items() if np.isfinite(values[1]).any() and np.size(values[1])
-        }
-    return found
+    rows = [row for i in states for row in view.columns(plot, i).items()]
+    return {row for row, values in rows if np.size(values[1]) and np.isfinite(values[1]).any()}

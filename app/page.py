@@ -11,13 +11,13 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS, Div, Select, Slider, Toggle
 
 from . import link, readouts
-from .comparison import Comparing
 from .controls import JS, WIDE, Controls, html, marked, symbol
 from .explorer import Explorer
 from .figures import DARK, LIGHT
 from .grid import FULL, STYLE, Grid, button
 from .packet import packed
 from .plots import PLOTS
+from .resting import Resting
 from .takeaway import TakeAway
 from .tip import read_tip
 from .trajectory import follow
@@ -27,7 +27,6 @@ _LOG = logging.getLogger(__name__)
 _HERE = Path(__file__).parent
 #: Milliseconds without a change after which the address follows.
 SETTLED = 300
-_IN_TIME = ("motion", "energy")
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
 
 
@@ -36,13 +35,13 @@ class Page:
 
     def __init__(self, arguments=None):
         self.document, self.explorer, self.held = pn.state.curdoc, Explorer(), None
-        self.held_summary, self._serial, self._waiting = "", 0, None
+        self.held_summary, self.found, self._serial, self._waiting = "", {}, 0, None
         nothing = {"values": np.zeros(1, np.float32)}
         self.packet = ColumnDataSource(nothing, name="packet", tags=[0, [0], [[]], [""], [], [[], []]])
         self.frames = ColumnDataSource(nothing, name="frames", tags=[-1, [], [], []])
         self._widgets()
         notice = self._open(arguments or {})
-        self.comparing = Comparing(self.document)
+        self.resting = Resting(self._show_found)
         self.controls = Controls(self.explorer, self.attempt, self.tell)
         self.away = TakeAway(self)
         self._connect()
@@ -71,8 +70,9 @@ class Page:
         click, toggle = pn.widgets.Button, pn.widgets.Toggle
         keys = (("Undo", "z"), ("Redo", "y"), ("Reset", "r"))
         self.undo, self.redo, self.reset = (button(click, *each) for each in keys)
-        keys = (("Hold", "h"), ("Map", "m"), ("Speed", "s"), ("Dark", "d"), ("Take with you", "t"))
-        self.hold, self.map, self.speed, self.dark, self.take = (button(toggle, *each) for each in keys)
+        keys = (("Hold", "h"), ("Dark", "d"), ("Take with you", "t"))
+        self.hold, self.dark, self.take = (button(toggle, *each) for each in keys)
+        self.asked = {name: button(toggle, *plot.button) for name, plot in PLOTS.items() if plot.button}
         paces = [(str(pace), f"{pace} ×") for pace in (0.1, 0.25, 0.5, 1, 2)]
         styled = {"stylesheets": STYLE, "margin": 0}
         self.play = Toggle(label="▶ Play", css_classes=["button", "key-space"], width=84, **styled)
@@ -93,7 +93,7 @@ class Page:
             title, self.controls.form, about, css_classes=["side"], stylesheets=STYLE, width=320,
             sizing_mode="stretch_height", margin=0,
         )  # fmt: skip
-        buttons = (self.undo, self.redo, self.reset, self.hold, self.map, self.speed, self.dark, self.take)
+        buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values(), self.dark, self.take)
         tools = pn.Row(*buttons, self.held_note, css_classes=["tools"], stylesheets=STYLE, **WIDE)
         parts = (self.play, self.state, self.pace, self.standing, self.address)
         player = pn.Row(*map(pn.pane.Bokeh, parts), css_classes=["player"], stylesheets=STYLE, **WIDE)
@@ -106,7 +106,7 @@ class Page:
         parts = {"packet": self.packet, "frames": self.frames, "slider": self.state}
         parts |= {"readout": self.readout, "standing": self.standing}
         self.show = CustomJS(args=parts | {"layers": []}, code=JS["show"])
-        self.paint = CustomJS(args={"light": LIGHT, "dark": DARK, "figures": []}, code=JS["theme"])
+        self.theme = CustomJS(args={"light": LIGHT, "dark": DARK, "figures": []}, code=JS["theme"])
         for source, name in ((self.packet, "data"), (self.state, "value")):
             source.js_on_change(name, self.show)
         # The slider waits where it stands until the states are there.
@@ -115,9 +115,9 @@ class Page:
         parts = {"packet": self.packet, "frames": self.frames, "slider": self.state}
         self.play.js_on_change("active", CustomJS(args=parts | {"pace": self.pace}, code=JS["play"]))
         drag = CustomJS(args=parts | {"play": self.play}, code=JS["drag"])
-        self.grid = Grid(self.show, self.paint, drag, self.comparing)
-        self.dark.jscallback(args={"paint": self.paint}, value="paint.execute(cb_obj)")
-        self.paint.js_on_change("args", CustomJS(args={"paint": self.paint}, code="paint.execute(paint)"))
+        self.grid = Grid(self.show, self.theme, drag, self.controls)
+        self.dark.jscallback(args={"theme": self.theme}, value="theme.execute(cb_obj)")
+        self.theme.js_on_change("args", CustomJS(args={"theme": self.theme}, code="theme.execute(theme)"))
         self.address.js_on_change("text", CustomJS(code="history.replaceState(null, '', cb_obj.text)"))
         named = {
             "slider": "State along the way",
@@ -125,7 +125,7 @@ class Page:
             "tip": "CSV file of a measured tip: r, z",
             "scene": "Load a scene (JSON)",
         }
-        parts = {"named": named, "show": self.show, "paint": self.paint, "packet": self.packet}
+        parts = {"named": named, "show": self.show, "theme": self.theme, "packet": self.packet}
         if self.document is not None:
             self.document.js_on_event(DocumentReady, CustomJS(args=parts, code=JS["ready"]))
             # What was shown is in the address; the session behind it may be gone.
@@ -141,9 +141,11 @@ class Page:
         self.controls.again.on_click(lambda event: self.tell(lambda: self.explorer.hit_again(self.way.hit)))
         self.controls.tip.param.watch(self._bring_tip, "value")
         self.hold.param.watch(self._held, "value")
-        for toggle, name in ((self.map, "map"), (self.speed, "speed_plot"), (self.dark, "dark")):
-            toggle.value = getattr(explorer, name)
-            toggle.param.watch(lambda event, name=name: self._toggled(name, event.new), "value")
+        for name, toggle in self.asked.items():
+            toggle.value = name in explorer.plots
+            toggle.param.watch(self._asked, "value")
+        self.dark.value = explorer.dark
+        self.dark.param.watch(self._darkened, "value")
         self.state.on_change("value", self._scrubbed)
         self.state.on_change("value_throttled", self._stood)
         self.play.on_change("active", lambda attr, old, new: self._send_frames() if new else None)
@@ -196,12 +198,15 @@ class Page:
         if event.new:
             self.tell(lambda: self.explorer.take_tip(*read_tip(event.new.decode("utf-8", "replace"))))
 
-    def _toggled(self, name, on):
+    def _asked(self, event):
         with pn.io.hold(self.document):
-            setattr(self.explorer, name, on)
-            if name != "dark":
-                self._show()
+            self.explorer.plots = [name for name, toggle in self.asked.items() if toggle.value]
+            self._show()
             self._around()
+
+    def _darkened(self, event):
+        self.explorer.dark = event.new
+        self._settle()
 
     def _held(self, event):
         if event.new == bool(self.explorer.hold):
@@ -231,12 +236,13 @@ class Page:
 
     def _show(self):
         """Draw the present state: one array of all columns."""
-        self.drawn = View(self.way, self.held)
+        self.drawn = View(self.way, self.held, self.found)
         self.grid.show(self.drawn, self._shown())
         values, starts, labels = packed(self.drawn, self.grid.layers, [self.way.now])
         motion, count = self.way.motion, len(self.way)
         times = motion.time / motion.time[-1] if motion is not None else np.linspace(0, 1, count)
-        path = [self.drawn.d.tolist(), self.drawn.F.tolist()]
+        path = [(self.way.states.depth / self.drawn.axes["d"].factor).tolist()]
+        path.append((self.way.force / self.drawn.axes["F"].factor).tolist())
         words = [readouts.values(self.way, self.cells, self.way.now)]
         self._serial += 1
         self.readout.text = readouts.heads(self.cells, symbol)
@@ -247,13 +253,17 @@ class Page:
 
     def _shown(self):
         """The plots that are seen, in their order."""
-        wanted = {"map": self.explorer.map, "speed": self.explorer.speed_plot}
-        wanted |= dict.fromkeys(_IN_TIME, self.way.motion is not None)
-        names = [name for name in PLOTS if wanted.get(name, True)]
-        if self.explorer.map and self.way.motion is None:
-            # Beside the springs and the force, so that the pressure stays below the springs.
-            names.insert(2, names.pop(names.index("map")))
-        return names
+        asked, pressed = self.explorer.plots, self.way.motion is None
+        names = [n for n, plot in PLOTS.items() if not plot.button and not (plot.impact and pressed)]
+        # Three in a row: the pressure stays below the springs, and the radii below the force.
+        first = [name for name in asked if pressed and not PLOTS[name].log][:1]
+        return [*names[:2], *first, *names[2:], *(name for name in asked if name not in first)]
+
+    def _show_found(self, title, found):
+        """Draw what was found of a plot while the input was at rest."""
+        with pn.io.hold(self.document):
+            self.found[title] = found
+            self._show()
 
     def _send_frames(self):
         """Send all states, once, so that the browser can move through them alone."""
@@ -309,4 +319,9 @@ class Page:
         self._waiting = None
         query = link.query(self.explorer)
         self.address.text = f"?{query}" if query else "?"
-        self.comparing.follow(self.way.scene if self.explorer.speed_plot else None)
+        way = self.way
+        for name, plot in PLOTS.items():
+            if plot.resting:
+                values = [getattr(self.explorer, each) for each in plot.controls]
+                about = (way.scene, *values, *[way.progress[way.now]] * plot.of_state)
+                self.resting.follow(plot, about if name in self.explorer.plots else None, way, *values)

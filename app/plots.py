@@ -1,65 +1,30 @@
-"""The plots. Each is one entry of `PLOTS`: its rows with their looks, and two functions that fill them.
+"""The plots. Each is one entry of `PLOTS`: its rows with their looks, and the functions that fill them.
 
-`still` gives columns that stay while a scene is played, `moving` those of one of its states; see `columns`.
-A row has a role, which is its colour (`ROLES`).
+`still` gives rows that stay while a scene is played, `moving` those of one of its states, see `columns`;
+`resting` what takes longer than a move, see `Found`. A row has a role, which is its colour.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
-from . import columns
+from mdr_core.figures import PRESSURE_ROWS, ROLES, SPRING_ROWS, Row, area, label, line, mark, parts
+
+from . import columns, comparison, section
+from .resting import Found
 from .view import View
 
-#: Colours of the roles, light and dark: Okabe–Ito; they mean the same thing in every plot.
-ROLES = {
-    "free": ("#8a8f98", "#828a95"),
-    "elastic": ("#0072b2", "#56b4e9"),
-    "yielded": ("#d55e00", "#f0913a"),
-    "held": ("#aa4499", "#dd8fd0"),
-    "speed": ("#009e73", "#35c79b"),
-    "loss": ("#b8860b", "#e0c04c"),
-    "ink": ("#22272e", "#e4e7eb"),
-    "body": ("#c9ced6", "#3a4049"),
-    "paper": ("#ffffff", "#181b20"),
-    "chalk": ("#fefefe", "#fefefe"),
-}
+__all__ = ["PLOTS", "ROLES", "Plot", "area", "label", "line", "mark"]
 
 
-@dataclass(frozen=True)
-class Row:
-    """One area, line, mark or label of a plot; `look` has its style, `legend` whether it is named there.
-
-    A line with a `symbol` answers to the pointer, with its values on the axis `axis` (0 x, 1 y, 2 right).
-    """
-
-    kind: str
-    name: str
-    role: str = "ink"
-    legend: bool = True
-    symbol: str = ""
-    axis: int = 1
-    look: dict = field(default_factory=dict)
-
-
-def area(name, role, alpha, hatch=" ", legend=True):
-    return Row("areas", name, role, legend, look={"alpha": alpha, "hatch": hatch})
-
-
-def line(name, role, width=2.0, dash="solid", symbol="", axis=1, legend=True):
-    return Row("lines", name, role, legend, symbol, axis, {"width": width, "dash": dash})
-
-
-def mark(name, role="ink", edge="paper", marker="circle", size=10, axis=1, legend=True):
-    return Row("marks", name, role, legend, axis=axis, look={"edge": edge, "marker": marker, "size": size})
-
-
-def label(name):
-    return Row("labels", name, legend=False)
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Plot:
-    """A plot: title, formula, keys of its axes (x, y, and one on the right), rows, and their columns."""
+    """A plot: title, formula, keys of its axes (x, y, and one on the right or of colours), and rows.
+
+    With a `button` (its text, and a key) it is shown on request, with `impact` of impacts only. `resting`
+    gets the trajectory and the values of the `controls`, choices and numbers that stand above the plot; it
+    yields what it has found so far, anew for each scene, with `of_state` for each state. An `image` has so
+    many rows and columns of pixels. `below` is what stands below the plot, as HTML.
+    """
 
     title: str
     formula: str
@@ -67,30 +32,23 @@ class Plot:
     rows: tuple[Row, ...]
     still: Callable[[View], dict] = lambda view: {}
     moving: Callable[[View, int], dict] = lambda view, i: {}
+    resting: Callable[..., Iterator[Found]] | None = None
+    of_state: bool = False
+    button: tuple[str, str] | None = None
+    controls: tuple[str, ...] = ()
+    impact: bool = False
     log: bool = False
-    image: bool = False
+    image: tuple[int, int] | None = None
+    below: str = ""
 
 
-_RADII = (
-    line("at a", "ink", 1.0, "dashed", legend=False),
-    line("at c", "yielded", 1.3, "dotted", legend=False),
-    label("a"),
-    label("c"),
-)
 _HELD = {"role": "held", "width": 1.4}
 
 #: Every plot of the page, in its order.
 PLOTS = {
     "springs": Plot(
         "1D foundation", "(17) (18)  q = E*(d − g(x)) ≤ (π/2) q_c", ("x", "z"),
-        (
-            area("profile g(x)", "body", 0.55),
-            line("free", "free", 0.9),
-            line("elastic", "elastic", 1.4),
-            line("yielded", "yielded", 2.4),
-            line("residual imprint", "yielded", 1.4, "dotted"),
-            *_RADII,
-        ),
+        SPRING_ROWS,
         moving=columns.springs,
     ),
     "force": Plot(
@@ -99,9 +57,7 @@ PLOTS = {
             area("dissipated", "yielded", 0.13, "/"),
             area("recoverable", "elastic", 0.25),
             line("held", **_HELD, dash="dotdash", symbol="F"),
-            line("unloading", "elastic", 1.8, "dashed", "F"),
-            line("elastic", "elastic", 2.2, symbol="F"),
-            line("yielding", "yielded", 3.0, symbol="F"),
+            *parts("F"),
             mark("onset of yield", "paper", "yielded", "diamond", 11),
             mark("now"),
             label("dₚ"),
@@ -118,19 +74,11 @@ PLOTS = {
             mark("now"),
             mark("F now", marker="diamond", size=11, axis=2, legend=False),
         ),
-        columns.motion_still, columns.motion,
+        columns.motion_still, columns.motion, impact=True,
     ),
     "pressure": Plot(
         "Contact pressure", "(10)  σ_zz(r) = (1/π) ∫ q′(x) dx/√(x² − r²)", ("r", "p"),
-        (
-            area("plastic zone r < c", "yielded", 0.13),
-            area("below", "elastic", 0.12, legend=False),
-            line("held", **_HELD, dash="dotdash", symbol="−σzz"),
-            line("−σzz(r)", "elastic", 2.0, symbol="−σzz"),
-            line("mean F/(πa²)", "ink", 1.0, "dotdash", "mean"),
-            *_RADII,
-            label("beyond"),
-        ),
+        (line("held", **_HELD, dash="dotdash", symbol="−σzz"), *PRESSURE_ROWS, label("beyond")),
         columns.pressure_still, columns.pressure,
     ),
     "radii": Plot(
@@ -156,12 +104,23 @@ PLOTS = {
             area("kinetic", "speed", 0.3),
             line("time", "ink", 1.0, "dashed", legend=False),
         ),
-        columns.energy_still, columns.energy,
+        columns.energy_still, columns.energy, impact=True,
     ),
     "map": Plot(
-        "Contact pressure over the plane", "(10)  −σ_zz(√(x² + y²))", ("plane x", "plane y"),
+        "Contact pressure over the plane", "(10)  −σ_zz(√(x² + y²))", ("plane x", "plane y", "p"),
         (line("contact radius a", "chalk", 1.2, "dashed"), line("plastic zone c", "chalk", 1.2, "dotted")),
-        moving=columns.plane, image=True,
+        moving=columns.plane, image=(columns.PIXELS, columns.PIXELS), button=("Map", "m"),
+    ),
+    "section": Plot(
+        "Section under the tip", "σ(r, z): each increment of depth a flat punch of radius a(s)", (),
+        (
+            line("equal stress", "chalk", 0.6, legend=False),
+            line("contact radius a", "chalk", 1.2, "dashed"),
+            line("plastic zone c", "chalk", 1.2, "dotted"),
+            mark("largest", "yielded", "chalk", "diamond", 12),
+        ),
+        resting=section.found, of_state=True, button=("Section", "e"), controls=("section",),
+        image=section.SHAPE,
     ),
     "speed": Plot(
         "Speed against error", "(1)  Δk = E* Δx,  Δγ = 4η Δx", (),
@@ -172,6 +131,6 @@ PLOTS = {
             mark("closed form", "elastic", marker="square"),
             mark("scalar ODE", "speed", marker="triangle", size=11),
         ),
-        log=True,
+        resting=comparison.found, button=("Speed", "s"), log=True, below=comparison.MEASURED,
     ),
 }  # fmt: skip

@@ -76,18 +76,6 @@ class Trajectory:
         depth = self.before + medium.critical_depth
         return mdr.indent(profile, medium, depth) if depth <= min(profile.deepest, 1e300) else None
 
-    def pressure(self, index, r):
-        """Contact pressure (Pa) of a state, that of the dashpots included."""
-        return self.states[index].pressure(r)
-
-    def radii(self, index, half):
-        """Radii from 0 to `half`, dense where the pressure has an edge: at 0, c, a and at kinks."""
-        a, c = float(self.states.contact_radius[index]), float(self.states.plastic_radius[index])
-        kinks = () if isinstance(self.scene.profile, mdr.Sampled) else self.scene.profile.kinks[:3]
-        inner = [float(self.scene.profile.contact_radius(kink)) for kink in kinks]
-        edges = np.array(sorted({0.0, half, *(e for e in (a, c, *inner) if e <= half)}))
-        return np.unique(np.append(edges[:-1, None] + np.diff(edges)[:, None] * _spread(40), edges))
-
     def released(self, index):
         """Depths and elastic forces of unloading from one state."""
         live = self.states.live[index]

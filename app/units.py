@@ -16,10 +16,6 @@ class Unit:
     name: str
     factor: float
 
-    def label(self, text):
-        """Axis label: the text, then the unit in brackets."""
-        return f"{text} ({self.name})" if self.name else text
-
 
 #: The units of each kind of quantity, smallest first; the first of factor 1 is the SI unit.
 UNITS = {

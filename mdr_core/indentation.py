@@ -9,8 +9,8 @@ import numpy as np
 from . import _check, fields, stress
 from ._check import Array, ArrayLike
 from ._numeric import root
+from .figures import PlottedState
 from .medium import Medium, check_pair
-from .report import Report
 from .results import CLOSED_FORM, Limit, contact_limits, sealed
 from .shapes.profile import Profile
 from .superposition import energy_integral, live_length, loading_depth, radius_drop, radius_integral
@@ -110,7 +110,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Inde
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Indentation(Report):
+class Indentation(PlottedState):
     """States of an indentation, one for each point of its path; made by `indent` or `indent_to_force`.
 
     Every quantity has the shape of `depth`. `result[i]` picks a state; `pressure`, `line_load`,

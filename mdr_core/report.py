@@ -90,17 +90,28 @@ def engineering(values, unit):
     ends = [float(np.min(values)), float(np.max(values))] if values.ndim else [float(values)]
     if unit == "kg":
         ends, unit = [1e3 * end for end in ends], "g"
-    largest, power = max(map(abs, ends)), 2 if unit == "m²" else 1
-    prefix = ""
-    if unit not in ("", "m^(1-n)") and 0 < largest < np.inf:
-        # A little more than 999.95 is a thousand as it is written.
-        # Of areas a prefix spans six decades, from 0.1 on.
-        exponent = 3 * int(np.floor((np.log10(largest * 1.00005) + power - 1) / 3 / power))
-        exponent = min(max(exponent, -15), 12)
-        prefix, ends = _PREFIXES[exponent], [end / 10.0 ** (power * exponent) for end in ends]
-    written = [_digits(end) for end in ends]
+    factor, unit = prefixed(max(map(abs, ends)), unit)
+    written = [_digits(end / factor) for end in ends]
     text = written[0] if len(written) == 1 or written[0] == written[1] else " … ".join(written)
-    return f"{text} {prefix}{unit}".rstrip()
+    return f"{text} {unit}".rstrip()
+
+
+def prefixed(largest, unit):
+    """Size and name of the unit with the prefix in which a value has one to three digits before the point.
+
+    Examples
+    --------
+    >>> prefixed(2e-8, "m")
+    (1e-09, 'nm')
+    """
+    if unit in ("", "m^(1-n)") or not 0 < largest < np.inf:
+        return 1.0, unit
+    # A little more than 999.95 is a thousand as it is written.
+    # Of areas a prefix spans six decades, from 0.1 on.
+    power = 2 if unit == "m²" else 1
+    exponent = 3 * int(np.floor((np.log10(largest * 1.00005) + power - 1) / 3 / power))
+    exponent = min(max(exponent, -15), 12)
+    return float(f"1e{power * exponent}"), f"{_PREFIXES[exponent]}{unit}"
 
 
 def _digits(value):
@@ -125,11 +136,13 @@ def described(thing):
     return ", ".join(parts)
 
 
-def _imported(name, method):
+def imported(name, what, packages=None):
+    """A package that is not needed otherwise, or an error that says what to install for something."""
     try:
         return import_module(name)
     except ImportError:
-        raise ImportError(f"{method} needs {name}, which is not installed: pip install {name}") from None
+        install = f"pip install {packages or name}"
+        raise ImportError(f"{what} needs {name}, which is not installed: {install}") from None
 
 
 class Report:
@@ -184,7 +197,7 @@ class Report:
         `attrs` has what was modelled, and "units" and "long_names" by the names of the columns. Parameters
         of many indenters or media have columns of their own.
         """
-        pandas = _imported("pandas", "to_pandas()")
+        pandas = imported("pandas", "to_pandas()")
         values = self.to_dict() | self._parameters()
         columns = {name: np.broadcast_to(v, self.shape).ravel() for name, v in values.items()}
         if len(self.shape) > 1:
@@ -203,7 +216,7 @@ class Report:
 
         What was prescribed (depth, time, mass and speed, parameters of many) are coordinates.
         """
-        xarray = _imported("xarray", "to_xarray()")
+        xarray = imported("xarray", "to_xarray()")
         dims, variables = self._dims(), {}
         for name, value in (self.to_dict() | self._parameters()).items():
             about, quantity = {}, QUANTITIES.get(name)

@@ -7,7 +7,8 @@ import numpy as np
 
 from . import _check
 from ._check import Array, shown
-from .report import Report, engineering
+from .figures import Plotted
+from .report import engineering
 
 if TYPE_CHECKING:
     from .indentation import Indentation
@@ -190,7 +191,7 @@ def sealed(result, *names):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Motion(Report):
+class Motion(Plotted):
     """One impact from first contact to its loss, as arrays of one length, its turning point among them.
 
     On a virgin medium elements of the foundation under the contact radius are in contact. On

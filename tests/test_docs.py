@@ -33,6 +33,17 @@ def test_examples_in_the_readme():
     assert result.failed == 0
 
 
+def test_the_curve_of_the_readme_is_plotted_and_saved(tmp_path, monkeypatch):
+    for package in ("holoviews", "pandas"):
+        pytest.importorskip(package)
+    (block,) = re.findall(r"```python\n(import holoviews.*?)```", README, re.DOTALL)
+    assert len([line for line in block.splitlines() if line]) <= 10
+    monkeypatch.chdir(tmp_path)
+    exec(block, {})
+    assert "d, indentation depth (nm)" in (tmp_path / "curve.html").read_text(encoding="utf-8")
+    assert (tmp_path / "curve.csv").read_text(encoding="utf-8").count("\n") == 202
+
+
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.split("|")[1].strip())
 def test_equation_has_a_function_and_a_test(row):
     _, _, _, functions, tests, _ = row.split("|")

@@ -14,7 +14,7 @@ PACKAGE = Path(mdr.__file__).parent
 ORDER = (
     "_check", "_numeric", "abel", "shapes.tables", "shapes.profile", "shapes.power", "shapes.rounded",
     "shapes.truncated", "shapes.sampled", "shapes.smooth", "shapes.interpolated", "medium", "report",
-    "results",
+    "figures", "results",
     "foundation.element", "foundation.fronts", "foundation.reach", "foundation.row",
     "foundation.depth_path", "foundation.force_path", "foundation.free_body", "foundation.impact",
     "yielding", "superposition", "fields", "stress", "indentation",

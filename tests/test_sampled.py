@@ -341,3 +341,8 @@ class TestAreaFunction:
     def test_bad_area_functions_are_refused(self, arguments, says):
         with pytest.raises(ValueError, match=says):
             mdr.Sampled.from_area_function(*arguments)
+
+
+def test_many_samples_are_not_listed():
+    assert repr(HULL) == f"Sampled({len(HULL.r)} samples to r = 1e-05 m, z = {HULL.z[-1]:g} m)"
+    assert repr(mdr.Sampled([0, 1], [0, 2])) == "Sampled(r=(0.0, 1.0), z=(0.0, 2.0))"

@@ -1,6 +1,5 @@
 """What an editor and a type checker see of the package, and how long it takes to import."""
 
-import importlib.util
 import subprocess
 import sys
 import tomllib
@@ -20,25 +19,10 @@ def run(*arguments):
     )
 
 
-@pytest.mark.parametrize(
-    "checker",
-    [
-        ("mypy", "--strict", "--follow-imports=silent", "--cache-dir", "/dev/null"),
-        ("pyright", "--outputjson"),
-    ],
-    ids=lambda checker: checker[0],
-)
-def test_a_client_script_passes_strict_type_checkers(checker, tmp_path):
-    if importlib.util.find_spec(checker[0]) is None:
-        pytest.skip(f"{checker[0]} is not installed")
-    arguments = ("-m", *checker, str(CLIENT))
-    if checker[0] == "pyright":
-        project = tmp_path / "pyrightconfig.json"
-        project.write_text(
-            f'{{"typeCheckingMode": "strict", "include": ["{CLIENT}"], "extraPaths": ["{ROOT}"]}}'
-        )
-        arguments = ("-m", "pyright", "--project", str(project), "--pythonpath", sys.executable)
-    result = run(*arguments)
+def test_a_client_script_passes_a_strict_type_checker():
+    pytest.importorskip("mypy")
+    strict = ("--strict", "--follow-imports=silent", "--cache-dir", "/dev/null")
+    result = run("-m", "mypy", *strict, str(CLIENT))
     assert result.returncode == 0, result.stdout + result.stderr
 
 

@@ -1,6 +1,7 @@
 """Arguments that carry a unit are converted or refused, by the protocols of pint, astropy and unyt."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -21,7 +22,7 @@ class Quantity:
     value: object
     units: str
 
-    SIZES = {"GPa": ("Pa", 1e9), "Pa": ("Pa", 1.0), "nm": ("m", 1e-9), "m": ("m", 1.0), "": ("", 1.0)}  # noqa: RUF012
+    SIZES: ClassVar = {"GPa": ("Pa", 1e9), "Pa": ("Pa", 1), "nm": ("m", 1e-9), "m": ("m", 1), "": ("", 1)}
 
     def to(self, unit):
         kind, size = self.SIZES[self.units]

@@ -1,19 +1,17 @@
 // Moves the slider through the states without the server, which hears where it stops.
-const toggle = cb_obj
-toggle.label = toggle.active ? "❚❚ Pause" : "▶ Play"
-if (!toggle.active) {
+cb_obj.label = cb_obj.active ? "❚❚ Pause" : "▶ Play"
+if (!cb_obj.active) {
   slider.value_throttled = slider.value
   return
 }
 let clock = null
 let last = performance.now()
 const step = (now) => {
-  if (!toggle.active) return
-  requestAnimationFrame(step)
+  if (cb_obj.active) requestAnimationFrame(step)
   const passed = now - last
   last = now
   // The states of this scene are on their way.
-  if (frames.tags[0] !== packet.tags[0]) return
+  if (!cb_obj.active || frames.tags[0] !== packet.tags[0]) return
   const times = packet.tags[4]
   clock ??= slider.value >= times.length - 1 ? 0 : times[slider.value]
   // A moment of rest at the end of each round.

@@ -22,5 +22,5 @@ document.addEventListener("keydown", (event) => {
 if (matchMedia("(prefers-color-scheme: dark)").matches && !location.search.includes("dark="))
   hosts("key-d")[0].shadowRoot.querySelector("button").click()
 if (location.search.includes("dark=1")) document.documentElement.classList.add("dark")
-paint.execute(paint)
+theme.execute(theme)
 show.execute(packet)

@@ -12,30 +12,32 @@ const take = () => {
   at += 1 + length
   return all.subarray(at - length, at)
 }
-for (const { source, rows, nested, image, labels, moving, tips } of layers) {
+for (const { source, rows, kind, looks, moving, tips } of layers) {
   if (playing && !moving) continue
   const [x, y] = [[], []]
-  for (let k = 0; k < rows; k++) {
+  for (const _ of rows) {
     x.push(take())
     y.push(take())
   }
   const { data } = source
-  if (image) {
-    const [left, side] = [[x[0][0]], [-2 * x[0][0]]]
-    data.image[0].set(y[0])
-    source.data = { ...data, x: left, y: left, dw: side, dh: side }
+  // As many points as a row has, each with what the row has.
+  const flat = (list) => list.flatMap((row) => [...row])
+  const told = (list) => x.flatMap((row, k) => Array(row.length).fill(list[k]))
+  if (kind === "image") {
+    const [[left, right], [bottom, top]] = [x[0], y[0]]
+    data.image[0].set(take())
+    source.data = { ...data, x: [left], y: [bottom], dw: [right - left], dh: [top - bottom] }
   } else if ("xs" in data) {
-    const wrap = (row) => (nested ? [[row]] : row)
+    const wrap = (row) => (kind === "areas" ? [[row]] : row)
     source.data = { ...data, xs: x.map(wrap), ys: y.map(wrap) }
-    if (tips && !playing) {
-      // The points of all lines that answer to the pointer, each with what it is.
-      const points = (list) => list.flatMap((row, k) => (data.symbol[k] ? [...row] : []))
-      const told = (key) => x.flatMap((row, k) => (data.symbol[k] ? Array(row.length).fill(data[key][k]) : []))
-      tips.data = { x: points(x), y: points(y), row: told("row"), symbol: told("symbol"), unit: told("unit") }
-    }
+    if (!tips || playing) continue
+    // The points of all lines that answer to the pointer.
+    const points = [flat(x), flat(y), told(rows), told(looks.symbol)]
+    const [xs, ys, row, symbol] = points.map((list) => list.filter((_, k) => points[3][k]))
+    tips.data = { x: xs, y: ys, row, symbol }
   } else {
-    const named = labels ? { Label: texts.splice(0, rows) } : {}
-    source.data = { ...data, x: x.map(([each]) => each), y: y.map(([each]) => each), ...named }
+    const styled = kind === "labels" ? [["Label", texts.splice(0, rows.length)]] : Object.entries(looks).map(([key, list]) => [key, told(list)])
+    source.data = { ...data, x: flat(x), y: flat(y), ...Object.fromEntries(styled) }
   }
 }
 // Only texts change: a new text of the model would lay the whole page out again.

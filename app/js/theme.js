@@ -5,10 +5,8 @@ const colours = root.contains("dark") ? dark : light
 for (const figure of figures) {
   for (const { name, glyph } of figure.renderers) {
     if (name === "labels") glyph.text_color = { value: colours.ink }
-    for (const key of ["fill_color", "line_color", "hatch_color"]) {
-      const { transform } = glyph[key] ?? {}
-      if (transform?.factors) transform.palette = transform.factors.map((role) => colours[role])
-    }
+    const { transform } = glyph.fill_color ?? glyph.line_color ?? {}
+    if (transform?.factors) transform.palette = transform.factors.map((role) => colours[role])
   }
   figure.setv({ background_fill_color: colours.paper, border_fill_color: colours.paper })
 }

@@ -13,9 +13,9 @@ import numpy as np
 from .. import _check
 from .._check import Array, ArrayLike
 from .._numeric import chunks
+from ..figures import Plotted
 from ..indentation import Indentation
 from ..medium import Medium, check_pair
-from ..report import Report
 from ..results import (
     CLOSED_FORM,
     IMPACT_QUANTITIES,
@@ -181,7 +181,7 @@ def _in_time(profile, medium, mass, speed, before, dry_too):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Impact(Report):
+class Impact(Plotted):
     """One impact or many; made by `impact`. Every quantity has the shape of the ensemble.
 
     `deepest` is the state at the turning point, `growth` what the impact added to the plastic depth

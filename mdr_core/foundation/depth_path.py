@@ -8,8 +8,8 @@ import numpy as np
 
 from .. import _check, abel
 from .._check import Array, ArrayLike
+from ..figures import Plotted
 from ..medium import Medium, check_pair
-from ..report import Report
 from ..results import CHAIN, Limit, contact_limits, sealed
 from ..shapes.profile import Profile
 from . import element
@@ -133,7 +133,7 @@ def _run(profile, medium, depth, time, n, nodes):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class TimedIndentation(Report):
+class TimedIndentation(Plotted):
     """States of a viscous indentation, one for each time of its path; made by `indent_in_time` or `creep`.
 
     Every quantity has the shape of `time`; `result[i]` picks a state. At a time at which the rate

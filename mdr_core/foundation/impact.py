@@ -12,8 +12,8 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from .. import _check
+from ..figures import Plotted
 from ..medium import Medium, check_pair
-from ..report import Report
 from ..results import (
     CHAIN,
     IMPACT_QUANTITIES,
@@ -139,7 +139,7 @@ class Errors(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ChainImpact(Report):
+class ChainImpact(Plotted):
     """One impact on the chain; made by `chain_impact`.
 
     Numbers are limits for vanishing steps and elements, from the last two runs, with estimates of

@@ -14,9 +14,11 @@ from .tables import area_samples, convex_fit, read_samples
 
 #: Every sample meets every other one.
 _MOST_SAMPLES = 5000
+#: So many are listed.
+_SHOWN = 6
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Sampled(Profile):
     """The polygon through samples of the height, solved exactly.
 
@@ -69,6 +71,11 @@ class Sampled(Profile):
         object.__setattr__(self, "r", tuple(r.tolist()))
         object.__setattr__(self, "z", tuple((z - z[0]).tolist()))
         self._refuse_concave()
+
+    def __repr__(self) -> str:
+        if len(self.r) <= _SHOWN:
+            return f"Sampled(r={self.r!r}, z={self.z!r})"
+        return f"Sampled({len(self.r)} samples to r = {self.r[-1]:g} m, z = {self.z[-1]:g} m)"
 
     @classmethod
     def from_csv(cls, path: str | PathLike[str], unit: str | None = None) -> "Sampled":

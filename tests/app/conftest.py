@@ -33,12 +33,13 @@ SCRIPT = """
 window.explorer = {
   model: (name) => window.Bokeh?.documents[0]?.get_model_by_name(name),
   row: (figure, row) => {
-    for (const { data_source: { data } } of explorer.model(figure).renderers) {
-      const k = data.row?.indexOf(row) ?? -1
-      if (k < 0 || (!data.symbol && !data.xs && data.x.length !== data.row.length)) continue
-      // Polygons are nested twice more.
+    for (const { name, data_source: { data } } of explorer.model(figure).renderers) {
+      const k = name.startsWith("tips") ? -1 : data.row?.indexOf(row) ?? -1
+      if (k < 0) continue
+      // Polygons are nested twice more; of a mark there are as many points as it has.
       const flat = (part) => Array.from(part[0]?.[0]?.length === undefined ? part : part[0][0])
-      return data.xs ? [flat(data.xs[k]), flat(data.ys[k])] : [[data.x[k]], [data.y[k]]]
+      const mine = (part) => Array.from(part).filter((_, n) => data.row[n] === row)
+      return data.xs ? [flat(data.xs[k]), flat(data.ys[k])] : [mine(data.x), mine(data.y)]
     }
   },
   labels: (figure) =>

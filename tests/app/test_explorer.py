@@ -105,11 +105,11 @@ def test_a_number_out_of_bounds_is_refused_by_name():
 def test_link_holds_the_whole_page():
     explorer = Explorer()
     explorer.type("max_depth", "12 nm")
-    explorer.param.update(hold=link.query(explorer, view=False), map=True, speed_plot=True, dark=True)
+    explorer.param.update(hold=link.query(explorer, view=False), plots=["map", "speed"], dark=True)
     explorer.progress = 0.75
     other = Explorer()
     link.restore(other, link.arguments(link.query(explorer)))
-    for name in ("hold", "map", "speed_plot", "dark", "progress", "max_depth", "preset"):
+    for name in ("hold", "plots", "dark", "progress", "max_depth", "preset"):
         assert getattr(other, name) == getattr(explorer, name), name
     assert other.scene() == explorer.scene()
 

@@ -12,6 +12,7 @@ import mdr_core as mdr
 from app import columns
 from app.explorer import Explorer as State
 from app.packet import inside
+from app.plots import PLOTS
 from app.presets import PRESETS
 from app.trajectory import follow
 from app.units import UNITS
@@ -52,9 +53,10 @@ def assert_draws(explorer, state):
         ("springs", "areas", "profile g(x)"),
         ("pressure", "lines", "−σzz(r)"),
     ):
-        row = inside(view, SimpleNamespace(name=figure, kind=kind, right=""), rows[name])
-        for drawn, expected in zip(explorer.row(figure, name), row, strict=True):
-            np.testing.assert_allclose(drawn, expected, rtol=1e-5, atol=1e-5 * view.end["z"])
+        plot = PLOTS[figure]
+        row = inside(view, SimpleNamespace(plot=plot, kind=kind, right=""), rows[name])
+        for drawn, expected, axis in zip(explorer.row(figure, name), row, view.axes_of(plot), strict=True):
+            np.testing.assert_allclose(drawn, expected / axis.factor, rtol=1e-5, atol=1e-5 * axis.ends[1])
 
 
 def test_the_page_opens_on_a_cone_that_has_yielded(explorer):
@@ -230,7 +232,7 @@ def test_hold_map_and_theme_are_in_the_address(explorer):
     explorer.page.locator(".card.map").wait_for()
     explorer.press("Dark")
     pairs = explorer.link("dark=1")
-    assert (pairs["map"], pairs["dark"]) == ("1", "1")
+    assert (pairs["plots"], pairs["dark"]) == ("map", "1")
     assert explorer.axis("map")["labels"][1].startswith("y, in the plane")
     explorer.page.reload()
     explorer.wait("window.explorer?.idle() && document.documentElement.classList.contains('dark')")
@@ -303,6 +305,29 @@ def test_a_measured_tip_is_loaded_where_the_shape_is_chosen(explorer, tmp_path):
         page.get_by_label("CSV file of a measured tip: r, z").set_input_files(path)
     assert page.get_by_label("Shape", exact=True).input_value() == "Measured tip (CSV)"
     assert page.get_by_text("40 samples as they are").count() == 1
+
+
+def test_the_section_follows_once_the_input_rests(explorer):
+    explorer.press("Section")
+    explorer.wait("explorer.axis('section')?.labels[1].startsWith('z, height')")
+    state = State().solved()
+    peak = state.stress_peak()
+    x, z = explorer.row("section", "largest")
+    assert [x[0], z[0]] == pytest.approx([peak.r * 1e9, -peak.z * 1e9], rel=1e-5)
+    np.testing.assert_allclose(explorer.row("section", "contact radius a")[0], state.contact_radius * 1e9)
+    explorer.choose("Stress below the surface", "von Mises stress")
+    deeper = state.stress_peak("von_mises")
+    explorer.wait(
+        "(z) => Math.abs(explorer.row('section', 'largest')[1][0] + z) < 1e-4 * z", deeper.z * 1e9
+    )
+    explorer.page.get_by_text(f"σvM is largest at r = {deeper.r * 1e9:.1f} nm").wait_for()
+    explorer.link("section=von_mises")
+    with explorer.change():
+        explorer.type("d_max", "6 nm")
+    a = float(mdr.indent(State().profile(), State().medium(), 6e-9).contact_radius)
+    explorer.wait(
+        "(a) => Math.abs(explorer.row('section', 'contact radius a')[0][0] - a) < 1e-4 * a", a * 1e9
+    )
 
 
 def test_speed_against_error_is_measured_while_it_is_looked_at(explorer):

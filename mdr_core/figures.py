@@ -1,0 +1,353 @@
+"""Plots of results as HoloViews elements: their rows and colours, and the columns that fill them, in SI.
+
+The explorer draws the same rows with the same columns. HoloViews is imported when something is plotted.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from .report import QUANTITIES, Report, imported, prefixed
+
+#: Colours of the roles, on light and on dark ground: Okabe–Ito; they mean the same thing in every plot.
+ROLES = {
+    "free": ("#8a8f98", "#828a95"),
+    "elastic": ("#0072b2", "#56b4e9"),
+    "yielded": ("#d55e00", "#f0913a"),
+    "held": ("#aa4499", "#dd8fd0"),
+    "speed": ("#009e73", "#35c79b"),
+    "loss": ("#b8860b", "#e0c04c"),
+    "ink": ("#22272e", "#e4e7eb"),
+    "body": ("#c9ced6", "#3a4049"),
+    "paper": ("#ffffff", "#181b20"),
+    "chalk": ("#fefefe", "#fefefe"),
+}
+NOTHING = np.array([np.nan]), np.array([np.nan])
+#: Springs drawn; one from its base (0) to its top (1), and how far it bends sideways, then a gap.
+SPRINGS = 60
+_ALONG = np.array([0, 0.14, 0.23, 0.41, 0.59, 0.77, 0.86, 1, np.nan])
+_BEND = np.array([0, 0, -0.72, 0.72, -0.72, 0.72, 0, 0, np.nan])
+#: Depth of the springs' base below the surface, over the height that is drawn above it.
+REST = 1.5
+
+
+@dataclass(frozen=True)
+class Row:
+    """One area, line, mark or label of a plot; `look` has its style, `legend` whether it is named there.
+
+    A line with a `symbol` answers to the pointer, with its values on the axis `axis` (0 x, 1 y, 2 right).
+    """
+
+    kind: str
+    name: str
+    role: str = "ink"
+    legend: bool = True
+    symbol: str = ""
+    axis: int = 1
+    look: dict[str, Any] = field(default_factory=dict)
+
+
+def area(name, role, alpha, hatch=" ", legend=True):
+    return Row("areas", name, role, legend, look={"alpha": alpha, "hatch": hatch})
+
+
+def line(name, role, width=2.0, dash="solid", symbol="", axis=1, legend=True):
+    return Row("lines", name, role, legend, symbol, axis, {"width": width, "dash": dash})
+
+
+def mark(name, role="ink", edge="paper", marker="circle", size=10, axis=1, legend=True):
+    return Row("marks", name, role, legend, axis=axis, look={"edge": edge, "marker": marker, "size": size})
+
+
+def label(name):
+    return Row("labels", name, legend=False)
+
+
+@dataclass(frozen=True)
+class Axis:
+    """An axis: its names, its unit and the size of that (SI), and in SI where it starts and ends."""
+
+    name: str
+    title: str
+    unit: str
+    factor: float
+    start: float | None = None
+    end: float | None = None
+
+    @classmethod
+    def fitting(cls, name, title, unit, largest, **ends):
+        """An axis in the unit that fits its largest value (SI)."""
+        factor, unit = prefixed(largest, unit)
+        return cls(name, title, unit, factor, **ends)
+
+    @property
+    def ends(self):
+        """Where it starts and ends, in its unit."""
+        return tuple(
+            end if end is None else float(f"{end / self.factor:.9g}") for end in (self.start, self.end)
+        )
+
+    @property
+    def label(self):
+        """The title with the unit."""
+        return f"{self.title} ({self.unit})" if self.unit else self.title
+
+
+# Rows that plots are made of.
+
+
+def parts(symbol):
+    """A curve in parts, by what happens to the contact."""
+    return (
+        line("unloading", "elastic", 1.8, "dashed", symbol),
+        line("elastic", "elastic", 2.2, symbol=symbol),
+        line("yielding", "yielded", 3.0, symbol=symbol),
+    )
+
+
+RADII = (
+    line("at a", "ink", 1.0, "dashed", legend=False),
+    line("at c", "yielded", 1.3, "dotted", legend=False),
+    label("a"),
+    label("c"),
+)
+SPRING_ROWS = (
+    area("profile g(x)", "body", 0.55),
+    line("free", "free", 0.9),
+    line("elastic", "elastic", 1.4),
+    line("yielded", "yielded", 2.4),
+    line("residual imprint", "yielded", 1.4, "dotted"),
+    *RADII,
+)
+PRESSURE_ROWS = (
+    area("plastic zone r < c", "yielded", 0.13),
+    area("below", "elastic", 0.12, legend=False),
+    line("−σzz(r)", "elastic", 2.0, symbol="−σzz"),
+    line("mean F/(πa²)", "ink", 1.0, "dotdash", "mean"),
+    *RADII,
+)
+
+
+# Columns: x and y of a line, an area or a mark; x, y and text of a label.
+
+
+def both(values, sign=1):
+    """Mirrored to both sides of the axis."""
+    return np.concatenate([sign * values[::-1], values])
+
+
+def split(x, y, depth, plastic_depth):
+    """A curve over the states of a path in its `parts`."""
+    kind = np.where(np.diff(plastic_depth) > 0, 2, np.where(np.diff(depth) < 0, 0, 1))
+    rows = {}
+    for number, name in enumerate(("unloading", "elastic", "yielding")):
+        steps = kind == number
+        ends = np.flatnonzero(np.append(steps, False) | np.append(False, steps))
+        # A gap between two states that no step of this kind joins.
+        gaps = [k + 1 for k, (one, two) in enumerate(pairwise(ends)) if two > one + 1 or not steps[one]]
+        rows[name] = tuple(np.insert(np.asarray(v, float)[ends], gaps, np.nan) for v in (x, y))
+    return {name: row if row[0].size else NOTHING for name, row in rows.items()}
+
+
+def at_radii(a, c, half, bottom, top):
+    """Lines at ±a and ±c, and their names beside them: c on the inside where they are close."""
+    a, c = a or np.nan, c or np.nan
+    y = np.array([bottom, top, np.nan, bottom, top])
+    beside = -0.08 if a - c < 0.11 * half else 0.03
+    return {
+        "at a": (np.array([-a, -a, a, a, a]), y),
+        "at c": (np.array([-c, -c, c, c, c]), y),
+        "a": (a + 0.03 * half, 0.98 * top, "a"),
+        "c": (c + beside * half, 0.98 * top, "c"),
+    }
+
+
+def reduced(profile, x):
+    """Reduced profile, not a number where the shape is not known."""
+    return np.where(x <= profile.known_radius, profile.reduced(np.minimum(x, profile.known_radius)), np.nan)
+
+
+def _outline(profile, half):
+    """The profile g(x) to both sides, with its wall and its edges."""
+    edges = [profile.face_radius, profile.wall, profile.wall * (1 + 1e-9)]
+    x = np.unique(np.append(np.linspace(0, half, 60), [edge for edge in edges if edge < half]))
+    g = reduced(profile, x)
+    x, g = x[np.isfinite(g)], g[np.isfinite(g)]
+    return both(x, -1), both(g)
+
+
+def springs(state, half, height, relaxing=lambda g: 0.0):
+    """The row of springs over ±`half`, below an indenter that is drawn up to a height.
+
+    `relaxing` gives what is left of the elastic compression of elements that have let go.
+    """
+    profile, live, far, rest = state.profile, state.live, 3 * height, -REST * height
+    x = half * (2 * (np.arange(SPRINGS) + 0.5) / SPRINGS - 1)
+    g = reduced(profile, np.abs(x))
+    left = np.fmax(live.lower - g, 0.0)
+    contact = (live.length > 0) & (g < live.upper)
+    top = np.where(contact, g - state.depth, -left - np.where(contact, 0.0, relaxing(g)))
+    path = x[:, None] + _BEND * half / SPRINGS, rest + (top[:, None] - rest) * _ALONG
+    states = {"free": ~contact & (left == 0), "elastic": contact & (left == 0), "yielded": left > 0}
+    rows = {name: tuple(part[some].ravel() for part in path) for name, some in states.items()}
+    edge, (shape_x, shape_g) = np.array([far]), _outline(profile, 1.1 * half)
+    body = np.minimum(shape_g - state.depth, far)
+    rows["profile g(x)"] = (
+        np.concatenate([shape_x[:1], shape_x, shape_x[-1:]]),
+        np.concatenate([edge, body, edge]),
+    )
+    rows["residual imprint"] = (
+        (shape_x, 0.0 - np.maximum(live.lower - shape_g, 0)) if live.lower > 0 else NOTHING
+    )
+    return rows | at_radii(float(state.contact_radius), float(state.plastic_radius), half, rest, height)
+
+
+def radii(state, half):
+    """Radii from 0 to `half`, dense where the pressure has an edge: at 0, c, a and at kinks."""
+    profile, dense = state.profile, (1 - np.cos(np.linspace(0, np.pi, 40))) / 2
+    kinks = profile.kinks if len(profile.kinks) <= 3 else ()
+    edges = [state.contact_radius, state.plastic_radius, *map(profile.contact_radius, kinks)]
+    edges = np.array(sorted({0.0, half, *(float(e) for e in edges if e <= half)}))
+    return np.unique(np.append(edges[:-1, None] + np.diff(edges)[:, None] * dense, edges))
+
+
+def ceiling(state, half):
+    """The largest pressure to draw; where it is infinite four times the mean, or less."""
+    p = state.pressure(radii(state, half))
+    largest = float(np.max(p[np.isfinite(p)], initial=0.0))
+    return largest if np.isfinite(p).all() else min(largest, 4 * float(state.mean_pressure))
+
+
+def pressure(state, r, p, half, top):
+    """Pressures p at radii r, to both sides, on axes that reach ±`half` and `top`."""
+    a, c, mean = (float(v) for v in (state.contact_radius, state.plastic_radius, state.mean_pressure))
+    curve = both(r, -1), both(np.minimum(p, 1e3 * top))
+    return at_radii(a, c, half, 0.0, top) | {
+        "plastic zone r < c": (np.array([-c, c, c, -c]), np.array([0, 0, top, top])) if c else NOTHING,
+        "below": curve,
+        "−σzz(r)": curve,
+        "mean F/(πa²)": (np.array([-a, a]), np.array([mean, mean])) if a else NOTHING,
+    }
+
+
+# HoloViews elements.
+
+_DASHES = {"solid": "solid", "dashed": "6 4", "dotted": "2 3", "dotdash": "6 3 2 3"}
+
+
+def _styled(row):
+    """How a row looks, in options of Bokeh."""
+    colour = ROLES[row.role][0]
+    if row.kind == "lines":
+        return {"color": colour, "line_width": row.look["width"], "line_dash": _DASHES[row.look["dash"]]}
+    if row.kind == "areas":
+        return {"fill_color": colour, "fill_alpha": row.look["alpha"], "line_alpha": 0}
+    return {"text_color": colour, "text_font_style": "italic", "text_font_size": "12px"}
+
+
+def overlay(title, rows, columns, axes):
+    """A plot as a HoloViews overlay: one element for each of the rows that has something to show."""
+    hv = imported("holoviews", "a plot", "holoviews bokeh")
+    if not hv.Store.loaded_backends():
+        hv.extension("bokeh", logo=False)
+    dims = [hv.Dimension((axis.name, axis.title), unit=axis.unit or None) for axis in axes]
+    made = []
+    for row in rows:
+        x, y, *text = columns[row.name]
+        if not np.isfinite(y).any():
+            continue
+        x, y = (np.asarray(v) / axis.factor for v, axis in zip((x, y), axes, strict=True))
+        named = {"label": row.name} if row.legend else {}
+        if row.kind == "lines":
+            element = hv.Curve((x, y), dims[0], dims[1], **named)
+        elif row.kind == "areas":
+            element = hv.Polygons([{dims[0].name: x, dims[1].name: y}], dims, **named)
+        else:
+            element = hv.Labels(([x], [y], text), dims, "text")
+        made.append(element)
+        if "bokeh" in hv.Store.loaded_backends():
+            element.opts(backend="bokeh", **_styled(row))
+    made = hv.Overlay(made)
+    if "bokeh" in hv.Store.loaded_backends():
+        look = {"width": 600, "height": 400, "show_grid": True, "legend_position": "right"}
+        made.opts(backend="bokeh", title=title, xlim=axes[0].ends, ylim=axes[1].ends, **look)
+    return made
+
+
+class Plotted(Report):
+    """A result of one path, or of a row of impacts, whose quantities can be plotted over one another."""
+
+    def plot(self, quantity: str = "force", over: str = "depth") -> Any:
+        """A quantity over another one, as HoloViews elements: the curve of force and depth.
+
+        Of a path in parts: pressed elastically, yielding, unloaded. Axes have names and units.
+
+        Parameters
+        ----------
+        quantity, over : str
+            Names of two quantities of this result: those of `to_dict()`.
+
+        Raises
+        ------
+        ValueError
+            If a name is none of them, or this is not one path.
+        ImportError
+            If HoloViews is not installed.
+        """
+        for name in (quantity, over):
+            if name not in self._quantities:
+                known = ", ".join(self._quantities)
+                raise ValueError(f"{type(self).__name__} has no {name!r} to plot; it has {known}")
+        if len(self.shape) != 1:
+            raise ValueError(f"plot() is for one path, this is of shape {self.shape}: take one of it")
+        x, y = (np.asarray(getattr(self, name)) for name in (over, quantity))
+        axes = [_axis_of(name, values) for name, values in ((over, x), (quantity, y))]
+        if {"depth", "plastic_depth"} <= set(self._quantities):
+            columns = split(x, y, self.depth, self.plastic_depth)
+            return overlay(self._title(), parts(""), columns, axes)
+        return overlay(self._title(), [line("", "elastic", legend=False)], {"": (x, y)}, axes)
+
+
+def _axis_of(name, values):
+    known = QUANTITIES[name]
+    largest = float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
+    return Axis.fitting(name, f"{known.symbol}, {known.long_name}", known.unit, largest)
+
+
+class PlottedState(Plotted):
+    """A result that has plots of one of its states, too."""
+
+    _one_state: Callable[[str], Any]
+
+    def plot_pressure(self) -> Any:
+        """Contact pressure p(r) of one state with a, c and its mean, as HoloViews elements."""
+        half = self._half("plot_pressure")
+        top = 1.05 * ceiling(self, half)
+        r = radii(self, half)
+        columns = pressure(self, r, self.pressure(r), half, top)
+        axes = [
+            Axis.fitting("r", "r, radius", "m", half, start=-half, end=half),
+            Axis.fitting("pressure", "−σzz, contact pressure", "Pa", top, start=0.0, end=top),
+        ]
+        return overlay("Contact pressure", PRESSURE_ROWS, columns, axes)
+
+    def plot_springs(self) -> Any:
+        """The 1D foundation in one state, springs below the profile g(x), as HoloViews elements."""
+        half = self._half("plot_springs")
+        height = max(float(self.depth), float(self.live.upper))
+        axes = [
+            Axis.fitting("x", "x, coordinate of the springs", "m", half, start=-half, end=half),
+            Axis.fitting("z", "z, height", "m", height, start=-REST * height, end=height),
+        ]
+        return overlay("1D foundation", SPRING_ROWS, springs(self, half, height), axes)
+
+    def _half(self, what):
+        """The radius that is drawn: that of the contact, or of the imprint, and some more."""
+        self._one_state(what)
+        largest = max(float(self.contact_radius), float(self.plastic_radius))
+        if not largest:
+            raise ValueError(f"{what} needs a contact or an imprint, and at d = {self.depth:g} m is none")
+        return 1.25 * largest
