@@ -135,7 +135,7 @@ def test_limits_of_families():
         (lambda: mdr.Cone(slope=1.0).contact_radius(-1.0), "depth = -1 m is negative"),
         (lambda: mdr.Cone(slope=1.0).contact_radius([1.0, math.nan]), r"depth\[1\] = nan m must be finite"),
         (lambda: mdr.Cone(slope=1.0).height("far"), "radius r must be real numbers"),
-        (lambda: mdr.Sphere(radius=1.0).contact_radius(1e3), "deeper than the equator, which the contact has come to"),
+        (lambda: mdr.Sphere(radius=1.0).contact_radius(1e3), "deeper than the equator"),
     ],
 )
 def test_bad_shapes_and_arguments_are_refused(make, says):
