@@ -63,7 +63,7 @@ def packed(view, layers, states, moving_only=False):
 
 def _units(view, layer):
     """Sizes of the units in which a layer has its columns."""
-    sizes = [axis.factor for axis in view.axes_of(layer.plot)] or [1.0, 1.0]
+    sizes = [axis.factor for axis in view.axes_of(layer.plot)] or [1.0, 1.0, 1.0]
     if layer.kind == "image":
         return sizes
     return sizes[0], sizes[2 if layer.right else 1]

@@ -239,9 +239,10 @@ def test_what_is_found_at_rest_is_drawn_on_its_own_axes():
     plot, way = PLOTS["section"], follow(Explorer().scene(), 1.0)
     assert np.isnan(View(way).columns(plot, way.now)["image"][2]).all()
     (found,) = section.found(way, "zz")
-    view = View(way, found={plot.title: found})
     shown = layers({"section": figure("section")})
-    values, _, _ = packed(view, shown, [way.now])
+    empty, _, _ = packed(View(way), shown, [way.now])
+    assert empty[6] == np.prod(plot.image)
+    values, _, _ = packed(View(way, found={plot.title: found}), shown, [way.now])
     r, z, colours = found.axes
     sizes = values[0], values[3]
     assert sizes == (2, 2)

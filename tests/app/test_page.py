@@ -309,7 +309,7 @@ def test_a_measured_tip_is_loaded_where_the_shape_is_chosen(explorer, tmp_path):
 
 def test_the_section_follows_once_the_input_rests(explorer):
     explorer.press("Section")
-    explorer.wait("explorer.axis('section')?.labels[1].startsWith('z, height')")
+    explorer.wait("explorer.model('section') && explorer.row('section', 'largest')[0][0] > 0")
     state = State().solved()
     peak = state.stress_peak()
     x, z = explorer.row("section", "largest")
