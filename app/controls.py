@@ -7,6 +7,7 @@ from pathlib import Path
 import panel as pn
 import param
 
+from .drives import DRIVES
 from .explorer import FROM_FILE
 from .presets import PRESETS
 from .quantities import CHOICES, LABELS, QUANTITIES, SHAPES, USED, Scale, shape_quantities
@@ -133,7 +134,9 @@ class Controls:
         noted = ("sources", "sketch", "tip", "elasticity", "plasticity", "damping")
         self.notes = {name: html("") for name in noted}
         self.tip = pn.widgets.FileInput(accept=".csv,.txt,text/csv", css_classes=["file", "tip"], **WIDE)
-        self.again = pn.widgets.Button(name="Hit again", css_classes=["button"], margin=(4, 0), width=90)
+        again = pn.widgets.Button(name="Hit again", css_classes=["button"], margin=(4, 0), width=90)
+        #: Parts of the form that only some drives have.
+        self.parts = {"again": again}
         self.heads = {title: html(f"<h2>{title}</h2>") for title in ("Indenter", "Medium", "Drive")}
         self.heads["tip"] = html("or a measured tip, as CSV (r, z):")
         self.rows = {
@@ -159,13 +162,13 @@ class Controls:
             self.numbers[name] = Number(self.explorer, name, self.attempt)
         return self.numbers[name]
 
-    def show(self, made):
-        """Everything that is used, with its values; `made` is the medium."""
+    def show(self, way):
+        """Everything that is used, with its values, beside the trajectory that it makes."""
         explorer = self.explorer
         self.preset.value = explorer.preset
         for name, widget in self.choices.items():
             widget.value = getattr(explorer, name)
-        self._write(made)
+        self._write(way)
         notes, heads = self.notes, self.heads
         rows = [self.preset, notes["sources"], heads["Indenter"], self.choices["shape"]]
         rows += [heads["tip"], self.tip, notes["tip"], notes["sketch"]]
@@ -174,8 +177,8 @@ class Controls:
         for choice in ("elasticity", "plasticity", "damping"):
             rows += [*self._choice(choice), notes[choice]]
         rows += [heads["Drive"], *self._choice("drive")]
-        if explorer.drive == "impact":
-            rows += [*self._choice("surface"), self.again, *self._choice("inertia")]
+        for part in DRIVES[explorer.drive].form:
+            rows += self._choice(part) if part in CHOICES else [self.parts[part]]
         if rows != list(self.form):
             self.form[:] = rows
         self._show_above()
@@ -198,8 +201,8 @@ class Controls:
             if parts != list(row):
                 row[:] = parts
 
-    def _write(self, made):
-        explorer, preset = self.explorer, PRESETS.get(self.explorer.preset)
+    def _write(self, way):
+        explorer, preset, made = self.explorer, PRESETS.get(self.explorer.preset), way.scene.medium
         altered = "Altered. " if explorer.altered else ""
         rows = "".join(
             f"<dt>{marked(f'{what} = {value}')}</dt><dd>{escape(where)}</dd>"
@@ -213,7 +216,7 @@ class Controls:
             "tip": escape(explorer.tip_note if explorer.shape == "sampled" else ""),
             "elasticity": marked(f"E* = {written(made.E_star, 'pressure')} (2)") if bodies else "",
             "plasticity": marked(_yield(explorer, made)),
-            "damping": marked(_damping(explorer, made)),
+            "damping": marked(_damping(explorer, made, way.motion is not None)),
         }
         for name, text in texts.items():
             self.notes[name].object = text
@@ -228,11 +231,11 @@ def _yield(explorer, medium):
     return f"Yield starts at d_c = π q_c/(2E*) = {depth} (19)"
 
 
-def _damping(explorer, medium):
+def _damping(explorer, medium, timed):
     if explorer.damping == "none":
         return ""
     if explorer.damping == "tau":
         text = f"η = {written(medium.eta, 'viscosity')}"
     else:
         text = f"τ = 4η/E* = {written(medium.relaxation_time, 'time')} (1)"
-    return text if explorer.drive == "impact" else f"{text}; no effect here: pressing is infinitely slow"
+    return text if timed else f"{text}; no effect here: pressing is infinitely slow"

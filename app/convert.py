@@ -2,6 +2,7 @@
 
 from math import inf
 
+from .drives import DRIVES
 from .quantities import shape_quantities
 
 
@@ -42,25 +43,14 @@ def _damping(state, option):
     medium = state.medium()
     if state.damping == "none":
         # A relaxation time that shows, and does not rule, at the time scale of an impact.
-        scale = float(state.solved().depth) / state.speed if state.drive == "impact" else 1e-3
-        tau = float(f"{scale / 10:.1g}")
+        tau = float(f"{(DRIVES[state.drive].duration(state) or 1e-3) / 10:.1g}")
         return {"tau": tau, "eta": tau * medium.E_star / 4}
     return {"eta": medium.eta, "tau": medium.relaxation_time} if option != "none" else {}
 
 
 def _drive(state, option):
     """Numbers with which the deepest state stays as it is."""
-    deepest = state.solved()
-    if option == "depth":
-        return {"max_depth": float(deepest.depth)}
-    if option == "force":
-        # The force at which all of a flat face yields is not reached.
-        most = 2 * deepest.medium.yield_line_load * deepest.profile.wall
-        return {"max_force": min(float(deepest.force), 0.9 * most)}
-    # A body as heavy as a ball of the contact's size times ten, of steel.
-    mass = float(f"{4.2 * 7800 * (10 * float(deepest.contact_radius)) ** 3:.1g}")
-    work = float(deepest.stored_energy + deepest.plastic_work)
-    return {"mass": mass, "speed": (2 * work / mass) ** 0.5}
+    return DRIVES[option].alike(state, state.solved())
 
 
 def _surface(state, option):

@@ -9,13 +9,12 @@ import param
 import mdr_core as mdr
 
 from .convert import CONVERT
+from .drives import DRIVES
 from .presets import OPENING, PRESETS
 from .quantities import CHOICES, QUANTITIES, SHAPES, USED, Scale, shape_quantities
+from .trajectory import LAST_PROGRESS
 from .units import fitting, read, written
 
-#: From first contact (0) over the deepest state (1) to the loss of contact (2) and the tip back at the
-#: height of the undeformed surface.
-LAST_PROGRESS = 2.2
 #: What the preset is called when the scene came from a file.
 FROM_FILE = ""
 _MOST_UNDO = 100
@@ -201,19 +200,12 @@ class Explorer(param.Parameterized):
         return replace(medium, q_c=q_c, eta=eta)
 
     def scene(self):
-        """What is to be modelled: pressed once, or hit once."""
-        before = self.plastic_depth if self.surface == "imprint" else 0.0
-        drive = {
-            "depth": lambda: mdr.DepthPath(self.max_depth),
-            "force": lambda: mdr.ForcePath(self.max_force),
-            "impact": lambda: mdr.FreeImpact(self.mass, self.speed, before),
-        }[self.drive]()
-        return mdr.Scene(self.profile(), self.medium(), drive)
+        """What is to be modelled."""
+        return mdr.Scene(self.profile(), self.medium(), DRIVES[self.drive].make(self))
 
     def solved(self):
         """The deepest state of the present scene, without its way there."""
-        result = self.scene().solve()
-        return result.deepest if isinstance(result, mdr.Impact) else result
+        return DRIVES[self.drive].deepest(self.scene())
 
     def described(self):
         """The scene as JSON; if it cannot be made, what it would be made of."""

@@ -6,7 +6,7 @@ import numpy as np
 
 import mdr_core as mdr
 
-from .trajectory import INSTANTS
+from .drives import DRIVES, drive_of
 
 #: How far the pressure of a measured tip can be trusted.
 _MEASURED = (
@@ -82,8 +82,7 @@ def python(trajectory, held=None):
 
 def _solved(trajectory, prefix=""):
     """Lines for one state, its names with a prefix; what the core takes by default is left out."""
-    scene, now, peak = trajectory.scene, trajectory.now, trajectory.peak
-    drive, numbers = scene.drive, asdict(scene.medium)
+    scene, numbers = trajectory.scene, asdict(trajectory.scene.medium)
     plain = asdict(mdr.Medium(scene.medium.E_star)) | {"E_star": None}
     numbers = {name: number for name, number in numbers.items() if number != plain[name]}
     shape = ", ".join(f"{name}={value!r}" for name, value in asdict(scene.profile).items())
@@ -92,26 +91,7 @@ def _solved(trajectory, prefix=""):
         f"{prefix}medium = mdr.Medium({_arguments(numbers)})  # Pa, N/m, Pa·s",
     ]
     given = f"{prefix}profile, {prefix}medium"
-    if trajectory.hit is None:
-        path = trajectory.states.depth[[peak, now] if now > peak else [now]].tolist()
-        state = f"{prefix}state"
-        return [
-            *lines,
-            f"{state} = mdr.indent({given}, {path})[-1]  # m",
-            f"print({state}.force, {state}.contact_radius, {state}.plastic_radius)",
-        ]
-    hit, motion = f"{prefix}hit", f"{prefix}motion"
-    before = {"plastic_depth": drive.plastic_depth} if drive.plastic_depth > 0 else {}
-    numbers = {"mass": drive.mass, "speed": drive.speed} | before
-    lines += [
-        f"{hit} = mdr.impact({given}, {_arguments(numbers)})",
-        f"print({hit}.max_depth, {hit}.max_force, {hit}.restitution, {hit}.contact_time)",
-    ]
-    if now == peak:
-        return lines
-    values = ("time", "depth", "velocity", "force", "contact_radius", "plastic_radius")
-    shown = ", ".join(f"{motion}.{value}[i]" for value in values)
-    return [*lines, f"{motion} = {hit}.motion({INSTANTS})", f"i = {now}", f"print({shown})"]
+    return [*lines, *DRIVES[drive_of(scene)].snippet(trajectory, given, prefix)]
 
 
 def _arguments(numbers):

@@ -1,12 +1,13 @@
 """A whole page as a link and as a scene file, and back; what comes from outside is bounded or refused."""
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from math import inf, isfinite
 from urllib.parse import parse_qs, urlencode
 
 import mdr_core as mdr
 
-from .explorer import FROM_FILE, LAST_PROGRESS
+from .drives import DRIVES, drive_of
+from .explorer import FROM_FILE
 from .plots import PLOTS
 from .presets import PRESETS
 from .quantities import QUANTITIES, SHAPES, shape_quantities
@@ -99,14 +100,9 @@ def _samples(text):
 
 
 def scene_file(trajectory):
-    """The scene as JSON: pressed to its largest value and, if need be, on to the present one."""
-    scene, now, peak = trajectory.scene, trajectory.now, trajectory.peak
-    if now != peak and not isinstance(scene.drive, mdr.FreeImpact):
-        prescribes_depth = isinstance(scene.drive, mdr.DepthPath)
-        along = trajectory.states.depth if prescribes_depth else trajectory.force
-        path = along[[now]] if now < peak else along[[peak, now]]
-        scene = mdr.Scene(scene.profile, scene.medium, type(scene.drive)(path))
-    return scene.to_json()
+    """The scene as JSON, up to the present state."""
+    scene = trajectory.scene
+    return replace(scene, drive=DRIVES[drive_of(scene)].saved(trajectory)).to_json()
 
 
 def load_scene(explorer, text):
@@ -125,8 +121,9 @@ def load_scene(explorer, text):
         raise ValueError(f"the scene has a list of {longest} numbers, and {most}")
     if getattr(scene.drive, "time", None) and medium.eta > 0:
         raise ValueError("a viscous path in time is not shown here: solve it with mdr.Scene.from_json(...)")
+    opened = DRIVES[drive_of(scene)].opened(scene)
     choices, numbers = {"preset": FROM_FILE, "inertia": "unknown", "progress": 1.0}, {}
-    for more, values in (_medium(medium), _profile(scene.profile), _drive(scene)):
+    for more, values in (_medium(medium), _profile(scene.profile), opened):
         choices |= more
         numbers |= values
     explorer.resets = {name: explorer.checked(name, value) for name, value in numbers.items()}
@@ -159,24 +156,3 @@ def _profile(profile):
         shape = next(key for key, each in SHAPES.items() if each.build is type(profile))
         values = {q.name: getattr(profile, q.name) for _, q in shape_quantities(shape)}
     return {"shape": shape}, {f"{shape}_{name}": value for name, value in values.items()}
-
-
-def _drive(scene):
-    """Choices and numbers of a drive, and where on the way its last state is."""
-    drive = scene.drive
-    if isinstance(drive, mdr.FreeImpact):
-        before = {"plastic_depth": drive.plastic_depth} if drive.plastic_depth > 0 else {}
-        numbers = {"mass": drive.mass, "speed": drive.speed} | before
-        return {"drive": "impact", "surface": "imprint" if before else "virgin"}, numbers
-    kind, path = ("force", drive.force) if isinstance(drive, mdr.ForcePath) else ("depth", drive.depth)
-    path = path if isinstance(path, tuple) else (path,)
-    choices = {"drive": kind, "surface": "virgin"}
-    if path[-1] < max(path):
-        # All that the way there leaves behind is the largest depth: the last state is one of unloading.
-        depth, critical = scene.solve().depth, scene.medium.critical_depth
-        largest, rest = float(max(depth)), float(depth[-1])
-        recovered = min(critical, largest)
-        back = (largest - rest) / recovered
-        lifted = 2.2 - 0.2 * rest / max(largest - recovered, 1e-300)
-        choices["progress"] = min(max(1 + back if back <= 1 else lifted, 1.0), LAST_PROGRESS)
-    return choices, {f"max_{kind}": max(path)}

@@ -12,6 +12,7 @@ from bokeh.models import ColumnDataSource, CustomJS, Div, Select, Slider, Toggle
 
 from . import link, readouts
 from .controls import JS, WIDE, Controls, html, marked, symbol
+from .drives import follow
 from .explorer import Explorer
 from .figures import DARK, LIGHT
 from .grid import FULL, STYLE, Grid, button
@@ -20,7 +21,6 @@ from .plots import PLOTS
 from .resting import Resting
 from .takeaway import TakeAway
 from .tip import read_tip
-from .trajectory import follow
 from .view import View
 
 _LOG = logging.getLogger(__name__)
@@ -138,7 +138,7 @@ class Page:
         for widget, act in ((self.undo, "undo"), (self.redo, "redo")):
             widget.on_click(lambda event, act=act: self.tell(getattr(self.explorer, act)))
         self.reset.on_click(lambda event: self.tell(lambda: self.explorer.load(self.explorer.preset)))
-        self.controls.again.on_click(lambda event: self.tell(lambda: self.explorer.hit_again(self.way.hit)))
+        self.controls.parts["again"].on_click(self._hit_again)
         self.controls.tip.param.watch(self._bring_tip, "value")
         self.hold.param.watch(self._held, "value")
         for name, toggle in self.asked.items():
@@ -174,7 +174,7 @@ class Page:
             self.attempt(act)
         except ValueError as error:
             self.notify(str(error))
-            self.controls.show(self.way.scene.medium)
+            self.controls.show(self.way)
 
     def notify(self, text):
         """Tell the person, who may have written some of it."""
@@ -193,6 +193,9 @@ class Page:
             self._solve()
             self.explorer.accept()
             self._around()
+
+    def _hit_again(self, event):
+        self.tell(lambda: self.explorer.hit_again(self.way.hit))
 
     def _bring_tip(self, event):
         if event.new:
@@ -293,7 +296,7 @@ class Page:
     def _around(self):
         """Everything beside the plots."""
         explorer, way = self.explorer, self.way
-        self.controls.show(way.scene.medium)
+        self.controls.show(way)
         drawing, formulas = readouts.sketch(way, explorer.shape)
         self.controls.notes["sketch"].object = drawing.format(*map(marked, formulas))
         found = readouts.lights(way, *readouts.density_and_ratio(explorer))

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from .drives import DRIVES, drive_of
 from .quantities import QUANTITIES, SHAPES, USED, shape_quantities
 from .units import written
 from .view import phase
@@ -9,7 +10,7 @@ from .view import phase
 
 def cells(way):
     """Symbol, label, kind and values of every number shown; one value, or one for each state."""
-    states, critical, motion, hit = way.states, way.scene.medium.critical_depth, way.motion, way.hit
+    states, critical, motion = way.states, way.scene.medium.critical_depth, way.motion
     rows = [("F", "force", "force", way.force), ("d", "depth", "length", states.depth)]
     if critical < np.inf:
         rows.append(("d/d_c", "relative depth", "number", states.depth / critical))
@@ -23,17 +24,7 @@ def cells(way):
     if motion is not None:
         rows += [("t", "time", "time", motion.time), ("v", "speed", "speed", motion.velocity)]
     rows += _onset(way)
-    if hit is not None:
-        rows += [
-            ("e", "restitution", "number", hit.restitution),
-            ("T", "contact time", "time", hit.contact_time),
-            ("A", "damaged area", "area", hit.damaged_area),
-            ("v_r", "rebound speed", "speed", hit.rebound_speed),
-            ("W_p", "plastic work, in all", "energy", hit.plastic_work),
-        ]
-        if hit.viscous_work > 0:
-            rows.append(("W_v", "viscous work, in all", "energy", hit.viscous_work))
-    return rows
+    return rows + DRIVES[drive_of(way.scene)].cells(way)
 
 
 def _onset(way):
@@ -99,15 +90,16 @@ def sketch(way, shape):
 
 def summary(explorer):
     """A scene in a line: its shape, medium and drive with their main numbers."""
-    medium, imprint = explorer.medium(), explorer.drive == "impact" and explorer.surface == "imprint"
+    medium, drive = explorer.medium(), DRIVES[explorer.drive]
     names = [name for name, _ in shape_quantities(explorer.shape)]
     names += [name for name in ("E_star", "q_c", "eta") if 0 < getattr(medium, name) < np.inf]
-    names += [*USED["drive"][explorer.drive], *["plastic_depth"] * imprint]
+    names += USED["drive"][explorer.drive]
+    names += ["plastic_depth"] * ("surface" in drive.form and explorer.surface == "imprint")
     words = [SHAPES[explorer.shape].label]
     for name in names:
         value = getattr(medium if name in ("E_star", "q_c", "eta") else explorer, name)
         words.append(f"{QUANTITIES[name].symbol} = {written(value, QUANTITIES[name].kind, 3)}")
-    return ", ".join(words)
+    return ", ".join([*words, *drive.words(explorer)])
 
 
 def density_and_ratio(explorer):

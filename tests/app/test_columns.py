@@ -10,13 +10,13 @@ import mdr_core as mdr
 from app import columns, readouts, section
 from app.comparison import Row, compare, points
 from app.controls import legend
+from app.drives import follow
 from app.explorer import Explorer
 from app.figures import figure
 from app.packet import drawn, layers, packed
 from app.plots import PLOTS, Plot, line, mark
 from app.presets import PRESETS
 from app.quantities import SHAPES
-from app.trajectory import follow
 from app.view import View
 from mdr_core.figures import SPRINGS
 

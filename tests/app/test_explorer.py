@@ -8,11 +8,11 @@ import pytest
 
 import mdr_core as mdr
 from app import export, link
+from app.drives import follow
 from app.explorer import FROM_FILE, Explorer
 from app.presets import OPENING, PRESETS
 from app.quantities import QUANTITIES, SHAPES
 from app.tip import MOST_SAMPLES, read_tip
-from app.trajectory import follow
 from app.units import fitting, read
 
 

@@ -10,11 +10,11 @@ import pytest
 
 import mdr_core as mdr
 from app import columns
+from app.drives import follow
 from app.explorer import Explorer as State
 from app.packet import inside
 from app.plots import PLOTS
 from app.presets import PRESETS
-from app.trajectory import follow
 from app.units import UNITS
 from app.view import View
 
