@@ -1,0 +1,312 @@
+"""Friction along the surface under a given normal motion: stick and slip, element by element.
+
+Beside every element of the foundation stands one along the surface, κ = 2(1 − ν)/(2 − ν) as stiff (Mindlin).
+Per κE* its load is Q = s + τṡ, and the normal one allows B = (μ/κ)(ℓ − (g − p)₊), with ℓ the live depth, p
+the plastic one:
+
+    stick    ṡ = W      |Q| ≤ B             slip    Q = ±B, s follows         released    Q = 0, s relaxes
+    the body            m_t Ẇ = −2κE* ∫Q dx
+
+1. Levels of depth are the edges of the elements, and times are those at which the contact's edge passes
+   them, on loading and on unloading: an element is covered, and let go, within one step.
+2. An element stands for its mean depth ḡ = ∫g dx/Δx, so that the normal force is exact at every level, and
+   is covered for a share of its first step.
+3. Over a step Q goes straight; then s is exact, and of second order for any ratio of τ to the step. The
+   momentum balance is linear between changes of stick and slip: Newton's method in a bracket ends there.
+4. The mean load times the way is work, and the mean load times the slip is friction: the ledger closes
+   whatever the step.
+5. The next run has twice the levels; quantities go to their limits with the square of the step.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+import scipy
+
+from ..superposition import radius_integral
+from ..yielding import LiveInterval
+from .equation_of_motion import Bodies, solve
+
+#: What polynomials of the normal motion leave, and places at which each of them is tabulated.
+_TOLERANCE, _PLACES = 1e-10, np.linspace(0.0, 1.0, 25)[None]
+#: Steps of the first run for each unit of what changes; the most levels that a run may have.
+_STEPS, MOST_LEVELS = 8, 6000
+
+
+class _Branch:
+    """Loading or unloading over time: depth y or live depth ℓ (m), and velocity (m/s), both tabulated."""
+
+    def __init__(self, steps):
+        rows = []
+        for _, step in steps:
+            depth, velocity, time, _ = step.at(_PLACES)
+            rate, acceleration, _ = step.bodies.rates(*step.bodies.loads(depth)[:2], velocity)
+            rows.append(np.stack([time, depth, rate, velocity, acceleration])[:, 0])
+        table = np.hstack(rows)
+        # Where steps meet they have one instant in common.
+        _, first = np.unique(table[0], return_index=True)
+        self.time, self.at, rate, self.speed, acceleration = table[:, first]
+        self.depth = scipy.interpolate.CubicHermiteSpline(self.time, self.at, rate)
+        self.velocity = scipy.interpolate.CubicHermiteSpline(self.time, self.speed, acceleration)
+        self._rate = self.depth.derivative()
+
+    def when(self, depth):
+        """Times (s) at some depths: Newton's method between two places of the table."""
+        at, sign = np.maximum.accumulate(self.at * (s := np.sign(self.at[-1] - self.at[0]))), s
+        k = np.clip(np.searchsorted(at, sign * depth) - 1, 0, at.size - 2)
+        low, high = self.time[k], self.time[k + 1]
+        time = np.interp(sign * depth, at, self.time)
+        for _ in range(6):
+            with np.errstate(divide="ignore", invalid="ignore"):
+                step = (self.depth(time) - depth) / self._rate(time)
+            time = np.clip(time - np.where(np.isfinite(step), step, 0.0), low, high)
+        return time
+
+    def even(self, scales):
+        """Times (s) at even shares of all that changes; `scales` are rates (1/s), and sizes of what does."""
+        rates, sizes = scales
+        step = np.diff(self.time) * (rates[1:] + rates[:-1]) / 2
+        step += sum(np.abs(np.diff(values)) / size for values, size in sizes)
+        share = np.append(0.0, np.cumsum(step))
+        count = int(np.ceil(min(_STEPS * share[-1], MOST_LEVELS / 4)))
+        return np.interp(np.linspace(0, share[-1], count + 1)[1:-1], share, self.time)
+
+
+class NormalMotion:
+    """The normal motion of one `Impact`, as far as friction asks for it."""
+
+    def __init__(self, hit):
+        medium, self.profile = hit.medium, hit.profile
+        self.tau, self.critical_depth = float(medium.relaxation_time), float(medium.critical_depth)
+        self.deepest, self.lower = float(hit.max_depth), float(hit.plastic_depth)
+        bodies = Bodies.of(hit.profile, medium, hit.mass, hit.speed, np.zeros(()), hit.max_depth)
+        course = solve(bodies, _TOLERANCE)
+        self.loading, self.unloading = _Branch(course.loading), _Branch(course.unloading)
+        self.turn, self.end = self.unloading.time[0], self.unloading.time[-1]
+
+    def levels(self, inertia, halvings, instants=()):
+        """The `Levels` of a run of bodies with C = 2κE*/m_t (1/(m s²)); among them some instants (s)."""
+        down, up = self.loading, self.unloading
+        times, depths = [down.even(self._scales(down, inertia))], []
+        times[0] = np.append(times[0], [t for t in instants if t < self.turn])
+        late = np.append(up.even(self._scales(up, inertia)), [t for t in instants if t > self.turn])
+        depths = np.append(self.lower + up.depth(late), [self.lower, min(self.critical_depth, self.deepest)])
+        depths = depths[(depths > 0) & (depths < self.deepest)]
+        time = np.concatenate([[0.0, self.turn], *times, down.when(depths)])
+        depth = np.concatenate([[0.0, self.deepest], down.depth(times[0]), depths])
+        depth, first = np.unique(np.clip(depth, 0.0, self.deepest), return_index=True)
+        time = np.maximum.accumulate(np.minimum(time[first], self.turn))
+        for _ in range(halvings):
+            middle = (time[1:] + time[:-1]) / 2
+            inner = np.clip(down.depth(middle), depth[:-1], depth[1:])
+            time, depth = (_interleaved(*pair) for pair in ((time, middle), (depth, inner)))
+        above = np.flatnonzero(depth > self.lower)[::-1]
+        live = np.append(depth[above] - self.lower, 0.0)
+        rise = np.maximum.accumulate(np.append(self.turn, up.when(live[1:])))
+        rise[-1] = self.end
+        return Levels(depth, time, np.maximum(down.velocity(time), 0.0), live, rise)
+
+    def _scales(self, branch, inertia):
+        """Rates (1/s) of stick under dashpots and springs, and what else a step is to be short against."""
+        front = branch.at + (self.lower if branch is self.unloading else 0.0)
+        a = self.profile._radius(np.clip(front, 0.0, self.deepest))
+        span = branch.time[-1] - branch.time[0]
+        rates = 1 / span + np.sqrt(inertia * a) + inertia * self.tau * a
+        sizes = (branch.at, np.ptp(branch.at)), (a, a.max()), (branch.speed, np.ptp(branch.speed))
+        return rates, sizes
+
+
+def _interleaved(values, between):
+    result = np.empty(values.size + between.size)
+    result[::2], result[1::2] = values, between
+    return result
+
+
+class Levels(NamedTuple):
+    """Levels of depth (m) with times (s) and velocities (m/s) on loading; on unloading live depths and times."""
+
+    depth: np.ndarray
+    down: np.ndarray
+    velocity: np.ndarray
+    live: np.ndarray
+    up: np.ndarray
+
+
+class Row(NamedTuple):
+    """Elements between levels, the flat face first: outer edges, widths, mean depths (m).
+
+    `late` is the share of the first step that has gone when an element is met.
+    """
+
+    edge: np.ndarray
+    width: np.ndarray
+    mean: np.ndarray
+    late: np.ndarray
+
+    @classmethod
+    def of(cls, profile, depth):
+        edge = np.maximum.accumulate(profile._radius(depth))
+        width, rise = np.diff(edge), np.diff(depth)
+        area = radius_integral(profile, LiveInterval(depth[:-1], depth[1:], rise))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            late = np.where(width > 0, (edge[1:] - area / rise) / width, 0.5).clip(0.0, 1.0)
+        mean = np.append(0.0, depth[:-1] + late * rise)
+        # At a wall there are no more elements.
+        count = 1 + int(np.max(np.flatnonzero(width), initial=-1) + 1)
+        parts = edge, np.append(edge[0], width), mean, np.append(0.0, late)
+        return cls(*(part[:count] for part in parts))
+
+
+def _partly_yielded(profile, row, levels, lower):
+    """Of the element in which the plastic zone ends, at each level: its number, and its mean of (g − p)₊ (m)."""
+    number = np.searchsorted(levels.depth, lower, side="right")
+    top = np.maximum(levels.depth[np.minimum(number, levels.depth.size - 1)], lower)
+    area = radius_integral(profile, LiveInterval(lower, top, top - lower))
+    number = np.minimum(number, row.mean.size - 1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        mean = (profile._radius(top) * (top - lower) - area) / row.width[number]
+    return number, np.where(np.isfinite(mean), np.maximum(mean, 0.0), 0.0)
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run, in units of the first tangential speed: records at every instant, and of some the elements.
+
+    Time (s), tangential velocity; force over 2κE* (m s); stored, viscous and friction work over 2κE* (m s²);
+    loads Q and bounds B (s) of the elements, and whether they stick, at the instants asked for.
+    """
+
+    row: Row
+    time: np.ndarray
+    velocity: np.ndarray
+    force: np.ndarray
+    stored: np.ndarray
+    viscous: np.ndarray
+    friction: np.ndarray
+    seen: dict
+
+    @property
+    def quantities(self):
+        """Change of the velocity, largest force, friction and viscous work, with what still relaxes."""
+        largest = _largest(self.time, np.abs(self.force))
+        work = self.friction[-1], self.viscous[-1] + self.stored[-1]
+        return np.array([self.velocity[-1] - 1.0, largest, *work])
+
+
+def _largest(time, values):
+    """Largest value, by the parabola through three instants."""
+    i = int(np.argmax(values))
+    if not 0 < i < values.size - 1 or time[i] <= time[i - 1] or time[i + 1] <= time[i]:
+        return values[i]
+    x, y = time[[i - 1, i + 1]] - time[i], values[[i - 1, i + 1]] - values[i]
+    slope, bend = (y[0] * x[1] / x[0] - y[1] * x[0] / x[1]) / (x[1] - x[0]), np.diff(y / x)[0] / np.ptp(x)
+    return values[i] - slope**2 / (4 * bend) if bend < 0 else values[i]
+
+
+def slide(motion, levels, inertia, grip, instants=()):
+    """One `Run` of a body that comes with tangential speed 1, C = `inertia`, and B = `grip` × load."""
+    row = Row.of(motion.profile, levels.depth)
+    lower = np.maximum(levels.depth - motion.critical_depth, 0.0)
+    live = np.minimum(levels.depth, motion.critical_depth) + motion.tau * levels.velocity
+    number, part = _partly_yielded(motion.profile, row, levels, lower)
+    state = _State(row, inertia, motion.tau, np.append(levels.down, levels.up[1:]), instants)
+    total = row.mean.size
+    for i in range(levels.depth.size):
+        count, old = min(i + 1, total), min(i, total)
+        rise = np.maximum(row.mean[:count] - lower[i], 0.0)
+        if lower[i] > 0 and number[i] < count:
+            rise[number[i]] = part[i]
+        # What is met at a speed begins with the load of its dashpot.
+        state.meet(old, count, grip * motion.tau * levels.velocity[max(i - 1, 0)])
+        state.step(i, np.maximum(grip * (live[i] - rise), 0.0))
+    rise = np.maximum(row.mean - motion.lower, 0.0)
+    for k in range(1, levels.live.size):
+        count = min(levels.depth.size - k, total) if k < levels.live.size - 1 else 0
+        bound = np.zeros(state.count)
+        bound[:count] = np.maximum(grip * (levels.live[k] - rise[:count]), 0.0)
+        state.step(levels.depth.size - 1 + k, bound)
+        state.let_go(count)
+    return state.run()
+
+
+class _State:
+    """The row on its way: load Q and displacement s of each element in contact, and what is recorded."""
+
+    def __init__(self, row, inertia, tau, time, instants):
+        self.row, self.inertia, self.tau, self.time = row, inertia, tau, time
+        self.load, self.s = np.zeros((2, row.mean.size))
+        self.count, self.velocity, self.rate, self.free, self.met = 0, 1.0, 0.0, 0.0, 0
+        # Velocity, force, stored, viscous and friction work.
+        self.record = np.zeros((5, time.size))
+        wanted = np.searchsorted(time, np.asarray(instants) * (1 - 1e-12))
+        self.wanted, self.seen = {int(i) for i in wanted}, {}
+
+    def meet(self, old, count, bound):
+        self.met, self.count = old, count
+        self.load[old:count] = np.clip(self.tau * self.velocity, -bound, bound)
+
+    def let_go(self, count):
+        left = slice(count, self.count)
+        self.free += self.row.width[left] @ self.s[left] ** 2 / 2
+        self.count = self.met = count
+
+    def step(self, i, bound):
+        """To the instant i, at which elements bear no more than some bound."""
+        h = self.time[i] - self.time[i - 1] if i else 0.0
+        n, width = self.count, self.row.width[: self.count]
+        before, s = self.load[:n], self.s[:n]
+        dt = np.full(n, h)
+        dt[self.met :] *= 1 - self.row.late[self.met : n]
+        velocity, load, stuck = self._balance(h, dt, width, before, s, bound)
+        way = dt * ((self.velocity + velocity) / 2)
+        after = np.where(stuck, s + way, self._relaxed(dt, before, load, s))
+        self.rate = (velocity - self.velocity) / h if h else 0.0
+        mean = width * (before + load) / 2
+        moved, kept = mean @ (after - s), np.exp(-2 * h / self.tau) if self.tau else 0.0
+        was, friction = width @ s**2 / 2, mean @ way - moved
+        stored, lost = width @ after**2 / 2, (1 - kept) * self.free
+        viscous = moved - (stored - was) + lost if self.tau else 0.0
+        self.free *= kept
+        self.velocity, self.load[:n], self.s[:n], self.met = velocity, load, after, n
+        self.record[:3, i] = velocity, width @ load, stored + self.free
+        self.record[3:, i] = self.record[3:, i - 1] + (viscous, friction) if i else 0.0
+        if i in self.wanted:
+            self.seen[i] = load.copy(), bound, stuck
+
+    def _balance(self, h, dt, width, before, s, bound):
+        """Velocity at the end of a step, with the loads then, and which elements stick.
+
+        W₁ − W + C ∫∫Q dx dt = 0 grows with W₁, and goes straight between changes of stick and slip.
+        """
+        velocity, weight, reach = self.velocity, width * dt / 2, dt / 2 + self.tau
+        base, given = s + dt * (velocity / 2), self.inertia * (weight @ before) - velocity
+        weight = self.inertia * weight
+        stiff, w = weight * reach, velocity + h * self.rate
+        low, high = -np.inf, np.inf
+        for _ in range(100):
+            trial = base + reach * w
+            load = np.minimum(np.maximum(trial, -bound), bound)
+            stuck = load == trial
+            excess = w + given + weight @ load
+            low, high = (low, w) if excess > 0 else (w, high)
+            new = w - excess / (1 + stiff @ stuck)
+            if not low < new < high and np.isfinite(high - low):
+                new = (low + high) / 2
+            if abs(new - w) <= 1e-15 + 1e-14 * abs(w):
+                break
+            w = new
+        return w, load, stuck
+
+    def _relaxed(self, dt, before, load, s):
+        """s after a step in which the load goes straight: τṡ + s = Q."""
+        if self.tau == 0:
+            return load
+        z = np.maximum(dt / self.tau, 1e-300)
+        fade = -np.expm1(-z)
+        # 1 − (1 − e^(−z))/z, without cancellation.
+        late = np.where(z > 1e-3, 1 - fade / z, z / 2 - z * z / 6)
+        return s + fade * (before - s) + late * (load - before)
+
+    def run(self):
+        return Run(self.row, self.time, *self.record, self.seen)
