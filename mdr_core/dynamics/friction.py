@@ -219,15 +219,29 @@ def slide(motion, levels, inertia, grip, instants=()):
             rise[number[i]] = part[i]
         # What is met at a speed begins with the load of its dashpot.
         state.meet(old, count, grip * motion.tau * levels.velocity[max(i - 1, 0)])
-        state.step(i, np.maximum(grip * (live[i] - rise), 0.0))
+        state.step(i, np.maximum(grip * (live[i] - rise), 0.0), slice(old, count))
     rise = np.maximum(row.mean - motion.lower, 0.0)
     for k in range(1, levels.live.size):
-        count = min(levels.depth.size - k, total) if k < levels.live.size - 1 else 0
+        count = min(levels.depth.size - k, total)
         bound = np.zeros(state.count)
         bound[:count] = np.maximum(grip * (levels.live[k] - rise[:count]), 0.0)
-        state.step(levels.depth.size - 1 + k, bound)
+        state.step(levels.depth.size - 1 + k, bound, slice(count, state.count))
         state.let_go(count)
     return state.run()
+
+
+def changes(motion, run, grip):
+    """Instants (s) at which all elements that slip begin to stick, as they do together.
+
+    Slip ends where the surface is no faster than the bound grows, W = ±(μ/κ) v, or W = 0 where all has yielded.
+    """
+    time, turn = run.time, motion.turn
+    velocity = np.where(time < turn, motion.loading.velocity(time), motion.unloading.velocity(time))
+    found = []
+    for excess in (run.velocity - grip * velocity, run.velocity + grip * velocity, run.velocity):
+        i = np.flatnonzero(excess[:-1] * excess[1:] < 0)
+        found.append(time[i] + (time[i + 1] - time[i]) * excess[i] / (excess[i] - excess[i + 1]))
+    return np.concatenate(found)
 
 
 class _State:
@@ -235,78 +249,86 @@ class _State:
 
     def __init__(self, row, inertia, tau, time, instants):
         self.row, self.inertia, self.tau, self.time = row, inertia, tau, time
-        self.load, self.s = np.zeros((2, row.mean.size))
-        self.count, self.velocity, self.rate, self.free, self.met = 0, 1.0, 0.0, 0.0, 0
+        self.load, self.s, self.bound = np.zeros((3, row.mean.size))
+        self.count, self.velocity, self.rate, self.stored, self.free = 0, 1.0, 0.0, 0.0, 0.0
         # Velocity, force, stored, viscous and friction work.
         self.record = np.zeros((5, time.size))
         wanted = np.searchsorted(time, np.asarray(instants) * (1 - 1e-12))
         self.wanted, self.seen = {int(i) for i in wanted}, {}
 
     def meet(self, old, count, bound):
-        self.met, self.count = old, count
-        self.load[old:count] = np.clip(self.tau * self.velocity, -bound, bound)
+        """Elements are met, at a speed at which they bear no more than some bound."""
+        self.count = count
+        self.load[old:count], self.bound[old:count] = np.clip(self.tau * self.velocity, -bound, bound), bound
 
-    def let_go(self, count):
-        left = slice(count, self.count)
-        self.free += self.row.width[left] @ self.s[left] ** 2 / 2
-        self.count = self.met = count
+    def step(self, i, bound, part):
+        """To the instant i, at which elements bear no more than `bound`; `part` of them for a part of the step.
 
-    def step(self, i, bound):
-        """To the instant i, at which elements bear no more than some bound."""
+        Those have been met within it, or are let go.
+        """
         h = self.time[i] - self.time[i - 1] if i else 0.0
         n, width = self.count, self.row.width[: self.count]
         before, s = self.load[:n], self.s[:n]
         dt = np.full(n, h)
-        dt[self.met :] *= 1 - self.row.late[self.met : n]
-        velocity, load, stuck = self._balance(h, dt, width, before, s, bound)
-        way = dt * ((self.velocity + velocity) / 2)
-        after = np.where(stuck, s + way, self._relaxed(dt, before, load, s))
-        self.rate = (velocity - self.velocity) / h if h else 0.0
-        mean = width * (before + load) / 2
-        moved, kept = mean @ (after - s), np.exp(-2 * h / self.tau) if self.tau else 0.0
-        was, friction = width @ s**2 / 2, mean @ way - moved
-        stored, lost = width @ after**2 / 2, (1 - kept) * self.free
-        viscous = moved - (stored - was) + lost if self.tau else 0.0
+        dt[part] *= 1 - self.row.late[part]
+        velocity, trial, share, mean = self._balance(h, dt, width, before, s, bound)
+        load = np.minimum(np.maximum(trial, -bound), bound)
+        way, self.rate = dt * ((self.velocity + velocity) / 2), (velocity - self.velocity) / h if h else 0.0
+        after = load
+        if self.tau:
+            after = self._relaxed(s + share * way, (1 - share) * dt, before + share * (trial - before), load)
+        mean = width * mean
+        work, gain, kept = mean @ way, width @ (after**2 - s**2) / 2, 1.0
+        moved = gain
+        if self.tau:
+            moved, kept = mean @ (after - s), np.exp(-2 * h / self.tau)
+        lost = moved - gain + (1 - kept) * self.free
         self.free *= kept
-        self.velocity, self.load[:n], self.s[:n], self.met = velocity, load, after, n
-        self.record[:3, i] = velocity, width @ load, stored + self.free
-        self.record[3:, i] = self.record[3:, i - 1] + (viscous, friction) if i else 0.0
+        self.velocity, self.load[:n], self.s[:n], self.bound[:n] = velocity, load, after, bound
+        self.stored += gain
+        self.record[:3, i] = velocity, width @ load, self.stored + self.free
+        self.record[3:, i] = self.record[3:, i - 1] + (lost, work - moved) if i else 0.0
         if i in self.wanted:
-            self.seen[i] = load.copy(), bound, stuck
+            self.seen[i] = load.copy(), bound, share == 1
 
     def _balance(self, h, dt, width, before, s, bound):
-        """Velocity at the end of a step, with the loads then, and which elements stick.
+        """Velocity at the end of a step, loads if all stuck, shares of the step that stick, mean loads.
 
-        W₁ − W + C ∫∫Q dx dt = 0 grows with W₁, and goes straight between changes of stick and slip.
+        Load and bound go straight until they meet: a stuck element at a distance `room` from its bound, which
+        stick would leave `beyond` it, slips for the rest. W₁ − W + C ∫∫Q dx dt = 0 grows with W₁.
         """
-        velocity, weight, reach = self.velocity, width * dt / 2, dt / 2 + self.tau
-        base, given = s + dt * (velocity / 2), self.inertia * (weight @ before) - velocity
-        weight = self.inertia * weight
-        stiff, w = weight * reach, velocity + h * self.rate
-        low, high = -np.inf, np.inf
+        weight, reach = self.inertia * width * dt / 2, dt / 2 + self.tau
+        base, given = s + dt * (self.velocity / 2), weight @ before - self.velocity
+        stiff, w, low, high = weight * reach, self.velocity + h * self.rate, -np.inf, np.inf
         for _ in range(100):
             trial = base + reach * w
-            load = np.minimum(np.maximum(trial, -bound), bound)
-            stuck = load == trial
-            excess = w + given + weight @ load
+            sign = np.copysign(1.0, trial)
+            beyond, room = np.abs(trial) - bound, self.bound[: bound.size] - sign * before
+            share = np.where(beyond > 0, room / np.maximum(room + beyond, 1e-300), 1.0)
+            later = sign * (bound + share * beyond)
+            excess = w + given + weight @ later
             low, high = (low, w) if excess > 0 else (w, high)
-            new = w - excess / (1 + stiff @ stuck)
+            new = w - excess / (1 + stiff @ share**2)
             if not low < new < high and np.isfinite(high - low):
                 new = (low + high) / 2
-            if abs(new - w) <= 1e-15 + 1e-14 * abs(w):
+            if abs(new - w) <= 1e-13 + 1e-12 * abs(w):
                 break
             w = new
-        return w, load, stuck
+        return w, trial, share, (before + later) / 2
 
-    def _relaxed(self, dt, before, load, s):
-        """s after a step in which the load goes straight: τṡ + s = Q."""
-        if self.tau == 0:
-            return load
+    def _relaxed(self, s, dt, begin, load):
+        """s after times dt in which the load goes straight: τṡ + s = Q."""
         z = np.maximum(dt / self.tau, 1e-300)
         fade = -np.expm1(-z)
         # 1 − (1 − e^(−z))/z, without cancellation.
         late = np.where(z > 1e-3, 1 - fade / z, z / 2 - z * z / 6)
-        return s + fade * (before - s) + late * (load - before)
+        return s + fade * (begin - s) + late * (load - begin)
+
+    def let_go(self, count):
+        """Elements from a number on are let go; what they store relaxes."""
+        left = slice(count, self.count)
+        energy = self.row.width[left] @ self.s[left] ** 2 / 2
+        self.stored, self.free, self.count = self.stored - energy, self.free + energy, count
 
     def run(self):
         return Run(self.row, self.time, *self.record, self.seen)
