@@ -31,7 +31,7 @@ from .equation_of_motion import Bodies, solve
 #: What polynomials of the normal motion leave, and places at which each of them is tabulated.
 _TOLERANCE, _PLACES = 1e-10, np.linspace(0.0, 1.0, 25)[None]
 #: Steps of the first run for each unit of what changes; the most levels that a run may have.
-_STEPS, MOST_LEVELS = 8, 6000
+_STEPS, MOST_LEVELS = 4, 6000
 
 
 class _Branch:
@@ -91,7 +91,9 @@ class NormalMotion:
         times, depths = [down.even(self._scales(down, inertia))], []
         times[0] = np.append(times[0], [t for t in instants if t < self.turn])
         late = np.append(up.even(self._scales(up, inertia)), [t for t in instants if t > self.turn])
-        depths = np.append(self.lower + up.depth(late), [self.lower, min(self.critical_depth, self.deepest)])
+        depths = np.append(
+            self.lower + up.depth(late), [self.lower, min(self.critical_depth, self.deepest)]
+        )
         depths = depths[(depths > 0) & (depths < self.deepest)]
         time = np.concatenate([[0.0, self.turn], *times, down.when(depths)])
         depth = np.concatenate([[0.0, self.deepest], down.depth(times[0]), depths])
@@ -174,7 +176,7 @@ class Run:
     """One run, in units of the first tangential speed: records at every instant, and of some the elements.
 
     Time (s), tangential velocity; force over 2κE* (m s); stored, viscous and friction work over 2κE* (m s²);
-    loads Q and bounds B (s) of the elements, and whether they stick, at the instants asked for.
+    numbers of the `instants` asked for, and what is `seen` then: loads Q (s) of elements, and whether they stick.
     """
 
     row: Row
@@ -184,6 +186,7 @@ class Run:
     stored: np.ndarray
     viscous: np.ndarray
     friction: np.ndarray
+    instants: list
     seen: dict
 
     @property
@@ -253,13 +256,16 @@ class _State:
         self.count, self.velocity, self.rate, self.stored, self.free = 0, 1.0, 0.0, 0.0, 0.0
         # Velocity, force, stored, viscous and friction work.
         self.record = np.zeros((5, time.size))
-        wanted = np.searchsorted(time, np.asarray(instants) * (1 - 1e-12))
-        self.wanted, self.seen = {int(i) for i in wanted}, {}
+        middle = (time[1:] + time[:-1]) / 2
+        self.wanted, self.seen = np.searchsorted(middle, instants).tolist(), {}
 
     def meet(self, old, count, bound):
         """Elements are met, at a speed at which they bear no more than some bound."""
         self.count = count
-        self.load[old:count], self.bound[old:count] = np.clip(self.tau * self.velocity, -bound, bound), bound
+        self.load[old:count], self.bound[old:count] = (
+            np.clip(self.tau * self.velocity, -bound, bound),
+            bound,
+        )
 
     def step(self, i, bound, part):
         """To the instant i, at which elements bear no more than `bound`; `part` of them for a part of the step.
@@ -276,7 +282,9 @@ class _State:
         way, self.rate = dt * ((self.velocity + velocity) / 2), (velocity - self.velocity) / h if h else 0.0
         after = load
         if self.tau:
-            after = self._relaxed(s + share * way, (1 - share) * dt, before + share * (trial - before), load)
+            after = self._relaxed(
+                s + share * way, (1 - share) * dt, before + share * (trial - before), load
+            )
         mean = width * mean
         work, gain, kept = mean @ way, width @ (after**2 - s**2) / 2, 1.0
         moved = gain
@@ -289,7 +297,7 @@ class _State:
         self.record[:3, i] = velocity, width @ load, self.stored + self.free
         self.record[3:, i] = self.record[3:, i - 1] + (lost, work - moved) if i else 0.0
         if i in self.wanted:
-            self.seen[i] = load.copy(), bound, share == 1
+            self.seen[i] = load, share == 1
 
     def _balance(self, h, dt, width, before, s, bound):
         """Velocity at the end of a step, loads if all stuck, shares of the step that stick, mean loads.
@@ -300,11 +308,13 @@ class _State:
         weight, reach = self.inertia * width * dt / 2, dt / 2 + self.tau
         base, given = s + dt * (self.velocity / 2), weight @ before - self.velocity
         stiff, w, low, high = weight * reach, self.velocity + h * self.rate, -np.inf, np.inf
+        # Without room at all the whole step slips, if it does.
+        allowed = self.bound[: bound.size] * (1 + 1e-15) + 1e-290
         for _ in range(100):
             trial = base + reach * w
             sign = np.copysign(1.0, trial)
-            beyond, room = np.abs(trial) - bound, self.bound[: bound.size] - sign * before
-            share = np.where(beyond > 0, room / np.maximum(room + beyond, 1e-300), 1.0)
+            beyond, room = np.abs(trial) - bound, allowed - sign * before
+            share = room / (room + np.maximum(beyond, 0.0))
             later = sign * (bound + share * beyond)
             excess = w + given + weight @ later
             low, high = (low, w) if excess > 0 else (w, high)
@@ -331,4 +341,4 @@ class _State:
         self.stored, self.free, self.count = self.stored - energy, self.free + energy, count
 
     def run(self):
-        return Run(self.row, self.time, *self.record, self.seen)
+        return Run(self.row, self.time, *self.record, self.wanted, self.seen)
