@@ -319,11 +319,9 @@ class _State:
             excess = w + given + weight @ later
             low, high = (low, w) if excess > 0 else (w, high)
             new = w - excess / (1 + stiff @ share**2)
-            if not low < new < high and np.isfinite(high - low):
-                new = (low + high) / 2
-            if abs(new - w) <= 1e-13 + 1e-12 * abs(w):
+            if abs(new - w) <= 1e-12:
                 break
-            w = new
+            w = new if low < new < high or high - low == np.inf else (low + high) / 2
         return w, trial, share, (before + later) / 2
 
     def _relaxed(self, s, dt, begin, load):

@@ -162,12 +162,12 @@ def _limits(hit, inertia, grip, tolerance):
         if count == 1:
             continue
         before, limit = limit, run.quantities + (run.quantities - coarse) / 3
-        least = np.abs(limit - run.quantities) * (0.5 if before is None else 0.1)
-        scale = np.maximum(
-            limit * [0.0, 1.0, 1.0, 1.0], np.array([1.0, 0.0, 0.005, 0.005]) / [1, 1, inertia, inertia]
-        )
+        least = np.abs(limit - run.quantities) * (1.0 if before is None else 0.3)
+        # Work is counted against itself, or a hundredth of the energy that there was along the surface.
+        least_work = 0.005 / inertia
+        scale = np.array([1.0, limit[1], max(limit[2], least_work), max(limit[2] + limit[3], least_work)])
         errors = np.maximum(
-            least if before is None else np.maximum(least, np.abs(limit - before)), tolerance / 4 * scale
+            least if before is None else np.maximum(least, np.abs(limit - before)), tolerance / 2 * scale
         )
         if np.all(errors <= tolerance * scale) or 2 * levels.depth.size > MOST_LEVELS:
             break
