@@ -32,6 +32,17 @@ from .equation_of_motion import Bodies, solve
 _TOLERANCE, _PLACES = 1e-10, np.linspace(0.0, 1.0, 25)[None]
 #: Steps of the first run for each unit of what changes; the most levels that a run may have.
 _STEPS, MOST_LEVELS = 4, 6000
+#: Speed of the bound over that of the body at which all that is in contact holds.
+_HOLDS = 1e10
+
+
+def grip(hit, speed, friction):
+    """(μ/κ)/W₀ (s/m) of a body that comes with a tangential speed: what B is of a load, for speed 1.
+
+    More than `_HOLDS` allows changes nothing. Without speed it is the limit of a slow one, that much.
+    """
+    most = _HOLDS / float(hit.speed)
+    return min(friction / float(hit.medium.tangential_ratio) / abs(speed), most) if speed else most
 
 
 class _Branch:
@@ -69,7 +80,7 @@ class _Branch:
         step = np.diff(self.time) * (rates[1:] + rates[:-1]) / 2
         step += sum(np.abs(np.diff(values)) / size for values, size in sizes)
         share = np.append(0.0, np.cumsum(step))
-        count = int(np.ceil(min(_STEPS * share[-1], MOST_LEVELS / 4)))
+        count = int(np.ceil(min(_STEPS * share[-1], MOST_LEVELS / 16)))
         return np.interp(np.linspace(0, share[-1], count + 1)[1:-1], share, self.time)
 
 
@@ -200,15 +211,19 @@ class Run:
 def _largest(time, values):
     """Largest value, by the parabola through three instants."""
     i = int(np.argmax(values))
-    if not 0 < i < values.size - 1 or time[i] <= time[i - 1] or time[i + 1] <= time[i]:
+    if not 1 < i < values.size - 2 or np.any(np.diff(time[i - 2 : i + 3]) <= 0):
         return values[i]
-    x, y = time[[i - 1, i + 1]] - time[i], values[[i - 1, i + 1]] - values[i]
-    slope, bend = (y[0] * x[1] / x[0] - y[1] * x[0] / x[1]) / (x[1] - x[0]), np.diff(y / x)[0] / np.ptp(x)
-    return values[i] - slope**2 / (4 * bend) if bend < 0 else values[i]
+    slope = np.diff(values[i - 2 : i + 3]) / np.diff(time[i - 2 : i + 3])
+    bend = np.diff(slope) / (time[i : i + 3] - time[i - 2 : i + 1]) * [1, 1, 1]
+    early, late = time[i] - time[i - 1], time[i + 1] - time[i]
+    top = (slope[1] * late + slope[2] * early) / (early + late)
+    # At a kink the largest value stands by itself.
+    kink = abs(bend[1]) > 3 * max(abs(bend[0]), abs(bend[2]))
+    return values[i] if kink or bend[1] >= 0 else values[i] - top**2 / (4 * bend[1])
 
 
-def slide(motion, levels, inertia, grip, instants=()):
-    """One `Run` of a body that comes with tangential speed 1, C = `inertia`, and B = `grip` × load."""
+def slide(motion, levels, inertia, hold, instants=()):
+    """One `Run` of a body that comes with tangential speed 1, C = `inertia`, and B = `hold` × load."""
     row = Row.of(motion.profile, levels.depth)
     lower = np.maximum(levels.depth - motion.critical_depth, 0.0)
     live = np.minimum(levels.depth, motion.critical_depth) + motion.tau * levels.velocity
@@ -221,19 +236,19 @@ def slide(motion, levels, inertia, grip, instants=()):
         if lower[i] > 0 and number[i] < count:
             rise[number[i]] = part[i]
         # What is met at a speed begins with the load of its dashpot.
-        state.meet(old, count, grip * motion.tau * levels.velocity[max(i - 1, 0)])
-        state.step(i, np.maximum(grip * (live[i] - rise), 0.0), slice(old, count))
+        state.meet(old, count, hold * motion.tau * levels.velocity[max(i - 1, 0)])
+        state.step(i, np.maximum(hold * (live[i] - rise), 0.0), slice(old, count))
     rise = np.maximum(row.mean - motion.lower, 0.0)
     for k in range(1, levels.live.size):
         count = min(levels.depth.size - k, total)
         bound = np.zeros(state.count)
-        bound[:count] = np.maximum(grip * (levels.live[k] - rise[:count]), 0.0)
+        bound[:count] = np.maximum(hold * (levels.live[k] - rise[:count]), 0.0)
         state.step(levels.depth.size - 1 + k, bound, slice(count, state.count))
         state.let_go(count)
     return state.run()
 
 
-def changes(motion, run, grip):
+def changes(motion, run, hold):
     """Instants (s) at which all elements that slip begin to stick, as they do together.
 
     Slip ends where the surface is no faster than the bound grows, W = ±(μ/κ) v, or W = 0 where all has yielded.
@@ -241,7 +256,7 @@ def changes(motion, run, grip):
     time, turn = run.time, motion.turn
     velocity = np.where(time < turn, motion.loading.velocity(time), motion.unloading.velocity(time))
     found = []
-    for excess in (run.velocity - grip * velocity, run.velocity + grip * velocity, run.velocity):
+    for excess in (run.velocity - hold * velocity, run.velocity + hold * velocity, run.velocity):
         i = np.flatnonzero(excess[:-1] * excess[1:] < 0)
         found.append(time[i] + (time[i + 1] - time[i]) * excess[i] / (excess[i] - excess[i + 1]))
     return np.concatenate(found)
@@ -277,14 +292,14 @@ class _State:
         before, s = self.load[:n], self.s[:n]
         dt = np.full(n, h)
         dt[part] *= 1 - self.row.late[part]
-        velocity, trial, share, mean = self._balance(h, dt, width, before, s, bound)
+        velocity, trial, slips, mean = self._balance(h, dt, width, before, s, bound)
         load = np.minimum(np.maximum(trial, -bound), bound)
         way, self.rate = dt * ((self.velocity + velocity) / 2), (velocity - self.velocity) / h if h else 0.0
         after = load
         if self.tau:
-            after = self._relaxed(
-                s + share * way, (1 - share) * dt, before + share * (trial - before), load
-            )
+            stuck = 1 - slips
+            begin = before + stuck * (trial - before)
+            after = self._relaxed(s + stuck * way, slips * dt, begin, load)
         mean = width * mean
         work, gain, kept = mean @ way, width @ (after**2 - s**2) / 2, 1.0
         moved = gain
@@ -297,10 +312,10 @@ class _State:
         self.record[:3, i] = velocity, width @ load, self.stored + self.free
         self.record[3:, i] = self.record[3:, i - 1] + (lost, work - moved) if i else 0.0
         if i in self.wanted:
-            self.seen[i] = load, share == 1
+            self.seen[i] = load, slips == 0
 
     def _balance(self, h, dt, width, before, s, bound):
-        """Velocity at the end of a step, loads if all stuck, shares of the step that stick, mean loads.
+        """Velocity at the end of a step, loads if all stuck, shares of the step that slip, mean loads.
 
         Load and bound go straight until they meet: a stuck element at a distance `room` from its bound, which
         stick would leave `beyond` it, slips for the rest. W₁ − W + C ∫∫Q dx dt = 0 grows with W₁.
@@ -313,16 +328,16 @@ class _State:
         for _ in range(100):
             trial = base + reach * w
             sign = np.copysign(1.0, trial)
-            beyond, room = np.abs(trial) - bound, allowed - sign * before
-            share = room / (room + np.maximum(beyond, 0.0))
-            later = sign * (bound + share * beyond)
+            beyond, room = np.maximum(np.abs(trial) - bound, 0.0), allowed - sign * before
+            slips = beyond / (room + beyond)
+            later = trial - sign * beyond * slips
             excess = w + given + weight @ later
             low, high = (low, w) if excess > 0 else (w, high)
-            new = w - excess / (1 + stiff @ share**2)
+            new = w - excess / (1 + stiff @ (1 - slips) ** 2)
             if abs(new - w) <= 1e-12:
                 break
             w = new if low < new < high or high - low == np.inf else (low + high) / 2
-        return w, trial, share, (before + later) / 2
+        return w, trial, slips, (before + later) / 2
 
     def _relaxed(self, s, dt, begin, load):
         """s after times dt in which the load goes straight: τṡ + s = Q."""

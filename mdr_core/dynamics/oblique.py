@@ -17,7 +17,7 @@ from ..medium import Medium, check_pair
 from ..report import Report
 from ..results import Limit, Model
 from ..shapes.profile import Profile
-from .friction import MOST_LEVELS, NormalMotion, changes, slide
+from .friction import MOST_LEVELS, NormalMotion, changes, grip, slide
 from .impact import Impact, impact
 from .oblique_motion import ObliqueMotion, oblique_motion
 
@@ -133,32 +133,32 @@ def _solve(hit, speed, friction, mass, tolerance):
     ratio, size = float(medium.tangential_ratio), abs(speed) or 1.0
     stiffness, loss = 2 * ratio * float(medium.E_star), friction * float(hit.mass) / mass
     units = np.array([1.0, stiffness * abs(speed), stiffness * speed**2, stiffness * speed**2])
-    # Without speed it is the limit of a slow one: stick throughout, for its restitution.
-    grip = min(friction / ratio / abs(speed), 1e200) if speed else 1e200
+    hold = grip(hit, speed, friction)
     slips = size >= friction / ratio * v and size - loss * (1 + e) * v >= -friction / ratio * e * v
     if friction == 0 or (speed and slips):
         change = -loss * (1 + e) * v / size
         lost = mass * abs(change) * (2 + change) / 2 * speed**2
         viscous, error, count = friction**2 / ratio * hit.viscous_work, 0.0, -1
         if medium.eta > 0 and hit.plastic_work > 0 and friction > 0:
-            values, errors, count = _limits(hit, stiffness / mass, grip, tolerance)
+            values, errors, count = _limits(hit, stiffness / mass, hold, tolerance)
             viscous, error = values[3] * units[3], errors[3] * units[3]
         found = np.array([change, friction * hit.max_force, lost - viscous, viscous])
         errors = _EXACT * np.abs(found) + [0.0, 0.0, error, error]
         return (*found, *errors, count, True)
-    values, errors, count = _limits(hit, stiffness / mass, grip, tolerance)
+    values, errors, count = _limits(hit, stiffness / mass, hold, tolerance)
+    values[1] = min(values[1], friction * float(hit.max_force) / units[1]) if speed else 0.0
     return (*values * units, *errors * units, count, False)
 
 
-def _limits(hit, inertia, grip, tolerance):
+def _limits(hit, inertia, hold, tolerance):
     """Limits of the quantities of ever finer runs, their estimated errors, and how often steps were halved."""
     motion = NormalMotion(hit)
     levels = motion.levels(inertia, 0)
-    run, before, limit = slide(motion, levels, inertia, grip), None, None
+    run, before, limit = slide(motion, levels, inertia, hold), None, None
     for count in range(1, _MOST_RUNS):
         # The first run tells at which instants stick begins.
-        levels = motion.levels(inertia, count, changes(motion, run, grip))
-        coarse, run = run.quantities, slide(motion, levels, inertia, grip)
+        levels = motion.levels(inertia, count, changes(motion, run, hold))
+        coarse, run = run.quantities, slide(motion, levels, inertia, hold)
         if count == 1:
             continue
         before, limit = limit, run.quantities + (run.quantities - coarse) / 3

@@ -8,7 +8,7 @@ import numpy as np
 from .._check import Array
 from ..report import Report
 from ..results import Limit, Motion
-from .friction import NormalMotion, slide
+from .friction import NormalMotion, grip, slide
 
 if TYPE_CHECKING:
     from .oblique import ObliqueImpact
@@ -105,10 +105,9 @@ def oblique_motion(hit, n, halvings):
     normal, speed = hit.normal.motion(n), float(hit.tangential_speed)
     ratio, mass = float(hit.medium.tangential_ratio), float(hit.tangential_mass)
     stiffness, friction = 2 * ratio * float(hit.medium.E_star), float(hit.friction)
-    grip = min(friction / ratio / abs(speed), 1e200) if speed else 1e200
     motion = NormalMotion(hit.normal)
     levels = motion.levels(stiffness / mass, halvings, normal.time)
-    run = slide(motion, levels, stiffness / mass, grip, normal.time)
+    run = slide(motion, levels, stiffness / mass, grip(hit.normal, speed, friction), normal.time)
     at, edges = run.instants, np.append(0.0, run.row.edge[: run.row.width.size])
     load, sticks = np.zeros((n, edges.size - 1)), np.zeros((n, edges.size - 1), bool)
     for k, i in enumerate(at):
