@@ -295,22 +295,18 @@ class _State:
         velocity, trial, slips, mean = self._balance(h, dt, width, before, s, bound)
         load = np.minimum(np.maximum(trial, -bound), bound)
         way, self.rate = dt * ((self.velocity + velocity) / 2), (velocity - self.velocity) / h if h else 0.0
-        after = load
+        work, after, kept = (width * mean) @ way, load, 1.0
         if self.tau:
-            stuck = 1 - slips
-            begin = before + stuck * (trial - before)
-            after = self._relaxed(s + stuck * way, slips * dt, begin, load)
-        mean = width * mean
-        work, gain, kept = mean @ way, width @ (after**2 - s**2) / 2, 1.0
-        moved = gain
-        if self.tau:
-            moved, kept = mean @ (after - s), np.exp(-2 * h / self.tau)
-        lost = moved - gain + (1 - kept) * self.free
+            after, slipped = self._relaxed(dt, s, way, slips, before, trial, load, velocity - self.velocity)
+            kept = np.exp(-2 * h / self.tau)
+        gain = width @ (after**2 - s**2) / 2
+        friction = width @ slipped if self.tau else work - gain
+        lost = work - friction - gain + (1 - kept) * self.free
         self.free *= kept
         self.velocity, self.load[:n], self.s[:n], self.bound[:n] = velocity, load, after, bound
         self.stored += gain
         self.record[:3, i] = velocity, width @ load, self.stored + self.free
-        self.record[3:, i] = self.record[3:, i - 1] + (lost, work - moved) if i else 0.0
+        self.record[3:, i] = self.record[3:, i - 1] + (lost, friction) if i else 0.0
         if i in self.wanted:
             self.seen[i] = load, slips == 0
 
@@ -339,13 +335,19 @@ class _State:
             w = new if low < new < high or high - low == np.inf else (low + high) / 2
         return w, trial, slips, (before + later) / 2
 
-    def _relaxed(self, s, dt, begin, load):
-        """s after times dt in which the load goes straight: τṡ + s = Q."""
+    def _relaxed(self, dt, s, way, slips, before, trial, load, gained):
+        """s after a step, and the friction work: it sticks, then τṡ + s = Q with a load that goes straight."""
+        stuck = 1 - slips
+        met, begin, dt = s + stuck * way, before + stuck * (trial - before), slips * dt
         z = np.maximum(dt / self.tau, 1e-300)
         fade = -np.expm1(-z)
         # 1 − (1 − e^(−z))/z, without cancellation.
         late = np.where(z > 1e-3, 1 - fade / z, z / 2 - z * z / 6)
-        return s + fade * (begin - s) + late * (load - begin)
+        after = met + fade * (begin - met) + late * (load - begin)
+        # The speed of slip goes about straight, too: the mean of the product is not the product of means.
+        faster = slips * gained + ((after - load) - (met - begin)) / self.tau
+        slipped = (begin + load) / 2 * (way - (after - s)) + (load - begin) * faster * dt / 12
+        return after, slipped
 
     def let_go(self, count):
         """Elements from a number on are let go; what they store relaxes."""
