@@ -48,8 +48,8 @@ class Medium(_check.Comparable):
     eta : float, optional
         Dynamic viscosity η (Pa·s), not negative; 0 (the default) means rate-independent.
     poisson : float, optional
-        Poisson ratio ν of the half-space, −1 < ν ≤ 1/2; beside E* only the stress below and friction feel it.
-        The dashpots are exact for 1/2.
+        Poisson ratio ν of the half-space, −1 < ν ≤ 1/2; beside E* only the stress below and friction feel
+        it. The dashpots are exact for 1/2.
 
     Each may be an array for many impacts at once (`impact`); then every property is one too.
 

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
     """Normal and tangential speed (m/s) of a body at some speed (m/s) and angle of incidence (rad).
 
-    The angle is that from the normal, between −π/2 and π/2; the angle of attack, from the surface, is the rest
-    to π/2. Hand both on as `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
+    The angle is that from the normal, between −π/2 and π/2; the angle of attack, from the surface, is the
+    rest to π/2. Hand both on as `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
 
     Examples
     --------
@@ -37,8 +37,8 @@ def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
 class Ball:
     """A ball that may roll: what its spin makes of the contact point, and the impact of its spin.
 
-    Spin Ω (rad/s) counts so that the contact point has the speed W = V + RΩ, V that of the centre: backspin is
-    positive, and rolling is V = −RΩ.
+    Spin Ω (rad/s) counts so that the contact point has the speed W = V + RΩ, V that of the centre: backspin
+    is positive, and rolling is V = −RΩ.
 
     Parameters
     ----------
@@ -49,7 +49,8 @@ class Ball:
 
     Examples
     --------
-    >>> print(round(Ball(7.0, 1.0).tangential_mass, 9), round(Ball(5.0, 1.0, hollow=True).tangential_mass, 9))
+    >>> solid, hollow = Ball(7.0, 1.0), Ball(5.0, 1.0, hollow=True)
+    >>> print(round(solid.tangential_mass, 9), round(hollow.tangential_mass, 9))
     2.0 2.0
     """
 

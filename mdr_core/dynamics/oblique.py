@@ -1,8 +1,8 @@
 """Oblique impact: a body that comes with a speed along the surface too, on a medium with friction.
 
-The normal motion is that of `impact`: it does not feel the tangential one, and is solved once. The tangential
-one is solved in closed form where all elements slip throughout, else on the row of `friction`, in runs with
-twice the elements and half the steps of the one before.
+The normal motion is that of `impact`: it does not feel the tangential one, and is solved once. The
+tangential one is solved in closed form where all elements slip throughout, else on the row of `friction`,
+in runs with twice the elements and half the steps of the one before.
 """
 
 from dataclasses import dataclass, fields
@@ -17,8 +17,9 @@ from ..medium import Medium, check_pair
 from ..report import Report
 from ..results import Limit, Model
 from ..shapes.profile import Profile
-from .friction import MOST_LEVELS, NormalMotion, changes, grip, slide
+from .friction import changes, grip, slide
 from .impact import Impact, impact
+from .levels import MOST_LEVELS, NormalMotion
 from .oblique_motion import ObliqueMotion, oblique_motion
 
 FRICTION = Model(
@@ -125,9 +126,10 @@ def _signed(speed):
 
 
 def _solve(hit, speed, friction, mass, tolerance):
-    """Of one impact: change of the velocity over W₀, largest force, friction and viscous work, errors, halvings.
+    """Of one impact: change of the velocity over W₀, largest force, friction and viscous work, and more.
 
-    Errors are those of the first four, in the same units; the last number is −1 in closed form.
+    That is: errors of these four, in the same units; how often steps were halved, −1 in closed form; whether
+    all slips throughout.
     """
     medium, v, e = hit.medium, float(hit.speed), float(hit.restitution)
     ratio, size = float(medium.tangential_ratio), abs(speed) or 1.0
@@ -151,7 +153,7 @@ def _solve(hit, speed, friction, mass, tolerance):
 
 
 def _limits(hit, inertia, hold, tolerance):
-    """Limits of the quantities of ever finer runs, their estimated errors, and how often steps were halved."""
+    """Limits of the quantities of ever finer runs, their estimated errors, and the number of halvings."""
     motion = NormalMotion(hit)
     levels = motion.levels(inertia, 0)
     run, before, limit = slide(motion, levels, inertia, hold), None, None
@@ -210,16 +212,16 @@ class ObliqueImpact(Report):
     _friction_error: Array
     _viscous_error: Array
     _halvings: Array
-    #: Whether all elements slip from first contact to its loss, so that the velocity is known in closed form.
+    #: Whether all elements slip from first contact to its loss: then the velocity is known in closed form.
     slips_throughout: Array
     _quantities: ClassVar[tuple[str, ...]] = (
-        "mass", "speed", "tangential_speed", "friction", "tangential_mass", "restitution", "tangential_velocity",
-        "tangential_restitution", "rebound_angle", "max_force", "max_tangential_force", "contact_time", "max_depth",
-        "friction_work", "plastic_work", "viscous_work",
+        "mass", "speed", "tangential_speed", "friction", "tangential_mass", "restitution",
+        "tangential_velocity", "tangential_restitution", "rebound_angle", "max_depth", "max_force",
+        "max_tangential_force", "contact_time", "friction_work", "plastic_work", "viscous_work",
     )  # fmt: skip
     _shown: ClassVar[tuple[str, ...]] = (
-        "speed", "tangential_speed", "restitution", "tangential_velocity", "max_tangential_force", "contact_time",
-        "friction_work", "plastic_work", "viscous_work",
+        "speed", "tangential_speed", "restitution", "tangential_velocity", "max_tangential_force",
+        "contact_time", "friction_work", "plastic_work", "viscous_work",
     )  # fmt: skip
     _dimensions: ClassVar[tuple[str, ...]] = ("impact",)
     _noun: ClassVar[str] = "impact"
@@ -305,8 +307,8 @@ class ObliqueImpact(Report):
     def motion(self, n: int = 200) -> ObliqueMotion:
         """The motion of one impact at n instants, normal and tangential, with stick and slip.
 
-        At equal steps up to the turning point, and from there on, about the same ones; on elements as fine as
-        the tolerance needed, whose own ledger closes at every instant.
+        At equal steps up to the turning point, and from there on, about the same ones; on elements as fine
+        as the tolerance needed, whose own ledger closes at every instant.
 
         Examples
         --------
@@ -320,14 +322,14 @@ class ObliqueImpact(Report):
 
 
 def _friction_limits(medium):
-    """What is assumed of friction; the ratio ν/(4 − 2ν) is that of slip across the speed to slip along it."""
+    """What is assumed of friction; ν/(4 − 2ν) is the ratio of slip across the speed to slip along it."""
     nu = float(np.min(medium.poisson))
     value = (1 - 2 * nu) / (2 - 2 * nu)
     text = "Normal and tangential displacements are taken as uncoupled, which is exact for ν = ½"
     text += f", and ν = {nu:.3g}." if value > 0 else "."
     yield Limit("coupling", value, 0.0, value > 0, text, severe=False)
     value = float(np.max(np.abs(medium.poisson / (4 - 2 * medium.poisson))))
-    text = f"Slip is along the speed, and stick a disc or ring: slip across is neglected, up to {value:.2g} of it."
+    text = f"Slip is along the speed, stick a disc or ring: up to {value:.2g} of the slip goes across."
     yield Limit("slip direction", value, 0.2, value > 0.2, text, severe=False)
     text = "Friction is the same for stick and slip: no peak before slip begins."
     yield Limit("static friction", 1.0, 1.0, False, text)

@@ -1,4 +1,4 @@
-"""The motion of one oblique impact over time: the normal one, and the row of friction read off beside it."""
+"""The motion of one oblique impact over time: the normal one, and the row of friction beside it."""
 
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -8,7 +8,8 @@ import numpy as np
 from .._check import Array
 from ..report import Report
 from ..results import Limit, Motion
-from .friction import NormalMotion, grip, slide
+from .friction import grip, slide
+from .levels import NormalMotion
 
 if TYPE_CHECKING:
     from .oblique import ObliqueImpact
@@ -16,10 +17,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ObliqueMotion(Report):
-    """One oblique impact from first contact to its loss, as arrays of one length, its turning point among them.
+    """One oblique impact from first contact to its loss, as arrays of one length.
 
-    Within `slip_radius` and from `stick_radius` to the contact radius the surface slips, between them it sticks.
-    The energies sum to the same at every instant.
+    Within `slip_radius` and from `stick_radius` to the contact radius the surface slips, between them it
+    sticks. The turning point is among the instants. The energies sum to the same at every instant.
 
     Attributes
     ----------
@@ -76,10 +77,7 @@ class ObliqueMotion(Report):
     def __getitem__(self, index: Any) -> "ObliqueMotion":
         whole = {"x": self.x, "impact": self.impact}
         return ObliqueMotion(
-            *(
-                whole.get(f.name, None) if f.name in whole else getattr(self, f.name)[index]
-                for f in fields(self)
-            )
+            *(whole[f.name] if f.name in whole else getattr(self, f.name)[index] for f in fields(self))
         )
 
     def _source(self):
@@ -100,7 +98,8 @@ def oblique_motion(hit, n, halvings):
     """The `ObliqueMotion` of one `ObliqueImpact` at n instants, on levels halved so often."""
     if hit.shape:
         raise ValueError(
-            f"motion is that of one impact, but these are {np.prod(hit.shape)}; pick one, as in result[0].motion()"
+            f"motion is that of one impact, but these are {np.prod(hit.shape)}; pick one, as in "
+            "result[0].motion()"
         )
     normal, speed = hit.normal.motion(n), float(hit.tangential_speed)
     ratio, mass = float(hit.medium.tangential_ratio), float(hit.tangential_mass)
