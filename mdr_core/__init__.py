@@ -6,7 +6,9 @@ V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 """
 
 from . import abel
+from .dynamics.ball import Ball, at_angle
 from .dynamics.impact import Impact, impact
+from .dynamics.oblique import ObliqueImpact, oblique_impact
 from .foundation.depth_path import TimedIndentation, indent_in_time
 from .foundation.force_path import creep
 from .foundation.impact import ChainImpact, chain_impact
@@ -25,6 +27,7 @@ from .shapes.truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
 from .stress import Stress, StressPeak
 
 __all__ = [
+    "Ball",
     "ChainImpact",
     "Cone",
     "DepthPath",
@@ -38,6 +41,7 @@ __all__ = [
     "Indentation",
     "Medium",
     "Motion",
+    "ObliqueImpact",
     "ParabolicPunch",
     "Paraboloid",
     "PowerLaw",
@@ -55,6 +59,7 @@ __all__ = [
     "TruncatedCone",
     "TruncatedParaboloid",
     "abel",
+    "at_angle",
     "chain_impact",
     "creep",
     "hardness_class",
@@ -62,6 +67,7 @@ __all__ = [
     "indent",
     "indent_in_time",
     "indent_to_force",
+    "oblique_impact",
 ]
 
 __version__ = "0.2.0"

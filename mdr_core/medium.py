@@ -48,8 +48,8 @@ class Medium(_check.Comparable):
     eta : float, optional
         Dynamic viscosity η (Pa·s), not negative; 0 (the default) means rate-independent.
     poisson : float, optional
-        Poisson ratio ν of the half-space, −1 < ν ≤ 1/2; beside E* only the stress below feels it. The
-        dashpots are exact for 1/2.
+        Poisson ratio ν of the half-space, −1 < ν ≤ 1/2; beside E* only the stress below and friction feel
+        it. The dashpots are exact for 1/2.
 
     Each may be an array for many impacts at once (`impact`); then every property is one too.
 
@@ -178,3 +178,8 @@ class Medium(_check.Comparable):
     def relaxation_time(self) -> Array:
         """Relaxation time τ = 4η/E* (s) of a spring and its dashpot, Popov (2015), Eq. (1)."""
         return 4 * self.eta / self.E_star
+
+    @property
+    def tangential_ratio(self) -> Array:
+        """Tangential stiffness over the normal one, Mindlin's κ = 2(1 − ν)/(2 − ν): 2/3 for ν = 1/2."""
+        return 2 * (1 - self.poisson) / (2 - self.poisson)

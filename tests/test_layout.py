@@ -19,7 +19,9 @@ ORDER = (
     "foundation.depth_path", "foundation.force_path", "foundation.free_body", "foundation.impact",
     "yielding", "superposition", "fields", "stress", "indentation",
     "dynamics.energy_balance", "dynamics.contact_time", "scaling", "dynamics.equation_of_motion",
-    "dynamics.motion", "dynamics.impact", "scene", "__init__",
+    "dynamics.motion", "dynamics.impact", "dynamics.levels", "dynamics.friction",
+    "dynamics.oblique_motion", "dynamics.ball",
+    "dynamics.oblique", "scene", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {

@@ -1,0 +1,135 @@
+"""The motion of one oblique impact over time: the normal one, and the row of friction beside it."""
+
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from .._check import Array
+from ..report import Report
+from ..results import Limit, Motion
+from .friction import grip, slide
+from .levels import NormalMotion
+
+if TYPE_CHECKING:
+    from .oblique import ObliqueImpact
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ObliqueMotion(Report):
+    """One oblique impact from first contact to its loss, as arrays of one length.
+
+    Within `slip_radius` and from `stick_radius` to the contact radius the surface slips, between them it
+    sticks. The turning point is among the instants. The energies sum to the same at every instant.
+
+    Attributes
+    ----------
+    time, depth, velocity, force, contact_radius, plastic_radius : ndarray
+        As in `Motion`.
+    tangential_velocity, tangential_force : ndarray
+        Velocity W (m/s) of the contact point along the surface, and the force (N) against it.
+    stick_radius, slip_radius : ndarray
+        Outer and inner radius (m) of the region that sticks, to within an element; both 0 if all slips.
+    kinetic_energy, stored_energy, plastic_work, viscous_work, friction_work : ndarray
+        The ledger (J): ½mv² + ½m_t W², the energy of all springs, normal and tangential, and what is lost.
+    x : ndarray, shape (N,)
+        Places (m) of the elements along the foundation.
+    tangential_line_load : ndarray, shape (n, N)
+        Load q_x(x) (N/m) of every element along the surface at every instant.
+    sticks : ndarray of bool, shape (n, N)
+        Whether an element is in contact and sticks.
+    normal : Motion
+        The normal motion, with `normal.states`.
+    impact : ObliqueImpact
+        The impact whose motion it is.
+    """
+
+    time: Array
+    depth: Array
+    velocity: Array
+    force: Array
+    contact_radius: Array
+    plastic_radius: Array
+    tangential_velocity: Array
+    tangential_force: Array
+    stick_radius: Array
+    slip_radius: Array
+    kinetic_energy: Array
+    stored_energy: Array
+    plastic_work: Array
+    viscous_work: Array
+    friction_work: Array
+    x: Array
+    tangential_line_load: Array
+    sticks: "np.ndarray[Any, np.dtype[np.bool_]]"
+    normal: Motion
+    impact: "ObliqueImpact"
+
+    _quantities: ClassVar[tuple[str, ...]] = (
+        "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "tangential_velocity",
+        "tangential_force", "stick_radius", "slip_radius", "kinetic_energy", "stored_energy", "plastic_work",
+        "viscous_work", "friction_work",
+    )  # fmt: skip
+    _shown: ClassVar[tuple[str, ...]] = ("time", "depth", "force", *_quantities[6:10], "friction_work")
+    _dimensions: ClassVar[tuple[str, ...]] = ("time",)
+    _noun: ClassVar[str] = "instant"
+
+    def __getitem__(self, index: Any) -> "ObliqueMotion":
+        whole = {"x": self.x, "impact": self.impact}
+        return ObliqueMotion(
+            *(whole[f.name] if f.name in whole else getattr(self, f.name)[index] for f in fields(self))
+        )
+
+    def _source(self):
+        return self.impact
+
+    @property
+    def limits(self) -> tuple[Limit, ...]:
+        """Where the model's assumptions end, for the impact whose motion it is."""
+        return self.impact.limits
+
+    @property
+    def turning_point(self) -> int:
+        """Number of the instant at which the body turns round."""
+        return int(np.argmax(self.depth))
+
+
+def oblique_motion(hit, n, halvings):
+    """The `ObliqueMotion` of one `ObliqueImpact` at n instants, on levels halved so often."""
+    if hit.shape:
+        raise ValueError(
+            f"motion is that of one impact, but these are {np.prod(hit.shape)}; pick one, as in "
+            "result[0].motion()"
+        )
+    normal, speed = hit.normal.motion(n), float(hit.tangential_speed)
+    ratio, mass = float(hit.medium.tangential_ratio), float(hit.tangential_mass)
+    stiffness, friction = 2 * ratio * float(hit.medium.E_star), float(hit.friction)
+    motion = NormalMotion(hit.normal)
+    levels = motion.levels(stiffness / mass, halvings, normal.time)
+    run = slide(motion, levels, stiffness / mass, grip(hit.normal, speed, friction), normal.time)
+    at, edges = run.instants, np.append(0.0, run.row.edge[: run.row.width.size])
+    load, sticks = np.zeros((n, edges.size - 1)), np.zeros((n, edges.size - 1), bool)
+    for k, i in enumerate(at):
+        count = run.seen[i][0].size
+        load[k, :count], sticks[k, :count] = run.seen[i]
+    sticks &= run.row.width > 0
+    stuck = sticks.any(axis=1)
+    first, last = sticks.argmax(axis=1), sticks.shape[1] - sticks[:, ::-1].argmax(axis=1)
+    velocity, energy = run.velocity[at] * speed, stiffness * speed**2
+    return ObliqueMotion(
+        *(getattr(normal, name) for name in ObliqueMotion._quantities[:6]),
+        tangential_velocity=velocity,
+        tangential_force=stiffness * speed * run.force[at],
+        stick_radius=np.where(stuck, edges[last], 0.0),
+        slip_radius=np.where(stuck, edges[first], 0.0),
+        kinetic_energy=normal.kinetic_energy + mass * velocity**2 / 2,
+        stored_energy=normal.stored_energy + energy * run.stored[at],
+        plastic_work=normal.plastic_work,
+        viscous_work=normal.viscous_work + energy * run.viscous[at],
+        friction_work=energy * run.friction[at],
+        x=(edges[1:] + edges[:-1]) / 2,
+        tangential_line_load=stiffness / 2 * speed * load,
+        sticks=sticks,
+        normal=normal,
+        impact=hit,
+    )
