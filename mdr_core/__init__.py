@@ -5,7 +5,7 @@ inversely proportional to the contact radius), mapped exactly onto a row of inde
 V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 """
 
-from . import abel
+from . import abel, sweep
 from .dynamics.impact import Impact, impact
 from .foundation.depth_path import TimedIndentation, indent_in_time
 from .foundation.force_path import creep
@@ -62,6 +62,7 @@ __all__ = [
     "indent",
     "indent_in_time",
     "indent_to_force",
+    "sweep",
 ]
 
 __version__ = "0.2.0"

@@ -125,7 +125,7 @@ def described(thing):
     return ", ".join(parts)
 
 
-def _imported(name, method):
+def imported(name, method):
     try:
         return import_module(name)
     except ImportError:
@@ -184,7 +184,7 @@ class Report:
         `attrs` has what was modelled, and "units" and "long_names" by the names of the columns. Parameters
         of many indenters or media have columns of their own.
         """
-        pandas = _imported("pandas", "to_pandas()")
+        pandas = imported("pandas", "to_pandas()")
         values = self.to_dict() | self._parameters()
         columns = {name: np.broadcast_to(v, self.shape).ravel() for name, v in values.items()}
         if len(self.shape) > 1:
@@ -203,7 +203,7 @@ class Report:
 
         What was prescribed (depth, time, mass and speed, parameters of many) are coordinates.
         """
-        xarray = _imported("xarray", "to_xarray()")
+        xarray = imported("xarray", "to_xarray()")
         dims, variables = self._dims(), {}
         for name, value in (self.to_dict() | self._parameters()).items():
             about, quantity = {}, QUANTITIES.get(name)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._check import Parameter
-from .profile import OneLength
+from .tabulated import OneLength
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +32,6 @@ class Sphere(OneLength):
     # There a is R to any precision.
     deepest = property(lambda self: 100 * self.radius)
     _end = np.nextafter(1.0, 0.0)
-    _grid = np.tanh(OneLength._grid)
 
     @staticmethod
     def _Z(u):
@@ -154,6 +153,7 @@ class ParabolicPunch(OneLength):
     _depth = property(lambda self: self.cylinder_radius * (self.cylinder_radius / self.radius))
     kinks = property(lambda self: (self._depth,))
     body_radius = property(lambda self: self.radius)
+    _end = 1.0
 
     @staticmethod
     def _Z(u):
@@ -166,7 +166,3 @@ class ParabolicPunch(OneLength):
     @staticmethod
     def _G_slope(u):
         return np.where(u <= 1, 2 * u, np.inf)
-
-    @classmethod
-    def _inverse(cls, depth):
-        return np.minimum(np.sqrt(depth), 1.0)
