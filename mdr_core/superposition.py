@@ -23,8 +23,10 @@ from .shapes.tabulated import OneLength, Tabulated
 from .yielding import LiveInterval, first_loading
 
 _TINY = np.finfo(float).tiny
-#: Intervals shorter than a share of the way behind the last kink, and the Gauss nodes that they need.
-_SHORT = (0.03, 4), (0.3, 8)
+#: Live intervals that are longer, as a share of the depth, are differences of integrals from the tip: of those
+#: of the energy two digits are lost then. Of shorter ones, shares of the way behind the last kink, and the
+#: Gauss nodes that they need.
+_FAR, _NEAR = 0.15, ((0.02, 3), (0.15, 5), (0.5, 10))
 
 
 @singledispatch
@@ -193,7 +195,7 @@ def radius_and_energy(profile, live):
 def _from_table(profile, live, moments):
     """The first or both integrals, from the table of the shape with parameters of 1."""
     unit, length, depth = profile.unit
-    scaled = live.over(depth)
+    scaled = live if unit is profile else live.over(depth)
     lower, upper, way = (np.ravel(part) for part in (scaled.lower, scaled.upper, scaled.length))
     result = np.empty((moments, way.size))
     for rows in chunks(way.size):
@@ -210,7 +212,10 @@ def _fill(result, profile, lower, upper, length):
     """
     table = profile.table
     known = table.covers(lower) & table.covers(upper)
-    far = known & (length >= _SHORT[-1][0] * upper)
+    if not lower.any() and known.all():
+        result[:] = table.integrals(upper, len(result))
+        return
+    far = known & (length >= _FAR * upper)
     rows = np.flatnonzero(far)
     low, high = (table.integrals(part[rows], len(result)) for part in (lower, upper))
     result[0, rows] = high[0] - low[0]
@@ -218,12 +223,12 @@ def _fill(result, profile, lower, upper, length):
         result[1, rows] = high[1] - low[1] - length[rows] * low[0]
     foot, rest = table.foot(lower), known & ~far
     free = np.where(foot == table.foot(upper), upper - foot, 0.0)
-    for share, count in _SHORT:
+    for share, count in _NEAR:
         rows = np.flatnonzero(rest & (length < share * free))
         node, weight = gauss_legendre(count)
         values = table.radius(lower[rows] + length[rows] * node[:, None])
         for k, part in enumerate(result):
-            part[rows] = weight * (1 - node) ** k @ values * length[rows] ** (k + 1)
+            part[rows] = np.einsum("i,ij", weight * (1 - node) ** k, values) * length[rows] ** (k + 1)
         rest[rows] = False
     rows = np.flatnonzero(rest | ~known)
     if rows.size:

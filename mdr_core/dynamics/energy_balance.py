@@ -112,12 +112,16 @@ def _about(profile, target, d_c, before):
     """What `_penetration` begins with."""
     if profile.unit is None:
         return np.where(np.isinf(d_c), 1.0, d_c)
-    table = profile.table
-    # As if the force were that in the middle of the live interval; and below d_c that of a flat punch.
-    yielding = table.depth_about(1, target / d_c + table.integrals(before, 1)[0]) + d_c / 2 - before
-    elastic = table.depth_about(2, target)
-    punch = np.sqrt(2 * target / table.radius(before))
-    elastic = np.where(before > 0, np.minimum(elastic, punch), elastic)
+    table, met = profile.table, before.any()
+    elastic, _ = table.depth_about(2, target)
+    # As if the force were that in the middle of the live interval, and what bends it a power of the depth.
+    spent = table.integrals(before, 1)[0] if met else 0.0
+    middle, power = table.depth_about(1, target / d_c + spent)
+    yielding = middle - (power - 1) * d_c * d_c / (24 * middle) + d_c / 2 - before
+    if met:
+        # No deeper than a flat punch of what the imprint is wide.
+        punch = np.sqrt(2 * target / table.radius(before))
+        elastic = np.where(before > 0, np.minimum(elastic, punch), elastic)
     return np.where(elastic > d_c, np.maximum(yielding, d_c), elastic)
 
 

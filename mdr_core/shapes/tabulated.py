@@ -5,7 +5,7 @@ have one length of their own, made once for the class (`OneLength`), or for one 
 """
 
 from abc import abstractmethod
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -17,7 +17,7 @@ from .profile import Profile
 
 #: Panels in an octave and coefficients of a panel: of tables made once for a class, and of single tips,
 #: whose making counts.
-_FINE, _CHEAP = (16, 8), (2, 14)
+_FINE, _CHEAP = (16, 8), (1, 18)
 #: A panel resolves a(s) whose last coefficients are so much smaller than a(s).
 _RESOLVED = 1e-14
 #: Tables for a class reach so many octaves to both sides of the unit of depth.
@@ -31,8 +31,8 @@ class RadiusTable:
        octave of this share is cut into equal panels: so a fractional power of it is resolved everywhere.
     2. There are as many octaves as it takes for a(s) to be smooth down to the beginning of the zone; one
        panel is left there.
-    3. In each panel a(s) is the polynomial through Chebyshev points; its integrals are polynomials too, that
-       begin with what has been gathered before.
+    3. In each panel a(s) is the polynomial through Chebyshev points; its integrals are polynomials too,
+       that begin with what has been gathered before.
     """
 
     def __init__(self, radius, feet, end, rule=_CHEAP, octaves=None):
@@ -71,12 +71,16 @@ class RadiusTable:
         return self._values(depth, *range(1, count + 1))
 
     def depth_about(self, integral, value):
-        """Depth (m) at which ∫ a ds (`integral` 1) or ∫∫ a ds ds (2) has a value, to some 10⁻⁴."""
+        """Depth (m) at which ∫ a ds (`integral` 1) or ∫∫ a ds ds (2) has a value, to some 10⁻⁴.
+
+        With the power of the depth that the integral goes as there.
+        """
         start, step, places = self._inverses[integral - 1]
         place = np.clip((np.log(value) - start) / step, 0, len(places) - 1.001)
         cell = place.astype(np.intp)
         low = places.take(cell)
-        return np.exp(low + (place - cell) * (places.take(cell + 1) - low))
+        rise = places.take(cell + 1) - low
+        return np.exp(low + (place - cell) * rise), step / rise
 
     @cached_property
     def _inverses(self):
@@ -111,7 +115,7 @@ class RadiusTable:
         mantissa, octave = np.frexp(np.maximum(share, 1e-300))
         panel = (octave + (self._octaves[zone] - 1)) * self._per + 1
         panel += ((mantissa - 0.5) * (2 * self._per)).astype(np.intp)
-        panel = np.clip(panel, 0, self._count[zone] - 1) + self._begin[zone]
+        panel = np.minimum(np.maximum(panel, 0), self._count[zone] - 1) + self._begin[zone]
         x = (share - self._middle.take(panel)) * self._per_share.take(panel)
         return [_horner(self._polynomials[each], panel, x) for each in which]
 
@@ -122,11 +126,13 @@ def _octaves(values, zones, count):
         np.polynomial.chebyshev.chebvander(np.cos(np.pi * (np.arange(count) + 0.5) / count), count - 1)
     )
     octaves, rough = np.zeros(zones, int), np.arange(zones)
-    for tried in (0, 2, 4, 8, 16, 32, 64):
+    for tried in (0, 2, 5, 8, 16, 32, 64):
         octaves[rough] = tried
         first = values(rough, 0.0, 0.5**tried)
         last = np.abs(first @ to_series[-2:].T).max(axis=1)
-        rough = rough[last > _RESOLVED * first.min(axis=1)]
+        # At a sharp tip a(s) is as small as it is, elsewhere rounding is that of the largest.
+        size = first.min(axis=1) + np.where(rough > 0, first.max(axis=1) / 10, 0.0)
+        rough = rough[last > _RESOLVED * size]
         if not rough.size:
             break
     return octaves, rough
@@ -190,7 +196,7 @@ class OneLength(Profile):
 
     @cached_property
     def unit(self):
-        return type(self)(*(1.0 for _ in fields(self))), self._length, self._depth
+        return _unit(type(self)), self._length, self._depth
 
     @property
     def table(self):
@@ -215,7 +221,8 @@ class OneLength(Profile):
         with np.errstate(all="ignore"):
             # To rounding, by a step of Newton's method.
             step = (self._G(u) - depth) / self._G_slope(u)
-            u = np.clip(np.where(np.isfinite(step), u - step, u), self._edge, self._end)
+            u = np.where((depth > 0) & np.isfinite(step), u - step, np.where(depth > 0, u, 0.0))
+            u = np.clip(u, self._edge, self._end)
             if not np.all(covered):
                 u = np.where(covered, u, _unit_radius(type(self), depth, 1.0))
         return self._length * u
@@ -228,9 +235,14 @@ def _unit_radius(kind, depth, start):
 
 
 @lru_cache
+def _unit(kind):
+    """The shape of a class with parameters of 1."""
+    return kind(*(1.0 for _ in fields(kind)))
+
+
+@lru_cache
 def _unit_table(kind):
-    """The table of the shapes of a class with parameters of 1."""
-    unit = kind(*(1.0 for _ in fields(kind)))
+    unit = _unit(kind)
     end = min(unit.deepest, 2.0**_OCTAVES)
     octaves = [_OCTAVES + int(np.log2(end)) for end in (*unit.kinks[:1], end)]
     coarse = np.ldexp(1.0, np.arange(-_OCTAVES, _OCTAVES))
@@ -244,20 +256,25 @@ def _unit_table(kind):
         return RadiusTable(radius, (0.0, *unit.kinks), end, _FINE, octaves[: 1 + len(unit.kinks)])
 
 
+@dataclass(frozen=True, eq=False)
 class Tabulated(Profile):
     """A shape with the contact radius of another one as a table, down to a depth (m)."""
 
-    unit = property(lambda self: (self, 1.0, 1.0))
+    profile: Profile
+    deepest: float
 
-    def __init__(self, profile, deepest):
-        self.profile, self.shape, self.deepest = profile, (), deepest
-        self.kinks, self.scale, self.wall = profile.kinks, profile.scale, profile.wall
-        self.face_radius, self.known_radius = profile.face_radius, profile.known_radius
-        feet = (0.0, *(kink for kink in profile.kinks if kink < deepest))
+    unit = property(lambda self: (self, 1.0, 1.0))
+    kinks = property(lambda self: self.profile.kinks)
+    scale = property(lambda self: self.profile.scale)
+    wall = property(lambda self: self.profile.wall)
+    face_radius = property(lambda self: self.profile.face_radius)
+    known_radius = property(lambda self: self.profile.known_radius)
+
+    @cached_property
+    def table(self):
+        feet = (0.0, *(kink for kink in self.kinks if kink < self.deepest))
         with np.errstate(all="ignore"):
-            self.table = RadiusTable(
-                lambda depth: profile._radius(np.minimum(depth, deepest)), feet, deepest
-            )
+            return RadiusTable(lambda s: self.profile._radius(np.minimum(s, self.deepest)), feet, self.deepest)
 
     def _radius(self, depth):
         radius, covered = self.table.radius(depth), self.table.covers(depth)
