@@ -23,10 +23,10 @@ from .shapes.tabulated import OneLength, Tabulated
 from .yielding import LiveInterval, first_loading
 
 _TINY = np.finfo(float).tiny
-#: Live intervals that are longer, as a share of the depth, are differences of integrals from the tip: of those
-#: of the energy two digits are lost then. Of shorter ones, shares of the way behind the last kink, and the
-#: Gauss nodes that they need.
-_FAR, _NEAR = 0.15, ((0.02, 3), (0.15, 5), (0.5, 10))
+#: Integrals over live intervals that are longer, as a share of the depth, are differences of integrals from
+#: the tip, of which the energy loses up to two digits. Of shorter ones: shares of the way behind the last
+#: kink, and the Gauss nodes that they need.
+_FAR, _NEAR = 0.15, ((0.02, 3), (0.15, 6), (0.5, 10))
 
 
 @singledispatch

@@ -168,27 +168,23 @@ def cost(solve: Callable[..., "xarray.Dataset"], shape: "Shape", **arguments: An
     """
     xarray = imported("xarray", "mdr_core.sweep")
     arrays = {name: each for name, each in arguments.items() if isinstance(each, xarray.DataArray)}
-    sizes, first = {}, {}
+    sizes = {dim: size for each in arrays.values() for dim, size in each.sizes.items()}
+    first = dict(sizes)
     for each in arrays.values():
-        for dim, size in each.sizes.items():
-            sizes[dim] = size
-            first[dim] = min(first.get(dim, size), each.chunksizes.get(dim, (size,))[0])
-    total, elapsed, number = int(np.prod(list(sizes.values()), dtype=float)), 0.0, 8
-    while elapsed < _LONG_ENOUGH and number < total:
-        number = min(8 * number, total)
+        first |= {dim: min(first[dim], parts[0]) for dim, parts in each.chunksizes.items()}
+    total, within, number = (float(np.prod(list(part.values()))) for part in (sizes, first, {}))
+    while True:
         # Evenly over all dimensions.
-        each_dim = int(np.ceil(number ** (1 / len(sizes))))
-        index = {
-            dim: np.linspace(0, size - 1, min(size, each_dim)).astype(int) for dim, size in first.items()
-        }
+        most = int(np.ceil(number ** (1 / max(len(sizes), 1))))
+        index = {dim: np.linspace(0, size - 1, min(size, most)).astype(int) for dim, size in first.items()}
         part = {name: each.isel(index, missing_dims="ignore").compute() for name, each in arrays.items()}
         start = perf_counter()
         solved = solve(shape, **arguments | part)
-        elapsed = perf_counter() - start
-        count = int(np.prod(list(solved.sizes.values())))
-        if count == np.prod(list(first.values())):
-            break
-    return elapsed * total / count
+        elapsed, count = perf_counter() - start, float(np.prod(list(solved.sizes.values())))
+        # The first run makes tables, and does not count if there is more to try.
+        if count >= within or (number > 1 and elapsed >= _LONG_ENOUGH):
+            return elapsed * total / count
+        number *= 8
 
 
 def _sweep(kind, solve, shape, parameters, shape_parameters, quantities):
@@ -196,7 +192,7 @@ def _sweep(kind, solve, shape, parameters, shape_parameters, quantities):
     xarray = imported("xarray", "mdr_core.sweep")
     names = [quantities] if isinstance(quantities, str) else list(quantities)
     known = [name for name in kind._quantities if name not in parameters]
-    for name in names:
+    for name in names or [""]:
         _check.one_of("quantity", name, known)
     _check_shape(shape, shape_parameters)
     given = shape_parameters | parameters
@@ -216,8 +212,8 @@ def _sweep(kind, solve, shape, parameters, shape_parameters, quantities):
     results = results if len(names) > 1 else [results]
     dataset = xarray.Dataset(dict(zip(names, results, strict=True)), attrs=_attributes(kind, shape, given))
     for name in names:
-        known = QUANTITIES[name]
-        dataset[name].attrs = {"units": known.unit or "1", "long_name": known.long_name}
+        quantity = QUANTITIES[name]
+        dataset[name].attrs = {"units": quantity.unit or "1", "long_name": quantity.long_name}
     return dataset
 
 

@@ -1,14 +1,14 @@
-"""Ensembles over named dimensions: the numbers of single impacts, by name, lazily, on two processes, to disk."""
+"""Ensembles over named dimensions: the numbers of single impacts, lazily, on two processes, to disk."""
 
 import warnings
 
 import numpy as np
 import pytest
 
-xr = pytest.importorskip("xarray")
-
 import mdr_core as mdr
 from mdr_core import sweep
+
+xr = pytest.importorskip("xarray")
 
 SPEED = xr.DataArray(np.geomspace(1e-2, 1.0, 5), dims="speed")
 RADIUS = xr.DataArray([1e-6, 1e-5, 1e-4], dims="radius", coords={"radius": [1, 10, 100]})
@@ -91,7 +91,7 @@ def test_shapes_are_classes_with_their_parameters_or_one_indenter():
         sweep.impacts(mdr.Sampled, **rest)
     with pytest.raises(ValueError, match="give its class"):
         sweep.impacts(mdr.Sphere([1.0, 2.0]), **rest)
-    with pytest.raises(ValueError, match="radius is not a parameter .* the Sphere given"):
+    with pytest.raises(ValueError, match=r"radius is not a parameter .* the Sphere given"):
         sweep.impacts(mdr.Sphere(1.0), radius=1.0, **rest)
     with pytest.raises(TypeError, match="shape must be a class of indenters"):
         sweep.impacts("sphere", **rest)
@@ -125,7 +125,9 @@ class TestLazily:
     def stream(count=4000, chunk=1000):
         speed = xr.DataArray(np.geomspace(1e-2, 1.0, count), dims="particle").chunk(particle=chunk)
         return sweep.impacts(
-            mdr.Sphere, **SPHERES | {"speed": speed, "radius": 1e-5}, quantities=("restitution", "max_depth")
+            mdr.Sphere,
+            **SPHERES | {"speed": speed, "radius": 1e-5},
+            quantities=("restitution", "max_depth"),
         )
 
     def test_nothing_is_solved_before_it_is_asked_for(self, monkeypatch):

@@ -274,7 +274,9 @@ class Tabulated(Profile):
     def table(self):
         feet = (0.0, *(kink for kink in self.kinks if kink < self.deepest))
         with np.errstate(all="ignore"):
-            return RadiusTable(lambda s: self.profile._radius(np.minimum(s, self.deepest)), feet, self.deepest)
+            return RadiusTable(
+                lambda s: self.profile._radius(np.minimum(s, self.deepest)), feet, self.deepest
+            )
 
     def _radius(self, depth):
         radius, covered = self.table.radius(depth), self.table.covers(depth)
