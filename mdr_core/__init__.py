@@ -5,7 +5,7 @@ inversely proportional to the contact radius), mapped exactly onto a row of inde
 V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 """
 
-from . import abel
+from . import abel, sweep
 from .dynamics.ball import Ball, at_angle
 from .dynamics.impact import Impact, impact
 from .dynamics.oblique import ObliqueImpact, oblique_impact
@@ -68,6 +68,7 @@ __all__ = [
     "indent_in_time",
     "indent_to_force",
     "oblique_impact",
+    "sweep",
 ]
 
 __version__ = "0.2.0"

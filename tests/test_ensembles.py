@@ -71,6 +71,27 @@ def test_neighbours_do_not_matter(shape, eta):
         assert getattr(alone, quantity) == pytest.approx(values[17], rel=1e-11), quantity
 
 
+TIP = mdr.Sampled(1e-6 * np.arange(61), 1e-7 * np.arange(61) + 2e-9 * np.arange(61.0) ** 2)
+
+
+@pytest.mark.parametrize("before", [0.0, 2e-8])
+@pytest.mark.parametrize("shape", [*SHAPES, TIP], ids=name)
+def test_thousands_are_as_exact_as_one(shape, before):
+    """From elastic impacts to thousands of critical depths, by tables of a tip, and one by one."""
+    random = np.random.default_rng(3)
+    media = mdr.Medium(1e9 * random.uniform(0.5, 2, 5000), 10.0 ** random.uniform(-1, 3, 5000))
+    speed = 10.0 ** random.uniform(-4, -2, 5000)
+    hits = mdr.impact(shape, media, 1e-9, speed, plastic_depth=before)
+    for i in range(0, 5000, 250):
+        one = mdr.impact(shape, media.entries(i), 1e-9, speed[i], plastic_depth=before)
+        for quantity in ("max_depth", "max_force", "restitution", "damaged_area", "stored_energy"):
+            # Roundings of the energy, and of powers of the depth.
+            expected = pytest.approx(getattr(one, quantity), rel=1e-12, abs=0.0)
+            assert getattr(hits, quantity)[i] == expected, (quantity, i)
+    balance = (hits.stored_energy + hits.plastic_work) / (1e-9 * speed**2 / 2)
+    np.testing.assert_allclose(balance, 1.0, rtol=1e-12)
+
+
 def test_shapes_of_results():
     grid = mdr.impact(
         mdr.Cone([[0.1], [0.3]]), mdr.Medium([1e9, 2e9, 3e9], 10.0), 1e-9, np.full((4, 1, 1), 0.1)

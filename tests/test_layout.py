@@ -12,22 +12,22 @@ import mdr_core as mdr
 PACKAGE = Path(mdr.__file__).parent
 # From the bottom up; a module may import what stands before it.
 ORDER = (
-    "_check", "_numeric", "abel", "shapes.tables", "shapes.profile", "shapes.power", "shapes.rounded",
-    "shapes.truncated", "shapes.sampled", "shapes.smooth", "shapes.interpolated", "medium", "report",
-    "figures", "results",
+    "_check", "_numeric", "abel", "shapes.tables", "shapes.profile", "shapes.power",
+    "shapes.tabulated", "shapes.rounded", "shapes.truncated", "shapes.sampled", "shapes.smooth", "medium",
+    "report", "figures", "results",
     "foundation.element", "foundation.fronts", "foundation.reach", "foundation.row",
     "foundation.depth_path", "foundation.force_path", "foundation.free_body", "foundation.impact",
     "yielding", "superposition", "fields", "stress", "indentation",
     "dynamics.energy_balance", "dynamics.contact_time", "scaling", "dynamics.equation_of_motion",
     "dynamics.motion", "dynamics.impact", "dynamics.levels", "dynamics.friction",
     "dynamics.oblique_motion", "dynamics.ball",
-    "dynamics.oblique", "scene", "__init__",
+    "dynamics.oblique", "sweep", "scene", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {
     "yielding", "superposition", "fields", "indentation", "dynamics.impact",
     "dynamics.energy_balance", "dynamics.contact_time", "dynamics.equation_of_motion", "dynamics.motion",
-    "scaling", "shapes.interpolated", "stress",
+    "scaling", "shapes.tabulated", "stress",
 }  # fmt: skip
 
 

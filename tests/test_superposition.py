@@ -9,9 +9,11 @@ from mpmath import mp, mpf
 
 import mdr_core as mdr
 from mdr_core import superposition
-from mdr_core.yielding import LiveInterval
+from mdr_core.shapes.tabulated import tabulated
+from mdr_core.yielding import LiveInterval, virgin
 
 from .hard_cases import EXTREMES, MEDIA, REGIMES, bounds, errors
+from .shapes import SHAPES, name
 
 # A third of all pairs, which the report on accuracy has (with every medium): each shape in three regimes.
 PAIRS = [
@@ -47,6 +49,38 @@ def test_energy_of_a_sphere_of_any_contact_radius(share):
             error = abs(mpf(superposition.energy_integral(mdr.Sphere(1.0), live)[0]) / exact - 1)
         # Twenty roundings.
         assert error <= 5e-15, depth
+
+
+TABLES = (
+    *(shape for shape in SHAPES if shape.unit),
+    tabulated(mdr.Sampled(1e-6 * np.arange(61), 1e-7 * np.arange(61) + 2e-9 * np.arange(61.0) ** 2), 1e-5),
+)
+
+
+@pytest.mark.parametrize("shape", TABLES, ids=name)
+def test_integrals_from_tables_are_those_of_quadrature(shape):
+    """Of live intervals of all lengths: in one zone, across kinks, and next to them on both sides."""
+    random, scale = np.random.default_rng(4), shape.scale
+    depth = scale * 10.0 ** random.uniform(-6, 1.5, 3000)
+    depth[:500] = scale * (1 + random.choice([-1, 1], 500) * 10.0 ** random.uniform(-9, 0, 500))
+    length = depth * 10.0 ** random.uniform(-8, 0, 3000)
+    length[::7] = depth[::7]
+    live = LiveInterval(np.where(length == depth, 0.0, depth - length), depth, length)
+    found = superposition.radius_integral(shape, live), superposition.energy_integral(shape, live)
+    for moment, values in enumerate(found):
+        expected = superposition._integrate(shape, live, superposition._radius, moment)
+        # Of the energy differences lose up to two digits, a tenth of what is promised.
+        np.testing.assert_allclose(values, expected, rtol=1e-13)
+
+
+def test_depths_beyond_the_tables():
+    """Where a sphere is a paraboloid to any precision, a hyperboloid its cone, and a sphere all in."""
+    for depth in (1e-40, 1e-32, 1e-28):
+        assert mdr.Sphere(1.0).contact_radius(depth) == pytest.approx(depth**0.5, rel=1e-15)
+        energy = superposition.energy_integral(mdr.Sphere(1.0), virgin(np.array([depth])))[0]
+        assert energy == pytest.approx(4 / 15 * depth**2.5, rel=1e-14)
+    assert mdr.Hyperboloid(1.0, 1.0).contact_radius(1e45) == pytest.approx(1e45 / (np.pi / 2), rel=1e-15)
+    assert mdr.Sphere(1.0).contact_radius(99.0) == pytest.approx(1.0, rel=1e-15)
 
 
 def _latitude(depth):

@@ -7,8 +7,8 @@ import scipy
 from numpy.polynomial import chebyshev
 
 from .._numeric import chunks, gauss_integrals, gauss_legendre
-from ..shapes.interpolated import interpolated
 from ..shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
+from ..shapes.tabulated import tabulated
 from ..superposition import energy_integral, radius_integral
 from ..yielding import LiveInterval, virgin
 
@@ -31,17 +31,17 @@ def contact_time(profile, inertia, speed, live, growth):
     # Of a power law, the contact time over d_max/v₀ depends on d_p/d_c alone.
     fresh = growth == lower
     known = fresh & (lower == 0) & (power(profile) is not None)
-    tabulated = fresh & (lower > 0) & isinstance(profile, Cone | Paraboloid)
+    by_ratio = fresh & (lower > 0) & isinstance(profile, Cone | Paraboloid)
     time = np.empty(upper.shape)
     if known.any():
         ratio = np.broadcast_to(elastic_time(power(profile)), shape).ravel()
         time[known] = ratio[known] * passage[known]
-    if tabulated.any():
-        grown = lower[tabulated] / length[tabulated]
-        time[tabulated] = _tabulated(type(profile), grown) * passage[tabulated]
-    rest = np.flatnonzero(~(known | tabulated))
+    if by_ratio.any():
+        grown = lower[by_ratio] / length[by_ratio]
+        time[by_ratio] = _tabulated(type(profile), grown) * passage[by_ratio]
+    rest = np.flatnonzero(~(known | by_ratio))
     if rest.size:
-        profile = interpolated(profile, upper[rest].max())
+        profile = tabulated(profile, upper[rest].max())
     for part in chunks(rest.size, 512):
         rows = rest[part]
         indenters = profile.flat_entries(rows, shape)

@@ -11,8 +11,14 @@ import numpy as np
 
 from .._numeric import chunks, increasing_root
 from ..shapes.power import Cone, Paraboloid
-from ..superposition import energy_integral, radius_integral
+from ..shapes.tabulated import tabulated
+from ..superposition import energy_integral, radius_and_energy, radius_integral
 from ..yielding import LiveInterval
+
+#: So many impacts on one tip are worth a table of it.
+_FEW = 16
+#: Relative length of the last step: the square of it is rounding.
+_LAST_STEP = 1e-7
 
 
 def turning_point(profile, target, d_c, before):
@@ -26,16 +32,27 @@ def turning_point(profile, target, d_c, before):
         virgin = virgin_turning_point(profile, target, d_c)
         if virgin is not None:
             return virgin, virgin.lower
-    shape = target.shape
-    target, d_c, before = (np.broadcast_to(part, shape).ravel() for part in (target, d_c, before))
+    profile, shape = quick(profile, target.size), target.shape
+    unit, radius, depth = profile.unit or (profile, 1.0, 1.0)
+    arguments = target / (radius * depth**2), d_c / depth, before / depth
+    target, d_c, before = (np.broadcast_to(part, shape).ravel() for part in arguments)
     lower, upper, length, growth = np.empty((4, target.size))
     for rows in chunks(target.size):
-        y = _penetration(profile.flat_entries(rows, shape), target[rows], d_c[rows], before[rows])
+        y = _penetration(unit.flat_entries(rows, shape), target[rows], d_c[rows], before[rows])
         live, growth[rows] = pressed(np.where(np.isinf(y), 0.0, y), d_c[rows], before[rows])
         lower[rows], length[rows] = live.lower, live.length
         upper[rows] = np.where(np.isinf(y), np.inf, live.upper)
-    lower, upper, length, growth = (part.reshape(shape) for part in (lower, upper, length, growth))
+    lower, upper, length, growth = (depth * part.reshape(shape) for part in (lower, upper, length, growth))
     return LiveInterval(lower, upper, length), growth
+
+
+def quick(profile, count):
+    """The shape to solve so many impacts with: that of a tip which ends somewhere as a table of it."""
+    return (
+        tabulated(profile, profile.deepest)
+        if count > _FEW and np.all(profile.deepest < np.inf)
+        else profile
+    )
 
 
 def pressed(y, d_c, before):
@@ -54,22 +71,58 @@ def plastic_integral(profile, live, d_c, growth):
 
 def dry_restitution(profile, live, d_c, growth):
     """Coefficient of restitution e = √(U/(U + W_p)) of an impact without viscosity."""
+    profile = quick(profile, np.size(live.length))
     stored = energy_integral(profile, live)
     # U over the sum instead of U over the kinetic energy: never above 1.
     return np.sqrt(stored / (stored + plastic_integral(profile, live, d_c, growth)))
 
 
 def _penetration(profile, target, d_c, before):
-    """y = d − p₀ (m) at which the work over 2E* is `target`; infinite beyond the known shape."""
+    """y = d − p₀ (m) at which the work over 2E* is `target`; infinite beyond the known shape.
 
-    def work(y):
-        live, growth = pressed(y, d_c, before)
-        stored = energy_integral(profile, live)
-        return stored + plastic_integral(profile, live, d_c, growth), radius_integral(profile, live)
+    The work grows about as a power of y: Newton's method on their logarithms, until a step says that the
+    next one would be less than rounding.
+    """
 
-    start = np.where(np.isinf(d_c), 1.0, d_c)
+    def work(y, rows):
+        live, growth = pressed(y, d_c[rows], before[rows])
+        indenters = profile.entries(rows, target.shape)
+        force, stored = radius_and_energy(indenters, live)
+        return stored + plastic_integral(indenters, live, d_c[rows], growth), force
+
+    highest = np.broadcast_to(profile.deepest - before, target.shape)
     with np.errstate(all="ignore"):
-        return increasing_root(work, target, start, profile.deepest - before)
+        y = np.minimum(_about(profile, target, d_c, before), highest)
+        rows = np.arange(y.size)
+        for _ in range(12):
+            value, slope = work(y[rows], rows)
+            step = np.log(target[rows] / value) * value / (slope * y[rows])
+            new = np.minimum(y[rows] * np.exp(step), highest[rows])
+            # Short of its energy at the end of the shape.
+            y[rows] = np.where((y[rows] == highest[rows]) & (step > 1e-13), np.inf, new)
+            rows = rows[~(np.abs(step) < _LAST_STEP) & (y[rows] < np.inf)]
+            if not rows.size:
+                return y
+        # From far away, or out of double precision: in a bracket.
+        y[rows] = increasing_root(lambda y: work(y, rows), target[rows], 1.0, highest[rows])
+    return y
+
+
+def _about(profile, target, d_c, before):
+    """What `_penetration` begins with."""
+    if profile.unit is None:
+        return np.where(np.isinf(d_c), 1.0, d_c)
+    table, met = profile.table, before.any()
+    elastic, _ = table.depth_about(2, target)
+    # As if the force were that in the middle of the live interval, and what bends it a power of the depth.
+    spent = table.integrals(before, 1)[0] if met else 0.0
+    middle, power = table.depth_about(1, target / d_c + spent)
+    yielding = middle - (power - 1) * d_c * d_c / (24 * middle) + d_c / 2 - before
+    if met:
+        # No deeper than a flat punch of what the imprint is wide.
+        punch = np.sqrt(2 * target / table.radius(before))
+        elastic = np.where(before > 0, np.minimum(elastic, punch), elastic)
+    return np.where(elastic > d_c, np.maximum(yielding, d_c), elastic)
 
 
 @singledispatch

@@ -29,8 +29,8 @@ import numpy as np
 
 from .. import _numeric
 from .._numeric import cube_rise, cube_way
-from ..shapes.interpolated import interpolated
 from ..shapes.profile import Profile
+from ..shapes.tabulated import tabulated
 from ..superposition import radius_integral
 from ..yielding import LiveInterval
 from .energy_balance import pressed
@@ -68,7 +68,7 @@ class Bodies:
         profile = profile.flat_entries(slice(None), shape).entries((slice(None), None), (columns[0].size,))
         columns[-1] = np.minimum(columns[-1], profile.deepest - columns[-2])
         # A little deeper than it comes, for the end of what is interpolated is not to be where it turns.
-        return cls(interpolated(profile, columns[-2] + 1.1 * columns[-1]), *columns)
+        return cls(tabulated(profile, columns[-2] + 1.1 * columns[-1]), *columns)
 
     def rows(self, index):
         """Some of the impacts, by their numbers."""

@@ -29,16 +29,12 @@ from ..results import (
     speed_limit,
 )
 from ..scaling import FastLimit, fast_limit, how_fast
-from ..shapes.interpolated import interpolated
 from ..shapes.profile import Profile
 from ..superposition import radius_integral
 from .contact_time import contact_time
-from .energy_balance import dry_restitution, plastic_integral, pressed, turning_point
+from .energy_balance import dry_restitution, plastic_integral, pressed, quick, turning_point
 from .equation_of_motion import Bodies, solve
 from .motion import motion
-
-#: So many bodies ask for the radius often enough to pay for a table of it.
-_WORTH_A_TABLE = 16
 
 
 def impact(
@@ -154,10 +150,7 @@ def _in_time(profile, medium, mass, speed, before, dry_too):
     Where eta is 0 they are those of the energy balance, unless these too are to be solved in time.
     """
     shape, modulus, d_c = np.shape(speed), 2 * medium.E_star, medium.critical_depth
-    # Of many bodies on a tip with many kinks the depths to begin with are found in a table.
-    many = np.size(speed) > _WORTH_A_TABLE and np.all(np.isfinite(profile.deepest))
-    tip = interpolated(profile, profile.deepest) if many else profile
-    live, growth = _dry(tip, medium, mass, speed, before)
+    live, growth = _dry(profile, medium, mass, speed, before)
     y = np.where(live.upper < np.inf, live.length + growth, np.inf)
     bodies = Bodies.of(profile, medium, mass, speed, before, y)
     wet = (bodies.tau[:, 0] > 0) | dry_too
@@ -272,8 +265,8 @@ class Impact(Plotted):
     @_check.frozen_property
     def plastic_work(self):
         """Energy (J) dissipated by yielding in this impact."""
-        d_c = self.medium.critical_depth
-        return 2 * self.medium.E_star * plastic_integral(self.profile, self.deepest.live, d_c, self.growth)
+        profile, d_c = quick(self.profile, self.growth.size), self.medium.critical_depth
+        return 2 * self.medium.E_star * plastic_integral(profile, self.deepest.live, d_c, self.growth)
 
     @property
     def viscous_work(self) -> Array:

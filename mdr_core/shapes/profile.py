@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from dataclasses import fields
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
@@ -145,7 +145,9 @@ class Profile(_check.Comparable, ABC):
         """The indenters in some rows of an ensemble of a `shape`, counted flat."""
         if not self.shape:
             return self
-        return self.entries(np.unravel_index(np.arange(np.prod(shape, dtype=int))[rows], shape), shape)
+        if isinstance(rows, slice):
+            rows = np.arange(*rows.indices(np.prod(shape, dtype=int)))
+        return self.entries(np.unravel_index(rows, shape), shape)
 
     def _of_radius(self, quantity, r, function):
         r, known = np.abs(self._places(quantity, r)), np.min(self.known_radius, initial=np.inf)
@@ -174,81 +176,3 @@ class Profile(_check.Comparable, ABC):
     def _too_deep(self):
         """What is wrong with a depth beyond `deepest`, for a refusal."""
         return f"deeper than {self._end_of_depth}, {np.min(self.deepest, initial=_check.LARGEST):g} m"
-
-
-class OneLength(Profile):
-    """A shape with one length L of its own: z = H Z(r/L), g = H G(x/L), one function for all of them.
-
-    A subclass gives `_length` and `_depth` (L and H, m), and Z, G and G′ as functions of u = r/L, for
-    arrays. The inverse of G is found from a table of G, made once for the class, by Newton's method.
-    """
-
-    _length: float
-    _depth: float
-
-    #: Where G begins to grow, 0, or 1 behind a flat face; and where it ends.
-    _edge, _end = 0.0, np.inf
-
-    #: Places u that G is tabulated at: every forty-third part of an octave.
-    _grid = np.geomspace(1e-30, 1e30, 8600)
-
-    def __post_init__(self):
-        # A parameter is a slope, or a length.
-        units = {field.name: "" if field.name == "slope" else "m" for field in fields(self)}
-        _check.set_positive(self, **units)
-
-    @staticmethod
-    @abstractmethod
-    def _Z(u): ...
-
-    @staticmethod
-    @abstractmethod
-    def _G(u): ...
-
-    @staticmethod
-    @abstractmethod
-    def _G_slope(u): ...
-
-    face_radius = property(lambda self: self._edge * self._length)
-    scale = property(lambda self: self._depth)
-
-    @cached_property
-    def unit(self):
-        return type(self)(*(1.0 for _ in fields(self))), self._length, self._depth
-
-    def _height(self, r):
-        return self._depth * self._Z(r / self._length)
-
-    def _reduced(self, x):
-        return self._depth * self._G(x / self._length)
-
-    def _reduced_slope(self, x):
-        u = x / self._length
-        # What is beyond an edge is so after rounding, too.
-        u = np.where(x > self._length, np.maximum(u, np.nextafter(1.0, 2.0)), u)
-        return self._depth / self._length * self._G_slope(u)
-
-    def _radius(self, depth):
-        return self._length * self._inverse(depth / self._depth)
-
-    @classmethod
-    def _inverse(cls, depth):
-        """u with G(u) = depth, elementwise."""
-        depths, places = _table(cls)
-        with np.errstate(all="ignore"):
-            u = np.exp(np.interp(np.log(depth), depths, places))
-            # Linear interpolation leaves 10⁻⁴ of u, or of u − 1 behind a flat face.
-            for _ in range(3):
-                step = (cls._G(u) - depth) / cls._G_slope(u)
-                u = np.where(np.isfinite(step), np.clip(u - step, u / 2, np.minimum(2 * u, cls._end)), u)
-        return np.where(depth > 0, np.maximum(u, cls._edge), cls._edge)
-
-
-@lru_cache
-def _table(shape):
-    """ln G and ln u of a class of shapes, in ascending order."""
-    u = shape._edge + shape._grid
-    with np.errstate(all="ignore"):
-        depth, place = np.log(shape._G(u)), np.log(u)
-        good = np.isfinite(depth) & (np.diff(depth, prepend=-np.inf) > 0)
-    return depth[good], place[good]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._check import Parameter
-from .profile import OneLength
+from .tabulated import OneLength
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +33,6 @@ class Sphere(OneLength):
     deepest = property(lambda self: 100 * self.radius)
     _end_of_depth = "the equator, which the contact has come to at d = 100 R"
     _end = np.nextafter(1.0, 0.0)
-    _grid = np.tanh(OneLength._grid)
 
     @staticmethod
     def _Z(u):
@@ -155,6 +154,7 @@ class ParabolicPunch(OneLength):
     _depth = property(lambda self: self.cylinder_radius * (self.cylinder_radius / self.radius))
     kinks = property(lambda self: (self._depth,))
     body_radius = property(lambda self: self.radius)
+    _end = 1.0
 
     @staticmethod
     def _Z(u):
@@ -167,7 +167,3 @@ class ParabolicPunch(OneLength):
     @staticmethod
     def _G_slope(u):
         return np.where(u <= 1, 2 * u, np.inf)
-
-    @classmethod
-    def _inverse(cls, depth):
-        return np.minimum(np.sqrt(depth), 1.0)

@@ -271,7 +271,9 @@ class Sampled(Profile):
                 reduced, slope = self._reduced_and_slope(x)
                 step = np.nan_to_num((reduced - depth) / (2 * t * slope), posinf=0.0, neginf=0.0)
                 way, t = t, np.clip(t - step, t / 8, end)
-                if np.all(np.abs(t * t - way * way) <= 8 * np.spacing(x)):
+                # The square of the last step is rounding.
+                close = (np.abs(t - way) <= 1e-8 * t) | (np.abs(t * t - way * way) <= 8 * np.spacing(x))
+                if np.all(close):
                     break
         radius = np.where(depth > 0, vertex + t * t, self.face_radius)
         return np.where(depth <= self.deepest, radius, np.inf)

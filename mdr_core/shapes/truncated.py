@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._check import Parameter
-from .profile import OneLength
+from .tabulated import OneLength
 
 
 class _FlatFaced(OneLength):

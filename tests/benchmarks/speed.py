@@ -3,6 +3,8 @@
 python -m tests.benchmarks.speed
 """
 
+from dataclasses import fields
+
 import numpy as np
 
 import mdr_core as mdr
@@ -45,6 +47,7 @@ def rows(count=10**6):
             time(taken),
             _ratio(taken, book["paraboloid"]),
         )
+    yield from _ensembles(count)
     for shape in SHAPES:
         taken = seconds(lambda s=shape: mdr.impact(s, WET, 1e-9, 0.1).restitution, runs=5)
         yield f"one viscous impact, {name(shape)}", time(taken), ""
@@ -52,6 +55,27 @@ def rows(count=10**6):
         hits = _impacts(shape, WET, many)
         taken = seconds(lambda h=hits: h().restitution, runs=1) / many.size
         yield f"one of {many.size} viscous impacts, {name(shape)}", time(taken), ""
+
+
+def _ensembles(count):
+    """Impacts of particles that differ in size, medium, mass and speed, beside those of paraboloids."""
+    random = np.random.default_rng(1)
+    size, *rest = random.uniform(0.8, 1.25, (4, count))
+    medium, mass = mdr.Medium(1e9 * rest[0], 10.0 * rest[1]), 1e-9 * rest[2]
+    speed = np.minimum(random.lognormal(np.log(0.05), 1.5, count), 5.0)
+    tip = mdr.Sampled(5e-7 * np.arange(61), 5e-8 * np.arange(61) + 1e-7 * np.arange(61.0) ** 2)
+    paraboloids = [mdr.Paraboloid(1e-5 * size)]
+    others = [type(s)(*(getattr(s, f.name) * size for f in fields(s))) for s in SHAPES if s.unit]
+    unit = None
+    for shape in (*paraboloids, *others, tip):
+        taken = seconds(lambda s=shape: _damage(mdr.impact(s, medium, mass, speed)), runs=3)
+        unit = unit or taken
+        what = "impacts on one Sampled tip" if shape is tip else f"different impacts, {name(shape)}"
+        yield f"{count} {what}: depth, restitution, area", time(taken), f"{taken / unit:.2g} × paraboloids"
+
+
+def _damage(hits):
+    return hits.max_depth, hits.restitution, hits.damaged_area
 
 
 def _impacts(shape, medium, speeds):

@@ -1,0 +1,117 @@
+"""Erosion of a composite by a stream of particles: damage, its spread, and what a million of them cost.
+
+    python assets/erosion.py --particles 1e7 --workers 2
+
+Radii are lognormal, speeds Weibull: random numbers are drawn chunk by chunk on the workers, every impact is
+solved, and sums and histograms are all that is kept, so that memory does not grow with the number. It needs
+`pip install mdr-core[sweep] matplotlib`.
+"""
+
+import argparse
+import resource
+import time
+from contextlib import nullcontext
+
+import dask
+import dask.array as da
+import matplotlib.pyplot as plt
+import numpy as np
+import xarray as xr
+
+import mdr_core as mdr
+from mdr_core import sweep
+
+DENSITY = 2650.0  # quartz, kg/m³
+COMPOSITE = {"E_star": 8e9, "q_c": 2000.0}  # 8 GPa, hardness 200 MPa under contacts of 10 µm
+QUANTITIES = ("damaged_area", "restitution")
+BINS = {"damaged_area": np.linspace(-13, -8, 101), "restitution": np.linspace(0, 1, 101)}
+
+
+def stream(particles, chunk=10**6, seed=1):
+    """The parameters of the particles, lazily: median radius 25 µm, speeds around 30 m/s."""
+    random = da.random.default_rng(seed)
+    radius = 25e-6 * np.exp(0.4 * random.standard_normal(particles, chunks=chunk))
+    speed = 30.0 * random.weibull(2.0, particles, chunks=chunk) + 1e-3
+    mass = DENSITY * 4 / 3 * np.pi * radius**3
+    given = {"radius": radius, "mass": mass, "speed": speed}
+    return COMPOSITE | {name: xr.DataArray(each, dims="particle") for name, each in given.items()}
+
+
+def statistics(hits):
+    """Sums, sums of squares and histograms, lazily: what is kept of a stream."""
+    kept = {}
+    for name, bins in BINS.items():
+        values = hits[name]
+        kept[name] = values.mean(), values.std()
+        values = np.log10(np.maximum(values, 1e-300)) if name == "damaged_area" else values
+        kept["histogram of " + name] = da.histogram(values.data, bins)[0]
+    kept["unharmed"] = (hits.damaged_area == 0).mean()
+    return kept
+
+
+def cluster(workers):
+    """Worker processes of one thread each, or this process alone."""
+    if not workers:
+        return nullcontext()
+    from dask.distributed import Client
+
+    return Client(n_workers=workers, threads_per_worker=1, dashboard_address=None)
+
+
+def memory(client):
+    """Largest memory so far (GB) of all processes together."""
+
+    def largest():
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
+
+    return largest() + (sum(client.run(largest).values()) if client else 0.0)
+
+
+def picture(kept, particles, name):
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.2), layout="constrained")
+    for axes, (quantity, bins) in zip((left, right), BINS.items(), strict=True):
+        share = kept["histogram of " + quantity] / particles / np.diff(bins)
+        axes.stairs(share, bins, fill=True)
+        axes.set_ylabel("probability density")
+    left.set_xlabel("log₁₀ of the damaged area / m²")
+    right.set_xlabel("coefficient of restitution")
+    figure.suptitle(
+        f"{particles:.0e} particles on a composite, radii lognormal, speeds Weibull", fontsize=10
+    )
+    figure.savefig(name, dpi=110)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--particles", type=float, default=1e6)
+    parser.add_argument("--chunk", type=float, default=1e6)
+    parser.add_argument("--workers", type=int, default=0, help="processes; 0 is this one")
+    parser.add_argument("--picture", default="erosion.png")
+    options = parser.parse_args()
+    particles, chunk = int(options.particles), int(min(options.chunk, options.particles))
+    with cluster(options.workers) as client:
+        given = stream(particles, chunk)
+        sample = stream(min(particles, 10**5))
+        cost = sweep.cost(sweep.impacts, mdr.Sphere, **sample, quantities=QUANTITIES) / sample["speed"].size
+        cores = max(options.workers, 1)
+        print(
+            f"planned: {cost * particles / cores:.3g} s on {cores} core(s), {cost * 1e6:.3g} s per 10⁶ each"
+        )
+        start = time.perf_counter()
+        kept = statistics(sweep.impacts(mdr.Sphere, **given, quantities=QUANTITIES))
+        with dask.config.set(scheduler=None if client else "synchronous"):
+            (kept,) = dask.compute(kept)
+        elapsed, used = time.perf_counter() - start, memory(client)
+    mean, spread = (float(each) for each in kept["damaged_area"])
+    error = spread * particles**0.5
+    harmless = float(kept["unharmed"])
+    total, (bounce, width) = mean * particles * 1e6, map(float, kept["restitution"])
+    print(f"total damaged area {total:.6g} ± {error * 1e6:.1g} mm² of {particles:.3g} particles")
+    print(f"restitution {bounce:.4f} ± {width:.4f} from particle to particle, {harmless:.2%} harmless")
+    print(f"took {elapsed:.3g} s, {elapsed / particles * 1e6:.3g} s per 10⁶; memory {used:.2f} GB in all")
+    print(f"10⁹ particles would take {elapsed / particles * 1e9 / 60:.3g} min")
+    picture(kept, particles, options.picture)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,287 @@
+"""Ensembles over named dimensions: impacts and indentations of xarray's arrays, in memory or by dask.
+
+Parameters are numbers or DataArrays, which broadcast by the names of their dimensions. What is in memory is
+solved at once, block by block. What is made of dask arrays comes back lazily: it is solved when it is asked
+for, chunk by chunk, on the cores of a machine or, with a ``dask.distributed.Client``, on a cluster.
+
+A stream too long for memory, of which only the sum is kept:
+
+    speed = xr.DataArray(0.1 * dask.array.random.weibull(2.0, 10**9, chunks=10**6), dims="particle")
+    stream = sweep.impacts(Sphere, radius=1e-5, E_star=1e9, q_c=10.0, mass=1e-12, speed=speed,
+                           quantities=("restitution", "damaged_area"))
+    with dask.diagnostics.ProgressBar():
+        total = stream.damaged_area.sum().compute()
+
+A long run to disk, which can be interrupted and taken up again: the store is laid out first, then filled
+region by region, and a region whose last number is missing has not been done yet.
+
+    lay_out = {name: {"_FillValue": numpy.nan} for name in stream}
+    stream.to_zarr("stream.zarr", compute=False, encoding=lay_out)  # once
+    for start in range(0, 10**9, 10**7):
+        part = {"particle": slice(start, start + 10**7)}
+        if xr.open_zarr("stream.zarr").restitution.isel(part)[-1].isnull():
+            stream.isel(part).to_zarr("stream.zarr", region=part)
+
+Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; what is on disk stays. `cost` says
+beforehand how long it is going to take.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import MISSING, fields
+from inspect import isclass
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _check
+from ._numeric import chunks
+from .dynamics.energy_balance import pressed
+from .dynamics.impact import Impact, impact
+from .indentation import Indentation
+from .medium import Medium
+from .report import QUANTITIES, described, imported
+from .shapes.profile import Profile
+from .shapes.sampled import Sampled
+from .shapes.smooth import Smooth
+
+if TYPE_CHECKING:
+    import xarray
+
+    #: What a parameter may be.
+    Given = float | np.floating[Any] | xarray.DataArray
+    Shape = type[Profile] | Profile
+
+#: So many at a time, whatever the size: what a block needs beside its results is some tens of MB.
+_BLOCK = 2**17
+#: A sample runs at least so long (s).
+_LONG_ENOUGH = 0.2
+
+
+def impacts(
+    shape: "Shape",
+    *,
+    E_star: "Given",
+    q_c: "Given" = np.inf,
+    eta: "Given" = 0.0,
+    mass: "Given",
+    speed: "Given",
+    quantities: str | Iterable[str] = ("restitution",),
+    **shape_parameters: "Given",
+) -> "xarray.Dataset":
+    """Impacts of free bodies (`mdr_core.impact`) over named dimensions.
+
+    Parameters
+    ----------
+    shape : type or Profile
+        Class of the indenters, whose parameters follow by name, or one indenter for all of them.
+    E_star, q_c, eta : float or DataArray
+        Effective modulus (Pa), yield constant (N/m), viscosity (Pa·s) of the `Medium`.
+    mass, speed : float or DataArray
+        Mass (kg) and speed (m/s) at first contact.
+    quantities : sequence of str
+        Names of quantities of `Impact`: "restitution", "max_depth", "damaged_area", "contact_time", …
+    **shape_parameters : float or DataArray
+        Parameters of the shape, such as ``radius=`` of a `Sphere`.
+
+    Returns
+    -------
+    xarray.Dataset
+        The quantities with their units and long names, of all dimensions that parameters have. Lazy, if a
+        parameter is made of a dask array; what one chunk needs bounds the memory then.
+
+    Raises
+    ------
+    ValueError
+        If a parameter or a quantity is not known or missing, an array has no names of dimensions,
+        coordinates differ, or `impact` refuses a number. What is lazy is refused when it is computed.
+
+    Examples
+    --------
+    >>> import xarray as xr
+    >>> from mdr_core import Sphere
+    >>> speed = xr.DataArray([0.1, 1.0, 10.0], dims="speed")
+    >>> radius = xr.DataArray([1e-6, 1e-5], dims="radius")
+    >>> table = impacts(Sphere, radius=radius, E_star=1e9, q_c=10.0, mass=1e-12, speed=speed)
+    >>> dict(table.sizes), table.restitution.round(4).values.tolist()[1]
+    ({'radius': 2, 'speed': 3}, [1.0, 0.5426, 0.1184])
+    """
+    parameters = {"E_star": E_star, "q_c": q_c, "eta": eta, "mass": mass, "speed": speed}
+    return _sweep(Impact, _hit, shape, parameters, shape_parameters, quantities)
+
+
+def indentations(
+    shape: "Shape",
+    *,
+    E_star: "Given",
+    q_c: "Given" = np.inf,
+    depth: "Given",
+    quantities: str | Iterable[str] = ("force",),
+    **shape_parameters: "Given",
+) -> "xarray.Dataset":
+    """First loadings (`mdr_core.indent`) over named dimensions: each depth on a virgin medium.
+
+    Parameters
+    ----------
+    shape, E_star, q_c, **shape_parameters
+        As in `impacts`.
+    depth : float or DataArray
+        Indentation depth (m); negative means lifted off.
+    quantities : sequence of str
+        Names of quantities of `Indentation`: "force", "contact_radius", "mean_pressure", …
+
+    Returns
+    -------
+    xarray.Dataset
+        As in `impacts`.
+
+    Examples
+    --------
+    >>> import xarray as xr
+    >>> from mdr_core import Cone
+    >>> slope = xr.DataArray([0.1, 0.2], dims="cone")
+    >>> print(indentations(Cone, slope=slope, E_star=1e9, depth=1e-6).force.round(6).values)  # N
+    [0.006366 0.003183]
+    """
+    parameters = {"E_star": E_star, "q_c": q_c, "depth": depth}
+    return _sweep(Indentation, _press, shape, parameters, shape_parameters, quantities)
+
+
+def cost(solve: Callable[..., "xarray.Dataset"], shape: "Shape", **arguments: Any) -> float:
+    """Time (s) that a sweep is going to take on one core, told by a sample of it.
+
+    Parameters
+    ----------
+    solve : callable
+        `impacts` or `indentations`.
+    shape, **arguments
+        As they are going to be given to it. Of dask arrays the sample is in the first chunks.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> from mdr_core import Cone
+    >>> speed = xr.DataArray(np.linspace(0.1, 1.0, 10**5), dims="particle")
+    >>> cost(impacts, Cone, slope=0.3, E_star=1e9, q_c=10.0, mass=1e-9, speed=speed) < 10
+    True
+    """
+    xarray = imported("xarray", "mdr_core.sweep")
+    arrays = {name: each for name, each in arguments.items() if isinstance(each, xarray.DataArray)}
+    sizes = {dim: size for each in arrays.values() for dim, size in each.sizes.items()}
+    first = dict(sizes)
+    for each in arrays.values():
+        first |= {dim: min(first[dim], parts[0]) for dim, parts in each.chunksizes.items()}
+    total, within, number = (float(np.prod(list(part.values()))) for part in (sizes, first, {}))
+    while True:
+        # Evenly over all dimensions.
+        most = int(np.ceil(number ** (1 / max(len(sizes), 1))))
+        index = {dim: np.linspace(0, size - 1, min(size, most)).astype(int) for dim, size in first.items()}
+        part = {name: each.isel(index, missing_dims="ignore").compute() for name, each in arrays.items()}
+        start = perf_counter()
+        solved = solve(shape, **arguments | part)
+        elapsed, count = perf_counter() - start, float(np.prod(list(solved.sizes.values())))
+        # The first run makes tables, and does not count if there is more to try.
+        if count >= within or (number > 1 and elapsed >= _LONG_ENOUGH):
+            return elapsed * total / count
+        number *= 8
+
+
+def _sweep(kind, solve, shape, parameters, shape_parameters, quantities):
+    """The Dataset of some quantities of a kind of result, which `solve` makes of arrays."""
+    xarray = imported("xarray", "mdr_core.sweep")
+    names = [quantities] if isinstance(quantities, str) else list(quantities)
+    known = [name for name in kind._quantities if name not in parameters]
+    for name in names or [""]:
+        _check.one_of("quantity", name, known)
+    _check_shape(shape, shape_parameters)
+    given = shape_parameters | parameters
+    arrays = [_labelled(xarray, name, value) for name, value in given.items()]
+
+    def block(*values):
+        return _in_blocks(solve, shape, dict(zip(given, values, strict=True)), tuple(parameters), names)
+
+    results = xarray.apply_ufunc(
+        block,
+        *arrays,
+        output_core_dims=[[] for _ in names],
+        dask="parallelized",
+        output_dtypes=[float] * len(names),
+        keep_attrs=False,
+    )
+    results = results if len(names) > 1 else [results]
+    dataset = xarray.Dataset(dict(zip(names, results, strict=True)), attrs=_attributes(kind, shape, given))
+    for name in names:
+        quantity = QUANTITIES[name]
+        dataset[name].attrs = {"units": quantity.unit or "1", "long_name": quantity.long_name}
+    return dataset
+
+
+def _check_shape(shape, given):
+    """Refuse what is not a shape, and parameters of it that are missing or that it has not."""
+    if not (isinstance(shape, Profile) or (isclass(shape) and issubclass(shape, Profile))):
+        raise TypeError(f"shape must be a class of indenters, or one of them, got {_check.shown(shape)}")
+    if not isclass(shape) and shape.shape:
+        raise ValueError("a shape with arrays of parameters has no names of dimensions: give its class")
+    if isclass(shape) and issubclass(shape, Sampled | Smooth):
+        raise ValueError(f"{shape.__name__} is not swept over by its parameters: give one tip of it")
+    own = {field.name: field for field in fields(shape)} if isclass(shape) else {}
+    name = shape.__name__ if isclass(shape) else f"the {type(shape).__name__} given"
+    for unknown in given.keys() - own.keys():
+        has = ", ".join(own) or "none that is free"
+        raise ValueError(f"{unknown} is not a parameter of the sweep or of {name}, which has {has}")
+    for missing in own.keys() - given.keys():
+        if own[missing].default is MISSING:
+            raise ValueError(f"{name} needs its {missing}")
+
+
+def _labelled(xarray, name, value):
+    """A parameter as a DataArray."""
+    if isinstance(value, xarray.DataArray):
+        return value
+    value = _check.in_unit(name, value, QUANTITIES[name].unit if name in QUANTITIES else "")
+    if np.ndim(value):
+        raise ValueError(f"{name} is an array without names of dimensions: make it an xarray.DataArray")
+    return xarray.DataArray(_check.number(name, value))
+
+
+def _in_blocks(solve, shape, values, own, names):
+    """Some quantities of arrays of parameters, solved in blocks: one array each."""
+    size = np.broadcast_shapes(*(np.shape(value) for value in values.values()))
+    # What is one number stays one: nothing is repeated.
+    varied = {k: np.broadcast_to(v, size).flat for k, v in values.items() if np.size(v) > 1}
+    results = np.empty((len(names), *size))
+    flat = results.reshape(len(names), -1)
+    for rows in chunks(flat.shape[1], _BLOCK):
+        part = {k: varied[k][rows] if k in varied else np.ravel(v)[0] for k, v in values.items()}
+        parameters = {k: part.pop(k) for k in own}
+        result = solve(shape(**part) if isclass(shape) else shape, **parameters)
+        for row, name in zip(flat, names, strict=True):
+            row[rows] = getattr(result, name)
+    return tuple(results) if len(names) > 1 else results[0]
+
+
+def _hit(profile, E_star, q_c, eta, mass, speed):
+    return impact(profile, Medium(E_star, q_c, eta), mass, speed)
+
+
+def _press(profile, E_star, q_c, depth):
+    medium, depth = Medium(E_star, q_c), _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
+    shape = np.broadcast_shapes(profile.shape, medium.shape, depth.shape)
+    depth = profile._known(np.broadcast_to(depth, shape))
+    live, _ = pressed(np.maximum(depth, 0.0), medium.critical_depth, np.zeros(shape))
+    return Indentation(profile, medium, depth, live)
+
+
+def _attributes(kind, shape, given):
+    """What was asked for: numbers as such, of arrays the dimensions."""
+    indenter = shape.__name__ if isclass(shape) else described(shape)
+    varied = {name: "over " + " × ".join(each.dims) for name, each in given.items() if np.ndim(each)}
+    fixed = {name: float(each) for name, each in given.items() if name not in varied}
+    return {
+        "result": kind.__name__,
+        "model": "MDR, V. L. Popov 2015",
+        "indenter": indenter,
+        **fixed,
+        **varied,
+    }

@@ -1,0 +1,52 @@
+"""The erosion example runs, and its sums are those of the impacts one by one."""
+
+import importlib.util
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+
+for package in ("xarray", "dask.array", "matplotlib"):
+    pytest.importorskip(package)
+
+ROOT = Path(mdr.__file__).parents[1]
+SCRIPT = ROOT / "assets" / "erosion.py"
+
+
+def test_the_example_prints_and_paints(tmp_path):
+    environment = os.environ | {"MPLBACKEND": "Agg", "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, str(SCRIPT), "--particles", "20000", "--chunk", "5000"]
+    run = subprocess.run(
+        command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+    )
+    assert run.returncode == 0, run.stderr
+    assert re.search(r"total damaged area [\d.]+ ± [\d.e-]+ mm² of 2e\+04 particles", run.stdout)
+    assert (tmp_path / "erosion.png").stat().st_size > 1000
+
+
+def test_its_sums_are_those_of_the_impacts(monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "Agg")
+    spec = importlib.util.spec_from_file_location("erosion", SCRIPT)
+    erosion = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(erosion)
+    given = erosion.stream(3000, chunk=1000)
+    hits = mdr.sweep.impacts(mdr.Sphere, **given, quantities=erosion.QUANTITIES)
+    kept = erosion.statistics(hits)
+    mean, _ = (float(each.compute(scheduler="synchronous")) for each in kept["damaged_area"])
+    # Seeded: the same particles again.
+    radius, mass, speed = (given[name].values for name in ("radius", "mass", "speed"))
+    medium = mdr.Medium(**erosion.COMPOSITE)
+    areas = [
+        mdr.impact(mdr.Sphere(r), medium, m, v).damaged_area
+        for r, m, v in zip(radius[:200], mass[:200], speed[:200], strict=True)
+    ]
+    np.testing.assert_allclose(hits.damaged_area[:200], areas, rtol=1e-12)
+    together = mdr.impact(mdr.Sphere(radius), medium, mass, speed)
+    assert mean == pytest.approx(together.damaged_area.mean(), rel=1e-12)
+    assert kept["histogram of restitution"].sum().compute() == 3000

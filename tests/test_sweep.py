@@ -1,0 +1,181 @@
+"""Ensembles over named dimensions: the numbers of single impacts, lazily, on two processes, to disk."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+from mdr_core import sweep
+
+xr = pytest.importorskip("xarray")
+
+SPEED = xr.DataArray(np.geomspace(1e-2, 1.0, 5), dims="speed")
+RADIUS = xr.DataArray([1e-6, 1e-5, 1e-4], dims="radius", coords={"radius": [1, 10, 100]})
+SPHERES = {"E_star": 1e9, "q_c": 10.0, "mass": 1e-12, "radius": RADIUS, "speed": SPEED}
+ALL = [name for name in mdr.Impact._quantities if name not in ("mass", "speed")]
+
+
+@pytest.mark.parametrize("eta", [0.0, 1.0])
+def test_every_entry_is_the_impact_of_its_parameters(eta):
+    table = sweep.impacts(mdr.Sphere, **SPHERES, eta=eta, quantities=ALL)
+    assert dict(table.sizes) == {"radius": 3, "speed": 5}
+    for place, speed in enumerate(SPEED.values):
+        hit = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, 10.0, eta), 1e-12, speed)
+        for name in ALL:
+            # Dry ones differ by rounding; viscous ones come in steps of their own.
+            expected = pytest.approx(float(getattr(hit, name)), rel=1e-9 if eta else 1e-12, abs=0.0)
+            assert float(table[name].sel(radius=10)[place]) == expected, name
+
+
+def test_dimensions_are_matched_by_name():
+    """Whatever the order of the axes: what positions would mix up, or refuse."""
+    both = xr.DataArray(np.outer([1e-12, 1e-11, 1e-10], np.ones(5)), dims=("radius", "speed"))
+    table = sweep.impacts(mdr.Sphere, **SPHERES | {"mass": both.T})
+    again = sweep.impacts(mdr.Sphere, **SPHERES | {"mass": both})
+    xr.testing.assert_allclose(table.transpose(*again.dims), again, rtol=1e-12)
+    with pytest.raises(ValueError, match="radius"):
+        sweep.impacts(mdr.Sphere, **SPHERES | {"mass": both.assign_coords(radius=[1, 2, 3])})
+
+
+def test_numbers_alone_make_numbers():
+    one = sweep.impacts(mdr.Cone(0.3), E_star=1e9, q_c=10.0, mass=1e-9, speed=0.1, quantities="max_depth")
+    hit = mdr.impact(mdr.Cone(0.3), mdr.Medium(1e9, 10.0), 1e-9, 0.1)
+    assert one.max_depth.shape == ()
+    assert float(one.max_depth) == pytest.approx(float(hit.max_depth), rel=1e-14)
+
+
+def test_first_loadings():
+    depth = xr.DataArray([-1e-9, 1e-9, 1e-7, 1e-6], dims="depth")
+    slope = xr.DataArray([0.1, 0.3], dims="cone")
+    names = ["force", "contact_radius", "plastic_work", "mean_pressure", "stiffness"]
+    table = sweep.indentations(mdr.Cone, slope=slope, E_star=1e9, q_c=10.0, depth=depth, quantities=names)
+    for i, s in enumerate(slope.values):
+        for j, d in enumerate(depth.values):
+            state = mdr.indent(mdr.Cone(s), mdr.Medium(1e9, 10.0), d)
+            for name in names:
+                found = float(table[name].isel(cone=i, depth=j))
+                assert found == pytest.approx(float(getattr(state, name)), rel=1e-12, abs=0.0), name
+
+
+def test_results_say_what_they_are():
+    table = sweep.impacts(mdr.Sphere, **SPHERES, quantities=("damaged_area", "restitution"))
+    assert table.damaged_area.attrs == {"units": "m²", "long_name": "damaged area"}
+    assert table.restitution.attrs["units"] == "1"
+    assert table.attrs["indenter"] == "Sphere"
+    assert table.attrs["E_star"] == 1e9
+    assert table.attrs["speed"] == "over speed"
+    assert table.radius.values.tolist() == [1, 10, 100]
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"quantities": ("restitution", "colour")}, "quantity = 'colour' must be one of"),
+        ({"hardness": 1.0}, "hardness is not a parameter of the sweep or of Sphere, which has radius"),
+        ({"radius": None}, "radius must be one real number, got None"),
+        ({"speed": np.ones(3)}, "speed is an array without names of dimensions"),
+        ({"speed": SPEED - 0.1}, r"speed\[0\] = -0.09 m/s must be finite and positive"),
+    ],
+)
+def test_what_is_wrong_is_named(change, says):
+    with pytest.raises(ValueError, match=says):
+        sweep.impacts(mdr.Sphere, **SPHERES | change)
+
+
+def test_shapes_are_classes_with_their_parameters_or_one_indenter():
+    rest = {"E_star": 1e9, "mass": 1e-12, "speed": SPEED}
+    with pytest.raises(ValueError, match="Hyperboloid needs its tip_radius"):
+        sweep.impacts(mdr.Hyperboloid, slope=0.3, **rest)
+    with pytest.raises(ValueError, match="give one tip of it"):
+        sweep.impacts(mdr.Sampled, **rest)
+    with pytest.raises(ValueError, match="give its class"):
+        sweep.impacts(mdr.Sphere([1.0, 2.0]), **rest)
+    with pytest.raises(ValueError, match=r"radius is not a parameter .* the Sphere given"):
+        sweep.impacts(mdr.Sphere(1.0), radius=1.0, **rest)
+    with pytest.raises(TypeError, match="shape must be a class of indenters"):
+        sweep.impacts("sphere", **rest)
+    tip = mdr.Sampled([0.0, 1e-6, 2e-6], [0.0, 1e-7, 3e-7])
+    assert sweep.impacts(tip, **rest).restitution.shape == (5,)
+
+
+def test_blocks_do_not_show(monkeypatch):
+    whole = sweep.impacts(mdr.Sphere, **SPHERES)
+    monkeypatch.setattr(sweep, "_BLOCK", 4)
+    xr.testing.assert_allclose(sweep.impacts(mdr.Sphere, **SPHERES), whole, rtol=1e-13)
+
+
+def test_the_cost_grows_with_the_number():
+    arguments = {"slope": 0.3, "E_star": 1e9, "q_c": 10.0, "mass": 1e-9}
+    speed = xr.DataArray(np.linspace(0.1, 1.0, 200), dims="particle")
+    few = sweep.cost(sweep.impacts, mdr.Cone, **arguments, speed=speed)
+    # A thousand times as many, of which no more than a sample is solved.
+    many = sweep.cost(sweep.impacts, mdr.Cone, **arguments, speed=speed, eta=speed.rename(particle="eta"))
+    assert 0 < few < many
+
+
+class TestLazily:
+    """On dask arrays."""
+
+    @pytest.fixture(autouse=True)
+    def _dask(self):
+        pytest.importorskip("dask.array")
+
+    @staticmethod
+    def stream(count=4000, chunk=1000):
+        speed = xr.DataArray(np.geomspace(1e-2, 1.0, count), dims="particle").chunk(particle=chunk)
+        return sweep.impacts(
+            mdr.Sphere,
+            **SPHERES | {"speed": speed, "radius": 1e-5},
+            quantities=("restitution", "max_depth"),
+        )
+
+    def test_nothing_is_solved_before_it_is_asked_for(self, monkeypatch):
+        solved = []
+        monkeypatch.setattr(sweep, "impact", lambda *given: solved.append(1) or mdr.impact(*given))
+        stream = self.stream()
+        assert stream.chunks == {"particle": (1000,) * 4}
+        assert not solved
+        found = stream.isel(particle=slice(0, 10)).compute(scheduler="synchronous")
+        # One chunk, once for both quantities.
+        assert len(solved) == 1
+        speeds = np.geomspace(1e-2, 1.0, 4000)[:10]
+        hits = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, 10.0), 1e-12, speeds)
+        np.testing.assert_allclose(found.restitution, hits.restitution, rtol=1e-12)
+        np.testing.assert_allclose(found.max_depth, hits.max_depth, rtol=1e-12)
+
+    def test_an_interrupted_run_goes_on_where_it_was(self, tmp_path):
+        pytest.importorskip("zarr")
+        store, stream = tmp_path / "stream.zarr", self.stream()
+        with warnings.catch_warnings():
+            # What zarr says of its own format.
+            warnings.simplefilter("ignore")
+            stream.to_zarr(store, compute=False, encoding={name: {"_FillValue": np.nan} for name in stream})
+
+            def fill(last, done=0):
+                for start in range(0, last, 1000):
+                    part = {"particle": slice(start, start + 1000)}
+                    if xr.open_zarr(store).restitution.isel(part)[-1].isnull():
+                        stream.isel(part).to_zarr(store, region=part)
+                        done += 1
+                return done
+
+            assert fill(2000) == 2
+            assert int(xr.open_zarr(store).restitution.isnull().sum()) == 2000
+            assert fill(4000) == 2
+            xr.testing.assert_allclose(xr.open_zarr(store).load(), stream.compute(), rtol=1e-13)
+
+    def test_on_two_processes(self):
+        distributed = pytest.importorskip("distributed")
+        with warnings.catch_warnings():
+            # Ports and sockets are distributed's business.
+            warnings.simplefilter("ignore")
+            with (
+                distributed.LocalCluster(
+                    n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+                ) as cluster,
+                distributed.Client(cluster) as client,
+            ):
+                assert len(client.scheduler_info()["workers"]) == 2
+                total = float(self.stream().restitution.sum().compute())
+        assert total == pytest.approx(float(self.stream().compute().restitution.sum()), rel=1e-12)
