@@ -7,6 +7,7 @@ V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 
 from . import abel
 from .dynamics.impact import Impact, impact
+from .fit.indentation import IndentationFit, fit_indentation
 from .foundation.depth_path import TimedIndentation, indent_in_time
 from .foundation.force_path import creep
 from .foundation.impact import ChainImpact, chain_impact
@@ -36,6 +37,7 @@ __all__ = [
     "Hyperboloid",
     "Impact",
     "Indentation",
+    "IndentationFit",
     "Medium",
     "Motion",
     "ParabolicPunch",
@@ -57,6 +59,7 @@ __all__ = [
     "abel",
     "chain_impact",
     "creep",
+    "fit_indentation",
     "hardness_class",
     "impact",
     "indent",

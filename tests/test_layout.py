@@ -19,7 +19,8 @@ ORDER = (
     "foundation.depth_path", "foundation.force_path", "foundation.free_body", "foundation.impact",
     "yielding", "superposition", "fields", "stress", "indentation",
     "dynamics.energy_balance", "dynamics.contact_time", "scaling", "dynamics.equation_of_motion",
-    "dynamics.motion", "dynamics.impact", "scene", "__init__",
+    "dynamics.motion", "dynamics.impact", "fit.least_squares", "fit.curve", "fit.remarks", "fit.indentation",
+    "scene", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {
