@@ -310,12 +310,13 @@ def _guess(curve, peak, some, table):
     width = max(float(depth.max()) - touched, 1e-3 * float(curve.length[0, 0]))
     points = touched - width * np.linspace(0, 1, 16) ** 1.5
     point = np.array([held["contact_point"]]) if "contact_point" in held else points
-    d_c = (depth.max() - point).max() * np.append(np.geomspace(2e-3, 1.0, 16), 3.0)
-    if {"E_star", "q_c"} <= set(held):
-        d_c = np.array([np.pi / 2 * held["q_c"] / held["E_star"]])
-    elif held.get("q_c") == np.inf:
-        d_c = np.array([np.inf])
-    point, d_c = (part.ravel()[:, None] for part in np.meshgrid(point, d_c))
+    shares = np.concatenate([np.geomspace(2e-3, 0.5, 13), [0.65, 0.8, 0.92, 3.0]])
+    if {"E_star", "q_c"} <= set(held) or held.get("q_c") == np.inf:
+        shares = np.array([np.nan])
+    point, shares = (part.ravel()[:, None] for part in np.meshgrid(point, shares))
+    d_c = shares * np.maximum(depth.max() - point, 1e-3 * width)
+    if np.isnan(shares).any():
+        d_c[:] = np.pi / 2 * held["q_c"] / held.get("E_star", 1.0)
     deepest, _ = curve.memory(depth[None], peak)
     deepest, d, load = deepest[:, some] - point, depth[some] - point, force[some]
     live = after(deepest, d, d_c)

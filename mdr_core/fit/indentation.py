@@ -22,8 +22,12 @@ from .remarks import remarks_of
 
 #: Curves that share their steps, and so many that progress is shown.
 _TOGETHER, _LONG = 64, 256
+#: How often turning points and noise are found anew.
+_ROUNDS = 5
 #: Third differences of noise of unit size: the median of their absolute values.
 _THIRD = 0.6745 * np.sqrt(20.0)
+#: Stands for the logarithm of an infinite q_c.
+_LOG_OF_INFINITE = 300.0
 
 
 def fit_indentation(
@@ -103,7 +107,7 @@ def fit_indentation(
         sigma = _check.positive_number("force_noise", force_noise, unit="N")
     _refuse_empty(depth, force, fixed)
     tip = interpolated(profile, _reach(profile, depth, fixed))
-    jobs = _grouped(depth, noise)
+    jobs = _grouped(depth, force, noise)
     parts = [_solved(tip, depth, force, fixed, noise, sigma, *job) for job in _progress(jobs, len(depth))]
     fit = _collected(profile, parts, len(depth), noise)
     return fit[0] if single else fit
@@ -159,16 +163,33 @@ def _reach(profile, depth, fixed):
     return min(reach, profile.deepest)
 
 
-def _grouped(depth, noise):
-    """Curves that are solved together: rows, turning points, places to set out from."""
-    least = np.maximum(0.02 * np.ptp(depth, axis=1), 6 * noise)
-    found = [turning_points(row.tolist(), limit) for row, limit in zip(depth, least.tolist(), strict=True)]
+def _grouped(depth, force, noise):
+    """Curves that are solved together: rows, turning points, places to set out from.
+
+    Depth and force turn at once: they are added in units in which the quieter of them weighs more.
+    """
+    path, variance, least = 0.0, 0.0, 0.0
+    for values, sigma in ((depth, noise), (force, _rough(force))):
+        size = np.ptp(values, axis=1, keepdims=True)
+        weight = 1 / (0.005 + sigma / size)
+        path, least = path + weight * values / size, least + 0.02 * weight
+        variance = variance + (weight * sigma / size) ** 2
+    least = np.maximum(least, 6 * np.sqrt(variance))[:, 0]
+    found = [turning_points(row.tolist(), limit) for row, limit in zip(path, least.tolist(), strict=True)]
     kinds = [(len(turns), len(lows)) for turns, lows in found]
     for kind in sorted(set(kinds)):
         rows = np.array([i for i, each in enumerate(kinds) if each == kind])
         for part in chunks(rows.size, _TOGETHER):
             some = rows[part]
-            yield (some, *(np.array([found[i][j] for i in some], int).reshape(len(some), kind[j]) for j in (0, 1)))
+            places = (np.array([found[i][j] for i in some], int) for j in (0, 1))
+            yield some, *(each.reshape(len(some), count) for each, count in zip(places, kind, strict=True))
+
+
+def _rough(values):
+    """Standard deviation of the noise of smooth rows (R, 1), from third differences."""
+    if values.shape[1] < 8:
+        return np.zeros((len(values), 1))
+    return np.median(np.abs(np.diff(values, 3, axis=1)), axis=1, keepdims=True) / _THIRD
 
 
 def _progress(jobs, count) -> "Iterator[Any]":
@@ -189,14 +210,16 @@ def _solved(tip, depth, force, fixed, noise, force_noise, rows, turns, lows):
     curves = Curves(tip, depth, force, fixed, noise, sigma, turns, lows)
     x, *_ = solution = _minimum(curves)
     stiff = np.any(fixed.get("frame_compliance", np.ones(1)) != 0)
-    for _ in range(2 if noise and curves.peaks or stiff else 0):
+    for _ in range(_ROUNDS if noise and curves.peaks else 2 * stiff):
         # The frame turns noise of the force into noise of the depth.
         values, _, state = curves.states(x)
-        curves = replace(curves, sigma=sigma * (1 + values["frame_compliance"] * state.slope))
+        before, curves = curves, replace(curves, sigma=sigma * (1 + values["frame_compliance"] * state.slope))
         curves = curves.relabelled(x) if noise and curves.peaks else curves
+        if not stiff and np.array_equal(before.turns, curves.turns):
+            break
         x, *_ = solution = _minimum(curves, x)
     known = force_noise is not None or noise > 0
-    curves, solution, elastic = _elastic(curves, solution, known)
+    solution, elastic = _elastic(curves, solution, known)
     return rows, curves, solution, elastic, known
 
 
@@ -205,9 +228,8 @@ def _first_sigma(force, noise, force_noise):
     size = np.ptp(force, axis=1, keepdims=True)
     if force_noise is not None:
         size = np.full_like(size, force_noise)
-    elif noise and force.shape[1] > 8:
-        rough = np.median(np.abs(np.diff(force, 3, axis=1)), axis=1, keepdims=True) / _THIRD
-        size = np.maximum(rough, 1e-6 * size)
+    elif noise:
+        size = np.maximum(_rough(force), 1e-6 * size)
     return np.repeat(size, force.shape[1], axis=1)
 
 
@@ -228,30 +250,42 @@ def _minimum(curves, start=None):
 
 
 def _elastic(curves, solution, known):
-    """The solution, with q_c infinite where an elastic medium is as near to the curve as one that yields."""
-    elastic = np.zeros(len(curves.depth), bool)
+    """The solution, and how near an elastic medium is to the curve: 0 further away, 1 about as near, 2 nearer.
+
+    Where it is nearer the solution becomes the elastic one. Within an elastic medium q_c has no derivative:
+    from there the search begins once more, below the largest depth.
+    """
+    elastic = np.zeros(len(curves.depth), int)
     if "q_c" in curves.fixed:
-        return curves, solution, elastic | np.isinf(curves.fixed["q_c"])
-    x, residual, _ = solution
+        return solution, elastic + 2 * np.isinf(curves.fixed["q_c"])
+    place, freedom = curves.free.index("q_c"), max(solution[1].shape[1] - solution[0].shape[1], 1)
+    share = _yield_share(curves, solution[0])
+    rows = np.flatnonzero(share > 0.5)
+    if not rows.size:
+        return solution, elastic
+    some, start = curves.rows(rows), solution[0][rows]
+    start[:, place] += np.minimum(np.log(0.85 / share[rows]), 0.0)
+    trials = [_minimum(some, start)]
+    held = some.holding(q_c=np.full(rows.size, np.inf))
+    x, residual, jacobian = _minimum(held, np.delete(solution[0][rows], place, axis=1))
+    trials.append((np.insert(x, place, _LOG_OF_INFINITE, axis=1), residual, np.insert(jacobian, place, 0.0, axis=2)))
+    costs = np.array([np.sum(part[1] ** 2, axis=1) for part in ((None, solution[1][rows]), *trials)])
+    noise = np.ones(rows.size) if known else costs.min(axis=0) / freedom
+    gain = (costs[2] - costs[:2].min(axis=0)) / np.maximum(noise, 1e-300)
+    small = costs[2] <= 1e-24 * solution[1].shape[1]
+    nearer = (gain <= 2) | small
+    chosen = np.where(nearer, 2, np.argmin(costs[:2], axis=0))
+    for k, trial in enumerate(trials, start=1):
+        for whole, part in zip(solution, trial, strict=True):
+            whole[rows[chosen == k]] = part[chosen == k]
+    elastic[rows] = np.where(nearer, 2, gain <= 9)
+    return solution, elastic
+
+
+def _yield_share(curves, x):
+    """Critical depth over the largest depth of each curve."""
     values, _, state = curves.states(x)
-    d_c = np.pi / 2 * values["q_c"] / values["E_star"]
-    deepest = state.depth.max(axis=1)
-    rows = np.flatnonzero(d_c[:, 0] > 0.5 * deepest)
-    if not rows.size or "E_star" in curves.fixed and curves.fixed["E_star"] is None:
-        return curves, solution, elastic
-    some = curves.rows(rows).holding(q_c=np.full(rows.size, np.inf))
-    place = curves.free.index("q_c")
-    other = _minimum(some, np.delete(x[rows], place, axis=1))
-    freedom = max(residual.shape[1] - x.shape[1], 1)
-    one, two = (np.sum(part**2, axis=1) for part in (residual[rows], other[1]))
-    noise = 1.0 if known else one / freedom
-    near = (two - one <= 9 * noise) | (d_c[rows, 0] >= deepest[rows])
-    for whole, part in zip(solution, (np.insert(other[0], place, 700.0, axis=1), other[1]), strict=False):
-        whole[rows[near]] = part[near]
-    elastic[rows[near]] = True
-    wide = np.insert(other[2], place, 0.0, axis=2)
-    solution[2][rows[near]] = wide[near]
-    return curves, solution, elastic
+    return (np.pi / 2 * values["q_c"] / values["E_star"])[:, 0] / state.depth.max(axis=1)
 
 
 def _collected(profile, parts, count, noise):
@@ -281,8 +315,8 @@ def _collected(profile, parts, count, noise):
 def _piece(rows, curves, solution, elastic, known):
     """What results keep, by name, of curves solved together."""
     x, residual, jacobian = solution
-    values, _, state = curves.states(np.where(x > 600, 600.0, x))
-    values["q_c"] = np.where(elastic[:, None], np.inf, values["q_c"])
+    values, _, state = curves.states(x)
+    values["q_c"] = np.where(elastic[:, None] == 2, np.inf, values["q_c"])
     noise = np.sqrt(curves.sigma**2 + (state.slope * curves.depth_noise) ** 2)
     free, freedom = len(curves.free), max(residual.shape[1] - x.shape[1], 1)
     chi = np.sum(residual**2, axis=1) / freedom

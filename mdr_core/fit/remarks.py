@@ -21,7 +21,7 @@ def remarks_of(curves, state, values, residual, jacobian, covariance, elastic, k
         back = np.where(state.live.length[i] > 0, _unloaded(state, i), 0.0)
         d_c = float(np.pi / 2 * (values["q_c"] / values["E_star"])[i, 0])
         said = [
-            *_told(errors, back, d_c, bool(elastic[i]), float(state.depth[i].max())),
+            *_told(errors, back, d_c, bool(elastic[i] == 2), bool(elastic[i] == 1), float(state.depth[i].max())),
             *_jitter(one),
             *_class_b(one, state, i, residual[i], jacobian[i], d_c),
             *_misfit(residual[i], known, len(jacobian[i][0]), float(one.load[0, 0]), one, i),
@@ -36,7 +36,7 @@ def _unloaded(state, i):
     return np.where(state.own[i], 0.0, live.lower[i] - state.depth[i])
 
 
-def _told(errors, back, d_c, elastic, deepest):
+def _told(errors, back, d_c, elastic, alike, deepest):
     """What the data do not tell."""
     unloads = np.count_nonzero(back) > 1
     if elastic and "q_c" in errors:
@@ -45,7 +45,13 @@ def _told(errors, back, d_c, elastic, deepest):
             f"nothing has yielded within the noise: q_c = ∞ stands for a critical depth of more than about "
             f"{engineering(deepest, 'm')}; press deeper",
         )
-    elif not unloads and "E_star" in errors:
+        return
+    if alike and "q_c" in errors:
+        yield (
+            "hardly yields",
+            "an elastic medium fits about as well: that it yields, and q_c, is hardly told; press deeper",
+        )
+    if not unloads and "E_star" in errors:
         yield (
             "loading",
             f"loading alone hardly tells E* (here to {100 * errors['E_star']:.2g} %): record the unloading, "
@@ -102,7 +108,7 @@ def _class_b(curve, state, i, residual, jacobian, d_c):
     basis = basis[:, s > 1e-11 * s[0]] if s.size else basis
     left = column - basis @ (basis.T @ column)
     power = float(left @ left)
-    if power < 1e-12 * float(column @ column):
+    if power <= 1e-12 * float(column @ column):
         return
     spread = float(residual @ residual) / max(residual.size - rest.shape[1] - 1, 1)
     trend = float(left @ residual) / power
