@@ -21,6 +21,8 @@ from ..yielding import LiveInterval, after, virgin
 
 #: All parameters, in the order of a fit.
 NAMES = ("E_star", "q_c", "contact_point", "baseline", "frame_compliance")
+#: What the force depends on beside the depth.
+_MATTER = ("E_star", "q_c", "frame_compliance")
 #: Steps of the search for the nearest place.
 _PROJECTIONS = 6
 
@@ -122,22 +124,15 @@ class Curves:
         own = deeper & (depth >= before)
         return np.where(own, depth, before), own
 
-    def corrected(self, values):
-        """Depths (m) beyond the contact point, less what the frame gives way."""
-        return self.depth - values["contact_point"] - values["frame_compliance"] * (
-            self.force - values["baseline"]
-        )
-
     def states(self, x):
-        """A `State` of every sample for parameters x: at its depth, or at the place nearest to it."""
+        """Parameters, distance in depth (m) from each sample to its `State`, which is the nearest, and it."""
         values, turning = self.values(x)
-        depth = measured = self.corrected(values)
-        turning = turning - values["contact_point"]
+        seen, turning = self.depth - values["contact_point"], turning - values["contact_point"]
         with np.errstate(all="ignore"):
-            here = State.at(self, values, depth, turning)
+            here = State.at(self, values, seen, turning)
             if self.depth_noise:
-                here = self._nearest(values, measured, turning, here)
-        return values, measured - here.depth, here
+                here = self._nearest(values, seen, turning, here)
+        return values, seen - here.seen, here
 
     def _nearest(self, values, measured, turning, here):
         """The state of each branch that is nearest to its sample.
@@ -147,14 +142,14 @@ class Curves:
         load, noise = self.force - values["baseline"], self.depth_noise
 
         def distance(state):
-            return ((measured - state.depth) / noise) ** 2 + ((load - state.force) / self.sigma) ** 2
+            return ((measured - state.seen) / noise) ** 2 + ((load - state.force) / self.sigma) ** 2
 
-        best, least, inside = here, distance(here), np.maximum(measured, here.edge + noise)
+        best, least, inside = here, distance(here), np.maximum(measured, here.live.lower + noise)
         place = State.at(self, values, inside, turning)
         for _ in range(_PROJECTIONS):
             cost = distance(place)
             best, least = best.where(cost < least, place), np.minimum(cost, least)
-            pull = load - place.force - place.slope * (measured - place.depth)
+            pull = load - place.force - place.slope * (measured - place.seen)
             step = place.slope * noise**2 * pull / (self.sigma**2 + (place.slope * noise) ** 2)
             place = State.at(self, values, measured + step, turning)
         return best.where(distance(place) < least, place)
@@ -166,7 +161,7 @@ class Curves:
         values, off, state = self.states(x)
         noise = np.sqrt(self.sigma**2 + (state.slope * self.depth_noise) ** 2)
         load = self.force - values["baseline"]
-        jacobian = state.derivatives(self, values, load) / noise[..., None] * self.scale[:, None, :]
+        jacobian = state.derivatives(self) / noise[..., None] * self.scale[:, None, :]
         return (load - state.force - state.slope * off) / noise, jacobian
 
     def relabelled(self, x):
@@ -189,62 +184,83 @@ class Curves:
 
 @dataclass(frozen=True)
 class State:
-    """Samples on the model: depth, force, slope dF/dd for the sample alone and by d_max, edge of contact."""
+    """Samples on the model, arrays (R, N).
 
+    `seen` is the depth with what the frame gives way, u = d + C F; `slope` is ∂F/∂u, `memory` that by the
+    largest u so far, where it is not the sample's `own`; `gradient` by the parameters in `_MATTER`.
+    """
+
+    seen: np.ndarray
     depth: np.ndarray
+    own: np.ndarray
     live: LiveInterval
     force: np.ndarray
-    yielded: np.ndarray
     slope: np.ndarray
     memory: np.ndarray
-    own: np.ndarray
+    gradient: np.ndarray
 
     @classmethod
-    def at(cls, curves, values, depth, turning):
-        depth = np.minimum(depth, curves.tip.deepest)
-        deepest, own = curves.memory(depth, turning)
-        d_c = np.pi / 2 * values["q_c"] / values["E_star"]
-        live, modulus = after(deepest, depth, d_c), 2 * values["E_star"]
-        touching = live.length > 0
-        a = np.where(touching, curves.tip._radius(live.upper), 0.0)
-        c = np.where(touching & (live.lower > 0), curves.tip._radius(live.lower), 0.0)
-        back = np.where(c > 0, modulus * c, 0.0)
-        slope = modulus * a - np.where(own, back, 0.0)
-        yielded = np.where(c > 0, back * d_c, 0.0)
-        force = modulus * area(curves.tip, live)
-        return cls(depth, live, force, yielded, slope, np.where(own, 0.0, -back), own)
-
-    @property
-    def edge(self):
-        return self.live.lower
+    def at(cls, curves, values, seen, turning):
+        deepest, own = curves.memory(seen, turning)
+        C = values["frame_compliance"]
+        if not C.any() and "frame_compliance" not in curves.free:
+            return cls(seen, seen, own, *_springs(curves.tip, values, seen, deepest, own))
+        # First how deep the turning point is, then the sample itself.
+        D = _without_frame(curves.tip, values, deepest, deepest, True)
+        d = np.where(own, D, _without_frame(curves.tip, values, seen, D, own))
+        front = cls(D, D, own, *_springs(curves.tip, values, D, D, True))
+        here = cls(d, d, own, *_springs(curves.tip, values, d, D, own))
+        give, back = 1 + C * here.slope, here.memory / (1 + C * front.slope)
+        gradient = (here.gradient - C * back * front.gradient) / give
+        frame = -(here.slope * here.force + back * front.force) / give
+        gradient = np.concatenate([gradient, frame[None]])
+        return cls(seen, d, own, here.live, here.force, here.slope / give, back / give, gradient)
 
     def where(self, chosen, other):
-        parts = (self.depth, self.force, self.yielded, self.slope, self.memory, self.own)
-        others = (other.depth, other.force, other.yielded, other.slope, other.memory, other.own)
-        depth, *rest = (np.where(chosen, b, a) for a, b in zip(parts, others, strict=True))
-        live = (self.live.lower, self.live.upper, self.live.length)
-        new = (other.live.lower, other.live.upper, other.live.length)
-        chosen_live = LiveInterval(*(np.where(chosen, b, a) for a, b in zip(live, new, strict=True)))
-        return State(depth, chosen_live, *rest)
+        """This state, and the `other` one where it is chosen."""
 
-    def derivatives(self, curves, values, load):
+        def mixed(one, two, names):
+            return (np.where(chosen, getattr(two, name), getattr(one, name)) for name in names)
+
+        live = LiveInterval(*mixed(self.live, other.live, ("lower", "upper", "length")))
+        rest = mixed(self, other, ("force", "slope", "memory", "gradient"))
+        return State(*mixed(self, other, ("seen", "depth", "own")), live, *rest)
+
+    def derivatives(self, curves):
         """−∂F/∂p of all parameters that are free, and of the turning depths (R, N, P)."""
-        peak_load = load
-        if not curves.depth_noise and "frame_compliance" in curves.free:
-            place = np.where(self.own, np.arange(load.shape[1]), 0)
-            peak_load = np.take_along_axis(load, np.maximum.accumulate(place, axis=1), axis=1)
-        moves = 0.0 if curves.depth_noise else self.memory
-        columns = {
-            "E_star": self.yielded - self.force,
-            "q_c": -self.yielded,
-            "contact_point": self.slope + self.memory,
-            "baseline": -1 - values["frame_compliance"] * (self.slope + moves),
-            "frame_compliance": self.slope * load + moves * peak_load,
-        }
+        columns = {"contact_point": self.slope + self.memory, "baseline": np.full_like(self.force, -1.0)}
+        columns |= dict(zip(_MATTER, -self.gradient, strict=False))
         found = [columns[name] for name in curves.free]
         behind, _ = curves.branches
         found += [np.where(behind == k, -self.memory, 0.0) for k in range(curves.peaks)]
-        return np.stack(found, axis=-1) if found else np.zeros((*load.shape, 0))
+        return np.stack(found, axis=-1) if found else np.zeros((*self.force.shape, 0))
+
+
+def _springs(tip, values, depth, deepest, own):
+    """Live interval, force, slope and derivative by the largest depth, and those by ln E* and ln q_c."""
+    d_c, modulus = np.pi / 2 * values["q_c"] / values["E_star"], 2 * values["E_star"]
+    depth, deepest = np.minimum(depth, tip.deepest), np.minimum(deepest, tip.deepest)
+    live = after(deepest, depth, d_c)
+    touching = live.length > 0
+    a = np.where(touching, tip._radius(live.upper), 0.0)
+    c = np.where(touching & (live.lower > 0), tip._radius(live.lower), 0.0)
+    force, back = modulus * area(tip, live), modulus * c
+    yielded = np.where(c > 0, back * d_c, 0.0)
+    slope = modulus * a - np.where(own, back, 0.0)
+    return live, force, slope, np.where(own, 0.0, -back), np.stack([force - yielded, yielded])
+
+
+def _without_frame(tip, values, seen, deepest, own):
+    """Depth d (m) with d + C F(d) = `seen`, by Newton's method from above."""
+    C, depth = values["frame_compliance"], seen
+    for _ in range(40):
+        most = depth if own is True else np.where(own, depth, deepest)
+        _, force, slope, *_ = _springs(tip, values, depth, most, own)
+        step = (depth + C * force - seen) / (1 + C * slope)
+        depth = depth - step
+        if np.all(np.abs(step) <= 1e-15 * np.abs(seen).max()):
+            break
+    return depth
 
 
 def area(tip, live):

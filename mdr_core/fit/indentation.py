@@ -1,7 +1,7 @@
 """The medium from curves of force over depth."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from importlib.util import find_spec
 from typing import Any, ClassVar
 
@@ -22,7 +22,7 @@ from .remarks import remarks_of
 
 #: Curves that share their steps, and so many that progress is shown.
 _TOGETHER, _LONG = 64, 256
-#: How often turning points and noise are found anew.
+#: How often turning points are found anew.
 _ROUNDS = 5
 #: Third differences of noise of unit size: the median of their absolute values.
 _THIRD = 0.6745 * np.sqrt(20.0)
@@ -194,12 +194,15 @@ def _rough(values):
 
 def _progress(jobs, count) -> "Iterator[Any]":
     """The jobs, with a bar if they are many and tqdm is there."""
-    jobs = list(jobs)
     if count < _LONG or find_spec("tqdm") is None:
-        return iter(jobs)
+        yield from jobs
+        return
     from tqdm import tqdm
 
-    return iter(tqdm(jobs, desc="fit_indentation", unit_scale=_TOGETHER, unit="curve"))
+    with tqdm(total=count, desc="fit_indentation", unit="curve") as bar:
+        for job in jobs:
+            yield job
+            bar.update(len(job[0]))
 
 
 def _solved(tip, depth, force, fixed, noise, force_noise, rows, turns, lows):
@@ -209,13 +212,9 @@ def _solved(tip, depth, force, fixed, noise, force_noise, rows, turns, lows):
     sigma = _first_sigma(force, noise, force_noise)
     curves = Curves(tip, depth, force, fixed, noise, sigma, turns, lows)
     x, *_ = solution = _minimum(curves)
-    stiff = np.any(fixed.get("frame_compliance", np.ones(1)) != 0)
-    for _ in range(_ROUNDS if noise and curves.peaks else 2 * stiff):
-        # The frame turns noise of the force into noise of the depth.
-        values, _, state = curves.states(x)
-        before, curves = curves, replace(curves, sigma=sigma * (1 + values["frame_compliance"] * state.slope))
-        curves = curves.relabelled(x) if noise and curves.peaks else curves
-        if not stiff and np.array_equal(before.turns, curves.turns):
+    for _ in range(_ROUNDS if noise and turns.size else 0):
+        before, curves = curves, curves.relabelled(x)
+        if np.array_equal(before.turns, curves.turns):
             break
         x, *_ = solution = _minimum(curves, x)
     known = force_noise is not None or noise > 0
@@ -239,13 +238,13 @@ def _minimum(curves, start=None):
     for i, name in enumerate(curves.free):
         if name in ("E_star", "q_c"):
             low[:, i], high[:, i] = start[:, i] - 16, start[:, i] + 16
+        elif name == "frame_compliance":
+            low[:, i] = 0.0
         elif name == "contact_point":
             # As far as the tip is known.
             least = curves.depth.max(axis=1) - curves.tip.deepest
             low[:, i] = np.maximum((least - curves.offset[:, i]) / curves.scale[:, i], -1.0)
             high[:, i] = 1.0
-        elif name == "frame_compliance":
-            low[:, i] = 0.0
     return least_squares(curves.residuals, start, low, high)
 
 
@@ -300,7 +299,7 @@ def _collected(profile, parts, count, noise):
     medium = Medium(joined["E_star"], joined["q_c"])
     column = Medium(joined["E_star"][:, None], joined["q_c"][:, None])
     if noise:
-        live = LiveInterval(joined["lower"], joined["upper"], joined["live"])
+        live = LiveInterval(joined["lower"], joined["upper"], joined["length"])
         path = Indentation(profile, column, joined["depth"], live)
     else:
         path = indent(profile, column, joined["depth"])
@@ -326,7 +325,7 @@ def _piece(rows, curves, solution, elastic, known):
         if name in ("E_star", "q_c"):
             scale[:, i] = np.where(np.isfinite(values[name][:, 0]), values[name][:, 0], 1.0)
     said = remarks_of(curves, state, values, residual, jacobian, covariance, elastic, known)
-    sigma = curves.sigma[:, 0] / (1 + values["frame_compliance"] * state.slope)[:, 0]
+    sigma = curves.sigma[:, 0]
     return {
         **{name: np.broadcast_to(values[name], (len(x), 1))[:, 0] for name in NAMES},
         "covariance": in_units(covariance, scale),
@@ -334,7 +333,7 @@ def _piece(rows, curves, solution, elastic, known):
         "reduced_chi_square": chi if known else np.ones_like(chi),
         "force_noise": sigma if known else sigma * np.sqrt(chi),
         "depth": state.depth, "lower": state.live.lower, "upper": state.live.upper,
-        "live": state.live.length, "remarks": said,
+        "length": state.live.length, "remarks": said,
     }  # fmt: skip
 
 

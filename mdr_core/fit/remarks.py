@@ -18,7 +18,7 @@ def remarks_of(curves, state, values, residual, jacobian, covariance, elastic, k
     for i in range(len(residual)):
         one = curves.rows(np.array([i]))
         errors = dict(zip(curves.free, shares[i].tolist(), strict=True))
-        back = np.where(state.live.length[i] > 0, _unloaded(state, i), 0.0)
+        back = np.count_nonzero((state.live.length[i] > 0) & ~state.own[i])
         d_c = float(np.pi / 2 * (values["q_c"] / values["E_star"])[i, 0])
         said = [
             *_told(errors, back, d_c, bool(elastic[i] == 2), bool(elastic[i] == 1), float(state.depth[i].max())),
@@ -30,15 +30,8 @@ def remarks_of(curves, state, values, residual, jacobian, covariance, elastic, k
     return found
 
 
-def _unloaded(state, i):
-    """How far below its largest depth each sample is (m)."""
-    live = state.live
-    return np.where(state.own[i], 0.0, live.lower[i] - state.depth[i])
-
-
 def _told(errors, back, d_c, elastic, alike, deepest):
     """What the data do not tell."""
-    unloads = np.count_nonzero(back) > 1
     if elastic and "q_c" in errors:
         yield (
             "elastic",
@@ -51,7 +44,7 @@ def _told(errors, back, d_c, elastic, alike, deepest):
             "hardly yields",
             "an elastic medium fits about as well: that it yields, and q_c, is hardly told; press deeper",
         )
-    if not unloads and "E_star" in errors:
+    if back < 2 and "E_star" in errors:
         yield (
             "loading",
             f"loading alone hardly tells E* (here to {100 * errors['E_star']:.2g} %): record the unloading, "
@@ -61,7 +54,7 @@ def _told(errors, back, d_c, elastic, alike, deepest):
         yield (
             "vague",
             f"the unloading hardly tells E* (to {100 * errors['E_star']:.2g} %): within the critical depth of "
-            f"{engineering(d_c, 'm')} there are {np.count_nonzero(back)} samples; record more of them, or hold "
+            f"{engineering(d_c, 'm')} there are {back} samples; record more of them, or hold "
             "E_star",
         )
     for name, error in errors.items():
