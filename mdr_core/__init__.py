@@ -7,6 +7,8 @@ V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 
 from . import abel
 from .dynamics.impact import Impact, impact
+from .fit.hardness import HardnessFit, fit_hardness
+from .fit.impacts import ImpactFit, fit_impacts
 from .fit.indentation import IndentationFit, fit_indentation
 from .foundation.depth_path import TimedIndentation, indent_in_time
 from .foundation.force_path import creep
@@ -34,8 +36,10 @@ __all__ = [
     "ForcePath",
     "Foundation",
     "FreeImpact",
+    "HardnessFit",
     "Hyperboloid",
     "Impact",
+    "ImpactFit",
     "Indentation",
     "IndentationFit",
     "Medium",
@@ -59,6 +63,8 @@ __all__ = [
     "abel",
     "chain_impact",
     "creep",
+    "fit_hardness",
+    "fit_impacts",
     "fit_indentation",
     "hardness_class",
     "impact",

@@ -279,7 +279,7 @@ def turning_points(depth, least):
     turns, lows, place, record = [], [], 0, -np.inf
     rising, low = True, 0
     for i, d in enumerate(depth):
-        if rising and d >= depth[place] or not rising and d <= depth[place]:
+        if (rising and d >= depth[place]) or (not rising and d <= depth[place]):
             place = i
         elif abs(d - depth[place]) > least:
             if not rising:

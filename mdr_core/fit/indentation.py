@@ -267,7 +267,9 @@ def _elastic(curves, solution, known):
     trials = [_minimum(some, start)]
     held = some.holding(q_c=np.full(rows.size, np.inf))
     x, residual, jacobian = _minimum(held, np.delete(solution[0][rows], place, axis=1))
-    trials.append((np.insert(x, place, _LOG_OF_INFINITE, axis=1), residual, np.insert(jacobian, place, 0.0, axis=2)))
+    trials.append(
+        (np.insert(x, place, _LOG_OF_INFINITE, axis=1), residual, np.insert(jacobian, place, 0.0, axis=2))
+    )
     costs = np.array([np.sum(part[1] ** 2, axis=1) for part in ((None, solution[1][rows]), *trials)])
     noise = np.ones(rows.size) if known else costs.min(axis=0) / freedom
     gain = (costs[2] - costs[:2].min(axis=0)) / np.maximum(noise, 1e-300)
@@ -291,7 +293,11 @@ def _collected(profile, parts, count, noise):
     """One result of all parts, in the order of the curves."""
     order = np.argsort(np.concatenate([rows for rows, *_ in parts]))
     pieces = [_piece(*part) for part in parts]
-    joined = {name: np.concatenate([piece[name] for piece in pieces])[order] for name in pieces[0] if name != "remarks"}
+    joined = {
+        name: np.concatenate([piece[name] for piece in pieces])[order]
+        for name in pieces[0]
+        if name != "remarks"
+    }
     said = [said for piece in pieces for said in piece["remarks"]]
     said = tuple(said[i] for i in order)
     free = parts[0][1].free

@@ -21,7 +21,9 @@ def remarks_of(curves, state, values, residual, jacobian, covariance, elastic, k
         back = np.count_nonzero((state.live.length[i] > 0) & ~state.own[i])
         d_c = float(np.pi / 2 * (values["q_c"] / values["E_star"])[i, 0])
         said = [
-            *_told(errors, back, d_c, bool(elastic[i] == 2), bool(elastic[i] == 1), float(state.depth[i].max())),
+            *_told(
+                errors, back, d_c, bool(elastic[i] == 2), bool(elastic[i] == 1), float(state.depth[i].max())
+            ),
             *_jitter(one),
             *_class_b(one, state, i, residual[i], jacobian[i], d_c),
             *_misfit(residual[i], known, len(jacobian[i][0]), float(one.load[0, 0]), one, i),
