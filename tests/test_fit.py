@@ -35,7 +35,7 @@ def pulls(fit, **truth):
 class TestIndentation:
     @pytest.mark.parametrize("shape", TIPS, ids=name)
     def test_is_the_inverse_of_indent(self, shape):
-        """Without noise to rounding, but for the table of the radius, 10⁻¹³ times the condition of a fit."""
+        """Without noise to rounding, but for the table of the radius, 10⁻¹³ times a fit's condition."""
         fit = mdr.fit_indentation(shape, OUT + 7e-9, curve(shape))
         assert fit.medium.E_star == pytest.approx(E, rel=1e-9)
         assert fit.medium.q_c == pytest.approx(Q, rel=1e-9)

@@ -19,7 +19,8 @@ ORDER = (
     "foundation.depth_path", "foundation.force_path", "foundation.free_body", "foundation.impact",
     "yielding", "superposition", "fields", "stress", "indentation",
     "dynamics.energy_balance", "dynamics.contact_time", "scaling", "dynamics.equation_of_motion",
-    "dynamics.motion", "dynamics.impact", "fit.least_squares", "fit.curve", "fit.remarks", "fit.indentation", "fit.hardness", "fit.impacts",
+    "dynamics.motion", "dynamics.impact",
+    "fit.least_squares", "fit.curve", "fit.remarks", "fit.indentation", "fit.hardness", "fit.impacts",
     "scene", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.

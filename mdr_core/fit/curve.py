@@ -23,6 +23,8 @@ from ..yielding import LiveInterval, after, virgin
 NAMES = ("E_star", "q_c", "contact_point", "baseline", "frame_compliance")
 #: What the force depends on beside the depth.
 _MATTER = ("E_star", "q_c", "frame_compliance")
+#: Compliances of the frame to begin with, in units of the range of depth over that of force.
+_SOFT = np.array([0.0, 0.05, 0.15, 0.3, 0.5])
 #: Steps of the search for the nearest place.
 _PROJECTIONS = 6
 
@@ -76,7 +78,7 @@ class Curves:
         """What one unit of each scaled parameter is, 1 of a logarithm (R, P)."""
         one = np.ones_like(self.length)
         units = dict(zip(NAMES, (one, one, self.length, self.load, self.length / self.load), strict=True))
-        return np.hstack([*(units[name] for name in self.free), *[self.length] * self.peaks])
+        return np.hstack([one[:, :0], *(units[name] for name in self.free), *[self.length] * self.peaks])
 
     @cached_property
     def offset(self):
@@ -84,7 +86,7 @@ class Curves:
         low = self.depth.min(axis=1, keepdims=True)
         none = np.zeros_like(low)
         begin = [low if name == "contact_point" else none for name in self.free]
-        return np.hstack([*begin, *[low] * self.peaks])
+        return np.hstack([none[:, :0], *begin, *[low] * self.peaks])
 
     def values(self, x):
         """Parameters by name (R, 1), and the turning depths (R, K)."""
@@ -97,6 +99,7 @@ class Curves:
     def scaled(self, values, turning):
         """The inverse of `values`."""
         plain = np.hstack([*(values[name] for name in self.free), turning[:, : self.peaks]])
+        plain = plain.reshape(len(self.depth), -1)
         x = (plain - self.offset) / self.scale
         for i, name in enumerate(self.free):
             x[:, i] = np.log(values[name][:, 0]) if name in NAMES[:2] else x[:, i]
@@ -303,7 +306,13 @@ def first_guess(curves):
     steps = reach * np.append(0.0, np.geomspace(1e-5, 1, 300))
     table = steps, area(curves.tip, virgin(steps))
     peak = _turning(curves)
-    found = [_guess(curves.rows([row]), peak[[row]], some, table) for row in range(len(curves.depth))]
+    found = []
+    for row in range(len(curves.depth)):
+        curve = curves.rows([row])
+        soft = curves.fixed["frame_compliance"][[row]] if "frame_compliance" in curves.fixed else None
+        soft = _SOFT * (curve.length / curve.load)[0] if soft is None else soft
+        guesses = [_guess(curve, peak[[row]], some, table, float(each)) for each in soft]
+        found.append(min(guesses, key=lambda guess: guess["miss"]))
     values = {name: np.array([[each[name]] for each in found]) for name in NAMES}
     return curves.scaled(values, peak)
 
@@ -315,12 +324,11 @@ def _turning(curves):
     return curves.depth[rows, near].mean(axis=2) if near.size else np.zeros(curves.turns.shape)
 
 
-def _guess(curve, peak, some, table):
-    """Parameters of one curve by name."""
+def _guess(curve, peak, some, table, compliance):
+    """Parameters of one curve by name, and what is missed."""
     held = {name: float(value[0]) for name, value in curve.fixed.items()}
     force, depth = curve.force[0], curve.depth[0]
     top, bottom = force.max(), held.get("baseline", float(np.quantile(force, 0.05)))
-    compliance = held.get("frame_compliance", 0.0)
     depth = depth - compliance * (force - bottom)
     touched = float(depth[np.argmax(force - bottom > 0.05 * (top - bottom))])
     width = max(float(depth.max()) - touched, 1e-3 * float(curve.length[0, 0]))
@@ -342,6 +350,7 @@ def _guess(curve, peak, some, table):
     best = int(np.argmin(np.where(np.isfinite(miss), miss, np.inf)))
     E, d_c = float(modulus[best, 0]), float(d_c[best, 0])
     guess = {"E_star": E, "q_c": 2 / np.pi * E * d_c, "contact_point": float(point[best, 0])}
+    guess["miss"] = miss[best]
     return guess | {"baseline": float(base[best, 0]), "frame_compliance": compliance} | held
 
 
@@ -359,5 +368,5 @@ def _line(unit, load, held, d_c):
         product = np.sum(wide * (load - centre - shift), axis=1, keepdims=True)
         ratio = product / np.maximum(power, 1e-300)
         modulus = np.maximum(ratio, 1e-6 * np.ptp(load) / np.maximum(np.ptp(unit), 1e-300))
-    base = shift[:1] + 0 * d_c if "baseline" in held else centre - modulus * mean
+    base = np.full_like(d_c, shift[0]) if "baseline" in held else centre - modulus * mean
     return modulus, base

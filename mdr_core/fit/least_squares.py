@@ -44,7 +44,11 @@ def least_squares(function, start, low, high, *, most=80, close=1e-11):
     residual, jacobian = function(x, rows)
     cost = np.sum(residual**2, axis=1)
     for _ in range(most if x.shape[1] else 0):
-        step = _step(residual[rows], jacobian[rows], damping[rows])
+        slopes = jacobian[rows]
+        # At a bound what would go beyond stays.
+        down = np.einsum("rn,rnp->rp", residual[rows], slopes)
+        stays = ((x[rows] <= low[rows]) & (down > 0)) | ((x[rows] >= high[rows]) & (down < 0))
+        step = _step(residual[rows], np.where(stays[:, None, :], 0.0, slopes), damping[rows])
         new = np.clip(x[rows] + np.clip(step, -1.5, 1.5), low[rows], high[rows])
         size = np.abs(new - x[rows]).max(axis=1)
         trial, slopes = function(new, rows)
