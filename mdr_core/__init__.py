@@ -9,6 +9,9 @@ from . import abel, sweep
 from .dynamics.ball import Ball, at_angle
 from .dynamics.impact import Impact, impact
 from .dynamics.oblique import ObliqueImpact, oblique_impact
+from .fit.hardness import HardnessFit, fit_hardness
+from .fit.impacts import ImpactFit, fit_impacts
+from .fit.indentation import IndentationFit, fit_indentation
 from .foundation.depth_path import TimedIndentation, indent_in_time
 from .foundation.force_path import creep
 from .foundation.impact import ChainImpact, chain_impact
@@ -36,9 +39,12 @@ __all__ = [
     "ForcePath",
     "Foundation",
     "FreeImpact",
+    "HardnessFit",
     "Hyperboloid",
     "Impact",
+    "ImpactFit",
     "Indentation",
+    "IndentationFit",
     "Medium",
     "Motion",
     "ObliqueImpact",
@@ -62,6 +68,9 @@ __all__ = [
     "at_angle",
     "chain_impact",
     "creep",
+    "fit_hardness",
+    "fit_impacts",
+    "fit_indentation",
     "hardness_class",
     "impact",
     "indent",

@@ -33,6 +33,9 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
         Indentation depth d (m), one number or a path along the last axis; each row of a larger
         array is a path of its own that starts on a virgin medium. Negative means lifted off.
 
+    Parameters of profile and medium may be arrays with a last axis of length 1, which broadcast with rows of
+    depths: one path each, as in ``Medium(E_star=moduli[:, None])``.
+
     Returns
     -------
     Indentation
@@ -55,9 +58,23 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
     >>> print(round(state.force / critical_force, 12))
     3.0
     """
-    check_pair(profile, medium, "an indentation")
-    depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LARGEST))
+    check_pair(profile, medium)
+    depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
+    depth = profile._known(_broadcast(profile, medium, depth))
     return Indentation(profile, medium, depth, live_interval(depth, medium.critical_depth))
+
+
+def _broadcast(profile, medium, depth):
+    """Depths of paths along the last axis, one for each of many media or indenters."""
+    for thing in (profile, medium):
+        if thing.shape and thing.shape[-1] != 1:
+            raise ValueError(
+                "a path is that of one indenter on one medium, but the parameters of "
+                f"{type(thing).__name__} are arrays of shape {thing.shape}: give them a last axis of length 1, "
+                "one path each, as in Medium(E_star[:, None]), or take one at a time: medium.entries(i)"
+            )
+    sizes = {"profile": np.empty(profile.shape), "medium": np.empty(medium.shape)}
+    return np.broadcast_to(depth, _check.common_shape("indent", depth=depth, **sizes))
 
 
 def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Indentation":

@@ -83,11 +83,11 @@ class ScalingLaw:
 
 @dataclass(frozen=True)
 class HardnessClass:
-    """Which class measured imprints belong to; made by `hardness_class`.
+    """Which class measured imprints belong to; made by `hardness_class` and `fit_hardness`.
 
     `hardness` is the class, None where none fits or the data do not tell, and `reason` says why; `slope`
-    the measured power of the energy with its standard error `slope_error`, infinite from two energies;
-    `laws` the `ScalingLaw` of each class.
+    the measured power with its standard error `slope_error`, infinite from two places; `laws` the
+    `ScalingLaw` of each class, where it is a power of the energy.
     """
 
     hardness: str | None
@@ -135,25 +135,34 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
             "more that differ"
         )
     laws = {name: ScalingLaw(name, exponent) for name in _FORCE_POWER}
+    slope, error = straight_line(x, y)
+    expected = {name: (law.radius, _NEAR * law.radius) for name, law in laws.items()}
+    found, reason = class_of(expected, slope, error)
+    return HardnessClass(found, slope, error, laws, reason)
+
+
+def straight_line(x, y):
+    """Slope of y over x by least squares, and its standard error: infinite from two places."""
     x, y = x - x.mean(), y - y.mean()
     slope = (x @ y) / (x @ x)
     rest = y - slope * x
     enough = np.unique(x).size > 2
-    error = np.sqrt(rest @ rest / (x.size - 2) / (x @ x)) if enough else np.inf
-    found, reason = _class_of(laws, slope, error)
-    return HardnessClass(found, float(slope), float(error), laws, reason)
+    return float(slope), float(np.sqrt(rest @ rest / (x.size - 2) / (x @ x)) if enough else np.inf)
 
 
-def _class_of(laws, slope, error):
-    """The one class that a measured power fits, if it is one, and the reason."""
-    expected = ", ".join(f"{name}: {law.radius:.3g}" for name, law in laws.items())
-    measured = f"the slope {slope:.3g} ± {error:.2g}, where the classes have {expected}"
+def class_of(expected, slope, error):
+    """The one class that a measured power fits, if it is one, and the reason.
+
+    `expected` has the power in each class, and what is near to it however small the error is.
+    """
+    powers = ", ".join(f"{name}: {power:.3g}" for name, (power, _) in expected.items())
+    measured = f"the slope {slope:.3g} ± {error:.2g}, where the classes have {powers}"
     if error == np.inf:
         return (
             None,
-            f"insufficient: two energies leave no error of the slope {slope:.3g}; give three or more",
+            f"insufficient: two places leave no error of the slope {slope:.3g}; give three or more",
         )
-    fits = [n for n, law in laws.items() if abs(slope - law.radius) <= max(2 * error, 0.1 * law.radius)]
+    fits = [n for n, (power, near) in expected.items() if abs(slope - power) <= max(2 * error, near)]
     if len(fits) == 1:
         return fits[0], f"class {fits[0]} alone fits {measured}"
     return None, f"{'none' if not fits else 'more than one class'} fits {measured}"

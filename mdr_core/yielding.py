@@ -40,7 +40,11 @@ def live_interval(depth, critical_depth):
     >>> live_interval(np.array([0.5, 3.0, 2.5, 1.0]), 1.0).length.tolist()
     [0.5, 1.0, 0.5, 0.0]
     """
-    deepest = np.maximum.accumulate(depth, axis=-1) if depth.ndim else depth
+    return after(np.maximum.accumulate(depth, axis=-1) if depth.ndim else depth, depth, critical_depth)
+
+
+def after(deepest, depth, critical_depth):
+    """Live interval at each depth (m) when the largest one so far is `deepest` (m)."""
     lower = np.maximum(deepest - critical_depth, 0.0)
     # Before the first yield the length is the depth itself, afterwards what is left of d_c.
     length = np.maximum(np.minimum(depth, critical_depth - (deepest - depth)), 0.0)

@@ -21,7 +21,9 @@ ORDER = (
     "dynamics.energy_balance", "dynamics.contact_time", "scaling", "dynamics.equation_of_motion",
     "dynamics.motion", "dynamics.impact", "dynamics.levels", "dynamics.friction",
     "dynamics.oblique_motion", "dynamics.ball",
-    "dynamics.oblique", "sweep", "scene", "__init__",
+    "dynamics.oblique", "sweep",
+    "fit.least_squares", "fit.curve", "fit.remarks", "fit.indentation", "fit.hardness", "fit.impacts",
+    "scene", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {

@@ -1,0 +1,1 @@
+"""From measurements to the medium: curves of indentation, impacts, hardness over radius."""
