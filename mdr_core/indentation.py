@@ -9,7 +9,7 @@ import numpy as np
 from . import _check, fields, stress
 from ._check import Array, ArrayLike
 from ._numeric import root
-from .medium import Medium, check_pair
+from .medium import Medium, check_pair, paths_on
 from .report import Report
 from .results import CLOSED_FORM, Limit, contact_limits, sealed
 from .shapes.profile import Profile
@@ -33,8 +33,8 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
         Indentation depth d (m), one number or a path along the last axis; each row of a larger
         array is a path of its own that starts on a virgin medium. Negative means lifted off.
 
-    Parameters of profile and medium may be arrays with a last axis of length 1, which broadcast with rows of
-    depths: one path each, as in ``Medium(E_star=moduli[:, None])``.
+    Parameters of profile and medium may be arrays with a last axis of length 1, which broadcast with rows
+    of depths: one path each, as in ``Medium(E_star=moduli[:, None])``.
 
     Returns
     -------
@@ -60,21 +60,8 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
     """
     check_pair(profile, medium)
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
-    depth = profile._known(_broadcast(profile, medium, depth))
+    depth = profile._known(paths_on(profile, medium, depth))
     return Indentation(profile, medium, depth, live_interval(depth, medium.critical_depth))
-
-
-def _broadcast(profile, medium, depth):
-    """Depths of paths along the last axis, one for each of many media or indenters."""
-    for thing in (profile, medium):
-        if thing.shape and thing.shape[-1] != 1:
-            raise ValueError(
-                f"the parameters of {type(thing).__name__} are arrays of shape {thing.shape}, but the last axis "
-                "is the path, on which they stay: give them one of length 1, as in Medium(E_star[:, None]), or "
-                "take one at a time, as in medium.entries(i)"
-            )
-    sizes = {"profile": np.empty(profile.shape), "medium": np.empty(medium.shape)}
-    return np.broadcast_to(depth, _check.common_shape("indent", depth=depth, **sizes))
 
 
 def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Indentation":

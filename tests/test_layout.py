@@ -20,8 +20,8 @@ ORDER = (
     "yielding", "superposition", "fields", "stress", "indentation",
     "dynamics.energy_balance", "dynamics.contact_time", "scaling", "dynamics.equation_of_motion",
     "dynamics.motion", "dynamics.impact",
-    "fit.least_squares", "fit.curve", "fit.remarks", "fit.indentation", "fit.hardness", "fit.impacts",
-    "scene", "__init__",
+    "fit.least_squares", "fit.curve", "fit.start", "fit.solution", "fit.remarks", "fit.indentation",
+    "fit.hardness", "fit.impacts", "scene", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {
