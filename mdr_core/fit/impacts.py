@@ -59,15 +59,12 @@ def fit_impacts(
     -------
     ImpactFit
 
+        Restitutions have one absolute error, contact times one relative one, estimated from the residuals.
+
     Raises
     ------
     ValueError
         If more is free than the data tell, or they are not as above.
-
-    Notes
-    -----
-    Restitutions have one absolute error, contact times one relative error; both are estimated from their
-    residuals, and so are the standard errors.
 
     Examples
     --------
@@ -248,8 +245,7 @@ def _start(data, held, free):
         found.append((costs.min(), E, q_c[costs.argmin()]))
     if not found:
         raise ValueError("these impacts press deeper than the shape is known, for any modulus")
-    _, E, q_c = min(found)
-    eta = held.get("eta")
+    (_, E, q_c), eta = min(found), held.get("eta")
     if eta != 0:
         time = _duration(few, E, energy, speed)
         eta = E / 4 * time * np.array([0.003, 0.02, 0.1, 0.4]) if eta is None else np.array([eta])
