@@ -10,7 +10,7 @@ from . import _check, fields, stress
 from ._check import Array, ArrayLike
 from ._numeric import root
 from .figures import PlottedState
-from .medium import Medium, check_pair
+from .medium import Medium, check_pair, paths_on
 from .results import CLOSED_FORM, Limit, contact_limits, sealed
 from .shapes.profile import Profile
 from .superposition import energy_integral, live_length, loading_depth, radius_drop, radius_integral
@@ -60,21 +60,8 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
     """
     check_pair(profile, medium)
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
-    depth = profile._known(_broadcast(profile, medium, depth))
+    depth = profile._known(paths_on(profile, medium, depth))
     return Indentation(profile, medium, depth, live_interval(depth, medium.critical_depth))
-
-
-def _broadcast(profile, medium, depth):
-    """Depths of paths along the last axis, one for each of many media or indenters."""
-    for thing in (profile, medium):
-        if thing.shape and thing.shape[-1] != 1:
-            raise ValueError(
-                "a path is that of one indenter on one medium, but the parameters of "
-                f"{type(thing).__name__} are arrays of shape {thing.shape}: give them a last axis of length 1, "
-                "one path each, as in Medium(E_star[:, None]), or take one at a time: medium.entries(i)"
-            )
-    sizes = {"profile": np.empty(profile.shape), "medium": np.empty(medium.shape)}
-    return np.broadcast_to(depth, _check.common_shape("indent", depth=depth, **sizes))
 
 
 def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Indentation":

@@ -27,6 +27,19 @@ def check_pair(profile, medium, what=None):
         )
 
 
+def paths_on(profile, medium, depth):
+    """Depths of paths along the last axis, one for each of many media or indenters."""
+    for thing in (profile, medium):
+        if thing.shape and thing.shape[-1] != 1:
+            raise ValueError(
+                "a path is that of one indenter on one medium, but the parameters of "
+                f"{type(thing).__name__} are arrays of shape {thing.shape}: give them a last axis of "
+                "length 1, one path each, as in Medium(E_star[:, None]), or take medium.entries(i)"
+            )
+    sizes = {"profile": np.empty(profile.shape), "medium": np.empty(medium.shape)}
+    return np.broadcast_to(depth, _check.common_shape("indent", depth=depth, **sizes))
+
+
 def _poisson(quantity, ratio):
     """A Poisson ratio as a float array."""
     ratio, bound = _check.finite_array(quantity, ratio), "must lie in −1 < ν ≤ 0.5"

@@ -38,3 +38,7 @@ fitted = mdr.Sampled.fit([-1e-9, 0.0, 1e-9, 2e-9], [1e-9, 0.0, 1e-9, 3e-9])
 depth = mdr.indent_to_force(fitted, medium, 1e-9).depth
 cusp = mdr.PowerLaw(coefficient=2e-4, exponent=0.5).reduced([1e-9, 2e-9])[0]
 cap = mdr.Sphere([1e-6, 2e-6]).contact_radius(1e-9)
+fit = mdr.fit_indentation(tip, path.depth, path.force, E_star=1e9, contact_point=0.0)
+told: str = " ".join(fit.remarks) + f"{fit.medium.q_c} ± {fit.standard_errors['q_c']}"
+hard = mdr.fit_hardness(mdr.Cone(0.3), [1e9, 5e8, 2.5e8], [1e-7, 2e-7, 4e-7], E_star=1e11)
+kind: str | None = hard.class_.hardness

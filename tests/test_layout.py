@@ -22,8 +22,8 @@ ORDER = (
     "dynamics.motion", "dynamics.impact", "dynamics.levels", "dynamics.friction",
     "dynamics.oblique_motion", "dynamics.ball",
     "dynamics.oblique", "sweep",
-    "fit.least_squares", "fit.curve", "fit.remarks", "fit.indentation", "fit.hardness", "fit.impacts",
-    "scene", "__init__",
+    "fit.least_squares", "fit.curve", "fit.start", "fit.solution", "fit.remarks", "fit.indentation",
+    "fit.hardness", "fit.impacts", "scene", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {

@@ -24,11 +24,11 @@ def fit_hardness(
 ) -> "HardnessFit":
     """The yield constant from hardness at some contact radii, and the class of hardness that they tell.
 
-    Hardness is the mean pressure F/(π a²) under load, `Indentation.mean_pressure` on a first loading. It is less
-    than q_c/a, for the outer ring of the contact is elastic still (a cone lacks 25 % at twice the critical
-    depth, 5 % at ten times): q_c of each measurement is the exact root of F(q_c) = π a² H at depth g(a), and the
-    result their mean, weighted by how well each tells it where all hardnesses have the same relative error. The
-    class is that of ln(q_c/a) over ln a, the hardness that a fully yielded contact has.
+    Hardness is the mean pressure F/(π a²) under load, `Indentation.mean_pressure` on a first loading. It is
+    less than q_c/a, for the outer ring of the contact is elastic still (a cone lacks 25 % at twice the
+    critical depth, 5 % at ten times): q_c of each measurement is the exact root of F(q_c) = π a² H at depth
+    g(a), and the result their mean, weighted by how well each tells it where all hardnesses have the same
+    relative error. The class is that of ln(q_c/a) over ln a, the hardness that a fully yielded contact has.
 
     Parameters
     ----------
@@ -80,8 +80,8 @@ def fit_hardness(
     if not told.any():
         worst = engineering(H.max(), "Pa")
         raise ValueError(
-            f"no hardness (the largest is {worst}) is below the mean pressure of an elastic contact with E* = "
-            f"{engineering(E_star, 'Pa')}: nothing has yielded; check E_star, or press deeper"
+            f"no hardness (the largest is {worst}) is below the mean pressure of an elastic contact with "
+            f"E* = {engineering(E_star, 'Pa')}: nothing has yielded; check E_star, or press deeper"
         )
     a, H, depth, ell = a[told], H[told], depth[told], ell[told]
     each = 2 / np.pi * E_star * ell
@@ -113,7 +113,8 @@ def fit_hardness(
 def _critical_depths(profile, depth, area):
     """Critical depth ℓ with ∫ a ds = `area` over [d − ℓ, d], and where there is one.
 
-    The integral grows with ℓ and bends downward: Newton's method from area/a comes from below, and never too far.
+    The integral grows with ℓ and bends downward: Newton's method from area/a comes from below, and never
+    too far.
     """
     told = area < radius_integral(profile, virgin(depth))
     ell = np.minimum(area / profile._radius(depth), depth)
@@ -139,8 +140,8 @@ def _remarks(told, measured, share):
     found = []
     if not told.all():
         found.append(
-            f"{np.count_nonzero(~told)} of {told.size} places are as hard as an elastic contact: they tell of no "
-            "yield and were left out"
+            f"{np.count_nonzero(~told)} of {told.size} places are as hard as an elastic contact: they tell "
+            "of no yield and were left out"
         )
     if measured.hardness not in ("b", None) or measured.reason.startswith("none"):
         found.append(f"not class (b), for which q_c is: {measured.reason}")
@@ -162,7 +163,7 @@ class HardnessFit(Fit):
     residuals : ndarray
         Relative residuals of the hardness.
     class_ : HardnessClass
-        Power of the radius that hardness goes with, `slope` ± `slope_error`; `hardness` is the class or None.
+        Power of the radius that hardness goes with, `slope` ± `slope_error`, and the class as `hardness`.
     each : ndarray
         q_c (N/m) of each place.
     remarks : tuple of str

@@ -37,8 +37,8 @@ def fit_impacts(
 ) -> "ImpactFit":
     """The medium whose impacts are nearest to measured ones, by least squares: the inverse of `impact`.
 
-    Parameters that are None are free, numbers are held. Restitution tells one combination of E* and q_c, with
-    viscosity two of three: give E_star, or contact times, which tell E*.
+    Parameters that are None are free, numbers are held. Restitution tells one combination of E* and q_c,
+    with viscosity two of three: give E_star, or contact times, which tell E*.
 
     Parameters
     ----------
@@ -59,15 +59,12 @@ def fit_impacts(
     -------
     ImpactFit
 
+        Restitutions have one absolute error, contact times one relative one, estimated from the residuals.
+
     Raises
     ------
     ValueError
         If more is free than the data tell, or they are not as above.
-
-    Notes
-    -----
-    Restitutions have one absolute error, contact times one relative error; both are estimated from their
-    residuals, and so are the standard errors.
 
     Examples
     --------
@@ -160,11 +157,10 @@ class _Data:
         try:
             return np.sum((self.misses(values) / units) ** 2, axis=1)
         except ValueError:
-            size = len(values["eta"])
-            if size == 1:
+            if len(values["eta"]) == 1:
                 return np.array([np.inf])
-            each = ({name: value[[i]] for name, value in values.items()} for i in range(size))
-            return np.concatenate([self.costs(one) for one in each])
+            ones = ({name: value[[i]] for name, value in values.items()} for i in range(len(values["eta"])))
+            return np.concatenate([self.costs(one) for one in ones])
 
 
 def _refuse_untold(data, held, free):
@@ -233,7 +229,7 @@ def _differences(data, held, free, x):
 
 
 def _start(data, held, free):
-    """The best of a grid: dry impacts of a power law like the tip first, for they are cheap; then viscosities."""
+    """The best of a grid: dry impacts of a power law like the tip, then viscosities."""
     few = data.thinned(8)
     energy, speed = np.median(few.mass * few.speed**2 / 2), np.median(few.speed)
     found = []
@@ -249,8 +245,7 @@ def _start(data, held, free):
         found.append((costs.min(), E, q_c[costs.argmin()]))
     if not found:
         raise ValueError("these impacts press deeper than the shape is known, for any modulus")
-    _, E, q_c = min(found)
-    eta = held.get("eta")
+    (_, E, q_c), eta = min(found), held.get("eta")
     if eta != 0:
         time = _duration(few, E, energy, speed)
         eta = E / 4 * time * np.array([0.003, 0.02, 0.1, 0.4]) if eta is None else np.array([eta])
@@ -305,8 +300,8 @@ def _remarks(data, free, shares, jacobian, residual, noise):
         )
         remedy = "give contact_time" if data.time is None else "impacts over more speeds"
         found.append(
-            f"the data hardly tell {', '.join(vague)} (singular values from {s[0]:.2g} to {s[-1]:.2g} in units of "
-            f"the noise; the least told is {along}): hold one of them, or {remedy}"
+            f"the data hardly tell {', '.join(vague)} (singular values from {s[0]:.2g} to {s[-1]:.2g} in "
+            f"units of the noise; the least told is {along}): hold one of them, or {remedy}"
         )
     parts = np.split(residual, [data.count])
     for what, part, size in zip(("restitution", "contact time"), parts, noise, strict=True):
@@ -332,7 +327,8 @@ class ImpactFit(Fit):
     residuals : ndarray
         Measured less fitted restitution, followed by relative contact times (ln T) where they were given.
     reduced_chi_square : float
-        Sum of squares in units of the noise over the degrees of freedom: about 1, for the noise was estimated.
+        Sum of squares in units of the noise over the degrees of freedom: about 1, for the noise was
+        estimated.
     remarks : tuple of str
         What the data do not tell, and what to hold.
     """

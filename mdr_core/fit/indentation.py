@@ -9,25 +9,21 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
-from .._numeric import chunks
 from ..indentation import Indentation, indent
 from ..medium import Medium, check_pair
 from ..report import engineering
 from ..shapes.profile import Profile
 from ..shapes.tabulated import tabulated
 from ..yielding import LiveInterval
-from .curve import NAMES, Curves, first_guess, turning_points
-from .least_squares import Fit, covariances, in_units, least_squares
+from .curve import NAMES
+from .least_squares import Fit, covariances, in_units
 from .remarks import remarks_of
+from .solution import grouped, solved
 
-#: Curves that share their steps, and so many that progress is shown.
-_TOGETHER, _LONG = 64, 256
-#: How often turning points are found anew.
-_ROUNDS = 5
-#: Third differences of noise of unit size: the median of their absolute values.
-_THIRD = 0.6745 * np.sqrt(20.0)
-#: Stands for the logarithm of an infinite q_c.
-_LOG_OF_INFINITE = 300.0
+#: So many curves that progress is shown.
+_LONG = 256
+#: Arrays of a result that say how good it is.
+_QUALITY = ("covariance", "residuals", "reduced_chi_square", "force_noise")
 
 
 def fit_indentation(
@@ -68,7 +64,8 @@ def fit_indentation(
         counts as depth once reached, and E* comes out too small.
     force_noise : float, optional
         Standard deviation (N) of the measured force. None estimates it: from the residuals, or with
-        `depth_noise` from third differences of the force, which then must be sampled more finely than it bends.
+        `depth_noise` from third differences of the force, which then must be sampled more finely than it
+        bends.
 
     Returns
     -------
@@ -83,9 +80,10 @@ def fit_indentation(
     Notes
     -----
     Standard errors come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)². In simulated
-    curves (200 to 450 samples, 0.4 % force noise, cone, paraboloid, sphere) deviations over errors have
-    standard deviations of 0.9 to 1.1, with depth noise up to 1/15 of the depth too. They are those of the noise alone:
-    where `remarks` says that residuals are none, the model or the tip is off by more.
+    curves (400 samples, 0.4 % force noise, cone, paraboloid, sphere) deviations over errors have
+    standard deviations of 0.9 to 1.2, with depth noise up to 1/15 of the depth too as long as it is less
+    than the critical depth; where it is more, 1.5 to 3, and E* is off by a sixth. They are errors of the
+    noise alone: where `remarks` says that residuals are none, the model or the tip is off by more.
 
     Examples
     --------
@@ -107,8 +105,8 @@ def fit_indentation(
         sigma = _check.positive_number("force_noise", force_noise, unit="N")
     _refuse_empty(depth, force, fixed)
     tip = tabulated(profile, _reach(profile, depth, fixed))
-    jobs = _grouped(depth, force, noise)
-    parts = [_solved(tip, depth, force, fixed, noise, sigma, *job) for job in _progress(jobs, len(depth))]
+    jobs = grouped(depth, force, noise)
+    parts = [solved(tip, depth, force, fixed, noise, sigma, *job) for job in _progress(jobs, len(depth))]
     fit = _collected(profile, parts, len(depth), noise)
     return fit[0] if single else fit
 
@@ -163,35 +161,6 @@ def _reach(profile, depth, fixed):
     return min(reach, profile.deepest)
 
 
-def _grouped(depth, force, noise):
-    """Curves that are solved together: rows, turning points, places to set out from.
-
-    Depth and force turn at once: they are added in units in which the quieter of them weighs more.
-    """
-    path, variance, least = 0.0, 0.0, 0.0
-    for values, sigma in ((depth, noise), (force, _rough(force))):
-        size = np.ptp(values, axis=1, keepdims=True)
-        weight = 1 / (0.005 + sigma / size)
-        path, least = path + weight * values / size, least + 0.02 * weight
-        variance = variance + (weight * sigma / size) ** 2
-    least = np.maximum(least, 6 * np.sqrt(variance))[:, 0]
-    found = [turning_points(row.tolist(), limit) for row, limit in zip(path, least.tolist(), strict=True)]
-    kinds = [(len(turns), len(lows)) for turns, lows in found]
-    for kind in sorted(set(kinds)):
-        rows = np.array([i for i, each in enumerate(kinds) if each == kind])
-        for part in chunks(rows.size, _TOGETHER):
-            some = rows[part]
-            places = (np.array([found[i][j] for i in some], int) for j in (0, 1))
-            yield some, *(each.reshape(len(some), count) for each, count in zip(places, kind, strict=True))
-
-
-def _rough(values):
-    """Standard deviation of the noise of smooth rows (R, 1), from third differences."""
-    if values.shape[1] < 8:
-        return np.zeros((len(values), 1))
-    return np.median(np.abs(np.diff(values, 3, axis=1)), axis=1, keepdims=True) / _THIRD
-
-
 def _progress(jobs, count) -> "Iterator[Any]":
     """The jobs, with a bar if they are many and tqdm is there."""
     if count < _LONG or find_spec("tqdm") is None:
@@ -203,90 +172,6 @@ def _progress(jobs, count) -> "Iterator[Any]":
         for job in jobs:
             yield job
             bar.update(len(job[0]))
-
-
-def _solved(tip, depth, force, fixed, noise, force_noise, rows, turns, lows):
-    """Rows, curves, solution, covariance and its scale of some curves with as many turning points."""
-    depth, force = depth[rows], force[rows]
-    fixed = {name: value[rows] for name, value in fixed.items()}
-    sigma = _first_sigma(force, noise, force_noise)
-    curves = Curves(tip, depth, force, fixed, noise, sigma, turns, lows)
-    x, *_ = solution = _minimum(curves)
-    for _ in range(_ROUNDS if noise and turns.size else 0):
-        before, curves = curves, curves.relabelled(x)
-        if np.array_equal(before.turns, curves.turns):
-            break
-        x, *_ = solution = _minimum(curves, x)
-    known = force_noise is not None or noise > 0
-    solution, elastic = _elastic(curves, solution, known)
-    return rows, curves, solution, elastic, known
-
-
-def _first_sigma(force, noise, force_noise):
-    """Standard deviation of the force (R, N): the one given, or the estimate; of unknown ones a unit."""
-    size = np.ptp(force, axis=1, keepdims=True)
-    if force_noise is not None:
-        size = np.full_like(size, force_noise)
-    elif noise:
-        size = np.maximum(_rough(force), 1e-6 * size)
-    return np.repeat(size, force.shape[1], axis=1)
-
-
-def _minimum(curves, start=None):
-    start = first_guess(curves) if start is None else start
-    low, high = np.full_like(start, -np.inf), np.full_like(start, np.inf)
-    for i, name in enumerate(curves.free):
-        if name in ("E_star", "q_c"):
-            low[:, i], high[:, i] = start[:, i] - 16, start[:, i] + 16
-        elif name == "frame_compliance":
-            low[:, i] = 0.0
-        elif name == "contact_point":
-            # As far as the tip is known.
-            least = curves.depth.max(axis=1) - curves.tip.deepest
-            low[:, i] = np.maximum((least - curves.offset[:, i]) / curves.scale[:, i], -1.0)
-            high[:, i] = 1.0
-    return least_squares(curves.residuals, start, low, high)
-
-
-def _elastic(curves, solution, known):
-    """The solution, and how near an elastic medium is to the curve: 0 further away, 1 about as near, 2 nearer.
-
-    Where it is nearer the solution becomes the elastic one. Within an elastic medium q_c has no derivative:
-    from there the search begins once more, below the largest depth.
-    """
-    elastic = np.zeros(len(curves.depth), int)
-    if "q_c" in curves.fixed:
-        return solution, elastic + 2 * np.isinf(curves.fixed["q_c"])
-    place, freedom = curves.free.index("q_c"), max(solution[1].shape[1] - solution[0].shape[1], 1)
-    share = _yield_share(curves, solution[0])
-    rows = np.flatnonzero(share > 0.5)
-    if not rows.size:
-        return solution, elastic
-    some, start = curves.rows(rows), solution[0][rows]
-    start[:, place] += np.minimum(np.log(0.85 / share[rows]), 0.0)
-    trials = [_minimum(some, start)]
-    held = some.holding(q_c=np.full(rows.size, np.inf))
-    x, residual, jacobian = _minimum(held, np.delete(solution[0][rows], place, axis=1))
-    trials.append(
-        (np.insert(x, place, _LOG_OF_INFINITE, axis=1), residual, np.insert(jacobian, place, 0.0, axis=2))
-    )
-    costs = np.array([np.sum(part[1] ** 2, axis=1) for part in ((None, solution[1][rows]), *trials)])
-    noise = np.ones(rows.size) if known else costs.min(axis=0) / freedom
-    gain = (costs[2] - costs[:2].min(axis=0)) / np.maximum(noise, 1e-300)
-    small = costs[2] <= 1e-24 * solution[1].shape[1]
-    nearer = (gain <= 2) | small
-    chosen = np.where(nearer, 2, np.argmin(costs[:2], axis=0))
-    for k, trial in enumerate(trials, start=1):
-        for whole, part in zip(solution, trial, strict=True):
-            whole[rows[chosen == k]] = part[chosen == k]
-    elastic[rows] = np.where(nearer, 2, gain <= 9)
-    return solution, elastic
-
-
-def _yield_share(curves, x):
-    """Critical depth over the largest depth of each curve."""
-    values, _, state = curves.states(x)
-    return (np.pi / 2 * values["q_c"] / values["E_star"])[:, 0] / state.depth.max(axis=1)
 
 
 def _collected(profile, parts, count, noise):
@@ -312,7 +197,7 @@ def _collected(profile, parts, count, noise):
     return IndentationFit(
         profile, medium, *(_check.frozen(joined[name]) for name in NAMES[2:]),
         {name: _check.frozen(errors[:, i]) for i, name in enumerate(free)},
-        *(_check.frozen(joined[n]) for n in ("covariance", "residuals", "reduced_chi_square", "force_noise")),
+        *(_check.frozen(joined[name]) for name in _QUALITY),
         path, said,
     )  # fmt: skip
 
@@ -365,7 +250,8 @@ class IndentationFit(Fit):
     force_noise : float or ndarray
         Standard deviation of the force (N), given or estimated.
     indentation : Indentation
-        The fitted model's states at all samples, at the depths that are most probable where they have noise.
+        The fitted model's states at all samples, at the depths that are most probable where they have
+        noise.
     remarks : tuple of str
         What the data do not tell, and where they are not as the model has it.
     """
@@ -391,11 +277,10 @@ class IndentationFit(Fit):
     def __getitem__(self, index: Any) -> "IndentationFit":
         said = self._said[index] if isinstance(index, slice) else (self._said[index],)
         names = ("contact_point", "baseline", "frame_compliance")
-        rest = ("covariance", "residuals", "reduced_chi_square", "force_noise")
         return IndentationFit(
             self.profile, self.medium.entries(index), *(getattr(self, name)[index] for name in names),
             {name: error[index] for name, error in self.standard_errors.items()},
-            *(getattr(self, name)[index] for name in rest), self.indentation[index], said,
+            *(getattr(self, name)[index] for name in _QUALITY), self.indentation[index], said,
         )  # fmt: skip
 
     @property

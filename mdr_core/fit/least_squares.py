@@ -73,7 +73,7 @@ def _step(residual, jacobian, damping):
 
 
 def covariances(jacobian, variance):
-    """Covariance of scaled parameters (R, P, P): infinite on the diagonal, else 0, where nothing is told."""
+    """Covariance of scaled parameters (R, P, P); of what is not told infinite variances, and 0 else."""
     _, s, vt = np.linalg.svd(jacobian, full_matrices=False)
     top = np.maximum(s[:, :1], 1e-150)
     blind = s <= _SINGULAR * top

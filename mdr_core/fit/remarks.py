@@ -49,14 +49,14 @@ def _told(errors, back, d_c, elastic, alike, deepest):
     if back < 2 and "E_star" in errors:
         yield (
             "loading",
-            f"loading alone hardly tells E* (here to {100 * errors['E_star']:.2g} %): record the unloading, "
-            "or hold E_star",
+            f"loading alone hardly tells E* (here to {100 * errors['E_star']:.2g} %): record the "
+            "unloading, or hold E_star",
         )
     elif errors.get("E_star", 0.0) > _VAGUE:
         yield (
             "vague",
-            f"the unloading hardly tells E* (to {100 * errors['E_star']:.2g} %): within the critical depth of "
-            f"{engineering(d_c, 'm')} there are {back} samples; record more of them, or hold "
+            f"the unloading hardly tells E* (to {100 * errors['E_star']:.2g} %): within the critical depth "
+            f"of {engineering(d_c, 'm')} there are {back} samples; record more of them, or hold "
             "E_star",
         )
     for name, error in errors.items():
@@ -74,8 +74,8 @@ def _jitter(curve):
         size = float(np.median(np.abs(np.diff(curve.depth[0], 3)))) / (0.6745 * np.sqrt(20.0))
         yield (
             "jitter",
-            f"the depth goes back and forth at {turned} of {steps.size} samples, and each time counts as depth "
-            f"once reached: E* comes out too small; give depth_noise, about {engineering(size, 'm')}",
+            f"the depth goes back and forth at {turned} of {steps.size} samples, and each time counts as "
+            f"depth once reached: E* comes out too small; give depth_noise, about {engineering(size, 'm')}",
         )
 
 
