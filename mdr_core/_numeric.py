@@ -135,7 +135,7 @@ def root(x, r):
     return np.sqrt(np.maximum(x - r, 0.0)) * np.sqrt(x + r)
 
 
-def chunks(size, most=4096):
+def chunks(size, most=8192):
     """Slices of at most so many rows: enough to amortise a call, few enough to stay in the cache."""
     return (slice(start, start + most) for start in range(0, size, most))
 

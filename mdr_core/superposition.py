@@ -26,7 +26,7 @@ _TINY = np.finfo(float).tiny
 #: Integrals over live intervals that are longer, as a share of the depth, are differences of integrals from
 #: the tip, of which the energy loses up to two digits. Of shorter ones: shares of the way behind the last
 #: kink, and the Gauss nodes that they need.
-_FAR, _NEAR = 0.15, ((0.02, 3), (0.15, 6), (0.5, 10))
+_FAR, _NEAR = 0.15, ((0.03, 4), (0.15, 6), (0.5, 10))
 
 
 @singledispatch
