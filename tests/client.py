@@ -38,3 +38,9 @@ fitted = mdr.Sampled.fit([-1e-9, 0.0, 1e-9, 2e-9], [1e-9, 0.0, 1e-9, 3e-9])
 depth = mdr.indent_to_force(fitted, medium, 1e-9).depth
 cusp = mdr.PowerLaw(coefficient=2e-4, exponent=0.5).reduced([1e-9, 2e-9])[0]
 cap = mdr.Sphere([1e-6, 2e-6]).contact_radius(1e-9)
+ball = mdr.Ball(1e-9, 1e-5)
+bounce = mdr.oblique_impact(
+    mdr.Paraboloid(1e-5), medium, 1e-9, *mdr.at_angle(0.1, 0.5), 0.3, tangential_mass=ball.tangential_mass
+)
+forward, turning_rate = ball.rebound(bounce, 0.05)
+slips = bounce.motion(20).stick_radius.max() + bounce.errors.friction_work * bounce.rebound_angle

@@ -80,8 +80,8 @@ class Run:
     """One run, in units of the first tangential speed: records at every instant, elements at some.
 
     Time (s), tangential velocity; force over 2κE* (m s); stored, viscous and friction energy over 2κE*
-    (m s²); numbers of the `instants` asked for, and what is `seen` then: loads Q (s) of elements, and whether
-    they stick.
+    (m s²); numbers of the `instants` asked for, and what is `seen` then: loads Q (s) of elements, and
+    whether they stick.
     """
 
     row: Row
