@@ -203,7 +203,7 @@ def test_every_shape(shape):
     assert hit.friction_work + hit.plastic_work + hit.viscous_work == pytest.approx(lost / 2, rel=1e-5)
 
 
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=4, deadline=None)
 @given(
     st.sampled_from([0, 1, 4, 5]),
     st.floats(0, 3),
@@ -303,6 +303,7 @@ class TestBall:
                 ball.contact_speed(speed, spin),
                 MU,
                 tangential_mass=ball.tangential_mass,
+                tolerance=1e-3,
             )
             after, turn = ball.rebound(hit, speed, spin)
             assert ball.contact_speed(after, turn) == pytest.approx(hit.tangential_velocity, abs=1e-15)

@@ -221,7 +221,7 @@ class ObliqueImpact(Report):
     )  # fmt: skip
     _shown: ClassVar[tuple[str, ...]] = (
         "speed", "tangential_speed", "restitution", "tangential_velocity", "max_tangential_force",
-        "contact_time", "friction_work", "plastic_work", "viscous_work",
+        "friction_work", "plastic_work", "viscous_work",
     )  # fmt: skip
     _dimensions: ClassVar[tuple[str, ...]] = ("impact",)
     _noun: ClassVar[str] = "impact"
