@@ -164,7 +164,7 @@ def _limits(hit, inertia, hold, tolerance):
         if count == 1:
             continue
         before, limit = limit, run.quantities + (run.quantities - coarse) / 3
-        least = np.abs(limit - run.quantities) * (1.0 if before is None else 0.3)
+        least = np.abs(limit - run.quantities) * (0.5 if before is None else 0.1)
         # Work is counted against itself, or a hundredth of the energy that there was along the surface.
         least_work = 0.005 / inertia
         scale = np.array([1.0, limit[1], max(limit[2], least_work), max(limit[2] + limit[3], least_work)])
