@@ -235,7 +235,8 @@ class Report:
                 about = {"units": quantity.unit or "1", "long_name": quantity.long_name}
                 about["symbol"] = quantity.symbol
             variables[name] = (dims, np.broadcast_to(value, self.shape), about)
-        given = {"depth", "time", "mass", "speed", *self._parameters()} & set(variables)
+        given = {"depth", "time", "mass", "speed", "tangential_speed", "friction", "tangential_mass"}
+        given = (given | set(self._parameters())) & set(variables)
         given -= {"depth"} if "time" in variables else set()
         return xarray.Dataset(variables, attrs=self._attributes()).set_coords(sorted(given))
 

@@ -74,7 +74,8 @@ class Limit:
     Attributes
     ----------
     what : str
-        What is bounded: "slope", "contact radius", "Poisson ratio", "viscosity", "speed", "fast limit".
+        What is bounded: "slope", "contact radius", "Poisson ratio", "viscosity", "speed", "fast limit",
+        and of friction "coupling", "slip direction", "static friction".
     value, bound : float
         Its worst value over all states, and the one up to which the assumption usually is good.
     exceeded : bool
@@ -164,6 +165,20 @@ def _viscosity_limit(medium):
         f"{engineering(value, 's')}. indent_in_time and creep follow it in time."
     )
     return Limit("viscosity", value, 0.0, True, text, severe=False)
+
+
+def friction_limits(medium):
+    """What is assumed of friction; ν/(4 − 2ν) is the ratio of slip across the speed to slip along it."""
+    nu = float(np.min(medium.poisson))
+    value = (1 - 2 * nu) / (2 - 2 * nu)
+    text = "Normal and tangential displacements are taken as uncoupled, which is exact for ν = ½"
+    text += f", and ν = {nu:.3g}." if value > 0 else "."
+    yield Limit("coupling", value, 0.0, value > 0, text, severe=False)
+    value = float(np.max(np.abs(medium.poisson / (4 - 2 * medium.poisson))))
+    text = f"Slip is along the speed, stick a disc or ring: up to {value:.2g} of the slip goes across."
+    yield Limit("slip direction", value, 0.2, value > 0.2, text, severe=False)
+    text = "Friction is the same for stick and slip: no peak before slip begins."
+    yield Limit("static friction", 1.0, 1.0, False, text)
 
 
 def speed_limit(result, density):

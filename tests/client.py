@@ -42,3 +42,9 @@ fit = mdr.fit_indentation(tip, path.depth, path.force, E_star=1e9, contact_point
 told: str = " ".join(fit.remarks) + f"{fit.medium.q_c} ± {fit.standard_errors['q_c']}"
 hard = mdr.fit_hardness(mdr.Cone(0.3), [1e9, 5e8, 2.5e8], [1e-7, 2e-7, 4e-7], E_star=1e11)
 kind: str | None = hard.class_.hardness
+ball = mdr.Ball(1e-9, 1e-5)
+bounce = mdr.oblique_impact(
+    mdr.Paraboloid(1e-5), medium, 1e-9, *mdr.at_angle(0.1, 0.5), 0.3, tangential_mass=ball.tangential_mass
+)
+forward, turning_rate = ball.rebound(bounce, 0.05)
+slips = bounce.motion(20).stick_radius.max() + bounce.errors.friction_work * bounce.rebound_angle

@@ -24,9 +24,9 @@ def speed_at(psi, mu=MU):
     return psi * mu * SPEED / KAPPA
 
 
-def hit_at(psi, shape=PARABOLOID, medium=ELASTIC, mass=BALL, mu=MU, **options):
+def hit_at(psi, shape=PARABOLOID, medium=ELASTIC, mass=BALL, mu=MU, tolerance=1e-4):
     return mdr.oblique_impact(
-        shape, medium, MASS, SPEED, speed_at(psi, mu), mu, tangential_mass=mass, **options
+        shape, medium, MASS, SPEED, speed_at(psi, mu), mu, tangential_mass=mass, tolerance=tolerance
     )
 
 
@@ -104,8 +104,8 @@ class TestMaw:
             assert not motion.slip_radius[1:20].any()
 
     def test_a_ball_turns_its_direction(self):
-        """For 0 < ψ₁ < 4χ − 1 a solid ball leaves backwards, a body that cannot turn forwards, if it slips."""
-        assert all(hit_at(psi).tangential_velocity < 0 for psi in (0.5, 1.5, 3.0))
+        """For 0 < ψ₁ < 4χ − 1 a ball leaves backwards, a body that cannot turn forwards, if it slips."""
+        assert all(hit_at(psi).tangential_velocity < 0 for psi in (0.5, 2.0))
         assert hit_at(2.0, mass=None).tangential_velocity > 0
 
     def test_reversed_speed(self):
@@ -137,7 +137,7 @@ class TestFlatPunch:
 
 
 def jaeger(psi, steps=1000):
-    """W′/W₀ of an elastic impact, from Jäger's superposition: F_x = κ Σ slope × difference of normal forces.
+    """W′/W₀ of an elastic impact, from Jäger's superposition: F_x = κ Σ slope × normal force between.
 
     Between the depths of the motion s goes straight with depth: each piece is a normal solution.
     """
@@ -159,7 +159,7 @@ def jaeger(psi, steps=1000):
 @pytest.mark.parametrize("psi", [0.6, 1.8])
 def test_against_superposition(psi):
     """Its steps leave some 10⁻⁵."""
-    assert -hit_at(psi).tangential_restitution == pytest.approx(jaeger(psi), abs=5e-5)
+    assert -hit_at(psi, tolerance=1e-5).tangential_restitution == pytest.approx(jaeger(psi), abs=5e-5)
 
 
 def _run(hit, halvings, instants=()):
@@ -182,7 +182,7 @@ def test_errors_of_second_order():
 
 @pytest.mark.parametrize("medium", [ELASTIC, DRY, VISCOUS], ids=["elastic", "yielding", "viscous"])
 def test_errors_cover_the_errors(medium):
-    rough, fine = (hit_at(1.6, medium=medium, tolerance=tolerance) for tolerance in (1e-3, 2e-6))
+    rough, fine = (hit_at(1.6, medium=medium, tolerance=tolerance) for tolerance in (1e-3, 1e-5))
     for quantity in ("tangential_velocity", "max_tangential_force", "friction_work", "viscous_work"):
         miss = abs(getattr(rough, quantity) - getattr(fine, quantity))
         assert miss <= getattr(rough.errors, quantity), quantity
@@ -203,7 +203,7 @@ def test_every_shape(shape):
     assert hit.friction_work + hit.plastic_work + hit.viscous_work == pytest.approx(lost / 2, rel=1e-5)
 
 
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=4, deadline=None)
 @given(
     st.sampled_from([0, 1, 4, 5]),
     st.floats(0, 3),
@@ -245,7 +245,9 @@ class TestExtremes:
     @pytest.mark.parametrize("medium", [ELASTIC, VISCOUS], ids=["elastic", "viscous"])
     def test_no_speed_is_the_limit_of_slow_ones_and_of_friction(self, medium):
         none, slow, rough = (
-            mdr.oblique_impact(PARABOLOID, medium, MASS, SPEED, speed, mu, tangential_mass=BALL)
+            mdr.oblique_impact(
+                PARABOLOID, medium, MASS, SPEED, speed, mu, tangential_mass=BALL, tolerance=1e-4
+            )
             for speed, mu in ((0.0, MU), (1e-12, MU), (0.06, np.inf))
         )
         assert none.tangential_velocity == none.friction_work == none.max_tangential_force == 0.0
@@ -301,6 +303,7 @@ class TestBall:
                 ball.contact_speed(speed, spin),
                 MU,
                 tangential_mass=ball.tangential_mass,
+                tolerance=1e-3,
             )
             after, turn = ball.rebound(hit, speed, spin)
             assert ball.contact_speed(after, turn) == pytest.approx(hit.tangential_velocity, abs=1e-15)
@@ -318,7 +321,7 @@ class TestBall:
 
 
 def test_limits():
-    """Elastic and incompressible: all hold; the paper's formulas of the normal impact are not among them."""
+    """Elastic and incompressible: all hold, and the paper's formulas of normal impacts are not there."""
     assert all(limit.holds for limit in hit_at(1.0, shape=mdr.Cone(0.1)).limits)
     limits = {limit.what: limit for limit in hit_at(1.0, medium=mdr.Medium(1e9, poisson=0.3)).limits}
     assert limits["coupling"].exceeded

@@ -15,6 +15,7 @@ HIT = mdr.impact(mdr.Paraboloid(2e-3), POLYMER, 1e-4, 0.5)
 MANY = mdr.impact(mdr.Cone([[0.1], [0.3]]), GOLD, 1e-12, [0.01, 0.1, 1.0])
 RAMP = mdr.indent_in_time(mdr.Cone(0.3), POLYMER, [0.0, 2e-4, 2e-4], [0.0, 1e-4, 2e-4], tolerance=1e-3)
 CHAIN = mdr.chain_impact(mdr.Paraboloid(2e-3), POLYMER, 1e-4, 0.5, tolerance=1e-3)
+OBLIQUE = mdr.oblique_impact(mdr.Paraboloid(2e-3), POLYMER, 1e-4, 0.5, 0.2, 0.3, tolerance=1e-3)
 RESULTS = {
     "path": PATH,
     "state": PATH[-1],
@@ -27,6 +28,8 @@ RESULTS = {
     "chain": CHAIN,
     "motion of the chain": CHAIN.motion(20),
     "fast limit": MANY.fast_limit,
+    "oblique impact": OBLIQUE,
+    "motion of the oblique impact": OBLIQUE.motion(20),
 }
 every_result = pytest.mark.parametrize("result", RESULTS.values(), ids=RESULTS)
 

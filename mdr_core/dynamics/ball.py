@@ -89,7 +89,7 @@ class Ball:
         --------
         A solid ball that slips until it rolls keeps 5/7 of its speed:
 
-        >>> from mdr_core import FlatPunch, Medium
+        >>> from mdr_core import FlatPunch, Medium, oblique_impact
         >>> ball = Ball(mass=1.0, radius=1.0)
         >>> hit = oblique_impact(FlatPunch(1.0), Medium(1.0), 1.0, 1.0, 3.5, 0.5, tangential_mass=2 / 7)
         >>> speed, spin = ball.rebound(hit, 3.5)

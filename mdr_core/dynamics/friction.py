@@ -80,8 +80,8 @@ class Run:
     """One run, in units of the first tangential speed: records at every instant, elements at some.
 
     Time (s), tangential velocity; force over 2κE* (m s); stored, viscous and friction energy over 2κE*
-    (m s²); numbers of the `instants` asked for, and what is `seen` then: loads Q (s) of elements, and whether
-    they stick.
+    (m s²); numbers of the `instants` asked for, and what is `seen` then: loads Q (s) of elements, and
+    whether they stick.
     """
 
     row: Row
@@ -232,15 +232,15 @@ class _State:
     def _relaxed(self, dt, s, way, slips, before, trial, load, gained):
         """s after a step, and friction work: it sticks, then τṡ + s = Q with a load that goes straight."""
         stuck = 1 - slips
-        met, begin, dt = s + stuck * way, before + stuck * (trial - before), slips * dt
-        z = np.maximum(dt / self.tau, 1e-300)
+        met, begin, dt = s + stuck * way, before + stuck * (trial - before), np.maximum(slips * dt, 1e-300)
+        z, rise, mean = dt / self.tau, load - begin, (load + begin) / 2
         fade = -np.expm1(-z)
         # 1 − (1 − e^(−z))/z, without cancellation.
         late = np.where(z > 1e-3, 1 - fade / z, z / 2 - z * z / 6)
-        after = met + fade * (begin - met) + late * (load - begin)
-        # The speed of slip goes about straight, too: the mean of the product is not the product of means.
-        faster = slips * gained + ((after - load) - (met - begin)) / self.tau
-        slipped = (begin + load) / 2 * (way - (after - s)) + (load - begin) * faster * dt / 12
+        after = met + fade * (begin - met) + late * rise
+        # ∫Qṡ dt by parts, for ∫s dt is known; the surface's speed goes straight, too.
+        moved = load * after - begin * met - rise * (mean - (after - met) / z)
+        slipped = mean * slips * way + rise * slips * gained * dt / 12 - moved
         return after, slipped
 
     def let_go(self, count):

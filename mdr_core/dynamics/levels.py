@@ -32,10 +32,10 @@ class _Branch:
 
     def when(self, depth):
         """Times (s) at some depths: Newton's method between two places of the table."""
-        at, sign = np.maximum.accumulate(self.at * (s := np.sign(self.at[-1] - self.at[0]))), s
+        sign = np.sign(self.at[-1] - self.at[0])
+        at = np.maximum.accumulate(sign * self.at)
         k = np.clip(np.searchsorted(at, sign * depth) - 1, 0, at.size - 2)
-        low, high = self.time[k], self.time[k + 1]
-        time = np.interp(sign * depth, at, self.time)
+        low, high, time = self.time[k], self.time[k + 1], np.interp(sign * depth, at, self.time)
         for _ in range(6):
             with np.errstate(divide="ignore", invalid="ignore"):
                 step = (self.depth(time) - depth) / self._rate(time)
@@ -65,17 +65,17 @@ class NormalMotion:
         self.turn, self.end = self.unloading.time[0], self.unloading.time[-1]
 
     def levels(self, inertia, halvings, instants=()):
-        """The `Levels` of a run of bodies with C = 2κE*/m_t (1/(m s²)); among them some instants (s)."""
+        """The `Levels` of a run with C = 2κE*/m_t (1/(m s²)), and with levels at some instants (s).
+
+        They are as dense as loading and unloading need, and then halved in the time of loading.
+        """
         down, up = self.loading, self.unloading
-        times, depths = [down.even(self._scales(down, inertia))], []
-        times[0] = np.append(times[0], [t for t in instants if t < self.turn])
+        early = np.append(down.even(self._scales(down, inertia)), [t for t in instants if t < self.turn])
         late = np.append(up.even(self._scales(up, inertia)), [t for t in instants if t > self.turn])
-        depths = np.append(
-            self.lower + up.depth(late), [self.lower, min(self.critical_depth, self.deepest)]
-        )
-        depths = depths[(depths > 0) & (depths < self.deepest)]
-        time = np.concatenate([[0.0, self.turn], *times, down.when(depths)])
-        depth = np.concatenate([[0.0, self.deepest], down.depth(times[0]), depths])
+        met = np.append(self.lower + up.depth(late), [self.lower, min(self.critical_depth, self.deepest)])
+        met = met[(met > 0) & (met < self.deepest)]
+        time = np.concatenate([[0.0, self.turn], early, down.when(met)])
+        depth = np.concatenate([[0.0, self.deepest], down.depth(early), met])
         depth, first = np.unique(np.clip(depth, 0.0, self.deepest), return_index=True)
         time = np.maximum.accumulate(np.minimum(time[first], self.turn))
         for _ in range(halvings):

@@ -15,7 +15,7 @@ from .. import _check
 from .._check import Array, ArrayLike
 from ..medium import Medium, check_pair
 from ..report import Report
-from ..results import Limit, Model
+from ..results import Limit, Model, friction_limits
 from ..shapes.profile import Profile
 from .friction import changes, grip, slide
 from .impact import Impact, impact
@@ -128,8 +128,8 @@ def _signed(speed):
 def _solve(hit, speed, friction, mass, tolerance):
     """Of one impact: change of the velocity over W₀, largest force, friction and viscous work, and more.
 
-    That is: errors of these four, in the same units; how often steps were halved, −1 in closed form; whether
-    all slips throughout.
+    That is: errors of these four, in the same units; how often steps were halved, −1 in closed form;
+    whether all slips throughout.
     """
     medium, v, e = hit.medium, float(hit.speed), float(hit.restitution)
     ratio, size = float(medium.tangential_ratio), abs(speed) or 1.0
@@ -164,7 +164,7 @@ def _limits(hit, inertia, hold, tolerance):
         if count == 1:
             continue
         before, limit = limit, run.quantities + (run.quantities - coarse) / 3
-        least = np.abs(limit - run.quantities) * (1.0 if before is None else 0.3)
+        least = np.abs(limit - run.quantities) * (0.5 if before is None else 0.1)
         # Work is counted against itself, or a hundredth of the energy that there was along the surface.
         least_work = 0.005 / inertia
         scale = np.array([1.0, limit[1], max(limit[2], least_work), max(limit[2] + limit[3], least_work)])
@@ -221,7 +221,7 @@ class ObliqueImpact(Report):
     )  # fmt: skip
     _shown: ClassVar[tuple[str, ...]] = (
         "speed", "tangential_speed", "restitution", "tangential_velocity", "max_tangential_force",
-        "contact_time", "friction_work", "plastic_work", "viscous_work",
+        "friction_work", "plastic_work", "viscous_work",
     )  # fmt: skip
     _dimensions: ClassVar[tuple[str, ...]] = ("impact",)
     _noun: ClassVar[str] = "impact"
@@ -259,15 +259,42 @@ class ObliqueImpact(Report):
         slip direction 0.088 True
         static friction 1.0 True
         """
-        return (*(x for x in self.normal.limits if x.concerns == "result"), *_friction_limits(self.medium))
+        return (*(x for x in self.normal.limits if x.concerns == "result"), *friction_limits(self.medium))
 
-    mass = property(lambda self: self.normal.mass, doc="Mass m (kg).")
-    speed = property(lambda self: self.normal.speed, doc="Normal speed v₀ (m/s) before.")
-    restitution = property(lambda self: self.normal.restitution, doc="Normal coefficient of restitution e.")
-    contact_time = property(lambda self: self.normal.contact_time, doc="Contact time (s).")
-    max_depth = property(lambda self: self.normal.max_depth, doc="Largest depth (m).")
-    max_force = property(lambda self: self.normal.max_force, doc="Largest normal force (N).")
-    plastic_work = property(lambda self: self.normal.plastic_work, doc="Energy (J) dissipated by yielding.")
+    @property
+    def mass(self) -> Array:
+        """Mass m (kg)."""
+        return self.normal.mass
+
+    @property
+    def speed(self) -> Array:
+        """Normal speed v₀ (m/s) before."""
+        return self.normal.speed
+
+    @property
+    def restitution(self) -> Array:
+        """Normal coefficient of restitution e."""
+        return self.normal.restitution
+
+    @property
+    def contact_time(self) -> Array:
+        """Time (s) from first contact to its loss."""
+        return self.normal.contact_time
+
+    @property
+    def max_depth(self) -> Array:
+        """Largest depth (m)."""
+        return self.normal.max_depth
+
+    @property
+    def max_force(self) -> Array:
+        """Largest normal force (N)."""
+        return self.normal.max_force
+
+    @property
+    def plastic_work(self) -> Array:
+        """Energy (J) dissipated by yielding."""
+        return self.normal.plastic_work
 
     @property
     def velocity_change(self) -> Array:
@@ -319,17 +346,3 @@ class ObliqueImpact(Report):
         True True
         """
         return oblique_motion(self, n, max(int(self._halvings), 3))
-
-
-def _friction_limits(medium):
-    """What is assumed of friction; ν/(4 − 2ν) is the ratio of slip across the speed to slip along it."""
-    nu = float(np.min(medium.poisson))
-    value = (1 - 2 * nu) / (2 - 2 * nu)
-    text = "Normal and tangential displacements are taken as uncoupled, which is exact for ν = ½"
-    text += f", and ν = {nu:.3g}." if value > 0 else "."
-    yield Limit("coupling", value, 0.0, value > 0, text, severe=False)
-    value = float(np.max(np.abs(medium.poisson / (4 - 2 * medium.poisson))))
-    text = f"Slip is along the speed, stick a disc or ring: up to {value:.2g} of the slip goes across."
-    yield Limit("slip direction", value, 0.2, value > 0.2, text, severe=False)
-    text = "Friction is the same for stick and slip: no peak before slip begins."
-    yield Limit("static friction", 1.0, 1.0, False, text)

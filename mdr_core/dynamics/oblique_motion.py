@@ -67,8 +67,8 @@ class ObliqueMotion(Report):
 
     _quantities: ClassVar[tuple[str, ...]] = (
         "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "tangential_velocity",
-        "tangential_force", "stick_radius", "slip_radius", "kinetic_energy", "stored_energy", "plastic_work",
-        "viscous_work", "friction_work",
+        "tangential_force", "stick_radius", "slip_radius", "kinetic_energy", "stored_energy",
+        "plastic_work", "viscous_work", "friction_work",
     )  # fmt: skip
     _shown: ClassVar[tuple[str, ...]] = ("time", "depth", "force", *_quantities[6:10], "friction_work")
     _dimensions: ClassVar[tuple[str, ...]] = ("time",)
