@@ -33,8 +33,8 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
         Indentation depth d (m), one number or a path along the last axis; each row of a larger
         array is a path of its own that starts on a virgin medium. Negative means lifted off.
 
-    Parameters of profile and medium may be arrays with a last axis of length 1, which broadcast with rows of
-    depths: one path each, as in ``Medium(E_star=moduli[:, None])``.
+    Parameters of profile and medium may be arrays with a last axis of length 1, which broadcast with rows
+    of depths: one path each, as in ``Medium(E_star=moduli[:, None])``.
 
     Returns
     -------
