@@ -17,7 +17,9 @@ from bokeh.models import (
     ResetTool,
 )
 
-from .plots import PLOTS, ROLES, line
+from mdr_core.figures import DASHES
+
+from .plots import PLOTS, ROLES
 
 hv.Store.set_current_backend("bokeh")
 
@@ -26,7 +28,12 @@ LIGHT = {role: colours[0] for role, colours in ROLES.items()}
 DARK = {role: colours[1] for role, colours in ROLES.items()}
 #: What the pointer is told: the point of the curve next to it, from the columns drawn.
 _TIP = "<b>@row</b><br>@symbol = @y{{%.4g}} {y.unit}<br>{symbol} = @x{{%.4g}} {x.unit}"
-_DASHES = {"solid": "solid", "dashed": "6 4", "dotted": "2 3", "dotdash": "6 3 2 3"}
+_LABEL = {
+    "text_font_size": "12px",
+    "text_font_style": "italic",
+    "text_align": "left",
+    "text_baseline": "top",
+}
 _PATH = {"x": np.array([1.0, 2, 3]), "y": np.array([1.0, 2, 1])}
 #: Of the pictures that are saved; on the page Bokeh would lay a legend out anew at every paint.
 LEGEND = {
@@ -36,43 +43,32 @@ LEGEND = {
 }  # fmt: skip
 
 
-def placed(plot):
-    """Every row with the group it is drawn in: a kind, on the left or on the right axis.
-
-    The edge of a body is a line, which ends where the body leaves the plot.
-    """
-    edges = (line(row.name, "ink", 1.8, legend=False) for row in plot.rows if row.role == "body")
-    for row in (*edges, *plot.rows):
-        yield row.kind if row.axis == 1 else f"{row.kind} right", row
+def _paths(element, rows):
+    return element([_PATH | {"role": row.role} for row in rows], vdims="role").opts(cmap=LIGHT)
 
 
 def _elements(plot):
     """The plot in HoloViews: few elements, each with all rows of a kind on one axis."""
-    groups = {group: [] for right in ("", " right") for kind in ("areas", "lines", "marks", "labels")
-              for group in [kind + right]}  # fmt: skip
-    for group, row in placed(plot):
-        groups[group].append(row)
     if plot.image:
         image = hv.Image(np.ones(plot.image), bounds=(0, 0, 1, 1), group="image")
         yield image.opts(cmap="cividis", colorbar=True, clim=(0, 1))
-    for group, rows in groups.items():
+    for group in ("areas", "lines", "lines right", "marks", "marks right", "labels"):
+        rows = [row for row in plot.rows if row.group == group]
         at = np.arange(1.0, len(rows) + 1)
-        if group.startswith(("areas", "lines")) and rows:
-            element = hv.Polygons if group.startswith("areas") else hv.Contours
-            made = element([_PATH | {"role": row.role} for row in rows], vdims="role").opts(cmap=LIGHT)
-        elif group.startswith("marks") and rows:
-            made = hv.Scatter((at, at, [row.role for row in rows]), "x", ["y", "role"]).opts(cmap=LIGHT)
-        elif rows:
-            made = hv.Labels((at, at, [row.name for row in rows])).opts(
-                text_color=LIGHT["ink"], text_font_size="12px", text_font_style="italic", text_align="left",
-                text_baseline="top",
-            )  # fmt: skip
-        else:
+        if not rows:
             continue
+        if rows[0].kind == "areas":
+            made = _paths(hv.Polygons, rows)
+        elif rows[0].kind == "lines":
+            made = _paths(hv.Contours, rows)
+        elif rows[0].kind == "marks":
+            made = hv.Scatter((at, at, [row.role for row in rows]), "x", ["y", "role"]).opts(cmap=LIGHT)
+        else:
+            made = hv.Labels((at, at, [row.name for row in rows])).opts(text_color=LIGHT["ink"], **_LABEL)
         yield made.relabel(group=group)
-    for axis in sorted({row.axis for row in plot.rows if row.symbol}):
-        nothing = hv.Scatter(([1.0], [1.0]), "x", "y", group="tips" if axis == 1 else "tips right")
-        yield nothing.opts(alpha=0, size=9)
+        if any(row.symbol for row in rows):
+            nothing = hv.Scatter(([1.0], [1.0]), "x", "y", group=group.replace("lines", "tips"))
+            yield nothing.opts(alpha=0, size=9)
 
 
 def _rendered(name):
@@ -92,17 +88,13 @@ def _rendered(name):
     if any(row.axis == 2 for row in plot.rows):
         figure.extra_y_ranges = {"right": Range1d(0, 1)}
         figure.add_layout(LinearAxis(y_range_name="right"), "right")
-    nobody = next(iter(renderers.values()))
     # From roles to colours; another palette is another theme.
     mapper = CategoricalColorMapper(factors=list(LIGHT), palette=list(LIGHT.values()))
     for group, renderer in renderers.items():
         renderer.update(
             name=group, selection_glyph=None, nonselection_glyph=None, muted_glyph=None, hover_glyph=None
         )
-        # Nothing is selected: models that are alike are shared.
-        renderer.view.filter = nobody.view.filter
-        renderer.data_source.selection_policy = nobody.data_source.selection_policy
-        _finished(renderer, mapper, [row for each, row in placed(plot) if each == group])
+        _finished(renderer, mapper, [row for row in plot.rows if row.group == group])
         # On a canvas above the axes, which are not painted again with the data; it does not clip.
         renderer.level = "overlay"
     # Of roles, where rows are to be named.
@@ -121,7 +113,7 @@ def _finished(renderer, mapper, rows):
         if set(looks["hatch"]) != {" "}:
             glyph.update(hatch_pattern="hatch", hatch_alpha=0.35, hatch_scale=10)
     elif kind == "lines":
-        looks["dash"] = [_DASHES[dash] for dash in looks["dash"]]
+        looks["dash"] = [DASHES[dash] for dash in looks["dash"]]
         glyph.update(line_color=role, line_dash="dash", line_width="width")
     elif kind == "marks":
         marker, size = {"field": "marker"}, {"field": "size"}

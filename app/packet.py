@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from .figures import placed
 from .plots import PLOTS
 
 
@@ -12,7 +11,7 @@ class Layer:
     def __init__(self, name, figure, renderer):
         self.plot, group = PLOTS[name], renderer.name
         self.kind, _, self.right = group.partition(" ")
-        rows = [row for each, row in placed(self.plot) if each == group]
+        rows = [row for row in self.plot.rows if row.group == group]
         self.rows = [row.name for row in rows] or [group]
         looks = {key: [row.look[key] for row in rows] for key in (rows[0].look if rows else ())}
         looks |= {key: [getattr(row, key) for row in rows] for key in ("role", "symbol")}

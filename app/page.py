@@ -237,8 +237,8 @@ class Page:
         self.state.update(end=count - 1, value=self.way.now)
         self._show()
 
-    def _show(self):
-        """Draw the present state: one array of all columns."""
+    def _show(self, anew=True):
+        """Draw the present state: one array of all columns; `anew` if other states are to be played."""
         self.drawn = View(self.way, self.held, self.found)
         self.grid.show(self.drawn, self._shown())
         values, starts, labels = packed(self.drawn, self.grid.layers, [self.way.now])
@@ -247,7 +247,7 @@ class Page:
         path = [(self.way.states.depth / self.drawn.axes["d"].factor).tolist()]
         path.append((self.way.force / self.drawn.axes["F"].factor).tolist())
         words = [readouts.values(self.way, self.cells, self.way.now)]
-        self._serial += 1
+        self._serial += anew
         self.readout.text = readouts.heads(self.cells, symbol)
         self.packet.tags = [self._serial, starts, labels, words, times.tolist(), path]
         self.packet.data = {"values": values}
@@ -257,7 +257,8 @@ class Page:
     def _shown(self):
         """The plots that are seen, in their order."""
         asked, pressed = self.explorer.plots, self.way.motion is None
-        names = [n for n, plot in PLOTS.items() if not plot.button and not (plot.impact and pressed)]
+        known = self.drawn.axes.keys()
+        names = [n for n, plot in PLOTS.items() if not plot.button and known >= set(plot.axes)]
         # Three in a row: the pressure stays below the springs, and the radii below the force.
         first = [name for name in asked if pressed and not PLOTS[name].log][:1]
         return [*names[:2], *first, *names[2:], *(name for name in asked if name not in first)]
@@ -266,7 +267,7 @@ class Page:
         """Draw what was found of a plot while the input was at rest."""
         with pn.io.hold(self.document):
             self.found[title] = found
-            self._show()
+            self._show(anew=False)
 
     def _send_frames(self):
         """Send all states, once, so that the browser can move through them alone."""

@@ -20,7 +20,7 @@ __all__ = ["PLOTS", "ROLES", "Plot", "area", "label", "line", "mark"]
 class Plot:
     """A plot: title, formula, keys of its axes (x, y, and one on the right or of colours), and rows.
 
-    With a `button` (its text, and a key) it is shown on request, with `impact` of impacts only. `resting`
+    With a `button` (its text, and a key) it is shown on request, and only where all its axes are. `resting`
     gets the trajectory and the values of the `controls`, choices and numbers that stand above the plot; it
     yields what it has found so far, anew for each scene, with `of_state` for each state. An `image` has so
     many rows and columns of pixels. `below` is what stands below the plot, as HTML.
@@ -36,7 +36,6 @@ class Plot:
     of_state: bool = False
     button: tuple[str, str] | None = None
     controls: tuple[str, ...] = ()
-    impact: bool = False
     log: bool = False
     image: tuple[int, int] | None = None
     below: str = ""
@@ -74,7 +73,7 @@ PLOTS = {
             mark("now"),
             mark("F now", marker="diamond", size=11, axis=2, legend=False),
         ),
-        columns.motion_still, columns.motion, impact=True,
+        columns.motion_still, columns.motion,
     ),
     "pressure": Plot(
         "Contact pressure", "(10)  σ_zz(r) = (1/π) ∫ q′(x) dx/√(x² − r²)", ("r", "p"),
@@ -104,7 +103,7 @@ PLOTS = {
             area("kinetic", "speed", 0.3),
             line("time", "ink", 1.0, "dashed", legend=False),
         ),
-        columns.energy_still, columns.energy, impact=True,
+        columns.energy_still, columns.energy,
     ),
     "map": Plot(
         "Contact pressure over the plane", "(10)  −σ_zz(√(x² + y²))", ("plane x", "plane y", "p"),

@@ -56,7 +56,7 @@ class View:
     def axes_of(self, plot):
         """The axes of a plot: those of the view, or what was found with its rows."""
         found = self.found.get(plot.title)
-        return found.axes if found else [self.axes[key] for key in plot.axes if key in self.axes]
+        return found.axes if found else [self.axes[key] for key in plot.axes]
 
     def still(self, plot):
         """Rows of a plot that stay while the scene is played."""

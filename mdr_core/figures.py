@@ -3,7 +3,6 @@
 The explorer draws the same rows with the same columns. HoloViews is imported when something is plotted.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
@@ -49,6 +48,11 @@ class Row:
     axis: int = 1
     look: dict[str, Any] = field(default_factory=dict)
 
+    @property
+    def group(self):
+        """What is drawn with it: rows of a kind, on the left or on the right axis."""
+        return self.kind if self.axis == 1 else f"{self.kind} right"
+
 
 def area(name, role, alpha, hatch=" ", legend=True):
     return Row("areas", name, role, legend, look={"alpha": alpha, "hatch": hatch})
@@ -86,17 +90,12 @@ class Axis:
     @property
     def ends(self):
         """Where it starts and ends, in its unit."""
-        return tuple(
-            end if end is None else float(f"{end / self.factor:.9g}") for end in (self.start, self.end)
-        )
+        return tuple(end and float(f"{end / self.factor:.9g}") for end in (self.start, self.end))
 
     @property
     def label(self):
         """The title with the unit."""
         return f"{self.title} ({self.unit})" if self.unit else self.title
-
-
-# Rows that plots are made of.
 
 
 def parts(symbol):
@@ -116,6 +115,7 @@ RADII = (
 )
 SPRING_ROWS = (
     area("profile g(x)", "body", 0.55),
+    line("edge", "ink", 1.8, legend=False),
     line("free", "free", 0.9),
     line("elastic", "elastic", 1.4),
     line("yielded", "yielded", 2.4),
@@ -129,9 +129,6 @@ PRESSURE_ROWS = (
     line("mean F/(πa²)", "ink", 1.0, "dotdash", "mean"),
     *RADII,
 )
-
-
-# Columns: x and y of a line, an area or a mark; x, y and text of a label.
 
 
 def both(values, sign=1):
@@ -199,9 +196,10 @@ def springs(state, half, height, relaxing=lambda g: 0.0):
         np.concatenate([shape_x[:1], shape_x, shape_x[-1:]]),
         np.concatenate([edge, body, edge]),
     )
-    rows["residual imprint"] = (
-        (shape_x, 0.0 - np.maximum(live.lower - shape_g, 0)) if live.lower > 0 else NOTHING
-    )
+    # Once more as a line, which ends where the body leaves the plot.
+    rows["edge"] = rows["profile g(x)"]
+    if live.lower > 0:
+        rows["residual imprint"] = shape_x, 0.0 - np.maximum(live.lower - shape_g, 0)
     return rows | at_radii(float(state.contact_radius), float(state.plastic_radius), half, rest, height)
 
 
@@ -233,16 +231,14 @@ def pressure(state, r, p, half, top):
     }
 
 
-# HoloViews elements.
-
-_DASHES = {"solid": "solid", "dashed": "6 4", "dotted": "2 3", "dotdash": "6 3 2 3"}
+DASHES = {"solid": "solid", "dashed": "6 4", "dotted": "2 3", "dotdash": "6 3 2 3"}
 
 
 def _styled(row):
     """How a row looks, in options of Bokeh."""
     colour = ROLES[row.role][0]
     if row.kind == "lines":
-        return {"color": colour, "line_width": row.look["width"], "line_dash": _DASHES[row.look["dash"]]}
+        return {"color": colour, "line_width": row.look["width"], "line_dash": DASHES[row.look["dash"]]}
     if row.kind == "areas":
         return {"fill_color": colour, "fill_alpha": row.look["alpha"], "line_alpha": 0}
     return {"text_color": colour, "text_font_style": "italic", "text_font_size": "12px"}
@@ -256,7 +252,7 @@ def overlay(title, rows, columns, axes):
     dims = [hv.Dimension((axis.name, axis.title), unit=axis.unit or None) for axis in axes]
     made = []
     for row in rows:
-        x, y, *text = columns[row.name]
+        x, y, *text = columns.get(row.name, NOTHING)
         if not np.isfinite(y).any():
             continue
         x, y = (np.asarray(v) / axis.factor for v, axis in zip((x, y), axes, strict=True))
@@ -319,8 +315,6 @@ def _axis_of(name, values):
 
 class PlottedState(Plotted):
     """A result that has plots of one of its states, too."""
-
-    _one_state: Callable[[str], Any]
 
     def plot_pressure(self) -> Any:
         """Contact pressure p(r) of one state with a, c and its mean, as HoloViews elements."""
