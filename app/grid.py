@@ -36,7 +36,7 @@ class Grid:
         self._show, self._theme, self._drag, self._controls = show, theme, drag, controls
         self._zoom = CustomJS(code=JS["zoom"])
         self._inputs = Title(text_font_size="11px", text_font_style="normal")
-        self.figures, self.layers, self.names, self._frames = {}, [], [], {}
+        self.figures, self.layers, self.names, self._frames, self._moving = {}, [], [], {}, []
         self.view = pn.Column(css_classes=["plots"], **FULL)
 
     def show(self, view, names):
@@ -45,12 +45,21 @@ class Grid:
             if name not in self.figures:
                 self._make(name)
             self._fit(name, view)
+        moving = [moves(view, layer) for layer in self.layers]
+        if (names, moving) == (self.names, self._moving):
+            return
+        shown = {name: self.figures[name] for name in names}
+        if names != self.names:
+            self.layers = layers(shown)
+        self._moving = [moves(view, layer) for layer in self.layers]
+        described = [
+            layer.described | {"moving": moving}
+            for layer, moving in zip(self.layers, self._moving, strict=True)
+        ]
+        self._show.args = self._show.args | {"layers": described}
         if names == self.names:
             return
-        self.names, shown = names, {name: self.figures[name] for name in names}
-        self.layers = layers(shown)
-        described = [layer.described | {"moving": moves(view, layer)} for layer in self.layers]
-        self._show.args = self._show.args | {"layers": described}
+        self.names = names
         self._theme.args = self._theme.args | {"figures": list(shown.values())}
         many = len(set(names) - {"speed"}) > 4
         more = "speed" in names or len(names) > 6

@@ -20,8 +20,8 @@ __all__ = ["PLOTS", "ROLES", "Plot", "area", "label", "line", "mark"]
 class Plot:
     """A plot: title, formula, keys of its axes (x, y, and one on the right or of colours), and rows.
 
-    With a `button` (its text, and a key) it is shown on request, with `impact` of impacts only. `resting`
-    gets the trajectory and the values of the `controls`, choices and numbers that stand above the plot; it
+    With a `button` (its text, and a key) it is shown on request, with `timed` of motions in time only.
+    `resting` gets the trajectory and the values of the `controls`, choices and numbers above the plot; it
     yields what it has found so far, anew for each scene, with `of_state` for each state. An `image` has so
     many rows and columns of pixels. `below` is what stands below the plot, as HTML.
     """
@@ -36,7 +36,7 @@ class Plot:
     of_state: bool = False
     button: tuple[str, str] | None = None
     controls: tuple[str, ...] = ()
-    impact: bool = False
+    timed: bool = False
     log: bool = False
     image: tuple[int, int] | None = None
     below: str = ""
@@ -57,6 +57,7 @@ PLOTS = {
             area("dissipated", "yielded", 0.13, "/"),
             area("recoverable", "elastic", 0.25),
             line("held", **_HELD, dash="dotdash", symbol="F"),
+            line("path ahead", "free", 1.0),
             *parts("F"),
             mark("onset of yield", "paper", "yielded", "diamond", 11),
             mark("now"),
@@ -65,7 +66,7 @@ PLOTS = {
         columns.force_still, columns.force,
     ),
     "motion": Plot(
-        "Impact over time", "m d²d/dt² = −F", ("t", "d", "F"),
+        "Depth and force over time", "m d²d/dt² = −F  of a free body", ("t", "d", "F"),
         (
             line("held", **_HELD, dash="dotdash", symbol="F", axis=2),
             line("depth d", "speed", 2.2, symbol="d"),
@@ -74,7 +75,7 @@ PLOTS = {
             mark("now"),
             mark("F now", marker="diamond", size=11, axis=2, legend=False),
         ),
-        columns.motion_still, columns.motion, impact=True,
+        columns.motion_still, columns.motion, timed=True,
     ),
     "pressure": Plot(
         "Contact pressure", "(10)  σ_zz(r) = (1/π) ∫ q′(x) dx/√(x² − r²)", ("r", "p"),
@@ -96,7 +97,7 @@ PLOTS = {
         columns.radii_still, columns.radii_marks,
     ),
     "energy": Plot(
-        "Where the energy is", "m v²/2 + U + W_p + W_v = m v_0²/2", ("t", "E"),
+        "Where the energy is", "U + W_p + W_v + m v²/2 = ∫ F dd, or m v_0²/2", ("t", "E"),
         (
             area("plastic", "yielded", 0.45, "/"),
             area("viscous", "loss", 0.5, "\\"),
@@ -104,7 +105,7 @@ PLOTS = {
             area("kinetic", "speed", 0.3),
             line("time", "ink", 1.0, "dashed", legend=False),
         ),
-        columns.energy_still, columns.energy, impact=True,
+        columns.energy_still, columns.energy, timed=True,
     ),
     "map": Plot(
         "Contact pressure over the plane", "(10)  −σ_zz(√(x² + y²))", ("plane x", "plane y", "p"),

@@ -60,7 +60,7 @@ def test_loading_curve_and_pressure_are_those_of_the_core(shape):
 def test_every_plot_of_every_state_can_be_drawn(explorer):
     view = seen(explorer)
     for plot in PLOTS.values():
-        if plot.impact and view.way.motion is None:
+        if plot.timed and view.way.motion is None:
             continue
         for i in range(0, len(view.way), 9):
             rows = view.columns(plot, i)
