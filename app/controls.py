@@ -146,7 +146,7 @@ class Controls:
             for name, label in LABELS.items()
             if name in _FORM
         }
-        self.form, self._above = pn.Column(**WIDE), []
+        self.form, self._above = pn.Column(css_classes=["form"], **WIDE), []
 
     def _load(self, event):
         self.tell(lambda: self.explorer.load(event.new))

@@ -45,19 +45,17 @@ class Grid:
             if name not in self.figures:
                 self._make(name)
             self._fit(name, view)
+        shown, same = {name: self.figures[name] for name in names}, names == self.names
+        self.layers = self.layers if same else layers(shown)
         moving = [moves(view, layer) for layer in self.layers]
-        if (names, moving) == (self.names, self._moving):
+        if same and moving == self._moving:
             return
-        shown = {name: self.figures[name] for name in names}
-        if names != self.names:
-            self.layers = layers(shown)
-        self._moving = [moves(view, layer) for layer in self.layers]
+        self._moving = moving
         described = [
-            layer.described | {"moving": moving}
-            for layer, moving in zip(self.layers, self._moving, strict=True)
+            layer.described | {"moving": each} for layer, each in zip(self.layers, moving, strict=True)
         ]
         self._show.args = self._show.args | {"layers": described}
-        if names == self.names:
+        if same:
             return
         self.names = names
         self._theme.args = self._theme.args | {"figures": list(shown.values())}

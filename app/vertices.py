@@ -24,26 +24,29 @@ def _columns(path, prescribed):
 
 
 def write(path, prescribed):
-    """Vertices as text that `read_path` understands, in one unit for each column."""
+    """Vertices as text that `read_path` understands, in one unit for each column, with five digits."""
     columns = _columns(path, prescribed)
     return "\n".join(
-        ", ".join(f"{v / unit.factor:.12g} {unit.name}" for v, (_, unit) in zip(row, columns, strict=False))
+        ", ".join(f"{v / unit.factor:.5g} {unit.name}" for v, (_, unit) in zip(row, columns, strict=False))
         for row in path
     )
 
 
 def read_path(text, prescribed, shown):
-    """Vertices (SI) from text; bare numbers are in the units in which the path `shown` is.
+    """Vertices (SI) from text in which the path `shown` has been altered.
 
-    Raises ValueError, with the line, if it is none.
+    Bare numbers are in the units shown; a line that stands as it was has all digits that it had. Raises
+    ValueError, with the line, if it is none.
     """
     path, columns = [], _columns(shown, prescribed)
+    kept = dict(zip(write(shown, prescribed).splitlines(), shown, strict=True))
     for number, line in enumerate(text.splitlines(), 1):
         cells = [cell for cell in _BETWEEN.split(line.strip()) if cell]
         try:
             if len(cells) > 2:
                 raise ValueError(f"“{line:.40}” is more than a {prescribed} and a time")
-            row = tuple(read(cell, *column)[0] for cell, column in zip(cells, columns, strict=False))
+            pairs = zip(cells, columns, strict=False)
+            row = kept.get(line.strip()) or tuple(read(cell, *column)[0] for cell, column in pairs)
         except ValueError as error:
             raise ValueError(f"Line {number}: {error}") from None
         path += [row] if row else []
@@ -62,7 +65,7 @@ class Vertices(pn.Column):
         self.said = html("")
         super().__init__(self.text, self.said, **WIDE)
         self.text.param.watch(self._typed, "value")
-        explorer.param.watch(lambda event: self.show(), ["path", "prescribed"])
+        explorer.param.watch(lambda *events: self.show(), ["path", "prescribed"])
 
     def _typed(self, event):
         explorer, said = self._explorer, ""

@@ -18,7 +18,7 @@ KIND = {"depth": "length", "force": "force"}
 _VALUE = {"depth": mdr.DepthPath, "force": mdr.ForcePath}
 #: Most vertices, and about how many states are drawn: of a path without dashpots, on the chain under
 #: prescribed depths, and under forces, where every one of them takes eight steps and more.
-MOST, _SLOW, _DEPTHS, _FORCES = 60, 200, 48, 16
+MOST, _SLOW, _DEPTHS, _FORCES = 60, 200, 48, 24
 #: Error allowed on the chain: less than is seen.
 _TOLERANCE = 1e-3
 
@@ -128,10 +128,9 @@ def _refined(scene, chain):
         start = float(mdr.indent(scene.profile, scene.medium, start).force)
     for (begin, first), (end, last) in pairwise(zip(along, values, strict=True)):
         share = np.linspace(0, 1, each + 1)
-        if chain:
-            # Dashpots change most where a piece begins.
-            share = share**2
-        elif first != last:
+        # Dashpots change most where a piece begins.
+        share = share**2 if chain else share
+        if first != last and not (chain and name == "force"):
             # Where yield begins or goes on, and on both sides of where the load is gone.
             gone, elastic = 0.0, most
             if name == "depth":
