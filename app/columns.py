@@ -11,6 +11,8 @@ import numpy as np
 from mdr_core import figures
 from mdr_core.figures import both, split
 
+from .drives.chain import ChainStates
+
 #: Pixels of the map along each side.
 PIXELS = 64
 
@@ -18,7 +20,9 @@ PIXELS = 64
 def _relaxing(view, i, g):
     """What is left (m) of the elastic compression of elements that have let go of a viscous rebound."""
     way, tau = view.way, view.way.scene.medium.relaxation_time
-    if way.motion is None or tau == 0 or i <= way.peak:
+    if isinstance(way.states, ChainStates):
+        return way.states[i].relaxing(g)
+    if way.hit is None or tau == 0 or i <= way.peak:
         return 0.0
     past = slice(way.peak, i + 1)
     upper, time = way.states.live.upper[past], way.motion.time[past]
@@ -32,9 +36,15 @@ def springs(view, i):
     return figures.springs(state, view.end["x"], view.end["z"], lambda g: _relaxing(view, i, g))
 
 
+def _curve(way, until=None):
+    """The curve of force and depth in parts, all of it or until some state."""
+    depth, past = way.states.depth, slice(until)
+    return split(depth[past], way.force[past], depth[past], way.states.live.lower[past])
+
+
 def force_still(view):
     way, held, onset = view.way, view.held, view.way.onset
-    rows = split(way.states.depth, way.force, way.states.depth, way.states.live.lower)
+    rows = {"path ahead": (way.states.depth, way.force)} if way.turns else _curve(way)
     if onset is not None and (way.motion is None or way.scene.medium.eta == 0):
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     if held is not None:
@@ -44,15 +54,22 @@ def force_still(view):
 
 def force(view, i):
     way, right = view.way, 0.02 * view.end["d"]
-    deepest, depth = min(i, way.peak), way.states.depth
-    (lost_d, lost_F), (back_d, back_F) = (way.released(k) for k in (deepest, i))
-    d, F, lower = depth[: deepest + 1], way.force[: deepest + 1], float(way.states.live.lower[i])
+    depth, lower = way.states.depth, float(way.states.live.lower[i])
     place = (max(lower - 3 * right, right), 0.09 * view.end["F"], "dₚ")
-    return {
-        "dissipated": (np.concatenate([d[:1], d, lost_d]), np.concatenate([[0.0], F, lost_F])),
-        "recoverable": (np.append(back_d[:1], back_d), np.append(0.0, back_F)),
+    rows = {
         "now": (depth[[i]], way.force[[i]]),
         "dₚ": place if lower > 0 else (np.nan, np.nan, ""),
+    }
+    rows |= _curve(way, i + 1) if way.turns else {}
+    if isinstance(way.states, ChainStates):
+        # Areas below these curves are energies of the dashpots, too.
+        return rows
+    past = np.flatnonzero(way.deeper[: i + 1])
+    (lost_d, lost_F), (back_d, back_F) = (way.released(k) for k in (past[-1], i))
+    d, F = depth[past], way.force[past]
+    return rows | {
+        "dissipated": (np.concatenate([d[:1], d, lost_d]), np.concatenate([[0.0], F, lost_F])),
+        "recoverable": (np.append(back_d[:1], back_d), np.append(0.0, back_F)),
     }
 
 
@@ -73,6 +90,11 @@ def pressure_still(view):
 def _zone(way):
     """Loading, unloading and plastic zone: the contact radius falls by a step where the load is gone."""
     depth, a, c = way.states.depth, way.states.contact_radius, way.states.plastic_radius
+    if way.turns:
+        rows = split(depth, a, depth, way.states.live.lower)
+        gap = [[np.nan], [np.nan]]
+        loading = np.concatenate([rows["elastic"], gap, rows["yielding"]], axis=1)
+        return tuple(loading), rows["unloading"], (depth[way.deeper], c[way.deeper])
     peak, gone = way.peak, int(np.flatnonzero(way.states.live.length > 0)[-1]) + 1
     last = c[-1:] if way.states.live.lower[-1] > 0 else a[gone : gone + 1]
     back = np.append(depth[peak : gone + 1], depth[gone:])
@@ -83,7 +105,9 @@ def _zone(way):
 
 def radii_still(view):
     loading, back, (d, c) = _zone(view.way)
-    some = slice(max(view.first - 1, 0), None) if view.first <= view.way.peak else slice(0, 0)
+    # From the last state on that has not yielded.
+    first = int(np.searchsorted(np.flatnonzero(view.way.deeper), view.first))
+    some = slice(max(first - 1, 0), None) if view.first <= view.way.peak else slice(0, 0)
     d, c = d[some], c[some]
     rows = {"contact radius a": loading, "unloading": back, "plastic zone c": (d, c)}
     rows["zone"] = np.append(d, [*d[-1:], *d[:1]]), np.append(c, [0, 0][: 2 * len(d)])
@@ -123,7 +147,8 @@ def energy_still(view):
     time = np.append(m.time, m.time[::-1])
     between = [(time, np.append(upper, lower[::-1])) for lower, upper in pairwise(sums)]
     rows = dict(zip(("plastic", "viscous", "stored", "kinetic"), between, strict=True))
-    return rows if m.viscous_work.any() else rows | {"viscous": figures.NOTHING}
+    of = {"viscous": m.viscous_work, "kinetic": m.kinetic_energy}
+    return rows | {name: figures.NOTHING for name, energy in of.items() if not energy.any()}
 
 
 def energy(view, i):

@@ -1,7 +1,7 @@
 """One scene solved by every model that can: time and error of each, the chain with ever more elements."""
 
 import base64
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from math import ceil, floor, log10
 from time import perf_counter
@@ -92,6 +92,9 @@ def _chain(scene, result, n):
 def found(way):
     """What is found of the models of a scene, while they are timed."""
     scene, rows = way.scene, []
+    if way.turns:
+        # Its deepest state, infinitely slowly.
+        scene = replace(scene, drive=mdr.DepthPath(float(way.deepest.depth)))
     result = scene.solve()
     for row in compare(scene, result):
         rows.append(row)

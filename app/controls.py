@@ -107,7 +107,7 @@ class Number(pn.custom.JSComponent):
 
 
 #: Choices of the form; others stand above the plots that they are of.
-_FORM = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface")
+_FORM = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface", "prescribed")
 
 
 class Controls:
@@ -146,7 +146,7 @@ class Controls:
             for name, label in LABELS.items()
             if name in _FORM
         }
-        self.form, self._above = pn.Column(**WIDE), []
+        self.form, self._above = pn.Column(css_classes=["form"], **WIDE), []
 
     def _load(self, event):
         self.tell(lambda: self.explorer.load(event.new))
@@ -184,7 +184,8 @@ class Controls:
         self._show_above()
 
     def _choice(self, choice):
-        return [self.rows[choice], *map(self.number, USED[choice][getattr(self.explorer, choice)])]
+        numbers = map(self.number, USED[choice][getattr(self.explorer, choice)])
+        return [self.rows.get(choice, self.choices[choice]), *numbers]
 
     def above(self, names):
         """What stands above a plot: choices, each with the numbers that its option uses, and numbers."""

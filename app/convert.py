@@ -2,7 +2,7 @@
 
 from math import inf
 
-from .drives import DRIVES
+from .drives import DRIVES, path
 from .quantities import shape_quantities
 
 
@@ -68,4 +68,6 @@ CONVERT = {
     "damping": _damping,
     "drive": _drive,
     "surface": _surface,
+    "pattern": path.pattern,
+    "prescribed": path.prescribed,
 }

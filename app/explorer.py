@@ -30,6 +30,7 @@ class Explorer(param.Parameterized):
     preset = param.Selector(objects=[*PRESETS, FROM_FILE], default=OPENING)
     progress = param.Number(1.0, bounds=(0, LAST_PROGRESS), doc="0 first contact, 1 deepest, 2 load gone")
     samples = param.Tuple(None, length=2, allow_None=True, doc="radii and heights (m) of a measured tip")
+    path = param.List([], doc="vertices of a path: depths or forces, each alone or with its time (SI)")
     tip_note = param.String(doc="what was done to the measured tip")
     hold = param.String(doc="query of the scene that is held to compare with")
     plots = param.List([], item_type=str, doc="plots that are shown on request")
@@ -104,7 +105,7 @@ class Explorer(param.Parameterized):
             return
         preset = PRESETS[label]
         self.resets, self.sized = preset.values, frozenset({preset.choices["shape"]})
-        self.param.update(preset=label, progress=1.0, **preset.choices, **preset.values)
+        self.param.update(preset=label, progress=1.0, path=[], **preset.choices, **preset.values)
 
     @property
     def altered(self):
@@ -113,7 +114,7 @@ class Explorer(param.Parameterized):
         loaded = preset.choices | preset.values if preset else self.resets
         now = {name: getattr(self, name) for name in loaded}
         return any(
-            now[name] != value and (isinstance(value, str) or not isclose(now[name], value))
+            now[name] != value and (name not in QUANTITIES or not isclose(now[name], value))
             for name, value in loaded.items()
         )
 
@@ -157,7 +158,8 @@ class Explorer(param.Parameterized):
             return
         # A shape that has been looked at before keeps its values.
         kept = name not in CONVERT or (name == "shape" and option in self.sized)
-        converted = {} if kept else {k: float(v) for k, v in CONVERT[name](self, option).items()}
+        converted = {} if kept else CONVERT[name](self, option)
+        converted = {k: float(v) if k in QUANTITIES else v for k, v in converted.items()}
         if name == "shape":
             self.sized |= {option}
         self.resets = self.resets | converted

@@ -36,7 +36,7 @@ class Grid:
         self._show, self._theme, self._drag, self._controls = show, theme, drag, controls
         self._zoom = CustomJS(code=JS["zoom"])
         self._inputs = Title(text_font_size="11px", text_font_style="normal")
-        self.figures, self.layers, self.names, self._frames = {}, [], [], {}
+        self.figures, self.layers, self.names, self._frames, self._moving = {}, [], [], {}, []
         self.view = pn.Column(css_classes=["plots"], **FULL)
 
     def show(self, view, names):
@@ -45,12 +45,19 @@ class Grid:
             if name not in self.figures:
                 self._make(name)
             self._fit(name, view)
-        if names == self.names:
+        shown, same = {name: self.figures[name] for name in names}, names == self.names
+        self.layers = self.layers if same else layers(shown)
+        moving = [moves(view, layer) for layer in self.layers]
+        if same and moving == self._moving:
             return
-        self.names, shown = names, {name: self.figures[name] for name in names}
-        self.layers = layers(shown)
-        described = [layer.described | {"moving": moves(view, layer)} for layer in self.layers]
+        self._moving = moving
+        described = [
+            layer.described | {"moving": each} for layer, each in zip(self.layers, moving, strict=True)
+        ]
         self._show.args = self._show.args | {"layers": described}
+        if same:
+            return
+        self.names = names
         self._theme.args = self._theme.args | {"figures": list(shown.values())}
         many = len(set(names) - {"speed"}) > 4
         more = "speed" in names or len(names) > 6

@@ -7,6 +7,7 @@ from urllib.parse import parse_qs, urlencode
 import mdr_core as mdr
 
 from .drives import DRIVES, drive_of
+from .drives.path import checked
 from .explorer import FROM_FILE
 from .plots import PLOTS
 from .presets import PRESETS
@@ -28,6 +29,8 @@ def query(explorer, view=True):
     pairs["at"] = f"{explorer.progress:.6g}"
     if explorer.shape == "sampled":
         pairs["samples"] = " ".join(f"{x!r},{y!r}" for x, y in zip(*explorer.samples, strict=True))
+    if explorer.drive == "path":
+        pairs["path"] = " ".join(",".join(map(repr, row)) for row in explorer.path)
     if view:
         pairs |= {"plots": " ".join(explorer.plots), "dark": str(int(explorer.dark))}
         pairs |= {"hold": explorer.hold} if explorer.hold else {}
@@ -62,11 +65,14 @@ def restore(explorer, arguments):
     if "samples" in pairs:
         tip = _samples(pairs.pop("samples"))
         changes["samples"] = (tip.r, tip.z)
+    path = _rows("path", pairs.pop("path", ""))
     for name in explorer.choices.keys() & pairs.keys():
         changes[name] = option = pairs.pop(name)
         known = explorer.param[name].objects
         if option not in known or (option == "sampled" and "samples" not in changes):
             raise ValueError(f"{name} = {option:.40} in this link is not known")
+    if path:
+        changes["path"] = checked(path, changes.get("prescribed", explorer.prescribed))
     changes["progress"] = _number("at", pairs.pop("at", "1"))
     low, high = explorer.param.progress.bounds
     if not low <= changes["progress"] <= high:
@@ -92,11 +98,18 @@ def _number(name, text):
 
 
 def _samples(text):
-    points = [point.split(",") for point in text.split(" ")]
-    if len(points) > MOST_SAMPLES or any(len(point) != 2 for point in points):
+    points = _rows("samples", text)
+    if any(len(point) != 2 for point in points):
         raise ValueError("the samples in this link are not pairs")
-    r, z = zip(*((_number("samples", a), _number("samples", b)) for a, b in points), strict=True)
-    return mdr.Sampled(r, z)
+    return mdr.Sampled(*zip(*points, strict=True))
+
+
+def _rows(name, text):
+    """Rows of one or two numbers."""
+    rows = [row.split(",") for row in text.split()]
+    if len(rows) > MOST_SAMPLES or any(len(row) > 2 for row in rows):
+        raise ValueError(f"the {name} in this link are not pairs")
+    return [tuple(_number(name, each) for each in row) for row in rows]
 
 
 def scene_file(trajectory):
@@ -119,15 +132,13 @@ def load_scene(explorer, text):
     if longest > MOST_SAMPLES:
         most = f"at most {MOST_SAMPLES} are taken here"
         raise ValueError(f"the scene has a list of {longest} numbers, and {most}")
-    if getattr(scene.drive, "time", None) and medium.eta > 0:
-        raise ValueError("a viscous path in time is not shown here: solve it with mdr.Scene.from_json(...)")
     opened = DRIVES[drive_of(scene)].opened(scene)
     choices, numbers = {"preset": FROM_FILE, "inertia": "unknown", "progress": 1.0}, {}
     for more, values in (_medium(medium), _profile(scene.profile), opened):
         choices |= more
         numbers |= values
     explorer.resets = {name: explorer.checked(name, value) for name, value in numbers.items()}
-    explorer.resets |= {name: choices[name] for name in explorer.choices if name in choices}
+    explorer.resets |= {name: choices[name] for name in (*explorer.choices, "path") if name in choices}
     explorer.sized = frozenset({choices["shape"]})
     explorer.param.update(**choices | explorer.resets)
 

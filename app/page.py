@@ -1,7 +1,7 @@
 """The page of one session: one change is one solve and one array of columns; playing is the browser's."""
 
 import logging
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from bokeh.models import ColumnDataSource, CustomJS, Div, Select, Slider, Toggle
 
 from . import link, readouts
 from .controls import JS, WIDE, Controls, html, marked, symbol
-from .drives import follow
+from .drives import DRIVES, drive_of, follow
 from .explorer import Explorer
 from .figures import DARK, LIGHT
 from .grid import FULL, STYLE, Grid, button
@@ -21,6 +21,8 @@ from .plots import PLOTS
 from .resting import Resting
 from .takeaway import TakeAway
 from .tip import read_tip
+from .trajectory import Trajectory, nearest
+from .vertices import Vertices
 from .view import View
 
 _LOG = logging.getLogger(__name__)
@@ -30,12 +32,25 @@ SETTLED = 300
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
 
 
+@dataclass(frozen=True)
+class _Pending:
+    """A trajectory that is solved while the input is at rest, as `Resting` has it."""
+
+    title: str
+
+    @staticmethod
+    def resting(way):
+        """The same, in time."""
+        yield DRIVES[drive_of(way.scene)].in_time(way.scene)
+
+
 class Page:
     """What one person sees and does."""
 
     def __init__(self, arguments=None):
         self.document, self.explorer, self.held = pn.state.curdoc, Explorer(), None
         self.held_summary, self.found, self._serial, self._waiting = "", {}, 0, None
+        self.solved = {}
         nothing = {"values": np.zeros(1, np.float32)}
         self.packet = ColumnDataSource(nothing, name="packet", tags=[0, [0], [[]], [""], [], [[], []]])
         self.frames = ColumnDataSource(nothing, name="frames", tags=[-1, [], [], []])
@@ -43,6 +58,7 @@ class Page:
         notice = self._open(arguments or {})
         self.resting = Resting(self._show_found)
         self.controls = Controls(self.explorer, self.attempt, self.tell)
+        self.controls.parts["vertices"] = Vertices(self.explorer, self.attempt)
         self.away = TakeAway(self)
         self._connect()
         self._solve()
@@ -226,12 +242,18 @@ class Page:
         if self.explorer.hold:
             other = Explorer()
             link.restore(other, link.arguments(self.explorer.hold))
-            self.held, self.held_summary = follow(other.scene(), other.progress), readouts.summary(other)
+            self.held, self.held_summary = self._follow(other), readouts.summary(other)
 
     # What changes what is drawn.
 
+    def _follow(self, explorer):
+        """The trajectory of what is set, in time if it has been solved so."""
+        scene = explorer.scene()
+        way = self.solved.get(scene) or follow(scene, explorer.progress)
+        return replace(way, now=nearest(way.progress, explorer.progress))
+
     def _solve(self):
-        self.way = follow(self.explorer.scene(), self.explorer.progress)
+        self.way = self._follow(self.explorer)
         count = len(self.way)
         self.cells = readouts.cells(self.way)
         self.state.update(end=count - 1, value=self.way.now)
@@ -266,6 +288,12 @@ class Page:
     def _show_found(self, title, found):
         """Draw what was found of a plot while the input was at rest."""
         with pn.io.hold(self.document):
+            if isinstance(found, Trajectory):
+                self.solved = dict([*self.solved.items(), (found.scene, found)][-4:])
+                self._hold()
+                self._solve()
+                self._around()
+                return
             self.found[title] = found
             self._show(anew=False)
 
@@ -324,6 +352,10 @@ class Page:
         query = link.query(self.explorer)
         self.address.text = f"?{query}" if query else "?"
         way = self.way
+        for each in ("way", "held"):
+            pending = getattr(self, each)
+            if pending is not None and pending.pending:
+                self.resting.follow(_Pending(each), pending.scene, pending)
         for name, plot in PLOTS.items():
             if plot.resting:
                 values = [getattr(self.explorer, each) for each in plot.controls]

@@ -56,6 +56,7 @@ PLOTS = {
             area("dissipated", "yielded", 0.13, "/"),
             area("recoverable", "elastic", 0.25),
             line("held", **_HELD, dash="dotdash", symbol="F"),
+            line("path ahead", "free", 1.0),
             *parts("F"),
             mark("onset of yield", "paper", "yielded", "diamond", 11),
             mark("now"),
@@ -64,7 +65,7 @@ PLOTS = {
         columns.force_still, columns.force,
     ),
     "motion": Plot(
-        "Impact over time", "m d²d/dt² = −F", ("t", "d", "F"),
+        "Depth and force over time", "m d²d/dt² = −F  of a free body", ("t", "d", "F"),
         (
             line("held", **_HELD, dash="dotdash", symbol="F", axis=2),
             line("depth d", "speed", 2.2, symbol="d"),
@@ -95,7 +96,7 @@ PLOTS = {
         columns.radii_still, columns.radii_marks,
     ),
     "energy": Plot(
-        "Where the energy is", "m v²/2 + U + W_p + W_v = m v_0²/2", ("t", "E"),
+        "Where the energy is", "U + W_p + W_v + m v²/2 = ∫ F dd, or m v_0²/2", ("t", "E"),
         (
             area("plastic", "yielded", 0.45, "/"),
             area("viscous", "loss", 0.5, "\\"),

@@ -7,6 +7,7 @@ from contourpy import contour_generator
 
 from mdr_core.figures import NOTHING
 
+from .drives.chain import ChainStates
 from .resting import Found
 from .units import written
 from .view import axis
@@ -27,6 +28,10 @@ def found(way, quantity):
     r = axis("r", "r, radius", "length", reach, start=0.0)
     z = replace(axis("z", "z, height", "length", reach, below=1.0), end=0.0)
     title, of_stress = _DRAWN[quantity]
+    if isinstance(way.states, ChainStates):
+        said = "Stresses below the surface are not known of a viscous path: its elements have a past each."
+        yield Found({}, [r, z, axis("stress", title, "pressure", 1.0)], said)
+        return
     if state.contact_radius == 0:
         yield Found({}, [r, z, axis("stress", title, "pressure", 1.0)], "The load is gone.")
         return

@@ -21,7 +21,9 @@ class Trajectory:
 
     `progress` is where on the way a state stands: 0 first contact, 1 deepest, 2 loss of contact, and 2.2
     the tip back at the height of the undeformed surface. `now` is the number of the present state, `peak`
-    that of the deepest one. An impact has a `hit`, and times, speeds and energies in `motion`.
+    that of the deepest one. What has times has them, with speeds and energies, in `motion`; an impact has
+    a `hit`. A path that may turn round several times `turns`; what is `pending` is followed infinitely
+    slowly until it has been solved in time.
     """
 
     scene: mdr.Scene
@@ -31,6 +33,8 @@ class Trajectory:
     peak: int
     hit: mdr.Impact | None = None
     motion: mdr.Motion | None = None
+    turns: bool = False
+    pending: bool = False
 
     def __len__(self):
         return len(self.progress)
@@ -39,6 +43,11 @@ class Trajectory:
     def force(self):
         """Normal force (N), with that of the dashpots."""
         return self.states.force
+
+    @cached_property
+    def deeper(self):
+        """Whether each state is at the largest depth so far."""
+        return self.states.depth >= np.maximum.accumulate(self.states.depth)
 
     @property
     def before(self):

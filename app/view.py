@@ -49,7 +49,8 @@ class View:
             ("p", "−σzz, contact pressure", "pressure", size["pressure"]),
         ]
         if self.way.motion is not None:
-            described.append(("t", "t, time", "time", size["time"]))
+            time = self.way.motion.time
+            described.append(("t", "t, time", "time", size["time"], 0.0, min(float(time[0]), 0.0)))
             described.append(("E", "energy", "energy", size["energy"]))
         return {name: axis(name, *rest) for name, *rest in described}
 
@@ -117,17 +118,22 @@ def _largest(way):
         size["force"] = max(size["force"], 1.05 * float(onset.force))
     size["pressure"] = 1.05 * ceiling(way.deepest, size["length"])
     if way.motion is not None:
-        size["time"], size["energy"] = float(way.motion.time[-1]), float(way.motion.kinetic_energy[0])
+        m = way.motion
+        energy = m.kinetic_energy + m.stored_energy + m.plastic_work + m.viscous_work
+        size["time"], size["energy"] = float(m.time[-1]), float(np.max(energy))
     return size
 
 
 def phase(way, i):
     """Where a state stands on its way, in words."""
-    share = way.progress[i]
+    share, rise = way.progress[i], way.states.depth[i] - way.states.depth[max(i - 1, 0)]
     if i == way.peak:
         words = "deepest"
+    elif i and (way.states.contact_radius[i] == 0 or (share >= 2 and not way.turns)):
+        words = "load gone"
     else:
-        words = "loading" if share < 1 else "unloading" if share < 2 else "load gone"
+        words = "unloading" if rise < 0 else "holding" if i and rise == 0 else "loading"
+    words += ", so far without dashpots" * way.pending
     if way.motion is None:
         return words
     unit = fitting(float(way.motion.time[-1]), "time")

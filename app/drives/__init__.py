@@ -1,9 +1,9 @@
 """Drives: each is one value in a module of its own, and one entry here."""
 
-from . import impact, press
+from . import impact, path, press
 
 #: Every drive of the page, by its option of the choice "drive".
-DRIVES = {"depth": press.DEPTH, "force": press.FORCE, "impact": impact.IMPACT}
+DRIVES = {"depth": press.DEPTH, "force": press.FORCE, "path": path.PATH, "impact": impact.IMPACT}
 
 
 def drive_of(scene):

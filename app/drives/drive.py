@@ -19,7 +19,8 @@ class Drive:
     which a state would be the deepest. `snippet` gives lines of Python that come to the present state, from
     a trajectory, the arguments of profile and medium, and a prefix of names; `saved` the value for a scene
     file. `form` are the choices and parts of the form that follow its numbers, `cells` further readouts,
-    `words` more for the summary in a line, `duration` how long it takes (s) where that counts.
+    `words` more for the summary in a line, `duration` how long it takes (s) where that counts. `in_time`
+    gives the states of a trajectory that is `pending`, for which a move has no time.
     """
 
     make: Callable[[Any], Any]
@@ -34,3 +35,4 @@ class Drive:
     cells: Callable[[Trajectory], list] = lambda way: []
     words: Callable[[Any], list[str]] = lambda explorer: []
     duration: Callable[[Any], float | None] = lambda explorer: None
+    in_time: Callable[[mdr.Scene], Trajectory] | None = None

@@ -33,6 +33,12 @@ def _follow(scene, progress):
     return Trajectory(scene, way, states, nearest(way, progress), nearest(way, 1.0))
 
 
+def _single(value, kind):
+    """Whether a path presses once: to one value, or on from it to a smaller one."""
+    path = np.atleast_1d(getattr(value, kind, ()))
+    return not value.time and (path.size == 1 or (path.size == 2 and path[1] < path[0]))
+
+
 def _quantity(drive):
     """What is prescribed, "depth" or "force", and its path as an array."""
     name = "force" if isinstance(drive, mdr.ForcePath) else "depth"
@@ -53,8 +59,8 @@ def _opened(scene):
     return choices, {f"max_{kind}": float(max(path))}
 
 
-def _most_force(explorer, deepest):
-    # The force at which all of a flat face yields is not reached.
+def most_force(explorer, deepest):
+    """The force of a state, if it is less than what a flat face carries."""
     most = 2 * deepest.medium.yield_line_load * deepest.profile.wall
     return {"max_force": min(float(deepest.force), 0.9 * most)}
 
@@ -83,11 +89,11 @@ _PRESSED = partial(
 )  # fmt: skip
 DEPTH = _PRESSED(
     make=lambda explorer: mdr.DepthPath(explorer.max_depth),
-    owns=lambda value: isinstance(value, mdr.DepthPath),
+    owns=lambda value: isinstance(value, mdr.DepthPath) and _single(value, "depth"),
     alike=lambda explorer, deepest: {"max_depth": float(deepest.depth)},
 )
 FORCE = _PRESSED(
     make=lambda explorer: mdr.ForcePath(explorer.max_force),
-    owns=lambda value: isinstance(value, mdr.ForcePath),
-    alike=_most_force,
+    owns=lambda value: isinstance(value, mdr.ForcePath) and _single(value, "force"),
+    alike=most_force,
 )

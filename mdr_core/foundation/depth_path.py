@@ -207,15 +207,31 @@ class TimedIndentation(Plotted):
         The elements at x follow the whole path anew: no grid is involved.
         """
         self._refuse_path("line_load(x)")
+        return self.elements(x)[0]
+
+    def elements(self, x: ArrayLike) -> tuple[Array, Array]:
+        """Line load (N/m) and elastic compression (m) of the elements at x (m), in every state.
+
+        Of an element that has let go of the indenter the compression is what has not relaxed yet. Those at
+        x follow the whole path anew: no grid is involved.
+
+        Returns
+        -------
+        tuple of ndarray
+            Both of the shape of `time`, followed by that of `x`.
+        """
         x = np.abs(_check.finite_array("coordinate x", x, unit="m"))
-        medium, (time, depth) = self.medium, self._path
-        state, lag = Elements.virgin(np.asarray(self.profile.reduced(x.ravel()))), 0.0
+        medium, (time, depth), place = self.medium, self._path, np.asarray(self._place, int)
+        state, last = Elements.virgin(np.asarray(self.profile.reduced(x.ravel()))), int(np.max(place))
         rises, steps = np.diff(depth, prepend=0.0), np.append(np.inf, np.diff(time))
-        for i in range(int(self._place) + 1):
+        found = np.empty((2, last + 1, x.size))
+        for i in range(last + 1):
             ramp = Ramp(depth[i], rises[i], steps[i], medium.relaxation_time, medium.critical_depth)
-            state, lag = element.advance(state, ramp)[0], ramp.lag
-        load = np.where(state.contact, medium.E_star * (state.elastic + lag), 0.0)
-        return load.reshape(x.shape)[()]
+            state = element.advance(state, ramp)[0]
+            load = np.where(state.contact, medium.E_star * (state.elastic + ramp.lag), 0.0)
+            found[:, i] = load, state.elastic
+        load, elastic = found[:, place].reshape(2, *place.shape, *x.shape)
+        return load[()], elastic[()]
 
     def pressure(self, r: ArrayLike) -> Array:
         """Contact pressure p = −σ_zz (Pa) of one state at radii r (m); Popov (2015), Eq. (10).
