@@ -11,6 +11,8 @@ import numpy as np
 from mdr_core import figures
 from mdr_core.figures import both, split
 
+from . import references
+
 #: Pixels of the map along each side.
 PIXELS = 64
 
@@ -39,7 +41,7 @@ def force_still(view):
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     if held is not None:
         rows["held"] = held.states.depth, held.force
-    return rows
+    return rows | references.curves(view)
 
 
 def force(view, i):

@@ -127,8 +127,8 @@ class Controls:
         for name, options in CHOICES.items():
             options = {text: option for option, text in options.items()}
             kind = pn.widgets.RadioBoxGroup if name in _FORM else pn.widgets.Select
-            inline = {"inline": True} if name in _FORM else {}
-            self.choices[name] = kind(name=LABELS[name], options=options, **inline, **look)
+            inline = {"inline": True} if name in _FORM else {"css_classes": ["choice", "beside"]}
+            self.choices[name] = kind(name=LABELS[name], options=options, **look | inline)
         for name, widget in self.choices.items():
             widget.param.watch(lambda event, name=name: self._choose(name, event), "value")
         noted = ("sources", "sketch", "tip", "elasticity", "plasticity", "damping")

@@ -22,7 +22,8 @@ def query(explorer, view=True):
 
     With `view` also what is held, which plots are shown, and whether it is dark.
     """
-    pairs = {"preset": explorer.preset} | explorer.choices
+    choices = {n: option for n, option in explorer.choices.items() if view or n not in explorer.VIEW}
+    pairs = {"preset": explorer.preset} | choices
     above = [name for plot in explorer.plots for name in PLOTS[plot].controls if name in QUANTITIES]
     pairs |= {name: f"{getattr(explorer, name)!r}" for name in (*explorer.used(), *above)}
     pairs["at"] = f"{explorer.progress:.6g}"

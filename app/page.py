@@ -18,6 +18,7 @@ from .figures import DARK, LIGHT
 from .grid import FULL, STYLE, Grid, button
 from .packet import packed
 from .plots import PLOTS
+from .quantities import CHOICES
 from .resting import Resting
 from .takeaway import TakeAway
 from .tip import read_tip
@@ -135,6 +136,7 @@ class Page:
         explorer = self.explorer
         names = [name for name in explorer.param if name not in (*explorer.VIEW, "name")]
         explorer.param.watch(self._changed, names)
+        explorer.param.watch(self._viewed, [name for name in explorer.VIEW if name in CHOICES])
         for widget, act in ((self.undo, "undo"), (self.redo, "redo")):
             widget.on_click(lambda event, act=act: self.tell(getattr(self.explorer, act)))
         self.reset.on_click(lambda event: self.tell(lambda: self.explorer.load(self.explorer.preset)))
@@ -207,6 +209,11 @@ class Page:
             self._show()
             self._around()
 
+    def _viewed(self, *events):
+        with pn.io.hold(self.document):
+            self._show()
+            self._around()
+
     def _darkened(self, event):
         self.explorer.dark = event.new
         self._settle()
@@ -239,7 +246,7 @@ class Page:
 
     def _show(self):
         """Draw the present state: one array of all columns."""
-        self.drawn = View(self.way, self.held, self.found)
+        self.drawn = View(self.way, self.held, self.found, self.explorer.choices)
         self.grid.show(self.drawn, self._shown())
         values, starts, labels = packed(self.drawn, self.grid.layers, [self.way.now])
         motion, count = self.way.motion, len(self.way)

@@ -7,9 +7,21 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from mdr_core.figures import PRESSURE_ROWS, ROLES, SPRING_ROWS, Row, area, label, line, mark, parts
+from mdr_core.figures import (
+    PRESSURE_ROWS,
+    RADII,
+    ROLES,
+    SPRING_ROWS,
+    Axis,
+    Row,
+    area,
+    label,
+    line,
+    mark,
+    parts,
+)
 
-from . import columns, comparison, section
+from . import columns, comparison, references, section, surface
 from .resting import Found
 from .view import View
 
@@ -23,7 +35,9 @@ class Plot:
     With a `button` (its text, and a key) it is shown on request, with `impact` of impacts only. `resting`
     gets the trajectory and the values of the `controls`, choices and numbers that stand above the plot; it
     yields what it has found so far, anew for each scene, with `of_state` for each state. An `image` has so
-    many rows and columns of pixels. `below` is what stands below the plot, as HTML.
+    many rows and columns of pixels. `below` is what stands below the plot, as HTML, `note` what
+    depends on the view. `fitted` gives axes that
+    depend on what is chosen; where `to_scale`, both have as many pixels for a metre.
     """
 
     title: str
@@ -40,6 +54,9 @@ class Plot:
     log: bool = False
     image: tuple[int, int] | None = None
     below: str = ""
+    note: Callable[[View], str] | None = None
+    fitted: Callable[[View], list[Axis]] | None = None
+    to_scale: Callable[[View], bool] | None = None
 
 
 _HELD = {"role": "held", "width": 1.4}
@@ -57,12 +74,13 @@ PLOTS = {
             area("dissipated", "yielded", 0.13, "/"),
             area("recoverable", "elastic", 0.25),
             line("held", **_HELD, dash="dotdash", symbol="F"),
+            *references.ROWS,
             *parts("F"),
             mark("onset of yield", "paper", "yielded", "diamond", 11),
             mark("now"),
             label("dₚ"),
         ),
-        columns.force_still, columns.force,
+        columns.force_still, columns.force, controls=("references",), note=references.note,
     ),
     "motion": Plot(
         "Impact over time", "m d²d/dt² = −F", ("t", "d", "F"),
@@ -110,6 +128,20 @@ PLOTS = {
         "Contact pressure over the plane", "(10)  −σ_zz(√(x² + y²))", ("plane x", "plane y", "p"),
         (line("contact radius a", "chalk", 1.2, "dashed"), line("plastic zone c", "chalk", 1.2, "dotted")),
         moving=columns.plane, image=(columns.PIXELS, columns.PIXELS), button=("Map", "m"),
+        to_scale=lambda view: True,
+    ),
+    "surface": Plot(
+        "Surface and imprint", "u(r) = ∫ (2/π) arcsin(a(s)/r) ds,  a(s) < r", ("section r", "section z"),
+        (
+            area("tip z(r)", "body", 0.55),
+            area("medium", "free", 0.16, legend=False),
+            line("undeformed", "free", 1.0, "dashed", legend=False),
+            line("deformed surface", "elastic", 2.2, symbol="z"),
+            line("residual imprint", "yielded", 2.0, "dotted", symbol="z"),
+            *RADII,
+        ),
+        moving=surface.moving, button=("Surface", "u"), controls=("heights",), fitted=surface.axes,
+        to_scale=lambda view: view.chosen["heights"] == "to_scale",
     ),
     "section": Plot(
         "Section under the tip", "σ(r, z): each increment of depth a flat punch of radius a(s)", (),

@@ -6,6 +6,7 @@ import numpy as np
 
 from mdr_core.figures import NOTHING, REST, Axis, ceiling, radii
 
+from .quantities import CHOICES
 from .units import digits, fitting, round_up, written
 
 
@@ -19,9 +20,11 @@ def axis(name, title, kind, largest, below=0.0, start=None):
 
 
 class View:
-    """A trajectory and its axes, with what is held beside it, and what plots have found at rest."""
+    """A trajectory and its axes, with what is held beside it, what plots have found at rest, and choices."""
 
-    def __init__(self, way, held=None, found=None):
+    def __init__(self, way, held=None, found=None, chosen=None):
+        # The first option of what is not chosen.
+        self.chosen = {name: next(iter(options)) for name, options in CHOICES.items()} | (chosen or {})
         self.way, self.held, self.found, self._drawn = way, held, found or {}, {}
         self.axes = self._axes()
         self.end = {name: each.end for name, each in self.axes.items()}
@@ -47,6 +50,8 @@ class View:
             ("F", "F, normal force", "force", size["force"]),
             ("a", "a, c, radius", "length", size["length"] / 1.1),
             ("p", "−σzz, contact pressure", "pressure", size["pressure"]),
+            ("section r", "r, radius", "length", 1.75 * size["length"], 1.0),
+            ("section z", "z, height", "length", size["depth"], 1.2),
         ]
         if self.way.motion is not None:
             described.append(("t", "t, time", "time", size["time"]))
@@ -56,7 +61,9 @@ class View:
     def axes_of(self, plot):
         """The axes of a plot: those of the view, or what was found with its rows."""
         found = self.found.get(plot.title)
-        return found.axes if found else [self.axes[key] for key in plot.axes if key in self.axes]
+        if found or plot.fitted:
+            return found.axes if found else plot.fitted(self)
+        return [self.axes[key] for key in plot.axes if key in self.axes]
 
     def still(self, plot):
         """Rows of a plot that stay while the scene is played."""
@@ -79,7 +86,9 @@ class View:
 
     def moves(self, plot):
         """Names of the rows of a plot that change from state to state."""
-        return plot.moving(self, self.way.now).keys()
+        if (plot, "moving") not in self._drawn:
+            self._drawn[plot, "moving"] = plot.moving(self, self.way.now).keys()
+        return self._drawn[plot, "moving"]
 
     def pressure(self, i):
         """Radii and pressures (SI) of state i."""
