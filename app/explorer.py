@@ -37,7 +37,7 @@ class Explorer(param.Parameterized):
     shape = param.Selector(objects=list(SHAPES))
 
     #: Parameters that describe the view rather than the scene: undo leaves them alone.
-    VIEW = ("progress", "hold", "plots", "dark", "heights", "references")
+    VIEW = ("progress", "hold", "plots", "dark", "heights", "references", "axes")
 
     def __init__(self, preset=OPENING):
         super().__init__()

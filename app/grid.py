@@ -18,7 +18,8 @@ FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": STYLE}
 _TO_SCALE = """
 const { x_range, y_range, inner_width, inner_height, tags } = figure
 const parts = [[x_range, inner_width], [y_range, inner_height]]
-const most = Math.max(...parts.map(([{ reset_start, reset_end }, size]) => (reset_end - reset_start) / size))
+const share = ([{ reset_start, reset_end }, size]) => (reset_end - reset_start) / size
+const most = Math.max(...parts.map(share))
 for (const [range, size] of parts) {
   const { reset_start, reset_end } = range
   const more = tags.length ? (most * size - reset_end + reset_start) / 2 : 0

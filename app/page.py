@@ -95,7 +95,9 @@ class Page:
             sizing_mode="stretch_height", margin=0,
         )  # fmt: skip
         buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values(), self.dark, self.take)
-        tools = pn.Row(*buttons, self.held_note, css_classes=["tools"], stylesheets=STYLE, **WIDE)
+        axes = self.controls.choices["axes"]
+        axes.param.update(sizing_mode="fixed", width=180)
+        tools = pn.Row(*buttons, axes, self.held_note, css_classes=["tools"], stylesheets=STYLE, **WIDE)
         parts = (self.play, self.state, self.pace, self.standing, self.address)
         player = pn.Row(*map(pn.pane.Bokeh, parts), css_classes=["player"], stylesheets=STYLE, **WIDE)
         parts = (tools, self.away.panel, pn.pane.Bokeh(self.readout), self.lights, player, self.grid.view)
@@ -246,7 +248,9 @@ class Page:
 
     def _show(self):
         """Draw the present state: one array of all columns."""
-        self.drawn = View(self.way, self.held, self.found, self.explorer.choices)
+        self.drawn = View(
+            self.way, () if self.held is None else (self.held,), self.found, self.explorer.choices
+        )
         self.grid.show(self.drawn, self._shown())
         values, starts, labels = packed(self.drawn, self.grid.layers, [self.way.now])
         motion, count = self.way.motion, len(self.way)

@@ -59,7 +59,11 @@ class Plot:
     to_scale: Callable[[View], bool] | None = None
 
 
-_HELD = {"role": "held", "width": 1.4}
+def _held(symbol, axis=1, what="", width=1.6, legend=True):
+    """A row for each scene that may be held, each with dashes of its own."""
+    dashes = enumerate(("dotdash", "dashed", "dotted", "solid"), 1)
+    return [line(f"held {k}{what}", "held", width, dash, symbol, axis, legend) for k, dash in dashes]
+
 
 #: Every plot of the page, in its order.
 PLOTS = {
@@ -73,7 +77,7 @@ PLOTS = {
         (
             area("dissipated", "yielded", 0.13, "/"),
             area("recoverable", "elastic", 0.25),
-            line("held", **_HELD, dash="dotdash", symbol="F"),
+            *_held("F"),
             *references.ROWS,
             *parts("F"),
             mark("onset of yield", "paper", "yielded", "diamond", 11),
@@ -85,7 +89,7 @@ PLOTS = {
     "motion": Plot(
         "Impact over time", "m d²d/dt² = −F", ("t", "d", "F"),
         (
-            line("held", **_HELD, dash="dotdash", symbol="F", axis=2),
+            *_held("F", axis=2),
             line("depth d", "speed", 2.2, symbol="d"),
             line("force F", "elastic", 2.2, "dashed", "F", axis=2),
             line("time", "ink", 1.0, "dashed", legend=False),
@@ -96,15 +100,15 @@ PLOTS = {
     ),
     "pressure": Plot(
         "Contact pressure", "(10)  σ_zz(r) = (1/π) ∫ q′(x) dx/√(x² − r²)", ("r", "p"),
-        (line("held", **_HELD, dash="dotdash", symbol="−σzz"), *PRESSURE_ROWS, label("beyond")),
+        (*_held("−σzz"), *PRESSURE_ROWS, label("beyond")),
         columns.pressure_still, columns.pressure,
     ),
     "radii": Plot(
         "Contact and plastic zone", "(16) (21)  g(a) = d,  g(c) = d − d_c", ("d", "a"),
         (
             area("zone", "yielded", 0.13, legend=False),
-            line("held a", **_HELD, dash="dotdash", symbol="a"),
-            line("held c", **_HELD, dash="dotted", symbol="c"),
+            *_held("a", what=" a"),
+            *_held("c", what=" c", width=0.9, legend=False),
             line("unloading", "elastic", 1.8, "dashed", "a"),
             line("contact radius a", "elastic", 2.2, symbol="a"),
             line("plastic zone c", "yielded", 3.0, symbol="c"),
@@ -142,6 +146,18 @@ PLOTS = {
         ),
         moving=surface.moving, button=("Surface", "u"), controls=("heights",), fitted=surface.axes,
         to_scale=lambda view: view.chosen["heights"] == "to_scale",
+    ),
+    "loglog": Plot(
+        "Force and depth, logarithmic", "z ∝ rⁿ:  F ∝ d^(1 + 1/n), then d^(1/n)",
+        ("log d", "log F"),
+        (
+            *_held("F"),
+            *references.ROWS,
+            *parts("F"),
+            mark("onset of yield", "paper", "yielded", "diamond", 11),
+            mark("now"),
+        ),
+        columns.logarithmic_still, columns.logarithmic, button=("Log–log", "l"), log=True,
     ),
     "section": Plot(
         "Section under the tip", "σ(r, z): each increment of depth a flat punch of radius a(s)", (),

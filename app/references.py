@@ -46,6 +46,5 @@ def note(view):
     if view.way.deepest.live.lower == 0:
         return "Nothing has yielded: this scene has no hardness that the classes could share."
     return (
-        "Fully yielded contacts F ∝ aⁱ, of hardness constant (a), ∝ 1/a (b, this model), ∝ 1/a² (c), with the "
-        "hardness F/(πa²) that this scene has where it is deepest."
+        "Fully yielded, hardness constant (a) or ∝ 1/a² (c), as hard as this scene (b) where it is deepest."
     )

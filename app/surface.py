@@ -16,7 +16,7 @@ def axes(view):
     if view.chosen["heights"] == "exaggerated":
         return [r, z]
     reach = max(0.9 * r.end, -z.start)
-    return [r, replace(r, title="z, height, to scale", start=-reach, end=reach)]
+    return [r, replace(r, title="z, height to scale", start=-reach, end=reach)]
 
 
 def moving(view, i):

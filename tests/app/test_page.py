@@ -224,10 +224,10 @@ def test_a_peak_beyond_the_axis_is_named_in_the_plot(explorer):
 
 def test_hold_map_and_theme_are_in_the_address(explorer):
     explorer.press("Hold")
-    explorer.wait("explorer.row('force', 'held')[0].length > 5")
+    explorer.wait("explorer.row('force', 'held 1')[0].length > 5")
     with explorer.change():
         explorer.type("d_max", "6 nm")
-    held = explorer.row("force", "held")
+    held = explorer.row("force", "held 1")
     explorer.press("Map")
     explorer.page.locator(".card.map").wait_for()
     explorer.press("Dark")
@@ -236,7 +236,7 @@ def test_hold_map_and_theme_are_in_the_address(explorer):
     assert explorer.axis("map")["labels"][1].startswith("y, in the plane")
     explorer.page.reload()
     explorer.wait("window.explorer?.idle() && document.documentElement.classList.contains('dark')")
-    np.testing.assert_allclose(explorer.row("force", "held"), held, rtol=1e-6)
+    np.testing.assert_allclose(explorer.row("force", "held 1"), held, rtol=1e-6)
     explorer.page.get_by_text("held: Cone").wait_for()
     assert explorer.page.locator(".card.map").count() == 1
 

@@ -61,7 +61,7 @@ def test_heights_are_to_scale_when_asked_for(label):
     plot, view = PLOTS["surface"], seen(Explorer(label), heights="to_scale")
     r, z = view.axes_of(plot)
     assert (r.unit, r.factor) == (z.unit, z.factor)
-    assert z.title == "z, height, to scale"
+    assert z.title == "z, height to scale"
     assert z.start <= -float(view.way.deepest.depth)
     assert plot.to_scale(view)
     assert not plot.to_scale(seen(Explorer(label)))
