@@ -149,7 +149,9 @@ class Controls:
         self.form, self._above = pn.Column(**WIDE), []
 
     def _load(self, event):
-        self.tell(lambda: self.explorer.load(event.new))
+        # What is only shown is not loaded again: it may have been altered.
+        if event.new != self.explorer.preset:
+            self.tell(lambda: self.explorer.load(event.new))
         self.preset.value = self.explorer.preset
 
     def _choose(self, name, event):

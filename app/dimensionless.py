@@ -5,8 +5,6 @@ from dataclasses import dataclass
 import mdr_core as mdr
 from mdr_core.figures import Axis
 
-from .units import round_up
-
 
 @dataclass(frozen=True)
 class Ratio(Axis):
@@ -17,18 +15,6 @@ class Ratio(Axis):
         """The title, each of its symbols over the unit."""
         *symbols, name = self.title.split(", ")
         return ", ".join([*(f"{symbol}/{self.unit}" for symbol in symbols), name])
-
-    def reaching(self, largest, below=0.0, start=None):
-        """This axis up to the next round number above the largest value (SI)."""
-        end = round_up(largest / self.factor) * self.factor
-        return Ratio(
-            self.name,
-            self.title,
-            self.unit,
-            self.factor,
-            0.0 - below * end if start is None else start,
-            end,
-        )
 
 
 def scales(way):
@@ -42,11 +28,8 @@ def scales(way):
     yields = medium.critical_depth <= min(profile.deepest, 1e300)
     at = mdr.indent(profile, medium, medium.critical_depth) if yields else deepest
     index = "c" if yields else "max"
-    depth, force, radius = (
-        (float(at.depth), f"d_{index}"),
-        (float(at.force), f"F_{index}"),
-        (float(at.contact_radius), f"a_{index}"),
-    )
+    names = {"depth": "d", "force": "F", "contact_radius": "a"}
+    depth, force, radius = ((float(getattr(at, name)), f"{s}_{index}") for name, s in names.items())
     found = {"d": depth, "z": depth, "section z": depth, "F": force, "a": radius}
     along = float(deepest.contact_radius), "a_max"
     found |= dict.fromkeys(("x", "r", "plane x", "plane y", "section r", "depth"), along)

@@ -31,7 +31,7 @@ class Explorer(param.Parameterized):
     progress = param.Number(1.0, bounds=(0, LAST_PROGRESS), doc="0 first contact, 1 deepest, 2 load gone")
     samples = param.Tuple(None, length=2, allow_None=True, doc="radii and heights (m) of a measured tip")
     tip_note = param.String(doc="what was done to the measured tip")
-    hold = param.String(doc="query of the scene that is held to compare with")
+    hold = param.List([], item_type=str, doc="queries of the scenes that are held to compare with")
     plots = param.List([], item_type=str, doc="plots that are shown on request")
     dark = param.Boolean(False)
     shape = param.Selector(objects=list(SHAPES))

@@ -8,7 +8,7 @@ import mdr_core as mdr
 
 from .drives import DRIVES, drive_of
 from .explorer import FROM_FILE
-from .plots import PLOTS
+from .plots import DASHES, PLOTS
 from .presets import PRESETS
 from .quantities import QUANTITIES, SHAPES, shape_quantities
 from .tip import MOST_SAMPLES
@@ -31,7 +31,7 @@ def query(explorer, view=True):
         pairs["samples"] = " ".join(f"{x!r},{y!r}" for x, y in zip(*explorer.samples, strict=True))
     if view:
         pairs |= {"plots": " ".join(explorer.plots), "dark": str(int(explorer.dark))}
-        pairs |= {"hold": explorer.hold} if explorer.hold else {}
+        pairs |= {"hold": " ".join(explorer.hold)} if explorer.hold else {}
     text = urlencode(pairs)
     return text if len(text) <= LONGEST_LINK else ""
 
@@ -57,7 +57,9 @@ def restore(explorer, arguments):
         explorer.load(preset)
     elif preset != FROM_FILE:
         raise ValueError("this link names no preset that is known")
-    changes = {"preset": preset, "hold": pairs.pop("hold", "")}
+    changes = {"preset": preset, "hold": pairs.pop("hold", "").split()}
+    if len(changes["hold"]) > len(DASHES):
+        raise ValueError(f"more than {len(DASHES)} scenes are held in this link")
     plots = pairs.pop("plots", "").split()
     changes |= {"dark": pairs.pop("dark", "0") == "1", "plots": [name for name in PLOTS if name in plots]}
     if "samples" in pairs:

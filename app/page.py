@@ -16,6 +16,7 @@ from .drives import follow
 from .explorer import Explorer
 from .figures import DARK, LIGHT
 from .grid import FULL, STYLE, Grid, button
+from .held import Table, held, is_held, renamed, toggled
 from .packet import packed
 from .plots import PLOTS
 from .quantities import CHOICES
@@ -35,8 +36,8 @@ class Page:
     """What one person sees and does."""
 
     def __init__(self, arguments=None):
-        self.document, self.explorer, self.held = pn.state.curdoc, Explorer(), None
-        self.held_summary, self.found, self._serial, self._waiting = "", {}, 0, None
+        self.document, self.explorer, self.held = pn.state.curdoc, Explorer(), []
+        self.found, self._serial, self._waiting = {}, 0, None
         nothing = {"values": np.zeros(1, np.float32)}
         self.packet = ColumnDataSource(nothing, name="packet", tags=[0, [0], [[]], [""], [], [[], []]])
         self.frames = ColumnDataSource(nothing, name="frames", tags=[-1, [], [], []])
@@ -61,7 +62,7 @@ class Page:
                 follow(self.explorer.scene(), self.explorer.progress)
                 self._hold()
         except Exception as error:
-            self.explorer, self.held = Explorer(), None
+            self.explorer, self.held = Explorer(), []
             return f"The link was not opened: {self._refusal(error)}"
         return ""
 
@@ -85,7 +86,7 @@ class Page:
         self.readout = Div(css_classes=["readouts"], sizing_mode="stretch_width", **styled)
         self.standing = Div(text="<output></output>", css_classes=["standing"], width=160, **styled)
         self.address = Div(visible=False)
-        self.lights, self.held_note = html("", css_classes=["lights"]), html("", css_classes=["held"])
+        self.lights, self.table = html("", css_classes=["lights"]), Table(self._rename, self._remove)
 
     def _layout(self):
         title = html("<h1>Indentation explorer</h1>non-local yield, solved by dimensionality reduction")
@@ -97,10 +98,18 @@ class Page:
         buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values(), self.dark, self.take)
         axes = self.controls.choices["axes"]
         axes.param.update(sizing_mode="fixed", width=180)
-        tools = pn.Row(*buttons, axes, self.held_note, css_classes=["tools"], stylesheets=STYLE, **WIDE)
+        tools = pn.Row(*buttons, axes, css_classes=["tools"], stylesheets=STYLE, **WIDE)
         parts = (self.play, self.state, self.pace, self.standing, self.address)
         player = pn.Row(*map(pn.pane.Bokeh, parts), css_classes=["player"], stylesheets=STYLE, **WIDE)
-        parts = (tools, self.away.panel, pn.pane.Bokeh(self.readout), self.lights, player, self.grid.view)
+        parts = (
+            tools,
+            self.table.view,
+            self.away.panel,
+            pn.pane.Bokeh(self.readout),
+            self.lights,
+            player,
+            self.grid.view,
+        )
         results = pn.Column(*parts, css_classes=["results"], **FULL)
         self.view = pn.Row(side, results, css_classes=["page"], **FULL)
 
@@ -221,21 +230,28 @@ class Page:
         self._settle()
 
     def _held(self, event):
-        if event.new == bool(self.explorer.hold):
-            return
+        if event.new != is_held(self.explorer):
+            self.tell(lambda: self._keep(toggled(self.explorer)))
+            self.hold.value = is_held(self.explorer)
+
+    def _rename(self, k, name):
+        if name != self.held[k].name:
+            hold = self.explorer.hold
+            self._keep([*hold[:k], renamed(hold[k], name), *hold[k + 1 :]])
+
+    def _remove(self, k):
+        self._keep([*self.explorer.hold[:k], *self.explorer.hold[k + 1 :]])
+
+    def _keep(self, queries):
         with pn.io.hold(self.document):
-            self.explorer.hold = link.query(self.explorer, view=False) if event.new else ""
+            self.explorer.hold = queries
             self._hold()
             self._show()
             self._around()
 
     def _hold(self):
-        """Solve the scene that is held, from its query."""
-        self.held, self.held_summary = None, ""
-        if self.explorer.hold:
-            other = Explorer()
-            link.restore(other, link.arguments(self.explorer.hold))
-            self.held, self.held_summary = follow(other.scene(), other.progress), readouts.summary(other)
+        """Solve the scenes that are held, from their queries."""
+        self.held = [held(query) for query in self.explorer.hold]
 
     # What changes what is drawn.
 
@@ -248,9 +264,7 @@ class Page:
 
     def _show(self):
         """Draw the present state: one array of all columns."""
-        self.drawn = View(
-            self.way, () if self.held is None else (self.held,), self.found, self.explorer.choices
-        )
+        self.drawn = View(self.way, [each.way for each in self.held], self.found, self.explorer.choices)
         self.grid.show(self.drawn, self._shown())
         values, starts, labels = packed(self.drawn, self.grid.layers, [self.way.now])
         motion, count = self.way.motion, len(self.way)
@@ -315,8 +329,8 @@ class Page:
             f'<span class="{level}">{marked(text)}</span>' for level, text in found
         )
         self.undo.disabled, self.redo.disabled = not explorer.past, not explorer.future
-        self.hold.value = bool(explorer.hold)
-        self.held_note.object = f"held: {marked(self.held_summary)}" if self.held is not None else ""
+        self.hold.value = is_held(explorer)
+        self.table.show(way, self.held)
         self.grid.tell(readouts.summary(explorer))
         self.away.show()
         self._settle()

@@ -7,25 +7,13 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from mdr_core.figures import (
-    PRESSURE_ROWS,
-    RADII,
-    ROLES,
-    SPRING_ROWS,
-    Axis,
-    Row,
-    area,
-    label,
-    line,
-    mark,
-    parts,
-)
+from mdr_core.figures import PRESSURE_ROWS, RADII, ROLES, SPRING_ROWS, Row, area, label, line, mark, parts
 
 from . import columns, comparison, references, section, surface
 from .resting import Found
 from .view import View
 
-__all__ = ["PLOTS", "ROLES", "Plot", "area", "label", "line", "mark"]
+__all__ = ["DASHES", "PLOTS", "ROLES", "Plot", "area", "label", "line", "mark"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,8 +24,8 @@ class Plot:
     gets the trajectory and the values of the `controls`, choices and numbers that stand above the plot; it
     yields what it has found so far, anew for each scene, with `of_state` for each state. An `image` has so
     many rows and columns of pixels. `below` is what stands below the plot, as HTML, `note` what
-    depends on the view. `fitted` gives axes that
-    depend on what is chosen; where `to_scale`, both have as many pixels for a metre.
+    depends on the view. `fitted` gives axes that depend on what is chosen; where `to_scale`, both have as
+    many pixels for a metre.
     """
 
     title: str
@@ -55,14 +43,18 @@ class Plot:
     image: tuple[int, int] | None = None
     below: str = ""
     note: Callable[[View], str] | None = None
-    fitted: Callable[[View], list[Axis]] | None = None
+    fitted: Callable[[View], list] | None = None
     to_scale: Callable[[View], bool] | None = None
 
 
+#: Scenes that can be held have each its own dashes.
+DASHES = ("dotdash", "dashed", "dotted", "solid")
+
+
 def _held(symbol, axis=1, what="", width=1.6, legend=True):
-    """A row for each scene that may be held, each with dashes of its own."""
-    dashes = enumerate(("dotdash", "dashed", "dotted", "solid"), 1)
-    return [line(f"held {k}{what}", "held", width, dash, symbol, axis, legend) for k, dash in dashes]
+    """A row for each scene that may be held."""
+    rows = enumerate(DASHES, 1)
+    return [line(f"held {k}{what}", "held", width, dash, symbol, axis, legend) for k, dash in rows]
 
 
 #: Every plot of the page, in its order.

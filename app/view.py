@@ -52,9 +52,8 @@ class View:
         size = _largest(self.way)
         for k, held in enumerate(self.held):
             theirs = _largest(held)
-            for name, key in _AXES.items():
-                if name in size and name in theirs:
-                    size[name] = max(size[name], self.beside(k, key, theirs[name]))
+            for name in size.keys() & theirs.keys() & _AXES.keys():
+                size[name] = max(size[name], self.beside(k, _AXES[name], theirs[name]))
         depth = 1.02 * max(size["depth"], size["onset"])
         described = [
             ("x", "x, coordinate of the springs", "length", size["length"], 1.0),
@@ -78,8 +77,12 @@ class View:
     def _axis(self, name, title, kind, largest, below=0.0):
         if name not in self._scales:
             return axis(name, title, kind, largest, below)
-        size, symbol = self._scales[name]
-        return Ratio(name, title, symbol, size).reaching(largest, below)
+        end = round_up(largest / self._scales[name][0]) * self._scales[name][0]
+        return self._over(Axis(name, title, "", 1.0, 0.0 - below * end, end))
+
+    def _over(self, axis):
+        size, symbol = self._scales.get(axis.name, (axis.factor, ""))
+        return Ratio(axis.name, axis.title, symbol, size, axis.start, axis.end) if symbol else axis
 
     @staticmethod
     def _logarithmic(axis, least):
@@ -105,12 +108,7 @@ class View:
         """The axes of a plot: those of the view, or what was found with its rows."""
         found = self.found.get(plot.title)
         if found:
-            return [
-                Ratio(each.name, each.title, *self._scales[each.name][::-1], each.start, each.end)
-                if each.name in self._scales
-                else each
-                for each in found.axes
-            ]
+            return [self._over(each) for each in found.axes]
         if plot.fitted:
             return plot.fitted(self)
         return [self.axes[key] for key in plot.axes if key in self.axes]
