@@ -11,6 +11,7 @@ import numpy as np
 from mdr_core import figures
 from mdr_core.figures import both, split
 
+from . import references
 from .drives.chain import ChainStates
 
 #: Pixels of the map along each side.
@@ -43,13 +44,12 @@ def _curve(way, until=None):
 
 
 def force_still(view):
-    way, held, onset = view.way, view.held, view.way.onset
+    way, onset = view.way, view.way.onset
     rows = {"path ahead": (way.states.depth, way.force)} if way.turns else _curve(way)
     if onset is not None and (way.motion is None or way.scene.medium.eta == 0):
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
-    if held is not None:
-        rows["held"] = held.states.depth, held.force
-    return rows
+    held = view.of_held("", lambda way, over: (over("d", way.states.depth), over("F", way.force)))
+    return rows | held | references.curves(view)
 
 
 def force(view, i):
@@ -73,6 +73,20 @@ def force(view, i):
     }
 
 
+def logarithmic_still(view):
+    return {name: _beyond_zero(view, *row) for name, row in force_still(view).items()}
+
+
+def logarithmic(view, i):
+    return {"now": _beyond_zero(view, view.way.states.depth[[i]], view.way.force[[i]])}
+
+
+def _beyond_zero(view, d, F):
+    """A curve as far as logarithmic axes reach towards zero."""
+    seen = np.minimum(d / view.axes["log d"].start, F / view.axes["log F"].start) >= 1
+    return np.where(seen, d, np.nan), np.where(seen, F, np.nan)
+
+
 def pressure(view, i):
     half, top = view.end["x"], view.end["p"]
     rows = figures.pressure(view.way.states[i], *view.pressure(i), half, top)
@@ -80,11 +94,12 @@ def pressure(view, i):
 
 
 def pressure_still(view):
-    if view.held is None:
-        return {}
-    held = view.held.state
-    r = figures.radii(held, view.end["x"])
-    return {"held": (both(r, -1), both(np.minimum(held.pressure(r), 1e3 * view.end["p"])))}
+    def held(way, over):
+        r = figures.radii(way.state, view.end["x"] / over("r", 1.0))
+        p = np.minimum(over("p", way.state.pressure(r)), 1e3 * view.end["p"])
+        return both(over("r", r), -1), both(p)
+
+    return view.of_held("", held)
 
 
 def _zone(way):
@@ -111,10 +126,17 @@ def radii_still(view):
     d, c = d[some], c[some]
     rows = {"contact radius a": loading, "unloading": back, "plastic zone c": (d, c)}
     rows["zone"] = np.append(d, [*d[-1:], *d[:1]]), np.append(c, [0, 0][: 2 * len(d)])
-    if view.held is not None:
-        loading, back, rows["held c"] = _zone(view.held)
-        rows["held a"] = tuple(map(np.append, loading, back))
-    return rows
+
+    def held_a(way, over):
+        loading, back, _ = _zone(way)
+        d, a = map(np.append, loading, back)
+        return over("d", d), over("a", a)
+
+    def held_c(way, over):
+        d, c = _zone(way)[2]
+        return over("d", d), over("a", c)
+
+    return rows | view.of_held(" a", held_a) | view.of_held(" c", held_c)
 
 
 def radii_marks(view, i):
@@ -127,11 +149,13 @@ def radii_marks(view, i):
 
 
 def motion_still(view):
-    way, held = view.way, view.held
+    way = view.way
+
+    def held(way, over):
+        return figures.NOTHING if way.motion is None else (over("t", way.motion.time), over("F", way.force))
+
     rows = {"depth d": (way.motion.time, way.states.depth), "force F": (way.motion.time, way.force)}
-    if held is not None and held.motion is not None:
-        rows["held"] = held.motion.time, held.force
-    return rows
+    return rows | view.of_held("", held)
 
 
 def motion(view, i):

@@ -127,8 +127,8 @@ class Controls:
         for name, options in CHOICES.items():
             options = {text: option for option, text in options.items()}
             kind = pn.widgets.RadioBoxGroup if name in _FORM else pn.widgets.Select
-            inline = {"inline": True} if name in _FORM else {}
-            self.choices[name] = kind(name=LABELS[name], options=options, **inline, **look)
+            inline = {"inline": True} if name in _FORM else {"css_classes": ["choice", "beside"]}
+            self.choices[name] = kind(name=LABELS[name], options=options, **look | inline)
         for name, widget in self.choices.items():
             widget.param.watch(lambda event, name=name: self._choose(name, event), "value")
         noted = ("sources", "sketch", "tip", "elasticity", "plasticity", "damping")
@@ -149,7 +149,9 @@ class Controls:
         self.form, self._above = pn.Column(css_classes=["form"], **WIDE), []
 
     def _load(self, event):
-        self.tell(lambda: self.explorer.load(event.new))
+        # What is only shown is not loaded again: it may have been altered.
+        if event.new != self.explorer.preset:
+            self.tell(lambda: self.explorer.load(event.new))
         self.preset.value = self.explorer.preset
 
     def _choose(self, name, event):

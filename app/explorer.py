@@ -32,13 +32,13 @@ class Explorer(param.Parameterized):
     samples = param.Tuple(None, length=2, allow_None=True, doc="radii and heights (m) of a measured tip")
     path = param.List([], doc="vertices of a path: depths or forces, each alone or with its time (SI)")
     tip_note = param.String(doc="what was done to the measured tip")
-    hold = param.String(doc="query of the scene that is held to compare with")
+    hold = param.List([], item_type=str, doc="queries of the scenes that are held to compare with")
     plots = param.List([], item_type=str, doc="plots that are shown on request")
     dark = param.Boolean(False)
     shape = param.Selector(objects=list(SHAPES))
 
     #: Parameters that describe the view rather than the scene: undo leaves them alone.
-    VIEW = ("progress", "hold", "plots", "dark")
+    VIEW = ("progress", "hold", "plots", "dark", "heights", "references", "axes")
 
     def __init__(self, preset=OPENING):
         super().__init__()

@@ -72,11 +72,15 @@ def _inputs(scene, explorer):
     yield "drive", repr(scene.drive)
 
 
-def python(trajectory, held=None):
-    """A snippet that comes to the present state with `mdr_core`, and to the one held beside it."""
+def python(trajectory, held=()):
+    """A snippet that comes to the present state with `mdr_core`, and to those that are `held` beside it."""
     lines = ["import mdr_core as mdr", "", *_solved(trajectory)]
-    if held is not None:
-        lines += ["", "# What is held to compare with:", *_solved(held, "held_")]
+    for k, each in enumerate(held, 1):
+        lines += [
+            "",
+            f"# Held to compare with, {k}: {' '.join(each.name.split())}",
+            *_solved(each.way, f"held_{k}_"),
+        ]
     return "\n".join(lines) + "\n"
 
 

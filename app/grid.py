@@ -14,11 +14,17 @@ from .plots import PLOTS
 # Inline where the size of a plot depends on it: Bokeh lays out before a linked sheet is there.
 STYLE = [(Path(__file__).parent / "static" / "style.css").read_text(encoding="utf-8")]
 FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": STYLE}
-_SQUARE = """
-const { x_range, y_range, inner_width: width, inner_height: height } = figure
-const set = (range, end) => range.setv({ start: -end, end }, { sync: false })
-set(x_range, y_range.reset_end * Math.max(width / height, 1))
-set(y_range, y_range.reset_end * Math.max(height / width, 1))
+#: As many pixels for a metre up as along, where that is asked for.
+_TO_SCALE = """
+const { x_range, y_range, inner_width, inner_height, tags } = figure
+const parts = [[x_range, inner_width], [y_range, inner_height]]
+const share = ([{ reset_start, reset_end }, size]) => (reset_end - reset_start) / size
+const most = Math.max(...parts.map(share))
+for (const [range, size] of parts) {
+  const { reset_start, reset_end } = range
+  const more = tags.length ? (most * size - reset_end + reset_start) / 2 : 0
+  range.setv({ start: reset_start - more, end: reset_end + more }, { sync: false })
+}
 """
 #: Plots that stand under others, on one axis x.
 _BELOW = {"pressure": "springs", "radii": "force", "energy": "motion"}
@@ -78,11 +84,11 @@ class Grid:
                 figure.js_on_event(event, self._drag)
             self._drag.args = self._drag.args | {"figure": figure}
         figure.js_on_event(RangesUpdate, self._zoom)
-        if name == "map":
-            square = CustomJS(args={"figure": figure}, code=_SQUARE)
+        if plot.to_scale:
+            fit = CustomJS(args={"figure": figure}, code=_TO_SCALE)
             sizes = ((figure, "inner_width"), (figure, "inner_height"), (figure.y_range, "reset_end"))
             for model, change in sizes:
-                model.js_on_change(change, square)
+                model.js_on_change(change, fit)
         args = {"figure": figure, "title": plot.title, "look": figures.LEGEND, "inputs": self._inputs}
         args["named"] = [row.name for row in plot.rows if row.legend]
         save = [button(pn.widgets.Button, kind, "none", width=40) for kind in ("PNG", "SVG")]
@@ -97,11 +103,14 @@ class Grid:
         axes, shown = view.axes_of(plot), drawn(view, plot, {view.way.now, view.way.peak})
         if axes and axes != frame.axes:
             frame.axes = axes
+            self.figures[name].tags = ["to scale"] * bool(plot.to_scale and plot.to_scale(view))
             figures.set_axes(self.figures[name], axes)
         if shown != frame.shown:
             frame.shown, frame.legend.object = shown, legend(plot, shown)
         if plot.title in view.found:
             frame.note.object = view.found[plot.title].note
+        elif plot.note:
+            frame.note.object = marked(plot.note(view))
 
 
 class _Frame:
@@ -114,6 +123,6 @@ class _Frame:
         head = pn.Row(words, *save, css_classes=["head"], stylesheets=STYLE, **WIDE)
         above = [controls.above(plot.controls)] if plot.controls else []
         parts = [head, *above, self.legend, pn.pane.Bokeh(figure, **FULL)]
-        below = [self.note] if plot.resting else []
+        below = [self.note] if plot.resting or plot.note else []
         below += [html(plot.below, css_classes=["note", "found"])] if plot.below else []
         self.view = pn.Column(*parts, *below, css_classes=["card", figure.name], **FULL)

@@ -9,7 +9,7 @@ import mdr_core as mdr
 from .drives import DRIVES, drive_of
 from .drives.path import checked
 from .explorer import FROM_FILE
-from .plots import PLOTS
+from .plots import DASHES, PLOTS
 from .presets import PRESETS
 from .quantities import QUANTITIES, SHAPES, shape_quantities
 from .tip import MOST_SAMPLES
@@ -23,7 +23,8 @@ def query(explorer, view=True):
 
     With `view` also what is held, which plots are shown, and whether it is dark.
     """
-    pairs = {"preset": explorer.preset} | explorer.choices
+    choices = {n: option for n, option in explorer.choices.items() if view or n not in explorer.VIEW}
+    pairs = {"preset": explorer.preset} | choices
     above = [name for plot in explorer.plots for name in PLOTS[plot].controls if name in QUANTITIES]
     pairs |= {name: f"{getattr(explorer, name)!r}" for name in (*explorer.used(), *above)}
     pairs["at"] = f"{explorer.progress:.6g}"
@@ -33,7 +34,7 @@ def query(explorer, view=True):
         pairs["path"] = " ".join(",".join(map(repr, row)) for row in explorer.path)
     if view:
         pairs |= {"plots": " ".join(explorer.plots), "dark": str(int(explorer.dark))}
-        pairs |= {"hold": explorer.hold} if explorer.hold else {}
+        pairs |= {"hold": " ".join(explorer.hold)} if explorer.hold else {}
     text = urlencode(pairs)
     return text if len(text) <= LONGEST_LINK else ""
 
@@ -59,7 +60,9 @@ def restore(explorer, arguments):
         explorer.load(preset)
     elif preset != FROM_FILE:
         raise ValueError("this link names no preset that is known")
-    changes = {"preset": preset, "hold": pairs.pop("hold", "")}
+    changes = {"preset": preset, "hold": pairs.pop("hold", "").split()}
+    if len(changes["hold"]) > len(DASHES):
+        raise ValueError(f"more than {len(DASHES)} scenes are held in this link")
     plots = pairs.pop("plots", "").split()
     changes |= {"dark": pairs.pop("dark", "0") == "1", "plots": [name for name in PLOTS if name in plots]}
     if "samples" in pairs:

@@ -16,8 +16,10 @@ from .drives import DRIVES, drive_of, follow
 from .explorer import Explorer
 from .figures import DARK, LIGHT
 from .grid import FULL, STYLE, Grid, button
+from .held import Table, held, is_held, renamed, toggled
 from .packet import packed
 from .plots import PLOTS
+from .quantities import CHOICES
 from .resting import Resting
 from .takeaway import TakeAway
 from .tip import read_tip
@@ -48,9 +50,8 @@ class Page:
     """What one person sees and does."""
 
     def __init__(self, arguments=None):
-        self.document, self.explorer, self.held = pn.state.curdoc, Explorer(), None
-        self.held_summary, self.found, self._serial, self._waiting = "", {}, 0, None
-        self.solved = {}
+        self.document, self.explorer, self.held = pn.state.curdoc, Explorer(), []
+        self.found, self.solved, self._serial, self._waiting = {}, {}, 0, None
         nothing = {"values": np.zeros(1, np.float32)}
         self.packet = ColumnDataSource(nothing, name="packet", tags=[0, [0], [[]], [""], [], [[], []]])
         self.frames = ColumnDataSource(nothing, name="frames", tags=[-1, [], [], []])
@@ -76,7 +77,7 @@ class Page:
                 follow(self.explorer.scene(), self.explorer.progress)
                 self._hold()
         except Exception as error:
-            self.explorer, self.held = Explorer(), None
+            self.explorer, self.held = Explorer(), []
             return f"The link was not opened: {self._refusal(error)}"
         return ""
 
@@ -100,7 +101,7 @@ class Page:
         self.readout = Div(css_classes=["readouts"], sizing_mode="stretch_width", **styled)
         self.standing = Div(text="<output></output>", css_classes=["standing"], width=160, **styled)
         self.address = Div(visible=False)
-        self.lights, self.held_note = html("", css_classes=["lights"]), html("", css_classes=["held"])
+        self.lights, self.table = html("", css_classes=["lights"]), Table(self._rename, self._remove)
 
     def _layout(self):
         title = html("<h1>Indentation explorer</h1>non-local yield, solved by dimensionality reduction")
@@ -110,10 +111,20 @@ class Page:
             sizing_mode="stretch_height", margin=0,
         )  # fmt: skip
         buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values(), self.dark, self.take)
-        tools = pn.Row(*buttons, self.held_note, css_classes=["tools"], stylesheets=STYLE, **WIDE)
+        axes = self.controls.choices["axes"]
+        axes.param.update(sizing_mode="fixed", width=180)
+        tools = pn.Row(*buttons, axes, css_classes=["tools"], stylesheets=STYLE, **WIDE)
         parts = (self.play, self.state, self.pace, self.standing, self.address)
         player = pn.Row(*map(pn.pane.Bokeh, parts), css_classes=["player"], stylesheets=STYLE, **WIDE)
-        parts = (tools, self.away.panel, pn.pane.Bokeh(self.readout), self.lights, player, self.grid.view)
+        parts = (
+            tools,
+            self.table.view,
+            self.away.panel,
+            pn.pane.Bokeh(self.readout),
+            self.lights,
+            player,
+            self.grid.view,
+        )
         results = pn.Column(*parts, css_classes=["results"], **FULL)
         self.view = pn.Row(side, results, css_classes=["page"], **FULL)
 
@@ -151,6 +162,7 @@ class Page:
         explorer = self.explorer
         names = [name for name in explorer.param if name not in (*explorer.VIEW, "name")]
         explorer.param.watch(self._changed, names)
+        explorer.param.watch(self._viewed, [name for name in explorer.VIEW if name in CHOICES])
         for widget, act in ((self.undo, "undo"), (self.redo, "redo")):
             widget.on_click(lambda event, act=act: self.tell(getattr(self.explorer, act)))
         self.reset.on_click(lambda event: self.tell(lambda: self.explorer.load(self.explorer.preset)))
@@ -223,26 +235,38 @@ class Page:
             self._show()
             self._around()
 
+    def _viewed(self, *events):
+        with pn.io.hold(self.document):
+            self._show()
+            self._around()
+
     def _darkened(self, event):
         self.explorer.dark = event.new
         self._settle()
 
     def _held(self, event):
-        if event.new == bool(self.explorer.hold):
-            return
+        if event.new != is_held(self.explorer):
+            self.tell(lambda: self._keep(toggled(self.explorer)))
+            self.hold.value = is_held(self.explorer)
+
+    def _rename(self, k, name):
+        if name != self.held[k].name:
+            hold = self.explorer.hold
+            self._keep([*hold[:k], renamed(hold[k], name), *hold[k + 1 :]])
+
+    def _remove(self, k):
+        self._keep([*self.explorer.hold[:k], *self.explorer.hold[k + 1 :]])
+
+    def _keep(self, queries):
         with pn.io.hold(self.document):
-            self.explorer.hold = link.query(self.explorer, view=False) if event.new else ""
+            self.explorer.hold = queries
             self._hold()
             self._show()
             self._around()
 
     def _hold(self):
-        """Solve the scene that is held, from its query."""
-        self.held, self.held_summary = None, ""
-        if self.explorer.hold:
-            other = Explorer()
-            link.restore(other, link.arguments(self.explorer.hold))
-            self.held, self.held_summary = self._follow(other), readouts.summary(other)
+        """Solve the scenes that are held, from their queries."""
+        self.held = [held(query, self._follow) for query in self.explorer.hold]
 
     # What changes what is drawn.
 
@@ -261,7 +285,7 @@ class Page:
 
     def _show(self, anew=True):
         """Draw the present state: one array of all columns; `anew` if other states are to be played."""
-        self.drawn = View(self.way, self.held, self.found)
+        self.drawn = View(self.way, [each.way for each in self.held], self.found, self.explorer.choices)
         self.grid.show(self.drawn, self._shown())
         values, starts, labels = packed(self.drawn, self.grid.layers, [self.way.now])
         motion, count = self.way.motion, len(self.way)
@@ -333,8 +357,8 @@ class Page:
             f'<span class="{level}">{marked(text)}</span>' for level, text in found
         )
         self.undo.disabled, self.redo.disabled = not explorer.past, not explorer.future
-        self.hold.value = bool(explorer.hold)
-        self.held_note.object = f"held: {marked(self.held_summary)}" if self.held is not None else ""
+        self.hold.value = is_held(explorer)
+        self.table.show(way, self.held)
         self.grid.tell(readouts.summary(explorer))
         self.away.show()
         self._settle()

@@ -7,13 +7,13 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from mdr_core.figures import PRESSURE_ROWS, ROLES, SPRING_ROWS, Row, area, label, line, mark, parts
+from mdr_core.figures import PRESSURE_ROWS, RADII, ROLES, SPRING_ROWS, Row, area, label, line, mark, parts
 
-from . import columns, comparison, section
+from . import columns, comparison, references, section, surface
 from .resting import Found
 from .view import View
 
-__all__ = ["PLOTS", "ROLES", "Plot", "area", "label", "line", "mark"]
+__all__ = ["DASHES", "PLOTS", "ROLES", "Plot", "area", "label", "line", "mark"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,7 +23,9 @@ class Plot:
     With a `button` (its text, and a key) it is shown on request, and only where all its axes are. `resting`
     gets the trajectory and the values of the `controls`, choices and numbers that stand above the plot; it
     yields what it has found so far, anew for each scene, with `of_state` for each state. An `image` has so
-    many rows and columns of pixels. `below` is what stands below the plot, as HTML.
+    many rows and columns of pixels. `below` is what stands below the plot, as HTML, `note` what
+    depends on the view. `fitted` gives axes that depend on what is chosen; where `to_scale`, both have as
+    many pixels for a metre.
     """
 
     title: str
@@ -39,9 +41,20 @@ class Plot:
     log: bool = False
     image: tuple[int, int] | None = None
     below: str = ""
+    note: Callable[[View], str] | None = None
+    fitted: Callable[[View], list] | None = None
+    to_scale: Callable[[View], bool] | None = None
 
 
-_HELD = {"role": "held", "width": 1.4}
+#: Scenes that can be held have each its own dashes.
+DASHES = ("dotdash", "dashed", "dotted", "solid")
+
+
+def _held(symbol, axis=1, what="", width=1.6, legend=True):
+    """A row for each scene that may be held."""
+    rows = enumerate(DASHES, 1)
+    return [line(f"held {k}{what}", "held", width, dash, symbol, axis, legend) for k, dash in rows]
+
 
 #: Every plot of the page, in its order.
 PLOTS = {
@@ -55,19 +68,20 @@ PLOTS = {
         (
             area("dissipated", "yielded", 0.13, "/"),
             area("recoverable", "elastic", 0.25),
-            line("held", **_HELD, dash="dotdash", symbol="F"),
+            *_held("F"),
+            *references.ROWS,
             line("path ahead", "free", 1.0),
             *parts("F"),
             mark("onset of yield", "paper", "yielded", "diamond", 11),
             mark("now"),
             label("dₚ"),
         ),
-        columns.force_still, columns.force,
+        columns.force_still, columns.force, controls=("references",), note=references.note,
     ),
     "motion": Plot(
         "Depth and force over time", "m d²d/dt² = −F  of a free body", ("t", "d", "F"),
         (
-            line("held", **_HELD, dash="dotdash", symbol="F", axis=2),
+            *_held("F", axis=2),
             line("depth d", "speed", 2.2, symbol="d"),
             line("force F", "elastic", 2.2, "dashed", "F", axis=2),
             line("time", "ink", 1.0, "dashed", legend=False),
@@ -78,15 +92,15 @@ PLOTS = {
     ),
     "pressure": Plot(
         "Contact pressure", "(10)  σ_zz(r) = (1/π) ∫ q′(x) dx/√(x² − r²)", ("r", "p"),
-        (line("held", **_HELD, dash="dotdash", symbol="−σzz"), *PRESSURE_ROWS, label("beyond")),
+        (*_held("−σzz"), *PRESSURE_ROWS, label("beyond")),
         columns.pressure_still, columns.pressure,
     ),
     "radii": Plot(
         "Contact and plastic zone", "(16) (21)  g(a) = d,  g(c) = d − d_c", ("d", "a"),
         (
             area("zone", "yielded", 0.13, legend=False),
-            line("held a", **_HELD, dash="dotdash", symbol="a"),
-            line("held c", **_HELD, dash="dotted", symbol="c"),
+            *_held("a", what=" a"),
+            *_held("c", what=" c", width=0.9, legend=False),
             line("unloading", "elastic", 1.8, "dashed", "a"),
             line("contact radius a", "elastic", 2.2, symbol="a"),
             line("plastic zone c", "yielded", 3.0, symbol="c"),
@@ -110,6 +124,32 @@ PLOTS = {
         "Contact pressure over the plane", "(10)  −σ_zz(√(x² + y²))", ("plane x", "plane y", "p"),
         (line("contact radius a", "chalk", 1.2, "dashed"), line("plastic zone c", "chalk", 1.2, "dotted")),
         moving=columns.plane, image=(columns.PIXELS, columns.PIXELS), button=("Map", "m"),
+        to_scale=lambda view: True,
+    ),
+    "surface": Plot(
+        "Surface and imprint", "u(r) = ∫ (2/π) arcsin(a(s)/r) ds,  a(s) < r", ("section r", "section z"),
+        (
+            area("tip z(r)", "body", 0.55),
+            area("medium", "free", 0.16, legend=False),
+            line("undeformed", "free", 1.0, "dashed", legend=False),
+            line("deformed surface", "elastic", 2.2, symbol="z"),
+            line("residual imprint", "yielded", 2.0, "dotted", symbol="z"),
+            *RADII,
+        ),
+        moving=surface.moving, button=("Surface", "u"), controls=("heights",), fitted=surface.axes,
+        to_scale=lambda view: view.chosen["heights"] == "to_scale",
+    ),
+    "loglog": Plot(
+        "Force and depth, logarithmic", "z ∝ rⁿ:  F ∝ d^(1 + 1/n), then d^(1/n)",
+        ("log d", "log F"),
+        (
+            *_held("F"),
+            *references.ROWS,
+            *parts("F"),
+            mark("onset of yield", "paper", "yielded", "diamond", 11),
+            mark("now"),
+        ),
+        columns.logarithmic_still, columns.logarithmic, button=("Log–log", "l"), log=True,
     ),
     "section": Plot(
         "Section under the tip", "σ(r, z): each increment of depth a flat punch of radius a(s)", (),

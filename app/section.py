@@ -26,7 +26,7 @@ def found(way, quantity):
     """The map of a quantity over r and z, with a, c, and the place where it is largest."""
     state, reach = way.state, 1.6 * float(way.deepest.contact_radius)
     r = axis("r", "r, radius", "length", reach, start=0.0)
-    z = replace(axis("z", "z, height", "length", reach, below=1.0), end=0.0)
+    z = replace(axis("depth", "z, height", "length", reach, below=1.0), end=0.0)
     title, of_stress = _DRAWN[quantity]
     if isinstance(way.states, ChainStates):
         said = "Stresses below the surface are not known of a viscous path: its elements have a past each."

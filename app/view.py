@@ -1,11 +1,15 @@
 """One trajectory and the axes that hold it: what every plot draws from, in SI."""
 
-from functools import cached_property
+from dataclasses import replace
+from functools import cached_property, partial
 
 import numpy as np
 
+import mdr_core as mdr
 from mdr_core.figures import NOTHING, REST, Axis, ceiling, radii
 
+from .dimensionless import Ratio, scales
+from .quantities import CHOICES
 from .units import digits, fitting, round_up, written
 
 
@@ -18,11 +22,23 @@ def axis(name, title, kind, largest, below=0.0, start=None):
     return Axis(name, title, unit.name, unit.factor, 0.0 - below * end if start is None else start, end)
 
 
-class View:
-    """A trajectory and its axes, with what is held beside it, and what plots have found at rest."""
+#: The axis that each of the largest values is on.
+_AXES = {
+    "length": "r", "radius": "a", "depth": "d", "onset": "d", "force": "F", "pressure": "p", "time": "t",
+    "energy": "E",
+}  # fmt: skip
 
-    def __init__(self, way, held=None, found=None):
+
+class View:
+    """A trajectory and its axes, with those held beside it, what plots have found at rest, and choices."""
+
+    def __init__(self, way, held=(), found=None, chosen=None):
+        # The first option of what is not chosen.
+        self.chosen = {name: next(iter(options)) for name, options in CHOICES.items()} | (chosen or {})
         self.way, self.held, self.found, self._drawn = way, held, found or {}, {}
+        # Sizes of the scene that are units, and those of what is held, each in its own.
+        over = self.chosen["axes"] == "ratio"
+        self._scales, *self._theirs = (scales(each) if over else {} for each in (way, *held))
         self.axes = self._axes()
         self.end = {name: each.end for name, each in self.axes.items()}
 
@@ -34,8 +50,10 @@ class View:
 
     def _axes(self):
         size = _largest(self.way)
-        if self.held is not None:
-            size = {name: max(value, _largest(self.held).get(name, 0.0)) for name, value in size.items()}
+        for k, held in enumerate(self.held):
+            theirs = _largest(held)
+            for name in size.keys() & theirs.keys() & _AXES.keys():
+                size[name] = max(size[name], self.beside(k, _AXES[name], theirs[name]))
         depth = 1.02 * max(size["depth"], size["onset"])
         described = [
             ("x", "x, coordinate of the springs", "length", size["length"], 1.0),
@@ -45,19 +63,56 @@ class View:
             ("z", "z, height", "length", size["depth"], REST),
             ("d", "d, indentation depth", "length", depth),
             ("F", "F, normal force", "force", size["force"]),
-            ("a", "a, c, radius", "length", size["length"] / 1.1),
+            ("a", "a, c, radius", "length", size["radius"]),
             ("p", "−σzz, contact pressure", "pressure", size["pressure"]),
+            ("section r", "r, radius", "length", 1.75 * size["length"], 1.0),
+            ("section z", "z, height", "length", size["depth"], 1.2),
         ]
         if self.way.motion is not None:
             time = self.way.motion.time
             described.append(("t", "t, time", "time", size["time"], 0.0, min(float(time[0]), 0.0)))
-            described.append(("E", "energy", "energy", size["energy"]))
-        return {name: axis(name, *rest) for name, *rest in described}
+            described.append(("E", "E, energy", "energy", size["energy"]))
+        made = {name: self._axis(name, *rest) for name, *rest in described}
+        return made | {f"log {name}": self._logarithmic(made[name], size[f"least {name}"]) for name in "dF"}
+
+    def _axis(self, name, title, kind, largest, below=0.0, start=None):
+        if name not in self._scales:
+            return axis(name, title, kind, largest, below, start)
+        end = round_up(largest / self._scales[name][0]) * self._scales[name][0]
+        return self._over(Axis(name, title, "", 1.0, 0.0 - below * end, end))
+
+    def _over(self, axis):
+        size, symbol = self._scales.get(axis.name, (axis.factor, ""))
+        return Ratio(axis.name, axis.title, symbol, size, axis.start, axis.end) if symbol else axis
+
+    @staticmethod
+    def _logarithmic(axis, least):
+        """The axis from a power of ten below the least value (SI), over eight decades at most."""
+        power = np.floor(np.log10(max(least, 1e-8 * axis.end) / axis.factor))
+        return replace(axis, start=float(10.0**power) * axis.factor)
+
+    def beside(self, k, name, values):
+        """Values of one that is held on an axis of this scene, a dimensionless one in units of its own."""
+        (ours, same), (theirs, symbol) = (
+            scale.get(name, (1.0, "")) for scale in (self._scales, self._theirs[k])
+        )
+        return values * (ours / theirs) if symbol == same else values
+
+    def of_held(self, what, columns):
+        """Rows of all that is held, `what` after their names: `columns` has a trajectory and `beside`."""
+        return {
+            f"held {k + 1}{what}": columns(held, partial(self.beside, k))
+            for k, held in enumerate(self.held)
+        }
 
     def axes_of(self, plot):
         """The axes of a plot: those of the view, or what was found with its rows."""
         found = self.found.get(plot.title)
-        return found.axes if found else [self.axes[key] for key in plot.axes]
+        if found:
+            return [self._over(each) for each in found.axes]
+        if plot.fitted:
+            return plot.fitted(self)
+        return [self.axes[key] for key in plot.axes]
 
     def still(self, plot):
         """Rows of a plot that stay while the scene is played."""
@@ -80,7 +135,9 @@ class View:
 
     def moves(self, plot):
         """Names of the rows of a plot that change from state to state."""
-        return plot.moving(self, self.way.now).keys()
+        if (plot, "moving") not in self._drawn:
+            self._drawn[plot, "moving"] = plot.moving(self, self.way.now).keys()
+        return self._drawn[plot, "moving"]
 
     def pressure(self, i):
         """Radii and pressures (SI) of state i."""
@@ -108,6 +165,7 @@ def _largest(way):
     states, onset = way.states, way.onset
     size = {
         "length": 1.25 * float(np.max(states.contact_radius)),
+        "radius": 1.14 * float(np.max(states.contact_radius)),
         "depth": float(np.max(states.depth)),
         "force": 1.05 * float(np.max(way.force)),
         "onset": 0.0,
@@ -116,6 +174,10 @@ def _largest(way):
     if onset is not None and size["depth"] < onset.depth <= 2.5 * size["depth"]:
         size["onset"] = 1.02 * float(onset.depth)
         size["force"] = max(size["force"], 1.05 * float(onset.force))
+    # Where logarithmic axes begin: well before the onset of yield.
+    profile, medium = way.scene.profile, way.scene.medium
+    size["least d"] = min(size["depth"], medium.critical_depth) / 50
+    size["least F"] = float(mdr.indent(profile, mdr.Medium(medium.E_star), size["least d"]).force)
     size["pressure"] = 1.05 * ceiling(way.deepest, size["length"])
     if way.motion is not None:
         m = way.motion

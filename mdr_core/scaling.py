@@ -56,9 +56,14 @@ class ScalingLaw:
         object.__setattr__(self, "exponent", exponent)
 
     @property
+    def force(self) -> int:
+        """Power of the contact radius that the force goes with under full yield: i = 2, 1, 0."""
+        return _FORCE_POWER[self.hardness]
+
+    @property
     def radius(self) -> float:
         """Power of W that the contact radius goes with."""
-        return 1 / (self.exponent + _FORCE_POWER[self.hardness])
+        return 1 / (self.exponent + self.force)
 
     @property
     def depth(self) -> float:
@@ -78,7 +83,7 @@ class ScalingLaw:
     @property
     def restitution(self) -> float:
         """Power of the *speed* that the coefficient of restitution goes with."""
-        return (_FORCE_POWER[self.hardness] - 1 - self.exponent) * self.radius
+        return (self.force - 1 - self.exponent) * self.radius
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,10 @@ MEDIUM = mdr.Medium(E_star=1e9, q_c=10.0)
         ("b", 2.0, "restitution", -2 / 3),
         ("c", 1.0, "depth", 1.0),
         ("c", 2.0, "depth", 1.0),
+        # Popov (2015), section 1: hardness constant, ∝ 1/a, ∝ 1/a².
+        ("a", 2.0, "force", 2),
+        ("b", 2.0, "force", 1),
+        ("c", 2.0, "force", 0),
     ],
 )
 def test_known_powers(hardness, exponent, quantity, power):

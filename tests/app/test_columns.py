@@ -255,7 +255,7 @@ def test_what_is_found_at_rest_is_drawn_on_its_own_axes():
 
 def test_legends_name_what_is_drawn_only():
     shown = drawn(seen(Explorer()), PLOTS["force"], [50])
-    assert "held" not in shown
+    assert "held 1" not in shown
     elastic = drawn(seen(Explorer(ELASTIC)), PLOTS["force"], [20])
     assert not elastic & {"yielding", "dissipated"} or "yielding" not in elastic
 

@@ -10,6 +10,7 @@ import mdr_core as mdr
 from app import export, link
 from app.drives import follow
 from app.explorer import FROM_FILE, Explorer
+from app.held import Held
 from app.presets import OPENING, PRESETS
 from app.quantities import QUANTITIES, SHAPES
 from app.tip import MOST_SAMPLES, read_tip
@@ -105,7 +106,7 @@ def test_a_number_out_of_bounds_is_refused_by_name():
 def test_link_holds_the_whole_page():
     explorer = Explorer()
     explorer.type("max_depth", "12 nm")
-    explorer.param.update(hold=link.query(explorer, view=False), plots=["map", "speed"], dark=True)
+    explorer.param.update(hold=[link.query(explorer, view=False)], plots=["map", "speed"], dark=True)
     explorer.progress = 0.75
     other = Explorer()
     link.restore(other, link.arguments(link.query(explorer)))
@@ -227,9 +228,9 @@ def test_the_snippet_comes_to_the_state(drive, progress, capsys):
     explorer.choose("drive", drive)
     way = follow(explorer.scene(), progress)
     values = {}
-    exec(export.python(way, way), values)
+    exec(export.python(way, [Held("", way)]), values)
     capsys.readouterr()
-    assert values["medium"] == values["held_medium"] == explorer.medium()
+    assert values["medium"] == values["held_1_medium"] == explorer.medium()
     assert values["medium"].poisson == 0.42
     if drive == "impact" and progress != 1.0:
         assert values["motion"].force[values["i"]] == pytest.approx(float(way.state.force), rel=1e-9)

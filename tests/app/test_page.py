@@ -14,7 +14,7 @@ from app.drives import follow
 from app.explorer import Explorer as State
 from app.packet import inside
 from app.plots import PLOTS
-from app.presets import PRESETS
+from app.presets import OPENING, PRESETS
 from app.units import UNITS
 from app.view import View
 
@@ -224,10 +224,10 @@ def test_a_peak_beyond_the_axis_is_named_in_the_plot(explorer):
 
 def test_hold_map_and_theme_are_in_the_address(explorer):
     explorer.press("Hold")
-    explorer.wait("explorer.row('force', 'held')[0].length > 5")
+    explorer.wait("explorer.row('force', 'held 1')[0].length > 5")
     with explorer.change():
         explorer.type("d_max", "6 nm")
-    held = explorer.row("force", "held")
+    held = explorer.row("force", "held 1")
     explorer.press("Map")
     explorer.page.locator(".card.map").wait_for()
     explorer.press("Dark")
@@ -236,9 +236,62 @@ def test_hold_map_and_theme_are_in_the_address(explorer):
     assert explorer.axis("map")["labels"][1].startswith("y, in the plane")
     explorer.page.reload()
     explorer.wait("window.explorer?.idle() && document.documentElement.classList.contains('dark')")
-    np.testing.assert_allclose(explorer.row("force", "held"), held, rtol=1e-6)
-    explorer.page.get_by_text("held: Cone").wait_for()
+    np.testing.assert_allclose(explorer.row("force", "held 1"), held, rtol=1e-6)
+    assert explorer.page.get_by_label("held 1").input_value() == OPENING
     assert explorer.page.locator(".card.map").count() == 1
+
+
+def test_several_are_held_named_and_removed_on_one_dimensionless_curve(explorer):
+    page = explorer.page
+    for k, depth in enumerate(("4 nm", "7 nm"), 1):
+        with explorer.change():
+            explorer.type("d_max", depth)
+        page.locator("h1").click()
+        page.keyboard.press("h")
+        page.get_by_label(f"held {k}").wait_for()
+    page.get_by_label("held 1").fill("shallow")
+    page.get_by_label("held 1").press("Enter")
+    explorer.link("shallow")
+    explorer.choose("Axes", "dimensionless")
+    explorer.choose("Preset", list(PRESETS)[4])
+    assert explorer.axis("force")["labels"] == ["d/d_c, indentation depth", "F/F_c, normal force"]
+    # F/F_c = 2 d/d_c − 1 on every cone: gold is held, this is PDMS.
+    for row in ("yielding", "held 2"):
+        d, force = explorer.row("force", row)
+        k = int(np.argmax(force))
+        assert force[k] == pytest.approx(2 * d[k] - 1, rel=1e-5)
+    page.get_by_role("button", name="Remove 1").click()
+    page.get_by_label("held 2").wait_for(state="detached")
+    assert page.get_by_label("held 1").input_value() == f"{OPENING}, altered"
+    # A preset that was altered opens as it was.
+    with explorer.change():
+        explorer.type("q_c", "2 N/m")
+    explorer.link("q_c=2.0")
+    page.reload()
+    explorer.wait("window.explorer?.idle()")
+    assert explorer.field("q_c").input_value() == "2 N/m"
+    assert page.get_by_role("button", name="Undo").is_disabled()
+
+
+def test_surface_references_and_logarithmic_axes(explorer):
+    explorer.press("Surface")
+    explorer.choose("Heights", "to scale")
+    explorer.wait("explorer.axis('surface').labels[1].startsWith('z, height to scale')")
+    ratio = """() => {
+        const { x_range, y_range, inner_width, inner_height } = explorer.model("surface")
+        return (x_range.end - x_range.start) / inner_width * inner_height / (y_range.end - y_range.start)
+    }"""
+    explorer.wait(f"() => Math.abs(({ratio})() - 1) < 1e-6")
+    explorer.choose("Heights", "exaggerated")
+    explorer.wait(f"() => ({ratio})() > 2")
+    explorer.press("Log–log")
+    explorer.choose("Reference curves", "elastic, and classes (a) and (c)")
+    explorer.page.get_by_text("as hard as this scene").wait_for()
+    d, force = explorer.row("loglog", "elastic throughout")
+    seen = np.isfinite(d)
+    # Of a cone F = 2E* d²/(π s): a straight line of slope 2.
+    np.testing.assert_allclose(np.diff(np.log(force[seen])), 2 * np.diff(np.log(d[seen])), atol=1e-4)
+    explorer.link("references=all")
 
 
 def test_undo_and_redo(explorer):

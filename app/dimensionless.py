@@ -1,0 +1,40 @@
+"""Dimensionless axes: each quantity over one of the scene itself, so that all media are on one curve."""
+
+from dataclasses import dataclass
+
+import mdr_core as mdr
+from mdr_core.figures import Axis
+
+
+@dataclass(frozen=True)
+class Ratio(Axis):
+    """An axis whose unit is a size of the scene: d in d_c, written as d/d_c."""
+
+    @property
+    def label(self):
+        """The title, each of its symbols over the unit."""
+        *symbols, name = self.title.split(", ")
+        return ", ".join([*(f"{symbol}/{self.unit}" for symbol in symbols), name])
+
+
+def scales(way):
+    """Sizes (SI) of a scene with their symbols, by the names of the axes that they are the units of.
+
+    Depth, force and radius where yield starts, on the surface as it was at first; where that is never, or
+    the shape is not known so deep, those of the deepest state. Radii in fields, and pressures, have the
+    contact radius and the mean pressure of the deepest state.
+    """
+    medium, profile, deepest = way.scene.medium, way.scene.profile, way.deepest
+    yields = medium.critical_depth <= min(profile.deepest, 1e300)
+    at = mdr.indent(profile, medium, medium.critical_depth) if yields else deepest
+    index = "c" if yields else "max"
+    names = {"depth": "d", "force": "F", "contact_radius": "a"}
+    depth, force, radius = ((float(getattr(at, name)), f"{s}_{index}") for name, s in names.items())
+    found = {"d": depth, "z": depth, "section z": depth, "F": force, "a": radius}
+    along = float(deepest.contact_radius), "a_max"
+    found |= dict.fromkeys(("x", "r", "plane x", "plane y", "section r", "depth"), along)
+    found |= dict.fromkeys(("p", "stress"), (float(deepest.mean_pressure), "p_m"))
+    if way.motion is not None:
+        found["t"] = float(way.motion.time[-1]), "T"
+        found["E"] = float(way.motion.kinetic_energy[0]), "E_0"
+    return found
