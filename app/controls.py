@@ -203,7 +203,7 @@ class Controls:
         altered = "Altered. " if explorer.altered else ""
         rows = "".join(
             f"<dt>{marked(f'{what} = {value}')}</dt><dd>{escape(where)}</dd>"
-            for what, value, where in (preset.sources if preset else ())
+            for what, value, where in (preset.sources.values() if preset else ())
         )
         title = f"{altered}Where the preset's numbers come from"
         origin = f"<details><summary>{title}</summary><dl>{rows}</dl></details>"
