@@ -7,7 +7,7 @@ from bokeh.events import Pan, PanEnd, PanStart, RangesUpdate
 from bokeh.models import CustomJS, Title
 
 from . import figures
-from .controls import JS, WIDE, html, legend, marked
+from .controls import JS, WIDE, html, legend, linked
 from .packet import drawn, layers, moves
 from .plots import PLOTS
 
@@ -103,7 +103,7 @@ class _Frame:
     def __init__(self, plot, figure, save, controls):
         self.axes, self.shown = None, None
         self.legend, self.note = html("", css_classes=["key"]), html("", css_classes=["note", "found"])
-        words = html(f"<h3>{plot.title}</h3>{marked(plot.formula)}", css_classes=["formula"])
+        words = html(f"<h3>{plot.title}</h3>{linked(plot.formula)}", css_classes=["formula"])
         head = pn.Row(words, *save, css_classes=["head"], stylesheets=STYLE, **WIDE)
         above = [controls.above(plot.controls)] if plot.controls else []
         parts = [head, *above, self.legend, pn.pane.Bokeh(figure, **FULL)]

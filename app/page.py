@@ -11,7 +11,7 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS, Div, Select, Slider, Toggle
 
 from . import link, readouts
-from .controls import JS, WIDE, Controls, html, marked, symbol
+from .controls import JS, WIDE, Controls, html, linked, marked
 from .explorer import Explorer
 from .figures import DARK, LIGHT
 from .grid import FULL, STYLE, Grid, button
@@ -245,7 +245,7 @@ class Page:
         path.append((self.way.force / self.drawn.axes["F"].factor).tolist())
         words = [readouts.values(self.way, self.cells, self.way.now)]
         self._serial += 1
-        self.readout.text = readouts.heads(self.cells, symbol)
+        self.readout.text = readouts.heads(self.cells)
         self.packet.tags = [self._serial, starts, labels, words, times.tolist(), path]
         self.packet.data = {"values": values}
         if self.play.active:
@@ -298,7 +298,7 @@ class Page:
         self.controls.notes["sketch"].object = drawing.format(*map(marked, formulas))
         found = readouts.lights(way, *readouts.density_and_ratio(explorer))
         self.lights.object = "".join(
-            f'<span class="{level}">{marked(text)}</span>' for level, text in found
+            f'<span class="{level}">{linked(text)}</span>' for level, text in found
         )
         self.undo.disabled, self.redo.disabled = not explorer.past, not explorer.future
         self.hold.value = bool(explorer.hold)

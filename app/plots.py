@@ -65,7 +65,7 @@ PLOTS = {
         columns.force_still, columns.force,
     ),
     "motion": Plot(
-        "Impact over time", "m d²d/dt² = −F", ("t", "d", "F"),
+        "Impact over time", "m d²d/dt² = −F  § 9", ("t", "d", "F"),
         (
             line("held", **_HELD, dash="dotdash", symbol="F", axis=2),
             line("depth d", "speed", 2.2, symbol="d"),
@@ -96,7 +96,7 @@ PLOTS = {
         columns.radii_still, columns.radii_marks,
     ),
     "energy": Plot(
-        "Where the energy is", "m v²/2 + U + W_p + W_v = m v_0²/2", ("t", "E"),
+        "Where the energy is", "m v²/2 + U + W_p + W_v = m v_0²/2  § 9", ("t", "E"),
         (
             area("plastic", "yielded", 0.45, "/"),
             area("viscous", "loss", 0.5, "\\"),
@@ -112,7 +112,7 @@ PLOTS = {
         moving=columns.plane, image=(columns.PIXELS, columns.PIXELS), button=("Map", "m"),
     ),
     "section": Plot(
-        "Section under the tip", "σ(r, z): each increment of depth a flat punch of radius a(s)", (),
+        "Section under the tip", "σ(r, z): each increment of depth a flat punch of radius a(s)  § 7", (),
         (
             line("equal stress", "chalk", 0.6, legend=False),
             line("contact radius a", "chalk", 1.2, "dashed"),
