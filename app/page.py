@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import panel as pn
+import param
 from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS, Div, Select, Slider, Toggle
 
@@ -20,6 +21,7 @@ from .plots import PLOTS
 from .resting import Resting
 from .takeaway import TakeAway
 from .tip import read_tip
+from .tour import Tour
 from .trajectory import follow
 from .view import View
 
@@ -43,7 +45,7 @@ class Page:
         notice = self._open(arguments or {})
         self.resting = Resting(self._show_found)
         self.controls = Controls(self.explorer, self.attempt, self.tell)
-        self.away = TakeAway(self)
+        self.away, self.tour = TakeAway(self), Tour(self)
         self._connect()
         self._solve()
         self._layout()
@@ -70,8 +72,8 @@ class Page:
         click, toggle = pn.widgets.Button, pn.widgets.Toggle
         keys = (("Undo", "z"), ("Redo", "y"), ("Reset", "r"))
         self.undo, self.redo, self.reset = (button(click, *each) for each in keys)
-        keys = (("Hold", "h"), ("Dark", "d"), ("Take with you", "t"))
-        self.hold, self.dark, self.take = (button(toggle, *each) for each in keys)
+        keys = (("Hold", "h"), ("Dark", "d"), ("Take with you", "t"), ("Guide", "g"))
+        self.hold, self.dark, self.take, self.guide = (button(toggle, *each) for each in keys)
         self.asked = {name: button(toggle, *plot.button) for name, plot in PLOTS.items() if plot.button}
         paces = [(str(pace), f"{pace} ×") for pace in (0.1, 0.25, 0.5, 1, 2)]
         styled = {"stylesheets": STYLE, "margin": 0}
@@ -93,12 +95,13 @@ class Page:
             title, self.controls.form, about, css_classes=["side"], stylesheets=STYLE, width=320,
             sizing_mode="stretch_height", margin=0,
         )  # fmt: skip
-        buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values(), self.dark, self.take)
-        tools = pn.Row(*buttons, self.held_note, css_classes=["tools"], stylesheets=STYLE, **WIDE)
+        buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values())
+        buttons = (*buttons, self.dark, self.take, self.guide, self.held_note)
+        tools = pn.Row(*buttons, css_classes=["tools"], stylesheets=STYLE, **WIDE)
         parts = (self.play, self.state, self.pace, self.standing, self.address)
         player = pn.Row(*map(pn.pane.Bokeh, parts), css_classes=["player"], stylesheets=STYLE, **WIDE)
-        parts = (tools, self.away.panel, pn.pane.Bokeh(self.readout), self.lights, player, self.grid.view)
-        results = pn.Column(*parts, css_classes=["results"], **FULL)
+        above = (tools, self.away.panel, self.tour.panel, pn.pane.Bokeh(self.readout), self.lights, player)
+        results = pn.Column(*above, self.grid.view, css_classes=["results"], **FULL)
         self.view = pn.Row(side, results, css_classes=["page"], **FULL)
 
     def _connect(self):
@@ -124,6 +127,7 @@ class Page:
             "pace": "Speed of the player",
             "tip": "CSV file of a measured tip: r, z",
             "scene": "Load a scene (JSON)",
+            "tour": "Guided scene",
         }
         parts = {"named": named, "show": self.show, "theme": self.theme, "packet": self.packet}
         if self.document is not None:
@@ -175,6 +179,19 @@ class Page:
         except ValueError as error:
             self.notify(str(error))
             self.controls.show(self.way.scene.medium)
+
+    def open(self, query):
+        """Show the scene of a link, as a change that can be undone; plots and theme stay."""
+        kept = {name: getattr(self.explorer, name) for name in ("plots", "dark")}
+
+        def act():
+            with param.parameterized.batch_call_watchers(self.explorer):
+                link.apply(self.explorer, link.arguments(query))
+                self.explorer.param.update(**kept)
+            self._hold()
+            self._changed()
+
+        self.tell(act)
 
     def notify(self, text):
         """Tell the person, who may have written some of it."""

@@ -2,10 +2,11 @@
 
 import re
 from math import radians, tan
+from urllib.parse import urlencode
 
 import pytest
 
-from app import theory
+from app import link, theory
 from app.controls import linked
 from app.explorer import Explorer
 from app.page import Page
@@ -13,6 +14,7 @@ from app.plots import PLOTS
 from app.presets import PRESETS
 from app.quantities import ABOUT, CHOICES, DATA, QUANTITIES
 from app.readouts import cells, heads
+from app.tour import TOURS
 from app.trajectory import follow
 
 DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
@@ -85,3 +87,59 @@ def test_a_link_with_another_preset_keeps_its_numbers():
     page.explorer.load(next(iter(PRESETS)))
     page.tell(page.explorer.undo)
     assert page.explorer.speed == 3.0
+
+
+def stepped(title):
+    """The deepest or present state after each step of a guided scene."""
+    for step in TOURS[title]:
+        explorer = Explorer()
+        link.apply(explorer, link.arguments(urlencode(step["set"])))
+        yield follow(explorer.scene(), explorer.progress)
+
+
+def test_guided_scenes_say_what_is_so():
+    elastic, begun, deep, lifted = stepped("First yield")
+    assert elastic.state.plastic_radius == 0
+    assert elastic.state.pressure(0.0) == float("inf")
+    assert begun.state.plastic_radius > 0
+    assert begun.state.pressure(0.0) < float("inf")
+    # (21): the ring a − c stays as wide as it is.
+    rings = [float(way.state.contact_radius - way.state.plastic_radius) for way in (begun, deep)]
+    assert rings[0] == pytest.approx(rings[1], rel=1e-9)
+    assert lifted.force[lifted.now] == 0
+    assert float(lifted.state.depth) == pytest.approx(
+        float(deep.state.depth) - elastic.onset.depth, rel=1e-9
+    )
+    slow, onset, fast, cone, twice = (way.hit for way in stepped("A fast impact, and what it destroys"))
+    assert slow.restitution == 1
+    assert slow.damaged_area == 0
+    assert onset.damaged_area > 0
+    assert fast.plastic_work / (fast.mass * fast.speed**2 / 2) > 0.9
+    # (24) holds in the limit; d_c/d is 1/20 and 1/40 here.
+    assert twice.damaged_area / cone.damaged_area == pytest.approx(4, rel=0.05)
+    fast, slow, thick, thin = (way.hit for way in stepped("Why a slow drop bounces better"))
+    assert slow.restitution > 4 * fast.restitution
+    assert thin.contact_time > 2 * thick.contact_time
+    assert thin.restitution > thick.restitution
+    assert thick.plastic_work == thin.plastic_work == 0
+
+
+@alone
+def test_a_guided_scene_is_stepped_through_and_undone():
+    page = Page()
+    page.asked["map"].value = True
+    opening = page.explorer.snapshot()
+    for at, step in enumerate(TOURS["First yield"]):
+        page.tour.next.clicks += 1
+        assert page.explorer.max_depth == step["set"]["max_depth"]
+        assert page.way.progress[page.way.now] == step["set"].get("at", 1.0)
+        assert f"{at + 1} of 4" in page.tour.words.object
+        assert "{" not in page.tour.words.object
+    assert page.tour.next.disabled
+    page.tour.title.value = "A fast impact, and what it destroys"
+    assert "e = 1.00" in re.sub("<[^>]+>", "", page.tour.words.object)
+    assert page.explorer.plots == ["map"]
+    # Each step that sets something is one change.
+    for _ in range(4):
+        page.tell(page.explorer.undo)
+    assert page.explorer.snapshot()[0] == opening[0]
