@@ -8,6 +8,7 @@ from bokeh.models import CustomJS, Title
 
 from . import figures
 from .controls import JS, WIDE, html, legend, linked
+from .described import described
 from .packet import drawn, layers, moves
 from .plots import PLOTS
 
@@ -60,6 +61,12 @@ class Grid:
     def tell(self, inputs):
         """What the scene is, below the pictures that are saved."""
         self._inputs.text = inputs
+
+    def describe(self, view):
+        """Say what is seen in the plots, to those who do not see them."""
+        for name in self.names:
+            said = {"role": "img", "aria-label": described(view, PLOTS[name])}
+            self.figures[name].html_attributes = said
 
     def _make(self, name):
         figure, plot = figures.figure(name), PLOTS[name]

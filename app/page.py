@@ -337,6 +337,7 @@ class Page:
         query = link.query(self.explorer)
         self.address.text = f"?{query}" if query else "?"
         way = self.way
+        self.grid.describe(self.drawn)
         for name, plot in PLOTS.items():
             if plot.resting:
                 values = [getattr(self.explorer, each) for each in plot.controls]

@@ -15,6 +15,7 @@ import mdr_core as mdr
 
 from . import export, figures, link, readouts
 from .controls import legend, marked, symbol
+from .described import described
 from .grid import STYLE
 from .packet import drawn, layers
 from .plots import PLOTS
@@ -95,7 +96,10 @@ def drawing(view, name):
     plot, made = PLOTS[name], figures.figure(name)
     # On the page some share an axis, and all are drawn on a canvas that does not clip.
     own = {} if plot.log else {"x_range": Range1d(), "y_range": Range1d()}
-    made.update(output_backend="svg", sizing_mode="fixed", width=_WIDTH, height=_HEIGHT, **own)
+    said = {"role": "img", "aria-label": described(view, plot)}
+    made.update(
+        html_attributes=said, output_backend="svg", sizing_mode="fixed", width=_WIDTH, height=_HEIGHT, **own
+    )
     if name == "map":
         made.update(frame_width=_HEIGHT - 70, frame_height=_HEIGHT - 70)
     figures.set_axes(made, view.axes_of(plot))
