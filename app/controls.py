@@ -2,6 +2,7 @@
 
 import re
 from html import escape
+from math import atan, degrees
 from pathlib import Path
 
 import panel as pn
@@ -10,11 +11,15 @@ import param
 from .drives import DRIVES
 from .explorer import FROM_FILE
 from .presets import PRESETS
-from .quantities import CHOICES, LABELS, QUANTITIES, SHAPES, USED, Scale, shape_quantities
-from .units import UNITS, entry, written
+from .quantities import ABOUT, CHOICES, LABELS, QUANTITIES, SHAPES, USED, Scale, shape_quantities
+from .units import UNITS, digits, entry, written
 
 JS = {path.stem: path.read_text(encoding="utf-8") for path in (Path(__file__).parent / "js").glob("*.js")}
 WIDE = {"sizing_mode": "stretch_width", "margin": 0}
+
+
+#: Standard acceleration of free fall (m/s²).
+_GRAVITY = 9.80665
 
 
 def marked(text):
@@ -28,6 +33,20 @@ def symbol(text):
     return marked(text) if "_" in text else f"<i>{escape(text)}</i>"
 
 
+def linked(text):
+    """A text as HTML in which equations, (11), and sections, § 9, lead to the theory."""
+    led = r'<a href="?theory={}-\1" target="theory">\g<0></a>'
+    text = re.sub(r"\(([1-9]\d?)\)", led.format("eq"), marked(text))
+    return re.sub(r"§ (\d+)", led.format("section"), text)
+
+
+def explained(key, label, about):
+    """A label that says what it is about when it is pressed."""
+    return (
+        f'<button class="word" popovertarget="{key}">{label}</button><div popover id="{key}">{about}</div>'
+    )
+
+
 def html(text, **options):
     """A piece of the page."""
     return pn.pane.HTML(text, **({"css_classes": ["note"]} | WIDE | options))
@@ -36,7 +55,7 @@ def html(text, **options):
 def _about(quantity):
     low, high = (written(bound, quantity.kind, 2) for bound in quantity.bounds)
     units = ", ".join(unit.name for unit in UNITS[quantity.kind] if unit.name)
-    rows = [marked(quantity.help), f"<em>{marked(quantity.equation)}</em>" if quantity.equation else ""]
+    rows = [linked(quantity.help), f"<em>{linked(quantity.equation)}</em>" if quantity.equation else ""]
     rows.append(f"Usual: {marked(quantity.typical)}." if quantity.typical else "")
     rows.append(f"From {low} to {high}" + (f"; units {units}." if units else "."))
     return "".join(f"<p>{row}</p>" for row in rows if row)
@@ -120,18 +139,23 @@ class Controls:
         self.explorer, self.attempt, self.tell, self.numbers = explorer, attempt, tell, {}
         labels = {label or "Scene from a file": label for label in (*PRESETS, FROM_FILE)}
         look = {"css_classes": ["choice"], **WIDE}
-        self.preset = pn.widgets.Select(name="Preset", options=labels, **look)
+        about = "A medium and an indenter that exist. Choosing one sets everything."
+        self.preset = pn.widgets.Select(name="Preset", options=labels, description=about, **look)
         self.preset.param.watch(self._load, "value")
         shapes = {f"{s.label}{' (CSV)' * (key == 'sampled')}": key for key, s in SHAPES.items()}
-        self.choices = {"shape": pn.widgets.Select(name="Shape", options=shapes, **look)}
+        about = "What is pressed or hits: a body of revolution, which touches with its tip."
+        shape = pn.widgets.Select(name="Shape", options=shapes, description=about, **look)
+        self.choices = {"shape": shape}
         for name, options in CHOICES.items():
             options = {text: option for option, text in options.items()}
             kind = pn.widgets.RadioBoxGroup if name in _FORM else pn.widgets.Select
-            inline = {"inline": True} if name in _FORM else {"css_classes": ["choice", "beside"]}
-            self.choices[name] = kind(name=LABELS[name], options=options, **look | inline)
+            more = {"inline": True} if name in _FORM else {"css_classes": ["choice", "beside"]}
+            if name not in _FORM:
+                more["description"] = ABOUT[name]
+            self.choices[name] = kind(name=LABELS[name], options=options, **look | more)
         for name, widget in self.choices.items():
             widget.param.watch(lambda event, name=name: self._choose(name, event), "value")
-        noted = ("sources", "sketch", "tip", "elasticity", "plasticity", "damping")
+        noted = ("sources", "sketch", "tip", "slope", "elasticity", "plasticity", "damping", "drive")
         self.notes = {name: html("") for name in noted}
         self.tip = pn.widgets.FileInput(accept=".csv,.txt,text/csv", css_classes=["file", "tip"], **WIDE)
         again = pn.widgets.Button(name="Hit again", css_classes=["button"], margin=(4, 0), width=90)
@@ -141,7 +165,10 @@ class Controls:
         self.heads["tip"] = html("or a measured tip, as CSV (r, z):")
         self.rows = {
             name: pn.Row(
-                html(label, css_classes=["legend"]), self.choices[name], css_classes=["fieldset"], **WIDE
+                html(explained("about", label, linked(ABOUT[name])), css_classes=["legend"]),
+                self.choices[name],
+                css_classes=["fieldset"],
+                **WIDE,
             )
             for name, label in LABELS.items()
             if name in _FORM
@@ -175,10 +202,10 @@ class Controls:
         rows = [self.preset, notes["sources"], heads["Indenter"], self.choices["shape"]]
         rows += [heads["tip"], self.tip, notes["tip"], notes["sketch"]]
         rows += [self.number(name) for name, _ in shape_quantities(explorer.shape)]
-        rows.append(heads["Medium"])
+        rows += [notes["slope"], heads["Medium"]]
         for choice in ("elasticity", "plasticity", "damping"):
             rows += [*self._choice(choice), notes[choice]]
-        rows += [heads["Drive"], *self._choice("drive")]
+        rows += [heads["Drive"], *self._choice("drive"), notes["drive"]]
         for part in DRIVES[explorer.drive].form:
             rows += self._choice(part) if part in CHOICES else [self.parts[part]]
         if rows != list(self.form):
@@ -209,7 +236,7 @@ class Controls:
         altered = "Altered. " if explorer.altered else ""
         rows = "".join(
             f"<dt>{marked(f'{what} = {value}')}</dt><dd>{escape(where)}</dd>"
-            for what, value, where in (preset.sources if preset else ())
+            for what, value, where in (preset.sources.values() if preset else ())
         )
         title = f"{altered}Where the preset's numbers come from"
         origin = f"<details><summary>{title}</summary><dl>{rows}</dl></details>"
@@ -217,12 +244,30 @@ class Controls:
         texts = {
             "sources": origin if preset else f"{altered}A scene from a file.",
             "tip": escape(explorer.tip_note if explorer.shape == "sampled" else ""),
-            "elasticity": marked(f"E* = {written(made.E_star, 'pressure')} (2)") if bodies else "",
-            "plasticity": marked(_yield(explorer, made)),
-            "damping": marked(_damping(explorer, made, way.motion is not None)),
+            "slope": marked(_half_angle(explorer)),
+            "drive": marked(_drop(explorer)),
+            "elasticity": linked(f"E* = {written(made.E_star, 'pressure')} (2)") if bodies else "",
+            "plasticity": linked(_yield(explorer, made)),
+            "damping": linked(_damping(explorer, made, way.motion is not None)),
         }
         for name, text in texts.items():
             self.notes[name].object = text
+
+
+def _half_angle(explorer):
+    slope = getattr(explorer, f"{explorer.shape}_slope", None)
+    if slope is None:
+        return ""
+    angle = degrees(atan(slope))
+    return f"Half-angle {digits(90 - angle)}°, flank {digits(angle)}° to the surface"
+
+
+def _drop(explorer):
+    if explorer.drive != "impact":
+        return ""
+    energy, height = explorer.mass * explorer.speed**2 / 2, explorer.speed**2 / (2 * _GRAVITY)
+    fallen = written(height, "length")
+    return f"Energy m v_0²/2 = {written(energy, 'energy')}; fallen from v_0²/(2 g) = {fallen} without drag"
 
 
 def _yield(explorer, medium):

@@ -7,7 +7,8 @@ from bokeh.events import Pan, PanEnd, PanStart, RangesUpdate
 from bokeh.models import CustomJS, Title
 
 from . import figures
-from .controls import JS, WIDE, html, legend, marked
+from .controls import JS, WIDE, html, legend, linked
+from .described import described
 from .packet import drawn, layers, moves
 from .plots import PLOTS
 
@@ -74,6 +75,12 @@ class Grid:
         """What the scene is, below the pictures that are saved."""
         self._inputs.text = inputs
 
+    def describe(self, view):
+        """Say what is seen in the plots, to those who do not see them."""
+        for name in self.names:
+            said = {"role": "img", "aria-label": described(view, PLOTS[name])}
+            self.figures[name].html_attributes = said
+
     def _make(self, name):
         figure, plot = figures.figure(name), PLOTS[name]
         self.figures[name] = figure
@@ -110,7 +117,7 @@ class Grid:
         if plot.title in view.found:
             frame.note.object = view.found[plot.title].note
         elif plot.note:
-            frame.note.object = marked(plot.note(view))
+            frame.note.object = linked(plot.note(view))
 
 
 class _Frame:
@@ -119,7 +126,7 @@ class _Frame:
     def __init__(self, plot, figure, save, controls):
         self.axes, self.shown = None, None
         self.legend, self.note = html("", css_classes=["key"]), html("", css_classes=["note", "found"])
-        words = html(f"<h3>{plot.title}</h3>{marked(plot.formula)}", css_classes=["formula"])
+        words = html(f"<h3>{plot.title}</h3>{linked(plot.formula)}", css_classes=["formula"])
         head = pn.Row(words, *save, css_classes=["head"], stylesheets=STYLE, **WIDE)
         above = [controls.above(plot.controls)] if plot.controls else []
         parts = [head, *above, self.legend, pn.pane.Bokeh(figure, **FULL)]

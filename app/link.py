@@ -45,6 +45,12 @@ def arguments(text):
 
 
 def restore(explorer, arguments):
+    """Begin anew with the state that `query` wrote, see `apply`."""
+    apply(explorer, arguments)
+    explorer.settle()
+
+
+def apply(explorer, arguments):
     """Set an explorer to the state that `query` wrote, from the arguments of a request.
 
     Raises ValueError if anything in them is unknown, said twice, or out of bounds.
@@ -87,7 +93,6 @@ def restore(explorer, arguments):
     explorer.param.update(**changes)
     explorer.resets = {name: getattr(explorer, name) for name in QUANTITIES}
     explorer.sized = frozenset({explorer.shape})
-    explorer.settle()
 
 
 def _number(name, text):

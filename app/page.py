@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import panel as pn
+import param
 from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS, Div, Select, Slider, Toggle
 
 from . import link, readouts
-from .controls import JS, WIDE, Controls, html, marked, symbol
+from .controls import JS, WIDE, Controls, html, linked, marked
 from .drives import DRIVES, drive_of, follow
 from .explorer import Explorer
 from .figures import DARK, LIGHT
@@ -23,6 +24,7 @@ from .quantities import CHOICES
 from .resting import Resting
 from .takeaway import TakeAway
 from .tip import read_tip
+from .tour import Tour
 from .trajectory import Trajectory, nearest
 from .vertices import Vertices
 from .view import View
@@ -60,7 +62,7 @@ class Page:
         self.resting = Resting(self._show_found)
         self.controls = Controls(self.explorer, self.attempt, self.tell)
         self.controls.parts["vertices"] = Vertices(self.explorer, self.attempt)
-        self.away = TakeAway(self)
+        self.away, self.tour = TakeAway(self), Tour(self)
         self._connect()
         self._solve()
         self._layout()
@@ -87,8 +89,8 @@ class Page:
         click, toggle = pn.widgets.Button, pn.widgets.Toggle
         keys = (("Undo", "z"), ("Redo", "y"), ("Reset", "r"))
         self.undo, self.redo, self.reset = (button(click, *each) for each in keys)
-        keys = (("Hold", "h"), ("Dark", "d"), ("Take with you", "t"))
-        self.hold, self.dark, self.take = (button(toggle, *each) for each in keys)
+        keys = (("Hold", "h"), ("Dark", "d"), ("Take with you", "t"), ("Guide", "g"))
+        self.hold, self.dark, self.take, self.guide = (button(toggle, *each) for each in keys)
         self.asked = {name: button(toggle, *plot.button) for name, plot in PLOTS.items() if plot.button}
         paces = [(str(pace), f"{pace} ×") for pace in (0.1, 0.25, 0.5, 1, 2)]
         styled = {"stylesheets": STYLE, "margin": 0}
@@ -110,21 +112,15 @@ class Page:
             title, self.controls.form, about, css_classes=["side"], stylesheets=STYLE, width=320,
             sizing_mode="stretch_height", margin=0,
         )  # fmt: skip
-        buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values(), self.dark, self.take)
         axes = self.controls.choices["axes"]
         axes.param.update(sizing_mode="fixed", width=180)
-        tools = pn.Row(*buttons, axes, css_classes=["tools"], stylesheets=STYLE, **WIDE)
+        buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values())
+        buttons = (*buttons, self.dark, self.take, self.guide, axes)
+        tools = pn.Row(*buttons, css_classes=["tools"], stylesheets=STYLE, **WIDE)
         parts = (self.play, self.state, self.pace, self.standing, self.address)
         player = pn.Row(*map(pn.pane.Bokeh, parts), css_classes=["player"], stylesheets=STYLE, **WIDE)
-        parts = (
-            tools,
-            self.table.view,
-            self.away.panel,
-            pn.pane.Bokeh(self.readout),
-            self.lights,
-            player,
-            self.grid.view,
-        )
+        above = (tools, self.table.view, self.away.panel, self.tour.panel, pn.pane.Bokeh(self.readout))
+        parts = (*above, self.lights, player, self.grid.view)
         results = pn.Column(*parts, css_classes=["results"], **FULL)
         self.view = pn.Row(side, results, css_classes=["page"], **FULL)
 
@@ -151,6 +147,7 @@ class Page:
             "pace": "Speed of the player",
             "tip": "CSV file of a measured tip: r, z",
             "scene": "Load a scene (JSON)",
+            "tour": "Guided scene",
         }
         parts = {"named": named, "show": self.show, "theme": self.theme, "packet": self.packet}
         if self.document is not None:
@@ -203,6 +200,19 @@ class Page:
         except ValueError as error:
             self.notify(str(error))
             self.controls.show(self.way)
+
+    def open(self, query):
+        """Show the scene of a link, as a change that can be undone; plots and theme stay."""
+        kept = {name: getattr(self.explorer, name) for name in ("plots", "dark")}
+
+        def act():
+            with param.parameterized.batch_call_watchers(self.explorer):
+                link.apply(self.explorer, link.arguments(query))
+                self.explorer.param.update(**kept)
+            self._hold()
+            self._changed()
+
+        self.tell(act)
 
     def notify(self, text):
         """Tell the person, who may have written some of it."""
@@ -294,7 +304,7 @@ class Page:
         path.append((self.way.force / self.drawn.axes["F"].factor).tolist())
         words = [readouts.values(self.way, self.cells, self.way.now)]
         self._serial += anew
-        self.readout.text = readouts.heads(self.cells, symbol)
+        self.readout.text = readouts.heads(self.cells)
         self.packet.tags = [self._serial, starts, labels, words, times.tolist(), path]
         self.packet.data = {"values": values}
         if self.play.active:
@@ -354,7 +364,7 @@ class Page:
         self.controls.notes["sketch"].object = drawing.format(*map(marked, formulas))
         found = readouts.lights(way, *readouts.density_and_ratio(explorer))
         self.lights.object = "".join(
-            f'<span class="{level}">{marked(text)}</span>' for level, text in found
+            f'<span class="{level}">{linked(text)}</span>' for level, text in found
         )
         self.undo.disabled, self.redo.disabled = not explorer.past, not explorer.future
         self.hold.value = is_held(explorer)
@@ -376,10 +386,9 @@ class Page:
         query = link.query(self.explorer)
         self.address.text = f"?{query}" if query else "?"
         way = self.way
-        for each in ("way", "held"):
-            pending = getattr(self, each)
-            if pending is not None and pending.pending:
-                self.resting.follow(_Pending(each), pending.scene, pending)
+        self.grid.describe(self.drawn)
+        for k, each in enumerate([way, *(each.way for each in self.held)]):
+            self.resting.follow(_Pending(f"way {k}"), each.scene if each.pending else None, each)
         for name, plot in PLOTS.items():
             if plot.resting:
                 values = [getattr(self.explorer, each) for each in plot.controls]

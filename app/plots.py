@@ -79,7 +79,7 @@ PLOTS = {
         columns.force_still, columns.force, controls=("references",), note=references.note,
     ),
     "motion": Plot(
-        "Depth and force over time", "m d²d/dt² = −F  of a free body", ("t", "d", "F"),
+        "Depth and force over time", "m d²d/dt² = −F  of a free body  § 9", ("t", "d", "F"),
         (
             *_held("F", axis=2),
             line("depth d", "speed", 2.2, symbol="d"),
@@ -110,7 +110,7 @@ PLOTS = {
         columns.radii_still, columns.radii_marks,
     ),
     "energy": Plot(
-        "Where the energy is", "U + W_p + W_v + m v²/2 = ∫ F dd, or m v_0²/2", ("t", "E"),
+        "Where the energy is", "U + W_p + W_v + m v²/2 = ∫ F dd, or m v_0²/2  § 9", ("t", "E"),
         (
             area("plastic", "yielded", 0.45, "/"),
             area("viscous", "loss", 0.5, "\\"),
@@ -152,7 +152,7 @@ PLOTS = {
         columns.logarithmic_still, columns.logarithmic, button=("Log–log", "l"), log=True,
     ),
     "section": Plot(
-        "Section under the tip", "σ(r, z): each increment of depth a flat punch of radius a(s)", (),
+        "Section under the tip", "σ(r, z): each increment of depth a flat punch of radius a(s)  § 7", (),
         (
             line("equal stress", "chalk", 0.6, legend=False),
             line("contact radius a", "chalk", 1.2, "dashed"),

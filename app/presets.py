@@ -13,14 +13,14 @@ from .units import written
 class Preset:
     """What the page can open on.
 
-    `choices` and `values` are what the page sets (SI); `sources` says for each number what it is,
-    how large, and where it comes from.
+    `choices` and `values` are what the page sets (SI); `sources` says for each number, by its name, what
+    it is, how large, and where it comes from.
     """
 
     label: str
     choices: dict[str, str]
     values: dict[str, float]
-    sources: tuple[tuple[str, str, str], ...]
+    sources: dict[str, tuple[str, str, str]]
 
 
 def _preset(scene, media, indenters):
@@ -46,10 +46,13 @@ def _preset(scene, media, indenters):
         values["max_depth"] = float(scene["depth"] * made.critical_depth)
     choices = {"shape": shape, "elasticity": "bodies", "plasticity": "q_c", "damping": "none"}
     choices |= {"drive": drive, "inertia": "density", "surface": "virgin"}
-    sources = tuple(
-        (f"{symbol} of {owner['label']}", written(n["value"], QUANTITIES[name].kind, 3), n["source"])
+    sources = {
+        name: (f"{symbol} of {owner['label']}", written(n["value"], QUANTITIES[name].kind, 3), n["source"])
         for symbol, owner, name, n in given
-    )
+    }
+    if drive == "depth":
+        times = f"{scene['depth']:g} times the depth at which yield begins"
+        sources["max_depth"] = ("d_max", written(values["max_depth"], "length", 3), times)
     remark = f", {scene['remark']}" if "remark" in scene else ""
     label = f"{indenter['label']} on {medium['label']}{remark}"
     return Preset(label[0].upper() + label[1:], choices, values, sources)

@@ -68,10 +68,11 @@ def _shape(key, label, height, reduced, quantities):
 
 
 SHAPES = {key: _shape(key, **words) for key, words in DATA["shapes"].items()}
-#: What each choice is called, its options as they are shown, and the numbers that each of them uses.
-LABELS, CHOICES, USED = {}, {}, {}
+#: What each choice is called, its options as they are shown, the numbers that each of them uses, and
+#: what it is.
+LABELS, CHOICES, USED, ABOUT = {}, {}, {}, {}
 for _name, _choice in DATA["choices"].items():
-    LABELS[_name] = _choice["label"]
+    LABELS[_name], ABOUT[_name] = _choice["label"], _choice["help"]
     CHOICES[_name] = {option: each["label"] for option, each in _choice["options"].items()}
     USED[_name] = {option: each["uses"] for option, each in _choice["options"].items()}
 

@@ -1,9 +1,12 @@
 """What stands around the plots: numbers, how far the assumptions hold, the sketch of the indenter."""
 
+from functools import cache
+
 import numpy as np
 
+from .controls import explained, linked, symbol
 from .drives import DRIVES, drive_of
-from .quantities import QUANTITIES, SHAPES, USED, shape_quantities
+from .quantities import DATA, QUANTITIES, SHAPES, USED, shape_quantities
 from .units import written
 from .view import phase
 
@@ -43,14 +46,18 @@ def values(way, rows, i):
     return "|".join([phase(way, i), *texts])
 
 
-def heads(rows, symbol):
-    """The cells of all numbers, with room for them."""
-    cells = "".join(
-        f'<div class="cell" data-symbol="{name}"><dt>{"/".join(map(symbol, name.split("/")))} {label}</dt>'
-        "<dd></dd></div>"
-        for name, label, *_ in rows
-    )
-    return f'<dl class="strip">{cells}</dl>'
+def heads(rows):
+    """The cells of all numbers, with room for them; each says what it is."""
+    return f'<dl class="strip">{"".join(_head(name, label) for name, label, *_ in rows)}</dl>'
+
+
+@cache
+def _head(name, label):
+    words = DATA["readouts"][name]
+    about = f"<p>{linked(words['help'])}</p><em>{linked(words['equation'])}</em>"
+    key = f"about-{name}-{label}".replace(" ", "-")
+    label = f"{'/'.join(map(symbol, name.split('/')))} {label}"
+    return f'<div class="cell" data-symbol="{name}"><dt>{explained(key, label, about)}</dt><dd></dd></div>'
 
 
 def lights(way, density, ratio):

@@ -6,6 +6,7 @@ import panel as pn
 
 from . import export, link
 from .controls import WIDE
+from .report import report
 
 _COPY = """
 navigator.clipboard?.writeText(area.value).catch(() => {})
@@ -20,6 +21,9 @@ class TakeAway:
     def __init__(self, page):
         self.page = page
         files = {
+            ("Report", "report.html"): lambda: report(
+                page.explorer, page.drawn, page.grid.names, self._here(), page.held_summary
+            ),
             ("Curves (CSV)", "curves.csv"): lambda: export.csv(page.way, page.explorer),
             ("Pressure (CSV)", "pressure.csv"): lambda: export.pressure_csv(page.way, page.explorer),
             ("Scene (JSON)", "scene.json"): lambda: link.scene_file(page.way),
@@ -59,11 +63,13 @@ class TakeAway:
     def show(self):
         """Link and snippet of what is seen, if it is looked at."""
         if self.panel.visible:
-            query, location = link.query(self.page.explorer), pn.state.location
-            here = location.href.split("?")[0] if location else ""
+            query, here = link.query(self.page.explorer), self._here()
             long = "This tip has too many samples for a link: save the scene as JSON."
             self.link.value = f"{here}?{query}" if query else long
             self.python.value = export.python(self.page.way, self.page.held)
+
+    def _here(self):
+        return pn.state.location.href.split("?")[0] if pn.state.location else ""
 
     def _bring(self, event):
         if event.new:

@@ -4,7 +4,7 @@ const hosts = (name) => all(document).filter((each) => each.shadowRoot && each.c
 for (const row of hosts("fieldset")) {
   const [legend, group] = ["legend", "choice"].map((name) => row.shadowRoot.querySelector(`.${name}`))
   group.setAttribute("role", "radiogroup")
-  group.setAttribute("aria-label", legend.shadowRoot.textContent.trim())
+  group.setAttribute("aria-label", legend.shadowRoot.querySelector("button").textContent)
 }
 for (const [name, spoken] of Object.entries(named))
   for (const host of hosts(name))

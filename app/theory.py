@@ -1,0 +1,55 @@
+"""The theory as a page of its own: assets/theory.md with its formulas, at an equation or a section."""
+
+import re
+from html import escape
+
+import panel as pn
+from bokeh.events import DocumentReady
+from bokeh.models import CustomJS
+from markdown_it import MarkdownIt
+from mdit_py_plugins.dollarmath import dollarmath_plugin
+
+from .grid import STYLE
+from .quantities import ASSETS
+
+_SHOW = """
+const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
+setTimeout(() => all(document).find(({ id }) => id === place)?.scrollIntoView(), 100)
+document.documentElement.lang = "en"
+if (matchMedia("(prefers-color-scheme: dark)").matches) document.documentElement.classList.add("dark")
+"""  # noqa: E501
+#: Equations that a text names, (4) or (4)–(8).
+_NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
+
+
+def html():
+    """The theory as HTML, with formulas as KaTeX reads them and an id at each section and equation."""
+    parser, seen = (
+        MarkdownIt()
+        .enable("table")
+        .use(dollarmath_plugin, renderer=lambda text, _: f"\\({escape(text)}\\)"),
+        set(),
+    )
+    tokens = parser.parse((ASSETS / "theory.md").read_text(encoding="utf-8"))
+    parts, begun = [], False
+    for k, token in enumerate(tokens):
+        if token.type == "heading_open" and (number := re.match(r"\d+", tokens[k + 1].content)):
+            token.attrSet("id", f"section-{number[0]}")
+            begun = True
+        for first, last in _NAMED.findall(token.content) if begun and not token.nesting else ():
+            new = set(range(int(first), int(last or first) + 1)) - seen
+            parts += [f'<a id="eq-{n}"></a>' for n in sorted(new)]
+            seen |= new
+        math = token.type == "fence" and token.info == "math"
+        parts.append(
+            f"<p>$${escape(token.content)}$$</p>"
+            if math
+            else parser.renderer.render([token], parser.options, {})
+        )
+    return "".join(parts)
+
+
+def page(place):
+    """The page, which begins where `place` is: "eq-11" or "section-4"."""
+    pn.state.curdoc.js_on_event(DocumentReady, CustomJS(args={"place": place}, code=_SHOW))
+    return pn.pane.LaTeX(html(), stylesheets=STYLE, css_classes=["theory"], renderer="katex")

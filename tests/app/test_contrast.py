@@ -1,0 +1,69 @@
+"""Text and graphics stand out from their ground in both themes, as WCAG 2.2 AA asks (1.4.3, 1.4.11)."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import app
+from mdr_core.figures import ROLES
+
+CSS = (Path(app.__file__).parent / "static" / "style.css").read_text(encoding="utf-8")
+
+
+def variables(selector):
+    block = re.search(rf"^{re.escape(selector)} \{{(.*?)^\}}", CSS, re.DOTALL | re.MULTILINE)[1]
+    return dict(re.findall(r"--([\w-]+): (#\w+)", block))
+
+
+LIGHT, DARK = variables(":root"), variables(":root.dark")
+themes = pytest.mark.parametrize("colours", [LIGHT, DARK], ids=["light", "dark"])
+
+
+def luminance(colour):
+    digits = colour[1:] if len(colour) == 7 else "".join(2 * digit for digit in colour[1:])
+    parts = [int(digits[k : k + 2], 16) / 255 for k in (0, 2, 4)]
+    red, green, blue = (x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4 for x in parts)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+def contrast(one, other):
+    low, high = sorted(map(luminance, (one, other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+def test_contrast_of_known_pairs():
+    assert contrast("#fff", "#000000") == pytest.approx(21)
+    assert contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.005)
+
+
+@themes
+def test_text_stands_out(colours):
+    """Every colour that the sheet writes in, on both grounds, and what is written on a pressed button."""
+    written = set(re.findall(r"(?<![-\w])color: var\(--(\w+)\)", CSS)) - {"paper"}
+    # The colours of swatches in legends and of what is disabled are not those of text.
+    written -= set(re.findall(r"\bi \{ color: var\(--(\w+)\)", CSS)) - {"ink", "elastic"}
+    written -= set(re.findall(r"\[disabled\] \{ color: var\(--(\w+)\)", CSS))
+    written -= set(re.findall(r'content: "[^"]+"; color: var\(--(\w+)\)', CSS))
+    assert {"ink", "soft", "elastic", "warn"} <= written
+    for name in written:
+        for ground in ("paper", "ground"):
+            assert contrast(colours[name], colours[ground]) >= 4.5, (name, ground)
+    assert contrast(colours["paper"], colours["elastic"]) >= 4.5
+
+
+@themes
+def test_graphics_stand_out(colours):
+    """Curves, marks, axes, edges of fields and signs; a body is seen by its edge, which is ink."""
+    for name in ("free", "elastic", "yielded", "held", "speed", "loss", "ink", "tick", "edge", "good"):
+        assert contrast(colours[name], colours["paper"]) >= 3, name
+    for name in ("good", "yielded", "edge"):
+        assert contrast(colours[name], colours["ground"]) >= 3, name
+
+
+@pytest.mark.parametrize("theme", [0, 1])
+def test_plots_have_the_colours_of_the_sheet(theme):
+    colours = (LIGHT, DARK)[theme]
+    for role, pair in ROLES.items():
+        if role in colours:
+            assert luminance(pair[theme]) == pytest.approx(luminance(colours[role])), role
