@@ -237,7 +237,7 @@ def test_hold_map_and_theme_are_in_the_address(explorer):
     explorer.page.reload()
     explorer.wait("window.explorer?.idle() && document.documentElement.classList.contains('dark')")
     np.testing.assert_allclose(explorer.row("force", "held 1"), held, rtol=1e-6)
-    assert explorer.page.get_by_label("held 1").input_value() == OPENING
+    assert explorer.page.get_by_role("textbox", name="held 1").input_value() == OPENING
     assert explorer.page.locator(".card.map").count() == 1
 
 
@@ -248,9 +248,9 @@ def test_several_are_held_named_and_removed_on_one_dimensionless_curve(explorer)
             explorer.type("d_max", depth)
         page.locator("h1").click()
         page.keyboard.press("h")
-        page.get_by_label(f"held {k}").wait_for()
-    page.get_by_label("held 1").fill("shallow")
-    page.get_by_label("held 1").press("Enter")
+        page.get_by_role("textbox", name=f"held {k}").wait_for()
+    page.get_by_role("textbox", name="held 1").fill("shallow")
+    page.get_by_role("textbox", name="held 1").press("Enter")
     explorer.link("shallow")
     explorer.choose("Axes", "dimensionless")
     explorer.choose("Preset", list(PRESETS)[4])
@@ -261,8 +261,8 @@ def test_several_are_held_named_and_removed_on_one_dimensionless_curve(explorer)
         k = int(np.argmax(force))
         assert force[k] == pytest.approx(2 * d[k] - 1, rel=1e-5)
     page.get_by_role("button", name="Remove 1").click()
-    page.get_by_label("held 2").wait_for(state="detached")
-    assert page.get_by_label("held 1").input_value() == f"{OPENING}, altered"
+    page.get_by_role("textbox", name="held 2").wait_for(state="detached")
+    assert page.get_by_role("textbox", name="held 1").input_value() == f"{OPENING}, altered"
     # A preset that was altered opens as it was.
     with explorer.change():
         explorer.type("q_c", "2 N/m")
