@@ -9,6 +9,7 @@ import panel as pn
 
 from . import link
 from .controls import WIDE, html, marked
+from .drives import follow
 from .explorer import Explorer
 from .plots import DASHES
 from .quantities import SHAPES

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from app import columns, section
+from app.drives import follow
 from app.explorer import Explorer
 from app.plots import PLOTS
 from app.presets import PRESETS
-from app.trajectory import follow
 from app.view import View
 
 GOLD, PDMS = "Berkovich-equivalent cone on gold", "Berkovich-equivalent cone on PDMS"

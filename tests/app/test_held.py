@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from app import columns, export, link
+from app.drives import follow
 from app.explorer import Explorer
 from app.held import Held, held, is_held, numbers, renamed, toggled
 from app.plots import DASHES, PLOTS
-from app.trajectory import follow
 from app.units import written
 from app.view import View
 

@@ -288,9 +288,11 @@ def test_surface_references_and_logarithmic_axes(explorer):
     explorer.choose("Reference curves", "elastic, and classes (a) and (c)")
     explorer.page.get_by_text("as hard as this scene").wait_for()
     d, force = explorer.row("loglog", "elastic throughout")
-    seen = np.isfinite(d)
-    # Of a cone F = 2E* d²/(π s): a straight line of slope 2.
-    np.testing.assert_allclose(np.diff(np.log(force[seen])), 2 * np.diff(np.log(d[seen])), atol=1e-4)
+    inside = np.isfinite(d) & np.isfinite(force)
+    # Of a cone F = 2E* d²/(π s), to single precision; the last point is cut at the end of the axis.
+    slope = np.diff(np.log(force[inside][:-1])) / np.diff(np.log(d[inside][:-1]))
+    assert slope.size > 50
+    np.testing.assert_allclose(slope, 2.0, rtol=1e-3)
     explorer.link("references=all")
 
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from app import columns, references
+from app.drives import follow
 from app.explorer import Explorer
-from app.trajectory import follow
 from app.view import View
 
 

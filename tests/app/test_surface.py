@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from app import surface
+from app.drives import follow
 from app.explorer import Explorer
 from app.plots import PLOTS
 from app.presets import PRESETS
 from app.quantities import SHAPES
-from app.trajectory import follow
 from app.view import View
 
 
