@@ -9,7 +9,6 @@ import panel as pn
 
 from . import link
 from .controls import WIDE, html, marked
-from .drives import follow
 from .explorer import Explorer
 from .plots import DASHES
 from .quantities import SHAPES

@@ -6,12 +6,18 @@ import pytest
 from app import columns, export, link
 from app.drives import follow
 from app.explorer import Explorer
-from app.held import Held, held, is_held, numbers, renamed, toggled
+from app.held import Held, is_held, numbers, renamed, toggled
+from app.held import held as opened
 from app.plots import DASHES, PLOTS
 from app.units import written
 from app.view import View
 
 DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
+
+
+def held(query):
+    """What a query holds."""
+    return opened(query, lambda explorer: follow(explorer.scene(), explorer.progress))
 
 
 def holding(*depths):
