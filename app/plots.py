@@ -7,13 +7,11 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from mdr_core.figures import PRESSURE_ROWS, ROLES, SPRING_ROWS, Row, area, label, line, mark, parts
+from mdr_core.figures import PRESSURE_ROWS, SPRING_ROWS, Row, area, label, line, mark, parts
 
 from . import columns, comparison, section
 from .resting import Found
 from .view import View
-
-__all__ = ["PLOTS", "ROLES", "Plot", "area", "label", "line", "mark"]
 
 
 @dataclass(frozen=True, eq=False)

@@ -77,10 +77,6 @@ class View:
             self._drawn[plot, i] = rows
         return rows
 
-    def moves(self, plot):
-        """Names of the rows of a plot that change from state to state."""
-        return plot.moving(self, self.way.now).keys()
-
     def pressure(self, i):
         """Radii and pressures (SI) of state i."""
         if ("pressure", i) not in self._drawn:
