@@ -98,7 +98,8 @@ def found(way):
     result = scene.solve()
     for row in compare(scene, result):
         rows.append(row)
-        yield _found(scene, result, rows, "measuring …")
+        if row.n is None:
+            yield _found(scene, result, rows, "measuring …")
     largest = max((row.n for row in rows if row.n), default=0)
     beyond = f"chains beyond n = {largest} would take more than {CAP} s in all"
     yield _found(scene, result, rows, beyond if largest < ELEMENTS[-1] else "n elements in the chain")

@@ -11,15 +11,14 @@ from bokeh.models import (
     CategoricalColorMapper,
     ColorBar,
     HoverTool,
-    Legend,
     LinearAxis,
     Range1d,
     ResetTool,
 )
 
-from mdr_core.figures import DASHES
+from mdr_core.figures import DASHES, ROLES
 
-from .plots import PLOTS, ROLES
+from .plots import PLOTS
 
 hv.Store.set_current_backend("bokeh")
 
@@ -43,8 +42,14 @@ LEGEND = {
 }  # fmt: skip
 
 
-def _paths(element, rows):
-    return element([_PATH | {"role": row.role} for row in rows], vdims="role").opts(cmap=LIGHT)
+def _element(kind, count):
+    """A HoloViews element with places for so many rows of a kind."""
+    at = np.arange(1.0, count + 1)
+    if kind == "labels":
+        return hv.Labels((at, at, ["-"] * count)).opts(text_color=LIGHT["ink"], **_LABEL)
+    if kind in ("marks", "tips"):
+        return hv.Scatter((at, at), "x", "y").opts(size=9)
+    return (hv.Polygons if kind == "areas" else hv.Contours)([_PATH] * count)
 
 
 def _elements(plot):
@@ -54,21 +59,10 @@ def _elements(plot):
         yield image.opts(cmap="cividis", colorbar=True, clim=(0, 1))
     for group in ("areas", "lines", "lines right", "marks", "marks right", "labels"):
         rows = [row for row in plot.rows if row.group == group]
-        at = np.arange(1.0, len(rows) + 1)
-        if not rows:
-            continue
-        if rows[0].kind == "areas":
-            made = _paths(hv.Polygons, rows)
-        elif rows[0].kind == "lines":
-            made = _paths(hv.Contours, rows)
-        elif rows[0].kind == "marks":
-            made = hv.Scatter((at, at, [row.role for row in rows]), "x", ["y", "role"]).opts(cmap=LIGHT)
-        else:
-            made = hv.Labels((at, at, [row.name for row in rows])).opts(text_color=LIGHT["ink"], **_LABEL)
-        yield made.relabel(group=group)
+        if rows:
+            yield _element(rows[0].kind, len(rows)).relabel(group=group)
         if any(row.symbol for row in rows):
-            nothing = hv.Scatter(([1.0], [1.0]), "x", "y", group=group.replace("lines", "tips"))
-            yield nothing.opts(alpha=0, size=9)
+            yield _element("tips", 1).relabel(group=group.replace("lines", "tips"))
 
 
 def _rendered(name):
@@ -97,8 +91,6 @@ def _rendered(name):
         _finished(renderer, mapper, [row for row in plot.rows if row.group == group])
         # On a canvas above the axes, which are not painted again with the data; it does not clip.
         renderer.level = "overlay"
-    # Of roles, where rows are to be named.
-    figure.center = [part for part in figure.center if not isinstance(part, Legend)]
     _look(figure)
     return figure
 

@@ -88,7 +88,7 @@ def inside(view, layer, row):
 
 def moves(view, layer):
     """Whether any row of a layer changes from state to state."""
-    return not view.moves(layer.plot).isdisjoint(layer.rows)
+    return not layer.plot.moving(view, view.way.now).keys().isdisjoint(layer.rows)
 
 
 def drawn(view, plot, states):

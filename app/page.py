@@ -300,8 +300,8 @@ class Page:
         values, starts, labels = packed(self.drawn, self.grid.layers, [self.way.now])
         motion, count = self.way.motion, len(self.way)
         times = motion.time / motion.time[-1] if motion is not None else np.linspace(0, 1, count)
-        path = [(self.way.states.depth / self.drawn.axes["d"].factor).tolist()]
-        path.append((self.way.force / self.drawn.axes["F"].factor).tolist())
+        path = (("d", self.way.states.depth), ("F", self.way.force))
+        path = [(values / self.drawn.axes[name].factor).tolist() for name, values in path]
         words = [readouts.values(self.way, self.cells, self.way.now)]
         self._serial += anew
         self.readout.text = readouts.heads(self.cells)

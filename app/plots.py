@@ -7,13 +7,11 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from mdr_core.figures import PRESSURE_ROWS, RADII, ROLES, SPRING_ROWS, Row, area, label, line, mark, parts
+from mdr_core.figures import PRESSURE_ROWS, RADII, SPRING_ROWS, Row, area, label, line, mark, parts
 
 from . import columns, comparison, references, section, surface
 from .resting import Found
 from .view import View
-
-__all__ = ["DASHES", "PLOTS", "ROLES", "Plot", "area", "label", "line", "mark"]
 
 
 @dataclass(frozen=True, eq=False)

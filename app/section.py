@@ -56,7 +56,7 @@ def found(way, quantity):
                 across, -deep, image, colours.end * np.arange(1, LINES + 1) / (LINES + 1)
             ),
             "contact radius a": (np.full(2, state.contact_radius), ends),
-            "plastic zone c": (np.full(2, state.plastic_radius or np.nan), ends),
+            "plastic zone c": (np.full(2, state.plastic_radius), ends) if state.plastic_radius else NOTHING,
             "largest": place,
         },
         [r, z, colours],

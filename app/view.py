@@ -133,12 +133,6 @@ class View:
             self._drawn[plot, i] = rows
         return rows
 
-    def moves(self, plot):
-        """Names of the rows of a plot that change from state to state."""
-        if (plot, "moving") not in self._drawn:
-            self._drawn[plot, "moving"] = plot.moving(self, self.way.now).keys()
-        return self._drawn[plot, "moving"]
-
     def pressure(self, i):
         """Radii and pressures (SI) of state i."""
         if ("pressure", i) not in self._drawn:

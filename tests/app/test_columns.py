@@ -14,11 +14,11 @@ from app.drives import follow
 from app.explorer import Explorer
 from app.figures import figure
 from app.packet import drawn, layers, packed
-from app.plots import PLOTS, Plot, line, mark
+from app.plots import PLOTS, Plot
 from app.presets import PRESETS
 from app.quantities import SHAPES
 from app.view import View
-from mdr_core.figures import SPRINGS
+from mdr_core.figures import SPRINGS, line, mark
 
 APP = Path(__file__).parents[2] / "app"
 ELASTIC = "Steel ball 16 mm on epoxy, elastic"
@@ -221,6 +221,9 @@ def test_the_section_shows_the_stress_of_the_core(label, quantity):
         peak = state.stress_peak(quantity)
         assert (place[0][0], place[1][0]) == (peak.r, -peak.z)
         assert image.max() <= peak.value <= colours.end
+    shown = drawn(View(view.way, found={PLOTS["section"].title: found}), PLOTS["section"], [view.way.now])
+    assert shown >= {"equal stress", "contact radius a"}
+    assert ("plastic zone c" in shown) == (label == DROP)
     if (label, quantity) == (ELASTIC, "max_shear"):
         # Hertz, ν of the preset: 0.3 to 0.33 p₀ on the axis, 0.4 to 0.6 a deep; the note says so.
         assert peak.value / state.pressure(0.0) == pytest.approx(0.31, abs=0.02)
