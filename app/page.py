@@ -148,6 +148,8 @@ class Page:
             "tip": "CSV file of a measured tip: r, z",
             "scene": "Load a scene (JSON)",
             "tour": "Guided scene",
+            "preset": "Preset",
+            "shape": "Shape",
         }
         parts = {"named": named, "show": self.show, "theme": self.theme, "packet": self.packet}
         if self.document is not None:
