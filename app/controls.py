@@ -40,11 +40,16 @@ def linked(text):
     return re.sub(r"§ (\d+)", led.format("section"), text)
 
 
-def explained(key, label, about):
+def explained(key, label, about, look='class="word"'):
     """A label that says what it is about when it is pressed."""
-    return (
-        f'<button class="word" popovertarget="{key}">{label}</button><div popover id="{key}">{about}</div>'
-    )
+    return f'<button {look} popovertarget="{key}">{label}</button><div popover id="{key}">{about}</div>'
+
+
+def _beside(select, label, about):
+    """A list with a question mark beside it that says what is chosen."""
+    look = f'class="help" aria-label="What is {label}?"'
+    mark = pn.pane.HTML(explained("about", "?", linked(about), look), width=26, margin=0)
+    return pn.Row(select, mark, css_classes=["tools"], **WIDE)
 
 
 def html(text, **options):
@@ -128,6 +133,14 @@ class Number(pn.custom.JSComponent):
 #: Choices of the form; others stand above the plots that they are of.
 _FORM = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface", "prescribed")
 
+_SELECTS = {
+    "preset": (
+        "Preset",
+        "A medium and an indenter that exist, with their numbers. Choosing one sets everything.",
+    ),
+    "shape": ("Shape", "What is pressed or hits: a body of revolution, which touches with its tip."),
+}
+
 
 class Controls:
     """The form: built once for a session, its parts shown where they are used.
@@ -139,19 +152,14 @@ class Controls:
         self.explorer, self.attempt, self.tell, self.numbers = explorer, attempt, tell, {}
         labels = {label or "Scene from a file": label for label in (*PRESETS, FROM_FILE)}
         look = {"css_classes": ["choice"], **WIDE}
-        about = "A medium and an indenter that exist. Choosing one sets everything."
-        self.preset = pn.widgets.Select(name="Preset", options=labels, description=about, **look)
+        self.preset = pn.widgets.Select(name="Preset", options=labels, **look)
         self.preset.param.watch(self._load, "value")
         shapes = {f"{s.label}{' (CSV)' * (key == 'sampled')}": key for key, s in SHAPES.items()}
-        about = "What is pressed or hits: a body of revolution, which touches with its tip."
-        shape = pn.widgets.Select(name="Shape", options=shapes, description=about, **look)
-        self.choices = {"shape": shape}
+        self.choices = {"shape": pn.widgets.Select(name="Shape", options=shapes, **look)}
         for name, options in CHOICES.items():
             options = {text: option for option, text in options.items()}
             kind = pn.widgets.RadioBoxGroup if name in _FORM else pn.widgets.Select
             more = {"inline": True} if name in _FORM else {"css_classes": ["choice", "beside"]}
-            if name not in _FORM:
-                more["description"] = ABOUT[name]
             self.choices[name] = kind(name=LABELS[name], options=options, **look | more)
         for name, widget in self.choices.items():
             widget.param.watch(lambda event, name=name: self._choose(name, event), "value")
@@ -163,16 +171,13 @@ class Controls:
         self.parts = {"again": again}
         self.heads = {title: html(f"<h2>{title}</h2>") for title in ("Indenter", "Medium", "Drive")}
         self.heads["tip"] = html("or a measured tip, as CSV (r, z):")
-        self.rows = {
-            name: pn.Row(
-                html(explained("about", label, linked(ABOUT[name])), css_classes=["legend"]),
-                self.choices[name],
-                css_classes=["fieldset"],
-                **WIDE,
-            )
-            for name, label in LABELS.items()
-            if name in _FORM
-        }
+        self.rows = {"preset": _beside(self.preset, *_SELECTS["preset"])}
+        for name, widget in self.choices.items():
+            label, about = _SELECTS.get(name) or (LABELS[name], ABOUT[name])
+            self.rows[name] = _beside(widget, label, about)
+            if name in _FORM:
+                legend = html(explained("about", label, linked(about)), css_classes=["legend"])
+                self.rows[name] = pn.Row(legend, widget, css_classes=["fieldset"], **WIDE)
         self.form, self._above = pn.Column(css_classes=["form"], **WIDE), []
 
     def _load(self, event):
@@ -199,7 +204,7 @@ class Controls:
             widget.value = getattr(explorer, name)
         self._write(way)
         notes, heads = self.notes, self.heads
-        rows = [self.preset, notes["sources"], heads["Indenter"], self.choices["shape"]]
+        rows = [self.rows["preset"], notes["sources"], heads["Indenter"], self.rows["shape"]]
         rows += [heads["tip"], self.tip, notes["tip"], notes["sketch"]]
         rows += [self.number(name) for name, _ in shape_quantities(explorer.shape)]
         rows += [notes["slope"], heads["Medium"]]
@@ -214,7 +219,7 @@ class Controls:
 
     def _choice(self, choice):
         numbers = map(self.number, USED[choice][getattr(self.explorer, choice)])
-        return [self.rows.get(choice, self.choices[choice]), *numbers]
+        return [self.rows[choice], *numbers]
 
     def above(self, names):
         """What stands above a plot: choices, each with the numbers that its option uses, and numbers."""
@@ -227,7 +232,8 @@ class Controls:
             parts = []
             for name in names:
                 used = USED[name][getattr(self.explorer, name)] if name in USED else [name]
-                parts += [*[self.choices[name]] * (name in USED), *map(self.number, used)]
+                parts += [self.rows[name]] if name in USED else []
+                parts += map(self.number, used)
             if parts != list(row):
                 row[:] = parts
 

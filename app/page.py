@@ -112,7 +112,7 @@ class Page:
             title, self.controls.form, about, css_classes=["side"], stylesheets=STYLE, width=320,
             sizing_mode="stretch_height", margin=0,
         )  # fmt: skip
-        axes = self.controls.choices["axes"]
+        axes = self.controls.rows["axes"]
         axes.param.update(sizing_mode="fixed", width=180)
         buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values())
         buttons = (*buttons, self.dark, self.take, self.guide, axes)

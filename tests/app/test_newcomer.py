@@ -1,0 +1,135 @@
+"""Someone who sees the page for the first time, and someone who holds it in the hand or uses keys only."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from .conftest import CHROMIUM, Explorer
+from .test_report import plain
+
+# Where the browser is required its absence is a failure.
+pytestmark = pytest.mark.skipif(
+    not Path(CHROMIUM).exists() and os.environ.get("MDR_BROWSER") != "required",
+    reason="the page's tests need Chromium; set CHROMIUM to its path",
+)
+
+# All elements, also within components; targets smaller than 24 pixels but links within a text, and of a
+# radio button its label; what can be scrolled sideways.
+SEEN = """() => {
+  const all = (root) => [...root.querySelectorAll("*")].flatMap(
+    (each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
+  const box = (each) => each.getBoundingClientRect()
+  const within = all(document)
+  const targets = within.filter((each) => each.matches(
+    "button, input:not([type=radio]), label:has(input), select, summary, .button a, [role=slider]"))
+  const size = (each) => Math.min(box(each).width, box(each).height)
+  const small = targets.filter((each) => box(each).width > 0 && size(each) < 24)
+  const sideways = within.filter((each) => each.scrollWidth > each.clientWidth + 1 &&
+    ["auto", "scroll"].includes(getComputedStyle(each).overflowX))
+  const name = (each) => `${each.tagName}.${each.className} ${each.ariaLabel ?? each.innerText}`
+  const scroll = document.documentElement.scrollWidth
+  return { small: small.map(name), sideways: sideways.map(name), scroll }
+}"""
+
+
+def test_a_newcomer_takes_the_report_home(explorer, context):
+    """Open, see first yield, change the tip, hit it, read what was destroyed, take the report home."""
+    page = explorer.page
+    explorer.press("Guide")
+    for d in ("1.5", "2"):
+        with explorer.change():
+            explorer.press("Next")
+        explorer.wait("(d) => explorer.row('force', 'now')[0][0].toFixed(1) === Number(d).toFixed(1)", d)
+    page.get_by_role("status").get_by_text("2 of 4.").wait_for()
+    # What is seen at the onset is also said.
+    page.get_by_role("img", name="onset of yield: d = 1.80 nm").wait_for()
+    explorer.choose("Shape", "Paraboloid")
+    explorer.pick("impact")
+    assert explorer.readout("A").endswith("m²")
+    page.get_by_role("button", name="A damaged area").click()
+    page.get_by_text("Damaged area π c²").wait_for()
+    page.keyboard.press("Escape")
+    explorer.press("Take with you")
+    with page.expect_download() as download:
+        page.get_by_text("Report", exact=True).click()
+    path = download.value.path()
+    text = plain(path.read_text(encoding="utf-8"))
+    assert "damaged area" in text
+    assert "Paraboloid" in text
+    kept = context.new_page()
+    outside = []
+    kept.on("request", lambda request: outside.append(request.url))
+    kept.route(
+        "**/*", lambda route: route.continue_() if route.request.url.startswith("file:") else route.abort()
+    )
+    kept.goto(f"file://{path.rename(path.with_suffix('.html'))}")
+    kept.wait_for_function("window.Bokeh?.documents[0]?.is_idle")
+    figures = kept.get_by_role("img", name=": ")
+    assert figures.count() == 6
+    assert all(box["height"] > 200 for box in (figure.bounding_box() for figure in figures.all()))
+    assert [url for url in outside if not url.startswith(("file:", "data:", "blob:"))] == []
+    kept.close()
+
+
+def test_an_equation_leads_to_the_theory(explorer, context):
+    with context.expect_page() as opened:
+        explorer.page.locator(".card.force").get_by_role("link", name="(22)").click()
+    page = opened.value
+    # The formulas are set, and the page stands where the equation is.
+    page.locator("math").first.wait_for()
+    page.wait_for_function("scrollY > 500")
+    assert page.locator("#eq-22").bounding_box()["y"] < 100
+    page.close()
+
+
+def test_small_screens(server, browser):
+    """A phone, and a window of 1440 × 900 at 200 %."""
+    with browser.new_context(viewport={"width": 390, "height": 844}) as context:
+        explorer = Explorer(context.new_page(), server.url)
+        page, card = explorer.page, explorer.page.locator(".card.force")
+        assert page.evaluate(SEEN) == {"small": [], "sideways": [], "scroll": 390}
+        # The plot stays where it is, in view, while a slider is dragged into other units.
+        card.scroll_into_view_if_needed()
+        explorer.slider("d_max").scroll_into_view_if_needed()
+        before, text = card.bounding_box(), explorer.readout("d")
+        assert before["y"] < 844 / 2
+        box = explorer.slider("d_max").bounding_box()
+        page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 12)
+        page.mouse.down()
+        for share in (0.6, 0.8, 0.97):
+            page.mouse.move(box["x"] + share * box["width"], box["y"] + 12)
+        with explorer.change():
+            page.mouse.up()
+            explorer.slider("d_max").press("End")
+        assert explorer.readout("d") != text
+        assert card.bounding_box() == before
+        page.set_viewport_size({"width": 720, "height": 450})
+        explorer.wait("explorer.model('force').inner_width > 400")
+        assert page.evaluate(SEEN) == {"small": [], "sideways": [], "scroll": 720}
+        assert explorer.problems == []
+
+
+def test_everything_is_reached_by_keys(explorer):
+    """From one stop of the Tab key to the next, every control and explanation comes by, and is outlined."""
+    page = explorer.page
+    page.locator("h1").click()
+    stops = set()
+    active = """() => {
+        let on = document.activeElement
+        while (on?.shadowRoot?.activeElement) on = on.shadowRoot.activeElement
+        if (on === document.body) return ["", ""]
+        return [on.ariaLabel || on.labels?.[0]?.textContent.trim() || on.textContent.trim(),
+                getComputedStyle(on).outlineStyle]
+    }"""
+    for _ in range(110):
+        page.keyboard.press("Tab")
+        name, outline = page.evaluate(active)
+        stops.add(name)
+        assert outline != "none", name
+    for name in (
+        "Preset", "What is q_c, yield constant?", "q_c, yield constant", "q_c, yield constant, slider",
+        "Yield", "Take with you", "Guide", "F force", "▶ Play", "State along the way", "(22)", "PNG",
+        "Keys and help",
+    ):  # fmt: skip
+        assert name in stops
