@@ -302,7 +302,9 @@ class Page:
         self.grid.show(self.drawn, self._shown())
         values, starts, labels = packed(self.drawn, self.grid.layers, [self.way.now])
         motion, count = self.way.motion, len(self.way)
-        times = motion.time / motion.time[-1] if motion is not None else np.linspace(0, 1, count)
+        times = np.linspace(0, 1, count)
+        if motion is not None:
+            times = (motion.time - motion.time[0]) / (motion.time[-1] - motion.time[0])
         path = [(self.way.states.depth / self.drawn.axes["d"].factor).tolist()]
         path.append((self.way.force / self.drawn.axes["F"].factor).tolist())
         words = [readouts.values(self.way, self.cells, self.way.now)]
