@@ -398,8 +398,9 @@ def test_a_path_is_typed_played_and_taken_away(explorer):
     page, table = explorer.page, explorer.page.get_by_label("Vertices: one a line, with times or without")
     explorer.pick("path")
     explorer.choose("Pattern", "five cycles, growing")
-    whole = explorer.row("force", "path ahead")[0]
-    assert np.sum(np.diff(np.sign(np.diff(whole))) < 0) == 5
+    # On both sides of where the load is gone are states at the same place.
+    rises = np.diff(explorer.row("force", "path ahead")[0])
+    assert np.sum(np.diff(np.sign(rises[np.abs(rises) > 1e-5])) < 0) == 5
     assert len(table.input_value().splitlines()) == 10
     table.fill("10 nm\n5 bananas")
     table.blur()
