@@ -44,8 +44,11 @@ class _Pending:
 
     @staticmethod
     def resting(way):
-        """The same, in time."""
-        yield DRIVES[drive_of(way.scene)].in_time(way.scene)
+        """The same, in time, or why it cannot be."""
+        try:
+            yield DRIVES[drive_of(way.scene)].in_time(way.scene)
+        except ValueError as error:
+            yield str(error)
 
 
 class Page:
@@ -299,7 +302,9 @@ class Page:
         self.grid.show(self.drawn, self._shown())
         values, starts, labels = packed(self.drawn, self.grid.layers, [self.way.now])
         motion, count = self.way.motion, len(self.way)
-        times = motion.time / motion.time[-1] if motion is not None else np.linspace(0, 1, count)
+        times = np.linspace(0, 1, count)
+        if motion is not None:
+            times = (motion.time - motion.time[0]) / (motion.time[-1] - motion.time[0])
         path = (("d", self.way.states.depth), ("F", self.way.force))
         path = [(values / self.drawn.axes[name].factor).tolist() for name, values in path]
         words = [readouts.values(self.way, self.cells, self.way.now)]
@@ -322,14 +327,16 @@ class Page:
     def _show_found(self, title, found):
         """Draw what was found of a plot while the input was at rest."""
         with pn.io.hold(self.document):
-            if isinstance(found, Trajectory):
+            if isinstance(found, str):
+                self.notify(found)
+            elif isinstance(found, Trajectory):
                 self.solved = dict([*self.solved.items(), (found.scene, found)][-4:])
                 self._hold()
                 self._solve()
                 self._around()
-                return
-            self.found[title] = found
-            self._show(anew=False)
+            else:
+                self.found[title] = found
+                self._show(anew=False)
 
     def _send_frames(self):
         """Send all states, once, so that the browser can move through them alone."""

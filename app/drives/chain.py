@@ -4,6 +4,7 @@ from functools import cached_property
 
 import numpy as np
 
+import mdr_core as mdr
 from mdr_core import abel
 from mdr_core.yielding import LiveInterval
 
@@ -50,6 +51,20 @@ class ChainStates:
         """What is left (m) of the elastic compression of elements at heights g that have let go."""
         _, heights, load, elastic = self._whole._elements
         return np.interp(g, heights, np.where(load[self._at] > 0, 0.0, elastic[self._at]), right=0.0)
+
+    def surface(self, r):
+        """Elastic displacement (m) of the surface, u = (2/π) ∫ u_e dx/√(r² − x²), also of what relaxes."""
+        x, _, _, elastic = self._whole._elements
+        u, r = elastic[self._at], np.asarray(r, float)[..., None]
+        inside, slope = np.minimum(x, r), np.diff(u) / np.diff(x)
+        with np.errstate(invalid="ignore"):
+            angle = np.diff(np.where(r > 0, np.arcsin(inside / np.where(r > 0, r, 1.0)), np.pi / 2))
+        rest = np.diff(np.sqrt((r - inside) * (r + inside)))
+        return 2 / np.pi * np.sum((u[:-1] - slope * x[:-1]) * angle - slope * rest, axis=-1)
+
+    def imprint(self, r):
+        """Depth (m) of the residual imprint, as at rest."""
+        return mdr.Indentation(self.profile, self.medium, self.depth, self.live).imprint(r)
 
     def pressure(self, r):
         """Contact pressure (Pa) at radii r (m), from the elements followed for all states."""

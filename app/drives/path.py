@@ -18,9 +18,9 @@ KIND = {"depth": "length", "force": "force"}
 _VALUE = {"depth": mdr.DepthPath, "force": mdr.ForcePath}
 #: Most vertices, and about how many states are drawn: of a path without dashpots, on the chain under
 #: prescribed depths, and under forces, where every one of them takes eight steps and more.
-MOST, _SLOW, _DEPTHS, _FORCES = 60, 200, 48, 24
+MOST, _SLOW, _DEPTHS, _FORCES = 60, 200, 48, 16
 #: Error allowed on the chain: less than is seen.
-_TOLERANCE = 1e-3
+_TOLERANCE = 3e-3
 
 
 def _drive(path, prescribed):
@@ -87,7 +87,11 @@ def pattern(explorer, option):
 
 def _alike(explorer, deepest):
     """A path that was drawn by hand is kept."""
-    return {} if explorer.path and explorer.pattern == "own" else pattern(explorer, explorer.pattern)
+    own = explorer.pattern == "own"
+    if own and explorer.path:
+        return {}
+    option = "reload" if own else explorer.pattern
+    return {"pattern": option} | pattern(explorer, option)
 
 
 def prescribed(explorer, option):
@@ -122,7 +126,7 @@ def _refined(scene, chain):
     values = values if time is not None else np.append(0.0, values)
     along, most, places = _along(values, time), 0.0, []
     states = _SLOW if not chain else _DEPTHS if name == "depth" else _FORCES
-    each = min(max(states // (len(values) - 1), 4), 32)
+    each = min(max(states // (len(values) - 1), 1 if chain else 4), 32)
     critical, start = scene.medium.critical_depth, scene.medium.critical_depth
     if name == "force" and start <= min(scene.profile.deepest, 1e300):
         start = float(mdr.indent(scene.profile, scene.medium, start).force)
@@ -131,11 +135,12 @@ def _refined(scene, chain):
         # Dashpots change most where a piece begins.
         share = share**2 if chain else share
         if first != last and not (chain and name == "force"):
-            # Where yield begins or goes on, and on both sides of where the load is gone.
+            # Just before yield begins or goes on, and on both sides of where the load is gone.
             gone, elastic = 0.0, most
             if name == "depth":
                 gone, elastic = max(most - critical, 0.0), min(critical, most)
-            events = np.array([start, most, gone, gone + 1e-9 * elastic])
+            before = 1 - 1e-12
+            events = np.array([before * start, before * most, gone, gone + 1e-9 * elastic])
             events = (events - first) / (last - first)
             share = np.append(share, events[(events > 0) & (events < 1)])
         places.append(begin + (end - begin) * share)

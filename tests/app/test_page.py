@@ -394,3 +394,34 @@ def test_speed_against_error_is_measured_while_it_is_looked_at(explorer):
     page.get_by_text("shortest of 3").wait_for()
     assert page.locator("tr").count() == 4
     explorer.wait("explorer.axis('speed').labels[0] === 'time to solve (s)'")
+
+
+def test_a_path_is_typed_played_and_taken_away(explorer):
+    page, table = explorer.page, explorer.page.get_by_label("Vertices: one a line, with times or without")
+    explorer.pick("path")
+    explorer.choose("Pattern", "five cycles, growing")
+    # On both sides of where the load is gone are states at the same place.
+    rises = np.diff(explorer.row("force", "path ahead")[0])
+    assert np.sum(np.diff(np.sign(rises[np.abs(rises) > 1e-5])) < 0) == 5
+    assert len(table.input_value().splitlines()) == 10
+    table.fill("10 nm\n5 bananas")
+    table.blur()
+    page.get_by_text("Line 2: “5 bananas” is not a number").wait_for()
+    assert table.input_value() == "10 nm\n5 bananas"
+    with explorer.change():
+        table.fill("6 nm\n5 nm\n8 nm")
+        table.blur()
+    explorer.wait("explorer.row('force', 'path ahead')[0].at(-1).toFixed(6) === '8.000000'")
+    assert explorer.link("pattern=own")["path"] == "6e-09 5e-09 8e-09"
+    # What is ahead is drawn as one comes there.
+    page.get_by_label("State along the way").press("Home")
+    explorer.wait("explorer.played() && explorer.row('force', 'now')[0][0] === 0")
+    assert not np.isfinite(explorer.row("force", "yielding")[0]).any()
+    page.get_by_label("State along the way").press("End")
+    explorer.wait("explorer.row('force', 'now')[0][0].toFixed(6) === '8.000000'")
+    assert np.nanmax(explorer.row("force", "yielding")[0]) == pytest.approx(8.0)
+    # In time, with dashpots: under a force first without them.
+    explorer.pick("τ")
+    explorer.choose("Pattern", "creep under a force, in time")
+    explorer.wait("explorer.row('motion', 'depth d')[0].length === 17")
+    assert explorer.readout("ε") != ""
