@@ -196,8 +196,9 @@ class Controls:
         explorer = self.explorer
         self.preset.value = explorer.preset
         for name, widget in self.choices.items():
-            some = {"options": {CHOICES[name][option]: option for option in explorer.options(name)}}
-            widget.param.update(value=explorer.option(name), **some if name in ("swept", "against") else {})
+            applies = name in ("swept", "against")
+            some = {CHOICES[name][option]: option for option in explorer.options(name) if applies}
+            widget.param.update(value=explorer.option(name), **{"options": some} if applies else {})
         self._write(way)
         notes, heads = self.notes, self.heads
         rows = [self.preset, notes["sources"], heads["Indenter"], self.choices["shape"]]
