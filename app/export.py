@@ -112,9 +112,10 @@ def sweep_python(explorer):
             return "swept"
         if sweep.swept == "energy" and np.ndim(value):
             return f"(2 * swept / {given['mass']!r}) ** 0.5"
-        return f"np.array({np.ravel(value).tolist()})[:, None]" if isinstance(value, np.ndarray) else repr(value)
+        return f"np.array({np.ravel(value).tolist()})[:, None]" if np.ndim(value) == 2 else repr(value)
 
     def arguments(values):
+        values = {name: float(v) if isinstance(v, np.floating) else v for name, v in values.items()}
         return ", ".join(f"{name}={shown(value)}" for name, value in values.items())
 
     made = []

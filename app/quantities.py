@@ -89,7 +89,7 @@ QUANTITIES = {each["name"]: _quantity(**each) for each in DATA["numbers"]} | {
 
 
 #: What can be swept: every number, and the energy of an impact; and the ends of the ranges, by their names.
-SWEPT = QUANTITIES | {"energy": _quantity(**DATA["energy"])}
+SWEPT = {"energy": _quantity(**DATA["energy"])} | QUANTITIES
 ENDS = {
     f"{name}_{end}": replace(q, name=f"{name}_{end}", symbol=f"{q.symbol} {end}", label="")
     for name, q in SWEPT.items()
