@@ -11,7 +11,7 @@ import param
 from .drives import DRIVES
 from .explorer import FROM_FILE
 from .presets import PRESETS
-from .quantities import ABOUT, CHOICES, LABELS, QUANTITIES, SHAPES, USED, Scale, shape_quantities
+from .quantities import ABOUT, CHOICES, ENDS, LABELS, NUMBERS, SHAPES, USED, Scale, shape_quantities
 from .units import UNITS, digits, entry, written
 
 JS = {path.stem: path.read_text(encoding="utf-8") for path in (Path(__file__).parent / "js").glob("*.js")}
@@ -90,7 +90,7 @@ class Number(pn.custom.JSComponent):
     _esm = JS["quantity"]
 
     def __init__(self, explorer, name, attempt):
-        quantity = QUANTITIES[name]
+        quantity = NUMBERS[name]
         self.explorer, self.key, self.kind, self.attempt = explorer, name, quantity.kind, attempt
         super().__init__(
             label=f"{symbol(quantity.symbol)} {escape(quantity.label)}",
@@ -125,7 +125,7 @@ class Number(pn.custom.JSComponent):
 
     def show(self):
         """Show the value as it stands."""
-        value = getattr(self.explorer, self.key)
+        value = self.explorer.number(self.key)
         position = self.explorer.scale(self.key).position(value)
         self.param.update(text=entry(value, self.kind), position=position)
 
@@ -188,7 +188,7 @@ class Controls:
 
     def _choose(self, name, event):
         self.tell(lambda: self.explorer.choose(name, event.new))
-        self.choices[name].value = getattr(self.explorer, name)
+        self.choices[name].value = self.explorer.option(name)
 
     def number(self, name):
         """The control of a number, made when it is used for the first time."""
@@ -201,7 +201,9 @@ class Controls:
         explorer = self.explorer
         self.preset.value = explorer.preset
         for name, widget in self.choices.items():
-            widget.value = getattr(explorer, name)
+            applies = name in ("swept", "against")
+            some = {CHOICES[name][option]: option for option in explorer.options(name) if applies}
+            widget.param.update(value=explorer.option(name), **{"options": some} if applies else {})
         self._write(way)
         notes, heads = self.notes, self.heads
         rows = [self.rows["preset"], notes["sources"], heads["Indenter"], self.rows["shape"]]
@@ -231,9 +233,11 @@ class Controls:
         for names, row in self._above:
             parts = []
             for name in names:
-                used = USED[name][getattr(self.explorer, name)] if name in USED else [name]
-                parts += [self.rows[name]] if name in USED else []
-                parts += map(self.number, used)
+                used = USED[name][self.explorer.option(name)] if name in USED else [name]
+                parts += [*[self.rows[name]] * (name in USED), *map(self.number, used)]
+                for end in (name for name in used if name in ENDS):
+                    # It may follow what its number was loaded as.
+                    self.number(end).show()
             if parts != list(row):
                 row[:] = parts
 

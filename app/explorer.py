@@ -11,7 +11,7 @@ import mdr_core as mdr
 from .convert import CONVERT
 from .drives import DRIVES
 from .presets import OPENING, PRESETS
-from .quantities import CHOICES, QUANTITIES, SHAPES, USED, Scale, shape_quantities
+from .quantities import CHOICES, ENDS, NUMBERS, QUANTITIES, SHAPES, USED, Scale, shape_quantities
 from .trajectory import LAST_PROGRESS
 from .units import fitting, read, written
 
@@ -53,7 +53,44 @@ class Explorer(param.Parameterized):
     def used(self):
         """Names of the numbers that the choices use."""
         names = [name for name, _ in shape_quantities(self.shape)]
-        return names + [n for choice, options in USED.items() for n in options[getattr(self, choice)]]
+        names += [n for choice, options in USED.items() for n in options[getattr(self, choice)]]
+        return [name for name in names if name not in ENDS]
+
+    def options(self, name):
+        """The options of a choice that apply to the scene, the one to begin with first."""
+        drive = DRIVES[self.drive]
+        if name not in ("swept", "against") or not drive.solver:
+            return list(CHOICES.get(name, SHAPES))
+        if name == "against":
+            return list(drive.results)
+        viscous = ("eta", "tau") if "speed" in drive.solver else ()
+        works = [n for n in self.used() if n != "density" and (n in viscous or n not in ("eta", "tau"))]
+        energy = ["energy"] * ("speed" in drive.solver)
+        return energy + sorted(works, key=lambda n: n not in drive.solver)
+
+    def option(self, name):
+        """The option of a choice; the first, where what was chosen does not apply."""
+        chosen, options = getattr(self, name), self.options(name)
+        return chosen if chosen in options else options[0]
+
+    def number(self, name):
+        """A number; an end of a range that is not set is about a third of the slider's reach away."""
+        if name == "energy":
+            return self.mass * self.speed**2 / 2
+        if name not in ENDS or getattr(self, name) is not None:
+            return getattr(self, name)
+        swept, _, end = name.rpartition("_")
+        scale = self.scale(swept)
+        low, high = scale.low, scale.high
+        if scale.logarithmic:
+            low, high = min(3 * low, scale.middle), max(high / 3, scale.middle)
+        return NUMBERS[name].bounded(float(f"{low if end == 'from' else high:.1g}"))
+
+    def loaded(self, name):
+        """What a number was loaded as; where it was not, what it is."""
+        if name == "energy":
+            return self.loaded("mass") * self.loaded("speed") ** 2 / 2
+        return self.resets.get(name, self.number(name))
 
     def snapshot(self):
         """All that is set, at one moment."""
@@ -105,7 +142,9 @@ class Explorer(param.Parameterized):
             return
         preset = PRESETS[label]
         self.resets, self.sized = preset.values, frozenset({preset.choices["shape"]})
-        self.param.update(preset=label, progress=1.0, path=[], **preset.choices, **preset.values)
+        # The ranges of sweeps begin anew.
+        numbers = dict.fromkeys(ENDS) | preset.values
+        self.param.update(preset=label, progress=1.0, path=[], **preset.choices, **numbers)
 
     @property
     def altered(self):
@@ -120,7 +159,7 @@ class Explorer(param.Parameterized):
 
     def checked(self, name, value):
         """A value of a number, in SI, if it is within bounds; else ValueError."""
-        quantity = QUANTITIES[name]
+        quantity = NUMBERS[name]
         if quantity.bounded(value) != value:
             shown, low, high = (written(v, quantity.kind) for v in (value, *quantity.bounds))
             raise ValueError(f"{quantity.symbol} = {shown} is out of bounds: {low} to {high}")
@@ -128,8 +167,7 @@ class Explorer(param.Parameterized):
 
     def scale(self, name):
         """The slider of a number as it stands."""
-        value = getattr(self, name)
-        return Scale(QUANTITIES[name], self.resets.get(name, value), value)
+        return Scale(NUMBERS[name], self.loaded(name), self.number(name))
 
     def slide(self, name, position):
         """Set a number to a step of its slider; a drag counts as one change."""
@@ -138,23 +176,24 @@ class Explorer(param.Parameterized):
 
     def type(self, name, text):
         """Set a number to what was typed; gives how it was read where that may surprise."""
-        kind = QUANTITIES[name].kind
-        value, surprising = read(text, kind, fitting(getattr(self, name), kind))
+        kind = NUMBERS[name].kind
+        value, surprising = read(text, kind, fitting(self.number(name), kind))
         value = self.checked(name, value)
-        self.resets = {name: value} | self.resets
+        if name not in ENDS:
+            self.resets = {name: value} | self.resets
         self.param.update(**{name: value})
         return f"{text.strip()} in SI is {written(value, kind)}" if surprising else ""
 
     def reset(self, name):
         """Set a number to what it was loaded as."""
-        self.param.update(**{name: self.resets.get(name, getattr(self, name))})
+        self.param.update(**{name: None if name in ENDS else self.loaded(name)})
 
     def choose(self, name, option):
         """Take another option of a choice, with the numbers that mean the same where there are such."""
         options = self.param[name].objects
         if option not in options:
             raise ValueError(f"{option!r:.40} is not one of {', '.join(options)}")
-        if option == getattr(self, name):
+        if option == self.option(name):
             return
         # A shape that has been looked at before keeps its values.
         kept = name not in CONVERT or (name == "shape" and option in self.sized)
@@ -223,3 +262,6 @@ for _name, _options in CHOICES.items():
 for _name, _q in QUANTITIES.items():
     _number = param.Number(_q.bounded(_q.default), bounds=_q.bounds, label=_q.label, doc=_q.help)
     Explorer.param.add_parameter(_name, _number)
+for _name, _q in ENDS.items():
+    _end = param.Number(None, bounds=_q.bounds, allow_None=True, doc=f"{_q.symbol}; None: as fits")
+    Explorer.param.add_parameter(_name, _end)

@@ -1,12 +1,14 @@
 """What is taken away as text: curves as CSV, and the state as a Python snippet."""
 
-from dataclasses import asdict
+from dataclasses import asdict, fields
 
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core.report import QUANTITIES as RESULTS
 
 from .drives import DRIVES, drive_of
+from .sweep import asked
 
 #: How far the pressure of a measured tip can be trusted.
 _MEASURED = (
@@ -81,6 +83,62 @@ def python(trajectory, held=()):
             f"# Held to compare with, {k}: {' '.join(each.name.split())}",
             *_solved(each.way, f"held_{k}_"),
         ]
+    return "\n".join(lines) + "\n"
+
+
+def sweep_csv(trajectory, explorer):
+    """All results of a sweep as CSV in SI, with inputs, units and version in its header."""
+    sweep = asked(explorer)
+    names, numbers = sweep.drive.results, sweep.numbers
+    if not sweep.drive.solver:
+        return _table(trajectory, explorer, "this drive is not swept", {})
+    heads = [f"{name} {RESULTS[name].symbol} ({RESULTS[name].unit})" for name in names]
+    columns = {sweep.swept: numbers} | dict(zip(heads, sweep.columns(numbers, names), strict=True))
+    limit = {f"{name} (SI)": row for name, row in sweep.limits(numbers)[0].items()}
+    title = f"sweep of {sweep.swept} (SI) from {sweep.low!r} to {sweep.high!r}"
+    return _table(trajectory, explorer, title, columns | limit)
+
+
+def sweep_python(explorer):
+    """Lines that come to the curve of a sweep with `mdr_core`."""
+    sweep = asked(explorer)
+    if not sweep.drive.solver:
+        return ""
+    numbers = sweep.numbers[:, None]
+    *parts, given = sweep.parts(numbers)
+
+    def shown(value):
+        if np.array_equal(value, numbers):
+            return "swept"
+        if sweep.swept == "energy" and np.ndim(value):
+            return f"(2 * swept / {given['mass']!r}) ** 0.5"
+        return f"np.array({np.ravel(value).tolist()})[:, None]" if np.ndim(value) == 2 else repr(value)
+
+    def arguments(values):
+        values = {name: float(v) if isinstance(v, np.floating) else v for name, v in values.items()}
+        return ", ".join(f"{name}={shown(value)}" for name, value in values.items())
+
+    made = []
+    for part in parts:
+        own = {field.name: getattr(part, field.name) for field in fields(part)}
+        # Without what the core takes by default; an infinite yield constant is such.
+        own = {f.name: own[f.name] for f in fields(part) if not np.array_equal(own[f.name], f.default)}
+        made.append(f"mdr.{type(part).__name__}({arguments(own)})")
+    solver, space = f"mdr.{sweep.drive.solver[0]}", "geomspace" if sweep.logarithmic else "linspace"
+    found = [f"result = {solver}(profile, medium, {arguments(given)})", f"print(result.{sweep.against}[:, 0])"]
+    if not sweep.together:
+        each = "profile.entries(i, swept.shape), medium.entries(i, swept.shape)"
+        each = f"{solver}({each}, {arguments(given)}).{sweep.against}"
+        found = [f"print([{each} for i in np.ndindex(swept.shape)])"]
+    lines = [
+        "",
+        f"# {sweep.against} over {sweep.swept}, in SI units:",
+        "import numpy as np",
+        "",
+        f"swept = np.{space}({sweep.low!r}, {sweep.high!r}, {len(numbers)})[:, None]",
+        *(f"{name} = {part}" for name, part in zip(("profile", "medium"), made, strict=True)),
+        *found,
+    ]
     return "\n".join(lines) + "\n"
 
 

@@ -7,11 +7,17 @@ import holoviews.plotting.bokeh
 import numpy as np
 from bokeh.document import Document
 from bokeh.models import (
+    BasicTicker,
+    BasicTickFormatter,
     BoxZoomTool,
     CategoricalColorMapper,
     ColorBar,
     HoverTool,
     LinearAxis,
+    LinearScale,
+    LogScale,
+    LogTicker,
+    LogTickFormatter,
     Range1d,
     ResetTool,
 )
@@ -26,7 +32,7 @@ FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
 LIGHT = {role: colours[0] for role, colours in ROLES.items()}
 DARK = {role: colours[1] for role, colours in ROLES.items()}
 #: What the pointer is told: the point of the curve next to it, from the columns drawn.
-_TIP = "<b>@row</b><br>@symbol = @y{{%.4g}} {y.unit}<br>{symbol} = @x{{%.4g}} {x.unit}"
+_TIP = "<b>@row</b><br>{own} = @y{{%.4g}} {y.unit}<br>{symbol} = @x{{%.4g}} {x.unit}"
 _LABEL = {
     "text_font_size": "12px",
     "text_font_style": "italic",
@@ -158,13 +164,29 @@ def set_axes(figure, axes):
             start, end = axis.ends
             bounds.update(start=start, end=end, reset_start=start, reset_end=end)
             side.axis_label = axis.label
+            _scale(figure, side, axis.log)
+    symbols = {row.symbol for row in PLOTS[figure.name].rows if row.symbol}
     for hover in (tool for tool in figure.toolbar.tools if isinstance(tool, HoverTool)):
         x, y = axes[0], axes[2 if hover.name.endswith("right") else 1]
-        hover.tooltips = _TIP.format(symbol=x.title.split(",")[0], x=x, y=y)
+        # Rows of whatever the axis has.
+        own = y.title.split(",")[0] if symbols == {"y"} else "@symbol"
+        hover.tooltips = _TIP.format(symbol=x.title.split(",")[0], own=own, x=x, y=y)
     for bar in _bars(figure):
         low, high = axes[2].ends
         bar.color_mapper.update(low=low, high=high)
         bar.title = f"{axes[2].title.split(',')[0]} ({axes[2].unit})"
+
+
+def _scale(figure, side, log):
+    """Make the scale along one side of a figure logarithmic, or linear again."""
+    name = "x_scale" if side is figure.below[0] else "y_scale"
+    if PLOTS[figure.name].log or isinstance(getattr(figure, name), LogScale) == log:
+        return
+    setattr(figure, name, LogScale() if log else LinearScale())
+    ticker, formatter = (LogTicker, LogTickFormatter) if log else (BasicTicker, BasicTickFormatter)
+    side.update(ticker=ticker(), formatter=formatter())
+    for grid in (each for each in figure.center if getattr(each, "axis", None) is side):
+        grid.ticker = side.ticker
 
 
 @cache

@@ -11,7 +11,7 @@ from .drives.path import checked
 from .explorer import FROM_FILE
 from .plots import DASHES, PLOTS
 from .presets import PRESETS
-from .quantities import QUANTITIES, SHAPES, shape_quantities
+from .quantities import ENDS, QUANTITIES, SHAPES, USED, shape_quantities
 from .tip import MOST_SAMPLES
 
 #: Longest link, and most characters of a file.
@@ -25,8 +25,10 @@ def query(explorer, view=True):
     """
     choices = {n: option for n, option in explorer.choices.items() if view or n not in explorer.VIEW}
     pairs = {"preset": explorer.preset} | choices
-    above = [name for plot in explorer.plots for name in PLOTS[plot].controls if name in QUANTITIES]
-    pairs |= {name: f"{getattr(explorer, name)!r}" for name in (*explorer.used(), *above)}
+    above = [name for plot in explorer.plots for name in PLOTS[plot].controls]
+    above = [n for name in above for n in (USED[name][explorer.option(name)] if name in USED else [name])]
+    numbers = {name: getattr(explorer, name) for name in (*explorer.used(), *above)}
+    pairs |= {name: f"{number!r}" for name, number in numbers.items() if number is not None}
     pairs["at"] = f"{explorer.progress:.6g}"
     if explorer.shape == "sampled":
         pairs["samples"] = " ".join(f"{x!r},{y!r}" for x, y in zip(*explorer.samples, strict=True))
@@ -87,7 +89,7 @@ def apply(explorer, arguments):
     if not low <= changes["progress"] <= high:
         raise ValueError(f"the position {changes['progress']:g} is out of bounds: {low} to {high}")
     for name, value in pairs.items():
-        if name not in QUANTITIES:
+        if name not in QUANTITIES | ENDS:
             raise ValueError(f"this link sets {name:.40}, which is not known")
         changes[name] = explorer.checked(name, _number(name, value))
     explorer.param.update(**changes)
@@ -148,7 +150,7 @@ def load_scene(explorer, text):
     explorer.resets = {name: explorer.checked(name, value) for name, value in numbers.items()}
     explorer.resets |= {name: choices[name] for name in (*explorer.choices, "path") if name in choices}
     explorer.sized = frozenset({choices["shape"]})
-    explorer.param.update(**choices | explorer.resets)
+    explorer.param.update(**dict.fromkeys(ENDS) | choices | explorer.resets)
 
 
 def _medium(medium):

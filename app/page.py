@@ -298,6 +298,9 @@ class Page:
 
     def _show(self, anew=True):
         """Draw the present state: one array of all columns; `anew` if other states are to be played."""
+        for plot, values in self._asks():
+            if plot.quick(*values):
+                (self.found[plot.title],) = plot.resting(self.way, *values)
         self.drawn = View(self.way, [each.way for each in self.held], self.found, self.explorer.choices)
         self.grid.show(self.drawn, self._shown())
         values, starts, labels = packed(self.drawn, self.grid.layers, [self.way.now])
@@ -314,6 +317,11 @@ class Page:
         self.packet.data = {"values": values}
         if self.play.active:
             self._send_frames()
+
+    def _asks(self):
+        """The plots on request that find what they show, each with what it asks for."""
+        plots = [PLOTS[name] for name in self.explorer.plots if PLOTS[name].resting]
+        return [(plot, plot.values(self.explorer)) for plot in plots]
 
     def _shown(self):
         """The plots that are seen, in their order."""
@@ -396,8 +404,8 @@ class Page:
         self.grid.describe(self.drawn)
         for k, each in enumerate([way, *(each.way for each in self.held)]):
             self.resting.follow(_Pending(f"way {k}"), each.scene if each.pending else None, each)
-        for name, plot in PLOTS.items():
-            if plot.resting:
-                values = [getattr(self.explorer, each) for each in plot.controls]
-                about = (way.scene, *values, *[way.progress[way.now]] * plot.of_state)
-                self.resting.follow(plot, about if name in self.explorer.plots else None, way, *values)
+        asked = {plot: values for plot, values in self._asks() if not plot.quick(*values)}
+        for plot in (plot for plot in PLOTS.values() if plot.resting):
+            values = asked.get(plot, ())
+            about = (way.scene, *values, *[way.progress[way.now]] * plot.of_state)
+            self.resting.follow(plot, about if plot in asked else None, way, *values)

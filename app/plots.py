@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from mdr_core.figures import PRESSURE_ROWS, RADII, SPRING_ROWS, Row, area, label, line, mark, parts
 
-from . import columns, comparison, references, section, surface
+from . import columns, comparison, references, section, surface, sweep
 from .resting import Found
 from .view import View
 
@@ -23,7 +23,8 @@ class Plot:
     yields what it has found so far, anew for each scene, with `of_state` for each state. An `image` has so
     many rows and columns of pixels. `below` is what stands below the plot, as HTML, `note` what
     depends on the view. `fitted` gives axes that depend on what is chosen; where `to_scale`, both have as
-    many pixels for a metre.
+    many pixels for a metre. `asks` gives of the explorer what `resting` gets in place of the controls'
+    values; what is `quick` is found at every move.
     """
 
     title: str
@@ -42,6 +43,12 @@ class Plot:
     note: Callable[[View], str] | None = None
     fitted: Callable[[View], list] | None = None
     to_scale: Callable[[View], bool] | None = None
+    asks: Callable[..., object] | None = None
+    quick: Callable[..., bool] = lambda *values: False
+
+    def values(self, explorer):
+        """What `resting` gets beside the trajectory."""
+        return [self.asks(explorer)] if self.asks else [getattr(explorer, n) for n in self.controls]
 
 
 #: Scenes that can be held have each its own dashes.
@@ -159,6 +166,16 @@ PLOTS = {
         ),
         resting=section.found, of_state=True, button=("Section", "e"), controls=("section",),
         image=section.SHAPE,
+    ),
+    "sweep": Plot(
+        "Sweep", "one number over a range, all others as they are", (),
+        (
+            *(line(name, "ink", 1.4, dash, "y") for name, dash in sweep.LINES.items()),
+            line("this scene", "elastic", 2.4, symbol="y"),
+            mark("present value"),
+        ),
+        resting=sweep.found, button=("Sweep", "w"), controls=("swept", "against", "sweep_axes"),
+        asks=sweep.asked, quick=sweep.quick,
     ),
     "speed": Plot(
         "Speed against error", "(1)  Δk = E* Δx,  Δγ = 4η Δx", (),

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import log
 from pathlib import Path
 
@@ -88,6 +88,19 @@ QUANTITIES = {each["name"]: _quantity(**each) for each in DATA["numbers"]} | {
 }
 
 
+#: What can be swept: every number, and the energy of an impact; and the ends of the ranges, by their names.
+SWEPT = {"energy": _quantity(**DATA["energy"])} | QUANTITIES
+ENDS = {
+    f"{name}_{end}": replace(q, name=f"{name}_{end}", symbol=f"{q.symbol} {end}", label="")
+    for name, q in SWEPT.items()
+    for end in ("from", "to")
+}
+NUMBERS = SWEPT | ENDS
+LABELS["swept"], ABOUT["swept"] = "Swept", "The number that takes all values of a range; all others stay as they are."
+CHOICES["swept"] = {name: f"{q.symbol}, {q.label}" for name, q in SWEPT.items()}
+USED["swept"] = {name: [f"{name}_from", f"{name}_to"] for name in SWEPT}
+
+
 class Scale:
     """The steps of a slider and the values they stand for."""
 
@@ -99,7 +112,7 @@ class Scale:
         if self.logarithmic:
             # A value typed beyond the slider's reach becomes its new middle.
             middle = reset if reset / quantity.span <= value <= reset * quantity.span else value
-            low, high = max(low, middle / quantity.span), min(high, middle * quantity.span)
+            self.middle, low, high = middle, max(low, middle / quantity.span), min(high, middle * quantity.span)
         self.low, self.high = low, high
 
     def position(self, value):

@@ -26,8 +26,9 @@ class TakeAway:
             ),
             ("Curves (CSV)", "curves.csv"): lambda: export.csv(page.way, page.explorer),
             ("Pressure (CSV)", "pressure.csv"): lambda: export.pressure_csv(page.way, page.explorer),
+            ("Sweep (CSV)", "sweep.csv"): lambda: export.sweep_csv(page.way, page.explorer),
             ("Scene (JSON)", "scene.json"): lambda: link.scene_file(page.way),
-            ("Python", "scene.py"): lambda: export.python(page.way, page.held),
+            ("Python", "scene.py"): self._snippet,
         }
         look, plain = {"css_classes": ["choice"], **WIDE}, {"css_classes": ["button"], "margin": 0}
         row = {"css_classes": ["tools"], **WIDE}
@@ -66,7 +67,12 @@ class TakeAway:
             query, here = link.query(self.page.explorer), self._here()
             long = "This tip has too many samples for a link: save the scene as JSON."
             self.link.value = f"{here}?{query}" if query else long
-            self.python.value = export.python(self.page.way, self.page.held)
+            self.python.value = self._snippet()
+
+    def _snippet(self):
+        page = self.page
+        sweep = export.sweep_python(page.explorer) if "sweep" in page.explorer.plots else ""
+        return export.python(page.way, page.held) + sweep
 
     def _here(self):
         return pn.state.location.href.split("?")[0] if pn.state.location else ""

@@ -72,7 +72,7 @@ def label(name):
 
 @dataclass(frozen=True)
 class Axis:
-    """An axis: its names, its unit and the size of that (SI), and in SI where it starts and ends."""
+    """An axis: its names, its unit and the size of that (SI), where it starts and ends (SI), its scale."""
 
     name: str
     title: str
@@ -80,6 +80,7 @@ class Axis:
     factor: float
     start: float | None = None
     end: float | None = None
+    log: bool = False
 
     @classmethod
     def fitting(cls, name, title, unit, largest, **ends):

@@ -20,7 +20,8 @@ class Drive:
     a trajectory, the arguments of profile and medium, and a prefix of names; `saved` the value for a scene
     file. `form` are the choices and parts of the form that follow its numbers, `cells` further readouts,
     `words` more for the summary in a line, `duration` how long it takes (s) where that counts. `in_time`
-    gives the states of a trajectory that is `pending`, for which a move has no time.
+    gives the states of a trajectory that is `pending`, for which a move has no time. `solver` is the
+    function of the core for whole arrays, with the numbers that it takes, `results` what it gives.
     """
 
     make: Callable[[Any], Any]
@@ -36,3 +37,5 @@ class Drive:
     words: Callable[[Any], list[str]] = lambda explorer: []
     duration: Callable[[Any], float | None] = lambda explorer: None
     in_time: Callable[[mdr.Scene], Trajectory] | None = None
+    solver: tuple[str, ...] = ()
+    results: tuple[str, ...] = ()

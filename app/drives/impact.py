@@ -79,5 +79,10 @@ IMPACT = Drive(
     snippet=_snippet,
     form=("surface", "again", "inertia"),
     cells=_cells,
+    solver=("impact", "mass", "speed"),
+    results=(
+        "damaged_area", "restitution", "max_depth", "max_force", "contact_time", "rebound_speed",
+        "plastic_work", "viscous_work", "contact_radius", "plastic_radius", "plastic_depth",
+    ),
     duration=lambda explorer: float(explorer.solved().depth) / explorer.speed,
-)
+)  # fmt: skip

@@ -83,6 +83,10 @@ def _saved(way):
     return type(drive)(along[[now]] if now < peak else along[[peak, now]])
 
 
+_RESULTS = (
+    "contact_radius", "plastic_radius", "plastic_depth", "mean_pressure", "stiffness", "stored_energy",
+    "plastic_work",
+)  # fmt: skip
 _PRESSED = partial(
     Drive,
     opened=_opened, follow=_follow, deepest=lambda scene: scene.solve(), snippet=_snippet, saved=_saved,
@@ -91,9 +95,13 @@ DEPTH = _PRESSED(
     make=lambda explorer: mdr.DepthPath(explorer.max_depth),
     owns=lambda value: isinstance(value, mdr.DepthPath) and _single(value, "depth"),
     alike=lambda explorer, deepest: {"max_depth": float(deepest.depth)},
+    solver=("indent", "max_depth"),
+    results=("force", *_RESULTS),
 )
 FORCE = _PRESSED(
     make=lambda explorer: mdr.ForcePath(explorer.max_force),
     owns=lambda value: isinstance(value, mdr.ForcePath) and _single(value, "force"),
     alike=most_force,
+    solver=("indent_to_force", "max_force"),
+    results=("depth", *_RESULTS),
 )

@@ -15,7 +15,9 @@ from app.explorer import Explorer as State
 from app.packet import inside
 from app.plots import PLOTS
 from app.presets import OPENING, PRESETS
-from app.units import UNITS
+from app.quantities import QUANTITIES
+from app.sweep import FAST
+from app.units import UNITS, read
 from app.view import View
 
 from .conftest import CHROMIUM
@@ -383,6 +385,41 @@ def test_the_section_follows_once_the_input_rests(explorer):
     explorer.wait(
         "(a) => Math.abs(explorer.row('section', 'contact radius a')[0][0] - a) < 1e-4 * a", a * 1e9
     )
+
+
+def test_the_sweep_shows_the_damaged_area_over_the_energy_and_moves_with_a_slider(explorer):
+    state = State(DROP)
+    explorer.choose("Preset", DROP)
+    explorer.press("Sweep")
+    explorer.wait("explorer.model('sweep') && explorer.row('sweep', 'this scene')[0].length > 50")
+    labels = explorer.axis("sweep")["labels"]
+    assert [label.split(",")[0] for label in labels] == ["W", "A"]
+
+    def agrees():
+        (x,), (y,) = explorer.row("sweep", "present value")
+        hit = state.scene().solve()
+        assert x * unit(labels[0], "energy") == pytest.approx(state.number("energy"), rel=1e-6)
+        assert y * unit(labels[1], "area") == pytest.approx(hit.damaged_area, rel=1e-6)
+        W, fast = explorer.row("sweep", FAST)
+        k = len(W) // 2
+        speed = (2 * W[k] * unit(labels[0], "energy") / state.mass) ** 0.5
+        limit = mdr.impact(state.profile(), state.medium(), state.mass, speed).fast_limit
+        assert fast[k] * unit(labels[1], "area") == pytest.approx(limit.contact_area, rel=1e-5)
+
+    agrees()
+    for name in ("q_c", "speed"):
+        explorer.slider("q_c" if name == "q_c" else "v_0").focus()
+        with explorer.change():
+            explorer.page.keyboard.press("PageUp")
+        labels = explorer.axis("sweep")["labels"]
+        shown = explorer.field("q_c" if name == "q_c" else "v_0").input_value()
+        setattr(state, name, state.checked(name, read(shown, QUANTITIES[name].kind, None)[0]))
+        agrees()
+    explorer.choose("Swept", "v_0, speed at first contact")
+    with explorer.change():
+        explorer.type("v_0 from", "20 mm/s")
+    assert explorer.axis("sweep")["x"][0] * unit(explorer.axis("sweep")["labels"][0], "speed") == 0.02
+    explorer.link("speed_from=0.02")
 
 
 def test_speed_against_error_is_measured_while_it_is_looked_at(explorer):

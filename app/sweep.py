@@ -1,0 +1,192 @@
+"""One number of the scene over a range against a quantity of its result, beside the limit of fast impacts."""
+
+from dataclasses import dataclass, replace
+from math import inf
+from operator import attrgetter
+from types import SimpleNamespace
+
+import numpy as np
+
+import mdr_core as mdr
+from mdr_core.figures import NOTHING
+from mdr_core.report import QUANTITIES as RESULTS
+
+from .controls import marked
+from .drives import DRIVES
+from .explorer import Explorer
+from .quantities import SWEPT
+from .resting import Found
+from .units import UNITS, digits, written
+from .view import axis
+
+#: Points along the range, and of a viscous impact, which takes a millisecond each.
+POINTS, VISCOUS = 81, 31
+#: Rows of the fast limit, which is that of class (b), and of the other classes of hardness, with their dashes.
+FAST = "fast limit (23) (24), class (b)"
+CLASSES = {"a": "class (a), hardness constant", "c": "class (c), hardness ∝ 1/a²"}
+LINES = {FAST: "dashed", CLASSES["a"]: "dotted", CLASSES["c"]: "dotdash"}
+#: What the fast limit has: its quantity, and the power of the energy that a `ScalingLaw` has for it.
+_LIMITS = {
+    "damaged_area": ("fast_limit.contact_area", lambda law: law.area),
+    "max_depth": ("fast_limit.max_depth", lambda law: law.depth),
+    "restitution": ("fast_limit.restitution", lambda law: law.restitution / 2),
+}
+_SHAPES = {"cone": 1.0, "paraboloid": 2.0}
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """What is asked for: all that is set, the number that is swept between two ends, and against what."""
+
+    values: dict
+    swept: str
+    present: float
+    low: float
+    high: float
+    against: str
+    axes: str
+
+    @property
+    def drive(self):
+        return DRIVES[self.values["drive"]]
+
+    @property
+    def viscous(self):
+        return self.values["damping"] != "none" and "speed" in self.drive.solver
+
+    @property
+    def together(self):
+        """Whether the core solves it all at once: forces are those on one indenter on one medium."""
+        return self.drive.solver[:1] != ("indent_to_force",) or self.swept == "max_force"
+
+    @property
+    def logarithmic(self):
+        return self.axes != "linear" and self.low > 0
+
+    @property
+    def numbers(self):
+        """Values (SI) of the number that is swept."""
+        space = np.geomspace if self.logarithmic else np.linspace
+        return space(self.low, self.high, VISCOUS if self.viscous else POINTS)
+
+    def parts(self, numbers):
+        """Profile, medium and arguments of the solver, by name, for some values of the number."""
+        values = self.values | {self.swept: numbers}
+        if self.swept == "energy":
+            values["speed"] = (2 * numbers / values["mass"]) ** 0.5
+        state, (solver, *names) = SimpleNamespace(**values), self.drive.solver
+        given = {name.replace("max_", ""): getattr(state, name) for name in names}
+        if "speed" in given and state.surface == "imprint":
+            given["plastic_depth"] = state.plastic_depth
+        return Explorer.profile(state), Explorer.medium(state), given
+
+    def solve(self, numbers):
+        """The result of the core for a column of values of the number."""
+        profile, medium, given = self.parts(numbers)
+        return getattr(mdr, self.drive.solver[0])(profile, medium, **given)
+
+    def columns(self, numbers, quantities):
+        """Some quantities of the results, a row each; NaN where the core refuses."""
+        try:
+            # One at a time also what is not solved together.
+            result = self.solve(numbers[:, None] if len(numbers) > 1 else float(numbers[0]))
+            rows = [np.broadcast_to(attrgetter(each)(result), (len(numbers), 1)) for each in quantities]
+            return np.hstack(rows).T
+        except ValueError:
+            if len(numbers) == 1:
+                return np.full((len(quantities), 1), np.nan)
+            halves = np.array_split(numbers, 2)
+            return np.hstack([self.columns(half, quantities) for half in halves])
+
+    def limits(self, numbers):
+        """The fast limit and the classes of hardness where there are such: rows, and powers of the energy."""
+        values, (limit, power) = self.values, _LIMITS.get(self.against, ("", None))
+        dry = "speed" in self.drive.solver and not self.viscous and values["surface"] == "virgin"
+        if not (limit and dry and values["plasticity"] != "none"):
+            return {}, {}
+        rows = {FAST: self.columns(numbers, [limit])[0]}
+        exponent = values["power_law_exponent"] if values["shape"] == "power_law" else _SHAPES.get(values["shape"])
+        if exponent is None or self.swept not in ("energy", "mass", "speed"):
+            return rows, {}
+        powers = {name: power(mdr.ScalingLaw(name, exponent)) for name in "abc"}
+        # All through the limit at the present energy.
+        here = self.columns(np.array([self.present]), [limit])[0]
+        energy = (numbers / self.present) ** (2 if self.swept == "speed" else 1)
+        return rows | {CLASSES[name]: here * energy ** powers[name] for name in CLASSES}, powers
+
+
+def asked(explorer):
+    """The sweep that is set."""
+    swept = explorer.option("swept")
+    low, high = sorted(explorer.number(f"{swept}_{end}") for end in ("from", "to"))
+    chosen = explorer.option("against"), explorer.option("sweep_axes")
+    return Sweep(explorer.snapshot()[0], swept, explorer.number(swept), low, high, *chosen)
+
+
+def quick(sweep):
+    """Whether it takes no longer than a move has time for: shapes whose depths are closed forms."""
+    return sweep.together and not sweep.viscous and sweep.values["shape"] in (*_SHAPES, "power_law")
+
+
+def found(way, sweep):
+    """The curve with the present value, its limits, and what they tell."""
+    if not sweep.drive.solver or sweep.low == sweep.high:
+        what = "the range is empty" if sweep.drive.solver else "press to a depth or a force, or let a body hit"
+        yield Found({}, [], f"Nothing is swept: {what}.")
+        return
+    numbers, here = sweep.numbers, getattr(way.hit or way.deepest, sweep.against)
+    (values,) = sweep.columns(numbers, [sweep.against])
+    limits, powers = sweep.limits(numbers)
+    inside = sweep.low <= sweep.present <= sweep.high
+    rows = {"this scene": (numbers, values)} | {name: (numbers, row) for name, row in limits.items()}
+    x, y = _axes(sweep, values, float(here))
+    if y.log:
+        rows = {name: (numbers, np.where(row > 0, row, np.nan)) for name, (_, row) in rows.items()}
+    seen = inside and (here > 0 or not y.log)
+    rows["present value"] = (np.array([sweep.present]), np.array([here])) if seen else NOTHING
+    yield Found(rows, [x, y], " ".join(_notes(sweep, numbers, values, powers, inside)))
+
+
+def _axes(sweep, values, here):
+    quantity, result = SWEPT[sweep.swept], RESULTS[sweep.against]
+    x = axis("swept", _title(quantity.symbol, quantity.label), quantity.kind, sweep.high)
+    x = replace(x, start=sweep.low, end=sweep.high, log=sweep.logarithmic)
+    some = np.append(values, here)
+    some = some[np.isfinite(some)]
+    kind = next(k for k, units in UNITS.items() if any((u.name, u.factor) == (result.unit, 1) for u in units))
+    y = axis("against", _title(result.symbol, result.long_name), kind, max(some, default=1.0))
+    if sweep.axes != "log" or not (some > 0).any():
+        return x, y
+    # Six decades at most.
+    least = max(min(some[some > 0]), 1e-6 * max(some))
+    low, high = (10.0 ** step(np.log10(end / y.factor)) for step, end in ((np.floor, least), (np.ceil, max(some))))
+    return x, replace(y, start=low * y.factor, end=max(high, 10 * low) * y.factor, log=True)
+
+
+def _title(symbol, label):
+    for written_as, shown in zip(("_0", "_1", "_2", "_"), ("₀", "₁", "₂", ""), strict=True):
+        symbol = symbol.replace(written_as, shown)
+    return f"{symbol}, {label}"
+
+
+def _notes(sweep, numbers, values, powers, inside):
+    quantity, symbol = SWEPT[sweep.swept], RESULTS[sweep.against].symbol
+    if not inside:
+        shown = written(sweep.present, quantity.kind, 3)
+        yield f"The present value, {marked(f'{quantity.symbol} = {shown}')}, is outside of the range."
+    elif sweep.logarithmic:
+        pair = sweep.present * np.array([0.999, 1.001])
+        (ends,) = sweep.columns(pair, [sweep.against])
+        if (ends > 0).all():
+            slope = round(float(np.log(ends[1] / ends[0]) / np.log(pair[1] / pair[0])), 6)
+            power = f"<sup>{digits(slope, 3)}</sup>."
+            yield marked(f"At the present value {symbol} goes as {quantity.symbol}") + power
+    if powers:
+        texts = ", ".join(f"W<sup>{digits(power, 3)}</sup> ({name})" for name, power in powers.items())
+        yield f"In the fast limit it goes with the energy as {texts}: hardness constant, ∝ 1/a, ∝ 1/a²."
+    refused = numbers[np.isnan(values)]
+    if refused.size:
+        try:
+            sweep.solve(float(refused[0]))
+        except ValueError as error:
+            yield marked(f"Not all of the range can be solved: {error}.")
