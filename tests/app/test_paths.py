@@ -98,6 +98,7 @@ def test_a_held_ramp_of_a_viscous_medium_is_that_of_the_core(shape):
     exact = mdr.indent_in_time(explorer.profile(), medium, way.states.depth, time)
     # What the page asks of the chain is 3·10⁻³.
     np.testing.assert_allclose(way.force, exact.force, atol=3e-3 * exact.force.max())
+    assert "error of the chain" in readouts.heads(readouts.cells(way))
     # At the end of the hold the dashpots carry nothing: F of the springs alone.
     still = mdr.indent(explorer.profile(), medium, way.states.depth)
     assert way.force[-1] == pytest.approx(float(still.force[-1]), rel=1e-3)
