@@ -98,7 +98,7 @@ class Sweep:
             return np.hstack([self.columns(half, quantities) for half in halves])
 
     def limits(self, numbers):
-        """Rows of the fast limit and of the classes, where there are such, and their powers of the energy."""
+        """Rows of the fast limit and of the classes, where there are such; their powers of the energy."""
         values, (limit, power) = self.values, _LIMITS.get(self.against, ("", None))
         dry = "speed" in self.drive.solver and not self.viscous and values["surface"] == "virgin"
         if not (limit and dry and values["plasticity"] != "none"):
