@@ -94,7 +94,7 @@ def sweep_csv(trajectory, explorer):
         return _table(trajectory, explorer, "this drive is not swept", {})
     heads = [f"{name} {RESULTS[name].symbol} ({RESULTS[name].unit})" for name in names]
     columns = {sweep.swept: numbers} | dict(zip(heads, sweep.columns(numbers, names), strict=True))
-    limit = {f"{name} (SI)": row for name, row in sweep.limits(numbers)[0].items()}
+    limit = {f"{name} (SI)".replace(",", ":"): row for name, row in sweep.limits(numbers)[0].items()}
     title = f"sweep of {sweep.swept} (SI) from {sweep.low!r} to {sweep.high!r}"
     return _table(trajectory, explorer, title, columns | limit)
 
@@ -125,7 +125,10 @@ def sweep_python(explorer):
         own = {f.name: own[f.name] for f in fields(part) if not np.array_equal(own[f.name], f.default)}
         made.append(f"mdr.{type(part).__name__}({arguments(own)})")
     solver, space = f"mdr.{sweep.drive.solver[0]}", "geomspace" if sweep.logarithmic else "linspace"
-    found = [f"result = {solver}(profile, medium, {arguments(given)})", f"print(result.{sweep.against}[:, 0])"]
+    found = [
+        f"result = {solver}(profile, medium, {arguments(given)})",
+        f"print(result.{sweep.against}[:, 0])",
+    ]
     if not sweep.together:
         each = "profile.entries(i, swept.shape), medium.entries(i, swept.shape)"
         each = f"{solver}({each}, {arguments(given)}).{sweep.against}"

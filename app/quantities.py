@@ -96,7 +96,8 @@ ENDS = {
     for end in ("from", "to")
 }
 NUMBERS = SWEPT | ENDS
-LABELS["swept"], ABOUT["swept"] = "Swept", "The number that takes all values of a range; all others stay as they are."
+LABELS["swept"] = "Swept"
+ABOUT["swept"] = "The number that takes all values of a range; all others stay as they are."
 CHOICES["swept"] = {name: f"{q.symbol}, {q.label}" for name, q in SWEPT.items()}
 USED["swept"] = {name: [f"{name}_from", f"{name}_to"] for name in SWEPT}
 
@@ -112,7 +113,8 @@ class Scale:
         if self.logarithmic:
             # A value typed beyond the slider's reach becomes its new middle.
             middle = reset if reset / quantity.span <= value <= reset * quantity.span else value
-            self.middle, low, high = middle, max(low, middle / quantity.span), min(high, middle * quantity.span)
+            self.middle, reach = middle, quantity.span
+            low, high = max(low, middle / reach), min(high, middle * reach)
         self.low, self.high = low, high
 
     def position(self, value):

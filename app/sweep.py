@@ -1,7 +1,6 @@
-"""One number of the scene over a range against a quantity of its result, beside the limit of fast impacts."""
+"""One number of the scene over a range against a quantity of results, beside the limit of fast impacts."""
 
 from dataclasses import dataclass, replace
-from math import inf
 from operator import attrgetter
 from types import SimpleNamespace
 
@@ -16,12 +15,12 @@ from .drives import DRIVES
 from .explorer import Explorer
 from .quantities import SWEPT
 from .resting import Found
-from .units import UNITS, digits, written
+from .units import UNITS, Unit, digits, written
 from .view import axis
 
 #: Points along the range, and of a viscous impact, which takes a millisecond each.
 POINTS, VISCOUS = 81, 31
-#: Rows of the fast limit, which is that of class (b), and of the other classes of hardness, with their dashes.
+#: Rows of the fast limit, which is that of class (b), and of the other classes, with their dashes.
 FAST = "fast limit (23) (24), class (b)"
 CLASSES = {"a": "class (a), hardness constant", "c": "class (c), hardness ∝ 1/a²"}
 LINES = {FAST: "dashed", CLASSES["a"]: "dotted", CLASSES["c"]: "dotdash"}
@@ -74,7 +73,7 @@ class Sweep:
         values = self.values | {self.swept: numbers}
         if self.swept == "energy":
             values["speed"] = (2 * numbers / values["mass"]) ** 0.5
-        state, (solver, *names) = SimpleNamespace(**values), self.drive.solver
+        state, names = SimpleNamespace(**values), self.drive.solver[1:]
         given = {name.replace("max_", ""): getattr(state, name) for name in names}
         if "speed" in given and state.surface == "imprint":
             given["plastic_depth"] = state.plastic_depth
@@ -99,13 +98,15 @@ class Sweep:
             return np.hstack([self.columns(half, quantities) for half in halves])
 
     def limits(self, numbers):
-        """The fast limit and the classes of hardness where there are such: rows, and powers of the energy."""
+        """Rows of the fast limit and of the classes, where there are such; their powers of the energy."""
         values, (limit, power) = self.values, _LIMITS.get(self.against, ("", None))
         dry = "speed" in self.drive.solver and not self.viscous and values["surface"] == "virgin"
         if not (limit and dry and values["plasticity"] != "none"):
             return {}, {}
         rows = {FAST: self.columns(numbers, [limit])[0]}
-        exponent = values["power_law_exponent"] if values["shape"] == "power_law" else _SHAPES.get(values["shape"])
+        exponent = (
+            values["power_law_exponent"] if values["shape"] == "power_law" else _SHAPES.get(values["shape"])
+        )
         if exponent is None or self.swept not in ("energy", "mass", "speed"):
             return rows, {}
         powers = {name: power(mdr.ScalingLaw(name, exponent)) for name in "abc"}
@@ -131,7 +132,9 @@ def quick(sweep):
 def found(way, sweep):
     """The curve with the present value, its limits, and what they tell."""
     if not sweep.drive.solver or sweep.low == sweep.high:
-        what = "the range is empty" if sweep.drive.solver else "press to a depth or a force, or let a body hit"
+        what = (
+            "the range is empty" if sweep.drive.solver else "press to a depth or a force, or let a body hit"
+        )
         yield Found({}, [], f"Nothing is swept: {what}.")
         return
     numbers, here = sweep.numbers, getattr(way.hit or way.deepest, sweep.against)
@@ -153,13 +156,13 @@ def _axes(sweep, values, here):
     x = replace(x, start=sweep.low, end=sweep.high, log=sweep.logarithmic)
     some = np.append(values, here)
     some = some[np.isfinite(some)]
-    kind = next(k for k, units in UNITS.items() if any((u.name, u.factor) == (result.unit, 1) for u in units))
+    kind = next(kind for kind, units in UNITS.items() if Unit(result.unit, 1.0) in units)
     y = axis("against", _title(result.symbol, result.long_name), kind, max(some, default=1.0))
     if sweep.axes != "log" or not (some > 0).any():
         return x, y
-    # Six decades at most.
-    least = max(min(some[some > 0]), 1e-6 * max(some))
-    low, high = (10.0 ** step(np.log10(end / y.factor)) for step, end in ((np.floor, least), (np.ceil, max(some))))
+    # Six decades at most, from power to power of ten.
+    least, most = max(min(some[some > 0]), 1e-6 * max(some)), max(some)
+    low, high = 10.0 ** np.floor(np.log10(least / y.factor)), 10.0 ** np.ceil(np.log10(most / y.factor))
     return x, replace(y, start=low * y.factor, end=max(high, 10 * low) * y.factor, log=True)
 
 

@@ -6,7 +6,6 @@ import pytest
 from app import export, link, sweep
 from app.drives import follow
 from app.explorer import Explorer
-from app.plots import PLOTS
 from app.presets import OPENING, PRESETS
 
 DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
@@ -138,13 +137,14 @@ def test_the_sweep_is_taken_away_as_csv_and_python(drive, name, capsys):
     asked, found = swept(explorer, swept=name)
     text = export.sweep_csv(follow(explorer.scene(), 1.0), explorer)
     rows = [line.split(",") for line in text.splitlines() if not line.startswith("#")]
+    assert {len(row) for row in rows} == {len(rows[0])}
     column = next(k for k, head in enumerate(rows[0]) if head.startswith(asked.against))
     numbers, values = np.array(rows[1:], float)[:, [0, column]].T
     shown = found.rows["this scene"]
     np.testing.assert_array_equal(numbers, shown[0])
     np.testing.assert_array_equal(values[np.isfinite(shown[1])], shown[1][np.isfinite(shown[1])])
     capsys.readouterr()
-    exec("import mdr_core as mdr\n" + export.sweep_python(explorer))
+    exec("import mdr_core as mdr\n" + export.sweep_python(explorer), {})
     printed = capsys.readouterr().out.replace("[", " ").replace("]", " ").replace(",", " ").split()
     printed = [float(each.removeprefix("np.float64(").removesuffix(")")) for each in printed]
     # Printed with eight digits.
