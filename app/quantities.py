@@ -18,8 +18,8 @@ class Quantity:
     `symbol` and `label` are as shown: "q_c", "yield constant"; `kind` is a key of `units.UNITS`. `bounds`
     and `default` are in SI, but for a length of a shape `default` is in contact radii of what is on the
     page, so that another shape begins at the same scale. The slider reaches the factor `span` below and
-    above the value that it is reset to; 0: from bound to bound, on a linear scale. `help` says in two
-    sentences what it is, `equation` where it stands, `typical` is a usual range.
+    above the value that it is reset to; 0: from bound to bound, on a linear scale; below 0 there is
+    none. `help` says in two sentences what it is, `equation` where it stands, `typical` is a usual range.
     """
 
     name: str
@@ -96,7 +96,10 @@ ENDS = {
     for end in ("from", "to")
 }
 NUMBERS = SWEPT | ENDS
-LABELS["swept"], ABOUT["swept"] = "Swept", "The number that takes all values of a range; all others stay as they are."
+LABELS["swept"], ABOUT["swept"] = (
+    "Swept",
+    "The number that takes all values of a range; all others stay as they are.",
+)
 CHOICES["swept"] = {name: f"{q.symbol}, {q.label}" for name, q in SWEPT.items()}
 USED["swept"] = {name: [f"{name}_from", f"{name}_to"] for name in SWEPT}
 
@@ -112,7 +115,11 @@ class Scale:
         if self.logarithmic:
             # A value typed beyond the slider's reach becomes its new middle.
             middle = reset if reset / quantity.span <= value <= reset * quantity.span else value
-            self.middle, low, high = middle, max(low, middle / quantity.span), min(high, middle * quantity.span)
+            self.middle, low, high = (
+                middle,
+                max(low, middle / quantity.span),
+                min(high, middle * quantity.span),
+            )
         self.low, self.high = low, high
 
     def position(self, value):

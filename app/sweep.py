@@ -105,7 +105,9 @@ class Sweep:
         if not (limit and dry and values["plasticity"] != "none"):
             return {}, {}
         rows = {FAST: self.columns(numbers, [limit])[0]}
-        exponent = values["power_law_exponent"] if values["shape"] == "power_law" else _SHAPES.get(values["shape"])
+        exponent = (
+            values["power_law_exponent"] if values["shape"] == "power_law" else _SHAPES.get(values["shape"])
+        )
         if exponent is None or self.swept not in ("energy", "mass", "speed"):
             return rows, {}
         powers = {name: power(mdr.ScalingLaw(name, exponent)) for name in "abc"}
@@ -131,7 +133,9 @@ def quick(sweep):
 def found(way, sweep):
     """The curve with the present value, its limits, and what they tell."""
     if not sweep.drive.solver or sweep.low == sweep.high:
-        what = "the range is empty" if sweep.drive.solver else "press to a depth or a force, or let a body hit"
+        what = (
+            "the range is empty" if sweep.drive.solver else "press to a depth or a force, or let a body hit"
+        )
         yield Found({}, [], f"Nothing is swept: {what}.")
         return
     numbers, here = sweep.numbers, getattr(way.hit or way.deepest, sweep.against)
@@ -153,13 +157,17 @@ def _axes(sweep, values, here):
     x = replace(x, start=sweep.low, end=sweep.high, log=sweep.logarithmic)
     some = np.append(values, here)
     some = some[np.isfinite(some)]
-    kind = next(k for k, units in UNITS.items() if any((u.name, u.factor) == (result.unit, 1) for u in units))
+    kind = next(
+        k for k, units in UNITS.items() if any((u.name, u.factor) == (result.unit, 1) for u in units)
+    )
     y = axis("against", _title(result.symbol, result.long_name), kind, max(some, default=1.0))
     if sweep.axes != "log" or not (some > 0).any():
         return x, y
     # Six decades at most.
     least = max(min(some[some > 0]), 1e-6 * max(some))
-    low, high = (10.0 ** step(np.log10(end / y.factor)) for step, end in ((np.floor, least), (np.ceil, max(some))))
+    low, high = (
+        10.0 ** step(np.log10(end / y.factor)) for step, end in ((np.floor, least), (np.ceil, max(some)))
+    )
     return x, replace(y, start=low * y.factor, end=max(high, 10 * low) * y.factor, log=True)
 
 

@@ -47,9 +47,11 @@ def _read(lines, unit, most, name):
     """Radii and heights (m) in a CSV file."""
     if unit is not None:
         _check.one_of("unit", unit, _UNITS)
-    header, rows = _rows(
-        lines, most, name, lambda header, cells: len(_named(header)) or (2 if unit is None else cells)
-    )
+
+    def width(header, cells):
+        return max(len(_named(header)) or (2 if unit is None else cells), 2)
+
+    header, rows = _rows(lines, most, name, width)
     named = _named(header)
     units = [unit, unit] if unit else named[:2]
     if len(units) != 2 or not set(units) <= set(_UNITS):
@@ -114,7 +116,7 @@ def _rows(lines, most, name, width_of, what=", r and z first"):
         if not rows and (values is None or line.startswith("#")):
             header.append(line)
         elif cells and not line.startswith("#"):
-            width = width or max(width_of(header, len(cells)), 2)
+            width = width or width_of(header, len(cells))
             if values is None or len(values) != width:
                 expected = "two numbers r, z" if width == 2 and what else f"{width} numbers{what}"
                 raise ValueError(f"{name}, line {number}: expected {expected}, found {line.strip()!r:.60}")
