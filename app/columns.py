@@ -11,7 +11,7 @@ import numpy as np
 from mdr_core import figures
 from mdr_core.figures import both, split
 
-from . import references
+from . import measured, references
 from .drives.chain import ChainStates
 
 #: Pixels of the map along each side.
@@ -49,6 +49,8 @@ def force_still(view):
     if onset is not None and (way.motion is None or way.scene.medium.eta == 0):
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     held = view.of_held("", lambda way, over: (over("d", way.states.depth), over("F", way.force)))
+    if view.curve is not None:
+        rows["measured"] = measured.row(view.curve.depth, view.curve.force)
     return rows | held | references.curves(view)
 
 

@@ -22,10 +22,14 @@ WIDE = {"sizing_mode": "stretch_width", "margin": 0}
 _GRAVITY = 9.80665
 
 
+def indexed(text):
+    """HTML in which every symbol such as d_c has its index."""
+    return re.sub(r"(\b[a-zA-Z]|[σντηρ])_([a-zA-Z0-9]+)", r"<i>\1</i><sub>\2</sub>", text)
+
+
 def marked(text):
     """A text as HTML, in which every symbol such as d_c has its index."""
-    index = r"(\b[a-zA-Z]|[σντηρ])_([a-zA-Z0-9]+)"
-    return re.sub(index, r"<i>\1</i><sub>\2</sub>", escape(text))
+    return indexed(escape(text))
 
 
 def symbol(text):
@@ -96,6 +100,7 @@ class Number(pn.custom.JSComponent):
             label=f"{symbol(quantity.symbol)} {escape(quantity.label)}",
             spoken=f"{quantity.symbol}, {quantity.label}",
             about=_about(quantity),
+            steps=Scale.STEPS if quantity.span >= 0 else 0,
             css_classes=["number"],
             **WIDE,
         )

@@ -10,6 +10,7 @@ import mdr_core as mdr
 
 from .convert import CONVERT
 from .drives import DRIVES
+from .measured import Measured
 from .presets import OPENING, PRESETS
 from .quantities import CHOICES, ENDS, NUMBERS, QUANTITIES, SHAPES, USED, Scale, shape_quantities
 from .trajectory import LAST_PROGRESS
@@ -32,6 +33,8 @@ class Explorer(param.Parameterized):
     samples = param.Tuple(None, length=2, allow_None=True, doc="radii and heights (m) of a measured tip")
     path = param.List([], doc="vertices of a path: depths or forces, each alone or with its time (SI)")
     tip_note = param.String(doc="what was done to the measured tip")
+    measured = param.ClassSelector(class_=Measured, doc="a measured curve, and the fit to it")
+    holds = param.List(["baseline", "frame_compliance"], item_type=str, doc="what a fit leaves as it is")
     hold = param.List([], item_type=str, doc="queries of the scenes that are held to compare with")
     plots = param.List([], item_type=str, doc="plots that are shown on request")
     dark = param.Boolean(False)
@@ -212,6 +215,10 @@ class Explorer(param.Parameterized):
             changes["max_depth"] = float(f"{tip.deepest / 2:.3g}")
             self.resets = self.resets | {"max_depth": changes["max_depth"]}
         self.param.update(**changes)
+
+    def take_curve(self, curve):
+        """Take a measured curve, or None, to compare with; it lies as it was measured."""
+        self.param.update(measured=curve, contact_point=0.0, baseline=0.0)
 
     def hit_again(self, hit):
         """Let the body hit the imprint that it has left itself."""

@@ -1,6 +1,7 @@
 """What is taken away as text: curves as CSV, and the state as a Python snippet."""
 
 from dataclasses import asdict, fields
+from inspect import signature
 
 import numpy as np
 
@@ -53,6 +54,24 @@ def pressure_csv(trajectory, explorer, points=401):
     return _table(trajectory, explorer, title, columns, notes)
 
 
+def fit_csv(trajectory, explorer):
+    """The measured curve as it was fitted, in SI, with all values, errors and remarks in the header."""
+    found, (depth, force) = explorer.measured.fit, explorer.measured.data
+    columns = {
+        "measured depth z (m)": depth,
+        "measured force (N)": force,
+        "depth d (m)": found.indentation.depth,
+        "modelled force F (N)": found.indentation.force,
+        "residual (N)": found.residuals,
+    }
+    asked = {name: value for name, value in explorer.measured.asked.items() if value is not None}
+    given = ", ".join(f"{name} = {value!r}" for name, value in asked.items())
+    values = [f"{name} = {value!r}" for name, value in found.to_dict().items()]
+    told = ["fit, SI units:", f"  held or given: {given or 'nothing'}", *values, *repr(found).splitlines()]
+    title = f"fit to {explorer.measured.name}; inputs are those of the page as it stands"
+    return _table(trajectory, explorer, title, columns, told)
+
+
 def _table(trajectory, explorer, title, columns, notes=()):
     lines = [f"mdr_core {mdr.__version__}: {title}", "inputs, SI units:"]
     lines += [f"  {name}: {value}" for name, value in _inputs(trajectory.scene, explorer)]
@@ -72,6 +91,24 @@ def _inputs(scene, explorer):
     given = [name for name in explorer.used() if name not in ("E_star", "q_c", "eta")]
     yield "set on the page", ", ".join(f"{name} = {getattr(explorer, name)!r}" for name in given)
     yield "drive", repr(scene.drive)
+
+
+def fit_python(curve):
+    """Lines that come to the fit with `mdr_core`, from what `fit_csv` writes."""
+    usual = signature(mdr.fit_indentation).parameters
+    asked = {name: value for name, value in curve.asked.items() if value != usual[name].default}
+    given = "".join(f", {name}={value!r}" for name, value in asked.items())
+    lines = [
+        "",
+        f"# The fit to {curve.name}; fit.csv is what the page saves of it.",
+        "import numpy as np",
+        "",
+        'z, F = np.genfromtxt("fit.csv", delimiter=",", usecols=(0, 1))[1:].T  # m, N',
+        f"tip = {_shape(curve.fit.profile)}",
+        f"fit = mdr.fit_indentation(tip, z, F{given})",
+        "print(fit)",
+    ]
+    return "\n".join(lines) + "\n"
 
 
 def python(trajectory, held=()):
@@ -145,14 +182,18 @@ def sweep_python(explorer):
     return "\n".join(lines) + "\n"
 
 
+def _shape(profile):
+    shape = ", ".join(f"{name}={value!r}" for name, value in asdict(profile).items())
+    return f"mdr.{type(profile).__name__}({shape})"
+
+
 def _solved(trajectory, prefix=""):
     """Lines for one state, its names with a prefix; what the core takes by default is left out."""
     scene, numbers = trajectory.scene, asdict(trajectory.scene.medium)
     plain = asdict(mdr.Medium(scene.medium.E_star)) | {"E_star": None}
     numbers = {name: number for name, number in numbers.items() if number != plain[name]}
-    shape = ", ".join(f"{name}={value!r}" for name, value in asdict(scene.profile).items())
     lines = [
-        f"{prefix}profile = mdr.{type(scene.profile).__name__}({shape})",
+        f"{prefix}profile = {_shape(scene.profile)}",
         f"{prefix}medium = mdr.Medium({_arguments(numbers)})  # Pa, N/m, Pa·s",
     ]
     given = f"{prefix}profile, {prefix}medium"

@@ -28,7 +28,7 @@ for (const [range, size] of parts) {
 }
 """
 #: Plots that stand under others, on one axis x.
-_BELOW = {"pressure": "springs", "radii": "force", "energy": "motion"}
+_BELOW = {"pressure": "springs", "radii": "force", "residual": "force", "energy": "motion"}
 
 
 def button(kind, name, key, **options):

@@ -18,6 +18,8 @@ from .explorer import Explorer
 from .figures import DARK, LIGHT
 from .grid import FULL, STYLE, Grid, button
 from .held import Table, held, is_held, renamed, toggled
+from .measured import Curve
+from .measuring import Measuring
 from .packet import packed
 from .plots import PLOTS
 from .quantities import CHOICES
@@ -66,6 +68,7 @@ class Page:
         self.controls = Controls(self.explorer, self.attempt, self.tell)
         self.controls.parts["vertices"] = Vertices(self.explorer, self.attempt)
         self.away, self.tour = TakeAway(self), Tour(self)
+        self.measuring = Measuring(self)
         self._connect()
         self._solve()
         self._layout()
@@ -94,6 +97,7 @@ class Page:
         self.undo, self.redo, self.reset = (button(click, *each) for each in keys)
         keys = (("Hold", "h"), ("Dark", "d"), ("Take with you", "t"), ("Guide", "g"))
         self.hold, self.dark, self.take, self.guide = (button(toggle, *each) for each in keys)
+        self.measure = button(toggle, "Fit a measurement", "f")
         self.asked = {name: button(toggle, *plot.button) for name, plot in PLOTS.items() if plot.button}
         paces = [(str(pace), f"{pace} ×") for pace in (0.1, 0.25, 0.5, 1, 2)]
         styled = {"stylesheets": STYLE, "margin": 0}
@@ -118,12 +122,12 @@ class Page:
         axes = self.controls.rows["axes"]
         axes.param.update(sizing_mode="fixed", width=180)
         buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values())
-        buttons = (*buttons, self.dark, self.take, self.guide, axes)
+        buttons = (*buttons, self.dark, self.take, self.measure, self.guide, axes)
         tools = pn.Row(*buttons, css_classes=["tools"], stylesheets=STYLE, **WIDE)
         parts = (self.play, self.state, self.pace, self.standing, self.address)
         player = pn.Row(*map(pn.pane.Bokeh, parts), css_classes=["player"], stylesheets=STYLE, **WIDE)
-        above = (tools, self.table.view, self.away.panel, self.tour.panel, pn.pane.Bokeh(self.readout))
-        parts = (*above, self.lights, player, self.grid.view)
+        above = (tools, self.table.view, self.away.panel, self.measuring.panel, self.tour.panel)
+        parts = (*above, pn.pane.Bokeh(self.readout), self.lights, player, self.grid.view)
         results = pn.Column(*parts, css_classes=["results"], **FULL)
         self.view = pn.Row(side, results, css_classes=["page"], **FULL)
 
@@ -151,6 +155,7 @@ class Page:
             "tip": "CSV file of a measured tip: r, z",
             "scene": "Load a scene (JSON)",
             "tour": "Guided scene",
+            "curve": "CSV file of a measured curve: depth, force",
         }
         parts = {"named": named, "show": self.show, "theme": self.theme, "packet": self.packet}
         if self.document is not None:
@@ -301,7 +306,8 @@ class Page:
         for plot, values in self._asks():
             if plot.quick(*values):
                 (self.found[plot.title],) = plot.resting(self.way, *values)
-        self.drawn = View(self.way, [each.way for each in self.held], self.found, self.explorer.choices)
+        held, curve = [each.way for each in self.held], Curve.of(self.explorer)
+        self.drawn = View(self.way, held, self.found, self.explorer.choices, curve)
         self.grid.show(self.drawn, self._shown())
         values, starts, labels = packed(self.drawn, self.grid.layers, [self.way.now])
         motion, count = self.way.motion, len(self.way)
@@ -328,9 +334,10 @@ class Page:
         asked, pressed = self.explorer.plots, self.way.motion is None
         known = self.drawn.axes.keys()
         names = [n for n, plot in PLOTS.items() if not plot.button and known >= set(plot.axes)]
-        # Three in a row: the pressure stays below the springs, and the radii below the force.
-        first = [name for name in asked if pressed and not PLOTS[name].log][:1]
-        return [*names[:2], *first, *names[2:], *(name for name in asked if name not in first)]
+        # Three in a row: the pressure stays below the springs, and radii or residual below the force.
+        first = [name for name in asked if not PLOTS[name].log][:1] or ["radii"] * ("residual" in names)
+        first *= pressed
+        return [*names[:2], *first, *(name for name in (*names[2:], *asked) if name not in first)]
 
     def _show_found(self, title, found):
         """Draw what was found of a plot while the input was at rest."""
@@ -386,6 +393,7 @@ class Page:
         self.table.show(way, self.held)
         self.grid.tell(readouts.summary(explorer))
         self.away.show()
+        self.measuring.show()
         self._settle()
 
     def _settle(self):

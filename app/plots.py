@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from mdr_core.figures import PRESSURE_ROWS, RADII, SPRING_ROWS, Row, area, label, line, mark, parts
 
-from . import columns, comparison, references, section, surface, sweep
+from . import columns, comparison, measured, references, section, surface, sweep
 from .resting import Found
 from .view import View
 
@@ -77,6 +77,7 @@ PLOTS = {
             *references.ROWS,
             line("path ahead", "free", 1.0),
             *parts("F"),
+            line("measured", "measured", 1.4, symbol="F"),
             mark("onset of yield", "paper", "yielded", "diamond", 11),
             mark("now"),
             label("dₚ"),
@@ -99,6 +100,16 @@ PLOTS = {
         "Contact pressure", "(10)  σ_zz(r) = (1/π) ∫ q′(x) dx/√(x² − r²)", ("r", "p"),
         (*_held("−σzz"), *PRESSURE_ROWS, label("beyond")),
         columns.pressure_still, columns.pressure,
+    ),
+    "residual": Plot(
+        "Residual", "ΔF = F_measured − F(d)", ("d", "ΔF"),
+        (
+            line("zero", "ink", 1.0, "dashed", legend=False),
+            line("± noise", "free", 1.2, "dotted"),
+            line("measured − model", "measured", 0.9, symbol="ΔF"),
+            label("missing"),
+        ),
+        measured.residual_still,
     ),
     "radii": Plot(
         "Contact and plastic zone", "(16) (21)  g(a) = d,  g(c) = d − d_c", ("d", "a"),
@@ -151,6 +162,7 @@ PLOTS = {
             *_held("F"),
             *references.ROWS,
             *parts("F"),
+            line("measured", "measured", 1.4, symbol="F"),
             mark("onset of yield", "paper", "yielded", "diamond", 11),
             mark("now"),
         ),

@@ -18,8 +18,8 @@ class Quantity:
     `symbol` and `label` are as shown: "q_c", "yield constant"; `kind` is a key of `units.UNITS`. `bounds`
     and `default` are in SI, but for a length of a shape `default` is in contact radii of what is on the
     page, so that another shape begins at the same scale. The slider reaches the factor `span` below and
-    above the value that it is reset to; 0: from bound to bound, on a linear scale. `help` says in two
-    sentences what it is, `equation` where it stands, `typical` is a usual range.
+    above the value that it is reset to; 0: from bound to bound, on a linear scale; below 0 there is
+    none. `help` says in two sentences what it is, `equation` where it stands, `typical` is a usual range.
     """
 
     name: str

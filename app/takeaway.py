@@ -29,10 +29,11 @@ class TakeAway:
             ("Sweep (CSV)", "sweep.csv"): lambda: export.sweep_csv(page.way, page.explorer),
             ("Scene (JSON)", "scene.json"): lambda: link.scene_file(page.way),
             ("Python", "scene.py"): self._snippet,
+            ("Fit (CSV)", "fit.csv"): lambda: export.fit_csv(page.way, page.explorer),
         }
         look, plain = {"css_classes": ["choice"], **WIDE}, {"css_classes": ["button"], "margin": 0}
         row = {"css_classes": ["tools"], **WIDE}
-        downloads = (
+        downloads = [
             pn.widgets.FileDownload(
                 callback=lambda write=write: StringIO(write()),
                 filename=name,
@@ -41,7 +42,8 @@ class TakeAway:
                 **plain,
             )
             for (label, name), write in files.items()
-        )
+        ]
+        self.fit = downloads[-1]
         self.scene = pn.widgets.FileInput(
             accept=".json,application/json", css_classes=["file", "scene"], width=230, margin=0
         )
@@ -68,11 +70,17 @@ class TakeAway:
             long = "This tip has too many samples for a link: save the scene as JSON."
             self.link.value = f"{here}?{query}" if query else long
             self.python.value = self._snippet()
+            curve = self.page.explorer.measured
+            self.fit.visible = curve is not None and curve.fit is not None
+            alone = "Link to this page, without the measured curve: that stays in its file"
+            self.link.name = "Link to this page" if curve is None else alone
 
     def _snippet(self):
         page = self.page
         sweep = export.sweep_python(page.explorer) if "sweep" in page.explorer.plots else ""
-        return export.python(page.way, page.held) + sweep
+        curve = page.explorer.measured
+        fit = export.fit_python(curve) if curve is not None and curve.fit is not None else ""
+        return export.python(page.way, page.held) + sweep + fit
 
     def _here(self):
         return pn.state.location.href.split("?")[0] if pn.state.location else ""

@@ -30,12 +30,15 @@ _AXES = {
 
 
 class View:
-    """A trajectory and its axes, with those held beside it, what plots have found at rest, and choices."""
+    """A trajectory and its axes, with those held beside it, what plots have found at rest, and choices.
 
-    def __init__(self, way, held=(), found=None, chosen=None):
+    `curve` is what was measured, if anything was.
+    """
+
+    def __init__(self, way, held=(), found=None, chosen=None, curve=None):
         # The first option of what is not chosen.
         self.chosen = {name: next(iter(options)) for name, options in CHOICES.items()} | (chosen or {})
-        self.way, self.held, self.found, self._drawn = way, held, found or {}, {}
+        self.way, self.held, self.found, self.curve, self._drawn = way, held, found or {}, curve, {}
         # Sizes of the scene that are units, and those of what is held, each in its own.
         over = self.chosen["axes"] == "ratio"
         self._scales, *self._theirs = (scales(each) if over else {} for each in (way, *held))
@@ -54,7 +57,10 @@ class View:
             theirs = _largest(held)
             for name in size.keys() & theirs.keys() & _AXES.keys():
                 size[name] = max(size[name], self.beside(k, _AXES[name], theirs[name]))
-        depth = 1.02 * max(size["depth"], size["onset"])
+        depth, force = 1.02 * max(size["depth"], size["onset"]), size["force"]
+        if self.curve is not None:
+            depth = max(depth, 1.02 * float(self.curve.depth.max()))
+            force = max(force, 1.05 * float(self.curve.force.max()))
         described = [
             ("x", "x, coordinate of the springs", "length", size["length"], 1.0),
             ("r", "r, radius", "length", size["length"], 1.0),
@@ -62,7 +68,7 @@ class View:
             ("plane y", "y, in the plane", "length", size["length"], 1.0),
             ("z", "z, height", "length", size["depth"], REST),
             ("d", "d, indentation depth", "length", depth),
-            ("F", "F, normal force", "force", size["force"]),
+            ("F", "F, normal force", "force", force),
             ("a", "a, c, radius", "length", size["radius"]),
             ("p", "−σzz, contact pressure", "pressure", size["pressure"]),
             ("section r", "r, radius", "length", 1.75 * size["length"], 1.0),
@@ -72,6 +78,9 @@ class View:
             time = self.way.motion.time
             described.append(("t", "t, time", "time", size["time"], 0.0, min(float(time[0]), 0.0)))
             described.append(("E", "E, energy", "energy", size["energy"]))
+        if self.curve is not None:
+            largest = float(np.nan_to_num(np.abs(self.residual)).max())
+            described.append(("ΔF", "ΔF, measured less modelled force", "force", largest, 1.0))
         made = {name: self._axis(name, *rest) for name, *rest in described}
         return made | {f"log {name}": self._logarithmic(made[name], size[f"least {name}"]) for name in "dF"}
 
@@ -104,6 +113,11 @@ class View:
             f"held {k + 1}{what}": columns(held, partial(self.beside, k))
             for k, held in enumerate(self.held)
         }
+
+    @cached_property
+    def residual(self):
+        """Measured less modelled force (N)."""
+        return self.curve.residual(self.way.scene)
 
     def axes_of(self, plot):
         """The axes of a plot: those of the view, or what was found with its rows."""

@@ -17,6 +17,7 @@ ROLES = {
     "elastic": ("#0072b2", "#56b4e9"),
     "yielded": ("#d55e00", "#f0913a"),
     "held": ("#aa4499", "#dd8fd0"),
+    "measured": ("#7a4a1e", "#d8b48a"),
     "speed": ("#009e73", "#35c79b"),
     "loss": ("#b8860b", "#e0c04c"),
     "ink": ("#22272e", "#e4e7eb"),

@@ -8,6 +8,7 @@ export function render({ model, el }) {
   const [text, range] = el.querySelectorAll("input")
   const [said, about, help] = ["#said", ".about", ".help"].map((name) => el.querySelector(name))
   text.ariaLabel = model.spoken
+  range.hidden = !model.steps
   range.ariaLabel = `${model.spoken}, slider`
   let busy = false
   let wish = null

@@ -47,24 +47,12 @@ def _read(lines, unit, most, name):
     """Radii and heights (m) in a CSV file."""
     if unit is not None:
         _check.one_of("unit", unit, _UNITS)
-    rows, named, width = [], [], 0
-    for number, line in enumerate(lines, start=1):
-        cells = _cells(line)
-        try:
-            values = [float(cell) for cell in cells]
-        except ValueError:
-            values = None
-        if not rows and (values is None or line.startswith("#")):
-            # A bracket in brackets begins anew: otherwise a line of brackets takes their number squared.
-            named = re.findall(r"[(\[]\s*([^(\[)\]\s]+)\s*[)\]]", line) or _SLASHED.findall(line) or named
-        elif cells and not line.startswith("#"):
-            width = width or max(len(named), 2 if unit is None else len(cells))
-            if values is None or len(values) != width or width < 2:
-                expected = "two numbers r, z" if width <= 2 else f"{width} numbers, r and z first"
-                raise ValueError(f"{name}, line {number}: expected {expected}, found {line.strip()!r:.60}")
-            rows.append(values[:2])
-            if len(rows) > most:
-                raise ValueError(f"{name}: more than {most} samples; thin them out")
+
+    def width(header, cells):
+        return max(len(_named(header)) or (2 if unit is None else cells), 2)
+
+    header, rows = _rows(lines, most, name, width)
+    named = _named(header)
     units = [unit, unit] if unit else named[:2]
     if len(units) != 2 or not set(units) <= set(_UNITS):
         raise ValueError(
@@ -75,8 +63,67 @@ def _read(lines, unit, most, name):
         raise ValueError(f"{name}: unit={unit!r} was given, but the header says {', '.join(named)}")
     if not rows:
         raise ValueError(f"{name}: no samples; expected rows of two numbers r, z")
-    r, z = np.array(rows).T
+    r, z = np.array(rows)[:, :2].T
     return r * _UNITS[units[0]], z * _UNITS[units[1]]
+
+
+def _named(header):
+    """Units that the last line of a header has in brackets, or behind a slash, if any line has."""
+    for line in reversed(header):
+        # A bracket in brackets begins anew: otherwise a line of brackets takes their number squared.
+        if named := re.findall(r"[(\[]\s*([^(\[)\]\s]+)\s*[)\]]", line) or _SLASHED.findall(line):
+            return named
+    return []
+
+
+def read_columns(file, most, name):
+    """Names of the columns of an open text file, and their numbers (rows, columns), at most `most` rows.
+
+    A name has the words of the last two lines of the header with as many cells; without such it is empty.
+    """
+    header, rows = _rows(_lines(file, name), most, name, lambda header, cells: cells, "")
+    if not rows:
+        raise ValueError(f"{name}: no rows of numbers")
+    width, units = len(rows[0]), _named(header)
+    heads = [cells for line in header if len(cells := _heads(line)) == width]
+    if not heads and len(units) == width:
+        heads = [units]
+    elif not heads and len(units) > 1:
+        raise ValueError(
+            f"{name}: the header names {len(units)} units, the rows have {width} columns: where commas are "
+            "decimal ones, separate columns by semicolons"
+        )
+    return [" ".join(words).strip() for words in zip(*heads[-2:], strict=True)] or [""] * width, np.array(
+        rows
+    )
+
+
+def _heads(line):
+    """Cells of a line of a header, which may have spaces."""
+    line = line.strip().lstrip("#").replace('"', "")
+    return [cell.strip() for cell in re.split(next((s for s in ";\t," if s in line), r"\s{2,}"), line)]
+
+
+def _rows(lines, most, name, width_of, what=", r and z first"):
+    """Lines of the header, and rows of as many numbers as `width_of` says from it and the first row."""
+    header, rows, width = [], [], 0
+    for number, line in enumerate(lines, start=1):
+        cells = _cells(line)
+        try:
+            values = [float(cell) for cell in cells]
+        except ValueError:
+            values = None
+        if not rows and (values is None or line.startswith("#")):
+            header.append(line)
+        elif cells and not line.startswith("#"):
+            width = width or width_of(header, len(cells))
+            if values is None or len(values) != width:
+                expected = "two numbers r, z" if width == 2 and what else f"{width} numbers{what}"
+                raise ValueError(f"{name}, line {number}: expected {expected}, found {line.strip()!r:.60}")
+            rows.append(values)
+            if len(rows) > most:
+                raise ValueError(f"{name}: more than {most} samples; thin them out")
+    return header, rows
 
 
 def _cells(line):
