@@ -4,6 +4,7 @@ x and y of a line, an area or a mark; x, y and text of a label; ends along x and
 Rows that are not given are empty.
 """
 
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from mdr_core import figures
 from mdr_core.figures import both, split
 
-from . import measured, references
+from . import friction, measured, references
 from .drives.chain import ChainStates
 
 #: Pixels of the map along each side.
@@ -34,7 +35,9 @@ def _relaxing(view, i, g):
 
 def springs(view, i):
     state = view.way.states[i]
-    return figures.springs(state, view.end["x"], view.end["z"], lambda g: _relaxing(view, i, g))
+    along = None if view.way.oblique is None else partial(friction.leaning, view.way, i)
+    size = view.end["x"], view.end["z"]
+    return figures.springs(state, *size, lambda g: _relaxing(view, i, g), along)
 
 
 def _curve(way, until=None):
@@ -167,13 +170,14 @@ def motion(view, i):
 
 
 def energy_still(view):
-    m = view.way.motion
-    parts = m.plastic_work, m.viscous_work, m.stored_energy, m.kinetic_energy
+    m = view.way.ledger
+    slip = 0 * m.time if view.way.oblique is None else m.friction_work
+    parts = slip, m.plastic_work, m.viscous_work, m.stored_energy, m.kinetic_energy
     sums = np.cumsum([np.zeros_like(m.time), *parts], axis=0)
     time = np.append(m.time, m.time[::-1])
     between = [(time, np.append(upper, lower[::-1])) for lower, upper in pairwise(sums)]
-    rows = dict(zip(("plastic", "viscous", "stored", "kinetic"), between, strict=True))
-    of = {"viscous": m.viscous_work, "kinetic": m.kinetic_energy}
+    rows = dict(zip(("friction", "plastic", "viscous", "stored", "kinetic"), between, strict=True))
+    of = {"friction": slip, "viscous": m.viscous_work, "kinetic": m.kinetic_energy}
     return rows | {name: figures.NOTHING for name, energy in of.items() if not energy.any()}
 
 

@@ -95,6 +95,9 @@ def found(way):
     if way.turns:
         # Its deepest state, infinitely slowly.
         scene = replace(scene, drive=mdr.DepthPath(float(way.deepest.depth)))
+    if way.oblique is not None:
+        # Friction has one model only: its normal motion.
+        scene = replace(scene, drive=mdr.FreeImpact(scene.drive.mass, scene.drive.speed))
     result = scene.solve()
     for row in compare(scene, result):
         rows.append(row)

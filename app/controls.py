@@ -136,7 +136,7 @@ class Number(pn.custom.JSComponent):
 
 
 #: Choices of the form; others stand above the plots that they are of.
-_FORM = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface", "prescribed")
+_FORM = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface", "prescribed", "aim", "body")
 
 _SELECTS = {
     "preset": (

@@ -2,7 +2,7 @@
 
 from math import inf
 
-from .drives import DRIVES, path
+from .drives import DRIVES, oblique, path
 from .quantities import shape_quantities
 
 
@@ -68,6 +68,7 @@ CONVERT = {
     "damping": _damping,
     "drive": _drive,
     "surface": _surface,
+    "aim": oblique.aim,
     "pattern": path.pattern,
     "prescribed": path.prescribed,
 }

@@ -37,4 +37,7 @@ def scales(way):
     if way.motion is not None:
         found["t"] = float(way.motion.time[-1]), "T"
         found["E"] = float(way.motion.kinetic_energy[0]), "E_0"
+    if way.oblique is not None:
+        found["force"] = found["F"]
+        found |= dict.fromkeys(("W", "v"), (way.scene.drive.speed, "v_0"))
     return found

@@ -8,6 +8,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.report import QUANTITIES as RESULTS
 
+from . import friction
 from .drives import DRIVES, drive_of
 from .sweep import asked
 
@@ -33,8 +34,10 @@ def csv(trajectory, explorer):
     if motion is not None:
         columns = {"time t (s)": motion.time} | columns
         columns["velocity v (m/s)"] = motion.velocity
-        columns["kinetic energy (J)"] = motion.kinetic_energy
-        columns["viscous work (J)"] = motion.viscous_work
+        columns["kinetic energy (J)"] = trajectory.ledger.kinetic_energy
+        columns["viscous work (J)"] = trajectory.ledger.viscous_work
+    if trajectory.oblique is not None:
+        columns |= friction.table(trajectory.oblique)
     return _table(trajectory, explorer, "states along the way", columns)
 
 

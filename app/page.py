@@ -331,8 +331,8 @@ class Page:
 
     def _shown(self):
         """The plots that are seen, in their order."""
-        asked, pressed = self.explorer.plots, self.way.motion is None
-        known = self.drawn.axes.keys()
+        pressed, known = self.way.motion is None, self.drawn.axes.keys()
+        asked = [name for name in self.explorer.plots if known >= set(PLOTS[name].axes)]
         names = [n for n, plot in PLOTS.items() if not plot.button and known >= set(plot.axes)]
         # Three in a row: the pressure stays below the springs, and radii or residual below the force.
         first = [name for name in asked if not PLOTS[name].log][:1] or ["radii"] * ("residual" in names)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from mdr_core.figures import PRESSURE_ROWS, RADII, SPRING_ROWS, Row, area, label, line, mark, parts
 
-from . import columns, comparison, measured, references, section, surface, sweep
+from . import columns, comparison, friction, measured, references, section, surface, sweep
 from .resting import Found
 from .view import View
 
@@ -65,7 +65,7 @@ def _held(symbol, axis=1, what="", width=1.6, legend=True):
 PLOTS = {
     "springs": Plot(
         "1D foundation", "(17) (18)  q = E*(d − g(x)) ≤ (π/2) q_c", ("x", "z"),
-        SPRING_ROWS,
+        (*SPRING_ROWS, line("sticks", "stick", 2.4), line("slips", "slip", 1.4)),
         moving=columns.springs,
     ),
     "force": Plot(
@@ -128,6 +128,7 @@ PLOTS = {
     "energy": Plot(
         "Where the energy is", "U + W_p + W_v + m v²/2 = ∫ F dd, or m v_0²/2  § 9", ("t", "E"),
         (
+            area("friction", "slip", 0.6, "x"),
             area("plastic", "yielded", 0.45, "/"),
             area("viscous", "loss", 0.5, "\\"),
             area("stored", "elastic", 0.45),
@@ -135,6 +136,39 @@ PLOTS = {
             line("time", "ink", 1.0, "dashed", legend=False),
         ),
         columns.energy_still, columns.energy,
+    ),
+    "forces": Plot(
+        "Forces of an oblique impact", "|F_x| ≤ μ F,  § 13", ("t", "force"),
+        (
+            *_held("F"),
+            line("most friction ±μF", "slip", 1.2, "dashed", "μF"),
+            line("normal force F", "elastic", 2.2, symbol="F"),
+            line("force along Fₓ", "stick", 2.2, symbol="Fₓ"),
+            line("time", "ink", 1.0, "dashed", legend=False),
+            mark("now"),
+            mark("F now", marker="diamond", legend=False),
+        ),
+        friction.forces_still, friction.forces,
+    ),
+    "hodograph": Plot(
+        "Hodograph of the contact point", "m_t dW = −F_x dt,  m dv = −F dt,  § 13", ("W", "v"),
+        (
+            *_held("−v"),
+            line("path before", "free", 1.2, "dashed"),
+            line("path after", "free", 1.2),
+            line("all slips", "slip", 3.0, symbol="−v"),
+            line("something sticks", "stick", 2.0, symbol="−v"),
+            mark("now"),
+        ),
+        friction.hodograph_still, friction.hodograph, to_scale=lambda view: True,
+    ),
+    "maw": Plot(
+        "Before and after, of Maw and others", "ψ = κ W/(μ v_0),  § 13", ("ψ₁", "ψ₂"),
+        (
+            line("elastic", "elastic", 2.2, symbol="ψ₂"),
+            mark("this impact", "slip", "ink", "diamond", 12),
+        ),
+        friction.maw_still, resting=friction.maw, button=("ψ", "w"),
     ),
     "map": Plot(
         "Contact pressure over the plane", "(10)  −σ_zz(√(x² + y²))", ("plane x", "plane y", "p"),

@@ -4,6 +4,8 @@ from functools import cache
 
 import numpy as np
 
+from mdr_core.results import friction_limits
+
 from .controls import explained, linked, symbol
 from .drives import DRIVES, drive_of
 from .quantities import DATA, QUANTITIES, SHAPES, USED, shape_quantities
@@ -68,9 +70,12 @@ def lights(way, density, ratio):
     limits = list((way.states if way.hit is None else way.hit).limits)
     if way.hit is not None and density is not None:
         limits.append(way.hit.speed_limit(density))
+    limits += friction_limits(way.scene.medium) if way.oblique is not None else ()
     for limit in sorted(limits, key=lambda limit: limit.concerns != "result"):
         if limit.what == "Poisson ratio" and ratio is None:
             yield "note", "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*."
+        elif limit.what == "coupling" and ratio is None:
+            yield "note", "Friction along the surface is that of ν = ½; ν is not given with E*."
         else:
             yield limit.level, limit.sentence
 

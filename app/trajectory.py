@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core.dynamics.oblique_motion import ObliqueMotion
 from mdr_core.yielding import LiveInterval
 
 #: From first contact (0) over the deepest state (1) to the loss of contact (2) and the tip back at the
@@ -22,8 +23,8 @@ class Trajectory:
     `progress` is where on the way a state stands: 0 first contact, 1 deepest, 2 loss of contact, and 2.2
     the tip back at the height of the undeformed surface. `now` is the number of the present state, `peak`
     that of the deepest one. What has times has them, with speeds and energies, in `motion`; an impact has
-    a `hit`. A path that may turn round several times `turns`; what is `pending` is followed infinitely
-    slowly until it has been solved in time.
+    a `hit`, and an `oblique` one its motion with friction. A path that may turn round several times
+    `turns`; what is `pending` says how roughly it is followed until it has been solved in full.
     """
 
     scene: mdr.Scene
@@ -34,7 +35,8 @@ class Trajectory:
     hit: mdr.Impact | None = None
     motion: mdr.Motion | None = None
     turns: bool = False
-    pending: bool = False
+    pending: str = ""
+    oblique: ObliqueMotion | None = None
 
     def __len__(self):
         return len(self.progress)
@@ -62,7 +64,12 @@ class Trajectory:
     @property
     def stored_energy(self):
         """Energy (J) of all springs, of those too that have let go of a viscous rebound."""
-        return self.states.stored_energy if self.motion is None else self.motion.stored_energy
+        return self.states.stored_energy if self.motion is None else self.ledger.stored_energy
+
+    @property
+    def ledger(self):
+        """The motion with all energies, those along the surface too; None of what has no times."""
+        return self.motion if self.oblique is None else self.oblique
 
     @property
     def state(self):

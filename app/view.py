@@ -8,6 +8,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.figures import NOTHING, REST, Axis, ceiling, radii
 
+from . import friction
 from .dimensionless import Ratio, scales
 from .quantities import CHOICES
 from .units import digits, fitting, round_up, written
@@ -81,6 +82,8 @@ class View:
         if self.curve is not None:
             largest = float(np.nan_to_num(np.abs(self.residual)).max())
             described.append(("ΔF", "ΔF, measured less modelled force", "force", largest, 1.0))
+        if self.way.oblique is not None:
+            described += friction.axes(self.way, size)
         made = {name: self._axis(name, *rest) for name, *rest in described}
         return made | {f"log {name}": self._logarithmic(made[name], size[f"least {name}"]) for name in "dF"}
 
@@ -122,7 +125,7 @@ class View:
     def axes_of(self, plot):
         """The axes of a plot: those of the view, or what was found with its rows."""
         found = self.found.get(plot.title)
-        if found:
+        if found and found.axes:
             return [self._over(each) for each in found.axes]
         if plot.fitted:
             return plot.fitted(self)
@@ -188,8 +191,9 @@ def _largest(way):
     size["least F"] = float(mdr.indent(profile, mdr.Medium(medium.E_star), size["least d"]).force)
     size["pressure"] = 1.05 * ceiling(way.deepest, size["length"])
     if way.motion is not None:
-        m = way.motion
+        m = way.ledger
         energy = m.kinetic_energy + m.stored_energy + m.plastic_work + m.viscous_work
+        energy += 0.0 if way.oblique is None else m.friction_work
         size["time"], size["energy"] = float(m.time[-1]), float(np.max(energy))
     return size
 
@@ -203,7 +207,7 @@ def phase(way, i):
         words = "load gone"
     else:
         words = "unloading" if rise < 0 else "holding" if i and rise == 0 else "loading"
-    words += ", so far without dashpots" * way.pending
+    words += f", {way.pending}" if way.pending else ""
     if way.motion is None:
         return words
     unit = fitting(float(way.motion.time[-1]), "time")

@@ -6,6 +6,7 @@ V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 """
 
 from . import abel, sweep
+from .drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
 from .dynamics.ball import Ball, at_angle
 from .dynamics.impact import Impact, impact
 from .dynamics.oblique import ObliqueImpact, oblique_impact
@@ -20,7 +21,7 @@ from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium
 from .results import Motion
 from .scaling import FastLimit, ScalingLaw, hardness_class
-from .scene import DepthPath, ForcePath, FreeImpact, Scene
+from .scene import Scene
 from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
 from .shapes.profile import Profile
 from .shapes.rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
@@ -39,6 +40,7 @@ __all__ = [
     "ForcePath",
     "Foundation",
     "FreeImpact",
+    "FreeObliqueImpact",
     "HardnessFit",
     "Hyperboloid",
     "Impact",

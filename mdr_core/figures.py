@@ -20,6 +20,8 @@ ROLES = {
     "measured": ("#7a4a1e", "#d8b48a"),
     "speed": ("#009e73", "#35c79b"),
     "loss": ("#b8860b", "#e0c04c"),
+    "stick": ("#4b3fa7", "#a99ff5"),
+    "slip": ("#7a9700", "#c3dc3a"),
     "ink": ("#22272e", "#e4e7eb"),
     "body": ("#c9ced6", "#3a4049"),
     "paper": ("#ffffff", "#181b20"),
@@ -178,10 +180,12 @@ def _outline(profile, half):
     return both(x, -1), both(g)
 
 
-def springs(state, half, height, relaxing=lambda g: 0.0):
+def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
     """The row of springs over ±`half`, below an indenter that is drawn up to a height.
 
-    `relaxing` gives what is left of the elastic compression of elements that have let go.
+    `relaxing` gives what is left of the elastic compression of elements that have let go. With friction,
+    `along` gives at some radii how far their elements lean (m), and whether they stick: drawn half as large
+    as depths are, because heights are drawn larger than lengths.
     """
     profile, live, far, rest = state.profile, state.live, 3 * height, -REST * height
     x = half * (2 * (np.arange(SPRINGS) + 0.5) / SPRINGS - 1)
@@ -189,8 +193,13 @@ def springs(state, half, height, relaxing=lambda g: 0.0):
     left = np.fmax(live.lower - g, 0.0)
     contact = (live.length > 0) & (g < live.upper)
     top = np.where(contact, g - state.depth, -left - np.where(contact, 0.0, relaxing(g)))
-    path = x[:, None] + _BEND * half / SPRINGS, rest + (top[:, None] - rest) * _ALONG
+    lean, stick = (0.0 * x, None) if along is None else along(np.abs(x))
+    lean = np.where(contact, lean, 0.0)[:, None] * (half / 2 / height) * _ALONG
+    path = x[:, None] + _BEND * half / SPRINGS + lean, rest + (top[:, None] - rest) * _ALONG
     states = {"free": ~contact & (left == 0), "elastic": contact & (left == 0), "yielded": left > 0}
+    if along is not None:
+        states = {name: some & ~contact for name, some in states.items()}
+        states |= {"sticks": contact & stick, "slips": contact & ~stick}
     rows = {name: tuple(part[some].ravel() for part in path) for name, some in states.items()}
     edge, (shape_x, shape_g) = np.array([far]), _outline(profile, 1.1 * half)
     body = np.minimum(shape_g - state.depth, far)

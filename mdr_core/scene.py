@@ -2,150 +2,21 @@
 
 import json
 import os
-from collections.abc import Callable
-from dataclasses import asdict, dataclass, fields, replace
-from typing import ClassVar
+from dataclasses import asdict, dataclass, fields
 
 import numpy as np
 
-from . import _check
-from ._check import ArrayLike, Parameter, one_of, shown
-from .dynamics.impact import Impact, solve_impact
-from .foundation.depth_path import TimedIndentation, check_times, indent_in_time
-from .foundation.force_path import creep
-from .foundation.impact import ChainImpact, chain_impact
-from .indentation import Indentation, indent, indent_to_force
+from ._check import one_of, shown
+from .drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
+from .dynamics.impact import Impact
+from .dynamics.oblique import ObliqueImpact
+from .foundation.depth_path import TimedIndentation
+from .foundation.impact import ChainImpact
+from .indentation import Indentation
 from .medium import Medium, check_pair
-from .results import CHAIN, CLOSED_FORM, SCALAR_ODE, Model
+from .results import Model
 from .shapes import power, rounded, sampled, truncated
 from .shapes.profile import Profile
-
-
-def _path(quantity, values, unit):
-    values = _check.finite_array(quantity, values, unit=unit)
-    if values.ndim > 1 or not values.size:
-        raise ValueError(f"{quantity} must be a number or a path, got shape {values.shape}")
-    return tuple(values.tolist()) if values.ndim else values.item()
-
-
-def _times(quantity, values, path):
-    if values is None:
-        return None
-    return tuple(check_times(values, np.asarray(path), quantity).tolist())
-
-
-class _Path:
-    """A path of one quantity, the first field of a subclass, with or without `time`.
-
-    A subclass says its unit, and what follows it infinitely slowly and in time.
-    """
-
-    _unit: ClassVar[str]
-    _slowly: ClassVar[Callable[..., Indentation]]
-    _in_time: ClassVar[Callable[..., TimedIndentation]]
-    time: ArrayLike | None
-
-    def __post_init__(self):
-        name = self._name
-        object.__setattr__(self, name, _path(f"{type(self).__name__} {name}", self._path, self._unit))
-        object.__setattr__(self, "time", _times(name, self.time, self._path))
-
-    _name = property(lambda self: fields(self)[0].name)
-    _path = property(lambda self: getattr(self, self._name))
-
-    def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models that can solve it, the cheapest that is exact first."""
-        return (CHAIN,) if self.time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
-
-    def solve(self, profile, medium, model):
-        """The `Indentation` along this path, or on the chain the `TimedIndentation`."""
-        if model == CLOSED_FORM:
-            return type(self)._slowly(profile, medium, self._path)
-        path, time = np.atleast_1d(self._path), self.time
-        if time is None:
-            # Infinitely slow is without viscosity, at whatever times.
-            time, medium = np.arange(float(path.size)), replace(medium, eta=0.0)
-        result = type(self)._in_time(profile, medium, path, np.asarray(time))
-        return result if np.ndim(self._path) else result[0]
-
-
-@dataclass(frozen=True)
-class DepthPath(_Path):
-    """Press along prescribed depths.
-
-    Parameters
-    ----------
-    depth : float or sequence of float
-        Indentation depth (m), one or a path.
-    time : sequence of float, optional
-        Increasing times (s) of a path; without them it is followed infinitely slowly.
-    """
-
-    depth: Parameter
-    time: ArrayLike | None = None
-
-    _unit, _slowly, _in_time = "m", staticmethod(indent), staticmethod(indent_in_time)
-
-
-@dataclass(frozen=True)
-class ForcePath(_Path):
-    """Press with prescribed forces.
-
-    Parameters
-    ----------
-    force : float or sequence of float
-        Normal force (N), one or a path; not negative.
-    time : sequence of float, optional
-        Increasing times (s) of a path; without them it is followed infinitely slowly.
-    """
-
-    force: Parameter
-    time: ArrayLike | None = None
-
-    _unit, _slowly, _in_time = "N", staticmethod(indent_to_force), staticmethod(creep)
-
-
-@dataclass(frozen=True)
-class FreeImpact:
-    """Let a free body hit the medium.
-
-    Parameters
-    ----------
-    mass : float
-        Mass m (kg), positive.
-    speed : float
-        Speed v₀ (m/s) at first contact, positive.
-    plastic_depth : float
-        Plastic depth (m) that earlier impacts on the same spot have left; 0, the default, is a virgin
-        surface.
-    """
-
-    mass: float
-    speed: float
-    plastic_depth: float = 0.0
-
-    def __post_init__(self):
-        for name, unit in (("mass", "kg"), ("speed", "m/s"), ("plastic_depth", "m")):
-            quantity = f"FreeImpact {name}"
-            value = _check.number(quantity, getattr(self, name), unit)
-            value = _check.positive(quantity, value, unit=unit, zero=name == "plastic_depth")
-            object.__setattr__(self, name, float(value))
-
-    def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models that can solve it, the cheapest that is exact first.
-
-        The chain hits an imprint by `chain_impact(start=…)`: the depth alone does not set it up.
-        """
-        models = (SCALAR_ODE, CHAIN) if medium.eta > 0 else (CLOSED_FORM, SCALAR_ODE, CHAIN)
-        return models[:-1] if self.plastic_depth > 0 else models
-
-    def solve(self, profile, medium, model):
-        """The `Impact` of this body, or on the chain the `ChainImpact`."""
-        if model == CHAIN:
-            return chain_impact(profile, medium, self.mass, self.speed)
-        in_time = model == SCALAR_ODE
-        return solve_impact(profile, medium, self.mass, self.speed, self.plastic_depth, in_time=in_time)
-
 
 _PROFILES = {
     shape.__name__: shape
@@ -164,7 +35,7 @@ _PROFILES = {
         sampled.Sampled,
     )
 }
-_DRIVES = {drive.__name__: drive for drive in (DepthPath, ForcePath, FreeImpact)}
+_DRIVES = {drive.__name__: drive for drive in (DepthPath, ForcePath, FreeImpact, FreeObliqueImpact)}
 _FORMAT, _VERSION = "mdr-scene", 1
 
 
@@ -178,7 +49,7 @@ class Scene:
         The indenter.
     medium : Medium
         The medium.
-    drive : DepthPath, ForcePath or FreeImpact
+    drive : DepthPath, ForcePath, FreeImpact or FreeObliqueImpact
         What drives the indenter.
 
     Examples
@@ -193,7 +64,7 @@ class Scene:
 
     profile: Profile
     medium: Medium
-    drive: DepthPath | ForcePath | FreeImpact
+    drive: DepthPath | ForcePath | FreeImpact | FreeObliqueImpact
 
     def __post_init__(self):
         for name, kind in (("profile", Profile), ("medium", Medium), ("drive", tuple(_DRIVES.values()))):
@@ -206,17 +77,19 @@ class Scene:
         """Models that can solve the scene, the cheapest that is exact for it first."""
         return self.drive.models(self.medium)
 
-    def solve(self, model: str | None = None) -> Indentation | TimedIndentation | Impact | ChainImpact:
+    def solve(
+        self, model: str | None = None
+    ) -> Indentation | TimedIndentation | Impact | ChainImpact | ObliqueImpact:
         """Results of the scene; `result.model` says how they were found, `result.model.reason` why.
 
         Parameters
         ----------
-        model : {"closed form", "scalar ODE", "chain"}, optional
+        model : {"closed form", "scalar ODE", "chain", "chain with friction"}, optional
             Another model than the cheapest that is exact, to compare: one of `models`.
 
         Returns
         -------
-        Indentation, TimedIndentation, Impact or ChainImpact
+        Indentation, TimedIndentation, Impact, ChainImpact or ObliqueImpact
 
         Examples
         --------

@@ -23,7 +23,7 @@ ORDER = (
     "dynamics.oblique_motion", "dynamics.ball",
     "dynamics.oblique", "sweep",
     "fit.least_squares", "fit.curve", "fit.start", "fit.solution", "fit.remarks", "fit.indentation",
-    "fit.hardness", "fit.impacts", "scene", "__init__",
+    "fit.hardness", "fit.impacts", "drives", "scene", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {

@@ -20,6 +20,7 @@ SCENE = mdr.Scene(mdr.Cone(0.1), mdr.Medium(1e9, 1 / 3), mdr.DepthPath((0.0, 1e-
         mdr.DepthPath([1e-9, 0]),
         mdr.FreeImpact(1e-3, 0.1),
         mdr.FreeImpact(1e-3, 0.1, plastic_depth=1e-9),
+        mdr.FreeObliqueImpact(1e-3, 0.1, -1 / 3, 0.3),
     ],
 )
 @pytest.mark.parametrize("medium", [mdr.Medium(1e9), mdr.Medium(1 / 3, 0.1, 1e-30)])
@@ -36,6 +37,20 @@ def test_solve_gives_what_the_functions_give():
     )
     hit = mdr.Scene(SCENE.profile, SCENE.medium, mdr.FreeImpact(1e-3, 0.1)).solve()
     assert hit.restitution == mdr.impact(SCENE.profile, SCENE.medium, 1e-3, 0.1).restitution
+
+
+def test_an_oblique_impact_is_solved_as_one():
+    medium, ball = mdr.Medium(1e9, 10.0), mdr.Ball(1e-9, 1e-5)
+    drive = mdr.FreeObliqueImpact(1e-9, 0.1, 0.1, 0.3, ball.tangential_mass)
+    hit = mdr.Scene(mdr.Cone(0.1), medium, drive).solve()
+    expected = mdr.oblique_impact(
+        mdr.Cone(0.1), medium, 1e-9, 0.1, 0.1, 0.3, tangential_mass=ball.tangential_mass
+    )
+    assert hit.tangential_velocity == expected.tangential_velocity
+    # Of a body that cannot turn it is the mass.
+    assert mdr.FreeObliqueImpact(1e-9, 0.1, 0.1, 0.3).tangential_mass == 1e-9
+    with pytest.raises(ValueError, match="FreeObliqueImpact friction = -1"):
+        mdr.FreeObliqueImpact(1e-9, 0.1, 0.1, -1.0)
 
 
 @pytest.mark.parametrize("eta", [0.0, 20.0])

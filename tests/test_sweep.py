@@ -38,6 +38,29 @@ def test_dimensions_are_matched_by_name():
         sweep.impacts(mdr.Sphere, **SPHERES | {"mass": both.assign_coords(radius=[1, 2, 3])})
 
 
+def test_erosion_over_the_angle_of_attack():
+    """Where all slips friction takes 2μmv(W − μv); steep ones stick, and lose less than they could."""
+    attack = xr.DataArray(np.radians([20.0, 45.0, 89.0]), dims="attack")
+    v, along, mu = 2.0 * np.sin(attack), 2.0 * np.cos(attack), 0.2
+    names = ["friction_work", "tangential_velocity", "restitution"]
+    given = {"E_star": 1e9, "mass": 1e-9, "speed": v, "tangential_speed": along, "friction": mu}
+    table = sweep.oblique_impacts(mdr.Paraboloid, radius=1e-4, **given, quantities=names)
+    slips = (2 * mu * 1e-9 * v * (along - mu * v))[:2]
+    np.testing.assert_allclose(table.friction_work[:2], slips, rtol=1e-8)
+    assert table.friction_work[2] < 0.5e-9 * along[2] ** 2
+    assert table.friction_work.attrs["units"] == "J"
+    # Of a ball, and a medium with another ν.
+    ball = sweep.oblique_impacts(
+        mdr.Paraboloid(1e-4), **given, poisson=0.3, tangential_mass=2e-9 / 7, quantities=names
+    )
+    hit = mdr.oblique_impact(
+        mdr.Paraboloid(1e-4), mdr.Medium(1e9, poisson=0.3), 1e-9, float(v[2]), float(along[2]), mu,
+        tangential_mass=2e-9 / 7,
+    )  # fmt: skip
+    for name in names:
+        assert float(ball[name][2]) == pytest.approx(float(getattr(hit, name)), rel=1e-12), name
+
+
 def test_numbers_alone_make_numbers():
     one = sweep.impacts(mdr.Cone(0.3), E_star=1e9, q_c=10.0, mass=1e-9, speed=0.1, quantities="max_depth")
     hit = mdr.impact(mdr.Cone(0.3), mdr.Medium(1e9, 10.0), 1e-9, 0.1)

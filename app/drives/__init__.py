@@ -1,9 +1,12 @@
 """Drives: each is one value in a module of its own, and one entry here."""
 
-from . import impact, path, press
+from . import impact, oblique, path, press
 
 #: Every drive of the page, by its option of the choice "drive".
-DRIVES = {"depth": press.DEPTH, "force": press.FORCE, "path": path.PATH, "impact": impact.IMPACT}
+DRIVES = {
+    "depth": press.DEPTH, "force": press.FORCE, "path": path.PATH, "impact": impact.IMPACT,
+    "oblique": oblique.OBLIQUE,
+}  # fmt: skip
 
 
 def drive_of(scene):

@@ -28,14 +28,22 @@ def _opened(scene):
 
 def _follow(scene, progress):
     hit = scene.solve()
-    motion = hit.motion(INSTANTS)
+    return along(scene, progress, hit, hit.motion(INSTANTS))
+
+
+def along(scene, progress, hit, motion):
+    """All states of an impact, from its motion along the normal."""
     time, peak = motion.time, motion.turning_point
     turn, end = time[peak], time[-1]
     way = rounded(np.where(time <= turn, time / turn, 1 + (time - turn) / (end - turn)))
     return Trajectory(scene, way, motion.states, nearest(way, progress), peak, hit, motion)
 
 
-def _alike(explorer, deepest):
+def alike(explorer, deepest):
+    """Mass and speed of the body that hits, or of one that comes as deep."""
+    if explorer.drive in ("impact", "oblique"):
+        drive = explorer.scene().drive
+        return {"mass": drive.mass, "speed": drive.speed}
     # A body as heavy as a ball of the contact's size times ten, of steel.
     mass = float(f"{4.2 * 7800 * (10 * float(deepest.contact_radius)) ** 3:.1g}")
     work = float(deepest.stored_energy + deepest.plastic_work)
@@ -56,7 +64,8 @@ def _snippet(way, given, prefix):
     return [*lines, f"{motion} = {hit}.motion({INSTANTS})", f"i = {way.now}", f"print({shown})"]
 
 
-def _cells(way):
+def cells(way):
+    """What the impact comes to along the normal."""
     hit = way.hit
     rows = [
         ("e", "restitution", "number", hit.restitution),
@@ -75,10 +84,10 @@ IMPACT = Drive(
     opened=_opened,
     follow=_follow,
     deepest=lambda scene: scene.solve().deepest,
-    alike=_alike,
+    alike=alike,
     snippet=_snippet,
     form=("surface", "again", "inertia"),
-    cells=_cells,
+    cells=cells,
     solver=("impact", "mass", "speed"),
     results=(
         "damaged_area", "restitution", "max_depth", "max_force", "contact_time", "rebound_speed",

@@ -154,12 +154,13 @@ def _follow(scene, progress):
     _, _, time = _parts(scene.drive)
     viscous = time is not None and scene.medium.eta > 0
     pending = viscous and isinstance(scene.drive, mdr.ForcePath)
-    return _solved(scene, progress, viscous and not pending, pending)
+    words = "so far without dashpots" * pending
+    return _solved(scene, progress, viscous and not pending, words)
 
 
 def _in_time(scene):
     """All states of a path whose dashpots take longer than a move."""
-    return _solved(scene, 1.0, True, False)
+    return _solved(scene, 1.0, True, "")
 
 
 def _solved(scene, progress, chain, pending):

@@ -101,12 +101,17 @@ def oblique_motion(hit, n, halvings):
             f"motion is that of one impact, but these are {np.prod(hit.shape)}; pick one, as in "
             "result[0].motion()"
         )
-    normal, speed = hit.normal.motion(n), float(hit.tangential_speed)
-    ratio, mass = float(hit.medium.tangential_ratio), float(hit.tangential_mass)
-    stiffness, friction = 2 * ratio * float(hit.medium.E_star), float(hit.friction)
-    motion = NormalMotion(hit.normal)
+    parts = float(hit.tangential_speed), float(hit.friction), float(hit.tangential_mass)
+    return along_surface(hit.normal, *parts, n, halvings, hit)
+
+
+def along_surface(hit, speed, friction, mass, n, halvings, impact=None):
+    """The `ObliqueMotion` under a normal `Impact`, of one run; its errors are known of an `impact` only."""
+    normal = hit.motion(n)
+    stiffness = 2 * float(hit.medium.tangential_ratio) * float(hit.medium.E_star)
+    motion = NormalMotion(hit)
     levels = motion.levels(stiffness / mass, halvings, normal.time)
-    run = slide(motion, levels, stiffness / mass, grip(hit.normal, speed, friction), normal.time)
+    run = slide(motion, levels, stiffness / mass, grip(hit, speed, friction), normal.time)
     at, edges = run.instants, np.append(0.0, run.row.edge[: run.row.width.size])
     load, sticks = np.zeros((n, edges.size - 1)), np.zeros((n, edges.size - 1), bool)
     for k, i in enumerate(at):
@@ -131,5 +136,5 @@ def oblique_motion(hit, n, halvings):
         tangential_line_load=stiffness / 2 * speed * load,
         sticks=sticks,
         normal=normal,
-        impact=hit,
+        impact=impact,
     )

@@ -5,9 +5,9 @@ import re
 import pytest
 
 from app.described import described
+from app.drives import follow
 from app.explorer import Explorer
 from app.plots import PLOTS
-from app.trajectory import follow
 from app.units import written
 from app.view import View
 

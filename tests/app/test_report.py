@@ -6,12 +6,12 @@ from html import unescape
 import numpy as np
 import pytest
 
+from app.drives import follow
 from app.explorer import Explorer
 from app.plots import PLOTS
 from app.presets import PRESETS
 from app.readouts import cells
 from app.report import drawing, report
-from app.trajectory import follow
 from app.units import written
 from app.view import View
 

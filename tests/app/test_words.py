@@ -8,6 +8,7 @@ import pytest
 
 from app import link, theory
 from app.controls import linked
+from app.drives import follow
 from app.explorer import Explorer
 from app.page import Page
 from app.plots import PLOTS
@@ -15,7 +16,6 @@ from app.presets import PRESETS
 from app.quantities import ABOUT, CHOICES, DATA, QUANTITIES
 from app.readouts import cells, heads
 from app.tour import TOURS
-from app.trajectory import follow
 
 DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
 # Without a server; Panel's widgets are named as its oldest version allowed asks for.

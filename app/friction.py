@@ -1,0 +1,141 @@
+"""What the plots show of an oblique impact: forces and velocities along the surface, and Maw's diagram."""
+
+from functools import cache
+
+import numpy as np
+
+import mdr_core as mdr
+from mdr_core.figures import NOTHING
+
+from .drives.oblique import ends
+from .resting import Found
+
+#: Impacts on Maw's curve where stick and slip meet, and error allowed there: less than is seen.
+_PLACES, _TOLERANCE = 14, 1e-3
+
+
+def axes(way, size):
+    """Axes of velocities and of forces with their directions, as `View` describes them."""
+    motion, along = way.oblique, max(size["force"], float(np.max(np.abs(way.oblique.tangential_force))))
+    fastest = 1.05 * max(float(np.max(np.abs(v))) for v in (motion.velocity, motion.tangential_velocity))
+    back = 1.0 if np.min(motion.tangential_force) < 0 else 0.0
+    (before, after), chi = _psi(way), _chi(way)
+    reach = _reach(before, chi)
+    return [
+        ("force", "F, Fₓ, force", "force", along, back),
+        ("W", "W, speed along the surface", "speed", fastest, 1.0),
+        ("v", "−v, speed away from the surface", "speed", fastest, 1.0),
+        ("ψ₁", "ψ₁, speed along the surface before", "number", reach),
+        ("ψ₂", "ψ₂, speed along the surface after", "number", max(reach - 4 * chi, abs(after), 1.2), 1.0),
+    ]
+
+
+def table(motion):
+    """Columns of the curves that are taken away."""
+    return {
+        "tangential velocity W (m/s)": motion.tangential_velocity,
+        "tangential force F_x (N)": motion.tangential_force,
+        "friction work W_f (J)": motion.friction_work,
+        "outer radius of stick (m)": motion.stick_radius,
+        "inner radius of stick (m)": motion.slip_radius,
+    }
+
+
+def leaning(way, i, r):
+    """How far elements at some radii lean in state i (m), and whether they stick."""
+    m, medium = way.oblique, way.scene.medium
+    load = np.interp(r, m.x, m.tangential_line_load[i])
+    return load / (medium.tangential_ratio * medium.E_star), np.interp(r, m.x, m.sticks[i]) > 0.5
+
+
+#: What is on each axis, with its sign.
+_ON = {
+    "t": lambda m: m.time,
+    "force": lambda m: m.tangential_force,
+    "W": lambda m: m.tangential_velocity,
+    "v": lambda m: -m.velocity,
+}
+
+
+def _held(view, x, y):
+    """The same of all that is held and oblique."""
+
+    def columns(way, over):
+        m = way.oblique
+        return NOTHING if m is None else tuple(over(key, _ON[key](m)) for key in (x, y))
+
+    return view.of_held("", columns)
+
+
+def forces_still(view):
+    way, m, mu = view.way, view.way.oblique, view.way.scene.drive.friction
+    both = np.append(m.time, [np.nan, *m.time]), np.append(mu * way.force, [np.nan, *(-mu * way.force)])
+    rows = {"normal force F": (m.time, way.force), "force along Fₓ": (m.time, m.tangential_force)}
+    return rows | {"most friction ±μF": both} | _held(view, "t", "force")
+
+
+def forces(view, i):
+    axis, m = view.axes["force"], view.way.oblique
+    t = m.time[[i]]
+    line = t.repeat(2), np.array([axis.start, axis.end])
+    return {"time": line, "now": (t, m.tangential_force[[i]]), "F now": (t, view.way.force[[i]])}
+
+
+def hodograph_still(view):
+    m = view.way.oblique
+    W, v, steps = m.tangential_velocity, -m.velocity, m.sticks.any(axis=1)[1:]
+    rows = {}
+    for name, some in (("something sticks", steps), ("all slips", ~steps)):
+        rows[name] = np.where(np.append(some, False) | np.append(False, some), W, np.nan), v
+    ways = (("path before", 0), ("path after", -1))
+    rows |= {name: (np.array([0.0, W[k]]), np.array([0.0, v[k]])) for name, k in ways}
+    return rows | _held(view, "W", "v")
+
+
+def hodograph(view, i):
+    m = view.way.oblique
+    return {"now": (m.tangential_velocity[[i]], -m.velocity[[i]])}
+
+
+def _psi(way):
+    """ψ₁ and ψ₂ of an impact: speeds of the contact point over μv₀/κ."""
+    drive, after = way.scene.drive, ends(way)[0]
+    unit = drive.friction * drive.speed / float(way.scene.medium.tangential_ratio)
+    return (drive.tangential_speed / unit, after / unit) if unit else (0.0, 0.0)
+
+
+def _chi(way):
+    """χ = κm/(2m_t)."""
+    drive = way.scene.drive
+    return float(way.scene.medium.tangential_ratio) * drive.mass / (2 * drive.tangential_mass)
+
+
+def _reach(psi, chi):
+    """How far Maw's diagram goes: beyond where all slips throughout."""
+    return 1.15 * max(psi, 4 * chi + 1)
+
+
+def maw_still(view):
+    psi = _psi(view.way)
+    return {"this impact": tuple(np.array([each]) for each in psi)} if psi[0] else {}
+
+
+def maw(way):
+    """The elastic curve of the same body, as far as it has been found: Maw's own under a paraboloid."""
+    drive, medium = way.scene.drive, way.scene.medium
+    elastic = mdr.Medium(medium.E_star, poisson=medium.poisson)
+    body, found = (drive.mass, drive.speed, drive.tangential_mass), [(0.0, 0.0)]
+    last = max(4 * _chi(way) - 1, 1.0)
+    for psi in [*np.linspace(0, last, _PLACES)[1:], _reach(_psi(way)[0], _chi(way))]:
+        found.append((psi, _after(way.scene.profile, elastic, *body, float(psi))))
+        yield Found({"elastic": tuple(np.array(found).T)}, [], "" if psi > last else "finding the curve …")
+
+
+@cache
+def _after(profile, medium, mass, speed, tangential_mass, psi):
+    """ψ₂ of an elastic impact with some ψ₁."""
+    unit = speed / float(medium.tangential_ratio)
+    hit = mdr.oblique_impact(
+        profile, medium, mass, speed, psi * unit, 1.0, tangential_mass=tangential_mass, tolerance=_TOLERANCE
+    )
+    return float(hit.tangential_velocity) / unit

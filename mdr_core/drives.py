@@ -1,0 +1,190 @@
+"""What drives the indenter of a scene, as values: paths of depth and force, and free bodies that hit."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from typing import ClassVar
+
+import numpy as np
+
+from . import _check
+from ._check import ArrayLike, Parameter
+from .dynamics.impact import solve_impact
+from .dynamics.oblique import FRICTION, oblique_impact
+from .foundation.depth_path import TimedIndentation, check_times, indent_in_time
+from .foundation.force_path import creep
+from .foundation.impact import chain_impact
+from .indentation import Indentation, indent, indent_to_force
+from .medium import Medium
+from .results import CHAIN, CLOSED_FORM, SCALAR_ODE, Model
+
+
+def _path(quantity, values, unit):
+    values = _check.finite_array(quantity, values, unit=unit)
+    if values.ndim > 1 or not values.size:
+        raise ValueError(f"{quantity} must be a number or a path, got shape {values.shape}")
+    return tuple(values.tolist()) if values.ndim else values.item()
+
+
+def _times(quantity, values, path):
+    if values is None:
+        return None
+    return tuple(check_times(values, np.asarray(path), quantity).tolist())
+
+
+class _Path:
+    """A path of one quantity, the first field of a subclass, with or without `time`.
+
+    A subclass says its unit, and what follows it infinitely slowly and in time.
+    """
+
+    _unit: ClassVar[str]
+    _slowly: ClassVar[Callable[..., Indentation]]
+    _in_time: ClassVar[Callable[..., TimedIndentation]]
+    time: ArrayLike | None
+
+    def __post_init__(self):
+        name = self._name
+        object.__setattr__(self, name, _path(f"{type(self).__name__} {name}", self._path, self._unit))
+        object.__setattr__(self, "time", _times(name, self.time, self._path))
+
+    _name = property(lambda self: fields(self)[0].name)
+    _path = property(lambda self: getattr(self, self._name))
+
+    def models(self, medium: Medium) -> tuple[Model, ...]:
+        """Names of the models that can solve it, the cheapest that is exact first."""
+        return (CHAIN,) if self.time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
+
+    def solve(self, profile, medium, model):
+        """The `Indentation` along this path, or on the chain the `TimedIndentation`."""
+        if model == CLOSED_FORM:
+            return type(self)._slowly(profile, medium, self._path)
+        path, time = np.atleast_1d(self._path), self.time
+        if time is None:
+            # Infinitely slow is without viscosity, at whatever times.
+            time, medium = np.arange(float(path.size)), replace(medium, eta=0.0)
+        result = type(self)._in_time(profile, medium, path, np.asarray(time))
+        return result if np.ndim(self._path) else result[0]
+
+
+@dataclass(frozen=True)
+class DepthPath(_Path):
+    """Press along prescribed depths.
+
+    Parameters
+    ----------
+    depth : float or sequence of float
+        Indentation depth (m), one or a path.
+    time : sequence of float, optional
+        Increasing times (s) of a path; without them it is followed infinitely slowly.
+    """
+
+    depth: Parameter
+    time: ArrayLike | None = None
+
+    _unit, _slowly, _in_time = "m", staticmethod(indent), staticmethod(indent_in_time)
+
+
+@dataclass(frozen=True)
+class ForcePath(_Path):
+    """Press with prescribed forces.
+
+    Parameters
+    ----------
+    force : float or sequence of float
+        Normal force (N), one or a path; not negative.
+    time : sequence of float, optional
+        Increasing times (s) of a path; without them it is followed infinitely slowly.
+    """
+
+    force: Parameter
+    time: ArrayLike | None = None
+
+    _unit, _slowly, _in_time = "N", staticmethod(indent_to_force), staticmethod(creep)
+
+
+@dataclass(frozen=True)
+class FreeImpact:
+    """Let a free body hit the medium.
+
+    Parameters
+    ----------
+    mass : float
+        Mass m (kg), positive.
+    speed : float
+        Speed v₀ (m/s) at first contact, positive.
+    plastic_depth : float
+        Plastic depth (m) that earlier impacts on the same spot have left; 0, the default, is a virgin
+        surface.
+    """
+
+    mass: float
+    speed: float
+    plastic_depth: float = 0.0
+
+    def __post_init__(self):
+        for name, unit in (("mass", "kg"), ("speed", "m/s"), ("plastic_depth", "m")):
+            quantity = f"FreeImpact {name}"
+            value = _check.number(quantity, getattr(self, name), unit)
+            value = _check.positive(quantity, value, unit=unit, zero=name == "plastic_depth")
+            object.__setattr__(self, name, float(value))
+
+    def models(self, medium: Medium) -> tuple[Model, ...]:
+        """Names of the models that can solve it, the cheapest that is exact first.
+
+        The chain hits an imprint by `chain_impact(start=…)`: the depth alone does not set it up.
+        """
+        models = (SCALAR_ODE, CHAIN) if medium.eta > 0 else (CLOSED_FORM, SCALAR_ODE, CHAIN)
+        return models[:-1] if self.plastic_depth > 0 else models
+
+    def solve(self, profile, medium, model):
+        """The `Impact` of this body, or on the chain the `ChainImpact`."""
+        if model == CHAIN:
+            return chain_impact(profile, medium, self.mass, self.speed)
+        in_time = model == SCALAR_ODE
+        return solve_impact(profile, medium, self.mass, self.speed, self.plastic_depth, in_time=in_time)
+
+
+@dataclass(frozen=True)
+class FreeObliqueImpact:
+    """Let a free body hit the medium with a speed along the surface as well, under friction.
+
+    Parameters
+    ----------
+    mass, speed : float
+        Mass m (kg), and normal speed v₀ (m/s) at first contact, positive.
+    tangential_speed : float
+        Speed W₀ (m/s) of the contact point along the surface, of any sign.
+    friction : float
+        Coefficient of friction μ, not negative.
+    tangential_mass : float, optional
+        Mass m_t (kg) that is felt at the contact point along the surface; by default m, that of a body that
+        cannot turn. `Ball.tangential_mass` is that of a ball.
+    """
+
+    mass: float
+    speed: float
+    tangential_speed: float
+    friction: float
+    tangential_mass: float | None = None
+
+    def __post_init__(self):
+        if self.tangential_mass is None:
+            object.__setattr__(self, "tangential_mass", self.mass)
+        units = {"mass": "kg", "speed": "m/s", "tangential_speed": "m/s", "tangential_mass": "kg"}
+        for name in (field.name for field in fields(self)):
+            quantity = f"FreeObliqueImpact {name}"
+            value = _check.number(quantity, getattr(self, name), units.get(name, ""))
+            if name != "tangential_speed":
+                value = _check.positive(quantity, value, unit=units.get(name, ""), zero=name == "friction")
+            object.__setattr__(self, name, float(value))
+
+    def models(self, medium: Medium) -> tuple[Model, ...]:
+        """Names of the models that can solve it: the normal motion on its own, friction on its chain."""
+        return (FRICTION,)
+
+    def solve(self, profile, medium, model):
+        """The `ObliqueImpact` of this body."""
+        return oblique_impact(
+            profile, medium, self.mass, self.speed, self.tangential_speed, self.friction,
+            tangential_mass=self.tangential_mass,
+        )  # fmt: skip
