@@ -141,12 +141,12 @@ def chunks(size, most=8192):
 
 
 @np.errstate(all="ignore")
-def increasing_root(function, target, start, highest=np.inf):
+def increasing_root(function, target, start, highest=np.inf, largest=_check.LARGEST):
     """Positive x with function(x) = target, elementwise, for a function that grows about as a power.
 
     Newton's method on ln f against ln x from `start` on, inside a bracket that every step narrows. The
     function gives values and derivatives at an array x > 0, up to the `highest` at which it is known; where
-    it falls short of the target there, or at what a depth may be, the result is infinite.
+    it falls short of the target there, or at the `largest` x that counts, the result is infinite.
     """
     target = np.asarray(target, dtype=float)
     x = np.zeros(target.shape) + np.minimum(start, highest)
@@ -178,7 +178,7 @@ def increasing_root(function, target, start, highest=np.inf):
         noisy = stalled > np.where(least <= 1e-14, 0, np.where(least <= 1e-13, 1, 5))
         settled = (np.abs(new - x) <= 4 * eps * x) | (least <= 8 * eps) | (noisy & (least <= 1e-12))
         # Of all but flat shapes no depth may be enough.
-        reachable &= low < _check.LARGEST
+        reachable &= low < largest
         if np.all(settled | ~sought | ~reachable):
             return np.where(reachable, np.where(target > 0, best, 0.0), np.inf)
         x = np.where(sought, new, x)

@@ -155,7 +155,7 @@ def straight_line(x, y):
     return float(slope), float(np.sqrt(rest @ rest / (x.size - 2) / (x @ x)) if enough else np.inf)
 
 
-def class_of(expected, slope, error):
+def class_of(expected, slope, error, places="energies"):
     """The one class that a measured power fits, if it is one, and the reason.
 
     `expected` has the power in each class, and what is near to it however small the error is.
@@ -165,7 +165,7 @@ def class_of(expected, slope, error):
     if error == np.inf:
         return (
             None,
-            f"insufficient: two places leave no error of the slope {slope:.3g}; give three or more",
+            f"insufficient: two {places} leave no error of the slope {slope:.3g}; give three or more",
         )
     fits = [n for n, (power, near) in expected.items() if abs(slope - power) <= max(2 * error, near)]
     if len(fits) == 1:

@@ -132,7 +132,7 @@ def _class(a, q_c):
     if np.unique(a).size < 2:
         return HardnessClass(None, np.nan, np.inf, {}, "insufficient: one radius tells no class")
     slope, error = straight_line(np.log(a), np.log(q_c / a))
-    found, reason = class_of(_POWERS, slope, error)
+    found, reason = class_of(_POWERS, slope, error, "radii")
     return HardnessClass(found, slope, error, {}, reason)
 
 

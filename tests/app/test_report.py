@@ -16,7 +16,8 @@ from app.units import written
 from app.view import View
 
 DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
-PRESSED = [name for name, plot in PLOTS.items() if not plot.impact and not plot.resting]
+_AXES = View(follow(Explorer().scene(), 1.0)).axes.keys()
+PRESSED = [name for name, plot in PLOTS.items() if _AXES >= set(plot.axes) and not plot.resting]
 
 
 def plain(html):
