@@ -177,7 +177,7 @@ PLOTS = {
         to_scale=lambda view: True,
     ),
     "surface": Plot(
-        "Surface and imprint", "u(r) = ∫ (2/π) arcsin(a(s)/r) ds,  a(s) < r", ("section r", "section z"),
+        "Surface and imprint", "u(r) = ∫ (2/π) arcsin(a(s)/r) ds,  a(s) < r  § 7", ("section r", "section z"),
         (
             area("tip z(r)", "body", 0.55),
             area("medium", "free", 0.16, legend=False),
@@ -190,7 +190,7 @@ PLOTS = {
         to_scale=lambda view: view.chosen["heights"] == "to_scale",
     ),
     "loglog": Plot(
-        "Force and depth, logarithmic", "z ∝ rⁿ:  F ∝ d^(1 + 1/n), then d^(1/n)",
+        "Force and depth, logarithmic", "z ∝ rⁿ:  F ∝ d^(1 + 1/n), then d^(1/n)  § 6",
         ("log d", "log F"),
         (
             *_held("F"),
@@ -214,7 +214,7 @@ PLOTS = {
         image=section.SHAPE,
     ),
     "sweep": Plot(
-        "Sweep", "one number over a range, all others as they are", (),
+        "Sweep", "one number over a range, all others as they are  § 10", (),
         (
             *(line(name, "ink", 1.4, dash, "y") for name, dash in sweep.LINES.items()),
             line("this scene", "elastic", 2.4, symbol="y"),
