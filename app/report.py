@@ -13,7 +13,7 @@ from jinja2 import Template
 
 import mdr_core as mdr
 
-from . import export, figures, link, readouts
+from . import figures, link, readouts
 from .controls import legend, marked, symbol
 from .described import described
 from .grid import STYLE
@@ -28,14 +28,14 @@ _TEMPLATE = Template((Path(__file__).parent / "static" / "report.html").read_tex
 _WIDTH, _HEIGHT = 500, 340
 
 
-def report(explorer, view, names, here="", held=""):
-    """All that a page shows, as HTML: some plots, `here` where it is served, what is `held` in a line."""
+def report(explorer, view, names, snippet, here="", held=()):
+    """All that a page shows, as HTML: some plots, the Python, `here` where it is served, names `held`."""
     way, plots = view.way, [name for name in names if view.axes_of(PLOTS[name])]
     query, title = link.query(explorer), explorer.preset or "Scene from a file"
     words = {
         "title": f"{title}, altered" if explorer.altered else title,
         "scene": marked(readouts.summary(explorer)),
-        "held": marked(held),
+        "held": [escape(name) for name in held],
         "made": f"{datetime.now(UTC):%d %B %Y, %H:%M} UTC, mdr_core {mdr.__version__}",
         "inputs": list(_inputs(explorer, way)),
         "state": phase(way, way.now),
@@ -44,7 +44,7 @@ def report(explorer, view, names, here="", held=""):
             (level, marked(text))
             for level, text in readouts.lights(way, *readouts.density_and_ratio(explorer))
         ],
-        "python": escape(export.python(way, view.held)),
+        "python": escape(snippet),
         "link": escape(f"{here}?{query}") if query else "",
     }
     script, figures = components([drawing(view, name) for name in plots])
@@ -67,6 +67,7 @@ def _inputs(explorer, way):
         if preset and name in preset.sources and isclose(value, preset.values[name]):
             source = preset.sources[name][2]
         yield symbol(quantity.symbol), quantity.label, written(value, quantity.kind, 5), escape(source)
+    yield "", "as solved, in SI", "", escape(repr(way.scene.drive))
     if explorer.elasticity != "modulus":
         yield symbol("E*"), "effective modulus", written(medium.E_star, "pressure", 5), marked("from (2)")
     if explorer.plasticity == "hardness":

@@ -21,9 +21,7 @@ class TakeAway:
     def __init__(self, page):
         self.page = page
         files = {
-            ("Report", "report.html"): lambda: report(
-                page.explorer, page.drawn, page.grid.names, self._here(), page.held_summary
-            ),
+            ("Report", "report.html"): self._report,
             ("Curves (CSV)", "curves.csv"): lambda: export.csv(page.way, page.explorer),
             ("Pressure (CSV)", "pressure.csv"): lambda: export.pressure_csv(page.way, page.explorer),
             ("Sweep (CSV)", "sweep.csv"): lambda: export.sweep_csv(page.way, page.explorer),
@@ -81,6 +79,10 @@ class TakeAway:
         curve = page.explorer.measured
         fit = export.fit_python(curve) if curve is not None and curve.fit is not None else ""
         return export.python(page.way, page.held) + sweep + fit
+
+    def _report(self):
+        page, held = self.page, [each.name for each in self.page.held]
+        return report(page.explorer, page.drawn, page.grid.names, self._snippet(), self._here(), held)
 
     def _here(self):
         return pn.state.location.href.split("?")[0] if pn.state.location else ""

@@ -6,6 +6,7 @@ from html import unescape
 import numpy as np
 import pytest
 
+from app import export
 from app.drives import follow
 from app.explorer import Explorer
 from app.plots import PLOTS
@@ -16,8 +17,8 @@ from app.units import written
 from app.view import View
 
 DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
-_AXES = View(follow(Explorer().scene(), 1.0)).axes.keys()
-PRESSED = [name for name, plot in PLOTS.items() if _AXES >= set(plot.axes) and not plot.resting]
+VIEW = View(follow(Explorer().scene(), 1.0))
+SHOWN = [name for name, plot in PLOTS.items() if VIEW.axes.keys() >= set(plot.axes) and not plot.resting]
 
 
 def plain(html):
@@ -36,11 +37,12 @@ def test_the_report_says_what_the_page_says():
     explorer = Explorer(DROP)
     explorer.type("speed", "2 m/s")
     way = follow(explorer.scene(), 1.5)
-    names = [name for name, plot in PLOTS.items() if not plot.resting]
-    html = report(explorer, View(way), names, "http://localhost/app")
+    names, view = ["springs", "force", "motion", "pressure", "radii", "energy"], View(way)
+    html = report(explorer, view, names, export.python(way), "http://localhost/app", ["<b>stiff</b>"])
     assert_names_nothing_outside(html)
     text = plain(html)
     assert f"{DROP}, altered" in text
+    assert "Held 1: <b>stiff</b>." in text
     for _, label, kind, values in cells(way):
         value = float(values if np.ndim(values) == 0 else values[way.now])
         assert f"{label} {written(value, kind, 5)}" in text
@@ -58,15 +60,15 @@ def test_text_of_others_is_never_markup_in_a_report():
     explorer = Explorer()
     r = np.linspace(0, 1e-6, 20)
     explorer.take_tip((r, r**2 / 1e-5), "20 rows of <img src=x>")
-    html = report(explorer, View(follow(explorer.scene(), 1.0)), ["force"])
+    html = report(explorer, View(follow(explorer.scene(), 1.0)), ["force"], "")
     assert "<img src=x" not in html
     assert "20 rows of <img src=x>" in plain(html)
 
 
-@pytest.mark.parametrize("name", PRESSED)
+@pytest.mark.parametrize("name", SHOWN)
 def test_figures_hold_the_columns_of_the_page(name):
     """Every row that the page sends is in the source of the figure, in the units of its axes."""
-    view = View(follow(Explorer().scene(), 1.0))
+    view = VIEW
     plot, made = PLOTS[name], drawing(view, name)
     columns, x = view.columns(plot, view.way.now), view.axes_of(plot)[0]
     assert made.x_range.end == pytest.approx(x.end / x.factor)
