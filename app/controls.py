@@ -24,7 +24,7 @@ _GRAVITY = 9.80665
 
 def indexed(text):
     """HTML in which every symbol such as d_c has its index."""
-    return re.sub(r"(\b[a-zA-Z]|[σντηρ])_([a-zA-Z0-9]+)", r"<i>\1</i><sub>\2</sub>", text)
+    return re.sub(r"(\b[a-zA-Z]|[αψσντηρ])_([a-zA-Z0-9]+)", r"<i>\1</i><sub>\2</sub>", text)
 
 
 def marked(text):

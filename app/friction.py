@@ -44,8 +44,12 @@ def table(motion):
 def leaning(way, i, r):
     """How far elements at some radii lean in state i (m), and whether they stick."""
     m, medium = way.oblique, way.scene.medium
-    load = np.interp(r, m.x, m.tangential_line_load[i])
-    return load / (medium.tangential_ratio * medium.E_star), np.interp(r, m.x, m.sticks[i]) > 0.5
+    # The first element is a flat face, which most shapes have not.
+    first = int(m.x[0] == 0)
+    load, sticks = (
+        np.interp(r, m.x[first:], part[i, first:]) for part in (m.tangential_line_load, m.sticks)
+    )
+    return load / (medium.tangential_ratio * medium.E_star), sticks > 0.5
 
 
 #: What is on each axis, with its sign.
@@ -128,7 +132,9 @@ def maw(way):
     last = max(4 * _chi(way) - 1, 1.0)
     for psi in [*np.linspace(0, last, _PLACES)[1:], _reach(_psi(way)[0], _chi(way))]:
         found.append((psi, _after(way.scene.profile, elastic, *body, float(psi))))
-        yield Found({"elastic": tuple(np.array(found).T)}, [], "" if psi > last else "finding the curve …")
+        yield Found(
+            {"elastic (Maw)": tuple(np.array(found).T)}, [], "" if psi > last else "finding the curve …"
+        )
 
 
 @cache

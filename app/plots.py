@@ -163,9 +163,9 @@ PLOTS = {
         friction.hodograph_still, friction.hodograph, to_scale=lambda view: True,
     ),
     "maw": Plot(
-        "Before and after, of Maw and others", "ψ = κ W/(μ v_0),  § 13", ("ψ₁", "ψ₂"),
+        "Speed along the surface, after over before", "ψ = κ W/(μ v_0),  § 13", ("ψ₁", "ψ₂"),
         (
-            line("elastic", "elastic", 2.2, symbol="ψ₂"),
+            line("elastic (Maw)", "elastic", 2.2, symbol="ψ₂"),
             mark("this impact", "slip", "ink", "diamond", 12),
         ),
         friction.maw_still, resting=friction.maw, button=("ψ", "o"),
