@@ -177,7 +177,8 @@ PLOTS = {
         to_scale=lambda view: True,
     ),
     "surface": Plot(
-        "Surface and imprint", "u(r) = ∫ (2/π) arcsin(a(s)/r) ds,  a(s) < r  § 7", ("section r", "section z"),
+        "Surface and imprint", "u(r) = ∫ (2/π) arcsin(a(s)/r) ds,  a(s) < r  § 7",
+        ("section r", "section z"),
         (
             area("tip z(r)", "body", 0.55),
             area("medium", "free", 0.16, legend=False),

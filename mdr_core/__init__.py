@@ -82,7 +82,7 @@ __all__ = [
     "sweep",
 ]
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 
 def __dir__():
