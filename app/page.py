@@ -1,29 +1,28 @@
 """The page of one session: one change is one solve and one array of columns; playing is the browser's."""
 
 import logging
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from html import escape
 from pathlib import Path
 
-import numpy as np
 import panel as pn
 import param
 from bokeh.events import ConnectionLost, DocumentReady
-from bokeh.models import ColumnDataSource, CustomJS, Div, Select, Slider, Toggle
+from bokeh.models import CustomJS, Div
 
 from . import link, readouts
 from .controls import JS, WIDE, Controls, html, linked, marked
-from .drives import DRIVES, drive_of, follow
+from .drives import follow
 from .explorer import Explorer
 from .figures import DARK, LIGHT
 from .grid import FULL, STYLE, Grid, button
 from .held import Table, held, is_held, renamed, toggled
 from .measured import Curve
 from .measuring import Measuring
-from .packet import packed
+from .player import Player
 from .plots import PLOTS
 from .quantities import CHOICES
-from .resting import Resting
+from .resting import Pending, Resting
 from .takeaway import TakeAway
 from .tip import read_tip
 from .tour import Tour
@@ -38,30 +37,12 @@ SETTLED = 300
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
 
 
-@dataclass(frozen=True)
-class _Pending:
-    """A trajectory that is solved while the input is at rest, as `Resting` has it."""
-
-    title: str
-
-    @staticmethod
-    def resting(way):
-        """The same, in time, or why it cannot be."""
-        try:
-            yield DRIVES[drive_of(way.scene)].in_time(way.scene)
-        except ValueError as error:
-            yield str(error)
-
-
 class Page:
     """What one person sees and does."""
 
     def __init__(self, arguments=None):
         self.document, self.explorer, self.held = pn.state.curdoc, Explorer(), []
-        self.found, self.solved, self._serial, self._waiting = {}, {}, 0, None
-        nothing = {"values": np.zeros(1, np.float32)}
-        self.packet = ColumnDataSource(nothing, name="packet", tags=[0, [0], [[]], [""], [], [[], []]])
-        self.frames = ColumnDataSource(nothing, name="frames", tags=[-1, [], [], []])
+        self.found, self.solved, self._waiting = {}, {}, None
         self._widgets()
         notice = self._open(arguments or {})
         self.resting = Resting(self._show_found)
@@ -99,16 +80,9 @@ class Page:
         self.hold, self.dark, self.take, self.guide = (button(toggle, *each) for each in keys)
         self.measure = button(toggle, "Fit a measurement", "f")
         self.asked = {name: button(toggle, *plot.button) for name, plot in PLOTS.items() if plot.button}
-        paces = [(str(pace), f"{pace} ×") for pace in (0.1, 0.25, 0.5, 1, 2)]
-        styled = {"stylesheets": STYLE, "margin": 0}
-        self.play = Toggle(label="▶ Play", css_classes=["button", "key-space"], width=84, **styled)
-        self.state = Slider(
-            start=0, end=1, value=1, show_value=False, css_classes=["slider"], title=None, **styled
-        )
-        self.state.update(tooltips=False, sizing_mode="stretch_width")
-        self.pace = Select(options=paces, value="1", width=70, css_classes=["choice", "pace"], **styled)
-        self.readout = Div(css_classes=["readouts"], sizing_mode="stretch_width", **styled)
-        self.standing = Div(text="<output></output>", css_classes=["standing"], width=160, **styled)
+        look = {"css_classes": ["readouts"], "stylesheets": STYLE, "margin": 0}
+        self.readout = Div(sizing_mode="stretch_width", **look)
+        self.player = Player(self.readout)
         self.address = Div(visible=False)
         self.lights, self.table = html("", css_classes=["lights"]), Table(self._rename, self._remove)
 
@@ -124,28 +98,15 @@ class Page:
         buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values())
         buttons = (*buttons, self.dark, self.take, self.measure, self.guide, axes)
         tools = pn.Row(*buttons, css_classes=["tools"], stylesheets=STYLE, **WIDE)
-        parts = (self.play, self.state, self.pace, self.standing, self.address)
-        player = pn.Row(*map(pn.pane.Bokeh, parts), css_classes=["player"], stylesheets=STYLE, **WIDE)
         above = (tools, self.table.view, self.away.panel, self.measuring.panel, self.tour.panel)
-        parts = (*above, pn.pane.Bokeh(self.readout), self.lights, player, self.grid.view)
-        results = pn.Column(*parts, css_classes=["results"], **FULL)
+        parts = (*above, pn.pane.Bokeh(self.readout), self.lights, self.player.view, self.grid.view)
+        results = pn.Column(*parts, pn.pane.Bokeh(self.address), css_classes=["results"], **FULL)
         self.view = pn.Row(side, results, css_classes=["page"], **FULL)
 
     def _connect(self):
         """What happens in the browser alone."""
-        parts = {"packet": self.packet, "frames": self.frames, "slider": self.state}
-        parts |= {"readout": self.readout, "standing": self.standing}
-        self.show = CustomJS(args=parts | {"layers": []}, code=JS["show"])
         self.theme = CustomJS(args={"light": LIGHT, "dark": DARK, "figures": []}, code=JS["theme"])
-        for source, name in ((self.packet, "data"), (self.state, "value")):
-            source.js_on_change(name, self.show)
-        # The slider waits where it stands until the states are there.
-        again = CustomJS(args={"show": self.show, "slider": self.state}, code="show.execute(slider)")
-        self.frames.js_on_change("data", again)
-        parts = {"packet": self.packet, "frames": self.frames, "slider": self.state}
-        self.play.js_on_change("active", CustomJS(args=parts | {"pace": self.pace}, code=JS["play"]))
-        drag = CustomJS(args=parts | {"play": self.play}, code=JS["drag"])
-        self.grid = Grid(self.show, self.theme, drag, self.controls)
+        self.grid = Grid(self.player.show, self.theme, self.player.drag, self.controls)
         self.dark.jscallback(args={"theme": self.theme}, value="theme.execute(cb_obj)")
         self.theme.js_on_change("args", CustomJS(args={"theme": self.theme}, code="theme.execute(theme)"))
         self.address.js_on_change("text", CustomJS(code="history.replaceState(null, '', cb_obj.text)"))
@@ -157,7 +118,8 @@ class Page:
             "tour": "Guided scene",
             "curve": "CSV file of a measured curve: depth, force",
         }
-        parts = {"named": named, "show": self.show, "theme": self.theme, "packet": self.packet}
+        parts = {"named": named, "theme": self.theme}
+        parts |= {"show": self.player.show, "packet": self.player.packet}
         if self.document is not None:
             self.document.js_on_event(DocumentReady, CustomJS(args=parts, code=JS["ready"]))
             # What was shown is in the address; the session behind it may be gone.
@@ -171,7 +133,8 @@ class Page:
         for widget, act in ((self.undo, "undo"), (self.redo, "redo")):
             widget.on_click(lambda event, act=act: self.tell(getattr(self.explorer, act)))
         self.reset.on_click(lambda event: self.tell(lambda: self.explorer.load(self.explorer.preset)))
-        self.controls.parts["again"].on_click(self._hit_again)
+        again = self.controls.parts["again"]
+        again.on_click(lambda event: self.tell(lambda: self.explorer.hit_again(self.way.hit)))
         self.controls.tip.param.watch(self._bring_tip, "value")
         self.hold.param.watch(self._held, "value")
         for name, toggle in self.asked.items():
@@ -179,9 +142,7 @@ class Page:
             toggle.param.watch(self._asked, "value")
         self.dark.value = explorer.dark
         self.dark.param.watch(self._darkened, "value")
-        self.state.on_change("value", self._scrubbed)
-        self.state.on_change("value_throttled", self._stood)
-        self.play.on_change("active", lambda attr, old, new: self._send_frames() if new else None)
+        self.player.state.on_change("value_throttled", self._stood)
 
     # What a person does, and what is refused.
 
@@ -240,9 +201,6 @@ class Page:
             self.explorer.accept()
             self._around()
 
-    def _hit_again(self, event):
-        self.tell(lambda: self.explorer.hit_again(self.way.hit))
-
     def _bring_tip(self, event):
         if event.new:
             self.tell(lambda: self.explorer.take_tip(*read_tip(event.new.decode("utf-8", "replace"))))
@@ -296,9 +254,8 @@ class Page:
 
     def _solve(self):
         self.way = self._follow(self.explorer)
-        count = len(self.way)
         self.cells = readouts.cells(self.way)
-        self.state.update(end=count - 1, value=self.way.now)
+        self.player.stand(self.way)
         self._show()
 
     def _show(self, anew=True):
@@ -309,20 +266,8 @@ class Page:
         held, curve = [each.way for each in self.held], Curve.of(self.explorer)
         self.drawn = View(self.way, held, self.found, self.explorer.choices, curve)
         self.grid.show(self.drawn, self._shown())
-        values, starts, labels = packed(self.drawn, self.grid.layers, [self.way.now])
-        motion, count = self.way.motion, len(self.way)
-        times = np.linspace(0, 1, count)
-        if motion is not None:
-            times = (motion.time - motion.time[0]) / (motion.time[-1] - motion.time[0])
-        path = (("d", self.way.states.depth), ("F", self.way.force))
-        path = [(values / self.drawn.axes[name].factor).tolist() for name, values in path]
-        words = [readouts.values(self.way, self.cells, self.way.now)]
-        self._serial += anew
         self.readout.text = readouts.heads(self.cells)
-        self.packet.tags = [self._serial, starts, labels, words, times.tolist(), path]
-        self.packet.data = {"values": values}
-        if self.play.active:
-            self._send_frames()
+        self.player.send(self.drawn, self.grid.layers, self.cells, anew)
 
     def _asks(self):
         """The plots on request that find what they show, each with what it asks for."""
@@ -353,28 +298,13 @@ class Page:
                 self.found[title] = found
                 self._show(anew=False)
 
-    def _send_frames(self):
-        """Send all states, once, so that the browser can move through them alone."""
-        if self.frames.tags[0] == self._serial:
-            return
-        states = range(len(self.way))
-        values, starts, labels = packed(self.drawn, self.grid.layers, states, moving_only=True)
-        words = [readouts.values(self.way, self.cells, i) for i in states]
-        with pn.io.hold(self.document):
-            self.frames.tags = [self._serial, starts, labels, words]
-            self.frames.data = {"values": values}
-
-    def _scrubbed(self, attr, old, new):
-        if int(new) != self.way.now:
-            self._send_frames()
-
     def _stood(self, attr, old, new):
         """The page stands at another state; it has drawn that already."""
         now = min(int(new), len(self.way) - 1)
         with pn.io.hold(self.document):
             self.way = replace(self.way, now=now)
             self.drawn.way = self.way
-            self.state.value = now
+            self.player.stand(self.way)
             self.explorer.progress = float(self.way.progress[now])
             self._around()
 
@@ -411,7 +341,7 @@ class Page:
         way = self.way
         self.grid.describe(self.drawn)
         for k, each in enumerate([way, *(each.way for each in self.held)]):
-            self.resting.follow(_Pending(f"way {k}"), each.scene if each.pending else None, each)
+            self.resting.follow(Pending(f"way {k}"), each.scene if each.pending else None, each)
         asked = {plot: values for plot, values in self._asks() if not plot.quick(*values)}
         for plot in (plot for plot in PLOTS.values() if plot.resting):
             values = asked.get(plot, ())

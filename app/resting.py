@@ -9,6 +9,8 @@ import panel as pn
 
 from mdr_core.figures import Axis
 
+from .drives import DRIVES, drive_of
+
 _LOG = logging.getLogger(__name__)
 
 
@@ -67,3 +69,18 @@ class Resting:
             act()
         else:
             self._document.add_next_tick_callback(act)
+
+
+@dataclass(frozen=True)
+class Pending:
+    """A trajectory that is solved while the input is at rest, as `Resting` has it."""
+
+    title: str
+
+    @staticmethod
+    def resting(way):
+        """The same, in time, or why it cannot be."""
+        try:
+            yield DRIVES[drive_of(way.scene)].in_time(way.scene)
+        except ValueError as error:
+            yield str(error)
