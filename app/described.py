@@ -12,7 +12,7 @@ def described(view, plot):
         return f"{plot.title}: nothing yet."
     x, y, *more = axes
     said = [f"{plot.title}: {y.title}, over {x.title}, from {_at(x, x.start)} to {_at(x, x.end)}."]
-    stacked = not any(row.symbol or row.kind == "marks" for row in plot.rows) and not plot.image
+    stacked = all(row.kind == "areas" for row in plot.rows if row.legend)
     for row in plot.rows:
         columns = view.columns(plot, view.way.now)[row.name]
         text = row.legend and _row(row, columns, x, more[0] if row.axis == 2 else y, stacked)
@@ -41,7 +41,7 @@ def _row(row, columns, x, y, stacked):
     if row.symbol:
         # Of two sides that are alike the right one.
         top = values.size - 1 - int(np.argmax(values[::-1]))
-        return f"{row.symbol} up to {_at(y, values[top])} at {_of(x, at[top])}"
+        return f"{row.symbol} from {_at(y, values.min())} to {_at(y, values[top])} at {_of(x, at[top])}"
     return f"from {_of(x, at.min())} to {_at(x, at.max())}"
 
 

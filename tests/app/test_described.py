@@ -43,6 +43,15 @@ def test_force_and_depth_in_words():
     assert "held" not in text
 
 
+def test_springs_in_words():
+    view = View(follow(Explorer().scene(), 1.0))
+    text, state = described(view, PLOTS["springs"]), view.way.state
+    half = float(state.plastic_radius) * 1e9
+    # A spring is drawn at its place, within half the distance to the next, of which there are 60.
+    assert read(text, "yielded: from x = [^t]* to ") == pytest.approx(half, abs=40 / 60)
+    assert "high" not in text
+
+
 def test_energies_in_words_are_those_of_the_ledger():
     view = View(follow(Explorer(DROP).scene(), 1.0))
     text, motion = described(view, PLOTS["energy"]), view.way.motion
