@@ -37,7 +37,7 @@ class Measuring:
         head = html("Depth and force as CSV, drop or choose:")
         choices = [x for role in self.columns for x in (self.columns[role], self.units.get(role)) if x]
         held = html("Held in the fit:", width=90, sizing_mode="fixed")
-        page.controls.rows["noise"].param.update(sizing_mode="fixed", width=280)
+        page.controls.rows["noise"].param.update(sizing_mode="fixed", width=400)
         choices, holds = pn.Row(*choices, **row), pn.Row(held, self.holds, **row)
         self.rest = pn.Column(choices, self.place, holds, self.noise, **WIDE)
         file = pn.Row(head, self.file, self.made, self.remove, **row)

@@ -81,7 +81,7 @@ class View:
             described.append(("E", "E, energy", "energy", size["energy"]))
         if self.curve is not None:
             largest = float(np.nan_to_num(np.abs(self.residual)).max())
-            described.append(("ΔF", "ΔF, measured less modelled force", "force", largest, 1.0))
+            described.append(("ΔF", "ΔF, residual force", "force", largest, 1.0))
         if self.way.oblique is not None:
             described += friction.axes(self.way, size)
         made = {name: self._axis(name, *rest) for name, *rest in described}
