@@ -82,6 +82,8 @@ class View:
         if self.curve is not None:
             largest = float(np.nan_to_num(np.abs(self.residual)).max())
             described.append(("ΔF", "ΔF, residual force", "force", largest, 1.0))
+        if self.way.oblique is not None:
+            described += friction.axes(self.way, size)
         made = {name: self._axis(name, *rest) for name, *rest in described}
         return made | {f"log {name}": self._logarithmic(made[name], size[f"least {name}"]) for name in "dF"}
 
