@@ -8,6 +8,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.figures import NOTHING, REST, Axis, ceiling, radii
 
+from . import friction
 from .dimensionless import Ratio, scales
 from .quantities import CHOICES
 from .units import digits, fitting, round_up, written
