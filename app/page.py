@@ -80,8 +80,8 @@ class Page:
         self.hold, self.dark, self.take, self.guide = (button(toggle, *each) for each in keys)
         self.measure = button(toggle, "Fit a measurement", "f")
         self.asked = {name: button(toggle, *plot.button) for name, plot in PLOTS.items() if plot.button}
-        look = {"css_classes": ["readouts"], "stylesheets": STYLE, "margin": 0}
-        self.readout = Div(sizing_mode="stretch_width", **look)
+        wide = {"sizing_mode": "stretch_width", "stylesheets": STYLE, "margin": 0}
+        self.readout = Div(css_classes=["readouts"], **wide)
         self.player = Player(self.readout)
         self.address = Div(visible=False)
         self.lights, self.table = html("", css_classes=["lights"]), Table(self._rename, self._remove)
@@ -118,8 +118,12 @@ class Page:
             "tour": "Guided scene",
             "curve": "CSV file of a measured curve: depth, force",
         }
-        parts = {"named": named, "theme": self.theme}
-        parts |= {"show": self.player.show, "packet": self.player.packet}
+        parts = {
+            "named": named,
+            "theme": self.theme,
+            "show": self.player.show,
+            "packet": self.player.packet,
+        }
         if self.document is not None:
             self.document.js_on_event(DocumentReady, CustomJS(args=parts, code=JS["ready"]))
             # What was shown is in the address; the session behind it may be gone.
@@ -277,7 +281,9 @@ class Page:
     def _shown(self):
         """The plots that are seen, in their order."""
         pressed, known = self.way.motion is None, self.drawn.axes.keys()
-        asked = [name for name in self.explorer.plots if known >= set(PLOTS[name].axes)]
+        for name, toggle in self.asked.items():
+            toggle.visible = known >= set(PLOTS[name].axes)
+        asked = [name for name in self.explorer.plots if self.asked[name].visible]
         names = [n for n, plot in PLOTS.items() if not plot.button and known >= set(plot.axes)]
         # Three in a row: the pressure stays below the springs, and radii or residual below the force.
         first = [name for name in asked if not PLOTS[name].log][:1] or ["radii"] * ("residual" in names)
