@@ -21,7 +21,7 @@ from .measured import Curve
 from .measuring import Measuring
 from .player import Player
 from .plots import PLOTS
-from .quantities import CHOICES
+from .quantities import CHOICES, DATA
 from .resting import Pending, Resting
 from .takeaway import TakeAway
 from .tip import read_tip
@@ -110,20 +110,8 @@ class Page:
         self.dark.jscallback(args={"theme": self.theme}, value="theme.execute(cb_obj)")
         self.theme.js_on_change("args", CustomJS(args={"theme": self.theme}, code="theme.execute(theme)"))
         self.address.js_on_change("text", CustomJS(code="history.replaceState(null, '', cb_obj.text)"))
-        named = {
-            "slider": "State along the way",
-            "pace": "Speed of the player",
-            "tip": "CSV file of a measured tip: r, z",
-            "scene": "Load a scene (JSON)",
-            "tour": "Guided scene",
-            "curve": "CSV file of a measured curve: depth, force",
-        }
-        parts = {
-            "named": named,
-            "theme": self.theme,
-            "show": self.player.show,
-            "packet": self.player.packet,
-        }
+        parts = {"named": DATA["named"], "theme": self.theme}
+        parts |= {"show": self.player.show, "packet": self.player.packet}
         if self.document is not None:
             self.document.js_on_event(DocumentReady, CustomJS(args=parts, code=JS["ready"]))
             # What was shown is in the address; the session behind it may be gone.

@@ -260,8 +260,8 @@ def overlay(title, rows, columns, axes):
     hv = imported("holoviews", "a plot", "holoviews bokeh")
     if not hv.Store.loaded_backends():
         hv.extension("bokeh", logo=False)
+    bokeh, made = "bokeh" in hv.Store.loaded_backends(), []
     dims = [hv.Dimension((axis.name, axis.title), unit=axis.unit or None) for axis in axes]
-    made = []
     for row in rows:
         x, y, *text = columns.get(row.name, NOTHING)
         if not np.isfinite(y).any():
@@ -274,14 +274,10 @@ def overlay(title, rows, columns, axes):
             element = hv.Polygons([{dims[0].name: x, dims[1].name: y}], dims, **named)
         else:
             element = hv.Labels(([x], [y], text), dims, "text")
-        made.append(element)
-        if "bokeh" in hv.Store.loaded_backends():
-            element.opts(backend="bokeh", **_styled(row))
-    made = hv.Overlay(made)
-    if "bokeh" in hv.Store.loaded_backends():
-        look = {"width": 600, "height": 400, "show_grid": True, "legend_position": "right"}
-        made.opts(backend="bokeh", title=title, xlim=axes[0].ends, ylim=axes[1].ends, **look)
-    return made
+        made.append(element.opts(backend="bokeh", **_styled(row)) if bokeh else element)
+    look = {"title": title, "width": 600, "height": 400, "show_grid": True, "legend_position": "right"}
+    look |= {"xlim": axes[0].ends, "ylim": axes[1].ends}
+    return hv.Overlay(made).opts(backend="bokeh", **look) if bokeh else hv.Overlay(made)
 
 
 class Plotted(Report):
@@ -301,13 +297,10 @@ class Plotted(Report):
         ------
         ValueError
             If a name is none of them, or this is not one path.
-        ImportError
-            If HoloViews is not installed.
         """
-        for name in (quantity, over):
-            if name not in self._quantities:
-                known = ", ".join(self._quantities)
-                raise ValueError(f"{type(self).__name__} has no {name!r} to plot; it has {known}")
+        for name in {quantity, over} - set(self._quantities):
+            known = ", ".join(self._quantities)
+            raise ValueError(f"{type(self).__name__} has no {name!r} to plot; it has {known}")
         if len(self.shape) != 1:
             raise ValueError(f"plot() is for one path, this is of shape {self.shape}: take one of it")
         x, y = (np.asarray(getattr(self, name)) for name in (over, quantity))
@@ -330,8 +323,7 @@ class PlottedState(Plotted):
     def plot_pressure(self) -> Any:
         """Contact pressure p(r) of one state with a, c and its mean, as HoloViews elements."""
         half = self._half("plot_pressure")
-        top = 1.05 * ceiling(self, half)
-        r = radii(self, half)
+        top, r = 1.05 * ceiling(self, half), radii(self, half)
         columns = pressure(self, r, self.pressure(r), half, top)
         axes = [
             Axis.fitting("r", "r, radius", "m", half, start=-half, end=half),

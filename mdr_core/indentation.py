@@ -31,10 +31,8 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
         The medium.
     depth : float or array_like
         Indentation depth d (m), one number or a path along the last axis; each row of a larger
-        array is a path of its own that starts on a virgin medium. Negative means lifted off.
-
-    Parameters of profile and medium may be arrays with a last axis of length 1, which broadcast with rows
-    of depths: one path each, as in ``Medium(E_star=moduli[:, None])``.
+        array is a path of its own that starts on a virgin medium, or on one of many: parameters of
+        medium and profile may be arrays of shape (…, 1). Negative means lifted off.
 
     Returns
     -------
@@ -104,9 +102,9 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Inde
     peak = np.maximum.accumulate(area, axis=-1) if area.ndim else area
     with np.errstate(all="ignore"):
         deepest = loading_depth(profile, medium.critical_depth, peak)
-    known = min(profile.deepest, _check.LARGEST)
+    reached = deepest <= min(profile.deepest, _check.LARGEST)
     bound = f"presses {profile._too_deep()}"
-    _check.refuse("force", force, ~(deepest <= known), bound, unit="N", remedy="press less")
+    _check.refuse("force", force, ~reached, bound, unit="N", remedy="press less")
     front = first_loading(deepest, medium.critical_depth)
     length = np.where(area == peak, front.length, live_length(profile, front, area))
     upper = np.where(area == peak, deepest, front.lower + length)
