@@ -1,5 +1,6 @@
 """Contact time of dry impacts: closed forms of elastic powers, and the quadrature as it stands."""
 
+import itertools
 import math
 
 import numpy as np
@@ -90,3 +91,63 @@ def test_turning_exactly_on_a_kink(shape, beyond):
         values = [getattr(each, quantity) for each in (before, after)]
         # Straight over 10⁻⁷ but for a root of it, of which the kink's next power is the third.
         assert getattr(hit, quantity) == pytest.approx(sum(values) / 2, rel=1e-9), quantity
+
+
+def behind_a_face(s, sqrt):
+    """∫ a ds and ∫∫ a ds ds of z = (r² − 1)₊/2, with τ = √(a² − 1) and τa = s."""
+    square = (sqrt(1 + 4 * s * s) - 1) / 2
+    tau, a = sqrt(square), sqrt(1 + square)
+    area = tau + 2 * tau**3 / 3
+    return area, area * s - (6 * a**5 - 5 * a**3 - 1) / 15
+
+
+def below_a_wall(s, sqrt):
+    """The same of a cylinder of radius 1 with the cap z = r²/2: a = √s up to 1."""
+    low, beyond = min(s, 1), max(s - 1, 0)
+    area = 2 * low * sqrt(low) / 3
+    return area + beyond, 4 * low**2 * sqrt(low) / 15 + area * beyond + beyond**2 / 2
+
+
+def many_digits(integrals, d, d_c):
+    """∫ ds/√(∫∫ a ds ds) in and out, of an impact on a virgin medium as deep as d."""
+    mp = pytest.importorskip("mpmath").mp
+    d, d_c, time = mp.mpf(d), mp.mpf(d_c), mp.mpf(0)
+    p = max(d - d_c, mp.mpf(0))
+
+    def loading(s):
+        return integrals(s, mp.sqrt)[1] - integrals(max(s - d_c, mp.mpf(0)), mp.sqrt)[1]
+
+    def unloading(s):
+        return integrals(s, mp.sqrt)[1] - (s - p) * integrals(p, mp.sqrt)[0]
+
+    for work, begin in ((loading, mp.mpf(0)), (unloading, p)):
+        whole = work(d)
+        cuts = sorted({begin, d, *(c for c in (d_c, 5 * d_c, mp.mpf(1), 1 + d_c) if begin < c < d)})
+        for low, high in itertools.pairwise(cuts):
+
+            def slowness(u, low=low, high=high, work=work, whole=whole):
+                # The square takes out the root at the turning point.
+                left = whole - work(high - (high - low) * u * u)
+                return 2 * u * (high - low) / mp.sqrt(left) if left > 0 else mp.mpf(0)
+
+            time += mp.quad(slowness, [0, 1], maxdegree=5)
+    return time
+
+
+@pytest.mark.parametrize("depth", [1e-4, 0.97, 1.5])
+@pytest.mark.parametrize(
+    ("shape", "integrals"),
+    [(mdr.TruncatedParaboloid(1.0, 1.0), behind_a_face), (mdr.ParabolicPunch(1.0, 1.0), below_a_wall)],
+    ids=["face", "wall"],
+)
+def test_times_against_many_digits(shape, integrals, depth):
+    """From elastic impacts to thousands of critical depths, far below the shape's own length and beyond."""
+    mp = pytest.importorskip("mpmath").mp
+    medium = mdr.Medium(1.0, depth / np.array([1.0, 4.9, 3e4]) * 2 / math.pi)
+    states = [mdr.indent(shape, medium.entries(i), depth) for i in range(3)]
+    speed = np.sqrt([2 * float(each.stored_energy + each.plastic_work) for each in states])
+    found = mdr.impact(shape, medium, 1.0, speed).contact_time
+    with mp.workdps(40):
+        expected = [float(many_digits(integrals, depth, d_c) / 2) for d_c in medium.critical_depth]
+    # What is promised is 10⁻⁹; the nodes are chosen for a tenth of it.
+    np.testing.assert_allclose(found, expected, rtol=1e-10)

@@ -6,15 +6,19 @@ import numpy as np
 import scipy
 from numpy.polynomial import chebyshev
 
-from .._numeric import chunks, gauss_integrals, gauss_legendre
+from .._numeric import chunks, cube_rise, cube_way, gauss_integrals, gauss_legendre
 from ..shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
-from ..shapes.tabulated import tabulated
+from ..shapes.tabulated import OneLength, Tabulated, tabulated
 from ..superposition import energy_integral, radius_integral
 from ..yielding import LiveInterval, virgin
 
-_NODE, _WEIGHT = gauss_legendre(40)
-#: From values at the nodes to integrals from each of them to the end.
-_TAIL = _WEIGHT - gauss_integrals(40, _NODE)
+#: Nodes for pieces that come near the turning point, and for others.
+_NEAR, _FAR = 28, 12
+#: Where a shape goes over from one power of the depth to another, in units of its scale; and at which
+#: multiples of its length the lower end of a live interval no longer feels the tip as the upper one does.
+_OVER, _LENGTHS = np.array([1.0, 6.0]), 5 * 25.0 ** np.arange(6)
+#: Live intervals shorter than such a share of the depth have no digits as differences.
+_SHORT = 1e-4
 
 
 def contact_time(profile, inertia, speed, live, growth):
@@ -42,12 +46,14 @@ def contact_time(profile, inertia, speed, live, growth):
     rest = np.flatnonzero(~(known | by_ratio))
     if rest.size:
         profile = tabulated(profile, upper[rest].max())
-    for part in chunks(rest.size, 512):
+    unit, radius, depth = profile.unit or (profile, 1.0, 1.0)
+    root, depth = (np.broadcast_to(part, shape).ravel() for part in (np.sqrt(radius), depth))
+    for part in chunks(rest.size, max(32, 512 // (1 + len(unit.kinks)))):
         rows = rest[part]
-        indenters = profile.flat_entries(rows, shape)
         # The kinetic energy is 2E* times the integral of a ds that is still to be spent.
-        state = LiveInterval(lower[rows], upper[rows], length[rows])
-        time[rows] = time_over_root(indenters, state, growth[rows]) * factor[rows]
+        state = LiveInterval(lower[rows], upper[rows], length[rows]).over(depth[rows])
+        ratio = time_over_root(unit.flat_entries(rows, shape), state, growth[rows] / depth[rows])
+        time[rows] = ratio / root[rows] * factor[rows]
     return time.reshape(shape)[()]
 
 
@@ -96,62 +102,111 @@ def _table(kind):
 
 
 def time_over_root(profile, live, growth):
-    """∫ ds/√(∫ a ds) over unloading and loading (√m), one impact a row.
+    """∫ ds/√(∫∫ a ds ds) over unloading and loading (m^(−1/2)), one impact a row.
 
-    Depths run from where a stretch begins to its turning point as τ³(2 − τ³): the square in
-    1 − τ³ takes out the square root at the turning point, the cube the fractional powers where
-    contact or yield begins. What is still to be spent is integrated from the turning point back,
-    so that it never cancels.
+    What is still to be spent is integrated from the turning point back, so that it never cancels. Loading is
+    cut at the critical depth, beyond which both ends of the live interval move.
     """
-    # Besides kinks, the depth at which a shape goes over from one power to another.
-    places = (*profile.kinks, *(() if profile.scale is None else (profile.scale,)))
-    kinks = np.column_stack(places) if places else np.empty((1, 0))
-    base, whole = live.lower[:, None], live.length[:, None]
-    start = base - growth[:, None]
-    nothing, end = np.zeros_like(growth), np.ones_like(growth)
-    # Unloading over the live length, above the plastic depth.
-    time, _ = _stretch(profile, live.length, kinks - base, lambda s: (base + 0 * s, s), end, nothing)
-    # Loading beyond the critical depth: the interval moves. Its lower end has a scale of its own, d_c.
-    between = np.sqrt(whole * growth[:, None])
-    breaks = np.hstack([kinks - start, kinks - start - whole, whole, between])
-    beyond, spent = _stretch(profile, growth, breaks, lambda s: (start + s, whole + 0 * s), end, nothing)
-    # Loading up to the critical depth: the same map about the turning point, cut at τ_c.
-    way = growth + live.length
-    cut = np.cbrt(live.length / way / (1 + np.sqrt(growth / way)))
-    below, _ = _stretch(profile, way, kinks - start, lambda s: (start + 0 * s, s), cut, spent)
+    lower, length, growth = live.lower[:, None], live.length[:, None], growth[:, None]
+    start, nothing = lower - growth, np.zeros(live.length.shape)
+    kinks = np.column_stack(profile.kinks) if profile.kinks else np.empty((1, 0))
+    over = np.empty((1, 0)) if profile.scale is None else np.multiply.outer(profile.scale, _OVER)
+    over = np.atleast_2d(over)
+    # Unloading, above the plastic depth.
+    time, _ = _stretch(
+        profile, lambda s, rows: (lower[rows], s), lower, length, 0.0, kinks - lower, over - lower, nothing
+    )
+    # Loading beyond the critical depth.
+    cuts = np.hstack([kinks - start, kinks - start - length])
+    breaks = np.hstack([over - start, _LENGTHS * length])
+    beyond, spent = _stretch(
+        profile, lambda s, rows: (start[rows] + s, length[rows]), start, growth, 0.0, cuts, breaks, nothing
+    )
+    # Loading up to it, about where it would turn if the interval went on to grow.
+    force, ring = _flow(profile, start, length)[:, 0], profile._radius((start + length)[:, 0])
+    more = (2 * spent / (force + np.sqrt(force**2 + 2 * ring * spent)))[:, None]
+    below, _ = _stretch(
+        profile, lambda s, rows: (start[rows], s), start, length, more, kinks - start, over - start, spent
+    )
     return time + beyond + below
 
 
-def _stretch(profile, extent, breaks, interval, last, spent):
-    """∫ ds/√spent over a stretch of depth, and what is spent when it ends, one impact a row.
+def _stretch(profile, interval, lower, end, more, kinks, breaks, spent):
+    """∫ ds/√spent over a stretch of depth, and what is spent from its beginning on, one impact a row.
 
-    The stretch begins `extent` (m) before its turning point, at τ = 1, and ends at τ = `last`, beyond which
-    `spent` is still to be spent; `interval` gives lower end and length of the live interval at depths from
-    its beginning, and at depths `breaks`, of shape (N, K), the force has a kink.
+    The stretch begins at a depth `lower` and is `end` long, after which `spent` is still to be spent on what
+    is `more` up to the turning point (m). `interval` gives lower end and length of the live interval at
+    depths from the beginning; at depths `kinks`, of shape (N, K), the force has a kink.
     """
-    room = np.where(extent > 0, extent, 1.0)[:, None]
-    with np.errstate(over="ignore"):
-        share = np.clip(breaks / room, 0, 1)
-    # Inverse of τ³(2 − τ³), without cancellation for small shares.
-    inner = np.minimum(np.cbrt(share / (1 + np.sqrt(1 - share))), last[:, None])
-    edges = np.sort(np.hstack([np.zeros_like(room), inner, last[:, None]]), axis=1)
-    time, spent = np.zeros_like(extent), spent.copy()
-    for k in range(edges.shape[1] - 2, -1, -1):
-        low, high = edges[:, k], edges[:, k + 1]
-        rows = np.flatnonzero((high > low) & (extent > 0))
-        if not rows.size:
-            continue
-        # Behind a break the force may go on with the root of the depth: squared.
-        square = (low > 0)[rows, None]
-        node, slope = np.where(square, _NODE**2, _NODE), np.where(square, 2 * _NODE, 1.0)
-        tau = low[rows, None] + (high - low)[rows, None] * node
-        depth = np.zeros((len(extent), _NODE.size))
-        depth[rows] = extent[rows, None] * (tau**3 * (2 - tau**3))
-        lower, length = (part[rows] for part in interval(depth))
-        rate = extent[rows, None] * (high - low)[rows, None] * (6 * slope * tau**2 * (1 - tau**3))
-        indenters = profile.entries((rows, None), (len(extent),))
-        flow = radius_integral(indenters, LiveInterval(lower, lower + length, length)) * rate
-        left = spent[rows, None] + np.einsum("ij,kj->ik", flow, _TAIL)
-        time[rows] += np.einsum("ij,j->i", rate / np.sqrt(left), _WEIGHT)
-        spent[rows] += np.einsum("ij,j->i", flow, _WEIGHT)
-    return time, spent
+    edges, origin = _edges(profile, lower, end, kinks, breaks)
+    rows, k = np.nonzero(np.diff(edges) > 0)
+    begin, origin = edges[rows, k], origin[rows, k]
+    size, rest = edges[rows, k + 1] - begin, (end - edges[:, 1:] + more)[rows, k]
+    spending, pieces = np.zeros((len(end), edges.shape[1])), []
+    for some, count in ((size > rest, _NEAR), (size <= rest, _FAR)):
+        if some.any():
+            node, weight, tail = _rule(count)
+            row, at = rows[some, None], begin[some, None]
+            beyond, rate = _places(at - origin[some, None], size[some, None], rest[some, None], node)
+            flow = _flow(profile.entries((row,), (len(end),)), *interval(at + beyond, row[:, 0])) * rate
+            spending[row[:, 0], k[some]] = flow @ weight
+            pieces.append((row[:, 0], k[some], rate, flow @ tail, weight))
+    # What is left after each piece.
+    left = spent[:, None] + np.cumsum(spending[:, ::-1], axis=1)[:, ::-1]
+    time = np.zeros(len(end))
+    for row, k, rate, within, weight in pieces:
+        passed = (rate / np.sqrt(left[row, k + 1, None] + within)) @ weight
+        time += np.bincount(row, passed, minlength=len(end))
+    return time, left[:, 0]
+
+
+def _edges(profile, lower, end, kinks, breaks):
+    """Depths between pieces of stretches, ascending; of each piece, where a(s) begins as a root."""
+    cuts = np.clip(np.hstack([kinks, np.broadcast_to(breaks, (len(end), breaks.shape[1]))]), 0.0, end)
+    order = np.argsort(cuts, axis=1)
+    cuts = np.take_along_axis(cuts, order, axis=1)
+    roots = np.where((order < kinks.shape[1]) & (cuts > 0), cuts, -np.inf)
+    foot = profile._foot(lower[:, 0])[:, None] - lower
+    return np.hstack([0 * end, cuts, end]), np.maximum.accumulate(np.hstack([foot, roots]), axis=1)
+
+
+def _places(root, size, rest, node):
+    """Nodes of pieces as depths beyond their beginning (m), and their rates by the node.
+
+    A piece begins `root` (m) beyond where a(s) begins as a root, is `size` long, and ends by `rest` before
+    the turning point. With W the way to it in σ = ∛depth, σ = ∛root + W u(2 − u): smooth enough in u from the
+    root on, and with a velocity that is straight in u at the turning point, u = 1.
+    """
+    first = np.cbrt(root)
+    rise = cube_way(first, size + rest)
+    # The end as what it lacks, which may be less than rounding of it.
+    lack = cube_way(np.cbrt(root + size), rest) / rise
+    last = cube_way(first, size) / rise / (1 + np.sqrt(lack))
+    u = last * node
+    sigma = rise * (u * (2 - u))
+    return cube_rise(first, sigma), last * 6 * rise * (1 - u) * (first + sigma) ** 2
+
+
+@lru_cache
+def _rule(count):
+    """Nodes, weights, and what takes values at the nodes to integrals from each of them to the end."""
+    node, weight = gauss_legendre(count)
+    return node, weight, (weight - gauss_integrals(count, node)).T
+
+
+def _flow(profile, lower, length):
+    """∫ a ds over live intervals (m²) to the digits that times need, from a table where there is one."""
+    upper = lower + length
+    quick = isinstance(profile, OneLength | Tabulated)
+    if not quick or not np.all(profile.table.covers([lower.min(), upper.min(), upper.max()])):
+        return radius_integral(profile, LiveInterval(*np.broadcast_arrays(lower, upper, length)))
+    (flow,), (low,) = (profile.table.integrals(part, 1) for part in (upper, lower))
+    flow -= low
+    short = length < _SHORT * upper
+    if short.any():
+        # At a kink the difference has to do.
+        short &= profile.table.foot(lower) == profile.table.foot(upper)
+        lower, length = (np.broadcast_to(part, short.shape)[short] for part in (lower, length))
+        node, weight = gauss_legendre(2)
+        flow[short] = length * (weight @ profile.table.radius(lower + length * node[:, None]))
+    return flow

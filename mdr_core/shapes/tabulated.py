@@ -97,6 +97,7 @@ class RadiusTable:
 
     def covers(self, depth):
         """Whether the table goes to depths (m): above a tip that is a fractional power octaves end."""
+        depth = np.asarray(depth)
         return ((depth >= self._least) | (depth == 0)) & (depth <= self._end)
 
     def foot(self, depth):
