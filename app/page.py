@@ -42,8 +42,7 @@ class Page:
 
     def __init__(self, arguments=None):
         self.document, self.explorer, self.held = pn.state.curdoc, Explorer(), []
-        self.found, self.solved, self._waiting = {}, {}, None
-        self._ready = False
+        self.found, self.solved, self._waiting, self._ready = {}, {}, None, False
         self._widgets()
         notice = self._open(arguments or {})
         self.resting = Resting(self._show_found)
