@@ -42,7 +42,7 @@ class Page:
 
     def __init__(self, arguments=None):
         self.document, self.explorer, self.held = pn.state.curdoc, Explorer(), []
-        self.found, self.solved, self._waiting = {}, {}, None
+        self.found, self.solved, self._waiting, self._ready = {}, {}, None, False
         self._widgets()
         notice = self._open(arguments or {})
         self.resting = Resting(self._show_found)
@@ -113,6 +113,7 @@ class Page:
         parts = {"named": DATA["named"], "theme": self.theme}
         parts |= {"show": self.player.show, "packet": self.player.packet}
         if self.document is not None:
+            self.document.on_event(DocumentReady, self._begin)
             self.document.js_on_event(DocumentReady, CustomJS(args=parts, code=JS["ready"]))
             # What was shown is in the address; the session behind it may be gone.
             self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
@@ -320,9 +321,14 @@ class Page:
         self.measuring.show()
         self._settle()
 
+    def _begin(self, event):
+        """The browser is there: what is found before that, for a link, would not be sent to it."""
+        self._ready = True
+        self._settle()
+
     def _settle(self):
         """The address follows once the input is still."""
-        if self.document is None or self.document.session_context is None:
+        if self.document is None or self.document.session_context is None or not self._ready:
             return
         if self._waiting is not None:
             self.document.remove_timeout_callback(self._waiting)

@@ -238,7 +238,7 @@ def test_an_oblique_impact_in_the_browser(explorer):
     state.choose("drive", "oblique")
     hit = state.scene().solve()
     explorer.wait("explorer.row('hodograph', 'now')?.[0].length === 1")
-    explorer.page.get_by_text("so far").wait_for(state="detached")
+    explorer.wait("!explorer.model('packet').tags[3][0].includes('so far')")
     _, force = explorer.row("forces", "force along Fₓ")
     unit = explorer.axis("forces")["labels"][1]
     assert unit.endswith("(N)")
