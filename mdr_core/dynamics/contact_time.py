@@ -104,8 +104,8 @@ def _table(kind):
 def time_over_root(profile, live, growth):
     """∫ ds/√(∫∫ a ds ds) over unloading and loading (m^(−1/2)), one impact a row.
 
-    What is still to be spent is integrated from the turning point back, so that it never cancels. Loading is
-    cut at the critical depth, beyond which both ends of the live interval move.
+    What is still to be spent is integrated from the turning point back, so that it never cancels. Loading
+    is cut at the critical depth, beyond which both ends of the live interval move.
     """
     lower, length, growth = live.lower[:, None], live.length[:, None], growth[:, None]
     start, nothing = lower - growth, np.zeros(live.length.shape)
@@ -134,8 +134,8 @@ def time_over_root(profile, live, growth):
 def _stretch(profile, interval, lower, end, more, kinks, breaks, spent):
     """∫ ds/√spent over a stretch of depth, and what is spent from its beginning on, one impact a row.
 
-    The stretch begins at a depth `lower` and is `end` long, after which `spent` is still to be spent on what
-    is `more` up to the turning point (m). `interval` gives lower end and length of the live interval at
+    The stretch begins at a depth `lower` and is `end` long, after which `spent` is still to be spent on
+    what is `more` up to the turning point (m). `interval` gives lower end and length of the live interval at
     depths from the beginning; at depths `kinks`, of shape (N, K), the force has a kink.
     """
     edges, origin = _edges(profile, lower, end, kinks, breaks)
@@ -174,8 +174,8 @@ def _places(root, size, rest, node):
     """Nodes of pieces as depths beyond their beginning (m), and their rates by the node.
 
     A piece begins `root` (m) beyond where a(s) begins as a root, is `size` long, and ends by `rest` before
-    the turning point. With W the way to it in σ = ∛depth, σ = ∛root + W u(2 − u): smooth enough in u from the
-    root on, and with a velocity that is straight in u at the turning point, u = 1.
+    the turning point. With W the way to it in σ = ∛depth, σ = ∛root + W u(2 − u): smooth enough in u from
+    the root on, and with a velocity that is straight in u at the turning point, u = 1.
     """
     first = np.cbrt(root)
     rise = cube_way(first, size + rest)
