@@ -135,8 +135,8 @@ def _stretch(profile, interval, lower, end, more, kinks, breaks, spent):
     """∫ ds/√spent over a stretch of depth, and what is spent from its beginning on, one impact a row.
 
     The stretch begins at a depth `lower` and is `end` long, after which `spent` is still to be spent on
-    what is `more` up to the turning point (m). `interval` gives lower end and length of the live interval at
-    depths from the beginning; at depths `kinks`, of shape (N, K), the force has a kink.
+    what is `more` up to the turning point (m). `interval` gives lower end and length of the live interval
+    at depths from the beginning; at depths `kinks`, of shape (N, K), the force has a kink.
     """
     edges, origin = _edges(profile, lower, end, kinks, breaks)
     rows, k = np.nonzero(np.diff(edges) > 0)
