@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import mdr_core as mdr
 from mdr_core.dynamics.friction import changes, slide
@@ -201,38 +199,6 @@ def test_every_shape(shape):
     assert np.all(motion.stick_radius <= motion.contact_radius * (1 + 1e-6))
     lost = MASS * SPEED**2 * (1 - hit.restitution**2) + BALL * (0.06**2 - hit.tangential_velocity**2)
     assert hit.friction_work + hit.plastic_work + hit.viscous_work == pytest.approx(lost / 2, rel=1e-5)
-
-
-@settings(max_examples=4, deadline=None)
-@given(
-    st.sampled_from([0, 1, 4, 5]),
-    st.floats(0, 3),
-    st.floats(-1, 1.5),
-    st.floats(-2.0, 2.0),
-    st.floats(0.25, 1.0),
-)
-def test_similarity(shape, yields, viscosity, psi, share):
-    """W and μ enter as W/μ; work is dissipated, and no more of it than there is."""
-    medium = mdr.Medium(1e9, 10.0**yields, 10.0**viscosity)
-    speed = speed_at(psi if abs(psi) > 1e-3 else 0.5)
-    one, other = (
-        mdr.oblique_impact(
-            SHAPES[shape],
-            medium,
-            MASS,
-            SPEED,
-            k * speed,
-            k * MU,
-            tangential_mass=share * MASS,
-            tolerance=1e-2,
-        )
-        for k in (1.0, 7.0)
-    )
-    assert other.tangential_restitution == pytest.approx(one.tangential_restitution, abs=1e-9)
-    assert other.friction_work == pytest.approx(49 * one.friction_work, rel=1e-7)
-    assert abs(one.tangential_restitution) <= 1 + one.errors.tangential_restitution
-    assert 0 <= one.friction_work <= share * MASS * speed**2 / 2 * 1.01
-    assert one.max_tangential_force <= MU * one.max_force * (1 + 1e-9)
 
 
 class TestExtremes:

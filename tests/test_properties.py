@@ -89,3 +89,36 @@ def test_force_path_is_the_inverse_of_a_depth_path(shape, medium, fractions):
     # Unloaded from far beyond d_c the depth holds the live depth with few digits: 10¹⁵ d_c/d.
     error = 1e-14 * states.depth.max() / states.live.length * force
     assert np.all(np.abs(again.force - force) <= error + 1e-13 * force)
+
+
+@settings(max_examples=4, deadline=None)
+@given(
+    st.sampled_from([0, 1, 4, 5]),
+    st.floats(0, 3),
+    st.floats(-1, 1.5),
+    st.floats(-2.0, 2.0),
+    st.floats(0.25, 1.0),
+)
+def test_similarity_of_oblique_impacts(shape, yields, viscosity, psi, share):
+    """W and μ enter as W/μ; work is dissipated, and no more of it than there is."""
+    medium = mdr.Medium(1e9, 10.0**yields, 10.0**viscosity)
+    mass, mu = 1e-9, 0.3
+    speed = 0.045 * (psi if abs(psi) > 1e-3 else 0.5)
+    one, other = (
+        mdr.oblique_impact(
+            SHAPES[shape],
+            medium,
+            mass,
+            0.1,
+            k * speed,
+            k * mu,
+            tangential_mass=share * mass,
+            tolerance=1e-2,
+        )
+        for k in (1.0, 7.0)
+    )
+    assert other.tangential_restitution == pytest.approx(one.tangential_restitution, abs=1e-9)
+    assert other.friction_work == pytest.approx(49 * one.friction_work, rel=1e-7)
+    assert abs(one.tangential_restitution) <= 1 + one.errors.tangential_restitution
+    assert 0 <= one.friction_work <= share * mass * speed**2 / 2 * 1.01
+    assert one.max_tangential_force <= mu * one.max_force * (1 + 1e-9)
