@@ -224,9 +224,12 @@ class OneLength(Profile):
             step = (self._G(u) - depth) / self._G_slope(u)
             u = np.where((depth > 0) & np.isfinite(step), u - step, np.where(depth > 0, u, 0.0))
             u = np.clip(u, self._edge, self._end)
-            if not np.all(covered):
-                u = np.where(covered, u, _unit_radius(type(self), depth, 1.0))
-        return self._length * u
+            # Just above a flat face the radius is that of the face, to rounding.
+            far = ~covered & (depth > self._edge)
+            if np.any(far):
+                u = np.array(u)
+                u[far] = _unit_radius(type(self), np.asarray(depth)[far], 1.0)
+        return self._length * np.where(covered | far, u, self._edge)
 
 
 def _unit_radius(kind, depth, start):
