@@ -48,7 +48,7 @@ def contact_time(profile, inertia, speed, live, growth):
         profile = tabulated(profile, upper[rest].max())
     unit, radius, depth = profile.unit or (profile, 1.0, 1.0)
     root, depth = (np.broadcast_to(part, shape).ravel() for part in (np.sqrt(radius), depth))
-    for part in chunks(rest.size, max(32, 512 // (1 + len(unit.kinks)))):
+    for part in chunks(rest.size, max(32, 2048 // (1 + len(unit.kinks)))):
         rows = rest[part]
         # The kinetic energy is 2E* times the integral of a ds that is still to be spent.
         state = LiveInterval(lower[rows], upper[rows], length[rows]).over(depth[rows])

@@ -127,7 +127,7 @@ def _octaves(values, zones, count):
         np.polynomial.chebyshev.chebvander(np.cos(np.pi * (np.arange(count) + 0.5) / count), count - 1)
     )
     octaves, rough = np.zeros(zones, int), np.arange(zones)
-    for tried in (0, 2, 5, 8, 16, 32, 64):
+    for tried in (0, 4, 8, 10, 12, 14, 16, 20, 24, 32, 64):
         octaves[rough] = tried
         first = values(rough, 0.0, 0.5**tried)
         last = np.abs(first @ to_series[-2:].T).max(axis=1)
