@@ -123,8 +123,8 @@ def time_over_root(profile, live, growth):
         profile, lambda s, rows: (start[rows] + s, length[rows]), start, growth, 0.0, cuts, breaks, nothing
     )
     # Loading up to it, about where it would turn if the interval went on to grow.
-    force, ring = _flow(profile, start, length)[:, 0], profile._radius((start + length)[:, 0])
-    more = (2 * spent / (force + np.sqrt(force**2 + 2 * ring * spent)))[:, None]
+    force, a = _flow(profile, start[:, 0], live.length), profile._radius(start[:, 0] + live.length)
+    more = (2 * spent / (force + np.sqrt(force**2 + 2 * a * spent)))[:, None]
     below, _ = _stretch(
         profile, lambda s, rows: (start[rows], s), start, length, more, kinks - start, over - start, spent
     )

@@ -296,9 +296,9 @@ class Tabulated(Profile):
 def tabulated(profile, deepest):
     """A shape that gives the contact radius of `profile` quickly, down to a depth (m) or its own end.
 
-    Pure powers and shapes of one length, which are quick, come back as they are.
+    Pure powers and shapes of one length, which are quick, come back as they are, and so do many shapes.
     """
-    if isinstance(profile, FlatPunch | Cone | Paraboloid | PowerLaw | OneLength | Tabulated):
+    if profile.shape or isinstance(profile, FlatPunch | Cone | Paraboloid | PowerLaw | OneLength | Tabulated):
         return profile
     deepest = min(2.0 ** np.ceil(np.log2(np.max(deepest))), np.min(profile.deepest))
     return _tabulated(profile, float(deepest))
