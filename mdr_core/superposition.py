@@ -53,15 +53,18 @@ def _radius_rate(profile, depth):
 
 def _integrate(profile, live, function, moment):
     """∫ (d − s)^moment function(s) ds over the live interval, elementwise."""
-    if profile.shape:
+    if profile.shape and profile.unit:
         unit, length, depth = profile.unit
         return length * depth ** (moment + 1) * _integrate(unit, live.over(depth), function, moment)
+    shape = np.shape(live.length)
     lower, upper, length = (np.ravel(part) for part in (live.lower, live.upper, live.length))
     result = np.zeros_like(length)
-    most = max(16, 2**16 // (1 + len(profile.kinks)))
-    for rows in chunks(length.size, most):
-        result[rows] = _sums(profile, lower[rows], upper[rows], length[rows], function, moment)
-    return result.reshape(np.shape(live.length))
+    # Shapes that are cut at depths of their own, one by one.
+    alone = profile.shape and _is_cut_by_shape(profile)
+    for rows in chunks(length.size, 1 if alone else max(16, 2**16 // (1 + len(profile.kinks)))):
+        some = profile.flat_entries(rows.start if alone else rows, shape)
+        result[rows] = _sums(some, lower[rows], upper[rows], length[rows], function, moment)
+    return result.reshape(shape)
 
 
 def _sums(profile, lower, upper, length, function, moment):
@@ -75,7 +78,7 @@ def _sums(profile, lower, upper, length, function, moment):
         total[inner] = first + above[inner] * zeroth if moment else zeroth
     cut = ~inner
     beyond, weight = nodes(begin[cut], end[cut], start[cut], gauss_legendre(24))
-    values = weight * function(profile, lower[row[cut], None] + beyond)
+    values = weight * function(profile.entries((row[cut], None)), lower[row[cut], None] + beyond)
     if moment:
         values *= length[row[cut], None] - beyond
     total[cut] = values.sum(axis=1)
@@ -160,7 +163,7 @@ def _cuts(profile):
 @singledispatch
 def radius_drop(profile, live):
     """a(d) − a(d_p) (m), elementwise: where something has yielded, the width of the elastic ring."""
-    if profile.shape:
+    if profile.shape and profile.unit:
         unit, length, depth = profile.unit
         return length * radius_drop(unit, live.over(depth))
     a, c = profile._radius(live.upper), profile._radius(live.lower)

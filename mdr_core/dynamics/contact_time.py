@@ -48,7 +48,7 @@ def contact_time(profile, inertia, speed, live, growth):
         profile = tabulated(profile, upper[rest].max())
     unit, radius, depth = profile.unit or (profile, 1.0, 1.0)
     root, depth = (np.broadcast_to(part, shape).ravel() for part in (np.sqrt(radius), depth))
-    for part in chunks(rest.size, max(32, 512 // (1 + len(unit.kinks)))):
+    for part in chunks(rest.size, max(32, 2048 // (1 + len(unit.kinks)))):
         rows = rest[part]
         # The kinetic energy is 2E* times the integral of a ds that is still to be spent.
         state = LiveInterval(lower[rows], upper[rows], length[rows]).over(depth[rows])
@@ -123,8 +123,8 @@ def time_over_root(profile, live, growth):
         profile, lambda s, rows: (start[rows] + s, length[rows]), start, growth, 0.0, cuts, breaks, nothing
     )
     # Loading up to it, about where it would turn if the interval went on to grow.
-    force, ring = _flow(profile, start, length)[:, 0], profile._radius((start + length)[:, 0])
-    more = (2 * spent / (force + np.sqrt(force**2 + 2 * ring * spent)))[:, None]
+    force, a = _flow(profile, start[:, 0], live.length), profile._radius(start[:, 0] + live.length)
+    more = (2 * spent / (force + np.sqrt(force**2 + 2 * a * spent)))[:, None]
     below, _ = _stretch(
         profile, lambda s, rows: (start[rows], s), start, length, more, kinks - start, over - start, spent
     )

@@ -258,25 +258,28 @@ class Sampled(Profile):
 
     def _radius(self, depth):
         # Behind a vertex g begins as a square root, and is smooth in t = √(x − r) there.
+        depth, shape = np.ravel(depth), np.shape(depth)
         zone, guess = self._first_guess(depth)
         vertex, end = self._r[zone], np.sqrt(np.diff(self._r))[zone]
         # On the next vertex the slope is infinite, and Newton's method would not leave it.
         before = np.nextafter(self._r[zone + 1], 0)
-        t = np.clip(np.nan_to_num(guess), np.sqrt(np.spacing(vertex)), end)
+        t, rows = np.clip(np.nan_to_num(guess), np.sqrt(np.spacing(vertex)), end), np.arange(depth.size)
         # Before the first vertex the tip is a cone.
         with np.errstate(all="ignore"):
             t = np.where((zone > 0) | (depth == 0), t, np.sqrt(depth / (np.pi / 2 * self._slope[0])))
             for _ in range(50):
-                x = np.minimum(vertex + t * t, before)
+                way = t[rows]
+                x = np.minimum(vertex[rows] + way * way, before[rows])
                 reduced, slope = self._reduced_and_slope(x)
-                step = np.nan_to_num((reduced - depth) / (2 * t * slope), posinf=0.0, neginf=0.0)
-                way, t = t, np.clip(t - step, t / 8, end)
+                step = np.nan_to_num((reduced - depth[rows]) / (2 * way * slope), posinf=0.0, neginf=0.0)
+                t[rows] = new = np.clip(way - step, way / 8, end[rows])
                 # The square of the last step is rounding.
-                close = (np.abs(t - way) <= 1e-8 * t) | (np.abs(t * t - way * way) <= 8 * np.spacing(x))
-                if np.all(close):
+                close = (np.abs(new - way) <= 1e-8 * new) | (np.abs(new**2 - way**2) <= 8 * np.spacing(x))
+                rows = rows[~close]
+                if not rows.size:
                     break
         radius = np.where(depth > 0, vertex + t * t, self.face_radius)
-        return np.where(depth <= self.deepest, radius, np.inf)
+        return np.where(depth <= self.deepest, radius, np.inf).reshape(shape)
 
     def _first_guess(self, depth):
         """Number of the vertex behind which the contact ends, and about the root of the way from it."""
@@ -289,7 +292,12 @@ class Sampled(Profile):
         u = np.divide(depth - g[low], width, out=np.zeros_like(width), where=width > 0)
         rise = t[high] - t[low]
         bow = (1 - u) * (width * rate[low] - rise) - u * (width * rate[high] - rise)
-        return zone, t[low] + u * (rise + (1 - u) * bow)
+        # Next to the vertex a little bend, β √(2r) t, gives way to what is square in t.
+        bend, y = (self._bend * np.sqrt(2 * self._r[:-1]))[zone], np.maximum(depth - g[zone, 0], 0.0)
+        with np.errstate(all="ignore"):
+            square = (g[zone, 1] - g[zone, 0] - bend * t[zone, 1]) / t[zone, 1] ** 2
+            near = 2 * y / (bend + np.sqrt(bend**2 + 4 * square * y))
+        return zone, np.where(cell == 0, near, t[low] + u * (rise + (1 - u) * bow))
 
     @cached_property
     def _table(self):

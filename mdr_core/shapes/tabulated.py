@@ -127,7 +127,7 @@ def _octaves(values, zones, count):
         np.polynomial.chebyshev.chebvander(np.cos(np.pi * (np.arange(count) + 0.5) / count), count - 1)
     )
     octaves, rough = np.zeros(zones, int), np.arange(zones)
-    for tried in (0, 2, 5, 8, 16, 32, 64):
+    for tried in (0, 4, 8, 10, 12, 14, 16, 20, 24, 32, 64):
         octaves[rough] = tried
         first = values(rough, 0.0, 0.5**tried)
         last = np.abs(first @ to_series[-2:].T).max(axis=1)
@@ -301,9 +301,9 @@ class Tabulated(Profile):
 def tabulated(profile, deepest):
     """A shape that gives the contact radius of `profile` quickly, down to a depth (m) or its own end.
 
-    Pure powers and shapes of one length, which are quick, come back as they are.
+    Pure powers and shapes of one length, which are quick, come back as they are, and so do many shapes.
     """
-    if isinstance(profile, FlatPunch | Cone | Paraboloid | PowerLaw | OneLength | Tabulated):
+    if profile.shape or isinstance(profile, FlatPunch | Cone | Paraboloid | PowerLaw | OneLength | Tabulated):
         return profile
     deepest = min(2.0 ** np.ceil(np.log2(np.max(deepest))), np.min(profile.deepest))
     return _tabulated(profile, float(deepest))
