@@ -303,7 +303,8 @@ def tabulated(profile, deepest):
 
     Pure powers and shapes of one length, which are quick, come back as they are, and so do many shapes.
     """
-    if profile.shape or isinstance(profile, FlatPunch | Cone | Paraboloid | PowerLaw | OneLength | Tabulated):
+    powers = FlatPunch | Cone | Paraboloid | PowerLaw
+    if profile.shape or isinstance(profile, powers | OneLength | Tabulated):
         return profile
     deepest = min(2.0 ** np.ceil(np.log2(np.max(deepest))), np.min(profile.deepest))
     return _tabulated(profile, float(deepest))
