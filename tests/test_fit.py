@@ -179,15 +179,15 @@ class TestImpacts:
             assert not fit.remarks
 
     def test_errors_are_those_of_repeated_measurements(self):
-        """Of 60 the standard deviation is known to 9 %: four of these around 1."""
+        """Of 30 the standard deviation is known to 13 %: three of these around 1."""
         hit, random, found = self.hit(), np.random.default_rng(7), []
-        for _ in range(60):
+        for _ in range(30):
             e = hit.restitution + 0.01 * random.normal(size=25)
             T = hit.contact_time * np.exp(0.02 * random.normal(size=25))
             fit = mdr.fit_impacts(self.SHAPE, self.MASS, self.SPEED, e, contact_time=T)
             found.append([*pulls(fit, E_star=1e10, q_c=2e4).values()])
-        assert np.all(np.abs(np.std(found, axis=0) - 1) < 0.36)
-        assert np.all(np.abs(np.mean(found, axis=0)) < 0.5)
+        assert np.all(np.abs(np.std(found, axis=0) - 1) < 0.39)
+        assert np.all(np.abs(np.mean(found, axis=0)) < 0.6)
 
     @pytest.mark.parametrize("eta", [0.0, None])
     def test_restitution_alone_does_not_tell_the_modulus(self, eta):
