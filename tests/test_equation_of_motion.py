@@ -276,3 +276,13 @@ def test_turning_exactly_on_a_kink(shape, q_c):
     ledger = motion.kinetic_energy + motion.stored_energy + motion.plastic_work + motion.viscous_work
     # What is promised.
     np.testing.assert_allclose(ledger, MASS * hit.speed**2 / 2, rtol=1e-9)
+
+
+def test_an_imprint_that_ends_on_a_kink():
+    """The force goes through the kink without a jump, even if both of its ends come there at once."""
+    shape, medium = mdr.RoundedCone(1e-6, 0.1), mdr.Medium(1e9, 10.0, 3.0)
+    # The kink is at 1e-8 and some rounding.
+    depth = 1e-8 * (1 + np.array([-1e-6, 0.0, 1e-6]))
+    force = mdr.impact(shape, medium, 1e-9, 0.1, plastic_depth=depth).max_force
+    # Straight over 10⁻⁶ but for the square of it.
+    assert force[1] == pytest.approx((force[0] + force[2]) / 2, rel=1e-9)

@@ -138,6 +138,26 @@ class TestPencil:
         assert 0.1 < hit.restitution < 0.9
 
 
+class Capped(Pencil):
+    """A pencil whose kink is told: where both halves are as deep."""
+
+    kinks = property(lambda self: (2 * self.radius * (np.pi / 2 * self.slope) ** 2,))
+
+
+@pytest.mark.parametrize("eta", [0.0, 3.0])
+@pytest.mark.parametrize("kind", [Pencil, Capped], ids=["smooth", "with a kink"])
+def test_many_at_once(kind, eta):
+    """Arrays of parameters: the impacts of the entries, one by one."""
+    slopes, radii, speeds = np.array([0.1, 0.2, 0.3]), np.array([1e-6, 2e-6, 1e-5]), [0.1, 0.2, 0.05]
+    medium = mdr.Medium(1e9, 10.0, eta)
+    hits = mdr.impact(kind(slopes, radii), medium, MASS, speeds)
+    for i, (slope, radius) in enumerate(zip(slopes, radii, strict=True)):
+        one = mdr.impact(kind(float(slope), float(radius)), medium, MASS, speeds[i])
+        for quantity in ("max_depth", "max_force", "restitution", "contact_time", "plastic_work"):
+            # What is promised of times and viscous impacts, which take steps of their own.
+            assert getattr(hits, quantity)[i] == pytest.approx(getattr(one, quantity), rel=1e-9), quantity
+
+
 def test_a_shape_that_may_change_is_refused():
     @dataclass
     class Loose(Pencil.__base__):

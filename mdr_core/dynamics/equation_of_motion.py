@@ -260,10 +260,10 @@ def _unload(bodies, state, tolerance):
 
 
 def _largest_deceleration(count, steps):
-    """The largest deceleration (m/s²) of each of some impacts, from their steps on loading."""
+    """The largest deceleration (m/s²) of each of some impacts, from steps on loading; some are of no length."""
     largest = np.zeros(count)
     for rows, step in steps:
-        np.maximum.at(largest, rows, step.decelerations().max(axis=1))
+        np.fmax.at(largest, rows, step.decelerations().max(axis=1))
     # Steps next to the largest value at a node may have a larger one in between.
     for rows, step in steps:
         near = np.flatnonzero(step.decelerations().max(axis=1) >= 0.98 * largest[rows])
