@@ -260,7 +260,7 @@ def _unload(bodies, state, tolerance):
 
 
 def _largest_deceleration(count, steps):
-    """The largest deceleration (m/s²) of each of some impacts, from steps on loading; some are of no length."""
+    """The largest deceleration (m/s²) of each of some impacts, from steps of any length."""
     largest = np.zeros(count)
     for rows, step in steps:
         np.fmax.at(largest, rows, step.decelerations().max(axis=1))
