@@ -140,6 +140,12 @@ def chunks(size, most=8192):
     return (slice(start, start + most) for start in range(0, size, most))
 
 
+def broadcast_flat(*arrays):
+    """The shape to which arrays broadcast, and flat views of them, of which slices can be taken."""
+    arrays = np.broadcast_arrays(*arrays)
+    return arrays[0].shape, [part.ravel() if part.flags.c_contiguous else part.flat for part in arrays]
+
+
 @np.errstate(all="ignore")
 def increasing_root(function, target, start, highest=np.inf, largest=_check.LARGEST):
     """Positive x with function(x) = target, elementwise, for a function that grows about as a power.

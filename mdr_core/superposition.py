@@ -17,7 +17,7 @@ from functools import lru_cache, singledispatch
 import numpy as np
 import scipy
 
-from ._numeric import chunks, gauss_legendre, increasing_root
+from ._numeric import broadcast_flat, chunks, gauss_legendre, increasing_root
 from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
 from .shapes.tabulated import OneLength, Tabulated
 from .yielding import LiveInterval, first_loading
@@ -197,14 +197,14 @@ def radius_and_energy(profile, live):
 
 def _from_table(profile, live, moments):
     """The first or both integrals, from the table of the shape with parameters of 1."""
-    unit, length, depth = profile.unit
-    scaled = live if unit is profile else live.over(depth)
-    lower, upper, way = (np.ravel(part) for part in (scaled.lower, scaled.upper, scaled.length))
-    result = np.empty((moments, way.size))
-    for rows in chunks(way.size):
-        _fill(result[:, rows], unit, lower[rows], upper[rows], way[rows])
-    shape = np.shape(scaled.length)
-    return [length * depth ** (k + 1) * part.reshape(shape) for k, part in enumerate(result)]
+    unit, *scales = profile.unit
+    shape, parts = broadcast_flat(live.lower, live.upper, live.length, *scales)
+    result = np.empty((moments, np.prod(shape, dtype=int)))
+    for rows in chunks(result.shape[1]):
+        *ends, length, depth = (part[rows] for part in parts)
+        _fill(result[:, rows], unit, *(part / depth for part in ends))
+        result[:, rows] *= length * depth ** np.arange(1, moments + 1)[:, None]
+    return result.reshape(moments, *shape)
 
 
 def _fill(result, profile, lower, upper, length):

@@ -9,7 +9,7 @@ from functools import singledispatch
 
 import numpy as np
 
-from .._numeric import chunks, increasing_root
+from .._numeric import broadcast_flat, chunks, increasing_root
 from ..shapes.power import Cone, Paraboloid
 from ..shapes.tabulated import tabulated
 from ..superposition import energy_integral, radius_and_energy, radius_integral
@@ -33,17 +33,19 @@ def turning_point(profile, target, d_c, before):
         if virgin is not None:
             return virgin, virgin.lower
     profile, shape = quick(profile, target.size), target.shape
-    unit, radius, depth = profile.unit or (profile, 1.0, 1.0)
-    arguments = target / (radius * depth**2), d_c / depth, before / depth
-    target, d_c, before = (np.broadcast_to(part, shape).ravel() for part in arguments)
-    lower, upper, length, growth = np.empty((4, target.size))
+    unit, *scales = profile.unit or (profile, 1.0, 1.0)
+    # Beside the results there is no more than a block of anything.
+    _, arrays = broadcast_flat(target, d_c, before, *scales)
+    found = np.empty((4, target.size))
     for rows in chunks(target.size):
-        y = _penetration(unit.flat_entries(rows, shape), target[rows], d_c[rows], before[rows])
-        live, growth[rows] = pressed(np.where(np.isinf(y), 0.0, y), d_c[rows], before[rows])
-        lower[rows], length[rows] = live.lower, live.length
-        upper[rows] = np.where(np.isinf(y), np.inf, live.upper)
-    lower, upper, length, growth = (depth * part.reshape(shape) for part in (lower, upper, length, growth))
-    return LiveInterval(lower, upper, length), growth
+        target, d_c, before, radius, depth = (part[rows] for part in arrays)
+        target, d_c, before = target / (radius * depth**2), d_c / depth, before / depth
+        y = _penetration(unit.flat_entries(rows, shape), target, d_c, before)
+        live, growth = pressed(np.where(np.isinf(y), 0.0, y), d_c, before)
+        upper = np.where(np.isinf(y), np.inf, live.upper)
+        found[:, rows] = depth * np.array([live.lower, upper, live.length, growth])
+    *live, growth = found.reshape(4, *shape)
+    return LiveInterval(*live), growth
 
 
 def quick(profile, count):
