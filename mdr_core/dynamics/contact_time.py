@@ -104,8 +104,11 @@ def _table(kind):
 def time_over_root(profile, live, growth):
     """∫ ds/√(∫∫ a ds ds) over unloading and loading (m^(−1/2)), one impact a row.
 
-    What is still to be spent is integrated from the turning point back, so that it never cancels. Loading
-    is cut at the critical depth, beyond which both ends of the live interval move.
+    1. Unloading is one stretch of depth, loading two: beyond the critical depth both ends of the live
+       interval move.
+    2. Stretches are cut into pieces at kinks, and at depths beside which a piece would be long.
+    3. In each piece what is still to be spent is integrated at Gauss nodes, from the turning point back, so
+       that it never cancels.
     """
     lower, length, growth = live.lower[:, None], live.length[:, None], growth[:, None]
     start, nothing = lower - growth, np.zeros(live.length.shape)
@@ -149,13 +152,13 @@ def _stretch(profile, interval, lower, end, more, kinks, breaks, spent):
             row, at = rows[some, None], begin[some, None]
             beyond, rate = _places(at - origin[some, None], size[some, None], rest[some, None], node)
             flow = _flow(profile.entries((row,), (len(end),)), *interval(at + beyond, row[:, 0])) * rate
-            spending[row[:, 0], k[some]] = flow @ weight
-            pieces.append((row[:, 0], k[some], rate, flow @ tail, weight))
+            spending[row[:, 0], k[some]] = np.einsum("ij,j", flow, weight)
+            pieces.append((row[:, 0], k[some], rate, np.einsum("ij,kj", flow, tail), weight))
     # What is left after each piece.
     left = spent[:, None] + np.cumsum(spending[:, ::-1], axis=1)[:, ::-1]
     time = np.zeros(len(end))
     for row, k, rate, within, weight in pieces:
-        passed = (rate / np.sqrt(left[row, k + 1, None] + within)) @ weight
+        passed = np.einsum("ij,j", rate / np.sqrt(left[row, k + 1, None] + within), weight)
         time += np.bincount(row, passed, minlength=len(end))
     return time, left[:, 0]
 
@@ -191,7 +194,7 @@ def _places(root, size, rest, node):
 def _rule(count):
     """Nodes, weights, and what takes values at the nodes to integrals from each of them to the end."""
     node, weight = gauss_legendre(count)
-    return node, weight, (weight - gauss_integrals(count, node)).T
+    return node, weight, weight - gauss_integrals(count, node)
 
 
 def _flow(profile, lower, length):
@@ -208,5 +211,7 @@ def _flow(profile, lower, length):
         short &= profile.table.foot(lower) == profile.table.foot(upper)
         lower, length = (np.broadcast_to(part, short.shape)[short] for part in (lower, length))
         node, weight = gauss_legendre(2)
-        flow[short] = length * (weight @ profile.table.radius(lower + length * node[:, None]))
+        flow[short] = length * np.einsum(
+            "i,ij", weight, profile.table.radius(lower + length * node[:, None])
+        )
     return flow
