@@ -4,6 +4,7 @@ import sys
 
 import numpy as np
 import pytest
+from scipy.integrate import trapezoid
 
 import mdr_core as mdr
 from mdr_core.figures import ROLES, split
@@ -72,7 +73,7 @@ def test_pressure_with_the_radii_of_the_contact():
     np.testing.assert_allclose(p * 1e9, state.pressure(r * 1e-9), rtol=1e-9)
     # The force is the integral of what is drawn, by trapezia at radii dense at the edges.
     inner = r >= 0
-    force = np.trapezoid(2 * np.pi * r[inner] * p[inner], r[inner]) * 1e-9
+    force = trapezoid(2 * np.pi * r[inner] * p[inner], r[inner]) * 1e-9
     assert force == pytest.approx(state.force, rel=0.01)
     edges = {float(abs(x) * 1e-9) for each in plot if each.label == "" for x in ends(each)}
     for radius in (state.contact_radius, state.plastic_radius):
