@@ -26,6 +26,7 @@ Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; what is 
 beforehand how long it is going to take.
 """
 
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import MISSING, fields
 from inspect import isclass
@@ -237,15 +238,16 @@ def _sweep(kind, solve, shape, parameters, shape_parameters, quantities):
     for name in names or [""]:
         _check.one_of("quantity", name, known)
     _check_shape(shape, shape_parameters)
-    given = shape_parameters | parameters
-    arrays = [_labelled(xarray, name, value) for name, value in given.items()]
+    given = {
+        name: _labelled(xarray, name, value) for name, value in (shape_parameters | parameters).items()
+    }
 
     def block(*values):
         return _in_blocks(solve, shape, dict(zip(given, values, strict=True)), tuple(parameters), names)
 
     results = xarray.apply_ufunc(
         block,
-        *arrays,
+        *given.values(),
         output_core_dims=[[] for _ in names],
         dask="parallelized",
         output_dtypes=[float] * len(names),
@@ -278,13 +280,22 @@ def _check_shape(shape, given):
 
 
 def _labelled(xarray, name, value):
-    """A parameter as a DataArray."""
-    if isinstance(value, xarray.DataArray):
-        return value
-    value = _check.in_unit(name, value, QUANTITIES[name].unit if name in QUANTITIES else "")
-    if np.ndim(value):
-        raise ValueError(f"{name} is an array without names of dimensions: make it an xarray.DataArray")
-    return xarray.DataArray(_check.number(name, value))
+    """A parameter as a DataArray of numbers in the SI unit."""
+    unit = QUANTITIES[name].unit if name in QUANTITIES else ""
+    if not isinstance(value, xarray.DataArray):
+        value = _check.in_unit(name, value, unit)
+        if np.ndim(value):
+            raise ValueError(f"{name} is an array without names of dimensions: make it an xarray.DataArray")
+        return xarray.DataArray(_check.number(name, value))
+    # What is computed of an array with a unit may carry it on, so that only its multiples are telling.
+    said = getattr(value.data, "units", value.attrs.get("units", unit))
+    parts, own = (re.split("[/·* ]", text.replace("kg", "g")) for text in (str(said), unit))
+    multiple = str(said) != unit and len(parts) == len(own) and all(map(str.endswith, parts, own))
+    if hasattr(value.data, "units") or (unit and multiple):
+        raise ValueError(
+            f"{name} is given in {said}: give numbers in {unit or 'no unit'}, and say so in .attrs"
+        )
+    return value
 
 
 def _in_blocks(solve, shape, values, own, names):

@@ -98,6 +98,7 @@ def test_results_say_what_they_are():
         ({"hardness": 1.0}, "hardness is not a parameter of the sweep or of Sphere, which has radius"),
         ({"radius": None}, "radius must be one real number, got None"),
         ({"speed": np.ones(3)}, "speed is an array without names of dimensions"),
+        ({"speed": SPEED.assign_attrs(units="mm/s")}, "speed is given in mm/s: give numbers in m/s"),
         ({"speed": SPEED - 0.1}, r"speed\[0\] = -0.09 m/s must be finite and positive"),
     ],
 )
@@ -120,6 +121,18 @@ def test_shapes_are_classes_with_their_parameters_or_one_indenter():
         sweep.impacts("sphere", **rest)
     tip = mdr.Sampled([0.0, 1e-6, 2e-6], [0.0, 1e-7, 3e-7])
     assert sweep.impacts(tip, **rest).restitution.shape == (5,)
+
+
+def test_units_are_converted_told_or_not_touched():
+    """A number with a unit is converted; a unit that an array has of what it was computed of says nothing."""
+    pint = pytest.importorskip("pint")
+    ureg = pint.UnitRegistry()
+    plain = sweep.impacts(mdr.Sphere, **SPHERES)
+    mass = xr.DataArray(SPHERES["mass"], attrs={"units": "m"})
+    change = {"E_star": 1.0 * ureg.GPa, "speed": SPEED.assign_attrs(units="m/s"), "mass": mass}
+    xr.testing.assert_identical(sweep.impacts(mdr.Sphere, **SPHERES | change), plain)
+    with pytest.raises(ValueError, match="speed is given in"):
+        sweep.impacts(mdr.Sphere, **SPHERES | {"speed": SPEED * ureg("mm/s")})
 
 
 def test_blocks_do_not_show(monkeypatch):
