@@ -6,6 +6,7 @@ from xml.etree import ElementTree
 import pytest
 
 pytest.importorskip("mpmath")
+pytest.importorskip("dask")
 
 from .benchmarks import accuracy, fits
 from .benchmarks.chart import figure

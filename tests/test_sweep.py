@@ -124,7 +124,7 @@ def test_shapes_are_classes_with_their_parameters_or_one_indenter():
 
 
 def test_units_are_converted_told_or_not_touched():
-    """A number with a unit is converted; a unit that an array has of what it was computed of says nothing."""
+    """A number is converted; a unit that an array has of what it was computed of says nothing."""
     pint = pytest.importorskip("pint")
     ureg = pint.UnitRegistry()
     plain = sweep.impacts(mdr.Sphere, **SPHERES)

@@ -15,7 +15,7 @@ from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 
-from . import peers, speed
+from . import peers, speed, streams
 from .chart import figure
 from .harness import measure
 from .problems import problems
@@ -39,6 +39,7 @@ def collect(quick=False, say=lambda line: None):
         "peers": peers.versions(),
         "records": records,
         "ratios": list(speed.rows(100 if quick else 10**6)),
+        "streams": list(streams.rows(streams.QUICK if quick else streams.STREAMS)),
     }
 
 

@@ -11,6 +11,10 @@ tamaas and ContactMechanics solve what this project does not: the contact of any
 with friction, adhesion and plasticity besides. Here they are given an elastic cone, non-periodic, set
 up and warm before the clock starts."""
 
+_STREAMS = """`assets/erosion.py`: restitution and damaged area of particles with random radii and speeds,
+with the drawing of random numbers, sums and histograms. Memory is the sum of
+the largest of every process."""
+
 
 def time(seconds):
     """A time with two digits and its unit."""
@@ -44,6 +48,8 @@ def document(results):
         lines += _table(("method", "setting", "error", "time"), rows)
     lines += ["## Many at once", ""]
     lines += _table(("what", "time", "against"), (_row(*each) for each in results["ratios"]))
+    lines += ["## A stream of particles", "", _STREAMS, ""]
+    lines += _table(("what", "time", "each, and memory"), (_row(*each) for each in results["streams"]))
     return "\n".join(lines)
 
 
