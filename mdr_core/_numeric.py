@@ -44,9 +44,17 @@ def collocate(derivative, first, length):
     u, settled = np.repeat(first, len(one), axis=1), np.zeros(len(first), bool)
     for _ in range(8):
         value, rate = derivative(u)
-        matrix = one - length[..., None] * rate[:, None, :] * integrate
-        matrix[~np.isfinite(matrix).all(axis=(1, 2))] = one
-        change = np.linalg.solve(matrix, (u - first - length * (value @ integrate.T))[..., None])[..., 0]
+        rest, rate = u - first - length * (value @ integrate.T), length * rate
+        # The linear equation δ − ∫ f′δ = r in closed form: δ = r + E ∫ f′r/E with E = exp ∫ f′, of which
+        # polynomials have the digits unless it grows too much.
+        exponent = rate @ integrate.T
+        growth = np.exp(exponent)
+        change = rest + growth * ((rate * rest / growth) @ integrate.T)
+        steep = np.flatnonzero(~(np.abs(exponent).max(axis=1) < 20))
+        if steep.size:
+            matrix = one - rate[steep, None, :] * integrate
+            matrix[~np.isfinite(matrix).all(axis=(1, 2))] = one
+            change[steep] = np.linalg.solve(matrix, rest[steep, :, None])[..., 0]
         u = np.where(change / u < 0.75, u - change, u / 4)
         settled = np.all(np.abs(change) <= 1e-9 * np.abs(u), axis=1)
         if settled.all():
