@@ -67,12 +67,18 @@ def in_unit(quantity, value, unit):
     """`value` without its unit, if it carries one that can be converted; what carries none stays as it is.
 
     What pint, astropy and unyt have in common is asked for: a `unit` or `units`, and `to`. Labelled axes
-    (xarray) are refused, for arrays broadcast by the order of their axes here.
+    (xarray) are refused, for arrays broadcast by the order of their axes here, and so are lazy arrays
+    (dask), for all of them would have to be in memory.
     """
     if hasattr(value, "dims") and hasattr(value, "coords"):
         raise ValueError(
             f"{quantity} has dimensions with names, {shown(value.dims)}, which would be lost: arrays "
             "broadcast by the order of their axes; give its .values, transposed to what is meant"
+        )
+    if hasattr(type(value), "__dask_graph__") and not _carries_unit(value):
+        raise ValueError(
+            f"{quantity} is a lazy array, which would be taken into memory as a whole: .compute() it, "
+            "or give it to mdr_core.sweep, which keeps it lazy"
         )
     if isinstance(value, list | tuple) and any(map(_carries_unit, value)):
         return [in_unit(quantity, part, unit) for part in value]
@@ -88,7 +94,7 @@ def in_unit(quantity, value, unit):
         raise ValueError(
             f"{quantity} = {value!s:.80} cannot be converted to {wanted} ({type(error).__name__})"
         ) from None
-    return np.asarray(bare)[()]
+    return np.asarray(in_unit(quantity, bare, ""))[()]
 
 
 def _carries_unit(value):

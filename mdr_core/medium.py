@@ -89,7 +89,8 @@ class Medium(_check.Comparable):
         q_c = _check.positive("yield constant q_c", self.q_c, unit="N/m", infinite=True)
         set_(self, "q_c", q_c)
         set_(self, "eta", _check.positive("viscosity eta", self.eta, unit="Pa·s", zero=True))
-        set_(self, "poisson", _check.frozen(_poisson("Poisson ratio poisson", self.poisson).copy()))
+        poisson = _poisson("Poisson ratio poisson", self.poisson).copy()
+        set_(self, "poisson", _check.frozen(poisson) if poisson.ndim else float(poisson))
         _check.common_shape("medium", E_star=self.E_star, q_c=self.q_c, eta=self.eta, poisson=self.poisson)
 
     @classmethod

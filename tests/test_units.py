@@ -114,3 +114,15 @@ def test_named_dimensions_are_refused(kind):
         mdr.impact(mdr.Cone(0.3), MEDIUM, mass, speed)
     with pytest.raises(ValueError, match=r"depth has dimensions with names"):
         mdr.indent(mdr.Cone(0.3), MEDIUM, speed)
+
+
+def test_lazy_arrays_are_refused():
+    lazy = pytest.importorskip("dask.array").ones(3)
+    for solve in (
+        lambda: mdr.impact(mdr.Cone(0.3), MEDIUM, 1e-9, lazy),
+        lambda: mdr.indent(mdr.Cone(0.3), MEDIUM, lazy),
+        lambda: mdr.Sphere(lazy),
+        lambda: mdr.Medium(lazy),
+    ):
+        with pytest.raises(ValueError, match=r"is a lazy array, .* mdr_core.sweep, which keeps it lazy"):
+            solve()
