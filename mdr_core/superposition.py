@@ -200,7 +200,7 @@ def _from_table(profile, live, moments):
     unit, *scales = profile.unit
     shape, parts = broadcast_flat(live.lower, live.upper, live.length, *scales)
     result = np.empty((moments, np.prod(shape, dtype=int)))
-    for rows in chunks(result.shape[1]):
+    for rows in chunks(result.shape[1], 2**14):
         *ends, length, depth = (part[rows] for part in parts)
         _fill(result[:, rows], unit, *(part / depth for part in ends))
         result[:, rows] *= length * depth ** np.arange(1, moments + 1)[:, None]

@@ -49,7 +49,9 @@ class RadiusTable:
         self._octaves, rough = (
             (np.array(octaves), [0]) if octaves else _octaves(values, self._feet.size, count)
         )
-        self._end = end
+        # Panels below the first octave, of all that doubles have.
+        self._below = (1023 - self._octaves) * self._per - 1
+        self._shift, self._end = 53 - self._per.bit_length(), end
         self._least = self._width[0] * 0.5 ** self._octaves[0] if 0 in rough else 0.0
         edges = [_edges(each, self._per) for each in self._octaves]
         low, high = (np.concatenate([each[part] for each in edges]) for part in (np.s_[:-1], np.s_[1:]))
@@ -113,9 +115,8 @@ class RadiusTable:
     def _values(self, depth, *which):
         zone = self._zone(depth) if self._feet.size > 1 else 0
         share = (depth - self._feet[zone]) / self._width[zone]
-        mantissa, octave = np.frexp(np.maximum(share, 1e-300))
-        panel = (octave + (self._octaves[zone] - 1)) * self._per + 1
-        panel += ((mantissa - 0.5) * (2 * self._per)).astype(np.intp)
+        # The exponent of a double and the first bits of its mantissa are the number of the panel.
+        panel = (share.view(np.int64) >> self._shift) - self._below[zone]
         panel = np.minimum(np.maximum(panel, 0), self._count[zone] - 1) + self._begin[zone]
         x = (share - self._middle.take(panel)) * self._per_share.take(panel)
         return [_horner(self._polynomials[each], panel, x) for each in which]
