@@ -2,8 +2,9 @@
 
 from dataclasses import dataclass
 
-import mdr_core as mdr
 from mdr_core.figures import Axis
+
+from .trajectory import onset
 
 
 @dataclass(frozen=True)
@@ -24,10 +25,8 @@ def scales(way):
     the shape is not known so deep, those of the deepest state. Radii in fields, and pressures, have the
     contact radius and the mean pressure of the deepest state.
     """
-    medium, profile, deepest = way.scene.medium, way.scene.profile, way.deepest
-    yields = medium.critical_depth <= min(profile.deepest, 1e300)
-    at = mdr.indent(profile, medium, medium.critical_depth) if yields else deepest
-    index = "c" if yields else "max"
+    begun, deepest = onset(way.scene), way.deepest
+    at, index = (deepest, "max") if begun is None else (begun, "c")
     names = {"depth": "d", "force": "F", "contact_radius": "a"}
     depth, force, radius = ((float(getattr(at, name)), f"{s}_{index}") for name, s in names.items())
     found = {"d": depth, "z": depth, "section z": depth, "F": force, "a": radius}

@@ -1,6 +1,5 @@
 """What is taken away as text: curves as CSV, and the state as a Python snippet."""
 
-from dataclasses import asdict, fields
 from inspect import signature
 
 import numpy as np
@@ -9,7 +8,8 @@ import mdr_core as mdr
 from mdr_core.report import QUANTITIES as RESULTS
 
 from . import friction
-from .drives import DRIVES, drive_of
+from .drives import drive_of
+from .drives.drive import arguments, named
 from .sweep import asked
 
 #: How far the pressure of a measured tip can be trusted.
@@ -100,29 +100,24 @@ def fit_python(curve):
     """Lines that come to the fit with `mdr_core`, from what `fit_csv` writes."""
     usual = signature(mdr.fit_indentation).parameters
     asked = {name: value for name, value in curve.asked.items() if value != usual[name].default}
-    given = "".join(f", {name}={value!r}" for name, value in asked.items())
-    lines = [
-        "",
-        f"# The fit to {curve.name}; fit.csv is what the page saves of it.",
-        "import numpy as np",
-        "",
-        'z, F = np.genfromtxt("fit.csv", delimiter=",", usecols=(0, 1))[1:].T  # m, N',
-        f"tip = {_shape(curve.fit.profile)}",
-        f"fit = mdr.fit_indentation(tip, z, F{given})",
-        "print(fit)",
-    ]
-    return "\n".join(lines) + "\n"
+    given = ", ".join(["tip", "z", "F", *[named(asked)] * bool(asked)])
+    return f"""
+# The fit to {curve.name}; fit.csv is what the page saves of it.
+import numpy as np
+
+z, F = np.genfromtxt("fit.csv", delimiter=",", usecols=(0, 1))[1:].T  # m, N
+tip = {_made(curve.fit.profile)}
+fit = mdr.fit_indentation({given})
+print(fit)
+"""
 
 
 def python(trajectory, held=()):
     """A snippet that comes to the present state with `mdr_core`, and to those that are `held` beside it."""
     lines = ["import mdr_core as mdr", "", *_solved(trajectory)]
     for k, each in enumerate(held, 1):
-        lines += [
-            "",
-            f"# Held to compare with, {k}: {' '.join(each.name.split())}",
-            *_solved(each.way, f"held_{k}_"),
-        ]
+        lines += ["", f"# Held to compare with, {k}: {' '.join(each.name.split())}"]
+        lines += _solved(each.way, f"held_{k}_")
     return "\n".join(lines) + "\n"
 
 
@@ -145,7 +140,7 @@ def sweep_python(explorer):
     if not sweep.drive.solver:
         return ""
     numbers = sweep.numbers[:, None]
-    *parts, given = sweep.parts(numbers)
+    profile, medium, given = sweep.parts(numbers)
 
     def shown(value):
         if np.array_equal(value, numbers):
@@ -154,54 +149,31 @@ def sweep_python(explorer):
             return f"(2 * swept / {given['mass']!r}) ** 0.5"
         return f"np.array({np.ravel(value).tolist()})[:, None]" if np.ndim(value) == 2 else repr(value)
 
-    def arguments(values):
-        values = {name: float(v) if isinstance(v, np.floating) else v for name, v in values.items()}
-        return ", ".join(f"{name}={shown(value)}" for name, value in values.items())
-
-    made = []
-    for part in parts:
-        own = {field.name: getattr(part, field.name) for field in fields(part)}
-        # Without what the core takes by default; an infinite yield constant is such.
-        own = {f.name: own[f.name] for f in fields(part) if not np.array_equal(own[f.name], f.default)}
-        made.append(f"mdr.{type(part).__name__}({arguments(own)})")
     solver, space = f"mdr.{sweep.drive.solver[0]}", "geomspace" if sweep.logarithmic else "linspace"
-    found = [
-        f"result = {solver}(profile, medium, {arguments(given)})",
-        f"print(result.{sweep.against}[:, 0])",
-    ]
+    solved, found = f"{solver}(profile, medium, {named(given, shown)})", f"result.{sweep.against}[:, 0]"
     if not sweep.together:
         each = "profile.entries(i, swept.shape), medium.entries(i, swept.shape)"
-        each = f"{solver}({each}, {arguments(given)}).{sweep.against}"
-        found = [f"print([{each} for i in np.ndindex(swept.shape)])"]
-    lines = [
-        "",
-        f"# {sweep.against} over {sweep.swept}, in SI units:",
-        "import numpy as np",
-        "",
-        f"swept = np.{space}({sweep.low!r}, {sweep.high!r}, {len(numbers)})[:, None]",
-        *(f"{name} = {part}" for name, part in zip(("profile", "medium"), made, strict=True)),
-        *found,
-    ]
-    return "\n".join(lines) + "\n"
+        solved = f"[{solver}({each}, {named(given, shown)}) for i in np.ndindex(swept.shape)]"
+        found = f"[each.{sweep.against} for each in result]"
+    return f"""
+# {sweep.against} over {sweep.swept}, in SI units:
+import numpy as np
+
+swept = np.{space}({sweep.low!r}, {sweep.high!r}, {len(numbers)})[:, None]
+profile = {_made(profile, shown)}
+medium = {_made(medium, shown)}
+result = {solved}
+print({found})
+"""
 
 
-def _shape(profile):
-    shape = ", ".join(f"{name}={value!r}" for name, value in asdict(profile).items())
-    return f"mdr.{type(profile).__name__}({shape})"
+def _made(value, shown=repr):
+    """A profile or a medium in Python."""
+    return f"mdr.{type(value).__name__}({arguments(value, shown)})"
 
 
 def _solved(trajectory, prefix=""):
-    """Lines for one state, its names with a prefix; what the core takes by default is left out."""
-    scene, numbers = trajectory.scene, asdict(trajectory.scene.medium)
-    plain = asdict(mdr.Medium(scene.medium.E_star)) | {"E_star": None}
-    numbers = {name: number for name, number in numbers.items() if number != plain[name]}
-    lines = [
-        f"{prefix}profile = {_shape(scene.profile)}",
-        f"{prefix}medium = mdr.Medium({_arguments(numbers)})  # Pa, N/m, Pa·s",
-    ]
-    given = f"{prefix}profile, {prefix}medium"
-    return [*lines, *DRIVES[drive_of(scene)].snippet(trajectory, given, prefix)]
-
-
-def _arguments(numbers):
-    return ", ".join(f"{name}={float(number)!r}" for name, number in numbers.items())
+    """Lines for one state, its names with a prefix."""
+    scene, names = trajectory.scene, (f"{prefix}profile", f"{prefix}medium")
+    lines = [f"{names[0]} = {_made(scene.profile)}", f"{names[1]} = {_made(scene.medium)}  # Pa, N/m, Pa·s"]
+    return lines + drive_of(scene).snippet(trajectory, ", ".join(names), prefix)

@@ -6,7 +6,7 @@ from urllib.parse import parse_qs, urlencode
 
 import mdr_core as mdr
 
-from .drives import DRIVES, drive_of
+from .drives import drive_of
 from .drives.path import checked
 from .explorer import FROM_FILE
 from .plots import DASHES, PLOTS
@@ -125,7 +125,7 @@ def _rows(name, text):
 def scene_file(trajectory):
     """The scene as JSON, up to the present state."""
     scene = trajectory.scene
-    return replace(scene, drive=DRIVES[drive_of(scene)].saved(trajectory)).to_json()
+    return replace(scene, drive=drive_of(scene).saved(trajectory)).to_json()
 
 
 def load_scene(explorer, text):
@@ -142,7 +142,7 @@ def load_scene(explorer, text):
     if longest > MOST_SAMPLES:
         most = f"at most {MOST_SAMPLES} are taken here"
         raise ValueError(f"the scene has a list of {longest} numbers, and {most}")
-    opened = DRIVES[drive_of(scene)].opened(scene)
+    opened = drive_of(scene).opened(scene)
     choices, numbers = {"preset": FROM_FILE, "inertia": "unknown", "progress": 1.0}, {}
     for more, values in (_medium(medium), _profile(scene.profile), opened):
         choices |= more

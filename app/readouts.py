@@ -29,7 +29,7 @@ def cells(way):
     if motion is not None:
         rows += [("t", "time", "time", motion.time), ("v", "speed", "speed", motion.velocity)]
     rows += _onset(way)
-    return rows + DRIVES[drive_of(way.scene)].cells(way)
+    return rows + drive_of(way.scene).cells(way)
 
 
 def _onset(way):

@@ -9,7 +9,7 @@ import panel as pn
 
 from mdr_core.figures import Axis
 
-from .drives import DRIVES, drive_of
+from .drives import drive_of
 
 _LOG = logging.getLogger(__name__)
 
@@ -81,6 +81,6 @@ class Pending:
     def resting(way):
         """The same, in time, or why it cannot be."""
         try:
-            yield DRIVES[drive_of(way.scene)].in_time(way.scene)
+            yield drive_of(way.scene).in_time(way.scene)
         except ValueError as error:
             yield str(error)

@@ -84,9 +84,7 @@ class Trajectory:
     @cached_property
     def onset(self):
         """The state where yield starts; None if nothing yields or the shape is not known so deep."""
-        medium, profile = self.scene.medium, self.scene.profile
-        depth = self.before + medium.critical_depth
-        return mdr.indent(profile, medium, depth) if depth <= min(profile.deepest, 1e300) else None
+        return onset(self.scene, self.before)
 
     def released(self, index):
         """Depths and elastic forces of unloading from one state."""
@@ -95,6 +93,13 @@ class Trajectory:
         interval = LiveInterval(np.full_like(length, live.lower), live.lower + length, length)
         states = mdr.Indentation(self.states.profile, self.states.medium, interval.upper, interval)
         return interval.upper, states.force
+
+
+def onset(scene, before=0.0):
+    """The state where yield starts above some plastic depth (m); None if there is no such state."""
+    depth = before + scene.medium.critical_depth
+    reached = depth <= min(scene.profile.deepest, 1e300)
+    return mdr.indent(scene.profile, scene.medium, depth) if reached else None
 
 
 def nearest(way, progress):

@@ -7,15 +7,20 @@ import numpy as np
 import mdr_core as mdr
 
 from ..quantities import QUANTITIES
-from ..trajectory import Trajectory, nearest, rounded
+from ..trajectory import Trajectory, nearest, onset, rounded
 from ..units import written
 from .chain import ChainStates
 from .drive import Drive
+from .impact import printed
 from .press import most_force
 
-#: What is prescribed: its kind of quantity, and its value of a scene.
+#: What is prescribed: its kind of quantity, its value of a scene, its unit, and what of the core follows
+#: it, infinitely slowly and in time.
 KIND = {"depth": "length", "force": "force"}
 _VALUE = {"depth": mdr.DepthPath, "force": mdr.ForcePath}
+_UNIT = {"depth": "m", "force": "N"}
+_SLOWLY = {"depth": "indent", "force": "indent_to_force"}
+_IN_TIME = {"depth": "indent_in_time", "force": "creep"}
 #: Most vertices, and about how many states are drawn: of a path without dashpots, on the chain under
 #: prescribed depths, and under forces, where every one of them takes eight steps and more.
 MOST, _SLOW, _DEPTHS, _FORCES = 60, 200, 48, 16
@@ -43,23 +48,10 @@ def checked(path, prescribed):
     return [tuple(map(float, row)) for row in path]
 
 
-def _make(explorer):
-    if not explorer.path:
-        raise ValueError("Give the path some vertices.")
-    return _drive(checked(explorer.path, explorer.prescribed), explorer.prescribed)
-
-
 def _parts(drive):
     """What is prescribed, its values, and times or None."""
     name = "force" if isinstance(drive, mdr.ForcePath) else "depth"
     return name, np.atleast_1d(getattr(drive, name)), drive.time and np.array(drive.time)
-
-
-def _opened(scene):
-    name, values, time = _parts(scene.drive)
-    path = list(zip(values.tolist(), *(() if time is None else [time.tolist()]), strict=True))
-    choices = {"drive": "path", "pattern": "own", "prescribed": name, "surface": "virgin"}
-    return choices | {"path": checked(path, name)}, {}
 
 
 def pattern(explorer, option):
@@ -74,7 +66,7 @@ def pattern(explorer, option):
         return max(depth - medium.critical_depth, 0.0)
 
     if option == "creep":
-        force = most_force(explorer, deepest)["max_force"]
+        force = most_force(deepest)
         return {"prescribed": "force", "path": [(0.0, 0.0), (force, 0.1 * time), (force, 5 * time)]}
     if option == "hold":
         path = [(0.0, 0.0), (depth, time), (depth, 5 * time)]
@@ -83,15 +75,6 @@ def pattern(explorer, option):
     else:
         path = [(0.7 * depth,), (back(0.7 * depth),), (depth,), (back(depth),)]
     return {"prescribed": "depth", "path": path}
-
-
-def _alike(explorer, deepest):
-    """A path that was drawn by hand is kept."""
-    own = explorer.pattern == "own"
-    if own and explorer.path:
-        return {}
-    option = "reload" if own else explorer.pattern
-    return {"pattern": option} | pattern(explorer, option)
 
 
 def prescribed(explorer, option):
@@ -107,29 +90,30 @@ def prescribed(explorer, option):
 
 
 def _slowly(scene, values):
-    solve = mdr.indent_to_force if isinstance(scene.drive, mdr.ForcePath) else mdr.indent
+    solve = getattr(mdr, _SLOWLY[_parts(scene.drive)[0]])
     return solve(scene.profile, scene.medium, values)
 
 
-def _deepest(scene):
-    return _slowly(scene, float(np.max(_parts(scene.drive)[1])))
+def _course(drive):
+    """Values of a path, without times from first contact on, and how far along it they are.
 
-
-def _along(values, time):
-    """How far along the path its points are: times, or how much has been changed."""
-    return np.append(0.0, np.cumsum(np.abs(np.diff(values)))) if time is None else time
+    That is their times, or how much has been changed.
+    """
+    _, values, time = _parts(drive)
+    if time is not None:
+        return values, time
+    values = np.append(0.0, values)
+    return values, np.append(0.0, np.cumsum(np.abs(np.diff(values))))
 
 
 def _refined(scene, chain):
     """Values and places along the path of its vertices, and of more points between them."""
-    name, values, time = _parts(scene.drive)
-    values = values if time is not None else np.append(0.0, values)
-    along, most, places = _along(values, time), 0.0, []
+    (name, *_), (values, along) = _parts(scene.drive), _course(scene.drive)
+    most, places = 0.0, []
     states = _SLOW if not chain else _DEPTHS if name == "depth" else _FORCES
     each = min(max(states // (len(values) - 1), 1 if chain else 4), 32)
-    critical, start = scene.medium.critical_depth, scene.medium.critical_depth
-    if name == "force" and start <= min(scene.profile.deepest, 1e300):
-        start = float(mdr.indent(scene.profile, scene.medium, start).force)
+    critical, begun = scene.medium.critical_depth, onset(scene)
+    start = critical if name == "depth" or begun is None else float(begun.force)
     for (begin, first), (end, last) in pairwise(zip(along, values, strict=True)):
         share = np.linspace(0, 1, each + 1)
         # Dashpots change most where a piece begins.
@@ -149,25 +133,11 @@ def _refined(scene, chain):
     return np.interp(places, along, values), places
 
 
-def _follow(scene, progress):
-    """All states; under a force in time that dashpots resist infinitely slowly at first, see `_in_time`."""
-    _, _, time = _parts(scene.drive)
-    viscous = time is not None and scene.medium.eta > 0
-    pending = viscous and isinstance(scene.drive, mdr.ForcePath)
-    words = "so far without dashpots" * pending
-    return _solved(scene, progress, viscous and not pending, words)
-
-
-def _in_time(scene):
-    """All states of a path whose dashpots take longer than a move."""
-    return _solved(scene, 1.0, True, "")
-
-
 def _solved(scene, progress, chain, pending):
     name, _, time = _parts(scene.drive)
     values, along = _refined(scene, chain)
     if chain:
-        solve = mdr.creep if name == "force" else mdr.indent_in_time
+        solve = getattr(mdr, _IN_TIME[name])
         path = solve(scene.profile, scene.medium, values, along, tolerance=_TOLERANCE)
         states = ChainStates(path)
     else:
@@ -193,58 +163,71 @@ def _motion(states, time):
     )  # fmt: skip
 
 
-def _snippet(way, given, prefix):
-    """The vertices that have been passed, and the present state."""
-    name, values, time = _parts(way.scene.drive)
-    here = float((way.force if name == "force" else way.states.depth)[way.now])
-    if time is None:
-        # A path without times begins at first contact.
-        along = _along(np.append(0.0, values), None)
-        present = _along(np.append(0.0, _refined(way.scene, False)[0]), None)[1:][way.now]
-        passed = along[1:] < present * (1 - 1e-12)
-    else:
-        present = float(way.motion.time[way.now])
-        passed = time < present
-    path, unit = [*values[passed].tolist(), here], {"depth": "m", "force": "N"}[name]
-    chain = time is not None and way.scene.medium.eta > 0
-    solve = {"depth": ("indent", "indent_in_time"), "force": ("indent_to_force", "creep")}[name][chain]
-    state, times = f"{prefix}state", f", {[*time[passed].tolist(), present]}" if chain else ""
-    return [
-        f"{state} = mdr.{solve}({given}, {path}{times})[-1]  # {unit}{', s' * chain}",
-        f"print({state}.depth, {state}.force, {state}.contact_radius, {state}.plastic_radius)",
-    ]
+class Path(Drive):
+    """Pressed along a path."""
 
+    values = (mdr.DepthPath, mdr.ForcePath)
+    form = ("pattern", "prescribed", "vertices")
 
-def _cells(way):
-    if not isinstance(way.states, ChainStates):
-        return []
-    work = ("W_v", "viscous work", "energy", way.motion.viscous_work)
-    return [work, ("ε", "error of the chain", "number", way.states.error)]
+    def make(self, explorer):
+        if not explorer.path:
+            raise ValueError("Give the path some vertices.")
+        return _drive(checked(explorer.path, explorer.prescribed), explorer.prescribed)
 
+    def opened(self, scene):
+        name, values, time = _parts(scene.drive)
+        path = list(zip(values.tolist(), *(() if time is None else [time.tolist()]), strict=True))
+        choices = {"drive": "path", "pattern": "own", "prescribed": name, "surface": "virgin"}
+        return choices | {"path": checked(path, name)}, {}
 
-def _words(explorer):
-    sizes = [row[0] for row in explorer.path]
-    most = written(max(sizes), KIND[explorer.prescribed], 3)
-    time = f" in {written(_duration(explorer), 'time', 3)}" if _duration(explorer) else ""
-    return [f"path of {len(sizes)} vertices to {most}{time}"]
+    def follow(self, scene, progress):
+        """All states; under a force in time that dashpots resist infinitely slowly at first."""
+        viscous = scene.drive.time is not None and scene.medium.eta > 0
+        pending = viscous and isinstance(scene.drive, mdr.ForcePath)
+        return _solved(scene, progress, viscous and not pending, "so far without dashpots" * pending)
 
+    def in_time(self, scene):
+        return _solved(scene, 1.0, True, "")
 
-def _duration(explorer):
-    timed = explorer.path and len(explorer.path[0]) == 2
-    return explorer.path[-1][1] - explorer.path[0][1] if timed else None
+    def deepest(self, scene):
+        return _slowly(scene, float(np.max(_parts(scene.drive)[1])))
 
+    def alike(self, explorer, deepest):
+        """A path that was drawn by hand is kept."""
+        own = explorer.pattern == "own"
+        if own and explorer.path:
+            return {}
+        option = "reload" if own else explorer.pattern
+        return {"pattern": option} | pattern(explorer, option)
 
-PATH = Drive(
-    make=_make,
-    owns=lambda value: isinstance(value, mdr.DepthPath | mdr.ForcePath),
-    opened=_opened,
-    follow=_follow,
-    deepest=_deepest,
-    alike=_alike,
-    snippet=_snippet,
-    form=("pattern", "prescribed", "vertices"),
-    cells=_cells,
-    words=_words,
-    duration=_duration,
-    in_time=_in_time,
-)
+    def snippet(self, way, given, prefix):
+        """The vertices that have been passed, and the present state."""
+        name, _, time = _parts(way.scene.drive)
+        values, along = _course(way.scene.drive)
+        places = _refined(way.scene, False)[1] if time is None else way.motion.time
+        here = way.force if name == "force" else way.states.depth
+        # First contact is none of the vertices.
+        passed = (along > 0) | (time is not None)
+        passed &= along < places[way.now] - 1e-12 * (places[-1] - places[0])
+        chain, state = time is not None and way.scene.medium.eta > 0, f"{prefix}state"
+        given += f", {[*values[passed].tolist(), float(here[way.now])]}"
+        given += f", {[*along[passed].tolist(), float(places[way.now])]}" * chain
+        solve, unit = (_IN_TIME if chain else _SLOWLY)[name], _UNIT[name] + ", s" * chain
+        told = ("depth", "force", "contact_radius", "plastic_radius")
+        return [f"{state} = mdr.{solve}({given})[-1]  # {unit}", printed(state, told)]
+
+    def cells(self, way):
+        if not isinstance(way.states, ChainStates):
+            return []
+        work = ("W_v", "viscous work", "energy", way.motion.viscous_work)
+        return [work, ("ε", "error of the chain", "number", way.states.error)]
+
+    def words(self, explorer):
+        sizes, time = [row[0] for row in explorer.path], self.duration(explorer)
+        most = written(max(sizes), KIND[explorer.prescribed], 3)
+        within = f" in {written(time, 'time', 3)}" if time else ""
+        return [f"path of {len(sizes)} vertices to {most}{within}"]
+
+    def duration(self, explorer):
+        path = explorer.path
+        return path[-1][1] - path[0][1] if path and len(path[0]) == 2 else None

@@ -41,7 +41,7 @@ def test_a_pattern_goes_as_deep_as_what_was_there_before(pattern):
     assert float(way.deepest.depth) == pytest.approx(Explorer().max_depth, rel=1e-9)
     assert way.progress[way.peak] == 1.0
     assert np.all(np.diff(way.progress) >= 0)
-    assert drive_of(way.scene) == "path"
+    assert drive_of(way.scene) is DRIVES["path"]
 
 
 def test_hysteresis_yields_once_a_cycle_and_reloads_elastically():
