@@ -63,7 +63,7 @@ class Explorer(param.Parameterized):
         """The options of a choice that apply to the scene, the one to begin with first."""
         drive = DRIVES[self.drive]
         if name not in ("swept", "against") or not drive.solver:
-            return list(CHOICES.get(name, SHAPES))
+            return self.param[name].objects
         if name == "against":
             return list(drive.results)
         viscous = ("eta", "tau") if "speed" in drive.solver else ()
@@ -198,6 +198,9 @@ class Explorer(param.Parameterized):
             raise ValueError(f"{option!r:.40} is not one of {', '.join(options)}")
         if option == self.option(name):
             return
+        if name == "preset":
+            self.load(option)
+            return
         # A shape that has been looked at before keeps its values.
         kept = name not in CONVERT or (name == "shape" and option in self.sized)
         converted = {} if kept else CONVERT[name](self, option)
@@ -219,6 +222,10 @@ class Explorer(param.Parameterized):
     def take_curve(self, curve):
         """Take a measured curve, or None, to compare with; it lies as it was measured."""
         self.param.update(measured=curve, contact_point=0.0, baseline=0.0)
+
+    def correct_curve(self, role, chosen):
+        """Take another column or unit for the depth, the force or the time of the measured curve."""
+        self.measured = self.measured.corrected(**{role: chosen})
 
     def hit_again(self, hit):
         """Let the body hit the imprint that it has left itself."""

@@ -1,20 +1,15 @@
 """The plots on the page, each in a frame with its title, formula, legend and controls, and its pictures."""
 
-from pathlib import Path
-
 import panel as pn
 from bokeh.events import Pan, PanEnd, PanStart, RangesUpdate
 from bokeh.models import CustomJS, Title
 
 from . import figures
-from .controls import JS, WIDE, html, legend, linked
 from .described import described
 from .packet import drawn, layers, moves
+from .parts import FULL, JS, STYLE, WIDE, button, html, legend, linked
 from .plots import PLOTS
 
-# Inline where the size of a plot depends on it: Bokeh lays out before a linked sheet is there.
-STYLE = [(Path(__file__).parent / "static" / "style.css").read_text(encoding="utf-8")]
-FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": STYLE}
 #: As many pixels for a metre up as along, where that is asked for.
 _TO_SCALE = """
 const { x_range, y_range, inner_width, inner_height, tags } = figure
@@ -29,11 +24,6 @@ for (const [range, size] of parts) {
 """
 #: Plots that stand under others, on one axis x.
 _BELOW = {"pressure": "springs", "radii": "force", "residual": "force", "energy": "motion"}
-
-
-def button(kind, name, key, **options):
-    """A button or toggle, which a key presses as well."""
-    return kind(name=name, css_classes=["button", f"key-{key}"], margin=0, **options)
 
 
 class Grid:
@@ -58,10 +48,9 @@ class Grid:
         if same and moving == self._moving:
             return
         self._moving = moving
-        described = [
-            layer.described | {"moving": each} for layer, each in zip(self.layers, moving, strict=True)
-        ]
-        self._show.args = self._show.args | {"layers": described}
+        told = zip(self.layers, moving, strict=True)
+        told = [layer.described | {"moving": each} for layer, each in told]
+        self._show.args = self._show.args | {"layers": told}
         if same:
             return
         self.names = names
@@ -93,15 +82,14 @@ class Grid:
         figure.js_on_event(RangesUpdate, self._zoom)
         if plot.to_scale:
             fit = CustomJS(args={"figure": figure}, code=_TO_SCALE)
-            sizes = ((figure, "inner_width"), (figure, "inner_height"), (figure.y_range, "reset_end"))
-            for model, change in sizes:
-                model.js_on_change(change, fit)
+            for size in ("inner_width", "inner_height"):
+                figure.js_on_change(size, fit)
+            figure.y_range.js_on_change("reset_end", fit)
         args = {"figure": figure, "title": plot.title, "look": figures.LEGEND, "inputs": self._inputs}
         args["named"] = [row.name for row in plot.rows if row.legend]
-        save = [button(pn.widgets.Button, kind, "none", width=40) for kind in ("PNG", "SVG")]
+        save = [button(kind, "none", width=40) for kind in ("PNG", "SVG")]
         for each in save:
-            code = f"(async (kind) => {{{JS['save']}}})('{each.name.lower()}')"
-            each.js_on_click(args=args, code=code)
+            each.js_on_click(args=args, code=f"(async (kind) => {{{JS['save']}}})('{each.name.lower()}')")
         self._frames[name] = _Frame(plot, figure, save, self._controls)
 
     def _fit(self, name, view):
@@ -125,11 +113,11 @@ class _Frame:
 
     def __init__(self, plot, figure, save, controls):
         self.axes, self.shown = None, None
-        self.legend, self.note = html("", css_classes=["key"]), html("", css_classes=["note", "found"])
-        words = html(f"<h3>{plot.title}</h3>{linked(plot.formula)}", css_classes=["formula"])
+        self.legend, self.note = html("", "key"), html("", "note", "found")
+        words = html(f"<h3>{plot.title}</h3>{linked(plot.formula)}", "formula")
         head = pn.Row(words, *save, css_classes=["head"], stylesheets=STYLE, **WIDE)
         above = [controls.above(plot.controls)] if plot.controls else []
         parts = [head, *above, self.legend, pn.pane.Bokeh(figure, **FULL)]
         below = [self.note] if plot.resting or plot.note else []
-        below += [html(plot.below, css_classes=["note", "found"])] if plot.below else []
+        below += [html(plot.below, "note", "found")] if plot.below else []
         self.view = pn.Column(*parts, *below, css_classes=["card", figure.name], **FULL)

@@ -8,8 +8,8 @@ import numpy as np
 import panel as pn
 
 from . import link
-from .controls import WIDE, html, marked
 from .explorer import Explorer
+from .parts import WIDE, button, field, fill, html, marked
 from .plots import DASHES
 from .quantities import SHAPES
 from .trajectory import Trajectory
@@ -91,10 +91,8 @@ class Table:
 
     def __init__(self, rename, remove):
         self._rename, self._remove, self._rows = rename, remove, []
-        self._heads, self._now = self._cells(), self._cells()
-        tops = [
-            _row(_fixed(words, _NAMED), cells) for words, cells in (("", self._heads), ("now", self._now))
-        ]
+        self._now = _cells()
+        tops = _row(_fixed("", _NAMED), _cells(map(marked, _SHOWN))), _row(_fixed("now", _NAMED), self._now)
         self.view = pn.Column(*tops, css_classes=["away", "table"], visible=False, **WIDE)
 
     def show(self, way, all_held):
@@ -102,41 +100,34 @@ class Table:
         self.view.visible = bool(all_held)
         if not all_held:
             return
-        self._heads.object = _spans(map(marked, _SHOWN))
         self._now.object = _spans(numbers(way).values())
         for k in range(len(self._rows), len(all_held)):
             self._rows.append(self._made(k))
-        for (name, cells, _), each in zip(self._rows, all_held, strict=False):
+        for (name, _, cells, _), each in zip(self._rows, all_held, strict=False):
             name.value, cells.object = each.name, _spans(numbers(each.way).values())
-        shown = [*self.view[:2], *(row for _, _, row in self._rows[: len(all_held)])]
-        if shown != list(self.view):
-            self.view[:] = shown
+        fill(self.view, [*self.view[:2], *self._rows[: len(all_held)]])
 
     def _made(self, k):
-        name = pn.widgets.TextInput(
-            name=f"held {k + 1}", css_classes=["choice", "beside", "called"], width=_NAMED, margin=0
-        )
+        look = {"name": f"held {k + 1}", "width": _NAMED, "sizing_mode": None}
+        name = field(pn.widgets.TextInput, "beside", "called", **look)
         name.param.watch(lambda event: self._rename(k, event.new), "value")
-        dash = _fixed(
-            f'<span class="held"><i class="lines {DASHES[k]}"></i></span>', 44, css_classes=["key"]
-        )
-        remove = pn.widgets.Button(name=f"Remove {k + 1}", css_classes=["button"], margin=0, width=80)
+        dash = _fixed(f'<span class="held"><i class="lines {DASHES[k]}"></i></span>', 44, "key")
+        remove = button(f"Remove {k + 1}", width=80)
         remove.on_click(lambda event: self._remove(k))
-        cells = self._cells()
-        return name, cells, _row(name, cells, dash, remove)
-
-    @staticmethod
-    def _cells():
-        return html("", css_classes=["cells"], min_width=640)
+        return _row(name, _cells(), dash, remove)
 
 
-def _fixed(words, width, **options):
-    return html(words, width=width, sizing_mode=None, **options)
+def _fixed(words, width, *classes):
+    return html(words, *classes, width=width, sizing_mode=None)
 
 
 def _row(name, cells, dash=None, remove=None):
     parts = (name, dash or _fixed("", 44), cells, remove or _fixed("", 80))
     return pn.Row(*parts, css_classes=["head"], **WIDE)
+
+
+def _cells(texts=()):
+    return html(_spans(texts), "cells", min_width=640)
 
 
 def _spans(texts):

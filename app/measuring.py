@@ -5,7 +5,7 @@ from html import escape
 import panel as pn
 
 from . import measured
-from .controls import WIDE, html, indexed, marked
+from .parts import WIDE, button, field, fill, html, indexed, marked, tools, upload
 from .quantities import QUANTITIES, USED
 
 
@@ -13,71 +13,62 @@ class Measuring:
     """The panel *Fit a measurement* of a page, which opens below the buttons."""
 
     def __init__(self, page):
-        self.page, self.explorer = page, page.explorer
-        plain, look = {"css_classes": ["button"], "margin": 0}, {"css_classes": ["choice"], **WIDE}
-        # Without widths of their own parts give way where a page is narrow.
-        row = {"css_classes": ["tools"], **WIDE}
-        self.file = pn.widgets.FileInput(
-            accept=".csv,.txt,.dat,text/csv", css_classes=["file", "curve"], **WIDE
-        )
-        self.made, self.remove, self.fit = (
-            pn.widgets.Button(name=name, **plain) for name in ("Example", "Remove", "Fit")
-        )
+        self.page, self.explorer, self.controls = page, page.explorer, page.controls
+        select, named = pn.widgets.Select, {QUANTITIES[n].label: n for n in measured.PARAMETERS}
+        self.file = upload("curve", ".csv,.txt,.dat,text/csv")
+        self.made, self.remove, self.fit = map(button, ("Example", "Remove", "Fit"))
         self.columns = {
-            role: pn.widgets.Select(name=f"Column of {role}", **look) for role in ("depth", "force", "time")
+            role: field(select, name=f"Column of {role}") for role in ("depth", "force", "time")
         }
         self.units = {
-            role: pn.widgets.Select(name=f"Unit of {role}", options=list(sizes), **look)
+            role: field(select, name=f"Unit of {role}", options=list(sizes))
             for role, sizes in measured.SIZES.items()
         }
-        named = {QUANTITIES[n].label: n for n in measured.PARAMETERS}
-        self.holds = pn.widgets.CheckBoxGroup(name="Held", options=named, inline=True, **look)
-        self.about, self.said = html(""), html("", css_classes=["note", "said"])
-        self.place, self.noise = pn.Row(**row), pn.Row(**row)
-        head = html("Depth and force as CSV, drop or choose:")
-        choices = [x for role in self.columns for x in (self.columns[role], self.units.get(role)) if x]
+        self.holds = field(pn.widgets.CheckBoxGroup, name="Held", options=named, inline=True)
+        self.about, self.said = html(), html("", "note", "said")
+        self.controls.rows["noise"].param.update(sizing_mode="fixed", width=400)
+        # Without widths of their own parts give way where a page is narrow.
+        self.place, self.noise = tools(), tools()
+        choices = [
+            part[role] for role in self.columns for part in (self.columns, self.units) if role in part
+        ]
         held = html("Held in the fit:", width=90, sizing_mode="fixed")
-        page.controls.rows["noise"].param.update(sizing_mode="fixed", width=400)
-        choices, holds = pn.Row(*choices, **row), pn.Row(held, self.holds, **row)
-        self.rest = pn.Column(choices, self.place, holds, self.noise, **WIDE)
-        file = pn.Row(head, self.file, self.made, self.remove, **row)
+        self.rest = pn.Column(tools(*choices), self.place, tools(held, self.holds), self.noise, **WIDE)
+        file = tools(html("Depth and force as CSV, drop or choose:"), self.file, self.made, self.remove)
         left = pn.Column(file, self.about, self.rest, css_classes=["measuring"], margin=0)
-        self.panel = pn.Row(left, self.said, css_classes=["away", "fitting"], visible=False, **WIDE)
+        look = {"css_classes": ["away", "fitting"], "visible": page.measure}
+        self.panel = pn.Row(left, self.said, **look, **WIDE)
         self._watch()
 
     def _watch(self):
-        self.page.measure.param.watch(lambda event: self.panel.param.update(visible=event.new), "value")
         self.file.param.watch(self._bring, "value")
-        self.made.on_click(lambda event: self._take(lambda: measured.example(self.explorer), self.about))
-        self.remove.on_click(lambda event: self._take(lambda: None, self.about))
+        self.made.on_click(lambda event: self._take(lambda: measured.example(self.explorer)))
+        self.remove.on_click(lambda event: self._take(lambda: None))
         self.fit.on_click(lambda event: self._do(lambda: measured.fit(self.explorer), self.said))
         for part in (self.columns, self.units):
             for role, widget in part.items():
                 widget.param.watch(lambda event, role=role: self._correct(role, event.new), "value")
         self.holds.param.watch(lambda event: self.explorer.param.update(holds=event.new), "value")
 
-    def _do(self, act, field):
-        """Make a change; a refusal stands at its field."""
+    def _do(self, act, where):
+        """Make a change; a refusal stands where it was made."""
         try:
             self.page.attempt(act)
         except ValueError as error:
             self.show()
-            field.object = f'<span class="refused">{escape(str(error))}</span>'
+            where.object = f'<span class="refused">{escape(str(error))}</span>'
 
-    def _take(self, make, field):
-        self._do(lambda: self.explorer.take_curve(make()), field)
+    def _take(self, make):
+        self._do(lambda: self.explorer.take_curve(make()), self.about)
 
     def _bring(self, event):
         if event.new:
-            self._take(lambda: measured.read_curve(event.new, self.file.filename or "the file"), self.about)
+            self._take(lambda: measured.read_curve(event.new, self.file.filename or "the file"))
 
     def _correct(self, role, chosen):
         curve = self.explorer.measured
-        known = curve and (curve.columns[role], curve.units.get(role))
-        if curve and chosen not in known:
-            self._do(
-                lambda: self.explorer.param.update(measured=curve.corrected(**{role: chosen})), self.about
-            )
+        if curve and chosen not in (curve.columns[role], curve.units.get(role)):
+            self._do(lambda: self.explorer.correct_curve(role, chosen), self.about)
 
     def show(self):
         """Show the curve as it is taken, and what was fitted."""
@@ -90,15 +81,10 @@ class Measuring:
             return
         made = f" {marked(measured.MADE)}" if curve.made else ""
         self.about.object = f"<b>{escape(curve.name)}</b>: {escape(curve.note)}.{made}"
-        controls = self.page.controls
-        used = [*measured.PLACE, *USED["noise"][explorer.noise]]
-        numbers = [controls.number(name) for name in used]
-        for row, parts in (
-            (self.place, numbers[:3]),
-            (self.noise, [controls.rows["noise"], *numbers[3:], self.fit]),
-        ):
-            if parts != list(row):
-                row[:] = parts
+        number = self.controls.number
+        fill(self.place, [number(name) for name in measured.PLACE])
+        noise = [number(name) for name in USED["noise"][explorer.noise]]
+        fill(self.noise, [self.controls.rows["noise"], *noise, self.fit])
         heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.heads)}
         for role, widget in self.columns.items():
             options = heads | ({"none, rows in order": -1} if role == "time" else {})
@@ -110,10 +96,7 @@ class Measuring:
         curve = self.explorer.measured
         if curve is None or curve.fit is None:
             return ""
-        stale = (
-            "" if measured.agrees(self.explorer) else "What is set on the page is not this fit any more. "
-        )
-        back = "Its values are those set on the page; Undo takes it back. " if not stale else ""
-        return (
-            f"{stale}{back}Save it as CSV or Python under Take with you.{indexed(curve.fit._repr_html_())}"
-        )
+        said = "What is set on the page is not this fit any more."
+        if measured.agrees(self.explorer):
+            said = "Its values are those set on the page; Undo takes it back."
+        return f"{said} Save it as CSV or Python under Take with you.{indexed(curve.fit._repr_html_())}"

@@ -3,7 +3,6 @@
 import logging
 from dataclasses import replace
 from html import escape
-from pathlib import Path
 
 import panel as pn
 import param
@@ -11,14 +10,15 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS, Div
 
 from . import link, readouts
-from .controls import JS, WIDE, Controls, html, linked, marked
+from .controls import Controls
 from .drives import follow
 from .explorer import Explorer
 from .figures import DARK, LIGHT
-from .grid import FULL, STYLE, Grid, button
+from .grid import Grid
 from .held import Table, held, is_held, renamed, toggled
 from .measured import Curve
 from .measuring import Measuring
+from .parts import FULL, HERE, JS, STYLE, WIDE, button, html, linked, marked, toggle, tools
 from .player import Player
 from .plots import PLOTS
 from .quantities import CHOICES, DATA
@@ -31,7 +31,6 @@ from .vertices import Vertices
 from .view import View
 
 _LOG = logging.getLogger(__name__)
-_HERE = Path(__file__).parent
 #: Milliseconds without a change after which the address follows.
 SETTLED = 300
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
@@ -73,34 +72,28 @@ class Page:
     # What is on the page.
 
     def _widgets(self):
-        click, toggle = pn.widgets.Button, pn.widgets.Toggle
-        keys = (("Undo", "z"), ("Redo", "y"), ("Reset", "r"))
-        self.undo, self.redo, self.reset = (button(click, *each) for each in keys)
-        keys = (("Hold", "h"), ("Dark", "d"), ("Take with you", "t"), ("Guide", "g"))
-        self.hold, self.dark, self.take, self.guide = (button(toggle, *each) for each in keys)
-        self.measure = button(toggle, "Fit a measurement", "f")
-        self.asked = {name: button(toggle, *plot.button) for name, plot in PLOTS.items() if plot.button}
-        wide = {"sizing_mode": "stretch_width", "stylesheets": STYLE, "margin": 0}
-        self.readout = Div(css_classes=["readouts"], **wide)
-        self.player = Player(self.readout)
-        self.address = Div(visible=False)
-        self.lights, self.table = html("", css_classes=["lights"]), Table(self._rename, self._remove)
+        self.undo, self.redo, self.reset = button("Undo", "z"), button("Redo", "y"), button("Reset", "r")
+        self.hold, self.dark = toggle("Hold", "h"), toggle("Dark", "d")
+        self.take, self.guide = toggle("Take with you", "t"), toggle("Guide", "g")
+        self.measure = toggle("Fit a measurement", "f")
+        self.asked = {name: toggle(*plot.button) for name, plot in PLOTS.items() if plot.button}
+        self.readout = Div(css_classes=["readouts"], stylesheets=STYLE, **WIDE)
+        self.player, self.address = Player(self.readout), Div(visible=False)
+        self.lights, self.table = html("", "lights"), Table(self._rename, self._remove)
 
     def _layout(self):
         title = html("<h1>Indentation explorer</h1>non-local yield, solved by dimensionality reduction")
-        about = html((_HERE / "static" / "about.html").read_text(encoding="utf-8"))
-        side = pn.Column(
-            title, self.controls.form, about, css_classes=["side"], stylesheets=STYLE, width=320,
-            sizing_mode="stretch_height", margin=0,
-        )  # fmt: skip
+        about = html((HERE / "static" / "about.html").read_text(encoding="utf-8"))
+        look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 320}
+        side = pn.Column(title, self.controls.form, about, **look)
         axes = self.controls.rows["axes"]
         axes.param.update(sizing_mode="fixed", width=180)
         buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values())
         buttons = (*buttons, self.dark, self.take, self.measure, self.guide, axes)
-        tools = pn.Row(*buttons, css_classes=["tools"], stylesheets=STYLE, **WIDE)
-        above = (tools, self.table.view, self.away.panel, self.measuring.panel, self.tour.panel)
-        parts = (*above, pn.pane.Bokeh(self.readout), self.lights, self.player.view, self.grid.view)
-        results = pn.Column(*parts, pn.pane.Bokeh(self.address), css_classes=["results"], **FULL)
+        parts = (tools(*buttons, stylesheets=STYLE), self.table.view)
+        parts += (self.away.panel, self.measuring.panel, self.tour.panel, pn.pane.Bokeh(self.readout))
+        parts += (self.lights, self.player.view, self.grid.view, pn.pane.Bokeh(self.address))
+        results = pn.Column(*parts, css_classes=["results"], **FULL)
         self.view = pn.Row(side, results, css_classes=["page"], **FULL)
 
     def _connect(self):
@@ -123,22 +116,23 @@ class Page:
         names = [name for name in explorer.param if name not in (*explorer.VIEW, "name")]
         explorer.param.watch(self._changed, names)
         explorer.param.watch(self._viewed, [name for name in explorer.VIEW if name in CHOICES])
-        for widget, act in ((self.undo, "undo"), (self.redo, "redo")):
-            widget.on_click(lambda event, act=act: self.tell(getattr(self.explorer, act)))
-        self.reset.on_click(lambda event: self.tell(lambda: self.explorer.load(self.explorer.preset)))
-        again = self.controls.parts["again"]
-        again.on_click(lambda event: self.tell(lambda: self.explorer.hit_again(self.way.hit)))
+        acts = {self.undo: explorer.undo, self.redo: explorer.redo}
+        acts[self.reset] = lambda: explorer.load(explorer.preset)
+        acts[self.controls.parts["again"]] = lambda: explorer.hit_again(self.way.hit)
+        for pressed, act in acts.items():
+            pressed.on_click(lambda event, act=act: self.tell(act))
         self.controls.tip.param.watch(self._bring_tip, "value")
         self.hold.param.watch(self._held, "value")
-        for name, toggle in self.asked.items():
-            toggle.value = name in explorer.plots
-            toggle.param.watch(self._asked, "value")
+        for name, asked in self.asked.items():
+            asked.value = name in explorer.plots
+            asked.param.watch(self._asked, "value")
         self.dark.value = explorer.dark
         self.dark.param.watch(self._darkened, "value")
         self.player.state.on_change("value_throttled", self._stood)
 
     # What a person does, and what is refused.
 
+    @pn.io.hold()
     def attempt(self, act):
         """Make a change and show it, or leave everything as it was.
 
@@ -147,13 +141,12 @@ class Page:
         ValueError
             With what the person is told, if it is refused.
         """
-        with pn.io.hold(self.document):
-            try:
-                return act()
-            except Exception as error:
-                said = self._refusal(error)
-                self.explorer.refuse()
-                raise ValueError(said) from None
+        try:
+            return act()
+        except Exception as error:
+            said = self._refusal(error)
+            self.explorer.refuse()
+            raise ValueError(said) from None
 
     def tell(self, act):
         """Make a change; a refusal is a notice."""
@@ -188,26 +181,24 @@ class Page:
         _LOG.error("a change could not be shown, scene %s", self.explorer.described(), exc_info=error)
         return _FAULT
 
+    @pn.io.hold()
     def _changed(self, *events):
-        with pn.io.hold(self.document):
-            self._solve()
-            self.explorer.accept()
-            self._around()
+        self._solve()
+        self.explorer.accept()
+        self._around()
 
     def _bring_tip(self, event):
         if event.new:
             self.tell(lambda: self.explorer.take_tip(*read_tip(event.new.decode("utf-8", "replace"))))
 
     def _asked(self, event):
-        with pn.io.hold(self.document):
-            self.explorer.plots = [name for name, toggle in self.asked.items() if toggle.value]
-            self._show()
-            self._around()
+        self.explorer.plots = [name for name, asked in self.asked.items() if asked.value]
+        self._viewed()
 
+    @pn.io.hold()
     def _viewed(self, *events):
-        with pn.io.hold(self.document):
-            self._show()
-            self._around()
+        self._show()
+        self._around()
 
     def _darkened(self, event):
         self.explorer.dark = event.new
@@ -227,11 +218,9 @@ class Page:
         self._keep([*self.explorer.hold[:k], *self.explorer.hold[k + 1 :]])
 
     def _keep(self, queries):
-        with pn.io.hold(self.document):
-            self.explorer.hold = queries
-            self._hold()
-            self._show()
-            self._around()
+        self.explorer.hold = queries
+        self._hold()
+        self._viewed()
 
     def _hold(self):
         """Solve the scenes that are held, from their queries."""
@@ -270,8 +259,8 @@ class Page:
     def _shown(self):
         """The plots that are seen, in their order."""
         pressed, known = self.way.motion is None, self.drawn.axes.keys()
-        for name, toggle in self.asked.items():
-            toggle.visible = known >= set(PLOTS[name].axes)
+        for name, asked in self.asked.items():
+            asked.visible = known >= set(PLOTS[name].axes)
         asked = [name for name in self.explorer.plots if self.asked[name].visible]
         names = [n for n, plot in PLOTS.items() if not plot.button and known >= set(plot.axes)]
         # Three in a row: the pressure stays below the springs, and radii or residual below the force.
@@ -279,29 +268,28 @@ class Page:
         first *= pressed
         return [*names[:2], *first, *(name for name in (*names[2:], *asked) if name not in first)]
 
+    @pn.io.hold()
     def _show_found(self, title, found):
         """Draw what was found of a plot while the input was at rest."""
-        with pn.io.hold(self.document):
-            if isinstance(found, str):
-                self.notify(found)
-            elif isinstance(found, Trajectory):
-                self.solved = dict([*self.solved.items(), (found.scene, found)][-4:])
-                self._hold()
-                self._solve()
-                self._around()
-            else:
-                self.found[title] = found
-                self._show(anew=False)
+        if isinstance(found, str):
+            self.notify(found)
+        elif isinstance(found, Trajectory):
+            self.solved = dict([*self.solved.items(), (found.scene, found)][-4:])
+            self._hold()
+            self._solve()
+            self._around()
+        else:
+            self.found[title] = found
+            self._show(anew=False)
 
+    @pn.io.hold()
     def _stood(self, attr, old, new):
         """The page stands at another state; it has drawn that already."""
         now = min(int(new), len(self.way) - 1)
-        with pn.io.hold(self.document):
-            self.way = replace(self.way, now=now)
-            self.drawn.way = self.way
-            self.player.stand(self.way)
-            self.explorer.progress = float(self.way.progress[now])
-            self._around()
+        self.drawn.way = self.way = replace(self.way, now=now)
+        self.player.stand(self.way)
+        self.explorer.progress = float(self.way.progress[now])
+        self._around()
 
     def _around(self):
         """Everything beside the plots."""
@@ -309,10 +297,8 @@ class Page:
         self.controls.show(way)
         drawing, formulas = readouts.sketch(way, explorer.shape)
         self.controls.notes["sketch"].object = drawing.format(*map(marked, formulas))
-        found = readouts.lights(way, *readouts.density_and_ratio(explorer))
-        self.lights.object = "".join(
-            f'<span class="{level}">{linked(text)}</span>' for level, text in found
-        )
+        said = readouts.lights(way, explorer)
+        self.lights.object = "".join(f'<span class="{level}">{linked(text)}</span>' for level, text in said)
         self.undo.disabled, self.redo.disabled = not explorer.past, not explorer.future
         self.hold.value = is_held(explorer)
         self.table.show(way, self.held)

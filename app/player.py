@@ -5,9 +5,8 @@ import panel as pn
 from bokeh.models import ColumnDataSource, CustomJS, Div, Select, Slider, Toggle
 
 from . import readouts
-from .controls import JS, WIDE
-from .grid import STYLE
 from .packet import packed
+from .parts import JS, STYLE, WIDE
 
 
 class Player:

@@ -96,8 +96,12 @@ ENDS = {
     for end in ("from", "to")
 }
 NUMBERS = SWEPT | ENDS
-LABELS["swept"] = "Swept"
-ABOUT["swept"] = "The number that takes all values of a range; all others stay as they are."
+LABELS |= {"swept": "Swept", "preset": "Preset", "shape": "Shape"}
+ABOUT |= {
+    "swept": "The number that takes all values of a range; all others stay as they are.",
+    "preset": "A medium and an indenter that exist, with their numbers. Choosing one sets everything.",
+    "shape": "What is pressed or hits: a body of revolution, which touches with its tip.",
+}
 CHOICES["swept"] = {name: f"{q.symbol}, {q.label}" for name, q in SWEPT.items()}
 USED["swept"] = {name: [f"{name}_from", f"{name}_to"] for name in SWEPT}
 

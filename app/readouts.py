@@ -6,8 +6,8 @@ import numpy as np
 
 from mdr_core.results import friction_limits
 
-from .controls import explained, linked, symbol
 from .drives import DRIVES, drive_of
+from .parts import explained, linked, symbol
 from .quantities import DATA, QUANTITIES, SHAPES, USED, shape_quantities
 from .units import written
 from .view import phase
@@ -58,23 +58,21 @@ def _head(name, label):
     words = DATA["readouts"][name]
     about = f"<p>{linked(words['help'])}</p><em>{linked(words['equation'])}</em>"
     key = f"about-{name}-{label}".replace(" ", "-")
-    label = f"{'/'.join(map(symbol, name.split('/')))} {label}"
+    label = f"{symbol(name)} {label}"
     return f'<div class="cell" data-symbol="{name}"><dt>{explained(key, label, about)}</dt><dd></dd></div>'
 
 
-def lights(way, density, ratio):
-    """How far the assumptions hold, as the core says: pairs of "good", "note" or "beyond", and a sentence.
-
-    `density` is that of the medium, `ratio` its Poisson ratio; None where they are not known.
-    """
+def lights(way, explorer):
+    """How far the assumptions hold, as the core says: "good", "note" or "beyond", with a sentence."""
     limits = list((way.states if way.hit is None else way.hit).limits)
-    if way.hit is not None and density is not None:
-        limits.append(way.hit.speed_limit(density))
+    if way.hit is not None and explorer.inertia == "density":
+        limits.append(way.hit.speed_limit(explorer.density))
     limits += friction_limits(way.scene.medium) if way.oblique is not None else ()
+    given = explorer.elasticity != "modulus"
     for limit in sorted(limits, key=lambda limit: limit.concerns != "result"):
-        if limit.what == "Poisson ratio" and ratio is None:
+        if limit.what == "Poisson ratio" and not given:
             yield "note", "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*."
-        elif limit.what == "coupling" and ratio is None:
+        elif limit.what == "coupling" and not given:
             yield "note", "Friction along the surface is that of ν = ½; ν is not given with E*."
         else:
             yield limit.level, limit.sentence
@@ -112,9 +110,3 @@ def summary(explorer):
         value = getattr(medium if name in ("E_star", "q_c", "eta") else explorer, name)
         words.append(f"{QUANTITIES[name].symbol} = {written(value, QUANTITIES[name].kind, 3)}")
     return ", ".join([*words, *drive.words(explorer)])
-
-
-def density_and_ratio(explorer):
-    """Density and Poisson ratio of the medium, None where they are not given."""
-    density = explorer.density if explorer.inertia == "density" else None
-    return density, explorer.nu_1 if explorer.elasticity != "modulus" else None

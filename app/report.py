@@ -3,7 +3,6 @@
 from datetime import UTC, datetime
 from html import escape
 from math import isclose
-from pathlib import Path
 
 import numpy as np
 from bokeh.embed import components
@@ -14,17 +13,16 @@ from jinja2 import Template
 import mdr_core as mdr
 
 from . import figures, link, readouts
-from .controls import legend, marked, symbol
 from .described import described
-from .grid import STYLE
 from .packet import drawn, layers
+from .parts import HERE, STYLE, legend, marked, symbol
 from .plots import PLOTS
 from .presets import PRESETS
 from .quantities import CHOICES, LABELS, QUANTITIES, SHAPES
 from .units import written
 from .view import phase
 
-_TEMPLATE = Template((Path(__file__).parent / "static" / "report.html").read_text(encoding="utf-8"))
+_TEMPLATE = Template((HERE / "static" / "report.html").read_text(encoding="utf-8"))
 _WIDTH, _HEIGHT = 500, 340
 
 
@@ -40,10 +38,7 @@ def report(explorer, view, names, snippet, here="", held=()):
         "inputs": list(_inputs(explorer, way)),
         "state": phase(way, way.now),
         "numbers": [_number(way, *cell) for cell in readouts.cells(way)],
-        "limits": [
-            (level, marked(text))
-            for level, text in readouts.lights(way, *readouts.density_and_ratio(explorer))
-        ],
+        "limits": [(level, marked(text)) for level, text in readouts.lights(way, explorer)],
         "python": escape(snippet),
         "link": escape(f"{here}?{query}") if query else "",
     }
@@ -77,19 +72,14 @@ def _inputs(explorer, way):
 def _number(way, name, label, kind, values):
     """Symbol, name and value of a number in the present state, as HTML."""
     value = float(values if np.ndim(values) == 0 else values[way.now])
-    return "/".join(map(symbol, name.split("/"))), label, written(value, kind, 5)
+    return symbol(name), label, written(value, kind, 5)
 
 
 def _said(view, plot, figure):
     """A plot with its title, legend, formula, and what was found with it, as HTML."""
     shown = legend(plot, drawn(view, plot, {view.way.now}))
-    return (
-        plot.title,
-        shown,
-        figure,
-        marked(plot.formula),
-        view.found[plot.title].note if plot.title in view.found else "",
-    )
+    note = view.found[plot.title].note if plot.title in view.found else ""
+    return plot.title, shown, figure, marked(plot.formula), note
 
 
 def drawing(view, name):
@@ -98,9 +88,8 @@ def drawing(view, name):
     # On the page some share an axis, and all are drawn on a canvas that does not clip.
     own = {} if plot.log else {"x_range": Range1d(), "y_range": Range1d()}
     said = {"role": "img", "aria-label": described(view, plot)}
-    made.update(
-        html_attributes=said, output_backend="svg", sizing_mode="fixed", width=_WIDTH, height=_HEIGHT, **own
-    )
+    size = {"sizing_mode": "fixed", "width": _WIDTH, "height": _HEIGHT}
+    made.update(html_attributes=said, output_backend="svg", **size, **own)
     if name == "map":
         made.update(frame_width=_HEIGHT - 70, frame_height=_HEIGHT - 70)
     figures.set_axes(made, view.axes_of(plot))

@@ -10,9 +10,9 @@ import mdr_core as mdr
 from mdr_core.figures import NOTHING
 from mdr_core.report import QUANTITIES as RESULTS
 
-from .controls import marked
 from .drives import DRIVES
 from .explorer import Explorer
+from .parts import marked
 from .quantities import SWEPT
 from .resting import Found
 from .units import UNITS, Unit, digits, written

@@ -5,7 +5,7 @@ from io import StringIO
 import panel as pn
 
 from . import export, link
-from .controls import WIDE
+from .parts import button, field, html, panel, tools, upload
 from .report import report
 
 _COPY = """
@@ -20,65 +20,54 @@ class TakeAway:
 
     def __init__(self, page):
         self.page = page
-        files = {
-            ("Report", "report.html"): self._report,
-            ("Curves (CSV)", "curves.csv"): lambda: export.csv(page.way, page.explorer),
-            ("Pressure (CSV)", "pressure.csv"): lambda: export.pressure_csv(page.way, page.explorer),
-            ("Sweep (CSV)", "sweep.csv"): lambda: export.sweep_csv(page.way, page.explorer),
-            ("Scene (JSON)", "scene.json"): lambda: link.scene_file(page.way),
-            ("Python", "scene.py"): self._snippet,
-            ("Fit (CSV)", "fit.csv"): lambda: export.fit_csv(page.way, page.explorer),
-        }
-        look, plain = {"css_classes": ["choice"], **WIDE}, {"css_classes": ["button"], "margin": 0}
-        row = {"css_classes": ["tools"], **WIDE}
-        downloads = [
-            pn.widgets.FileDownload(
-                callback=lambda write=write: StringIO(write()),
-                filename=name,
-                label=label,
-                auto=True,
-                **plain,
-            )
-            for (label, name), write in files.items()
+        files = [
+            self._file("Report", "report.html", self._report),
+            self._file("Curves (CSV)", "curves.csv", lambda: export.csv(page.way, page.explorer)),
+            self._file(
+                "Pressure (CSV)", "pressure.csv", lambda: export.pressure_csv(page.way, page.explorer)
+            ),
+            self._file("Sweep (CSV)", "sweep.csv", lambda: export.sweep_csv(page.way, page.explorer)),
+            self._file("Scene (JSON)", "scene.json", lambda: link.scene_file(page.way)),
+            self._file("Python", "scene.py", self._snippet),
         ]
-        self.fit = downloads[-1]
-        self.scene = pn.widgets.FileInput(
-            accept=".json,application/json", css_classes=["file", "scene"], width=230, margin=0
-        )
-        self.scene.param.watch(self._bring, "value")
-        self.link = pn.widgets.TextInput(name="Link to this page", **look)
-        self.python = pn.widgets.TextAreaInput(name="This state with mdr_core", rows=9, **look)
-        title = pn.pane.HTML("Load a scene (JSON)", margin=0, css_classes=["note"])
-        rows = [pn.Row(*downloads, **row), pn.Row(title, self.scene, **row)]
+        self.fit = self._file("Fit (CSV)", "fit.csv", lambda: export.fit_csv(page.way, page.explorer))
+        scene = upload("scene", ".json,application/json", width=230, sizing_mode=None)
+        scene.param.watch(self._bring, "value")
+        self.link = field(pn.widgets.TextInput, name="Link to this page")
+        self.python = field(pn.widgets.TextAreaInput, name="This state with mdr_core", rows=9)
+        rows = [tools(*files, self.fit), tools(html("Load a scene (JSON)", sizing_mode=None), scene)]
         for area in (self.link, self.python):
-            copy = pn.widgets.Button(name="Copy", width=70, **plain)
+            copy = button("Copy", width=70)
             copy.js_on_click(args={"area": area}, code=_COPY)
-            rows.append(pn.Row(area, copy, **row))
-        self.panel = pn.Column(*rows, css_classes=["away"], visible=False, stylesheets=[], **WIDE)
-        page.take.param.watch(self._open, "value")
+            rows.append(tools(area, copy))
+        self.panel = panel(page.take, *rows)
+        page.take.param.watch(lambda event: self.show(), "value")
 
-    def _open(self, event):
-        self.panel.visible = event.new
-        self.show()
+    @staticmethod
+    def _file(label, name, write):
+        options = {"callback": lambda: StringIO(write()), "filename": name, "label": label, "auto": True}
+        return pn.widgets.FileDownload(css_classes=["button"], margin=0, **options)
 
     def show(self):
         """Link and snippet of what is seen, if it is looked at."""
-        if self.panel.visible:
-            query, here = link.query(self.page.explorer), self._here()
-            long = "This tip has too many samples for a link: save the scene as JSON."
-            self.link.value = f"{here}?{query}" if query else long
-            self.python.value = self._snippet()
-            curve = self.page.explorer.measured
-            self.fit.visible = curve is not None and curve.fit is not None
-            alone = "Link to this page, without the measured curve: that stays in its file"
-            self.link.name = "Link to this page" if curve is None else alone
+        if not self.page.take.value:
+            return
+        query, curve = link.query(self.page.explorer), self.page.explorer.measured
+        long = "This tip has too many samples for a link: save the scene as JSON."
+        self.link.value = f"{self._here()}?{query}" if query else long
+        self.python.value = self._snippet()
+        self.fit.visible = curve is not None and curve.fit is not None
+        alone = ", without the measured curve: that stays in its file"
+        self.link.name = "Link to this page" + alone * (curve is not None)
 
     def _snippet(self):
-        page = self.page
-        sweep = export.sweep_python(page.explorer) if "sweep" in page.explorer.plots else ""
-        curve = page.explorer.measured
-        fit = export.fit_python(curve) if curve is not None and curve.fit is not None else ""
-        return export.python(page.way, page.held) + sweep + fit
+        page, curve = self.page, self.page.explorer.measured
+        text = export.python(page.way, page.held)
+        if "sweep" in page.explorer.plots:
+            text += export.sweep_python(page.explorer)
+        if curve is not None and curve.fit is not None:
+            text += export.fit_python(curve)
+        return text
 
     def _report(self):
         page, held = self.page, [each.name for each in self.page.held]

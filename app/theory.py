@@ -9,7 +9,7 @@ from bokeh.models import CustomJS
 from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-from .grid import STYLE
+from .parts import STYLE
 from .quantities import ASSETS
 
 _SHOW = """

@@ -6,7 +6,7 @@ from urllib.parse import urlencode
 import numpy as np
 import panel as pn
 
-from .controls import WIDE, html, linked
+from .parts import button, field, html, linked, panel, tools
 from .quantities import ASSETS
 from .readouts import cells
 from .units import written
@@ -30,19 +30,14 @@ class Tour:
 
     def __init__(self, page):
         self.page, self.at = page, -1
-        self.title = pn.widgets.Select(
-            options=list(TOURS), css_classes=["choice", "tour"], width=270, margin=0
-        )
-        plain = {"css_classes": ["button"], "margin": 0, "width": 70}
-        self.back, self.next = (pn.widgets.Button(name=name, **plain) for name in ("Back", "Next"))
+        self.title = field(pn.widgets.Select, "tour", options=list(TOURS), width=270, sizing_mode=None)
+        self.back, self.next = (button(name, width=70) for name in ("Back", "Next"))
         self.words = html(_INTRO)
         self.title.param.watch(lambda event: self._go(0), "value")
         self.back.on_click(lambda event: self._go(self.at - 1))
         self.next.on_click(lambda event: self._go(self.at + 1))
-        row = pn.Row(self.title, self.back, self.next, css_classes=["tools"], **WIDE)
-        self.panel = pn.Column(row, self.words, css_classes=["away"], visible=False, stylesheets=[], **WIDE)
+        self.panel = panel(page.guide, tools(self.title, self.back, self.next), self.words)
         self._bound()
-        page.guide.param.watch(lambda event: self.panel.param.update(visible=event.new), "value")
 
     def _go(self, at):
         self.at, steps = at, TOURS[self.title.value]

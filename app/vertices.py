@@ -4,8 +4,8 @@ import re
 
 import panel as pn
 
-from .controls import WIDE, html, marked
 from .drives.path import KIND, checked
+from .parts import WIDE, field, html, marked
 from .units import fitting, read
 
 _BETWEEN = re.compile(r"\s*(?:;|\t|,\s|\bat\b)\s*")
@@ -57,18 +57,16 @@ class Vertices(pn.Column):
     """The table of vertices; what is refused stays in it, with what is wrong below."""
 
     def __init__(self, explorer, attempt):
-        self._explorer, self._attempt, self._refused = explorer, attempt, False
-        self.text = pn.widgets.TextAreaInput(
-            name="Vertices: one a line, with times or without", description=_HELP, rows=6, auto_grow=True,
-            max_rows=14, css_classes=["choice", "vertices"], **WIDE,
-        )  # fmt: skip
-        self.said = html("")
+        self._explorer, self._attempt = explorer, attempt
+        look = {"name": "Vertices: one a line, with times or without", "description": _HELP}
+        look |= {"rows": 6, "auto_grow": True, "max_rows": 14}
+        self.text, self.said = field(pn.widgets.TextAreaInput, "vertices", **look), html()
         super().__init__(self.text, self.said, **WIDE)
         self.text.param.watch(self._typed, "value")
         explorer.param.watch(lambda *events: self.show(), ["path", "prescribed"])
 
     def _typed(self, event):
-        explorer, said = self._explorer, ""
+        explorer = self._explorer
         if explorer.path and event.new == write(explorer.path, explorer.prescribed):
             return
 
@@ -78,12 +76,9 @@ class Vertices(pn.Column):
 
         try:
             self._attempt(take)
-            self._refused = False
-        except ValueError as error:
-            said, self._refused = f'<span class="beyond">{marked(str(error))}</span>', True
-        self.said.object = said
-        if not self._refused:
             self.show()
+        except ValueError as error:
+            self.said.object = f'<span class="beyond">{marked(str(error))}</span>'
 
     def show(self):
         """The vertices as they stand."""

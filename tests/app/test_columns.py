@@ -9,11 +9,11 @@ import pytest
 import mdr_core as mdr
 from app import columns, readouts, section
 from app.comparison import Row, compare, points
-from app.controls import legend
 from app.drives import follow
 from app.explorer import Explorer
 from app.figures import figure
 from app.packet import drawn, layers, packed
+from app.parts import legend
 from app.plots import PLOTS, Plot
 from app.presets import PRESETS
 from app.quantities import SHAPES
@@ -122,7 +122,7 @@ def test_a_peak_that_the_axis_does_not_reach_is_named():
 
 
 def lit(explorer):
-    return list(readouts.lights(follow(explorer.scene(), 1.0), *readouts.density_and_ratio(explorer)))
+    return list(readouts.lights(follow(explorer.scene(), 1.0), explorer))
 
 
 def test_lights_of_the_presets_warn_of_nothing():

@@ -140,11 +140,11 @@ def test_maw_s_curve_and_the_present_impact_on_it(monkeypatch):
 def test_friction_has_its_lights_and_says_what_is_not_given():
     explorer = oblique()
     way = follow(explorer.scene(), 1.0)
-    said = {text: level for level, text in readouts.lights(way, *readouts.density_and_ratio(explorer))}
+    said = {text: level for level, text in readouts.lights(way, explorer)}
     for limit in way.scene.solve().limits[-3:]:
         assert said[limit.sentence] == limit.level
     explorer.choose("elasticity", "modulus")
-    lights = readouts.lights(follow(explorer.scene(), 1.0), *readouts.density_and_ratio(explorer))
+    lights = readouts.lights(follow(explorer.scene(), 1.0), explorer)
     assert ("note", "Friction along the surface is that of ν = ½; ν is not given with E*.") in list(lights)
 
 

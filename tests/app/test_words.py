@@ -7,10 +7,10 @@ from urllib.parse import urlencode
 import pytest
 
 from app import link, theory
-from app.controls import linked
 from app.drives import follow
 from app.explorer import Explorer
 from app.page import Page
+from app.parts import linked
 from app.plots import PLOTS
 from app.presets import PRESETS
 from app.quantities import ABOUT, CHOICES, DATA, QUANTITIES
@@ -39,7 +39,7 @@ def test_every_number_that_is_read_says_what_it_is():
             assert len(set(ids)) == len(rows)
     assert all(words["help"].endswith(".") for words in DATA["readouts"].values())
     assert all(quantity.help and quantity.equation for quantity in QUANTITIES.values())
-    assert ABOUT.keys() == CHOICES.keys()
+    assert ABOUT.keys() == CHOICES.keys() | {"preset", "shape"}
 
 
 def test_every_equation_leads_to_the_theory():
