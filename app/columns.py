@@ -51,27 +51,23 @@ def force_still(view):
     rows = {"path ahead": (way.states.depth, way.force)} if way.turns else _curve(way)
     if onset is not None and (way.motion is None or way.scene.medium.eta == 0):
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
-    held = view.of_held("", lambda way, over: (over("d", way.states.depth), over("F", way.force)))
     if view.curve is not None:
         rows["measured"] = measured.row(view.curve.depth, view.curve.force)
-    return rows | held | references.curves(view)
+    return rows | view.held_on("d", "F") | references.curves(view)
 
 
 def force(view, i):
-    way, right = view.way, 0.02 * view.end["d"]
-    depth, lower = way.states.depth, float(way.states.live.lower[i])
-    place = (max(lower - 3 * right, right), 0.09 * view.end["F"], "dₚ")
-    rows = {
-        "now": (depth[[i]], way.force[[i]]),
-        "dₚ": place if lower > 0 else (np.nan, np.nan, ""),
-    }
+    way, right, lower = view.way, 0.02 * view.end["d"], float(view.way.states.live.lower[i])
+    rows = {"now": view.mark(i, "d", "F"), "dₚ": (np.nan, np.nan, "")}
+    if lower > 0:
+        rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end["F"], "dₚ"
     rows |= _curve(way, i + 1) if way.turns else {}
     if isinstance(way.states, ChainStates):
         # Areas below these curves are energies of the dashpots, too.
         return rows
     past = np.flatnonzero(way.deeper[: i + 1])
     (lost_d, lost_F), (back_d, back_F) = (way.released(k) for k in (past[-1], i))
-    d, F = depth[past], way.force[past]
+    d, F = way.states.depth[past], way.force[past]
     return rows | {
         "dissipated": (np.concatenate([d[:1], d, lost_d]), np.concatenate([[0.0], F, lost_F])),
         "recoverable": (np.append(back_d[:1], back_d), np.append(0.0, back_F)),
@@ -83,7 +79,7 @@ def logarithmic_still(view):
 
 
 def logarithmic(view, i):
-    return {"now": _beyond_zero(view, view.way.states.depth[[i]], view.way.force[[i]])}
+    return {"now": _beyond_zero(view, *view.mark(i, "d", "F"))}
 
 
 def _beyond_zero(view, d, F):
@@ -112,8 +108,7 @@ def _zone(way):
     depth, a, c = way.states.depth, way.states.contact_radius, way.states.plastic_radius
     if way.turns:
         rows = split(depth, a, depth, way.states.live.lower)
-        gap = [[np.nan], [np.nan]]
-        loading = np.concatenate([rows["elastic"], gap, rows["yielding"]], axis=1)
+        loading = np.concatenate([rows["elastic"], [[np.nan]] * 2, rows["yielding"]], axis=1)
         return tuple(loading), rows["unloading"], (depth[way.deeper], c[way.deeper])
     peak, gone = way.peak, int(np.flatnonzero(way.states.live.length > 0)[-1]) + 1
     last = c[-1:] if way.states.live.lower[-1] > 0 else a[gone : gone + 1]
@@ -145,28 +140,19 @@ def radii_still(view):
 
 
 def radii_marks(view, i):
-    states, some = view.way.states, [i]
-    c = np.where(states.plastic_radius > 0, states.plastic_radius, np.nan)
-    return {
-        "now": (states.depth[some], states.contact_radius[some]),
-        "c now": (states.depth[some], c[some]),
-    }
+    depth, a = view.mark(i, "d", "a")
+    c = view.way.states.plastic_radius[[i]]
+    return {"now": (depth, a), "c now": (depth, np.where(c > 0, c, np.nan))}
 
 
 def motion_still(view):
-    way = view.way
-
-    def held(way, over):
-        return figures.NOTHING if way.motion is None else (over("t", way.motion.time), over("F", way.force))
-
-    rows = {"depth d": (way.motion.time, way.states.depth), "force F": (way.motion.time, way.force)}
-    return rows | view.of_held("", held)
+    on = view.way.on
+    return {"depth d": (on["t"], on["d"]), "force F": (on["t"], on["F"])} | view.held_on("t", "F")
 
 
 def motion(view, i):
-    way, t = view.way, view.way.motion.time[[i]]
-    end = np.array([0.0, view.end["d"]])
-    return {"time": (t.repeat(2), end), "now": (t, way.states.depth[[i]]), "F now": (t, way.force[[i]])}
+    marks = {"now": view.mark(i, "t", "d"), "F now": view.mark(i, "t", "F")}
+    return marks | {"time": view.time(i, "d")}
 
 
 def energy_still(view):
@@ -179,10 +165,6 @@ def energy_still(view):
     rows = dict(zip(("friction", "plastic", "viscous", "stored", "kinetic"), between, strict=True))
     of = {"friction": slip, "viscous": m.viscous_work, "kinetic": m.kinetic_energy}
     return rows | {name: figures.NOTHING for name, energy in of.items() if not energy.any()}
-
-
-def energy(view, i):
-    return {"time": (view.way.motion.time[[i, i]], np.array([0.0, view.end["E"]]))}
 
 
 def plane(view, i):

@@ -103,7 +103,7 @@ def found(way):
         rows.append(row)
         if row.n is None:
             yield _found(scene, result, rows, "measuring …")
-    largest = max((row.n for row in rows if row.n), default=0)
+    largest = rows[-1].n or 0
     beyond = f"chains beyond n = {largest} would take more than {CAP} s in all"
     yield _found(scene, result, rows, beyond if largest < ELEMENTS[-1] else "n elements in the chain")
 
@@ -126,16 +126,15 @@ def _tabulated(rows, used):
     def error(value):
         return "exact" if value is None else "< 10⁻¹⁶" if value < EXACT else digits(value, 2)
 
-    marks = ['<td class="used">' if row.model == used else "<td>" for row in rows]
     lines = {
-        "model": [row.model for row in rows],
-        "n": [row.n or "–" for row in rows],
-        "time": [written(row.seconds, "time", 2) for row in rows],
-        "error": [error(row.error) for row in rows],
+        "model": lambda row: row.model,
+        "n": lambda row: row.n or "–",
+        "time": lambda row: written(row.seconds, "time", 2),
+        "error": lambda row: error(row.error),
     }
     body = ""
-    for head, texts in lines.items():
-        cells = (f"{mark}{text}</td>" for mark, text in zip(marks, texts, strict=True))
+    for head, text in lines.items():
+        cells = (f"<td{' class=used' * (row.model == used)}>{text(row)}</td>" for row in rows)
         body += f'<tr><th scope="row">{head}</th>{"".join(cells)}</tr>'
     return f'<table aria-label="Time and error of each model">{body}</table>'
 
@@ -145,9 +144,9 @@ def points(rows, used):
 
     def place(some):
         some = sorted((row.seconds, max(row.error or EXACT, EXACT)) for row in some)
-        return np.array([x for x, _ in some]), np.array([y for _, y in some])
+        return tuple(np.array(some).reshape(-1, 2).T)
 
     models = ("chain", "closed form", "scalar ODE")
     marks = {name: place(row for row in rows if row.model == name) for name in models}
-    marks["chains"] = marks["chain"]
-    return marks | {"used on this page": place(row for row in rows if row.model == used and row.n is None)}
+    marks["used on this page"] = place(row for row in rows if row.model == used and row.n is None)
+    return marks | {"chains": marks["chain"]}

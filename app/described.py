@@ -15,13 +15,12 @@ def described(view, plot):
     stacked = all(row.kind == "areas" for row in plot.rows if row.legend)
     for row in plot.rows:
         columns = view.columns(plot, view.way.now)[row.name]
-        text = row.legend and _row(row, columns, x, more[0] if row.axis == 2 else y, stacked)
-        said += [f"{row.name}: {text}."] if text else []
+        if row.legend and (text := _row(row, columns, x, more[0] if row.axis == 2 else y, stacked)):
+            said.append(f"{row.name}: {text}.")
     if plot.image:
         values = view.columns(plot, view.way.now)["image"][2]
-        said += (
-            [f"colours: {_at(more[0], np.nanmax(values))} at most."] if np.isfinite(values).any() else []
-        )
+        if np.isfinite(values).any():
+            said.append(f"colours: {_at(more[0], np.nanmax(values))} at most.")
     return " ".join(said)
 
 

@@ -66,10 +66,10 @@ class Explorer(param.Parameterized):
             return self.param[name].objects
         if name == "against":
             return list(drive.results)
-        viscous = ("eta", "tau") if "speed" in drive.solver else ()
-        works = [n for n in self.used() if n != "density" and (n in viscous or n not in ("eta", "tau"))]
-        energy = ["energy"] * ("speed" in drive.solver)
-        return energy + sorted(works, key=lambda n: n not in drive.solver)
+        impact = "speed" in drive.solver
+        idle = {"density"} if impact else {"density", "eta", "tau"}
+        works = [name for name in self.used() if name not in idle]
+        return ["energy"] * impact + sorted(works, key=lambda name: name not in drive.solver)
 
     def option(self, name):
         """The option of a choice; the first, where what was chosen does not apply."""
@@ -84,10 +84,10 @@ class Explorer(param.Parameterized):
             return getattr(self, name)
         swept, _, end = name.rpartition("_")
         scale = self.scale(swept)
-        low, high = scale.low, scale.high
+        value = scale.low if end == "from" else scale.high
         if scale.logarithmic:
-            low, high = min(3 * low, scale.middle), max(high / 3, scale.middle)
-        return NUMBERS[name].bounded(float(f"{low if end == 'from' else high:.1g}"))
+            value = min(3 * value, scale.middle) if end == "from" else max(value / 3, scale.middle)
+        return NUMBERS[name].bounded(float(f"{value:.1g}"))
 
     def loaded(self, name):
         """What a number was loaded as; where it was not, what it is."""
@@ -144,20 +144,21 @@ class Explorer(param.Parameterized):
             self.param.update(**self.resets)
             return
         preset = PRESETS[label]
-        self.resets, self.sized = preset.values, frozenset({preset.choices["shape"]})
-        # The ranges of sweeps begin anew.
-        numbers = dict.fromkeys(ENDS) | preset.values
-        self.param.update(preset=label, progress=1.0, path=[], **preset.choices, **numbers)
+        self.begin(preset.values, preset=label, progress=1.0, path=[], **preset.choices)
+
+    def begin(self, numbers, resets=None, **choices):
+        """Set numbers and choices, to which all is reset from now on; the ranges of sweeps begin anew."""
+        self.resets, self.sized = resets or numbers, frozenset({choices["shape"]})
+        self.param.update(**dict.fromkeys(ENDS) | choices | numbers)
 
     @property
     def altered(self):
         """Whether the preset, or the scene from a file, has been altered."""
         preset = PRESETS.get(self.preset)
         loaded = preset.choices | preset.values if preset else self.resets
-        now = {name: getattr(self, name) for name in loaded}
+        pairs = [(name, getattr(self, name), value) for name, value in loaded.items()]
         return any(
-            now[name] != value and (name not in QUANTITIES or not isclose(now[name], value))
-            for name, value in loaded.items()
+            now != was and not (name in QUANTITIES and isclose(now, was)) for name, now, was in pairs
         )
 
     def checked(self, name, value):
@@ -213,11 +214,11 @@ class Explorer(param.Parameterized):
     def take_tip(self, samples, note):
         """Take the samples of a tip as the indenter, pressed no deeper than they reach."""
         tip = mdr.Sampled(*samples)
-        changes = {"samples": (tip.r, tip.z), "tip_note": note, "shape": "sampled"}
+        changes = {}
         if self.drive == "depth" and self.max_depth > tip.deepest:
             changes["max_depth"] = float(f"{tip.deepest / 2:.3g}")
-            self.resets = self.resets | {"max_depth": changes["max_depth"]}
-        self.param.update(**changes)
+        self.resets = self.resets | changes
+        self.param.update(samples=(tip.r, tip.z), tip_note=note, shape="sampled", **changes)
 
     def take_curve(self, curve):
         """Take a measured curve, or None, to compare with; it lies as it was measured."""

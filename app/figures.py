@@ -2,25 +2,11 @@
 
 from functools import cache
 
+import bokeh.models as bk
 import holoviews as hv
 import holoviews.plotting.bokeh
 import numpy as np
 from bokeh.document import Document
-from bokeh.models import (
-    BasicTicker,
-    BasicTickFormatter,
-    BoxZoomTool,
-    CategoricalColorMapper,
-    ColorBar,
-    HoverTool,
-    LinearAxis,
-    LinearScale,
-    LogScale,
-    LogTicker,
-    LogTickFormatter,
-    Range1d,
-    ResetTool,
-)
 
 from mdr_core.figures import DASHES, ROLES
 
@@ -33,12 +19,8 @@ LIGHT = {role: colours[0] for role, colours in ROLES.items()}
 DARK = {role: colours[1] for role, colours in ROLES.items()}
 #: What the pointer is told: the point of the curve next to it, from the columns drawn.
 _TIP = "<b>@row</b><br>{own} = @y{{%.4g}} {y.unit}<br>{symbol} = @x{{%.4g}} {x.unit}"
-_LABEL = {
-    "text_font_size": "12px",
-    "text_font_style": "italic",
-    "text_align": "left",
-    "text_baseline": "top",
-}
+_LABEL = {"text_font_size": "12px", "text_font_style": "italic", "text_align": "left"}
+_LABEL |= {"text_baseline": "top", "text_color": LIGHT["ink"]}
 _PATH = {"x": np.array([1.0, 2, 3]), "y": np.array([1.0, 2, 1])}
 #: Of the pictures that are saved; on the page Bokeh would lay a legend out anew at every paint.
 LEGEND = {
@@ -52,7 +34,7 @@ def _element(kind, count):
     """A HoloViews element with places for so many rows of a kind."""
     at = np.arange(1.0, count + 1)
     if kind == "labels":
-        return hv.Labels((at, at, ["-"] * count)).opts(text_color=LIGHT["ink"], **_LABEL)
+        return hv.Labels((at, at, ["-"] * count)).opts(**_LABEL)
     if kind in ("marks", "tips"):
         return hv.Scatter((at, at), "x", "y").opts(size=9)
     return (hv.Polygons if kind == "areas" else hv.Contours)([_PATH] * count)
@@ -79,21 +61,18 @@ def _rendered(name):
         renderers[element.group] = handles.handles["glyph_renderer"]
 
     elements = [element.opts(hooks=[note]) for element in _elements(plot)]
-    options = {"logx": True, "logy": True} if plot.log else {"xlim": (0, 1), "ylim": (0, 1)}
-    overlay = hv.Overlay(elements).opts(
-        hv.opts.Overlay(responsive=True, show_legend=False, show_grid=True, default_tools=[], **options)
-    )
-    figure = hv.renderer("bokeh").get_plot(overlay).state
+    look = {"responsive": True, "show_legend": False, "show_grid": True, "default_tools": []}
+    look |= {"logx": True, "logy": True} if plot.log else {"xlim": (0, 1), "ylim": (0, 1)}
+    figure = hv.renderer("bokeh").get_plot(hv.Overlay(elements).opts(**look)).state
     figure.name = name
     if any(row.axis == 2 for row in plot.rows):
-        figure.extra_y_ranges = {"right": Range1d(0, 1)}
-        figure.add_layout(LinearAxis(y_range_name="right"), "right")
+        figure.extra_y_ranges = {"right": bk.Range1d(0, 1)}
+        figure.add_layout(bk.LinearAxis(y_range_name="right"), "right")
     # From roles to colours; another palette is another theme.
-    mapper = CategoricalColorMapper(factors=list(LIGHT), palette=list(LIGHT.values()))
+    mapper = bk.CategoricalColorMapper(factors=list(LIGHT), palette=list(LIGHT.values()))
+    only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
     for group, renderer in renderers.items():
-        renderer.update(
-            name=group, selection_glyph=None, nonselection_glyph=None, muted_glyph=None, hover_glyph=None
-        )
+        renderer.update(name=group, **only)
         _finished(renderer, mapper, [row for row in plot.rows if row.group == group])
         # On a canvas above the axes, which are not painted again with the data; it does not clip.
         renderer.level = "overlay"
@@ -114,10 +93,8 @@ def _finished(renderer, mapper, rows):
         looks["dash"] = [DASHES[dash] for dash in looks["dash"]]
         glyph.update(line_color=role, line_dash="dash", line_width="width")
     elif kind == "marks":
-        marker, size = {"field": "marker"}, {"field": "size"}
-        glyph.update(
-            fill_color=role, hatch_color=role, line_color=edge, line_width=1.6, marker=marker, size=size
-        )
+        glyph.update(fill_color=role, hatch_color=role, line_color=edge, line_width=1.6)
+        glyph.update(marker={"field": "marker"}, size={"field": "size"})
     elif kind == "tips":
         # There to be found by the pointer only.
         glyph.update(fill_color=None, line_color=None, hatch_color=None)
@@ -138,21 +115,21 @@ def _look(figure):
     figure.update(toolbar_location="above", toolbar_inner=True, title=None)
     told = {"formatters": {"@x": "printf", "@y": "printf"}, "attachment": "right", "limit": 1}
     tips = [renderer for renderer in figure.renderers if renderer.name.startswith("tips")]
-    hovers = [HoverTool(renderers=[each], name=each.name, visible=False, **told) for each in tips]
+    hovers = [bk.HoverTool(renderers=[each], name=each.name, visible=False, **told) for each in tips]
     # Nothing is armed: a drag in the plot of the force goes along the curve.
-    tools = [*hovers, BoxZoomTool(), ResetTool()]
+    tools = [*hovers, bk.BoxZoomTool(), bk.ResetTool()]
     figure.toolbar.update(autohide=True, logo=None, tools=tools, active_drag=None, active_scroll=None)
     for axis in figure.axis:
         axis.update(minor_tick_line_color=None, major_tick_in=0, axis_label_text_font_style="normal")
-        axis.update(major_label_text_font=FONT, major_label_text_font_size="11px")
         axis.update(axis_label_text_font=FONT, axis_label_text_font_size="12px")
+        axis.update(major_label_text_font=FONT, major_label_text_font_size="11px")
     for bar in _bars(figure):
         bar.update(background_fill_color=None, bar_line_color=None, major_label_text_font=FONT, padding=2)
         bar.update(title_text_font=FONT, title_text_font_size="11px", title_text_font_style="normal")
 
 
 def _bars(figure):
-    return [side for side in figure.right if isinstance(side, ColorBar)]
+    return [side for side in figure.right if isinstance(side, bk.ColorBar)]
 
 
 def set_axes(figure, axes):
@@ -166,7 +143,7 @@ def set_axes(figure, axes):
             side.axis_label = axis.label
             _scale(figure, side, axis.log)
     symbols = {row.symbol for row in PLOTS[figure.name].rows if row.symbol}
-    for hover in (tool for tool in figure.toolbar.tools if isinstance(tool, HoverTool)):
+    for hover in (tool for tool in figure.toolbar.tools if isinstance(tool, bk.HoverTool)):
         x, y = axes[0], axes[2 if hover.name.endswith("right") else 1]
         # Rows of whatever the axis has.
         own = y.title.split(",")[0] if symbols == {"y"} else "@symbol"
@@ -180,10 +157,11 @@ def set_axes(figure, axes):
 def _scale(figure, side, log):
     """Make the scale along one side of a figure logarithmic, or linear again."""
     name = "x_scale" if side is figure.below[0] else "y_scale"
-    if PLOTS[figure.name].log or isinstance(getattr(figure, name), LogScale) == log:
+    if PLOTS[figure.name].log or isinstance(getattr(figure, name), bk.LogScale) == log:
         return
-    setattr(figure, name, LogScale() if log else LinearScale())
-    ticker, formatter = (LogTicker, LogTickFormatter) if log else (BasicTicker, BasicTickFormatter)
+    linear = bk.LinearScale, bk.BasicTicker, bk.BasicTickFormatter
+    scale, ticker, formatter = (bk.LogScale, bk.LogTicker, bk.LogTickFormatter) if log else linear
+    setattr(figure, name, scale())
     side.update(ticker=ticker(), formatter=formatter())
     for grid in (each for each in figure.center if getattr(each, "axis", None) is side):
         grid.ticker = side.ticker

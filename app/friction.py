@@ -5,7 +5,6 @@ from functools import cache
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.figures import NOTHING
 
 from .drives.oblique import ends
 from .resting import Found
@@ -14,11 +13,11 @@ from .resting import Found
 _PLACES, _TOLERANCE = 14, 1e-3
 
 
-def axes(way, size):
-    """Axes of velocities and of forces with their directions, as `View` describes them."""
-    motion, along = way.oblique, max(size["force"], float(np.max(np.abs(way.oblique.tangential_force))))
-    fastest = 1.05 * max(float(np.max(np.abs(v))) for v in (motion.velocity, motion.tangential_velocity))
-    back = 1.0 if np.min(motion.tangential_force) < 0 else 0.0
+def axes(way, force):
+    """Axes of velocities, and of forces that hold one, with their directions, as `View` describes them."""
+    largest = {name: float(np.max(np.abs(way.on[name]))) for name in ("force", "W", "v")}
+    along, fastest = max(force, largest["force"]), 1.05 * max(largest["W"], largest["v"])
+    back = 1.0 if np.min(way.on["force"]) < 0 else 0.0
     (before, after), chi = _psi(way), _chi(way)
     reach = _reach(before, chi)
     return [
@@ -52,53 +51,26 @@ def leaning(way, i, r):
     return load / (medium.tangential_ratio * medium.E_star), sticks > 0.5
 
 
-#: What is on each axis, with its sign.
-_ON = {
-    "t": lambda m: m.time,
-    "force": lambda m: m.tangential_force,
-    "W": lambda m: m.tangential_velocity,
-    "v": lambda m: -m.velocity,
-}
-
-
-def _held(view, x, y):
-    """The same of all that is held and oblique."""
-
-    def columns(way, over):
-        m = way.oblique
-        return NOTHING if m is None else tuple(over(key, _ON[key](m)) for key in (x, y))
-
-    return view.of_held("", columns)
-
-
 def forces_still(view):
-    way, m, mu = view.way, view.way.oblique, view.way.scene.drive.friction
-    both = np.append(m.time, [np.nan, *m.time]), np.append(mu * way.force, [np.nan, *(-mu * way.force)])
-    rows = {"normal force F": (m.time, way.force), "force along Fₓ": (m.time, m.tangential_force)}
-    return rows | {"most friction ±μF": both} | _held(view, "t", "force")
+    on, most = view.way.on, view.way.scene.drive.friction * view.way.force
+    both = np.append(on["t"], [np.nan, *on["t"]]), np.append(most, [np.nan, *-most])
+    rows = {"normal force F": (on["t"], on["F"]), "force along Fₓ": (on["t"], on["force"])}
+    return rows | {"most friction ±μF": both} | view.held_on("t", "force")
 
 
 def forces(view, i):
-    axis, m = view.axes["force"], view.way.oblique
-    t = m.time[[i]]
-    line = t.repeat(2), np.array([axis.start, axis.end])
-    return {"time": line, "now": (t, m.tangential_force[[i]]), "F now": (t, view.way.force[[i]])}
+    marks = {"now": view.mark(i, "t", "force"), "F now": view.mark(i, "t", "F")}
+    return marks | {"time": view.time(i, "force")}
 
 
 def hodograph_still(view):
-    m = view.way.oblique
-    W, v, steps = m.tangential_velocity, -m.velocity, m.sticks.any(axis=1)[1:]
+    W, v, steps = view.way.on["W"], view.way.on["v"], view.way.oblique.sticks.any(axis=1)[1:]
     rows = {}
     for name, some in (("something sticks", steps), ("all slips", ~steps)):
         rows[name] = np.where(np.append(some, False) | np.append(False, some), W, np.nan), v
     ways = (("path before", 0), ("path after", -1))
     rows |= {name: (np.array([0.0, W[k]]), np.array([0.0, v[k]])) for name, k in ways}
-    return rows | _held(view, "W", "v")
-
-
-def hodograph(view, i):
-    m = view.way.oblique
-    return {"now": (m.tangential_velocity[[i]], -m.velocity[[i]])}
+    return rows | view.held_on("W", "v")
 
 
 def _psi(way):

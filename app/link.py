@@ -136,21 +136,18 @@ def load_scene(explorer, text):
     if len(text) > LARGEST_FILE:
         raise ValueError("the file is larger than 2 MB")
     scene = mdr.Scene.from_json(text)
-    medium = scene.medium
     lists = [*asdict(scene.profile).values(), *asdict(scene.drive).values()]
     longest = max((len(each) for each in lists if isinstance(each, tuple)), default=0)
     if longest > MOST_SAMPLES:
         most = f"at most {MOST_SAMPLES} are taken here"
         raise ValueError(f"the scene has a list of {longest} numbers, and {most}")
-    opened = drive_of(scene).opened(scene)
     choices, numbers = {"preset": FROM_FILE, "inertia": "unknown", "progress": 1.0}, {}
-    for more, values in (_medium(medium), _profile(scene.profile), opened):
+    for more, values in (_medium(scene.medium), _profile(scene.profile), drive_of(scene).opened(scene)):
         choices |= more
         numbers |= values
-    explorer.resets = {name: explorer.checked(name, value) for name, value in numbers.items()}
-    explorer.resets |= {name: choices[name] for name in (*explorer.choices, "path") if name in choices}
-    explorer.sized = frozenset({choices["shape"]})
-    explorer.param.update(**dict.fromkeys(ENDS) | choices | explorer.resets)
+    numbers = {name: explorer.checked(name, value) for name, value in numbers.items()}
+    loaded = {name: choices[name] for name in (*explorer.choices, "path") if name in choices}
+    explorer.begin(numbers, loaded | numbers, **choices)
 
 
 def _medium(medium):

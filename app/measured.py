@@ -8,7 +8,6 @@ from io import StringIO
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.figures import NOTHING
 from mdr_core.shapes.tables import read_columns
 
 from .tip import MOST_ROWS
@@ -121,17 +120,14 @@ def _columns(heads):
     for role in ("time", "force", "depth"):
         words, kind, _ = _WORDS[role]
         score = {
-            k: 2 * (_unit(head, kind) is not None) + bool(re.search(words, head, re.IGNORECASE))
-            for k, head in left.items()
+            k: 2 * bool(_unit(head, kind)) + bool(re.search(words, head, re.I)) for k, head in left.items()
         }
         best = max(score, key=score.get)
-        if role == "time" and (score[best] == 0 or len(left) < 3):
-            found[role] = -1
-            continue
         if role == "force" and score[best] == 0 and len(left) > 1:
             best = list(left)[1]
-        found[role] = best
-        del left[best]
+        absent = role == "time" and (score[best] == 0 or len(left) < 3)
+        found[role] = -1 if absent else best
+        left.pop(found[role], None)
     return {role: found[role] for role in _WORDS}
 
 
@@ -224,14 +220,13 @@ def residual_still(view):
     curve, ends = view.curve, np.array([0.0, view.end["d"]])
     if curve is None:
         return {}
-    noise = NOTHING
-    if curve.fit is not None:
-        size = float(curve.fit.force_noise)
-        noise = np.append(ends, [np.nan, *ends]), size * np.array([1, 1, np.nan, -1, -1])
-    missing = "no model at these depths" if np.isnan(view.residual).all() else ""
-    return {
+    missing = "no model at these depths" * bool(np.isnan(view.residual).all())
+    rows = {
         "zero": (ends, np.zeros(2)),
         "measured − model": row(curve.depth, view.residual),
-        "± noise": noise,
         "missing": (0.05 * ends[1], 0.9 * view.end["ΔF"], missing),
     }
+    if curve.fit is not None:
+        size = float(curve.fit.force_noise)
+        rows["± noise"] = np.append(ends, [np.nan, *ends]), size * np.array([1, 1, np.nan, -1, -1])
+    return rows

@@ -24,6 +24,11 @@ class Layer:
             "tips": sources.get(group.replace("lines", "tips")) if self.kind == "lines" else None,
         }
 
+    def axes(self, view):
+        """The axes along x and y, and that of the colours of an image; none where there is nothing yet."""
+        axes = view.axes_of(self.plot)
+        return [axes[0], axes[2]] if self.right else axes
+
 
 def layers(figures):
     """All layers of some figures, in the order in which they are sent."""
@@ -48,9 +53,10 @@ def packed(view, layers, states, moving_only=False):
         starts.append(at)
         words = []
         for layer in chosen:
-            rows, sizes = columns[layer.plot], _units(view, layer)
+            rows, axes = columns[layer.plot], layer.axes(view)
+            sizes = [axis.factor for axis in axes] or [1.0, 1.0, 1.0]
             for row in layer.rows:
-                for values, size in zip(inside(view, layer, rows[row]), sizes, strict=False):
+                for values, size in zip(inside(layer.kind, axes, rows[row]), sizes, strict=False):
                     parts += [[np.size(values)], np.ravel(values) / size]
                     at += 1 + parts[-1].size
             words += [rows[row][2] for row in layer.rows if layer.kind == "labels"]
@@ -60,20 +66,12 @@ def packed(view, layers, states, moving_only=False):
     return packet, starts, labels
 
 
-def _units(view, layer):
-    """Sizes of the units in which a layer has its columns."""
-    sizes = [axis.factor for axis in view.axes_of(layer.plot)] or [1.0, 1.0, 1.0]
-    if layer.kind == "image":
-        return sizes
-    return sizes[0], sizes[2 if layer.right else 1]
-
-
-def inside(view, layer, row):
+def inside(kind, axes, row):
     """A line or area as far as it is within its axes, for a canvas that does not clip."""
-    axes = view.axes_of(layer.plot)
-    if layer.kind not in ("areas", "lines") or not axes:
+    if kind not in ("areas", "lines") or not axes:
         return row
-    x, y, row = axes[0], axes[2 if layer.right else 1], row[:2]
+    x, y, *_ = axes
+    row = row[:2]
     for k, sign, bound in ((1, 1, y.end), (0, 1, x.end), (0, -1, -x.start)):
         beyond = sign * row[k] > bound + 1e-9 * abs(bound)
         if not beyond.any():
@@ -81,7 +79,7 @@ def inside(view, layer, row):
         at = np.flatnonzero(beyond[:-1] != beyond[1:])
         share = (sign * bound - row[k][at]) / (row[k][at + 1] - row[k][at])
         row = [np.insert(part, at + 1, part[at] + share * (part[at + 1] - part[at])) for part in row]
-        cut = sign * bound if layer.kind == "areas" else np.nan
+        cut = sign * bound if kind == "areas" else np.nan
         row[k] = np.where(np.insert(beyond, at + 1, False), cut, row[k])
     return row
 

@@ -18,11 +18,11 @@ from .grid import Grid
 from .held import Table, held, is_held, renamed, toggled
 from .measured import Curve
 from .measuring import Measuring
-from .parts import FULL, HERE, JS, STYLE, WIDE, button, html, linked, marked, toggle, tools
+from .parts import FULL, HERE, JS, STYLE, WIDE, button, html, linked, toggle, tools
 from .player import Player
 from .plots import PLOTS
 from .quantities import CHOICES, DATA
-from .resting import Pending, Resting
+from .resting import Resting, in_time
 from .takeaway import TakeAway
 from .tip import read_tip
 from .tour import Tour
@@ -295,8 +295,7 @@ class Page:
         """Everything beside the plots."""
         explorer, way = self.explorer, self.way
         self.controls.show(way)
-        drawing, formulas = readouts.sketch(way, explorer.shape)
-        self.controls.notes["sketch"].object = drawing.format(*map(marked, formulas))
+        self.controls.notes["sketch"].object = readouts.sketch(way, explorer.shape)
         said = readouts.lights(way, explorer)
         self.lights.object = "".join(f'<span class="{level}">{linked(text)}</span>' for level, text in said)
         self.undo.disabled, self.redo.disabled = not explorer.past, not explorer.future
@@ -327,9 +326,9 @@ class Page:
         way = self.way
         self.grid.describe(self.drawn)
         for k, each in enumerate([way, *(each.way for each in self.held)]):
-            self.resting.follow(Pending(f"way {k}"), each.scene if each.pending else None, each)
+            self.resting.follow(f"way {k}", each.scene if each.pending else None, in_time, each)
         asked = {plot: values for plot, values in self._asks() if not plot.quick(*values)}
         for plot in (plot for plot in PLOTS.values() if plot.resting):
             values = asked.get(plot, ())
             about = (way.scene, *values, *[way.progress[way.now]] * plot.of_state)
-            self.resting.follow(plot, about if plot in asked else None, way, *values)
+            self.resting.follow(plot.title, about if plot in asked else None, plot.resting, way, *values)

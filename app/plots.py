@@ -135,7 +135,7 @@ PLOTS = {
             area("kinetic", "speed", 0.3),
             line("time", "ink", 1.0, "dashed", legend=False),
         ),
-        columns.energy_still, columns.energy,
+        columns.energy_still, lambda view, i: {"time": view.time(i, "E")},
     ),
     "forces": Plot(
         "Forces of an oblique impact", "|F_x| ≤ μ F,  § 13", ("t", "force"),
@@ -160,7 +160,8 @@ PLOTS = {
             line("something sticks", "stick", 2.0, symbol="−v"),
             mark("now"),
         ),
-        friction.hodograph_still, friction.hodograph, to_scale=lambda view: True,
+        friction.hodograph_still, lambda view, i: {"now": view.mark(i, "W", "v")},
+        to_scale=lambda view: True,
     ),
     "maw": Plot(
         "Speed along the surface, after over before", "ψ = κ W/(μ v_0),  § 13", ("ψ₁", "ψ₂"),

@@ -7,7 +7,7 @@ import numpy as np
 from mdr_core.results import friction_limits
 
 from .drives import DRIVES, drive_of
-from .parts import explained, linked, symbol
+from .parts import explained, linked, marked, symbol
 from .quantities import DATA, QUANTITIES, SHAPES, USED, shape_quantities
 from .units import written
 from .view import phase
@@ -42,9 +42,14 @@ def _onset(way):
     return [] if again else [(*depth, way.scene.medium.critical_depth)]
 
 
+def here(values, i):
+    """The value of a number in state i: it has one, or one for each state."""
+    return float(values if np.ndim(values) == 0 else values[i])
+
+
 def values(way, rows, i):
     """The phase of a state and all its numbers, as one text: `rows` are the `cells`."""
-    texts = [written(float(v if np.ndim(v) == 0 else v[i]), kind) for _, _, kind, v in rows]
+    texts = [written(here(each, i), kind) for _, _, kind, each in rows]
     return "|".join([phase(way, i), *texts])
 
 
@@ -94,8 +99,8 @@ def sketch(way, shape):
     words, size = SHAPES[shape], f'width="{width}" height="{height}"'
     line = f'<line x1="0" y1="{height - 7}" x2="{width}" y2="{height - 7}"/>'
     drawing = f'<svg {size} role="img" aria-label="{words.label}">{line}<polygon points="{points}"/></svg>'
-    caption = "<figcaption>{}<br>{}</figcaption>"
-    return f"<figure>{drawing}{caption}</figure>", (words.height, words.reduced)
+    formulas = f"{marked(words.height)}<br>{marked(words.reduced)}"
+    return f"<figure>{drawing}<figcaption>{formulas}</figcaption></figure>"
 
 
 def summary(explorer):

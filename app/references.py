@@ -37,9 +37,10 @@ def curves(view):
 
 def note(view):
     """What they are, and why some of them are not there."""
-    if view.chosen["references"] == "none":
+    chosen = view.chosen["references"]
+    if chosen == "none":
         return ""
-    if view.chosen["references"] == "elastic":
+    if chosen == "elastic":
         return (
             "The same tip on the same medium if it never yielded: F = 2E* ∫ a dd, of a paraboloid Hertz's."
         )

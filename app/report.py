@@ -71,8 +71,7 @@ def _inputs(explorer, way):
 
 def _number(way, name, label, kind, values):
     """Symbol, name and value of a number in the present state, as HTML."""
-    value = float(values if np.ndim(values) == 0 else values[way.now])
-    return symbol(name), label, written(value, kind, 5)
+    return symbol(name), label, written(readouts.here(values, way.now), kind, 5)
 
 
 def _said(view, plot, figure):
@@ -102,10 +101,9 @@ def drawing(view, name):
 
 def fill(layer, view, columns):
     """Write columns of a plot (SI) into the source of one of its layers, as `show.js` does on the page."""
-    source, axes = layer.described["source"], view.axes_of(layer.plot)
-    x, y = axes[0].factor, axes[2 if layer.right else 1].factor
+    source, axes = layer.described["source"], layer.axes(view)
     rows = [columns[row] for row in layer.rows]
-    xs, ys = [np.asarray(row[0]) / x for row in rows], [np.asarray(row[1]) / y for row in rows]
+    xs, ys = ([np.asarray(row[k]) / axes[k].factor for row in rows] for k in (0, 1))
     if layer.kind == "image":
         (left, right), (bottom, top) = xs[0], ys[0]
         corner = {"x": [left], "y": [bottom], "dw": [right - left], "dh": [top - bottom]}

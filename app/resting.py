@@ -24,43 +24,43 @@ class Found:
 
 
 class Resting:
-    """The searches of one session: the latest of each plot only, in threads that all sessions share.
+    """The searches of one session: the latest of each title only, in threads that all sessions share.
 
-    `show` is given the title of a plot and what was found.
+    `show` is given the title and what was found.
     """
 
     def __init__(self, show):
         self._show, self._asked, self._document = show, {}, pn.state.curdoc
 
-    def follow(self, plot, about, *arguments):
-        """Let a plot find what it shows, unless that is under way or done for what it is `about`.
+    def follow(self, title, about, search, *arguments):
+        """Let a generator search, unless that is under way or done for what it is `about`.
 
         None: it is no longer looked at.
         """
-        last, stop = self._asked.get(plot.title, (None, None))
+        last, stop = self._asked.get(title, (None, None))
         if last == about:
             return
         if stop is not None:
             stop.set()
         stop = threading.Event()
-        self._asked[plot.title] = about, stop
+        self._asked[title] = about, stop
         if about is not None:
             thread = pn.state.as_cached("resting", ThreadPoolExecutor, max_workers=2)
-            thread.submit(self._run, plot, stop, *arguments)
+            thread.submit(self._run, title, stop, search, *arguments)
 
-    def _run(self, plot, stop, *arguments):
+    def _run(self, title, stop, search, *arguments):
         def show(found):
-            self._inside(lambda: stop.is_set() or self._show(plot.title, found))
+            self._inside(lambda: stop.is_set() or self._show(title, found))
 
         if stop.is_set():
             return
         try:
-            for found in plot.resting(*arguments):
+            for found in search(*arguments):
                 if stop.is_set():
                     return
                 show(found)
         except Exception:
-            _LOG.exception("%s could not be found, scene %s", plot.title, arguments[0].scene.to_json())
+            _LOG.exception("%s could not be found, scene %s", title, arguments[0].scene.to_json())
             show(Found({}, [], "This could not be found, because of a fault of the explorer."))
 
     def _inside(self, act):
@@ -71,16 +71,9 @@ class Resting:
             self._document.add_next_tick_callback(act)
 
 
-@dataclass(frozen=True)
-class Pending:
-    """A trajectory that is solved while the input is at rest, as `Resting` has it."""
-
-    title: str
-
-    @staticmethod
-    def resting(way):
-        """The same, in time, or why it cannot be."""
-        try:
-            yield drive_of(way.scene).in_time(way.scene)
-        except ValueError as error:
-            yield str(error)
+def in_time(way):
+    """A trajectory that is pending, in time, or why it cannot be so."""
+    try:
+        yield drive_of(way.scene).in_time(way.scene)
+    except ValueError as error:
+        yield str(error)

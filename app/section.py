@@ -28,12 +28,11 @@ def found(way, quantity):
     r = axis("r", "r, radius", "length", reach, start=0.0)
     z = replace(axis("depth", "z, height", "length", reach, below=1.0), end=0.0)
     title, of_stress = _DRAWN[quantity]
+    said = "The load is gone." if state.contact_radius == 0 else ""
     if isinstance(way.states, ChainStates):
         said = "Stresses below the surface are not known of a viscous path: its elements have a past each."
+    if said:
         yield Found({}, [r, z, axis("stress", title, "pressure", 1.0)], said)
-        return
-    if state.contact_radius == 0:
-        yield Found({}, [r, z, axis("stress", title, "pressure", 1.0)], "The load is gone.")
         return
     down, along = ((np.arange(count) + 0.5) / count for count in SHAPE)
     across, deep = r.end * along, -z.start * (1 - down)
@@ -49,19 +48,15 @@ def found(way, quantity):
         bound = written(float(peak.value), "pressure", 3) if np.isfinite(peak.value) else "without bound"
         note = "{} is largest at r = {}, {} below the surface: {}.".format(title.split(",")[0], *at, bound)
     colours, ends = axis("stress", title, "pressure", most), np.array([z.start, z.end])
-    yield Found(
-        {
-            "image": (np.array([r.start, r.end]), ends, np.minimum(image, colours.end)),
-            "equal stress": _contours(
-                across, -deep, image, colours.end * np.arange(1, LINES + 1) / (LINES + 1)
-            ),
-            "contact radius a": (np.full(2, state.contact_radius), ends),
-            "plastic zone c": (np.full(2, state.plastic_radius), ends) if state.plastic_radius else NOTHING,
-            "largest": place,
-        },
-        [r, z, colours],
-        note,
-    )
+    levels = colours.end * np.arange(1, LINES + 1) / (LINES + 1)
+    rows = {
+        "image": (np.array([r.start, r.end]), ends, np.minimum(image, colours.end)),
+        "equal stress": _contours(across, -deep, image, levels),
+        "contact radius a": (np.full(2, state.contact_radius), ends),
+        "plastic zone c": (np.full(2, state.plastic_radius), ends) if state.plastic_radius else NOTHING,
+        "largest": place,
+    }
+    yield Found(rows, [r, z, colours], note)
 
 
 def _contours(x, y, image, levels):

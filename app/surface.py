@@ -37,13 +37,10 @@ def moving(view, i):
     if a > 0:
         # Under the contact the surface is the tip.
         height[~beside] = tip[: np.count_nonzero(~beside)]
-    ends, top, bottom = np.array([-half, half]), np.array([far, far]), np.full(2, z.start)
+    ends, bottom = np.array([-half, half]), np.full(2, z.start)
     surface = both(r, -1), both(height)
     return at_radii(a, c, across.end, z.start, z.end) | {
-        "tip z(r)": (
-            np.concatenate([-known[-1:], both(known, -1), known[-1:]]),
-            np.concatenate([top[:1], both(tip), top[:1]]),
-        ),
+        "tip z(r)": (np.pad(both(known, -1), 1, "edge"), np.pad(both(tip), 1, constant_values=far)),
         "medium": (np.append(surface[0], ends[::-1]), np.append(surface[1], bottom)),
         "undeformed": (ends, np.zeros(2)),
         "deformed surface": surface,

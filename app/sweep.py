@@ -104,9 +104,7 @@ class Sweep:
         if not (limit and dry and values["plasticity"] != "none"):
             return {}, {}
         rows = {FAST: self.columns(numbers, [limit])[0]}
-        exponent = (
-            values["power_law_exponent"] if values["shape"] == "power_law" else _SHAPES.get(values["shape"])
-        )
+        exponent = (_SHAPES | {"power_law": values["power_law_exponent"]}).get(values["shape"])
         if exponent is None or self.swept not in ("energy", "mass", "speed"):
             return rows, {}
         powers = {name: power(mdr.ScalingLaw(name, exponent)) for name in "abc"}

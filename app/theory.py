@@ -24,12 +24,8 @@ _NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
 
 def html():
     """The theory as HTML, with formulas as KaTeX reads them and an id at each section and equation."""
-    parser, seen = (
-        MarkdownIt()
-        .enable("table")
-        .use(dollarmath_plugin, renderer=lambda text, _: f"\\({escape(text)}\\)"),
-        set(),
-    )
+    parser, seen = MarkdownIt().enable("table"), set()
+    parser.use(dollarmath_plugin, renderer=lambda text, _: f"\\({escape(text)}\\)")
     tokens = parser.parse((ASSETS / "theory.md").read_text(encoding="utf-8"))
     parts, begun = [], False
     for k, token in enumerate(tokens):
@@ -40,12 +36,10 @@ def html():
             new = set(range(int(first), int(last or first) + 1)) - seen
             parts += [f'<a id="eq-{n}"></a>' for n in sorted(new)]
             seen |= new
-        math = token.type == "fence" and token.info == "math"
-        parts.append(
-            f"<p>$${escape(token.content)}$$</p>"
-            if math
-            else parser.renderer.render([token], parser.options, {})
-        )
+        if token.type == "fence" and token.info == "math":
+            parts.append(f"<p>$${escape(token.content)}$$</p>")
+        else:
+            parts.append(parser.renderer.render([token], parser.options, {}))
     return "".join(parts)
 
 

@@ -3,12 +3,11 @@
 import json
 from urllib.parse import urlencode
 
-import numpy as np
 import panel as pn
 
 from .parts import button, field, html, linked, panel, tools
 from .quantities import ASSETS
-from .readouts import cells
+from .readouts import cells, here
 from .units import written
 
 #: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
@@ -18,10 +17,7 @@ _INTRO = "Three scenes, each of a few steps. Next begins; Undo takes a step back
 
 def said(step, way):
     """What a step says, with the numbers of the state that is shown."""
-    numbers = {
-        name: written(float(values if np.ndim(values) == 0 else values[way.now]), kind, 3)
-        for name, _, kind, values in cells(way)
-    }
+    numbers = {name: written(here(values, way.now), kind, 3) for name, _, kind, values in cells(way)}
     return step["says"].format_map(numbers)
 
 

@@ -71,6 +71,17 @@ class Trajectory:
         """The motion with all energies, those along the surface too; None of what has no times."""
         return self.motion if self.oblique is None else self.oblique
 
+    @cached_property
+    def on(self):
+        """Values (SI) of all states by the names of the axes that they are on."""
+        values = {"d": self.states.depth, "F": self.force, "a": self.states.contact_radius}
+        if self.motion is not None:
+            values["t"] = self.motion.time
+        if self.oblique is not None:
+            m = self.oblique
+            values |= {"force": m.tangential_force, "W": m.tangential_velocity, "v": -m.velocity}
+        return values
+
     @property
     def state(self):
         """The present state."""

@@ -23,13 +23,6 @@ def axis(name, title, kind, largest, below=0.0, start=None):
     return Axis(name, title, unit.name, unit.factor, 0.0 - below * end if start is None else start, end)
 
 
-#: The axis that each of the largest values is on.
-_AXES = {
-    "length": "r", "radius": "a", "depth": "d", "onset": "d", "force": "F", "pressure": "p", "time": "t",
-    "energy": "E",
-}  # fmt: skip
-
-
 class View:
     """A trajectory and its axes, with those held beside it, what plots have found at rest, and choices.
 
@@ -53,39 +46,39 @@ class View:
         return int(yielded[0]) if len(yielded) else self.way.peak + 1
 
     def _axes(self):
-        size = _largest(self.way)
+        size, way, curve = _largest(self.way), self.way, self.curve
         for k, held in enumerate(self.held):
             theirs = _largest(held)
-            for name in size.keys() & theirs.keys() & _AXES.keys():
-                size[name] = max(size[name], self.beside(k, _AXES[name], theirs[name]))
-        depth, force = 1.02 * max(size["depth"], size["onset"]), size["force"]
-        if self.curve is not None:
-            depth = max(depth, 1.02 * float(self.curve.depth.max()))
-            force = max(force, 1.05 * float(self.curve.force.max()))
+            for name in size.keys() & theirs.keys():
+                size[name] = max(size[name], self.beside(k, name, theirs[name]))
+        if curve is not None:
+            size["d"] = max(size["d"], 1.02 * float(curve.depth.max()))
+            size["F"] = max(size["F"], 1.05 * float(curve.force.max()))
         described = [
-            ("x", "x, coordinate of the springs", "length", size["length"], 1.0),
-            ("r", "r, radius", "length", size["length"], 1.0),
-            ("plane x", "x, in the plane", "length", size["length"], 1.0),
-            ("plane y", "y, in the plane", "length", size["length"], 1.0),
-            ("z", "z, height", "length", size["depth"], REST),
-            ("d", "d, indentation depth", "length", depth),
-            ("F", "F, normal force", "force", force),
-            ("a", "a, c, radius", "length", size["radius"]),
-            ("p", "−σzz, contact pressure", "pressure", size["pressure"]),
-            ("section r", "r, radius", "length", 1.75 * size["length"], 1.0),
-            ("section z", "z, height", "length", size["depth"], 1.2),
+            ("x", "x, coordinate of the springs", "length", size["r"], 1.0),
+            ("r", "r, radius", "length", size["r"], 1.0),
+            ("plane x", "x, in the plane", "length", size["r"], 1.0),
+            ("plane y", "y, in the plane", "length", size["r"], 1.0),
+            ("z", "z, height", "length", size["z"], REST),
+            ("d", "d, indentation depth", "length", size["d"]),
+            ("F", "F, normal force", "force", size["F"]),
+            ("a", "a, c, radius", "length", size["a"]),
+            ("p", "−σzz, contact pressure", "pressure", size["p"]),
+            ("section r", "r, radius", "length", 1.75 * size["r"], 1.0),
+            ("section z", "z, height", "length", size["z"], 1.2),
         ]
-        if self.way.motion is not None:
-            time = self.way.motion.time
-            described.append(("t", "t, time", "time", size["time"], 0.0, min(float(time[0]), 0.0)))
-            described.append(("E", "E, energy", "energy", size["energy"]))
-        if self.curve is not None:
+        if way.motion is not None:
+            begin = min(float(way.motion.time[0]), 0.0)
+            described.append(("t", "t, time", "time", size["t"], 0.0, begin))
+            described.append(("E", "E, energy", "energy", size["E"]))
+        if curve is not None:
             largest = float(np.nan_to_num(np.abs(self.residual)).max())
             described.append(("ΔF", "ΔF, residual force", "force", largest, 1.0))
-        if self.way.oblique is not None:
-            described += friction.axes(self.way, size)
+        if way.oblique is not None:
+            described += friction.axes(way, size["F"])
         made = {name: self._axis(name, *rest) for name, *rest in described}
-        return made | {f"log {name}": self._logarithmic(made[name], size[f"least {name}"]) for name in "dF"}
+        least = _least(way).items()
+        return made | {f"log {name}": self._logarithmic(made[name], value) for name, value in least}
 
     def _axis(self, name, title, kind, largest, below=0.0, start=None):
         if name not in self._scales:
@@ -117,6 +110,23 @@ class View:
             for k, held in enumerate(self.held)
         }
 
+    def held_on(self, x, y):
+        """Curves of all that is held on two axes, where it has what is on them."""
+
+        def columns(way, over):
+            known = way.on.keys() >= {x, y}
+            return (over(x, way.on[x]), over(y, way.on[y])) if known else NOTHING
+
+        return self.of_held("", columns)
+
+    def mark(self, i, x, y):
+        """Where state i is on two axes."""
+        return self.way.on[x][[i]], self.way.on[y][[i]]
+
+    def time(self, i, y):
+        """A line at the time of state i, along an axis."""
+        return self.way.on["t"][[i, i]], np.array([self.axes[y].start, self.axes[y].end])
+
     @cached_property
     def residual(self):
         """Measured less modelled force (N)."""
@@ -144,7 +154,7 @@ class View:
             return self._drawn[plot, i]
         rows = {row.name: (*NOTHING, "") for row in plot.rows}
         if plot.image:
-            rows["image"] = np.array([0.0, 1.0]), np.array([0.0, 1.0]), np.full(plot.image, np.nan)
+            rows["image"] = *[np.array([0.0, 1.0])] * 2, np.full(plot.image, np.nan)
         rows |= self.still(plot) | plot.moving(self, i)
         if i in (self.way.now, self.way.peak):
             self._drawn[plot, i] = rows
@@ -172,30 +182,28 @@ class View:
 
 
 def _largest(way):
-    """Largest values (SI) that the axes are to hold."""
+    """Largest values (SI) that the axes are to hold, by the names of those."""
     states, onset = way.states, way.onset
-    size = {
-        "length": 1.25 * float(np.max(states.contact_radius)),
-        "radius": 1.14 * float(np.max(states.contact_radius)),
-        "depth": float(np.max(states.depth)),
-        "force": 1.05 * float(np.max(way.force)),
-        "onset": 0.0,
-    }
+    radius, depth = float(np.max(states.contact_radius)), float(np.max(states.depth))
+    size = {"r": 1.25 * radius, "a": 1.14 * radius, "z": depth, "d": 1.02 * depth}
+    size |= {"F": 1.05 * float(np.max(way.force)), "p": 1.05 * ceiling(way.deepest, 1.25 * radius)}
     # An onset that lies little deeper than the path is kept in the picture.
-    if onset is not None and size["depth"] < onset.depth <= 2.5 * size["depth"]:
-        size["onset"] = 1.02 * float(onset.depth)
-        size["force"] = max(size["force"], 1.05 * float(onset.force))
-    # Where logarithmic axes begin: well before the onset of yield.
-    profile, medium = way.scene.profile, way.scene.medium
-    size["least d"] = min(size["depth"], medium.critical_depth) / 50
-    size["least F"] = float(mdr.indent(profile, mdr.Medium(medium.E_star), size["least d"]).force)
-    size["pressure"] = 1.05 * ceiling(way.deepest, size["length"])
+    if onset is not None and depth < onset.depth <= 2.5 * depth:
+        size["d"] = 1.02 * max(depth, 1.02 * float(onset.depth))
+        size["F"] = max(size["F"], 1.05 * float(onset.force))
     if way.motion is not None:
         m = way.ledger
         energy = m.kinetic_energy + m.stored_energy + m.plastic_work + m.viscous_work
         energy += 0.0 if way.oblique is None else m.friction_work
-        size["time"], size["energy"] = float(m.time[-1]), float(np.max(energy))
+        size |= {"t": float(m.time[-1]), "E": float(np.max(energy))}
     return size
+
+
+def _least(way):
+    """Depth and force (SI) where logarithmic axes begin: well before the onset of yield."""
+    profile, medium = way.scene.profile, way.scene.medium
+    depth = min(float(np.max(way.states.depth)), medium.critical_depth) / 50
+    return {"d": depth, "F": float(mdr.indent(profile, mdr.Medium(medium.E_star), depth).force)}
 
 
 def phase(way, i):

@@ -3,7 +3,6 @@
 import os
 import re
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -54,7 +53,7 @@ def assert_draws(explorer, state):
         ("pressure", "lines", "−σzz(r)"),
     ):
         plot = PLOTS[figure]
-        row = inside(view, SimpleNamespace(plot=plot, kind=kind, right=""), rows[name])
+        row = inside(kind, view.axes_of(plot), rows[name])
         for drawn, expected, axis in zip(explorer.row(figure, name), row, view.axes_of(plot), strict=True):
             np.testing.assert_allclose(drawn, expected / axis.factor, rtol=1e-5, atol=1e-5 * axis.ends[1])
 
