@@ -54,7 +54,7 @@ def packed(view, layers, states, moving_only=False):
         words = []
         for layer in chosen:
             rows, axes = columns[layer.plot], layer.axes(view)
-            sizes = [axis.factor for axis in axes] or [1.0, 1.0, 1.0]
+            sizes = ([axis.factor for axis in axes] or [1.0] * 3)[: 3 if layer.kind == "image" else 2]
             for row in layer.rows:
                 for values, size in zip(inside(layer.kind, axes, rows[row]), sizes, strict=False):
                     parts += [[np.size(values)], np.ravel(values) / size]

@@ -3,8 +3,7 @@
 Run from the project root: python -m tests.app.take_screenshots
 """
 
-from .conftest import CHROMIUM, FLAGS, ROOT, Explorer, Server
-from .test_page import DROP
+from .conftest import CHROMIUM, DROP, FLAGS, ROOT, Explorer, Server
 
 
 def main():

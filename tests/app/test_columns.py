@@ -20,9 +20,9 @@ from app.quantities import SHAPES
 from app.view import View
 from mdr_core.figures import SPRINGS, line, mark
 
+from .conftest import DROP, ELASTIC
+
 APP = Path(__file__).parents[2] / "app"
-ELASTIC = "Steel ball 16 mm on epoxy, elastic"
-DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
 
 
 def seen(explorer, progress=1.0):

@@ -11,7 +11,7 @@ from app.plots import PLOTS
 from app.units import written
 from app.view import View
 
-DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
+from .conftest import DROP
 
 
 def read(text, pattern):

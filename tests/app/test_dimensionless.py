@@ -10,8 +10,9 @@ from app.plots import PLOTS
 from app.presets import PRESETS
 from app.view import View
 
+from .conftest import ELASTIC
+
 GOLD, PDMS = "Berkovich-equivalent cone on gold", "Berkovich-equivalent cone on PDMS"
-ELASTIC = "Steel ball 16 mm on epoxy, elastic"
 RATIO = {"axes": "ratio"}
 
 

@@ -17,10 +17,7 @@ from app.presets import PRESETS
 from app.view import View
 from mdr_core.figures import SPRINGS
 
-from .test_page import pytestmark as in_browser
-
-ELASTIC = "Steel ball 16 mm on epoxy, elastic"
-DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
+from .conftest import DROP, ELASTIC
 
 
 def oblique(label=ELASTIC, **changes):
@@ -230,7 +227,6 @@ def test_every_plot_of_every_state_can_be_drawn(damping):
             assert rows.keys() == {row.name for row in plot.rows} | ({"image"} if plot.image else set())
 
 
-@in_browser
 def test_an_oblique_impact_in_the_browser(explorer):
     explorer.choose("Preset", ELASTIC)
     explorer.pick("oblique impact")

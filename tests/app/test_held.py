@@ -12,7 +12,7 @@ from app.plots import DASHES, PLOTS
 from app.units import written
 from app.view import View
 
-DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
+from .conftest import DROP
 
 
 def held(query):

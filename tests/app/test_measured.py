@@ -1,8 +1,5 @@
 """A measured curve: read as instruments write it, laid over the model, and fitted."""
 
-import os
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -14,7 +11,6 @@ from app.measured import Curve, read_curve
 from app.plots import PLOTS
 from app.view import View
 
-from .conftest import CHROMIUM
 from .test_page import unit as unit_of
 
 DEPTH, FORCE = [-1.0, 0.0, 2.0, 4.0, 3.0], [0.0, 0.0, 1.5, 6.0, 2.0]
@@ -172,10 +168,6 @@ def test_csv_and_python_reproduce_the_fit(holds, tmp_path, monkeypatch):
     assert values["fit"].to_dict() == pytest.approx(found.to_dict(), rel=1e-9)
 
 
-@pytest.mark.skipif(
-    not Path(CHROMIUM).exists() and os.environ.get("MDR_BROWSER") != "required",
-    reason="the page's tests need Chromium; set CHROMIUM to its path",
-)
 def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
     page, path = explorer.page, tmp_path / "run.csv"
     d = np.append(np.linspace(-1e-9, 9e-9, 120), np.linspace(9e-9, 7.5e-9, 60))

@@ -1,18 +1,7 @@
 """Someone who sees the page for the first time, and someone who holds it in the hand or uses keys only."""
 
-import os
-from pathlib import Path
-
-import pytest
-
-from .conftest import CHROMIUM, Explorer
+from .conftest import Explorer
 from .test_report import plain
-
-# Where the browser is required its absence is a failure.
-pytestmark = pytest.mark.skipif(
-    not Path(CHROMIUM).exists() and os.environ.get("MDR_BROWSER") != "required",
-    reason="the page's tests need Chromium; set CHROMIUM to its path",
-)
 
 # All elements, also within components; targets smaller than 24 pixels but links within a text, and of a
 # radio button its label; what can be scrolled sideways.

@@ -1,8 +1,6 @@
 """The served page in a real browser: what a person sees agrees with the core, whatever they do."""
 
-import os
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,15 +15,7 @@ from app.presets import OPENING, PRESETS
 from app.units import UNITS
 from app.view import View
 
-from .conftest import CHROMIUM
-
-# Where the browser is required its absence is a failure.
-pytestmark = pytest.mark.skipif(
-    not Path(CHROMIUM).exists() and os.environ.get("MDR_BROWSER") != "required",
-    reason="the page's tests need Chromium; set CHROMIUM to its path",
-)
-
-DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
+from .conftest import DROP
 
 
 def unit(label, kind):

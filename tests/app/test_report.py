@@ -16,7 +16,8 @@ from app.report import drawing, report
 from app.units import written
 from app.view import View
 
-DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
+from .conftest import DROP
+
 VIEW = View(follow(Explorer().scene(), 1.0))
 SHOWN = [name for name, plot in PLOTS.items() if VIEW.axes.keys() >= set(plot.axes) and not plot.resting]
 

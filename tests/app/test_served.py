@@ -1,23 +1,15 @@
 """The page as it is served to others: another's markup, a fault of the solver, a server that goes away."""
 
-import os
 import re
-from pathlib import Path
 
 import pytest
 
 import mdr_core as mdr
 from app.explorer import Explorer as State
 
-from .conftest import CHROMIUM, Explorer, Server
+from .conftest import Explorer, Server
 from .deployed import Proxy, deployed
 from .test_page import assert_draws, now
-
-# Where the browser is required its absence is a failure.
-pytestmark = pytest.mark.skipif(
-    not Path(CHROMIUM).exists() and os.environ.get("MDR_BROWSER") != "required",
-    reason="the page's tests need Chromium; set CHROMIUM to its path",
-)
 
 MARKUP = "<img src=x onerror=alert(1)>"
 

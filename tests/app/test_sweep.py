@@ -8,7 +8,7 @@ from app.drives import follow
 from app.explorer import Explorer
 from app.presets import OPENING, PRESETS
 
-DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
+from .conftest import DROP
 
 
 def swept(explorer, **choices):

@@ -12,10 +12,8 @@ from app.quantities import QUANTITIES
 from app.sweep import FAST
 from app.units import read
 
-from .test_page import DROP, unit
-from .test_page import pytestmark as in_browser
-
-pytestmark = in_browser
+from .conftest import DROP
+from .test_page import unit
 
 
 def test_several_are_held_named_and_removed_on_one_dimensionless_curve(explorer):

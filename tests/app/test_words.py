@@ -17,7 +17,8 @@ from app.quantities import ABOUT, CHOICES, DATA, QUANTITIES
 from app.readouts import cells, heads
 from app.tour import TOURS
 
-DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
+from .conftest import DROP
+
 # Without a server; Panel's widgets are named as its oldest version allowed asks for.
 alone = pytest.mark.filterwarnings("ignore:Widget.name is deprecated:PendingDeprecationWarning")
 
