@@ -61,17 +61,6 @@ def test_a_newcomer_takes_the_report_home(explorer, context):
     kept.close()
 
 
-def test_an_equation_leads_to_the_theory(explorer, context):
-    with context.expect_page() as opened:
-        explorer.page.locator(".card.force").get_by_role("link", name="(22)").click()
-    page = opened.value
-    # The formulas are set, and the page stands where the equation is.
-    page.locator("math").first.wait_for()
-    page.wait_for_function("scrollY > 500")
-    assert page.locator("#eq-22").bounding_box()["y"] < 100
-    page.close()
-
-
 def test_small_screens(server, browser):
     """A phone, and a window of 1440 × 900 at 200 %."""
     with browser.new_context(viewport={"width": 390, "height": 844}) as context:
@@ -99,7 +88,7 @@ def test_small_screens(server, browser):
         assert explorer.problems == []
 
 
-def test_everything_is_reached_by_keys(explorer):
+def test_everything_is_reached_by_keys_and_an_equation_leads_to_the_theory(explorer, context):
     """From one stop of the Tab key to the next, every control and explanation comes by, and is outlined."""
     page = explorer.page
     page.locator("h1").click()
@@ -122,3 +111,11 @@ def test_everything_is_reached_by_keys(explorer):
         "Keys and help",
     ):  # fmt: skip
         assert name in stops
+    with context.expect_page() as opened:
+        explorer.page.locator(".card.force").get_by_role("link", name="(22)").click()
+    page = opened.value
+    # The formulas are set, and the page stands where the equation is.
+    page.locator("math").first.wait_for()
+    page.wait_for_function("scrollY > 500")
+    assert page.locator("#eq-22").bounding_box()["y"] < 100
+    page.close()

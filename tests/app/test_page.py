@@ -48,15 +48,13 @@ def assert_draws(explorer, state):
             np.testing.assert_allclose(drawn, expected / axis.factor, rtol=1e-5, atol=1e-5 * axis.ends[1])
 
 
-def test_the_page_opens_on_a_cone_that_has_yielded(explorer):
+def test_the_page_opens_on_a_cone_that_has_yielded_and_says_what_everything_is(explorer):
+    """Every control has a name and an explanation; tooltips are of the data and their own axis."""
     assert_draws(explorer, State())
     assert explorer.page.title() == "Indentation explorer"
     assert explorer.readout("F") == "4.514 µN"
     assert explorer.readout("d/d_c") == "5.000"
     assert explorer.axis("springs")["x"] == explorer.axis("pressure")["x"]
-
-
-def test_every_control_has_a_name_and_an_explanation(explorer):
     page = explorer.page
     for each in page.locator("input, select, textarea").all():
         named = each.evaluate(
@@ -70,71 +68,6 @@ def test_every_control_has_a_name_and_an_explanation(explorer):
     about = page.locator(".number", has=explorer.field("q_c")).locator(".about")
     assert "Hardness times contact radius" in about.inner_text()
     assert "(11)" in about.inner_text()
-
-
-def test_presets_shapes_drives_and_media(explorer):
-    for label in list(PRESETS)[1:4]:
-        explorer.choose("Preset", label)
-        assert_draws(explorer, State(label))
-    state = State(label)
-    explorer.choose("Shape", "Sphere")
-    state.choose("shape", "sphere")
-    assert_draws(explorer, state)
-    for option, name, value in (
-        ("to force", "drive", "force"),
-        ("E*", "elasticity", "modulus"),
-        ("hardness", "plasticity", "hardness"),
-    ):
-        explorer.pick(option)
-        state.choose(name, value)
-        assert_draws(explorer, state)
-    assert explorer.page.get_by_text("Altered. Where the preset's numbers come from").count() == 1
-
-
-def test_keys_on_a_slider_move_every_plot(explorer):
-    for symbol in ("s", "q_c", "d_max"):
-        before, text = now(explorer), explorer.field(symbol).input_value()
-        explorer.slider(symbol).focus()
-        with explorer.change():
-            explorer.page.keyboard.press("PageUp")
-        assert explorer.field(symbol).input_value() != text
-        assert now(explorer) != before
-    explorer.press("Reset")
-    explorer.wait("explorer.row('force', 'now')[0][0].toFixed(3) === '8.978'")
-    assert_draws(explorer, State())
-
-
-def test_typed_numbers_are_read_as_they_say(explorer):
-    with explorer.change():
-        explorer.type("d_max", "2,5")
-    assert now(explorer)[0] == pytest.approx(2.5e-9)
-    with explorer.change():
-        explorer.type("d_max", "1e-6")
-    assert now(explorer)[0] == pytest.approx(1e-6)
-    assert explorer.said("d_max") == "1e-6 in SI is 1.000 µm"
-    explorer.slider("d_max").dblclick(position={"x": 3, "y": 2})
-    explorer.wait("explorer.row('force', 'now')[0][0].toFixed(3) === '8.978'")
-
-
-def test_refused_text_stays_and_its_field_says_why(explorer):
-    for text, why in (
-        ("abc", "is not a number"),
-        ("1000 m", "out of bounds"),
-        ("<img src=x>", "<img src=x>"),
-    ):
-        explorer.type("d_max", text)
-        number = explorer.page.locator(".number", has=explorer.field("d_max"))
-        number.locator("#said", has_text=why).wait_for()
-        assert explorer.field("d_max").input_value() == text
-        assert explorer.field("d_max").get_attribute("aria-invalid") == "true"
-        assert number.locator("img").count() == 0
-    assert_draws(explorer, State())
-    with explorer.change():
-        explorer.type("d_max", "5 nm")
-    assert explorer.field("d_max").get_attribute("aria-invalid") == "false"
-
-
-def test_tooltips_are_of_the_data_and_their_own_axis(explorer):
     label = explorer.axis("radii")["labels"][1]
     c = explorer.row("radii", "plastic zone c")
     k = len(c[0]) * 2 // 3
@@ -147,30 +80,26 @@ def test_tooltips_are_of_the_data_and_their_own_axis(explorer):
     assert np.min(np.abs(c[1] - said) / said) < 1e-3
 
 
-def test_depth_and_force_in_time_each_have_their_own_unit(explorer):
-    explorer.choose("Preset", DROP)
-    tip = explorer.hover("motion", "depth d", 20)
-    assert tip[0] == "depth d"
-    assert re.fullmatch(r"d = [\d.]+ [µm]m", tip[1])
-    t, force = explorer.row("motion", "force F")
-    place = """([t, F]) => {
-        const figure = explorer.model("motion"), view = Bokeh.index.find_one(figure)
-        const { left, top } = view.el.getBoundingClientRect(), { start, end } = figure.extra_y_ranges.right
-        const { y_range } = figure
-        const y = y_range.start + (F - start) / (end - start) * (y_range.end - y_range.start)
-        return [left + view.frame.x_scale.compute(t), top + view.frame.y_scale.compute(y)]
-    }"""
-    k = 10
-    explorer.page.mouse.move(*explorer.page.evaluate(place, [t[k], force[k]]))
-    tip = explorer.tooltip("force F")
-    assert re.fullmatch(r"F = [\d.]+ kN", tip[1])
-    assert re.fullmatch(r"t = [\d.]+ ms", tip[2])
-
-
-def test_playing_and_dragging_need_no_server(explorer):
+def test_keys_and_the_player_move_every_plot(explorer):
+    """The imprint stays when the load is gone; playing and dragging need no server."""
     page = explorer.page
-    page.get_by_label("State along the way").press("ArrowLeft")
-    explorer.wait("explorer.played()")
+    for symbol in ("s", "q_c", "d_max"):
+        before, text = now(explorer), explorer.field(symbol).input_value()
+        explorer.slider(symbol).focus()
+        with explorer.change():
+            explorer.page.keyboard.press("PageUp")
+        assert explorer.field(symbol).input_value() != text
+        assert now(explorer) != before
+    explorer.press("Reset")
+    explorer.wait("explorer.row('force', 'now')[0][0].toFixed(3) === '8.978'")
+    assert_draws(explorer, State())
+    explorer.page.get_by_label("State along the way").press("End")
+    explorer.wait("explorer.played() && explorer.row('force', 'now')[1][0] === 0")
+    state = State()
+    state.progress = 2.2
+    assert_draws(explorer, state)
+    assert explorer.readout("a") == "0"
+    explorer.link("at=2.2")
     page.evaluate("explorer.listen()")
     box = page.locator(".card.force").bounding_box()
     page.mouse.move(box["x"] + 0.7 * box["width"], box["y"] + 0.5 * box["height"])
@@ -191,17 +120,69 @@ def test_playing_and_dragging_need_no_server(explorer):
     assert 0 <= at <= 2.2
 
 
-def test_unloading_leaves_the_imprint_behind(explorer):
-    explorer.page.get_by_label("State along the way").press("End")
-    explorer.wait("explorer.played() && explorer.row('force', 'now')[1][0] === 0")
-    state = State()
-    state.progress = 2.2
-    assert_draws(explorer, state)
-    assert explorer.readout("a") == "0"
-    explorer.link("at=2.2")
+def test_typed_numbers_are_read_as_they_say_refused_where_they_stand_and_undone(explorer):
+    """What is refused stays in its field, which says why."""
+    with explorer.change():
+        explorer.type("d_max", "2,5")
+    assert now(explorer)[0] == pytest.approx(2.5e-9)
+    with explorer.change():
+        explorer.type("d_max", "1e-6")
+    assert now(explorer)[0] == pytest.approx(1e-6)
+    assert explorer.said("d_max") == "1e-6 in SI is 1.000 µm"
+    explorer.slider("d_max").dblclick(position={"x": 3, "y": 2})
+    explorer.wait("explorer.row('force', 'now')[0][0].toFixed(3) === '8.978'")
+    for text, why in (
+        ("abc", "is not a number"),
+        ("1000 m", "out of bounds"),
+        ("<img src=x>", "<img src=x>"),
+    ):
+        explorer.type("d_max", text)
+        number = explorer.page.locator(".number", has=explorer.field("d_max"))
+        number.locator("#said", has_text=why).wait_for()
+        assert explorer.field("d_max").input_value() == text
+        assert explorer.field("d_max").get_attribute("aria-invalid") == "true"
+        assert number.locator("img").count() == 0
+    assert_draws(explorer, State())
+    with explorer.change():
+        explorer.type("d_max", "5 nm")
+    assert explorer.field("d_max").get_attribute("aria-invalid") == "false"
+    with explorer.change():
+        explorer.press("Undo")
+    assert_draws(explorer, State())
+    with explorer.change():
+        explorer.page.locator("h1").click()
+        explorer.page.keyboard.press("y")
+    assert now(explorer)[0] == pytest.approx(5e-9)
 
 
-def test_a_peak_beyond_the_axis_is_named_in_the_plot(explorer):
+def test_in_time_each_axis_has_its_unit_and_a_body_hits_the_same_spot_again(explorer):
+    explorer.choose("Preset", DROP)
+    tip = explorer.hover("motion", "depth d", 20)
+    assert tip[0] == "depth d"
+    assert re.fullmatch(r"d = [\d.]+ [µm]m", tip[1])
+    t, force = explorer.row("motion", "force F")
+    place = """([t, F]) => {
+        const figure = explorer.model("motion"), view = Bokeh.index.find_one(figure)
+        const { left, top } = view.el.getBoundingClientRect(), { start, end } = figure.extra_y_ranges.right
+        const { y_range } = figure
+        const y = y_range.start + (F - start) / (end - start) * (y_range.end - y_range.start)
+        return [left + view.frame.x_scale.compute(t), top + view.frame.y_scale.compute(y)]
+    }"""
+    k = 10
+    explorer.page.mouse.move(*explorer.page.evaluate(place, [t[k], force[k]]))
+    tip = explorer.tooltip("force F")
+    assert re.fullmatch(r"F = [\d.]+ kN", tip[1])
+    assert re.fullmatch(r"t = [\d.]+ ms", tip[2])
+    hit = State(DROP).scene().solve()
+    with explorer.change():
+        explorer.press("Hit again")
+    again = mdr.impact(hit.profile, hit.medium, hit.mass, hit.speed, plastic_depth=hit.plastic_depth)
+    assert explorer.readout("e") == f"{float(again.restitution):.4f}"
+    assert explorer.page.locator('.cell[data-symbol="F_c"]').count() == 0
+    assert explorer.page.locator('.cell[data-symbol="d_y"]').count() == 1
+
+
+def test_a_peak_beyond_the_axis_is_named_and_presets_shapes_drives_and_media_are_drawn(explorer):
     assert explorer.labels("pressure")[2] == ""
     with explorer.change():
         explorer.type("d_max", "1.9 nm")
@@ -209,6 +190,22 @@ def test_a_peak_beyond_the_axis_is_named_in_the_plot(explorer):
     explorer.wait("explorer.played()")
     explorer.choose("Preset", "Flat steel punch on glass-fibre epoxy")
     assert explorer.labels("pressure")[2] == "↑ −σzz → ∞ at the rim"
+    for label in list(PRESETS)[1:4]:
+        explorer.choose("Preset", label)
+        assert_draws(explorer, State(label))
+    state = State(label)
+    explorer.choose("Shape", "Sphere")
+    state.choose("shape", "sphere")
+    assert_draws(explorer, state)
+    for option, name, value in (
+        ("to force", "drive", "force"),
+        ("E*", "elasticity", "modulus"),
+        ("hardness", "plasticity", "hardness"),
+    ):
+        explorer.pick(option)
+        state.choose(name, value)
+        assert_draws(explorer, state)
+    assert explorer.page.get_by_text("Altered. Where the preset's numbers come from").count() == 1
 
 
 def test_hold_map_and_theme_are_in_the_address(explorer):
@@ -230,30 +227,8 @@ def test_hold_map_and_theme_are_in_the_address(explorer):
     assert explorer.page.locator(".card.map").count() == 1
 
 
-def test_undo_and_redo(explorer):
-    with explorer.change():
-        explorer.type("d_max", "5 nm")
-    with explorer.change():
-        explorer.press("Undo")
-    assert_draws(explorer, State())
-    with explorer.change():
-        explorer.page.locator("h1").click()
-        explorer.page.keyboard.press("y")
-    assert now(explorer)[0] == pytest.approx(5e-9)
-
-
-def test_a_body_hits_the_same_spot_again(explorer):
-    explorer.choose("Preset", DROP)
-    hit = State(DROP).scene().solve()
-    with explorer.change():
-        explorer.press("Hit again")
-    again = mdr.impact(hit.profile, hit.medium, hit.mass, hit.speed, plastic_depth=hit.plastic_depth)
-    assert explorer.readout("e") == f"{float(again.restitution):.4f}"
-    assert explorer.page.locator('.cell[data-symbol="F_c"]').count() == 0
-    assert explorer.page.locator('.cell[data-symbol="d_y"]').count() == 1
-
-
-def test_pictures_have_title_legend_and_inputs(explorer):
+def test_what_is_taken_away_comes_back(explorer, tmp_path):
+    """Pictures with title, legend and inputs; link, snippet and scene; a measured tip."""
     picture = explorer.save("force", "SVG").read_text(encoding="utf-8")
     for text in ("Force and depth", "dissipated", "yielding", "Cone, s = 0.358"):
         assert text in picture
@@ -261,9 +236,6 @@ def test_pictures_have_title_legend_and_inputs(explorer):
     png = explorer.save("pressure", "PNG").read_bytes()
     width, height = (int.from_bytes(png[k : k + 4], "big") for k in (16, 20))
     assert min(width / 840, height / 600) >= 1
-
-
-def test_what_is_taken_away_comes_back(explorer, tmp_path):
     page = explorer.page
     explorer.press("Take with you")
     snippet = page.get_by_label("This state with mdr_core")
@@ -281,9 +253,6 @@ def test_what_is_taken_away_comes_back(explorer, tmp_path):
     assert page.get_by_label("Preset", exact=True).input_value() == "Scene from a file"
     page.get_by_text("A scene from a file").wait_for()
     assert now(explorer)[0] == pytest.approx(2e-9)
-
-
-def test_a_measured_tip_is_loaded_where_the_shape_is_chosen(explorer, tmp_path):
     page = explorer.page
     path = tmp_path / "tip.csv"
     r = np.linspace(0, 60, 40)
