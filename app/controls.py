@@ -10,7 +10,7 @@ from .drives import DRIVES
 from .explorer import FROM_FILE
 from .parts import JS, WIDE, button, explained, field, fill, html, linked, marked, symbol, tools, upload
 from .presets import PRESETS
-from .quantities import ABOUT, CHOICES, ENDS, LABELS, NUMBERS, SHAPES, USED, Scale, shape_quantities
+from .quantities import ABOUT, CHOICES, ENDS, LABELS, NUMBERS, SHAPES, Scale, shape_quantities
 from .units import UNITS, digits, entry, written
 
 #: Standard acceleration of free fall (m/s²).
@@ -161,9 +161,7 @@ class Controls:
 
     def _used(self, name):
         """A choice with the numbers that its option uses, or a number."""
-        if name not in USED:
-            return [self.number(name)]
-        return [self.rows[name], *map(self.number, USED[name][self.explorer.option(name)])]
+        return [*[self.rows[name]] * (name in CHOICES), *map(self.number, self.explorer.numbers([name]))]
 
     def above(self, names):
         """What stands above a plot: choices and numbers."""

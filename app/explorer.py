@@ -59,6 +59,10 @@ class Explorer(param.Parameterized):
         names += [n for choice, options in USED.items() for n in options[getattr(self, choice)]]
         return [name for name in names if name not in ENDS]
 
+    def numbers(self, names):
+        """Names of numbers: of each choice out of some names those that its option uses."""
+        return [n for name in names for n in (USED[name][self.option(name)] if name in USED else [name])]
+
     def options(self, name):
         """The options of a choice that apply to the scene, the one to begin with first."""
         drive = DRIVES[self.drive]

@@ -17,7 +17,6 @@ from .units import written
 
 _NAME, _LONGEST_NAME = "&called=", 60
 _NAMED = 260
-_SHOWN = ("E*", "q_c", "η", "d_max", "F_max", "a_max", "c", "p_m", "W_p", "e")
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,19 +70,19 @@ def _same(query, explorer):
 def numbers(way):
     """Symbols and numbers of a scene, with what it is where it is deepest."""
     medium, deepest = way.scene.medium, way.deepest
-    parts = {
-        "pressure": {"E*": medium.E_star, "p_m": deepest.mean_pressure},
-        "yield constant": {"q_c": medium.q_c},
-        "viscosity": {"η": medium.eta},
-        "length": {"d_max": deepest.depth, "a_max": deepest.contact_radius, "c": deepest.plastic_radius},
-        "force": {"F_max": np.max(way.force)},
-        "energy": {"W_p": way.plastic_work[-1]},
-        "number": {} if way.hit is None else {"e": way.hit.restitution},
+    found = {
+        "E*": ("pressure", medium.E_star),
+        "q_c": ("yield constant", medium.q_c),
+        "η": ("viscosity", medium.eta),
+        "d_max": ("length", deepest.depth),
+        "F_max": ("force", np.max(way.force)),
+        "a_max": ("length", deepest.contact_radius),
+        "c": ("length", deepest.plastic_radius),
+        "p_m": ("pressure", deepest.mean_pressure),
+        "W_p": ("energy", way.plastic_work[-1]),
     }
-    found = dict.fromkeys(_SHOWN, "–")
-    for kind, values in parts.items():
-        found |= {symbol: written(float(value), kind) for symbol, value in values.items()}
-    return found
+    found = {symbol: written(float(value), kind) for symbol, (kind, value) in found.items()}
+    return found | {"e": "–" if way.hit is None else written(float(way.hit.restitution), "number")}
 
 
 class Table:
@@ -91,8 +90,8 @@ class Table:
 
     def __init__(self, rename, remove):
         self._rename, self._remove, self._rows = rename, remove, []
-        self._now = _cells()
-        tops = _row(_fixed("", _NAMED), _cells(map(marked, _SHOWN))), _row(_fixed("now", _NAMED), self._now)
+        self._heads, self._now = _cells(), _cells()
+        tops = _row(_fixed("", _NAMED), self._heads), _row(_fixed("now", _NAMED), self._now)
         self.view = pn.Column(*tops, css_classes=["away", "table"], visible=False, **WIDE)
 
     def show(self, way, all_held):
@@ -100,7 +99,8 @@ class Table:
         self.view.visible = bool(all_held)
         if not all_held:
             return
-        self._now.object = _spans(numbers(way).values())
+        shown = numbers(way)
+        self._heads.object, self._now.object = _spans(map(marked, shown)), _spans(shown.values())
         for k in range(len(self._rows), len(all_held)):
             self._rows.append(self._made(k))
         for (name, _, cells, _), each in zip(self._rows, all_held, strict=False):
@@ -126,8 +126,8 @@ def _row(name, cells, dash=None, remove=None):
     return pn.Row(*parts, css_classes=["head"], **WIDE)
 
 
-def _cells(texts=()):
-    return html(_spans(texts), "cells", min_width=640)
+def _cells():
+    return html("", "cells", min_width=640)
 
 
 def _spans(texts):

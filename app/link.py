@@ -11,7 +11,7 @@ from .drives.path import checked
 from .explorer import FROM_FILE
 from .plots import DASHES, PLOTS
 from .presets import PRESETS
-from .quantities import ENDS, QUANTITIES, SHAPES, USED, shape_quantities
+from .quantities import ENDS, QUANTITIES, SHAPES, shape_quantities
 from .tip import MOST_SAMPLES
 
 #: Longest link, and most characters of a file.
@@ -26,9 +26,8 @@ def query(explorer, view=True):
     choices = {n: option for n, option in explorer.choices.items() if view or n not in explorer.VIEW}
     pairs = {"preset": explorer.preset} | choices
     above = [name for plot in explorer.plots for name in PLOTS[plot].controls]
-    above = [n for name in above for n in (USED[name][explorer.option(name)] if name in USED else [name])]
-    numbers = {name: getattr(explorer, name) for name in (*explorer.used(), *above)}
-    pairs |= {name: f"{number!r}" for name, number in numbers.items() if number is not None}
+    numbers = {name: getattr(explorer, name) for name in (*explorer.used(), *explorer.numbers(above))}
+    pairs |= {name: repr(number) for name, number in numbers.items() if number is not None}
     pairs["at"] = f"{explorer.progress:.6g}"
     if explorer.shape == "sampled":
         pairs["samples"] = " ".join(f"{x!r},{y!r}" for x, y in zip(*explorer.samples, strict=True))

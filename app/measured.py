@@ -11,7 +11,7 @@ import mdr_core as mdr
 from mdr_core.shapes.tables import read_columns
 
 from .tip import MOST_ROWS
-from .units import UNITS, fitting
+from .units import UNITS, fitting, named
 
 #: Parameters of a fit, in the order in which they can be held, and those that are none of the medium.
 PARAMETERS = ("E_star", "q_c", "contact_point", "baseline", "frame_compliance")
@@ -109,9 +109,8 @@ def read_curve(data, name):
 
 def _unit(head, kind):
     """The unit of some kind that the name of a column ends in, None if it has none."""
-    names = {name: u.name for u in UNITS[kind] for name in (u.name, u.name.replace("µ", "u"))}
-    parts = re.split(r"[\s()\[\]/,_]+", head.replace("μ", "µ"))
-    return next((names[part] for part in reversed(parts) if part in names), None)
+    parts, units = re.split(r"[\s()\[\]/,_]+", head.replace("μ", "µ")), named(kind)
+    return next((units[part].name for part in reversed(parts) if part in units), None)
 
 
 def _columns(heads):

@@ -37,13 +37,19 @@ def report(explorer, view, names, snippet, here="", held=()):
         "made": f"{datetime.now(UTC):%d %B %Y, %H:%M} UTC, mdr_core {mdr.__version__}",
         "inputs": list(_inputs(explorer, way)),
         "state": phase(way, way.now),
-        "numbers": [_number(way, *cell) for cell in readouts.cells(way)],
+        "numbers": [
+            (symbol(name), label, written(readouts.here(values, way.now), kind, 5))
+            for name, label, kind, values in readouts.cells(way)
+        ],
         "limits": [(level, marked(text)) for level, text in readouts.lights(way, explorer)],
         "python": escape(snippet),
         "link": escape(f"{here}?{query}") if query else "",
     }
     script, figures = components([drawing(view, name) for name in plots])
-    words["plots"] = [_said(view, PLOTS[name], each) for name, each in zip(plots, figures, strict=True)]
+    words["plots"] = []
+    for plot, figure in zip(map(PLOTS.get, plots), figures, strict=True):
+        key, found = legend(plot, drawn(view, plot, {way.now})), view.found.get(plot.title)
+        words["plots"].append((plot.title, key, figure, marked(plot.formula), found.note if found else ""))
     # Of Bokeh alone what draws.
     bokeh = Resources(mode="inline", components=["bokeh"]).js_raw
     return _TEMPLATE.render(words, bokeh=bokeh, script=script, style=STYLE[0])
@@ -67,18 +73,6 @@ def _inputs(explorer, way):
         yield symbol("E*"), "effective modulus", written(medium.E_star, "pressure", 5), marked("from (2)")
     if explorer.plasticity == "hardness":
         yield symbol("q_c"), "yield constant", written(medium.q_c, "yield constant", 5), marked("from (11)")
-
-
-def _number(way, name, label, kind, values):
-    """Symbol, name and value of a number in the present state, as HTML."""
-    return symbol(name), label, written(readouts.here(values, way.now), kind, 5)
-
-
-def _said(view, plot, figure):
-    """A plot with its title, legend, formula, and what was found with it, as HTML."""
-    shown = legend(plot, drawn(view, plot, {view.way.now}))
-    note = view.found[plot.title].note if plot.title in view.found else ""
-    return plot.title, shown, figure, marked(plot.formula), note
 
 
 def drawing(view, name):

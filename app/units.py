@@ -63,6 +63,13 @@ def entry(value, kind):
 
 
 _KEYBOARD = str.maketrans("µ·³²", "u*32")
+
+
+def named(kind):
+    """The units of a kind by their names, with u, * and 3 for µ, · and ³ as on any keyboard too."""
+    return {name: unit for unit in UNITS[kind] for name in (unit.name, unit.name.translate(_KEYBOARD))}
+
+
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
 
 
@@ -76,8 +83,7 @@ def read(text, kind, shown):
     if plain.count(",") == 1 and "." not in plain:
         plain = plain.replace(",", ".")
     match = _NUMBER.fullmatch(plain) if len(plain) <= 40 else None
-    # u, * and 3 for µ, · and ³, as on any keyboard.
-    units = {name: u for u in UNITS[kind] for name in (u.name, u.name.translate(_KEYBOARD))}
+    units = named(kind)
     if match is None or (match[3] and match[3] not in units):
         known = ", ".join(unit.name for unit in UNITS[kind] if unit.name)
         raise ValueError(f"“{text:.40}” is not a number" + f" with one of the units {known}" * bool(known))
