@@ -12,12 +12,12 @@ from app import columns, export, friction, link, readouts
 from app.drives import DRIVES, follow
 from app.explorer import FROM_FILE, Explorer
 from app.page import Page
-from app.plots import PLOTS
 from app.presets import PRESETS
 from app.view import View
 from mdr_core.figures import SPRINGS
 
 from .conftest import DROP, ELASTIC
+from .test_columns import assert_all_is_drawn
 
 
 def oblique(label=ELASTIC, **changes):
@@ -220,11 +220,7 @@ def test_every_plot_of_every_state_can_be_drawn(damping):
     explorer.param.update(axes="ratio")
     way = follow(explorer.scene(), 1.0)
     view = View(way, [way], chosen=explorer.choices)
-    for plot in PLOTS.values():
-        for i in range(0, len(way), 17):
-            rows = view.columns(plot, i)
-            assert all(np.size(x) == np.size(y) for x, y, *_ in rows.values())
-            assert rows.keys() == {row.name for row in plot.rows} | ({"image"} if plot.image else set())
+    assert_all_is_drawn(view, 17)
 
 
 def test_an_oblique_impact_in_the_browser(explorer):

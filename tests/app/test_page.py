@@ -11,7 +11,7 @@ from app.drives import follow
 from app.explorer import Explorer as State
 from app.packet import inside
 from app.plots import PLOTS
-from app.presets import OPENING, PRESETS
+from app.presets import PRESETS
 from app.units import UNITS
 from app.view import View
 
@@ -206,25 +206,6 @@ def test_a_peak_beyond_the_axis_is_named_and_presets_shapes_drives_and_media_are
         state.choose(name, value)
         assert_draws(explorer, state)
     assert explorer.page.get_by_text("Altered. Where the preset's numbers come from").count() == 1
-
-
-def test_hold_map_and_theme_are_in_the_address(explorer):
-    explorer.press("Hold")
-    explorer.wait("explorer.row('force', 'held 1')[0].length > 5")
-    with explorer.change():
-        explorer.type("d_max", "6 nm")
-    held = explorer.row("force", "held 1")
-    explorer.press("Map")
-    explorer.page.locator(".card.map").wait_for()
-    explorer.press("Dark")
-    pairs = explorer.link("dark=1")
-    assert (pairs["plots"], pairs["dark"]) == ("map", "1")
-    assert explorer.axis("map")["labels"][1].startswith("y, in the plane")
-    explorer.page.reload()
-    explorer.wait("window.explorer?.idle() && document.documentElement.classList.contains('dark')")
-    np.testing.assert_allclose(explorer.row("force", "held 1"), held, rtol=1e-6)
-    assert explorer.page.get_by_role("textbox", name="held 1").input_value() == OPENING
-    assert explorer.page.locator(".card.map").count() == 1
 
 
 def test_what_is_taken_away_comes_back(explorer, tmp_path):

@@ -4,19 +4,15 @@ import numpy as np
 import pytest
 
 from app import columns, references
-from app.drives import follow
 from app.explorer import Explorer
-from app.view import View
 
-
-def seen(explorer, chosen, progress=1.0):
-    return View(follow(explorer.scene(), progress), chosen={"references": chosen})
+from .test_columns import seen
 
 
 def test_the_elastic_curve_of_a_paraboloid_is_that_of_hertz():
     explorer = Explorer()
     explorer.choose("shape", "paraboloid")
-    d, F = references.curves(seen(explorer, "elastic"))["elastic throughout"]
+    d, F = references.curves(seen(explorer, references="elastic"))["elastic throughout"]
     expected = 4 / 3 * explorer.medium().E_star * np.sqrt(explorer.profile().radius) * d**1.5
     np.testing.assert_allclose(F, expected, rtol=1e-12)
 
@@ -27,7 +23,7 @@ def test_classes_share_the_hardness_of_the_deepest_state_and_differ_in_its_power
     explorer = Explorer()
     explorer.choose("shape", shape)
     for progress in (0.3, 1.0, 1.6):
-        view = seen(explorer, "classes", progress)
+        view = seen(explorer, progress, references="classes")
         rows, deepest = references.curves(view), view.way.deepest
         d, constant_hardness = rows["class (a), F ∝ a²"]
         d, constant_force = (part[1:] for part in rows["class (c), F constant"])
@@ -38,7 +34,7 @@ def test_classes_share_the_hardness_of_the_deepest_state_and_differ_in_its_power
 
 def test_nothing_is_said_to_have_a_hardness_that_has_not_yielded():
     explorer = Explorer("Steel ball 16 mm on epoxy, elastic")
-    view = seen(explorer, "all")
+    view = seen(explorer, references="all")
     assert references.curves(view).keys() == {"elastic throughout"}
     assert "Nothing has yielded" in references.note(view)
     np.testing.assert_allclose(view.way.force[view.way.peak], np.interp(
@@ -46,6 +42,6 @@ def test_nothing_is_said_to_have_a_hardness_that_has_not_yielded():
 
 
 def test_none_is_drawn_unless_it_is_chosen():
-    view = View(follow(Explorer().scene(), 1.0))
+    view = seen(Explorer())
     assert not columns.force_still(view).keys() & {row.name for row in references.ROWS}
     assert references.note(view) == ""

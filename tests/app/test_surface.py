@@ -4,16 +4,12 @@ import numpy as np
 import pytest
 
 from app import surface
-from app.drives import follow
 from app.explorer import Explorer
 from app.plots import PLOTS
 from app.presets import PRESETS
 from app.quantities import SHAPES
-from app.view import View
 
-
-def seen(explorer, progress=1.0, **chosen):
-    return View(follow(explorer.scene(), progress), chosen=chosen)
+from .test_columns import seen
 
 
 def test_beside_an_elastic_paraboloid_the_surface_is_that_of_hertz():

@@ -16,7 +16,7 @@ from .conftest import DROP
 from .test_page import unit
 
 
-def test_several_are_held_named_and_removed_on_one_dimensionless_curve(explorer):
+def test_several_are_held_on_one_dimensionless_curve_and_come_back_from_the_address(explorer):
     page = explorer.page
     for k, depth in enumerate(("4 nm", "7 nm"), 1):
         with explorer.change():
@@ -41,9 +41,16 @@ def test_several_are_held_named_and_removed_on_one_dimensionless_curve(explorer)
     # A preset that was altered opens as it was.
     with explorer.change():
         explorer.type("q_c", "2 N/m")
-    explorer.link("q_c=2.0")
+    explorer.press("Map")
+    page.locator(".card.map").wait_for()
+    explorer.press("Dark")
+    pairs, held = explorer.link("dark=1"), explorer.row("force", "held 1")
+    assert (pairs["q_c"], pairs["plots"], pairs["dark"]) == ("2.0", "map", "1")
+    assert explorer.axis("map")["labels"][1].startswith("y/a_max, in the plane")
     page.reload()
-    explorer.wait("window.explorer?.idle()")
+    explorer.wait("window.explorer?.idle() && document.documentElement.classList.contains('dark')")
+    np.testing.assert_allclose(explorer.row("force", "held 1"), held, rtol=1e-6)
+    assert page.locator(".card.map").count() == 1
     assert explorer.field("q_c").input_value() == "2 N/m"
     assert page.get_by_role("button", name="Undo").is_disabled()
 
