@@ -18,6 +18,11 @@ class Ratio(Axis):
         return ", ".join([*(f"{symbol}/{self.unit}" for symbol in symbols), name])
 
 
+def over(axis, size):
+    """An axis with a size (SI) of the scene, and its symbol, for its unit, if there is such a size."""
+    return Ratio(axis.name, axis.title, size[1], size[0], axis.start, axis.end) if size else axis
+
+
 def scales(way):
     """Sizes (SI) of a scene with their symbols, by the names of the axes that they are the units of.
 

@@ -230,7 +230,7 @@ class Explorer(param.Parameterized):
 
     def correct_curve(self, role, chosen):
         """Take another column or unit for the depth, the force or the time of the measured curve."""
-        self.measured = self.measured.corrected(**{role: chosen})
+        self.measured = self.measured.corrected(role, chosen)
 
     def hit_again(self, hit):
         """Let the body hit the imprint that it has left itself."""

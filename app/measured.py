@@ -58,19 +58,17 @@ class Measured:
             self.values[order, self.columns[role]] * size[self.units[role]] for role, size in SIZES.items()
         ]
 
-    def corrected(self, **changes):
+    def corrected(self, role, chosen):
         """With another column or another unit of "depth", "force" or "time"; a fit is not kept."""
-        columns, units = dict(self.columns), dict(self.units)
-        for role, chosen in changes.items():
-            if isinstance(chosen, str):
-                units[role] = chosen
-                continue
-            taken = next((other for other in columns if columns[other] == chosen >= 0), role)
-            if taken != role and columns[role] < 0:
-                raise ValueError(f"that is the column of {taken}: choose another one for that first")
-            # Who had that column gets the other one.
-            columns[taken], columns[role] = columns[role], chosen
-        return replace(self, columns=columns, units=units, fit=None, asked=None)
+        columns = dict(self.columns)
+        if isinstance(chosen, str):
+            return replace(self, units=self.units | {role: chosen}, fit=None, asked=None)
+        taken = next((other for other in columns if columns[other] == chosen >= 0), role)
+        if taken != role and columns[role] < 0:
+            raise ValueError(f"that is the column of {taken}: choose another one for that first")
+        # Who had that column gets the other one.
+        columns[taken], columns[role] = columns[role], chosen
+        return replace(self, columns=columns, fit=None, asked=None)
 
 
 def read_curve(data, name):

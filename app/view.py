@@ -9,18 +9,22 @@ import mdr_core as mdr
 from mdr_core.figures import NOTHING, REST, Axis, ceiling, radii
 
 from . import friction
-from .dimensionless import Ratio, scales
+from .dimensionless import over, scales
 from .quantities import CHOICES
 from .units import digits, fitting, round_up, written
 
 
-def axis(name, title, kind, largest, below=0.0, start=None):
-    """An axis that ends at the next round number above `largest` (SI), in a unit that fits."""
+def axis(name, title, kind, largest, below=0.0, start=None, size=None):
+    """An axis that ends at the next round number above `largest` (SI), in a unit that fits.
+
+    With a `size` (SI) of the scene, and its symbol, over that.
+    """
     unit = fitting(largest, kind)
     if round_up(largest / unit.factor) >= 1000:
         unit = fitting(round_up(largest / unit.factor) * unit.factor, kind)
-    end = round_up(largest / unit.factor) * unit.factor
-    return Axis(name, title, unit.name, unit.factor, 0.0 - below * end if start is None else start, end)
+    made = over(Axis(name, title, unit.name, unit.factor), size)
+    end = round_up(largest / made.factor) * made.factor
+    return replace(made, start=0.0 - below * end if start is None else start, end=end)
 
 
 class View:
@@ -34,8 +38,8 @@ class View:
         self.chosen = {name: next(iter(options)) for name, options in CHOICES.items()} | (chosen or {})
         self.way, self.held, self.found, self.curve, self._drawn = way, held, found or {}, curve, {}
         # Sizes of the scene that are units, and those of what is held, each in its own.
-        over = self.chosen["axes"] == "ratio"
-        self._scales, *self._theirs = (scales(each) if over else {} for each in (way, *held))
+        ratio = self.chosen["axes"] == "ratio"
+        self._scales, *self._theirs = (scales(each) if ratio else {} for each in (way, *held))
         self.axes = self._axes()
         self.end = {name: each.end for name, each in self.axes.items()}
 
@@ -76,19 +80,9 @@ class View:
             described.append(("ΔF", "ΔF, residual force", "force", largest, 1.0))
         if way.oblique is not None:
             described += friction.axes(way, size["F"])
-        made = {name: self._axis(name, *rest) for name, *rest in described}
+        made = {each[0]: axis(*each, size=self._scales.get(each[0])) for each in described}
         least = _least(way).items()
         return made | {f"log {name}": self._logarithmic(made[name], value) for name, value in least}
-
-    def _axis(self, name, title, kind, largest, below=0.0, start=None):
-        if name not in self._scales:
-            return axis(name, title, kind, largest, below, start)
-        end = round_up(largest / self._scales[name][0]) * self._scales[name][0]
-        return self._over(Axis(name, title, "", 1.0, 0.0 - below * end, end))
-
-    def _over(self, axis):
-        size, symbol = self._scales.get(axis.name, (axis.factor, ""))
-        return Ratio(axis.name, axis.title, symbol, size, axis.start, axis.end) if symbol else axis
 
     @staticmethod
     def _logarithmic(axis, least):
@@ -98,9 +92,8 @@ class View:
 
     def beside(self, k, name, values):
         """Values of one that is held on an axis of this scene, a dimensionless one in units of its own."""
-        (ours, same), (theirs, symbol) = (
-            scale.get(name, (1.0, "")) for scale in (self._scales, self._theirs[k])
-        )
+        both = self._scales, self._theirs[k]
+        (ours, same), (theirs, symbol) = (scale.get(name, (1.0, "")) for scale in both)
         return values * (ours / theirs) if symbol == same else values
 
     def of_held(self, what, columns):
@@ -136,7 +129,7 @@ class View:
         """The axes of a plot: those of the view, or what was found with its rows."""
         found = self.found.get(plot.title)
         if found and found.axes:
-            return [self._over(each) for each in found.axes]
+            return [over(each, self._scales.get(each.name)) for each in found.axes]
         if plot.fitted:
             return plot.fitted(self)
         return [self.axes[key] for key in plot.axes]

@@ -71,13 +71,13 @@ def test_what_is_no_curve_is_refused(data, says):
 
 def test_columns_and_units_are_corrected():
     curve = read_curve(file((DEPTH, FORCE, FORCE), ["h (nm), F (mN), more"]), "run.csv")
-    deeper = curve.corrected(depth="µm").data[0]
+    deeper = curve.corrected("depth", "µm").data[0]
     np.testing.assert_allclose(deeper, 1e3 * curve.data[0])
-    np.testing.assert_allclose(curve.corrected(depth="−nm").data[0], -curve.data[0])
-    assert curve.corrected(depth=1).columns == {"depth": 1, "force": 0, "time": -1}
-    assert curve.corrected(time=2).columns["time"] == 2
+    np.testing.assert_allclose(curve.corrected("depth", "−nm").data[0], -curve.data[0])
+    assert curve.corrected("depth", 1).columns == {"depth": 1, "force": 0, "time": -1}
+    assert curve.corrected("time", 2).columns["time"] == 2
     with pytest.raises(ValueError, match="that is the column of force"):
-        curve.corrected(time=1)
+        curve.corrected("time", 1)
 
 
 def fitted(**changes):
