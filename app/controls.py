@@ -100,7 +100,7 @@ class Controls:
         self.notes = {name: html() for name in noted}
         self.tip = upload("tip", ".csv,.txt,text/csv")
         #: Parts of the form that only some drives have.
-        self.parts = {"again": button("Hit again", width=90)}
+        self.parts = {"again": button("Hit again", width=90, margin=(4, 0))}
         self.heads = {title: html(f"<h2>{title}</h2>") for title in ("Indenter", "Medium", "Drive")}
         self.heads["tip"] = html("or a measured tip, as CSV (r, z):")
         self.form = pn.Column(css_classes=["form"], **WIDE)
