@@ -121,3 +121,12 @@ def nearest(way, progress):
 def rounded(way):
     """Six digits: what the page says about where it stands is read back as the same number."""
     return np.array([float(f"{p:.6g}") for p in way])
+
+
+def passed(along, peak):
+    """The progress at some places along a way, of which one is the deepest: 1 there, 2 at the end."""
+    share = (along - along[0]) / ((along[-1] - along[0]) or 1.0)
+    turn = share[peak]
+    way = np.where(share <= turn, share / (turn or 1.0), 1 + (share - turn) / ((1 - turn) or 1.0))
+    way[peak] = 1.0
+    return rounded(way)

@@ -1,10 +1,8 @@
 """A free body hits the medium."""
 
-import numpy as np
-
 import mdr_core as mdr
 
-from ..trajectory import Trajectory, nearest, rounded
+from ..trajectory import Trajectory, nearest, passed
 from .drive import Drive, arguments
 
 #: Instants of an impact.
@@ -75,9 +73,7 @@ class Impact(Drive):
 
 def along(scene, progress, hit, motion, **more):
     """All states of an impact, from its motion along the normal."""
-    time, peak = motion.time, motion.turning_point
-    turn, end = time[peak], time[-1]
-    way = rounded(np.where(time <= turn, time / turn, 1 + (time - turn) / (end - turn)))
+    way, peak = passed(motion.time, motion.turning_point), motion.turning_point
     return Trajectory(scene, way, motion.states, nearest(way, progress), peak, hit, motion, **more)
 
 

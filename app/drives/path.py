@@ -7,7 +7,7 @@ import numpy as np
 import mdr_core as mdr
 
 from ..quantities import QUANTITIES
-from ..trajectory import Trajectory, nearest, onset, rounded
+from ..trajectory import Trajectory, nearest, onset, passed
 from ..units import written
 from .chain import ChainStates
 from .drive import Drive
@@ -142,12 +142,8 @@ def _solved(scene, progress, chain, pending):
         states = ChainStates(path)
     else:
         states = _slowly(scene, values)
-    share = (along - along[0]) / ((along[-1] - along[0]) or 1.0)
     peak = int(np.argmax(states.depth))
-    turn = share[peak]
-    way = np.where(share <= turn, share / (turn or 1.0), 1 + (share - turn) / ((1 - turn) or 1.0))
-    way[peak] = 1.0
-    way = rounded(way)
+    way = passed(along, peak)
     motion = None if time is None else _motion(states, along)
     return Trajectory(scene, way, states, nearest(way, progress), peak, None, motion, True, pending)
 

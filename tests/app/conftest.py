@@ -194,12 +194,15 @@ class Explorer:
     def hover(self, figure, row, at):
         """The tooltip over one point of a row, by its number."""
         x, y = (part[at] for part in self.row(figure, row))
-        place = """([name, x, y]) => {
-            const view = Bokeh.index.find_one(explorer.model(name))
-            const { left, top } = view.el.getBoundingClientRect()
-            return [left + view.frame.x_scale.compute(x), top + view.frame.y_scale.compute(y)]
+        place = """([name, row, x, y]) => {
+            const figure = explorer.model(name), view = Bokeh.index.find_one(figure)
+            const { left, top } = view.el.getBoundingClientRect(), { y_range, renderers } = figure
+            const drawn = renderers.find(({ data_source: { data } }) => data.row?.includes(row))
+            const { start, end } = drawn.name.endsWith("right") ? figure.extra_y_ranges.right : y_range
+            const up = y_range.start + (y - start) / (end - start) * (y_range.end - y_range.start)
+            return [left + view.frame.x_scale.compute(x), top + view.frame.y_scale.compute(up)]
         }"""
-        self.page.mouse.move(*self.page.evaluate(place, [figure, x, y]))
+        self.page.mouse.move(*self.page.evaluate(place, [figure, row, x, y]))
         return self.tooltip(row)
 
     def tooltip(self, row):

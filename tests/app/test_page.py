@@ -160,17 +160,7 @@ def test_in_time_each_axis_has_its_unit_and_a_body_hits_the_same_spot_again(expl
     tip = explorer.hover("motion", "depth d", 20)
     assert tip[0] == "depth d"
     assert re.fullmatch(r"d = [\d.]+ [µm]m", tip[1])
-    t, force = explorer.row("motion", "force F")
-    place = """([t, F]) => {
-        const figure = explorer.model("motion"), view = Bokeh.index.find_one(figure)
-        const { left, top } = view.el.getBoundingClientRect(), { start, end } = figure.extra_y_ranges.right
-        const { y_range } = figure
-        const y = y_range.start + (F - start) / (end - start) * (y_range.end - y_range.start)
-        return [left + view.frame.x_scale.compute(t), top + view.frame.y_scale.compute(y)]
-    }"""
-    k = 10
-    explorer.page.mouse.move(*explorer.page.evaluate(place, [t[k], force[k]]))
-    tip = explorer.tooltip("force F")
+    tip = explorer.hover("motion", "force F", 10)
     assert re.fullmatch(r"F = [\d.]+ kN", tip[1])
     assert re.fullmatch(r"t = [\d.]+ ms", tip[2])
     hit = State(DROP).scene().solve()
