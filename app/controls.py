@@ -137,10 +137,12 @@ class Controls:
         """Everything that is used, with its values, beside the trajectory that it makes."""
         explorer = self.explorer
         for name, widget in self.choices.items():
-            options = {}
+            shown = {"value": explorer.option(name)}
             if name in ("swept", "against"):
-                options["options"] = {CHOICES[name][option]: option for option in explorer.options(name)}
-            widget.param.update(value=explorer.option(name), **options)
+                shown["options"] = {CHOICES[name][option]: option for option in explorer.options(name)}
+            # Telling a widget what it knows takes a good part of a move.
+            if any(getattr(widget, part) != value for part, value in shown.items()):
+                widget.param.update(**shown)
         self._write(way)
         notes, heads = self.notes, self.heads
         rows = [self.rows["preset"], notes["sources"], heads["Indenter"], self.rows["shape"]]

@@ -86,7 +86,7 @@ def inside(kind, axes, row):
 
 def moves(view, layer):
     """Whether any row of a layer changes from state to state."""
-    return not layer.plot.moving(view, view.way.now).keys().isdisjoint(layer.rows)
+    return not view.moving(layer.plot, view.way.now).keys().isdisjoint(layer.rows)
 
 
 def drawn(view, plot, states):

@@ -141,17 +141,21 @@ class View:
             self._drawn[plot] = plot.still(self) | (found.rows if found else {})
         return self._drawn[plot]
 
-    def columns(self, plot, i):
-        """All rows of a plot in state i, empty where there is none; where the page stands they are kept."""
+    def moving(self, plot, i):
+        """Rows of a plot that change, in state i; where the page stands they are kept."""
         if (plot, i) in self._drawn:
             return self._drawn[plot, i]
-        rows = {row.name: (*NOTHING, "") for row in plot.rows}
-        if plot.image:
-            rows["image"] = *[np.array([0.0, 1.0])] * 2, np.full(plot.image, np.nan)
-        rows |= self.still(plot) | plot.moving(self, i)
+        rows = plot.moving(self, i)
         if i in (self.way.now, self.way.peak):
             self._drawn[plot, i] = rows
         return rows
+
+    def columns(self, plot, i):
+        """All rows of a plot in state i, empty where there is none."""
+        rows = {row.name: (*NOTHING, "") for row in plot.rows}
+        if plot.image:
+            rows["image"] = *[np.array([0.0, 1.0])] * 2, np.full(plot.image, np.nan)
+        return rows | self.still(plot) | self.moving(plot, i)
 
     def pressure(self, i):
         """Radii and pressures (SI) of state i."""
