@@ -228,10 +228,6 @@ class Explorer(param.Parameterized):
         """Take a measured curve, or None, to compare with; it lies as it was measured."""
         self.param.update(measured=curve, contact_point=0.0, baseline=0.0)
 
-    def correct_curve(self, role, chosen):
-        """Take another column or unit for the depth, the force or the time of the measured curve."""
-        self.measured = self.measured.corrected(role, chosen)
-
     def hit_again(self, hit):
         """Let the body hit the imprint that it has left itself."""
         if not hit.growth > 0:

@@ -68,7 +68,7 @@ class Measuring:
     def _correct(self, role, chosen):
         curve = self.explorer.measured
         if curve and chosen not in (curve.columns[role], curve.units.get(role)):
-            self._do(lambda: self.explorer.correct_curve(role, chosen), self.about)
+            self._do(lambda: self.explorer.param.update(measured=curve.corrected(role, chosen)), self.about)
 
     def show(self):
         """Show the curve as it is taken, and what was fitted."""

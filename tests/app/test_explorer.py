@@ -10,7 +10,6 @@ import mdr_core as mdr
 from app import export, link
 from app.drives import follow
 from app.explorer import FROM_FILE, Explorer
-from app.held import Held
 from app.presets import OPENING, PRESETS
 from app.quantities import QUANTITIES, SHAPES
 from app.tip import MOST_SAMPLES, read_tip
@@ -228,9 +227,9 @@ def test_the_snippet_comes_to_the_state(drive, progress, capsys):
     explorer.choose("drive", drive)
     way = follow(explorer.scene(), progress)
     values = {}
-    exec(export.python(way, [Held("", way)]), values)
+    exec(export.python(way), values)
     capsys.readouterr()
-    assert values["medium"] == values["held_1_medium"] == explorer.medium()
+    assert values["medium"] == explorer.medium()
     assert values["medium"].poisson == 0.42
     if drive == "impact" and progress != 1.0:
         assert values["motion"].force[values["i"]] == pytest.approx(float(way.state.force), rel=1e-9)
