@@ -19,6 +19,8 @@ from .row import Foundation
 _STEPS, _ELEMENTS, _REFINEMENTS = 8, 200, 6
 #: Share of the largest force that still presses where none is prescribed, so that contact is kept.
 _TOUCH = 1e-10
+#: Share of a step before the end of a piece in which the rate is that at the end.
+_NEAR = 1 / 16
 
 
 def creep(
@@ -75,26 +77,30 @@ def creep(
     first = reach(profile, medium, "force", force[0])
     most = reach(profile, medium, "force", np.max(force))
     bound = min(most, reach(profile, medium, "momentum", scipy.integrate.trapezoid(force, time), first))
-    rows, limit, error = [], None, np.inf
+    rows, paths, limit, error = [], [], None, np.inf
     for level in range(_REFINEMENTS):
         steps = _STEPS * 2**level
         run = _Run(profile, medium, bound, _ELEMENTS * 2**level, 1e-2 * tolerance / (steps * len(time)))
         run.follow(force, time, steps)
         bound = 1.1 * max(depth for _, depth in run.path)
         rows.append(np.array(run.record))
+        paths.append(np.array(run.path))
         last, limit = limit, _extrapolated(rows[-3:])
         if last is not None:
             error = float(np.max(np.abs(limit - last)[:, 0]) / (np.max(np.abs(limit[:, 0])) or 1.0))
         if error <= tolerance:
             break
-    depth, _, stored, plastic_work, viscous = limit.T
-    # Of a contact that comes and goes there is no limit to extrapolate to.
-    radius = rows[-1][:, 1]
+    depth, *energies = limit.T
+    # Contact comes and goes: its radius, and the rate that a force needs, are those of a row on the limit.
+    path, places = _limit_of_paths(paths[-3:]), np.array(run.places)
+    half_width = max(run.row.half_width, float(profile.contact_radius(max(*path[1], 0.0))))
+    found, radius = _replay(Foundation(profile, medium, run.row.n, half_width), *path, places)
+    dashpots = 8 * medium.eta * radius
+    missing = np.divide(force - found, dashpots, out=np.zeros(force.shape), where=dashpots > 0)
+    path, places = _arriving(*path, places, missing)
     plastic_depth = np.maximum(np.maximum.accumulate(depth) - medium.critical_depth, 0.0)
-    energies = np.maximum((stored, plastic_work, viscous), 0.0)
-    path = tuple(np.array(run.path).T)
-    states = force, radius, *energies, plastic_depth
-    return TimedIndentation(profile, medium, time, depth, *states, error, np.array(run.places), path)
+    states = force, radius, *np.maximum(energies, 0.0), plastic_depth
+    return TimedIndentation(profile, medium, time, depth, *states, error, places, path)
 
 
 def _extrapolated(rows):
@@ -102,6 +108,34 @@ def _extrapolated(rows):
     for power in range(1, len(rows)):
         rows = [fine + (fine - coarse) / (2**power - 1) for coarse, fine in pairwise(rows)]
     return rows[-1]
+
+
+def _limit_of_paths(paths):
+    """Times (s) and depths (m) of the last path, corrected by those with half the steps each."""
+    (time, depth), levels = paths[-1].T, range(len(paths))
+    common = [path[:: 2**level, 1] for level, path in zip(levels, paths, strict=True)]
+    return time, depth + np.interp(time, time[:: 2 ** levels[-1]], _extrapolated(common) - common[-1])
+
+
+def _replay(row, time, depth, places):
+    """Force (N) and contact radius (m) at some places of a path that a row follows."""
+    found, steps = [], np.append(np.inf, np.diff(time))
+    for to, dt in zip(depth, steps, strict=True):
+        row = row.advance(to, dt)
+        found.append(force_and_radius(row))
+    return np.array(found)[places].T
+
+
+def _arriving(time, depth, places, surplus):
+    """The path with rates (m/s) added to those at which it comes to its places, and the places there."""
+    ends = np.array(places[1:])
+    step = time[ends] - time[ends - 1]
+    rate = (depth[ends] - depth[ends - 1]) / step + surplus[1:]
+    path = [
+        np.insert(values, ends, values[ends] - _NEAR * step * change)
+        for values, change in ((time, 1.0), (depth, rate))
+    ]
+    return tuple(path), places + np.arange(len(places))
 
 
 class _Run:
@@ -136,7 +170,7 @@ class _Run:
         row = self.row
         self.places.append(len(self.path) - 1)
         energies = row.stored_energy, row.plastic_work, row.viscous_work
-        self.record.append((row.depth, force_and_radius(row)[1], *energies))
+        self.record.append((row.depth, *energies))
 
     def go(self, dt, force, guess):
         """The move in a time dt (s) that ends under a force (N), by its rise (m) from a first guess."""
