@@ -233,7 +233,7 @@ def fast_limit(hit):
 
 def how_fast(hit):
     """How far the fast limit (23), (24) is off for an `Impact`, as `Limit`s: none where nothing yields."""
-    if np.any(np.isinf(hit.medium.critical_depth)) or 0 in hit.shape:
+    if np.any(np.isinf(hit.medium.critical_depth)) or not np.any(hit.growth > 0):
         return ()
     equations, first = "Eqs. (23), (24)", np.all(hit.plastic_depth == hit.growth)
     try:
@@ -244,10 +244,18 @@ def how_fast(hit):
         float(np.ravel(error)[np.argmax(np.abs(error))])
         for error in (limit.contact_area_error, limit.max_depth_error)
     )
-    value = max(abs(area), abs(depth))
+    # All of the energy is to go into yield: errors that cross zero because it does not tell nothing.
+    viscous = float(np.max(hit.viscous_work / (hit.mass * hit.speed**2 / 2)))
+    value = max(abs(area), abs(depth), viscous)
     exceeded = value > _NEAR or not first
     text = f"The fast limit, {equations}, {'does not hold' if exceeded else 'holds'}: "
-    text += f"{100 * area:+.2g} % of the area, {100 * depth:+.2g} % of the depth".replace("-", "−")
+    text += f"{_percent(area)} of the area, {_percent(depth)} of the depth"
+    if viscous > _NEAR:
+        text += f", and viscosity takes {100 * viscous:.3g} % of the energy"
     if not first:
         text += ", for it is for the first impact on a spot"
     return (Limit("fast limit", value, _NEAR, exceeded, f"{text}.", equations),)
+
+
+def _percent(share):
+    return (f"{100 * share:+.2g} %" if abs(share) < 1 else f"{100 * share:+.3g} %").replace("-", "−")

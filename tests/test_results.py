@@ -134,6 +134,22 @@ def test_the_fast_limit_is_off_by_its_own_estimate():
     assert dry.value < 1e-3
 
 
+def test_a_viscous_impact_of_the_right_depth_is_not_in_the_fast_limit():
+    """Depth and area cross those of the limit at some viscosity, which takes much of the energy."""
+    medium = mdr.Medium(2.7e6, 4.0, eta=0.518)
+    hit = mdr.impact(mdr.Paraboloid(50e-6), medium, 5.5e-10, 1.5)
+    found, fast = limit(hit, "fast limit"), hit.fast_limit
+    assert max(abs(fast.max_depth_error), abs(fast.contact_area_error)) < 0.01
+    assert found.exceeded
+    assert "viscosity takes" in found.sentence
+
+
+def test_where_nothing_yields_there_is_no_fast_limit():
+    hit = mdr.impact(mdr.Cone(0.3), mdr.Medium(1e9, 5.0), 1e-14, 0.003)
+    assert hit.max_depth < hit.medium.critical_depth
+    assert "fast limit" not in {found.what for found in hit.limits}
+
+
 def test_the_fast_limit_is_for_the_first_impact():
     hit = mdr.impact(mdr.Cone(0.3), SOFT, 1e-6, 30.0, plastic_depth=1e-9)
     assert "first impact on a spot" in limit(hit, "fast limit").sentence
