@@ -343,7 +343,7 @@ class PlottedState(Plotted):
 
     def _half(self, what):
         """The radius that is drawn: that of the contact, or of the imprint, and some more."""
-        self._one_state(what)
+        self._one(what)
         largest = max(float(self.contact_radius), float(self.plastic_radius))
         if not largest:
             raise ValueError(f"{what} needs a contact or an imprint, and at d = {self.depth:g} m is none")

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -133,14 +133,14 @@ class Indentation(PlottedState):
 
     #: How it was found.
     model = CLOSED_FORM
-    _quantities: ClassVar[tuple[str, ...]] = (
+    _quantities = (
         "depth", "force", "stiffness", "contact_radius", "plastic_radius", "plastic_depth",
         "mean_pressure", "stored_energy", "plastic_work",
     )  # fmt: skip
-    _shown: ClassVar[tuple[str, ...]] = (
+    _shown = (
         "depth", "force", "contact_radius", "plastic_radius", "plastic_depth", "mean_pressure",
     )  # fmt: skip
-    _dimensions: ClassVar[tuple[str, ...]] = ("path", "state")
+    _dimensions = ("path", "state")
 
     def __post_init__(self):
         if not self._made_of:
@@ -238,7 +238,8 @@ class Indentation(PlottedState):
         >>> print(round(state.pressure(0.0), 12))  # Hertz: (2/π) E* √(d/R)
         0.063661977237
         """
-        live, r = self._one_state("pressure"), self._radii(r)
+        self._one("pressure")
+        live, r = self.live, self._radii(r)
         pressure = self.medium.E_star / np.pi * fields.pressure_integral(self.profile, live, r.ravel())
         if self.dashpot_load > 0:
             with np.errstate(divide="ignore"):
@@ -248,7 +249,8 @@ class Indentation(PlottedState):
 
     def line_load(self, x: ArrayLike) -> Array:
         """Line load q(x) (N/m) of the 1D foundation at x (m); Popov (2015), Eqs. (1), (17), (18)."""
-        live, x = self._one_state("line_load"), self._radii(x)
+        self._one("line_load")
+        live, x = self.live, self._radii(x)
         ring = live.upper - self.profile._reduced(np.minimum(x, self.contact_radius))
         # Inside c the compression is the interval's length itself, free of rounding.
         inside = np.where(x < self.plastic_radius, live.length, np.clip(ring, 0.0, live.length))
@@ -261,8 +263,9 @@ class Indentation(PlottedState):
         Together with `imprint` it is d − z(r) under the indenter. What has let go of a viscous medium and
         still relaxes is not in it.
         """
+        self._one("surface")
         r, radius = self._radii(r), self.contact_radius
-        surface = self._displacement(self._one_state("surface"), r)
+        surface = self._displacement(self.live, r)
         if self._ahead > 0:
             with np.errstate(divide="ignore"):
                 surface += self._ahead * 2 / np.pi * np.arcsin(np.minimum(radius / r, 1.0))
@@ -270,7 +273,8 @@ class Indentation(PlottedState):
 
     def imprint(self, r: ArrayLike) -> Array:
         """Depth (m) of the residual imprint at radii r (m): what is left once the load is gone."""
-        return self._displacement(virgin(self._one_state("imprint").lower), r)
+        self._one("imprint")
+        return self._displacement(virgin(self.live.lower), r)
 
     def _displacement(self, live, r):
         r = self._radii(r)
@@ -296,7 +300,7 @@ class Indentation(PlottedState):
         >>> print(round(state.stress(0.0, state.contact_radius).zz / state.pressure(0.0), 9))  # Huber: −1/2
         -0.5
         """
-        self._one_state("stress")
+        self._one("stress")
         r, z = self._radii(r), stress.depths(z)
         shape = _check.common_shape("stress", r=r, z=z)
         return stress.stress(self, np.broadcast_to(r, shape), np.broadcast_to(z, shape))
@@ -316,7 +320,7 @@ class Indentation(PlottedState):
         >>> print(f"{peak.value / state.pressure(0.0):.3f} p0 at {peak.z / state.contact_radius:.3f} a")
         0.310 p0 at 0.481 a
         """
-        self._one_state("stress_peak")
+        self._one("stress_peak")
         return stress.stress_peak(self, _check.one_of("quantity", quantity, stress.SIZES))
 
     def largest_stress(self, z, quantity="max_shear"):
@@ -336,14 +340,6 @@ class Indentation(PlottedState):
         return stress.largest_stress(
             self, stress.depths(z), _check.one_of("quantity", quantity, stress.SIZES)
         )
-
-    def _one_state(self, field):
-        if np.ndim(self.depth):
-            raise ValueError(
-                f"{field} is a field of one state, but this is a path of shape "
-                f"{np.shape(self.depth)}; pick a state first, as in result[-1].{field}(r)"
-            )
-        return self.live
 
     @staticmethod
     def _radii(r):

@@ -159,11 +159,10 @@ def imported(name, what, packages=None):
 class Report:
     """What results share: how they are shown, counted, and turned into dicts, tables and datasets."""
 
-    #: Names of the quantities that it has, of those its `repr` shows, of its dimensions, of an entry.
+    #: Names of the quantities that it has, of those its `repr` shows, of its dimensions.
     _quantities: ClassVar[tuple[str, ...]] = ()
     _shown: ClassVar[tuple[str, ...]] = ()
     _dimensions: ClassVar[tuple[str, ...]] = ("state",)
-    _noun: ClassVar[str] = "state"
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -246,6 +245,20 @@ class Report:
         if count <= len(names):
             return names[len(names) - count :]
         return (*(f"{names[0]}_{i}" for i in range(count - len(names) + 1)), *names[1:])
+
+    @property
+    def _noun(self):
+        """What an entry is."""
+        last = self._dimensions[-1]
+        return "instant" if last == "time" else last
+
+    def _one(self, what):
+        """Refuses several of what has to be a single one."""
+        if self.shape:
+            raise ValueError(
+                f"{what} is that of one {self._noun}, but these are of shape {self.shape}; pick one first, "
+                f"as in result[-1].{what}(…)"
+            )
 
     def _source(self):
         """What has the profile and the medium: the result itself."""

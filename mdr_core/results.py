@@ -1,7 +1,7 @@
 """What results share: the model that was solved and why that one, where it ends, and the motion in time."""
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from .report import engineering
 
 if TYPE_CHECKING:
     from .indentation import Indentation
+    from .medium import Medium
 
 #: Slopes up to which they count as small, beyond which results are estimates, and beyond which they hardly
 #: are what was meant; contact radius over that of the body, and share of the wave speed that is slow.
@@ -53,18 +54,6 @@ CHAIN = Model(
     "on a viscous path elements that have let go may be met again while they relax, so that every one "
     "has a memory of its own",
 )
-
-
-#: Quantities of an impact, solved in whatever way, and those that its `repr` shows.
-IMPACT_QUANTITIES = (
-    "mass", "speed", "restitution", "rebound_speed", "contact_time", "max_depth", "max_force",
-    "contact_radius", "plastic_radius", "plastic_depth", "damaged_area", "stored_energy", "plastic_work",
-    "viscous_work",
-)  # fmt: skip
-IMPACT_SHOWN = (
-    "speed", "restitution", "max_depth", "max_force", "contact_time", "stored_energy", "plastic_work",
-    "viscous_work",
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -181,15 +170,6 @@ def friction_limits(medium):
     yield Limit("static friction", 1.0, 1.0, False, text)
 
 
-def speed_limit(result, density):
-    """Speed of an impact over the wave speed √(E*/ρ) of a medium of some density (kg/m³), as a `Limit`."""
-    density = _check.positive("density", density, unit="kg/m³")
-    value = float(np.max(result.speed / np.sqrt(result.medium.E_star / density)))
-    text = f"The speed is {value:.3g} of the wave speed √(E*/ρ)"
-    text += ": waves carry energy away." if value > _SLOW else ": quasi-static."
-    return Limit("speed", value, _SLOW, value > _SLOW, text)
-
-
 def sealed(result, *names):
     """Keeps what a result was made of, and refuses one that is made of another's parts.
 
@@ -205,8 +185,56 @@ def sealed(result, *names):
     object.__setattr__(result, "_made_of", parts)
 
 
+class ImpactResult(Plotted):
+    """What impacts along the normal share, solved in whatever way."""
+
+    _quantities = (
+        "mass", "speed", "restitution", "rebound_speed", "contact_time", "max_depth", "max_force",
+        "contact_radius", "plastic_radius", "plastic_depth", "damaged_area", "stored_energy",
+        "plastic_work", "viscous_work",
+    )  # fmt: skip
+    _shown = (
+        "speed", "restitution", "max_depth", "max_force", "contact_time", "stored_energy", "plastic_work",
+        "viscous_work",
+    )  # fmt: skip
+    _dimensions = ("impact",)
+
+    medium: "Medium"
+    speed: Any
+
+    def speed_limit(self, density: float) -> Limit:
+        """The speed over the wave speed √(E*/ρ) of a medium of some density ρ (kg/m³)."""
+        density = _check.positive("density", density, unit="kg/m³")
+        value = float(np.max(self.speed / np.sqrt(self.medium.E_star / density)))
+        text = f"The speed is {value:.3g} of the wave speed √(E*/ρ)"
+        text += ": waves carry energy away." if value > _SLOW else ": quasi-static."
+        return Limit("speed", value, _SLOW, value > _SLOW, text)
+
+
+class MotionResult(Plotted):
+    """What motions of one impact share, along the normal alone or along the surface, too."""
+
+    _dimensions = ("time",)
+
+    depth: Array
+    impact: Any
+
+    def _source(self):
+        return self if self.impact is None else self.impact
+
+    @property
+    def limits(self) -> tuple[Limit, ...]:
+        """Where the model's assumptions end, for the impact whose motion it is."""
+        return () if self.impact is None else self.impact.limits
+
+    @property
+    def turning_point(self) -> int:
+        """Number of the instant at which the body turns round."""
+        return int(np.argmax(self.depth))
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class Motion(Plotted):
+class Motion(MotionResult):
     """One impact from first contact to its loss, as arrays of one length, its turning point among them.
 
     On a virgin medium elements of the foundation under the contact radius are in contact. On
@@ -248,30 +276,15 @@ class Motion(Plotted):
     states: "Indentation | None" = None
     impact: Any = None
 
-    _quantities: ClassVar[tuple[str, ...]] = (
+    _quantities = (
         "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "plastic_depth",
         "live_depth", "kinetic_energy", "stored_energy", "plastic_work", "viscous_work",
     )  # fmt: skip
-    _shown: ClassVar[tuple[str, ...]] = _quantities[:6]
-    _dimensions: ClassVar[tuple[str, ...]] = ("time",)
-    _noun: ClassVar[str] = "instant"
+    _shown = _quantities[:6]
 
     def __getitem__(self, index: Any) -> "Motion":
         parts = {name: getattr(self, name)[index] for name in self._quantities}
         return replace(self, **parts, states=self.states and self.states[index])
-
-    def _source(self):
-        return self.impact if self.impact is not None else self
-
-    @property
-    def limits(self) -> tuple[Limit, ...]:
-        """Where the model's assumptions end, for the impact whose motion it is."""
-        return () if self.impact is None else self.impact.limits
-
-    @property
-    def turning_point(self) -> int:
-        """Number of the instant at which the body turns round."""
-        return int(np.argmax(self.depth))
 
 
 def instants(n, turn, end, begin=0.0):

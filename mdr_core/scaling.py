@@ -7,7 +7,7 @@ i = 2, 1, 0. For a shape z = c rⁿ that gives powers of the impact energy.
 """
 
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -195,13 +195,12 @@ class FastLimit(Report):
     contact_area_error: Array
     restitution_error: Array
 
-    _quantities: ClassVar[tuple[str, ...]] = (
+    _quantities = (
         "max_depth", "contact_area", "restitution", "max_depth_error", "contact_area_error",
         "restitution_error",
     )  # fmt: skip
-    _shown: ClassVar[tuple[str, ...]] = _quantities
-    _dimensions: ClassVar[tuple[str, ...]] = ("impact",)
-    _noun: ClassVar[str] = "impact"
+    _shown = _quantities
+    _dimensions = ("impact",)
 
     def __getitem__(self, index: Any) -> "FastLimit":
         return FastLimit(*(getattr(self, name)[index] for name in self._quantities))

@@ -100,6 +100,16 @@ def test_springs_are_yielded_elastic_or_free_where_the_state_says():
     assert plot.get(0).label == "profile g(x)"
 
 
+def test_a_motion_along_the_surface_is_plotted_over_time():
+    hit = mdr.oblique_impact(mdr.Paraboloid(1e-5), mdr.Medium(1e9), 1e-12, 0.1, 0.1, 0.3, tolerance=1e-2)
+    motion = hit.motion(9)
+    (curve,) = motion.plot("tangential_velocity", "time")
+    time, velocity = columns(curve)
+    # In ns, and in mm/s.
+    np.testing.assert_allclose(time * 1e-9, motion.time, rtol=1e-12, atol=1e-24)
+    np.testing.assert_allclose(velocity * 1e-3, motion.tangential_velocity, rtol=1e-12, atol=1e-15)
+
+
 def test_a_plot_shows_a_pressure_without_bound_cut_at_its_axis():
     plot = mdr.indent(mdr.FlatPunch(1e-6), mdr.Medium(1e9), 1e-9).plot_pressure()
     _, p = columns(element(plot, hv.Curve, "−σzz(r)"))
@@ -112,7 +122,7 @@ def test_a_plot_shows_a_pressure_without_bound_cut_at_its_axis():
     [
         (lambda: PATH.plot("radius"), "Indentation has no 'radius' to plot; it has depth, force"),
         (lambda: PATH[0].plot(), r"for one path, this is of shape \(\)"),
-        (lambda: PATH.plot_pressure(), "plot_pressure is a field of one state"),
+        (lambda: PATH.plot_pressure(), "plot_pressure is that of one state"),
         (lambda: PATH[0].plot_springs(), "needs a contact or an imprint, and at d = 0 m is none"),
     ],
 )

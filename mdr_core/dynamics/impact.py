@@ -6,28 +6,16 @@ equation of motion.
 
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
 from .._numeric import chunks
-from ..figures import Plotted
 from ..indentation import Indentation
 from ..medium import Medium, check_pair
-from ..results import (
-    CLOSED_FORM,
-    IMPACT_QUANTITIES,
-    IMPACT_SHOWN,
-    SCALAR_ODE,
-    Limit,
-    Model,
-    Motion,
-    contact_limits,
-    sealed,
-    speed_limit,
-)
+from ..results import CLOSED_FORM, SCALAR_ODE, ImpactResult, Limit, Model, Motion, contact_limits, sealed
 from ..scaling import FastLimit, fast_limit, how_fast
 from ..shapes.profile import Profile
 from ..superposition import radius_integral
@@ -174,7 +162,7 @@ def _in_time(profile, medium, mass, speed, before, dry_too):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Impact(Plotted):
+class Impact(ImpactResult):
     """One impact or many; made by `impact`. Every quantity has the shape of the ensemble.
 
     `deepest` is the state at the turning point, `growth` what the impact added to the plastic depth
@@ -189,11 +177,6 @@ class Impact(Plotted):
     growth: np.ndarray
     rebound: Rebound | None = None
     _made_of: tuple[Any, ...] = field(default=(), repr=False)
-
-    _quantities: ClassVar[tuple[str, ...]] = IMPACT_QUANTITIES
-    _shown: ClassVar[tuple[str, ...]] = IMPACT_SHOWN
-    _dimensions: ClassVar[tuple[str, ...]] = ("impact",)
-    _noun: ClassVar[str] = "impact"
 
     def __post_init__(self):
         sealed(self, "profile", "medium", "mass", "speed", "deepest", "growth")
@@ -211,10 +194,6 @@ class Impact(Plotted):
         """
         limits = contact_limits(self.profile, self.medium, self.contact_radius)
         return (*limits, *how_fast(self))
-
-    def speed_limit(self, density: float) -> Limit:
-        """The speed over the wave speed √(E*/ρ) of a medium of some density ρ (kg/m³)."""
-        return speed_limit(self, density)
 
     def __getitem__(self, index: Any) -> "Impact":
         deepest = self.deepest[index]

@@ -14,11 +14,7 @@ _TOLERANCE, _INSTANTS, _PARTS = 1e-10, 400, 33
 
 def motion(hit, n):
     """The `Motion` of one `Impact` at n instants."""
-    if np.ndim(hit.mass):
-        raise ValueError(
-            f"motion is that of one impact, but these are {hit.mass.size}; pick one, as in "
-            "result[0].motion()"
-        )
+    hit._one("motion")
     before = np.asarray(hit.plastic_depth - hit.growth)
     deepest = hit.deepest.live.length + hit.growth
     bodies = Bodies.of(hit.profile, hit.medium, hit.mass, hit.speed, before, deepest)

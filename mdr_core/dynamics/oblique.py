@@ -7,7 +7,7 @@ in runs with twice the elements and half the steps of the one before.
 
 from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -214,17 +214,16 @@ class ObliqueImpact(Report):
     _halvings: Array
     #: Whether all elements slip from first contact to its loss: then the velocity is known in closed form.
     slips_throughout: Array
-    _quantities: ClassVar[tuple[str, ...]] = (
+    _quantities = (
         "mass", "speed", "tangential_speed", "friction", "tangential_mass", "restitution",
         "tangential_velocity", "tangential_restitution", "rebound_angle", "max_depth", "max_force",
         "max_tangential_force", "contact_time", "friction_work", "plastic_work", "viscous_work",
     )  # fmt: skip
-    _shown: ClassVar[tuple[str, ...]] = (
+    _shown = (
         "speed", "tangential_speed", "restitution", "tangential_velocity", "max_tangential_force",
         "friction_work", "plastic_work", "viscous_work",
     )  # fmt: skip
-    _dimensions: ClassVar[tuple[str, ...]] = ("impact",)
-    _noun: ClassVar[str] = "impact"
+    _dimensions = ("impact",)
 
     def __getitem__(self, index: Any) -> "ObliqueImpact":
         return ObliqueImpact(*(getattr(self, part.name)[index] for part in fields(self)))
@@ -345,4 +344,5 @@ class ObliqueImpact(Report):
         >>> print(motion.stick_radius[0] == 0, (motion.stick_radius > 0).any())
         True True
         """
+        self._one("motion")
         return oblique_motion(self, n, max(int(self._halvings), 3))

@@ -1,13 +1,12 @@
 """The motion of one oblique impact over time: the normal one, and the row of friction beside it."""
 
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .._check import Array
-from ..report import Report
-from ..results import Limit, Motion
+from ..results import Motion, MotionResult
 from .friction import grip, slide
 from .levels import NormalMotion
 
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ObliqueMotion(Report):
+class ObliqueMotion(MotionResult):
     """One oblique impact from first contact to its loss, as arrays of one length.
 
     Within `slip_radius` and from `stick_radius` to the contact radius the surface slips, between them it
@@ -65,14 +64,12 @@ class ObliqueMotion(Report):
     normal: Motion
     impact: "ObliqueImpact"
 
-    _quantities: ClassVar[tuple[str, ...]] = (
+    _quantities = (
         "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "tangential_velocity",
         "tangential_force", "stick_radius", "slip_radius", "kinetic_energy", "stored_energy",
         "plastic_work", "viscous_work", "friction_work",
     )  # fmt: skip
-    _shown: ClassVar[tuple[str, ...]] = ("time", "depth", "force", *_quantities[6:10], "friction_work")
-    _dimensions: ClassVar[tuple[str, ...]] = ("time",)
-    _noun: ClassVar[str] = "instant"
+    _shown = ("time", "depth", "force", *_quantities[6:10], "friction_work")
 
     def __getitem__(self, index: Any) -> "ObliqueMotion":
         whole = {"x": self.x, "impact": self.impact}
@@ -80,27 +77,9 @@ class ObliqueMotion(Report):
             *(whole[f.name] if f.name in whole else getattr(self, f.name)[index] for f in fields(self))
         )
 
-    def _source(self):
-        return self.impact
-
-    @property
-    def limits(self) -> tuple[Limit, ...]:
-        """Where the model's assumptions end, for the impact whose motion it is."""
-        return self.impact.limits
-
-    @property
-    def turning_point(self) -> int:
-        """Number of the instant at which the body turns round."""
-        return int(np.argmax(self.depth))
-
 
 def oblique_motion(hit, n, halvings):
     """The `ObliqueMotion` of one `ObliqueImpact` at n instants, on levels halved so often."""
-    if hit.shape:
-        raise ValueError(
-            f"motion is that of one impact, but these are {np.prod(hit.shape)}; pick one, as in "
-            "result[0].motion()"
-        )
     parts = float(hit.tangential_speed), float(hit.friction), float(hit.tangential_mass)
     return along_surface(hit.normal, *parts, n, halvings, hit)
 

@@ -1,7 +1,6 @@
 """The medium from hardness over contact radius."""
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -177,10 +176,6 @@ class HardnessFit(Fit):
     class_: HardnessClass
     each: Array
     remarks: tuple[str, ...]
-
-    _dimensions: ClassVar[tuple[str, ...]] = ("fit",)
-    _noun: ClassVar[str] = "fit"
-    _shown: ClassVar[tuple[str, ...]] = ("medium",)
 
     def _quality(self):
         yield "class of hardness", self.class_.reason

@@ -1,7 +1,6 @@
 """The medium from impacts: restitution over speed, and contact times."""
 
 from dataclasses import dataclass, replace
-from typing import ClassVar
 
 import numpy as np
 
@@ -341,10 +340,7 @@ class ImpactFit(Fit):
     reduced_chi_square: float
     remarks: tuple[str, ...]
 
-    _parameters_of_fit: ClassVar[tuple[str, ...]] = _NAMES
-    _dimensions: ClassVar[tuple[str, ...]] = ("fit",)
-    _noun: ClassVar[str] = "fit"
-    _shown: ClassVar[tuple[str, ...]] = ("medium",)
+    _parameters_of_fit = _NAMES
 
     def _quality(self):
         yield "reduced χ²", f"{self.reduced_chi_square:.4g}"

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from importlib.util import find_spec
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -269,10 +269,8 @@ class IndentationFit(Fit):
     indentation: Indentation
     _said: tuple[tuple[tuple[str, str], ...], ...] = field(default=(), repr=False)
 
-    _parameters_of_fit: ClassVar[tuple[str, ...]] = NAMES
-    _dimensions: ClassVar[tuple[str, ...]] = ("curve",)
-    _noun: ClassVar[str] = "curve"
-    _shown: ClassVar[tuple[str, ...]] = ("medium",)
+    _parameters_of_fit = NAMES
+    _dimensions = ("curve",)
 
     def __getitem__(self, index: Any) -> "IndentationFit":
         said = self._said[index] if isinstance(index, slice) else (self._said[index],)

@@ -134,6 +134,8 @@ class Fit(Report):
     """What fits share: how they are shown, and their values with errors by name."""
 
     model = LEAST_SQUARES
+    _shown = ("medium",)
+    _dimensions = ("fit",)
     #: Names of all parameters of the fit, free or held.
     _parameters_of_fit: ClassVar[tuple[str, ...]] = ("E_star", "q_c")
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -172,13 +172,12 @@ class TimedIndentation(Plotted):
 
     #: How it was found.
     model = CHAIN
-    _quantities: ClassVar[tuple[str, ...]] = (
+    _quantities = (
         "time", "depth", "force", "contact_radius", "plastic_radius", "plastic_depth", "stored_energy",
         "plastic_work", "viscous_work",
     )  # fmt: skip
-    _shown: ClassVar[tuple[str, ...]] = _quantities[:6]
-    _dimensions: ClassVar[tuple[str, ...]] = ("time",)
-    _noun: ClassVar[str] = "instant"
+    _shown = _quantities[:6]
+    _dimensions = ("time",)
 
     def __post_init__(self):
         sealed(self, "profile", "medium")
@@ -206,7 +205,7 @@ class TimedIndentation(Plotted):
 
         The elements at x follow the whole path anew: no grid is involved.
         """
-        self._refuse_path("line_load(x)")
+        self._one("line_load")
         return self.elements(x)[0]
 
     def elements(self, x: ArrayLike) -> tuple[Array, Array]:
@@ -239,7 +238,7 @@ class TimedIndentation(Plotted):
         From the line load at 4000 places, straight in between. Infinite at the rim while the
         dashpots press there.
         """
-        self._refuse_path("pressure(r)")
+        self._one("pressure")
         r, radius = _check.finite_array("radius", r, unit="m"), float(self.contact_radius)
         if radius == 0:
             return np.zeros(r.shape)[()]
@@ -248,13 +247,6 @@ class TimedIndentation(Plotted):
         load = self.line_load(np.minimum(x, radius * (1 - 1e-12)))
         load[-1] = load[-1] if load[-1] > 1e-9 * load.max() else 0.0
         return 0.0 - abel.stress_from_line_load(x, load, r)
-
-    def _refuse_path(self, field):
-        if np.ndim(self.time):
-            raise ValueError(
-                f"{field} is a field of one state, but this is a path of {len(self)}; "
-                f"pick a state first, as in result[-1].{field}"
-            )
 
 
 _ARRAYS = [f.name for f in fields(TimedIndentation) if f.type is Array]

@@ -7,24 +7,13 @@ err by.
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import _check
-from ..figures import Plotted
 from ..medium import Medium, check_pair
-from ..results import (
-    CHAIN,
-    IMPACT_QUANTITIES,
-    IMPACT_SHOWN,
-    Limit,
-    Motion,
-    contact_limits,
-    instants,
-    sealed,
-    speed_limit,
-)
+from ..results import CHAIN, ImpactResult, Limit, Motion, contact_limits, instants, sealed
 from ..shapes.profile import Profile
 from .free_body import Body, Flight
 from .row import Foundation, element_count
@@ -139,7 +128,7 @@ class Errors(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ChainImpact(Plotted):
+class ChainImpact(ImpactResult):
     """One impact on the chain; made by `chain_impact`.
 
     Numbers are limits for vanishing steps and elements, from the last two runs, with estimates of
@@ -170,10 +159,6 @@ class ChainImpact(Plotted):
 
     #: How it was found.
     model = CHAIN
-    _quantities: ClassVar[tuple[str, ...]] = IMPACT_QUANTITIES
-    _shown: ClassVar[tuple[str, ...]] = IMPACT_SHOWN
-    _dimensions: ClassVar[tuple[str, ...]] = ("impact",)
-    _noun: ClassVar[str] = "impact"
 
     def __post_init__(self):
         sealed(self, "profile", "medium", "mass", "speed", "_motion")
@@ -182,10 +167,6 @@ class ChainImpact(Plotted):
     def limits(self) -> tuple[Limit, ...]:
         """Where the model's assumptions end for this impact, as data."""
         return contact_limits(self.profile, self.medium, self.contact_radius)
-
-    def speed_limit(self, density: float) -> Limit:
-        """The speed over the wave speed √(E*/ρ) of a medium of some density ρ (kg/m³)."""
-        return speed_limit(self, density)
 
     @property
     def error(self) -> float:
