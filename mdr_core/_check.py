@@ -124,9 +124,9 @@ def positive(quantity, value, *, unit="", infinite=False, zero=False, within=(SM
     return values if values.ndim else float(values)
 
 
-def positive_number(quantity, value, *, unit="", infinite=False):
-    """`value` as a float, if it is one positive number."""
-    return positive(quantity, number(quantity, value, unit), unit=unit, infinite=infinite)
+def positive_number(quantity, value, *, unit="", **allowed):
+    """`value` as a float, if it is one number that is `positive`."""
+    return positive(quantity, number(quantity, value, unit), unit=unit, **allowed)
 
 
 def set_positive(profile, **units):
@@ -154,12 +154,10 @@ def _real_array(quantity, value, what="real numbers"):
 
 def finite_array(quantity, value, *, unit="", most=FARTHEST):
     """`value` as a float array without NaN or infinity, of numbers up to a size."""
-    array, remedy = (
-        _real_array(quantity, in_unit(quantity, value, unit)),
-        "leave it out, or mend the data it comes from",
-    )
+    array = _real_array(quantity, in_unit(quantity, value, unit))
     large = np.isfinite(array) & (np.abs(array) > most)
     refuse(quantity, array, large, f"is beyond {most:g}", unit=unit, remedy="give it in SI units")
+    remedy = "leave it out, or mend the data it comes from"
     return refuse(quantity, array, ~np.isfinite(array), "must be finite", unit=unit, remedy=remedy)
 
 

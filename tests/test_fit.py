@@ -105,6 +105,11 @@ class TestIndentation:
         assert "nothing has yielded" in fit.remarks[0]
         held = mdr.fit_indentation(shape, OUT + 3e-9, force, q_c=np.inf)
         assert held.medium.E_star == pytest.approx(E, rel=1e-9)
+        # Pressed deeper once more: no class of hardness is asked of what recovers all of its depth.
+        twice = np.append(OUT, 1.3 * OUT)
+        held = mdr.fit_indentation(shape, twice, curve(shape, mdr.Medium(E), twice), q_c=np.inf)
+        assert held.medium.E_star == pytest.approx(E, rel=1e-9)
+        assert not held.remarks
 
     def test_loading_alone_hardly_tells_the_modulus(self):
         shape = mdr.Cone(0.3)

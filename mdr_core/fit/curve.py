@@ -159,10 +159,14 @@ class Curves:
         if not isinstance(rows, slice):
             return self.rows(rows).residuals(x)
         values, off, state = self.states(x)
-        noise = np.sqrt(self.sigma**2 + (state.slope * self.depth_noise) ** 2)
+        noise = self.noise(state.slope)
         load = self.force - values["baseline"]
         jacobian = state.derivatives(self) / noise[..., None] * self.scale[:, None, :]
         return (load - state.force - state.slope * off) / noise, jacobian
+
+    def noise(self, slope):
+        """Standard deviation (N) of what is missed, of both noises where the curve has some slope."""
+        return np.sqrt(self.sigma**2 + (slope * self.depth_noise) ** 2)
 
     def relabelled(self, x):
         """With turning points where the two branches that meet there fit best."""
@@ -236,9 +240,14 @@ class State:
         return np.stack(found, axis=-1) if found else np.zeros((*self.force.shape, 0))
 
 
+def critical_depth(values):
+    """d_c (m) of parameters by name."""
+    return np.pi / 2 * values["q_c"] / values["E_star"]
+
+
 def _springs(tip, values, depth, deepest, own):
     """Live interval, force, slope and derivative by the largest depth, and those by ln E* and ln q_c."""
-    d_c, modulus = np.pi / 2 * values["q_c"] / values["E_star"], 2 * values["E_star"]
+    d_c, modulus = critical_depth(values), 2 * values["E_star"]
     depth, deepest = np.minimum(depth, tip.deepest), np.minimum(deepest, tip.deepest)
     live = after(deepest, depth, d_c)
     touching = live.length > 0

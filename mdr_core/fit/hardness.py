@@ -63,6 +63,33 @@ def fit_hardness(
     """
     E_star = _check.positive_number("effective modulus E_star", E_star, unit="Pa")
     check_pair(profile, Medium(E_star), "a fit")
+    H, a = _places(profile, hardness, radius)
+    depth, area = profile._reduced(a), np.pi * a**2 * H / (2 * E_star)
+    ell, told = _critical_depths(profile, depth, area)
+    if not told.any():
+        worst = engineering(H.max(), "Pa")
+        raise ValueError(
+            f"no hardness (the largest is {worst}) is below the mean pressure of an elastic contact with "
+            f"E* = {engineering(E_star, 'Pa')}: nothing has yielded; check E_star, or press deeper"
+        )
+    a, depth, area, ell = a[told], depth[told], area[told], ell[told]
+    each = 2 / np.pi * E_star * ell
+    # ∂ ln F/∂ ln q_c = c d_c / ∫ a ds.
+    weight = (profile._radius(depth - ell) * ell / area) ** 2
+    logs = np.log(each)
+    mean = np.sum(weight * logs) / np.sum(weight)
+    scatter = np.sum(weight * (logs - mean) ** 2) / max(a.size - 1, 1)
+    share = float(np.sqrt(scatter / np.sum(weight))) if a.size > 1 else np.inf
+    q_c, measured = float(np.exp(mean)), _class(a, each)
+    covariance, residuals = np.array([[(q_c * share) ** 2]]), (logs - mean) * np.sqrt(weight)
+    return HardnessFit(
+        profile, Medium(E_star, q_c), {"q_c": q_c * share}, _check.frozen(covariance),
+        _check.frozen(residuals), measured, _check.frozen(each), _remarks(told, measured, share),
+    )  # fmt: skip
+
+
+def _places(profile, hardness, radius):
+    """Hardness (Pa) and contact radius (m) of each place, within the shape."""
     H, a = (
         np.atleast_1d(_check.positive(name, value, unit=unit)).ravel()
         for name, value, unit in (("hardness", hardness, "Pa"), ("radius", radius, "m"))
@@ -74,39 +101,7 @@ def fit_hardness(
     bound = f"m is not between the flat face, {profile.face_radius:g} m, and where the shape ends"
     _check.refuse("radius", a, (a <= profile.face_radius) | (a > profile.known_radius), bound)
     _check.refuse("radius", a, a >= profile.wall, f"m is at the wall, {profile.wall:g} m, at any depth")
-    depth = profile._reduced(a)
-    ell, told = _critical_depths(profile, depth, np.pi * a**2 * H / (2 * E_star))
-    if not told.any():
-        worst = engineering(H.max(), "Pa")
-        raise ValueError(
-            f"no hardness (the largest is {worst}) is below the mean pressure of an elastic contact with "
-            f"E* = {engineering(E_star, 'Pa')}: nothing has yielded; check E_star, or press deeper"
-        )
-    a, H, depth, ell = a[told], H[told], depth[told], ell[told]
-    each = 2 / np.pi * E_star * ell
-    # ∂ ln F/∂ ln q_c = c d_c / ∫ a ds.
-    weight = (profile._radius(depth - ell) * ell / (np.pi * a**2 * H / (2 * E_star))) ** 2
-    logs = np.log(each)
-    mean = np.sum(weight * logs) / np.sum(weight)
-    scatter = np.sum(weight * (logs - mean) ** 2) / max(a.size - 1, 1)
-    share = np.sqrt(scatter / np.sum(weight)) if a.size > 1 else np.inf
-    q_c = float(np.exp(mean))
-    measured = _class(a, each)
-    said = _remarks(told, measured, share)
-    error = q_c * float(share)
-    residuals = (logs - mean) * np.sqrt(weight)
-    covariance = _check.frozen(np.array([[error**2]]))
-    medium = Medium(E_star, q_c)
-    return HardnessFit(
-        profile,
-        medium,
-        {"q_c": error},
-        covariance,
-        _check.frozen(residuals),
-        measured,
-        _check.frozen(each),
-        said,
-    )
+    return H, a
 
 
 def _critical_depths(profile, depth, area):

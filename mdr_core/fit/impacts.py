@@ -80,9 +80,8 @@ def fit_impacts(
         name: value for name, value in zip(_NAMES, (E_star, q_c, eta), strict=True) if value is not None
     }
     for name, value in held.items():
-        value = _check.number(name, value, _UNITS[name])
         kind = {"infinite": name == "q_c", "zero": name == "eta"}
-        held[name] = float(_check.positive(name, value, unit=_UNITS[name], **kind))
+        held[name] = _check.positive_number(name, value, unit=_UNITS[name], **kind)
     free = [name for name in _NAMES if name not in held]
     _refuse_untold(data, held, free)
     x, residual, jacobian, groups = _fitted(data, held, free)
@@ -100,10 +99,8 @@ def fit_impacts(
             *said[1:],
         )
     medium = Medium(values["E_star"], values["q_c"], values["eta"])
-    noise = np.repeat(groups, data.count)[: residual.size]
-    return ImpactFit(
-        profile, medium, errors, _check.frozen(covariance), _check.frozen(residual * noise), chi, said
-    )
+    residual = residual * data.each(groups)
+    return ImpactFit(profile, medium, errors, _check.frozen(covariance), _check.frozen(residual), chi, said)
 
 
 @dataclass(frozen=True)
@@ -135,6 +132,15 @@ class _Data:
     def count(self):
         return self.restitution.size
 
+    @property
+    def size(self):
+        """Number of measurements: restitutions, and times where there are some."""
+        return self.count * (1 if self.time is None else 2)
+
+    def each(self, pair):
+        """Of something that restitutions and times have, that of each measurement."""
+        return np.repeat(pair, self.count)[: self.size]
+
     def thinned(self, count):
         some = np.unique(np.linspace(0, self.count - 1, min(count, self.count)).astype(int))
         some = np.argsort(self.mass * self.speed**2)[some]
@@ -152,9 +158,8 @@ class _Data:
 
     def costs(self, values):
         """Sums of squares in units of a usual noise for media (M,), infinite where the shape ends."""
-        units = np.repeat(_NOISE, self.count)[: self.count * (1 + (self.time is not None))]
         try:
-            return np.sum((self.misses(values) / units) ** 2, axis=1)
+            return np.sum((self.misses(values) / self.each(_NOISE)) ** 2, axis=1)
         except ValueError:
             if len(values["eta"]) == 1:
                 return np.array([np.inf])
@@ -164,15 +169,12 @@ class _Data:
 
 def _refuse_untold(data, held, free):
     """Refuses what no impact tells, before it is looked for."""
-    size = data.count * (1 if data.time is None else 2)
-    if size <= len(free):
-        raise ValueError(f"{size} measurements do not tell {', '.join(free)}: hold some or give more")
+    if data.size <= len(free):
+        raise ValueError(f"{data.size} measurements do not tell {', '.join(free)}: hold some or give more")
     wet, never = held.get("eta") != 0, held.get("q_c") == np.inf
     told = (wet + (not never)) if data.time is None else 3
     if data.time is None and len(free) > told:
-        what = {0: "nothing where nothing yields or flows", 1: "one combination", 2: "two combinations"}[
-            told
-        ]
+        what = ("nothing where nothing yields or flows", "one combination", "two combinations")[told]
         raise ValueError(
             f"restitution over speed tells {what} of {', '.join(free)}: hold E_star or "
             "another of them, or give contact_time"
@@ -184,20 +186,19 @@ def _fitted(data, held, free):
     noise = np.array(_NOISE)
     x = _start(data, held, free)
     for _ in range(4):
-        units = np.repeat(noise, data.count)[: data.count * (1 + (data.time is not None))]
+        units = data.each(noise)
 
         def function(x, rows, units=units):
             value, slopes = _differences(data, held, free, x[0])
             return value[None] / units, slopes[None] / units[:, None]
 
-        low, high = np.full((1, len(free)), -np.inf), np.full((1, len(free)), np.inf)
-        low[0], high[0] = x - 14, x + 14
-        found, residual, jacobian = least_squares(function, x[None], low, high, most=40, close=1e-9)
-        x, residual, jacobian = found[0], residual[0], jacobian[0]
+        start = x[None]
+        found = least_squares(function, start, start - 14, start + 14, most=40, close=1e-9)
+        x, residual, jacobian = (part[0] for part in found)
         before, noise = noise, _noises(residual, noise, data, jacobian)
         if np.all(np.abs(noise / before - 1) < 0.01):
             break
-    rescale = np.repeat(before / noise, data.count)[: residual.size]
+    rescale = data.each(before / noise)
     return x, residual * rescale, jacobian * rescale[:, None], noise
 
 
@@ -222,8 +223,7 @@ def _differences(data, held, free, x):
         misses = data.misses(values)
     except ValueError:
         # Deeper than the shape is known: no medium to go to.
-        size = data.count * (1 if data.time is None else 2)
-        return np.full(size, 1e3), np.zeros((size, len(free)))
+        return np.full(data.size, 1e3), np.zeros((data.size, len(free)))
     return misses[0], ((misses[1:] - misses[0]) / _STEP).T
 
 

@@ -207,7 +207,6 @@ def _piece(rows, curves, solution, elastic, known):
     x, residual, jacobian = solution
     values, _, state = curves.states(x)
     values["q_c"] = np.where(elastic[:, None] == 2, np.inf, values["q_c"])
-    noise = np.sqrt(curves.sigma**2 + (state.slope * curves.depth_noise) ** 2)
     free, freedom = len(curves.free), max(residual.shape[1] - x.shape[1], 1)
     chi = np.sum(residual**2, axis=1) / freedom
     covariance = covariances(jacobian, np.ones_like(chi) if known else chi)[:, :free, :free]
@@ -220,7 +219,7 @@ def _piece(rows, curves, solution, elastic, known):
     return {
         **{name: np.broadcast_to(values[name], (len(x), 1))[:, 0] for name in NAMES},
         "covariance": in_units(covariance, scale),
-        "residuals": residual * noise,
+        "residuals": residual * curves.noise(state.slope),
         "reduced_chi_square": chi if known else np.ones_like(chi),
         "force_noise": sigma if known else sigma * np.sqrt(chi),
         "depth": state.depth, "lower": state.live.lower, "upper": state.live.upper,

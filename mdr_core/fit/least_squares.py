@@ -1,10 +1,11 @@
 """Least squares for many small problems at once, their errors, and how fits are shown."""
 
+from itertools import combinations
 from typing import Any, ClassVar
 
 import numpy as np
 
-from ..report import QUANTITIES, Quantity, Report, described, engineering
+from ..report import QUANTITIES, Quantity, Report, described, engineering, prefixed
 from ..results import Model
 
 LEAST_SQUARES = Model("least squares", "the medium whose model is nearest to what was measured")
@@ -13,6 +14,10 @@ LEAST_SQUARES = Model("least squares", "the medium whose model is nearest to wha
 _SINGULAR = 1e-11
 #: Errors of a logarithm, or in units of the whole measurement, beyond which a parameter is not told.
 _UNKNOWN = 30.0
+#: Third differences of noise of unit size: the median of their absolute values.
+_THIRD = 0.6745 * np.sqrt(20.0)
+#: Correlations that are shown are larger.
+_CORRELATED = 0.9
 
 #: What fits have beside quantities of results.
 _OTHERS = {
@@ -92,14 +97,9 @@ def in_units(covariance, scale):
     return covariance * (scale[:, :, None] * scale[:, None, :])
 
 
-def correlations(covariance, names, least=0.9):
-    """Pairs of names and their correlation where it is larger than `least`."""
-    sigma = np.sqrt(np.diag(covariance))
-    for i, j in zip(*np.triu_indices(len(names), 1), strict=True):
-        if 0 < sigma[i] * sigma[j] < np.inf:
-            value = float(covariance[i, j] / sigma[i] / sigma[j])
-            if abs(value) > least:
-                yield names[i], names[j], value
+def roughness(values):
+    """Standard deviation of the noise of smooth rows (R, 1), from third differences."""
+    return np.median(np.abs(np.diff(values, 3, axis=1)), axis=1, keepdims=True) / _THIRD
 
 
 def autocorrelation(residual):
@@ -118,16 +118,14 @@ def with_error(value, error, unit):
     """
     if not np.isfinite(value) or not np.isfinite(error) or error == 0:
         rest = "∞" if error == np.inf else "0"
-        number, _, prefixed = engineering(value, unit).partition(" ")
-        return f"{number} ± {rest} {prefixed}".rstrip()
-    _, _, prefixed = engineering(max(abs(value), error), unit).partition(" ")
-    prefix = prefixed[: len(prefixed) - len(unit)]
-    factor = 10.0 ** (3 * "fpnµm kMGT".index(prefix or " ") - 15)
+        number, _, unit = engineering(value, unit).partition(" ")
+        return f"{number} ± {rest} {unit}".rstrip()
+    factor, unit = prefixed(max(abs(value), error), unit)
     value, error = value / factor, error / factor
     if error < 1e-9 * abs(value):
-        return f"{value:.10g} ± {error:.1e} {prefixed}".rstrip()
+        return f"{value:.10g} ± {error:.1e} {unit}".rstrip()
     digits = max(0, 1 - int(np.floor(np.log10(error))))
-    return f"{value:.{digits}f} ± {error:.{digits}f} {prefixed}".rstrip()
+    return f"{value:.{digits}f} ± {error:.{digits}f} {unit}".rstrip()
 
 
 class Fit(Report):
@@ -170,8 +168,12 @@ class Fit(Report):
         """Correlations of two parameters of one fit that are above 0.9, by their names."""
         if self.shape:
             raise TypeError("correlations are those of one fit: pick it, as in fit[0].correlations")
-        found = correlations(self.covariance, list(self.standard_errors))
-        return {(one, other): value for one, other, value in found}
+        sigma, found = np.sqrt(np.diag(self.covariance)), {}
+        for (i, one), (j, other) in combinations(enumerate(self.standard_errors), 2):
+            if 0 < sigma[i] * sigma[j] < np.inf:
+                value = float(self.covariance[i, j] / sigma[i] / sigma[j])
+                found |= {(one, other): value} if abs(value) > _CORRELATED else {}
+        return found
 
     def _rows(self):
         yield "indenter", described(self.profile)

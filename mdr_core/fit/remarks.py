@@ -3,7 +3,8 @@
 import numpy as np
 
 from ..report import engineering
-from .least_squares import autocorrelation
+from .curve import critical_depth
+from .least_squares import autocorrelation, roughness
 
 #: Relative error of E* beyond which it counts as not told.
 _VAGUE = 0.1
@@ -19,7 +20,7 @@ def remarks_of(curves, state, values, residual, jacobian, covariance, elastic, k
         one = curves.rows(np.array([i]))
         errors = dict(zip(curves.free, shares[i].tolist(), strict=True))
         back = np.count_nonzero((state.live.length[i] > 0) & ~state.own[i])
-        d_c = float(np.pi / 2 * (values["q_c"] / values["E_star"])[i, 0])
+        d_c = float(critical_depth(values)[i, 0])
         said = [
             *_told(
                 errors, back, d_c, bool(elastic[i] == 2), bool(elastic[i] == 1), float(state.depth[i].max())
@@ -71,7 +72,7 @@ def _jitter(curve):
     steps = np.diff(curve.depth[0])
     turned = np.count_nonzero(steps[1:] * steps[:-1] < 0)
     if turned > max(4, 0.05 * steps.size):
-        size = float(np.median(np.abs(np.diff(curve.depth[0], 3)))) / (0.6745 * np.sqrt(20.0))
+        size = float(roughness(curve.depth)[0, 0])
         yield (
             "jitter",
             f"the depth goes back and forth at {turned} of {steps.size} samples, and each time counts as "
@@ -84,15 +85,15 @@ def _class_b(curve, state, i, residual, jacobian, d_c):
 
     Tried by one linear step on the residuals: −∂F/∂d_p is that by the largest depth so far.
     """
-    if curve.turns.shape[1] < 2:
+    if curve.turns.shape[1] < 2 or d_c == np.inf:
         return
-    noise = np.sqrt(curve.sigma[0] ** 2 + (state.slope[i] * curve.depth_noise) ** 2)
     deepest = state.live.lower[i] + d_c
     unloaded = ~state.own[i] & (state.live.length[i] > 0) | ~state.own[i] & (state.memory[i] < 0)
     if not unloaded.any():
         return
     mean = float(np.mean(deepest[unloaded]))
-    column = np.where(unloaded, state.memory[i] * d_c * (deepest / mean - 1), 0.0) / noise
+    change = np.where(unloaded, state.memory[i] * d_c * (deepest / mean - 1), 0.0)
+    column = change / curve.noise(state.slope[i])[0]
     rest = jacobian
     if curve.depth_noise:
         # The turning depths would take the trend for themselves; they are known as well as one sample.

@@ -3,16 +3,14 @@
 import numpy as np
 
 from .._numeric import chunks
-from .curve import Curves
-from .least_squares import least_squares
+from .curve import Curves, critical_depth
+from .least_squares import least_squares, roughness
 from .start import first_guess, turning_points
 
 #: Curves that share their steps.
 _TOGETHER = 64
 #: How often turning points are found anew.
 _ROUNDS = 5
-#: Third differences of noise of unit size: the median of their absolute values.
-_THIRD = 0.6745 * np.sqrt(20.0)
 #: Stands for the logarithm of an infinite q_c.
 _LOG_OF_INFINITE = 300.0
 
@@ -40,14 +38,12 @@ def grouped(depth, force, noise):
 
 
 def _rough(values):
-    """Standard deviation of the noise of smooth rows (R, 1), from third differences."""
-    if values.shape[1] < 8:
-        return np.zeros((len(values), 1))
-    return np.median(np.abs(np.diff(values, 3, axis=1)), axis=1, keepdims=True) / _THIRD
+    """Roughness of rows (R, 1), 0 of too few samples to tell."""
+    return roughness(values) if values.shape[1] > 7 else np.zeros((len(values), 1))
 
 
 def solved(tip, depth, force, fixed, noise, force_noise, rows, turns, lows):
-    """Rows, curves, solution, covariance and its scale of some curves with as many turning points."""
+    """Curves with as many turning points: rows, `Curves`, solution, `_elastic`, whether noise is known."""
     depth, force = depth[rows], force[rows]
     fixed = {name: value[rows] for name, value in fixed.items()}
     sigma = _first_sigma(force, noise, force_noise)
@@ -127,4 +123,4 @@ def _elastic(curves, solution, known):
 def _yield_share(curves, x):
     """Critical depth over the largest depth of each curve."""
     values, _, state = curves.states(x)
-    return (np.pi / 2 * values["q_c"] / values["E_star"])[:, 0] / state.depth.max(axis=1)
+    return critical_depth(values)[:, 0] / state.depth.max(axis=1)
