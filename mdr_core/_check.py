@@ -4,7 +4,7 @@ import reprlib
 from collections.abc import Callable
 from dataclasses import fields
 from functools import cached_property, wraps
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -206,20 +206,33 @@ def frozen_property(function: "Callable[[Any], Any]") -> "cached_property[Array]
     return cached_property(wraps(function)(lambda self: frozen(function(self))))
 
 
-class Comparable:
+class Parameters:
     """A frozen dataclass whose parameters may be arrays: equal where all entries are, and hashable."""
+
+    def __getstate__(self):
+        # What is computed from the parameters is not worth keeping, and may hold functions.
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @cached_property
+    def shape(self) -> tuple[int, ...]:
+        """Shape to which array-valued parameters broadcast, () for a single one."""
+        return np.broadcast_shapes(*map(np.shape, self.__getstate__().values()))
+
+    def entries(self, index: Any, shape: tuple[int, ...] | None = None) -> Self:
+        """Those at an index of the parameters, broadcast to `shape` before."""
+        if not self.shape:
+            return self
+        shape = self.shape if shape is None else shape
+        values = self.__getstate__().values()
+        return type(self)(*(np.broadcast_to(v, shape)[index] if np.ndim(v) else v for v in values))
 
     def __eq__(self, other):
         if type(other) is not type(self):
             return NotImplemented
-        pairs = ((getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
-        return all(np.array_equal(one, another) for one, another in pairs)
+        own, others = self.__getstate__(), other.__getstate__()
+        return all(np.array_equal(own[name], others[name]) for name in own)
 
     def __hash__(self):
-        values = (getattr(self, field.name) for field in fields(self))
-        return hash(
-            (
-                type(self),
-                *((v.shape, *v.ravel().tolist()) if isinstance(v, np.ndarray) else v for v in values),
-            )
-        )
+        values = self.__getstate__().values()
+        parts = ((v.shape, *v.ravel().tolist()) if isinstance(v, np.ndarray) else v for v in values)
+        return hash((type(self), *parts))

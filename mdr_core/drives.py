@@ -123,10 +123,9 @@ class FreeImpact:
 
     def __post_init__(self):
         for name, unit in (("mass", "kg"), ("speed", "m/s"), ("plastic_depth", "m")):
-            quantity = f"FreeImpact {name}"
-            value = _check.number(quantity, getattr(self, name), unit)
-            value = _check.positive(quantity, value, unit=unit, zero=name == "plastic_depth")
-            object.__setattr__(self, name, float(value))
+            quantity, value = f"FreeImpact {name}", getattr(self, name)
+            value = _check.positive_number(quantity, value, unit=unit, zero=name == "plastic_depth")
+            object.__setattr__(self, name, value)
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
         """Names of the models that can solve it, the cheapest that is exact first.

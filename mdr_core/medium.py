@@ -1,8 +1,6 @@
 """The medium: modulus, yield constant and viscosity, and what follows from them alone."""
 
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -36,8 +34,13 @@ def paths_on(profile, medium, depth):
                 f"{type(thing).__name__} are arrays of shape {thing.shape}: give them a last axis of "
                 "length 1, one path each, as in Medium(E_star[:, None]), or take medium.entries(i)"
             )
+    return np.broadcast_to(depth, shape_with("indent", profile, medium, depth=depth))
+
+
+def shape_with(what, profile, medium, **values):
+    """Shape to which values broadcast with the parameters of profile and medium."""
     sizes = {"profile": np.empty(profile.shape), "medium": np.empty(medium.shape)}
-    return np.broadcast_to(depth, _check.common_shape("indent", depth=depth, **sizes))
+    return _check.common_shape(what, **values, **sizes)
 
 
 def _poisson(quantity, ratio):
@@ -47,7 +50,7 @@ def _poisson(quantity, ratio):
 
 
 @dataclass(frozen=True, eq=False)
-class Medium(_check.Comparable):
+class Medium(_check.Parameters):
     """A visco-elastic half-space with hardness inversely proportional to the contact radius.
 
     Parameters
@@ -91,7 +94,7 @@ class Medium(_check.Comparable):
         set_(self, "eta", _check.positive("viscosity eta", self.eta, unit="Pa·s", zero=True))
         poisson = _poisson("Poisson ratio poisson", self.poisson).copy()
         set_(self, "poisson", _check.frozen(poisson) if poisson.ndim else float(poisson))
-        _check.common_shape("medium", E_star=self.E_star, q_c=self.q_c, eta=self.eta, poisson=self.poisson)
+        _check.common_shape("medium", **self.__getstate__())
 
     @classmethod
     def from_hardness(
@@ -161,22 +164,6 @@ class Medium(_check.Comparable):
             raise ValueError("E1 and E2 are both infinite; at least one body must be elastic")
         with np.errstate(over="ignore"):
             return cls(1 / compliance, q_c, eta, nu1)
-
-    @cached_property
-    def shape(self) -> tuple[int, ...]:
-        """Shape to which array-valued parameters broadcast, () for one medium."""
-        return np.broadcast_shapes(*map(np.shape, self._values))
-
-    def entries(self, index: Any, shape: tuple[int, ...] | None = None) -> "Medium":
-        """The media at an index of the parameters, broadcast to `shape` before."""
-        if not self.shape:
-            return self
-        shape = self.shape if shape is None else shape
-        return Medium(*(np.broadcast_to(v, shape)[index] if np.ndim(v) else v for v in self._values))
-
-    @property
-    def _values(self):
-        return self.E_star, self.q_c, self.eta, self.poisson
 
     @property
     def critical_depth(self) -> Array:

@@ -30,6 +30,11 @@ class Quantity:
     unit: str
     long_name: str
 
+    @property
+    def attributes(self):
+        """What it is called in an xarray.Dataset."""
+        return {"units": self.unit or "1", "long_name": self.long_name, "symbol": self.symbol}
+
 
 QUANTITIES = {
     name: Quantity(*rest)
@@ -229,10 +234,7 @@ class Report:
         xarray = imported("xarray", "to_xarray()")
         dims, variables = self._dims(), {}
         for name, value in (self.to_dict() | self._parameters()).items():
-            about, quantity = {}, QUANTITIES.get(name)
-            if quantity:
-                about = {"units": quantity.unit or "1", "long_name": quantity.long_name}
-                about["symbol"] = quantity.symbol
+            about = QUANTITIES[name].attributes if name in QUANTITIES else {}
             variables[name] = (dims, np.broadcast_to(value, self.shape), about)
         given = {"depth", "time", "mass", "speed", "tangential_speed", "friction", "tangential_mass"}
         given = (given | set(self._parameters())) & set(variables)

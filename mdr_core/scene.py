@@ -36,6 +36,8 @@ _PROFILES = {
     )
 }
 _DRIVES = {drive.__name__: drive for drive in (DepthPath, ForcePath, FreeImpact, FreeObliqueImpact)}
+#: What a file may leave out.
+_OPTIONAL = {"time": None, "poisson": 0.5, "plastic_depth": 0.0}
 _FORMAT, _VERSION = "mdr-scene", 1
 
 
@@ -175,13 +177,10 @@ def _untagged(what, data, kinds):
 
 
 def _build(what, data, kind):
-    if isinstance(data, dict) and kind in (DepthPath, ForcePath):
-        data = {"time": None} | data
-    if isinstance(data, dict) and kind is Medium:
-        data = {"poisson": 0.5} | data
-    if isinstance(data, dict) and kind is FreeImpact:
-        data = {"plastic_depth": 0.0} | data
-    _keys(f"scene {what}", data, {field.name for field in fields(kind)})
+    names = {field.name for field in fields(kind)}
+    if isinstance(data, dict):
+        data = {name: _OPTIONAL[name] for name in names & _OPTIONAL.keys()} | data
+    _keys(f"scene {what}", data, names)
     try:
         return kind(**data)
     except (TypeError, ValueError, OverflowError) as error:

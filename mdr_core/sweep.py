@@ -256,8 +256,7 @@ def _sweep(kind, solve, shape, parameters, shape_parameters, quantities):
     results = results if len(names) > 1 else [results]
     dataset = xarray.Dataset(dict(zip(names, results, strict=True)), attrs=_attributes(kind, shape, given))
     for name in names:
-        quantity = QUANTITIES[name]
-        dataset[name].attrs = {"units": quantity.unit or "1", "long_name": quantity.long_name}
+        dataset[name].attrs = QUANTITIES[name].attributes
     return dataset
 
 

@@ -83,7 +83,7 @@ def test_first_loadings():
 
 def test_results_say_what_they_are():
     table = sweep.impacts(mdr.Sphere, **SPHERES, quantities=("damaged_area", "restitution"))
-    assert table.damaged_area.attrs == {"units": "m²", "long_name": "damaged area"}
+    assert table.damaged_area.attrs == {"units": "m²", "long_name": "damaged area", "symbol": "A"}
     assert table.restitution.attrs["units"] == "1"
     assert table.attrs["indenter"] == "Sphere"
     assert table.attrs["E_star"] == 1e9

@@ -50,11 +50,8 @@ def turning_point(profile, target, d_c, before):
 
 def quick(profile, count):
     """The shape to solve so many impacts with: that of a tip which ends somewhere as a table of it."""
-    return (
-        tabulated(profile, profile.deepest)
-        if count > _FEW and np.all(profile.deepest < np.inf)
-        else profile
-    )
+    many = count > _FEW and np.all(profile.deepest < np.inf)
+    return tabulated(profile, profile.deepest) if many else profile
 
 
 def pressed(y, d_c, before):

@@ -171,10 +171,8 @@ class _State:
     def meet(self, old, count, bound):
         """Elements are met, at a speed at which they bear no more than some bound."""
         self.count = count
-        self.load[old:count], self.bound[old:count] = (
-            np.clip(self.tau * self.velocity, -bound, bound),
-            bound,
-        )
+        self.load[old:count] = np.clip(self.tau * self.velocity, -bound, bound)
+        self.bound[old:count] = bound
 
     def step(self, i, bound, part):
         """To the instant i, at which elements bear no more than `bound`.

@@ -14,7 +14,7 @@ from .. import _check
 from .._check import Array, ArrayLike
 from .._numeric import chunks
 from ..indentation import Indentation
-from ..medium import Medium, check_pair
+from ..medium import Medium, check_pair, shape_with
 from ..results import CLOSED_FORM, SCALAR_ODE, ImpactResult, Limit, Model, Motion, contact_limits, sealed
 from ..scaling import FastLimit, fast_limit, how_fast
 from ..shapes.profile import Profile
@@ -91,8 +91,7 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
     mass = _check.positive("mass", mass, unit="kg")
     speed = _check.positive("speed", speed, unit="m/s")
     before = _check.positive("plastic_depth", plastic_depth, unit="m", zero=True)
-    sizes = {"profile": np.empty(profile.shape), "medium": np.empty(medium.shape)}
-    shape = _check.common_shape("impact", mass=mass, speed=speed, plastic_depth=before, **sizes)
+    shape = shape_with("impact", profile, medium, mass=mass, speed=speed, plastic_depth=before)
     mass, speed, before = (np.broadcast_to(part, shape) for part in (mass, speed, before))
     too_deep = profile._too_deep()
     _check.refuse("plastic_depth", before, before > profile.deepest, f"is {too_deep}", unit="m")
@@ -150,9 +149,6 @@ def _in_time(profile, medium, mass, speed, before, dry_too):
         ends[:, rows] = course.velocity, course.time, course.work, course.peak
     velocity, time, work, peak = ends.reshape(4, *shape)
     restitution, force, still = np.minimum(-velocity / speed, 1.0), peak * mass, ~wet.reshape(shape)
-    if still.any():
-        at_rest, grown = _dry(profile, medium, mass, speed, before)
-        y = np.where(still, np.where(at_rest.upper < np.inf, at_rest.length + grown, np.inf), y)
     live, growth = pressed(y, d_c, before)
     if still.any():
         restitution = np.where(still, dry_restitution(profile, live, d_c, growth), restitution)

@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
-from ..medium import Medium, check_pair
+from ..medium import Medium, check_pair, shape_with
 from ..report import Report
 from ..results import Limit, Model, friction_limits
 from ..shapes.profile import Profile
@@ -99,13 +99,11 @@ def oblique_impact(
     speed = _check.positive("speed", speed, unit="m/s")
     tangential_speed = _signed(tangential_speed)
     friction = _check.positive("friction", friction, infinite=True, zero=True)
-    own = (
-        mass if tangential_mass is None else _check.positive("tangential_mass", tangential_mass, unit="kg")
-    )
+    own = mass if tangential_mass is None else tangential_mass
+    own = _check.positive("tangential_mass", own, unit="kg")
     tolerance = _check.positive_number("tolerance", tolerance)
     given = {"mass": mass, "speed": speed, "tangential_speed": tangential_speed, "friction": friction}
-    sizes = {"profile": np.empty(profile.shape), "medium": np.empty(medium.shape)}
-    shape = _check.common_shape("oblique_impact", **given, tangential_mass=own, **sizes)
+    shape = shape_with("oblique_impact", profile, medium, **given, tangential_mass=own)
     hit = impact(profile, medium, np.broadcast_to(mass, shape)[()], np.broadcast_to(speed, shape)[()])
     parts = [np.broadcast_to(part, shape) for part in (tangential_speed, friction, own)]
     found = np.empty((10, *shape))
@@ -117,12 +115,10 @@ def oblique_impact(
 
 def _signed(speed):
     """A tangential speed (m/s) of any sign as a float array; 0, or of a size that squares bear."""
-    speed, least = (
-        _check.finite_array("tangential_speed", speed, unit="m/s", most=_check.LARGEST),
-        _check.SMALLEST,
-    )
-    tiny = (speed != 0) & (np.abs(speed) < least)
-    return _check.refuse("tangential_speed", speed, tiny, f"must be 0 or at least {least:g}", unit="m/s")
+    speed = _check.finite_array("tangential_speed", speed, unit="m/s", most=_check.LARGEST)
+    tiny = (speed != 0) & (np.abs(speed) < _check.SMALLEST)
+    bound = f"must be 0 or at least {_check.SMALLEST:g}"
+    return _check.refuse("tangential_speed", speed, tiny, bound, unit="m/s")
 
 
 def _solve(hit, speed, friction, mass, tolerance):

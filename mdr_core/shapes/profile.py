@@ -1,9 +1,6 @@
 """What a shape is: its height z(r), its reduced height g(x), the slope g′(x), and where g has kinks."""
 
 from abc import ABC, abstractmethod
-from dataclasses import fields
-from functools import cached_property
-from typing import Any, Self
 
 import numpy as np
 
@@ -12,7 +9,7 @@ from .._check import Array, ArrayLike
 from .._numeric import increasing_root
 
 
-class Profile(_check.Comparable, ABC):
+class Profile(_check.Parameters, ABC):
     """A rigid axisymmetric indenter with its tip at the origin, growing outward.
 
     Lengths are in m, slopes dimensionless. A shape of your own is a frozen dataclass that gives `_height`,
@@ -79,10 +76,6 @@ class Profile(_check.Comparable, ABC):
     @abstractmethod
     def _reduced_slope(self, x): ...
 
-    def __getstate__(self):
-        # What is computed from the parameters is not worth keeping, and may hold functions.
-        return {field.name: getattr(self, field.name) for field in fields(self)}
-
     def height(self, r: ArrayLike) -> Array:
         """Height z(r) (m) above the tip at radius r (m), of the shape of `r`; even in r."""
         return self._of_radius("radius r", r, self._height)
@@ -127,19 +120,6 @@ class Profile(_check.Comparable, ABC):
     def _foot(self, depth):
         """The last kink (m) above each depth, or the tip."""
         return np.max([np.where(foot <= depth, foot, 0.0) for foot in (0.0, *self.kinks)], axis=0)
-
-    @cached_property
-    def shape(self) -> tuple[int, ...]:
-        """Shape to which array-valued parameters broadcast, () for one indenter."""
-        return np.broadcast_shapes(*map(np.shape, self.__getstate__().values()))
-
-    def entries(self, index: Any, shape: tuple[int, ...] | None = None) -> Self:
-        """The indenters at an index of the parameters, broadcast to `shape` before."""
-        if not self.shape:
-            return self
-        shape = self.shape if shape is None else shape
-        values = self.__getstate__().values()
-        return type(self)(*(np.broadcast_to(v, shape)[index] if np.ndim(v) else v for v in values))
 
     def flat_entries(self, rows, shape):
         """The indenters in some rows of an ensemble of a `shape`, counted flat."""

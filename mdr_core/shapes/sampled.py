@@ -49,14 +49,7 @@ class Sampled(Profile):
     z: Parameter
 
     def __post_init__(self):
-        r, z = (
-            _check.finite_array(f"Sampled {what}", values, unit="m", most=_check.LONGEST)
-            for what, values in (("r", self.r), ("z", self.z))
-        )
-        if r.ndim != 1 or r.shape != z.shape or r.size < 2:
-            raise ValueError(
-                f"Sampled r and z must be two lists of one length ≥ 2, got shapes {r.shape}, {z.shape}"
-            )
+        r, z = _lists("Sampled", self.r, self.z, most=_check.LONGEST)
         if r.size > _MOST_SAMPLES:
             raise ValueError(
                 f"Sampled has {r.size} samples, more than {_MOST_SAMPLES}; thin them out, as in r[::10]"
@@ -111,9 +104,7 @@ class Sampled(Profile):
         >>> Sampled.convex_envelope([0, 1, 2, 3], [0, 2, 2.5, 6]).r
         (0.0, 2.0, 3.0)
         """
-        r, z = (_check.finite_array(f"Sampled {n}", v, unit="m") for n, v in (("r", r), ("z", z)))
-        if r.ndim != 1 or r.shape != z.shape or r.size < 2:
-            raise ValueError(f"r, z must be two lists of one length ≥ 2, got shapes {r.shape}, {z.shape}")
+        r, z = _lists("Sampled.convex_envelope", r, z)
         hull = []
         for point in zip(r.tolist(), z.tolist(), strict=True):
             while len(hull) > 1 and _turns_down(*hull[-2:], point):
@@ -141,12 +132,9 @@ class Sampled(Profile):
         >>> print(round(tip.height(2.0), 12))
         2.0
         """
-        r, z = (_check.finite_array(f"Sampled.fit {n}", v, unit="m") for n, v in (("r", r), ("z", z)))
-        if r.ndim != 1 or r.shape != z.shape or np.unique(np.abs(r)).size < 3:
-            raise ValueError(
-                f"Sampled.fit r, z must be two lists of one length with three radii or more, got shapes "
-                f"{r.shape}, {z.shape}"
-            )
+        r, z = _lists("Sampled.fit", r, z)
+        if np.unique(np.abs(r)).size < 3:
+            raise ValueError("Sampled.fit needs three radii or more that differ")
         return cls(*convex_fit(np.abs(r), z))
 
     @classmethod
@@ -311,6 +299,16 @@ class Sampled(Profile):
             rate[:, 0] = 1 / (self._bend * np.sqrt(2 * self._r[:-1]))
         rate = np.where(np.isfinite(rate), rate, np.append(rate[:, 1:], rate[:, -1:], axis=1))
         return g, t, rate
+
+
+def _lists(what, r, z, **bounds):
+    """Radii and heights (m) as arrays, if they are two lists of one length."""
+    r, z = (_check.finite_array(f"{what} {n}", v, unit="m", **bounds) for n, v in (("r", r), ("z", z)))
+    if r.ndim != 1 or r.shape != z.shape or r.size < 2:
+        raise ValueError(
+            f"{what} r and z must be two lists of one length ≥ 2, got shapes {r.shape}, {z.shape}"
+        )
+    return r, z
 
 
 def _turns_down(first, middle, last):
