@@ -118,7 +118,7 @@ def _mean_over_quarter(function, x, quantity, times=None):
 
 
 def stress_from_line_load(
-    x: ArrayLike, q: ArrayLike, r: ArrayLike, axis="auto", interpolation="linear"
+    x: ArrayLike, q: ArrayLike, r: ArrayLike, axis: str = "auto", interpolation: str = "linear"
 ) -> Array:
     """Normal stress σ_zz(r) from samples of the line load q(x), Popov (2015), Eq. (10).
 

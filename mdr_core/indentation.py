@@ -13,6 +13,7 @@ from .figures import PlottedState
 from .medium import Medium, check_pair, paths_on
 from .results import CLOSED_FORM, Limit, contact_limits, sealed
 from .shapes.profile import Profile
+from .stress import Stress, StressPeak
 from .superposition import energy_integral, live_length, loading_depth, radius_drop, radius_integral
 from .yielding import LiveInterval, first_loading, live_interval, virgin
 
@@ -280,7 +281,7 @@ class Indentation(PlottedState):
         r = self._radii(r)
         return fields.displacement_integral(self.profile, live, r.ravel()).reshape(r.shape)[()]
 
-    def stress(self, r, z):
+    def stress(self, r: ArrayLike, z: ArrayLike) -> Stress:
         """Stress tensor (Pa) at radii r and depths z ≥ 0 below the surface (m), which broadcast.
 
         Each increment of depth adds that of a flat punch, and so do the dashpots; residual stresses of the
@@ -305,7 +306,7 @@ class Indentation(PlottedState):
         shape = _check.common_shape("stress", r=r, z=z)
         return stress.stress(self, np.broadcast_to(r, shape), np.broadcast_to(z, shape))
 
-    def stress_peak(self, quantity="max_shear"):
+    def stress_peak(self, quantity: str = "max_shear") -> StressPeak:
         """Where in one state the shear stress, or `quantity="von_mises"`, is largest, and how large.
 
         Infinite at the rim of a flat face and at one that the dashpots press down; for ν < 1/2 also at an
@@ -323,7 +324,7 @@ class Indentation(PlottedState):
         self._one("stress_peak")
         return stress.stress_peak(self, _check.one_of("quantity", quantity, stress.SIZES))
 
-    def largest_stress(self, z, quantity="max_shear"):
+    def largest_stress(self, z: ArrayLike, quantity: str = "max_shear") -> Array:
         """Largest shear stress (Pa), or `quantity="von_mises"`, at each depth z ≥ 0 (m) below the surface.
 
         Over all radii and all states of a path: of an impact that of `motion.states`.

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _check
+from ._check import Array
 from ._numeric import chunks, crowded, gauss_legendre, largest_value
 from .shapes.power import Cone, FlatPunch, Paraboloid
 from .superposition import nodes, pieces, radius_drop
@@ -48,13 +49,13 @@ class Stress:
     3.0 1.5 [1.0, 1.0, -2.0]
     """
 
-    rr: np.ndarray
-    tt: np.ndarray
-    zz: np.ndarray
-    rz: np.ndarray
+    rr: Array
+    tt: Array
+    zz: Array
+    rz: Array
 
     @property
-    def principal(self):
+    def principal(self) -> Array:
         """Principal stresses (Pa), the largest first, along a first axis of length 3."""
         finite = np.isfinite(self.zz)
         rr, zz = np.where(finite, self.rr, 0.0), np.where(finite, self.zz, 0.0)
@@ -63,15 +64,14 @@ class Stress:
         return np.sort([*both, self.tt], axis=0)[::-1]
 
     @property
-    def max_shear(self):
+    def max_shear(self) -> Array:
         """Largest shear stress τ_max (Pa), half the difference of the outer principal stresses."""
         first, _, last = self.principal
-        return (
-            np.subtract(first, last, out=np.full(np.shape(last), np.inf), where=np.isfinite(last))[()] / 2
-        )
+        gap = np.subtract(first, last, out=np.full(np.shape(last), np.inf), where=np.isfinite(last))
+        return gap[()] / 2
 
     @property
-    def von_mises(self):
+    def von_mises(self) -> Array:
         """Equivalent stress (Pa) of von Mises."""
         one, two, three = self.principal
         finite = np.isfinite(three)

@@ -47,4 +47,6 @@ bounce = mdr.oblique_impact(
     mdr.Paraboloid(1e-5), medium, 1e-9, *mdr.at_angle(0.1, 0.5), 0.3, tangential_mass=ball.tangential_mass
 )
 forward, turning_rate = ball.rebound(bounce, 0.05)
+inner = state.stress(0.0, [0.0, 1e-9]).von_mises.max() + state.stress_peak("von_mises").value
+deepest = state.largest_stress([1e-9, 2e-9]).max() + fit.to_dict()["q_c"]
 slips = bounce.motion(20).stick_radius.max() + bounce.errors.friction_work * bounce.rebound_angle

@@ -1,12 +1,15 @@
 """Least squares for many small problems at once, their errors, and how fits are shown."""
 
 from itertools import combinations
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from ..report import QUANTITIES, Quantity, Report, described, engineering, prefixed
 from ..results import Model
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 LEAST_SQUARES = Model("least squares", "the medium whose model is nearest to what was measured")
 
@@ -151,7 +154,7 @@ class Fit(Report):
         """Shape of the fitted medium: () for one fit."""
         return self.medium.shape
 
-    def to_dict(self):
+    def to_dict(self) -> "dict[str, float | NDArray[np.float64]]":
         """Values of all parameters by name, in SI units, and the standard errors of the free ones.
 
         An error's name ends in `_error`.
