@@ -56,7 +56,7 @@ def test_report_is_written_from_what_was_measured(results):
 
 
 def test_dry_impacts_keep_what_is_promised():
-    for _, depth, restitution, time in accuracy.dry_impacts((1 + 1e-5, 3.0, 2e8)):
+    for _, depth, restitution, time in accuracy.dry_impacts((1 + 1e-5, 2e8)):
         assert max(float(depth), float(restitution)) <= 1e-10
         assert float(time) <= 1e-9
 

@@ -73,7 +73,7 @@ class TestMaw:
     def test_slip_throughout(self, medium):
         """ΔW = −μ (m/m_t)(1 + e) v, whatever the shape: ψ₂ = ψ₁ − 4χ where e = 1."""
         for shape in (PARABOLOID, mdr.Cone(0.3), mdr.FlatPunch(1e-6)):
-            hit = hit_at(4 * CHI, shape, medium)
+            hit = hit_at(4 * CHI, shape, medium, tolerance=1e-2)
             assert hit.slips_throughout
             change = -MU * MASS / BALL * (1 + hit.restitution) * SPEED
             assert hit.velocity_change == pytest.approx(change, rel=1e-9)
@@ -96,18 +96,18 @@ class TestMaw:
 
     def test_small_angles_begin_with_stick_and_large_ones_with_slip(self):
         for psi, sticks in ((0.9, True), (1.5, False)):
-            motion = hit_at(psi).motion(100)
+            motion = hit_at(psi, tolerance=1e-2).motion(100)
             radius = np.where(sticks, motion.contact_radius, 0.0)[1:20]
             np.testing.assert_allclose(motion.stick_radius[1:20], radius, rtol=1e-6)
             assert not motion.slip_radius[1:20].any()
 
     def test_a_ball_turns_its_direction(self):
         """For 0 < ψ₁ < 4χ − 1 a ball leaves backwards, a body that cannot turn forwards, if it slips."""
-        assert all(hit_at(psi).tangential_velocity < 0 for psi in (0.5, 2.0))
-        assert hit_at(2.0, mass=None).tangential_velocity > 0
+        assert all(hit_at(psi, tolerance=1e-2).tangential_velocity < 0 for psi in (0.5, 2.0))
+        assert hit_at(2.0, mass=None, tolerance=1e-2).tangential_velocity > 0
 
     def test_reversed_speed(self):
-        one, other = hit_at(1.5, medium=VISCOUS), hit_at(-1.5, medium=VISCOUS)
+        one, other = (hit_at(psi, medium=VISCOUS, tolerance=1e-2) for psi in (1.5, -1.5))
         assert other.tangential_velocity == -one.tangential_velocity
         assert other.rebound_angle == -one.rebound_angle
         assert other.friction_work == one.friction_work

@@ -27,7 +27,7 @@ def path_of(shape, medium, path):
     return np.minimum(np.array(path) * medium.critical_depth, limit)
 
 
-@settings(deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(SHAPE, MEDIA, PATHS)
 def test_every_state_is_sound(shape, medium, path):
     result = mdr.indent(shape, medium, path_of(shape, medium, path))
@@ -44,7 +44,7 @@ def test_every_state_is_sound(shape, medium, path):
     assert np.all(result.force <= np.pi * medium.q_c * result.contact_radius * (1 + 1e-14))
 
 
-@settings(deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(SHAPE, MEDIA, st.floats(0.01, 100), st.floats(0, 1), st.floats(1e-9, 1.5))
 def test_fields_of_a_state_are_sound(shape, medium, deepest, unloading, where):
     path = path_of(shape, medium, [deepest, deepest - unloading])
@@ -56,7 +56,7 @@ def test_fields_of_a_state_are_sound(shape, medium, deepest, unloading, where):
     assert 0 <= state.imprint(r) <= state.plastic_depth * (1 + 1e-14)
 
 
-@settings(deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(SHAPE, MEDIA, PATHS, st.integers(-20, 20))
 def test_modulus_scales_the_force(shape, medium, path, power):
     path = path_of(shape, medium, path)
@@ -66,7 +66,7 @@ def test_modulus_scales_the_force(shape, medium, path, power):
     np.testing.assert_allclose(larger, force * 2.0**power, rtol=4e-15, atol=1e-300)
 
 
-@settings(deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(SHAPE, MEDIA, PATHS)
 def test_what_lies_between_peaks_is_forgotten(shape, medium, path):
     """Only the largest depth counts: sorted or not, the last state is the same."""
@@ -77,7 +77,7 @@ def test_what_lies_between_peaks_is_forgotten(shape, medium, path):
     assert last.stored_energy == pytest.approx(short.stored_energy, rel=1e-14)
 
 
-@settings(deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(SHAPE, MEDIA, st.lists(st.floats(1e-3, 0.9), min_size=1, max_size=6))
 def test_force_path_is_the_inverse_of_a_depth_path(shape, medium, fractions):
     """Forces up to 0.9 of what a flat face of the shape carries lead to depths of those forces."""
