@@ -105,13 +105,13 @@ def cube_way(begin, rise):
 
 
 @lru_cache
-def tanh_sinh(step=1 / 28, last=3.4):
+def tanh_sinh(step=1 / 28):
     """Nodes and weights on [0, 1] that crowd at both ends, where the function may have any power.
 
     u = 1/(1 + e^(−2s)), s = (π/2) sinh t: nodes come as close to 0 as 10⁻³⁹, so that a singularity
     just outside of the interval is resolved at its own distance.
     """
-    t = step * np.arange(-round(last / step), round(last / step) + 1)
+    t = step * np.arange(-round(3.4 / step), round(3.4 / step) + 1)
     s = np.pi / 2 * np.sinh(t)
     node = 1 / (1 + np.exp(-2 * s))
     weight = np.pi / 2 * np.cosh(t) / (2 * np.cosh(s) ** 2) * step
@@ -119,11 +119,11 @@ def tanh_sinh(step=1 / 28, last=3.4):
 
 
 @lru_cache
-def crowded(step=0.4, last=33.0):
+def crowded():
     """Nodes and weights on [0, 1] for a function that is singular at 0, or just beside it.
 
     Nodes stand at e^(−y), at even steps of t. As y grows as t, a singularity at a distance δ beside the
-    interval stays π/2 away from all t, however small δ is: the error is e^(−π²/step), and down to 10⁻¹³ no
+    interval stays π/2 away from all t, however small δ is: the error is e^(−π²/0.4), and down to 10⁻¹³ no
     distance costs more than another. At both ends y runs off as an exponential, for what is left there.
 
     Returns
@@ -131,7 +131,8 @@ def crowded(step=0.4, last=33.0):
     node, gap, weight : ndarray
         With `gap` = 1 − `node`, free of rounding.
     """
-    t = np.arange(-3.2, last, step)
+    last = 33.0
+    t = np.arange(-3.2, last, 0.4)
     rise = 1 / (1 + np.exp(np.exp(-t) - t))
     y = np.logaddexp(0.0, t - np.exp(-t)) + np.exp(t - last + 6)
     weight = np.exp(-y) * (rise * (1 + np.exp(-t)) + np.exp(t - last + 6))

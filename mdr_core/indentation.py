@@ -171,25 +171,25 @@ class Indentation(PlottedState):
     def force(self):
         """Normal force F = 2E* ∫ a(s) ds (N) and that of the dashpots; Popov (2015), Eqs. (20), (22)."""
         springs = 2 * self.medium.E_star * radius_integral(self.profile, self.live)
-        return (springs + 2 * self.dashpot_load * self.contact_radius)[()]
+        return springs + 2 * self.dashpot_load * self.contact_radius
 
     @_check.frozen_property
     def contact_radius(self):
         """Contact radius a (m), Popov (2015), Eq. (16); 0 without contact."""
         touching = (self.live.length > 0) | (self.dashpot_load > 0)
-        return np.where(touching, self.profile._radius(np.asarray(self.live.upper)), 0.0)[()]
+        return np.where(touching, self.profile._radius(np.asarray(self.live.upper)), 0.0)
 
     @_check.frozen_property
     def plastic_radius(self):
         """Radius c (m) of the plastic zone, Popov (2015), Eq. (21); 0 if nothing has yielded."""
-        return np.where(self.live.lower > 0, self.profile._radius(np.asarray(self.live.lower)), 0.0)[()]
+        return np.where(self.live.lower > 0, self.profile._radius(np.asarray(self.live.lower)), 0.0)
 
     @_check.frozen_property
     def mean_pressure(self):
         """Mean contact pressure F/(π a²) (Pa), the hardness at this radius; 0 without contact."""
         a = np.asarray(self.contact_radius)
         with np.errstate(divide="ignore", invalid="ignore"):
-            return np.where(a > 0, self.force / a / a / np.pi, 0.0)[()]
+            return np.where(a > 0, self.force / a / a / np.pi, 0.0)
 
     @property
     def plastic_depth(self) -> Array:
@@ -203,7 +203,7 @@ class Indentation(PlottedState):
         if np.any(ahead > 0):
             area = radius_integral(self.profile, self.live)
             energy = energy + ahead * (area + ahead / 2 * self.contact_radius)
-        return (2 * self.medium.E_star * energy)[()]
+        return 2 * self.medium.E_star * energy
 
     @_check.frozen_property
     def plastic_work(self):
@@ -211,7 +211,7 @@ class Indentation(PlottedState):
         integral = radius_integral(self.profile, virgin(np.asarray(self.live.lower)))
         # π q_c a at every increment: the critical depth times the modulus, which may be infinite.
         yield_load = np.where(self.live.lower > 0, 2 * self.medium.yield_line_load, 0.0)
-        return (yield_load * integral)[()]
+        return yield_load * integral
 
     @_check.frozen_property
     def stiffness(self):

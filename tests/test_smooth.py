@@ -129,5 +129,5 @@ class TestImpact:
         deepest = radius**2 / 1e-5
         assert shape.contact_radius(deepest * (1 - 1e-9)) == pytest.approx(radius * (1 - 5e-10), rel=1e-14)
         assert shape.deepest == pytest.approx(deepest, rel=0.1)
-        with pytest.raises(ValueError, match="presses deeper than the shape is known"):
+        with pytest.raises(ValueError, match="presses deeper than the Smooth shape is known"):
             mdr.impact(shape, mdr.Medium(1e9), 1e-9, 10.0)

@@ -81,7 +81,8 @@ class NormalMotion:
         for _ in range(halvings):
             middle = (time[1:] + time[:-1]) / 2
             inner = np.clip(down.depth(middle), depth[:-1], depth[1:])
-            time, depth = (_interleaved(*pair) for pair in ((time, middle), (depth, inner)))
+            between = np.arange(1, time.size)
+            time, depth = np.insert(time, between, middle), np.insert(depth, between, inner)
         above = np.flatnonzero(depth > self.lower)[::-1]
         live = np.append(depth[above] - self.lower, 0.0)
         rise = np.maximum.accumulate(np.append(self.turn, up.when(live[1:])))
@@ -96,12 +97,6 @@ class NormalMotion:
         rates = 1 / span + np.sqrt(inertia * a) + inertia * self.tau * a
         sizes = (branch.at, np.ptp(branch.at)), (a, a.max()), (branch.speed, np.ptp(branch.speed))
         return rates, sizes
-
-
-def _interleaved(values, between):
-    result = np.empty(values.size + between.size)
-    result[::2], result[1::2] = values, between
-    return result
 
 
 class Levels(NamedTuple):

@@ -46,9 +46,8 @@ class Curves:
 
     def rows(self, rows):
         fixed = {name: value[rows] for name, value in self.fixed.items()}
-        parts = (part[rows] for part in (self.depth, self.force))
-        others = (part[rows] for part in (self.sigma, self.turns, self.lows))
-        return Curves(self.tip, *parts, fixed, self.depth_noise, *others)
+        names = "depth", "force", "sigma", "turns", "lows"
+        return replace(self, fixed=fixed, **{name: getattr(self, name)[rows] for name in names})
 
     def holding(self, **values):
         return replace(self, fixed=self.fixed | values)

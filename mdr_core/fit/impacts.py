@@ -88,17 +88,17 @@ def fit_impacts(
     chi = float(residual @ residual) / max(residual.size - len(free), 1)
     covariance = covariances(jacobian[None], np.array([1.0]))
     values = {**held, **{name: float(np.exp(value)) for name, value in zip(free, x, strict=True)}}
-    shares = np.sqrt(np.diag(covariance[0]))
-    covariance = in_units(covariance, np.array([[values[name] for name in free]]).reshape(1, -1))[0]
-    errors = {name: values[name] * float(share) for name, share in zip(free, shares, strict=True)}
-    said = _remarks(data, free, dict(zip(free, shares.tolist(), strict=True)), jacobian, residual, groups)
+    shares = dict(zip(free, np.sqrt(np.diag(covariance[0])).tolist(), strict=True))
+    covariance = in_units(covariance, np.array([values[name] for name in free])[None])[0]
+    errors = {name: values[name] * share for name, share in shares.items()}
+    said = _remarks(data, free, shares, jacobian, residual, groups)
     if errors.get("q_c") == np.inf and not np.any(jacobian[:, free.index("q_c")]):
         values["q_c"] = np.inf
         said = (
             "nothing has yielded: q_c = ∞ stands for more than these impacts tell; hit harder",
             *said[1:],
         )
-    medium = Medium(values["E_star"], values["q_c"], values["eta"])
+    medium = Medium(**values)
     residual = residual * data.each(groups)
     return ImpactFit(profile, medium, errors, _check.frozen(covariance), _check.frozen(residual), chi, said)
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from importlib.util import find_spec
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -177,13 +178,9 @@ def _progress(jobs, count) -> "Iterator[Any]":
 def _collected(profile, parts, count, noise):
     """One result of all parts, in the order of the curves."""
     order = np.argsort(np.concatenate([rows for rows, *_ in parts]))
-    pieces = [_piece(*part) for part in parts]
-    joined = {
-        name: np.concatenate([piece[name] for piece in pieces])[order]
-        for name in pieces[0]
-        if name != "remarks"
-    }
-    said = [said for piece in pieces for said in piece["remarks"]]
+    pieces, remarks = zip(*(_piece(*part) for part in parts), strict=True)
+    joined = {name: np.concatenate([piece[name] for piece in pieces])[order] for name in pieces[0]}
+    said = list(chain.from_iterable(remarks))
     said = tuple(said[i] for i in order)
     free = parts[0][1].free
     errors = np.sqrt(np.einsum("rpp->rp", joined["covariance"]))
@@ -203,7 +200,7 @@ def _collected(profile, parts, count, noise):
 
 
 def _piece(rows, curves, solution, elastic, known):
-    """What results keep, by name, of curves solved together."""
+    """What results keep, by name, of curves solved together, and what is to be said of each."""
     x, residual, jacobian = solution
     values, _, state = curves.states(x)
     values["q_c"] = np.where(elastic[:, None] == 2, np.inf, values["q_c"])
@@ -223,8 +220,8 @@ def _piece(rows, curves, solution, elastic, known):
         "reduced_chi_square": chi if known else np.ones_like(chi),
         "force_noise": sigma if known else sigma * np.sqrt(chi),
         "depth": state.depth, "lower": state.live.lower, "upper": state.live.upper,
-        "length": state.live.length, "remarks": said,
-    }  # fmt: skip
+        "length": state.live.length,
+    }, said  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False, repr=False)

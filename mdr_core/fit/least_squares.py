@@ -200,7 +200,3 @@ class Fit(Report):
 
     def _limit_rows(self, most):
         yield from (("remark", remark) for remark in self.remarks)
-
-    def __repr__(self):
-        rows = [*self._rows(), *self._limit_rows(0)]
-        return "\n".join([self._title(), *(f"  {label:<24} {text}" for label, text in rows)])

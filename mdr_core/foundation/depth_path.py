@@ -198,7 +198,7 @@ class TimedIndentation(Plotted):
     def plastic_radius(self):
         """Radius c (m) of the plastic zone; 0 if nothing has yielded."""
         radius = self.profile.contact_radius(self.plastic_depth)
-        return np.where(np.asarray(self.plastic_depth) > 0, radius, 0.0)[()]
+        return np.where(np.asarray(self.plastic_depth) > 0, radius, 0.0)
 
     def line_load(self, x: ArrayLike) -> Array:
         """Line load q = E* u_e + 4ηḋ (N/m) of one state at x (m); Popov (2015), Eqs. (1), (17), (18).

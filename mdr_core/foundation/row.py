@@ -110,7 +110,7 @@ class Foundation:
         middle = np.append(0.0, (edges[1:] + edges[:-1]) / 2)
         # A little beyond the end: the row may end on the very contact radius.
         rim = self.profile.reduced(min(half_width * (1 + 1e-9), known))
-        self._set(
+        self.__dict__.update(
             n=n,
             half_width=half_width,
             nodes=tuple(nodes.tolist()),
@@ -120,10 +120,6 @@ class Foundation:
             _lag=0.0,
             _elements=Elements.virgin(self.profile.reduced(middle)),
         )
-
-    def _set(self, **values):
-        for name, value in values.items():
-            object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
         lines = (

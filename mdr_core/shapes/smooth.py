@@ -61,14 +61,11 @@ class Smooth(Profile):
         end = self._mean_slope.x[-1]
         return float(np.exp(end) * self._mean_slope(end))
 
-    def _known(self, depth):
+    def _too_deep(self):
         end = np.exp(self._mean_slope.x[-1])
-        bound = (
-            f"is deeper than the Smooth shape is known: beyond r = {end:g} m, at g = {self.deepest:g} m, "
+        return (
+            f"deeper than the Smooth shape is known: beyond r = {end:g} m, at g = {self.deepest:g} m, "
             "the slope ends, is not finite or smooth, or g falls, so that the contact would not be compact"
-        )
-        return _check.refuse(
-            "depth", depth, depth > self.deepest, bound, unit="m", remedy="press less deep"
         )
 
     @cached_property

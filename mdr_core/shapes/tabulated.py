@@ -276,6 +276,9 @@ class Tabulated(Profile):
     wall = property(lambda self: self.profile.wall)
     face_radius = property(lambda self: self.profile.face_radius)
     known_radius = property(lambda self: self.profile.known_radius)
+    _height = property(lambda self: self.profile._height)
+    _reduced = property(lambda self: self.profile._reduced)
+    _reduced_slope = property(lambda self: self.profile._reduced_slope)
 
     @cached_property
     def table(self):
@@ -288,15 +291,6 @@ class Tabulated(Profile):
     def _radius(self, depth):
         radius, covered = self.table.radius(depth), self.table.covers(depth)
         return radius if np.all(covered) else np.where(covered, radius, self.profile._radius(depth))
-
-    def _height(self, r):
-        return self.profile._height(r)
-
-    def _reduced(self, x):
-        return self.profile._reduced(x)
-
-    def _reduced_slope(self, x):
-        return self.profile._reduced_slope(x)
 
 
 def tabulated(profile, deepest):
