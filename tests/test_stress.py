@@ -310,11 +310,11 @@ def test_states_of_an_impact(shape):
         (lambda s: s.largest_stress(-1.0), "depth z = -1 m is above"),
         (
             lambda s: mdr.indent(s.profile, s.medium, [1e-9, 2e-9]).stress(0, 0),
-            "stress is a field of one state",
+            "stress is that of one state",
         ),
         (
             lambda s: mdr.indent(s.profile, s.medium, [1e-9]).stress_peak(),
-            "stress_peak is a field of one state",
+            "stress_peak is that of one state",
         ),
     ],
 )
