@@ -112,15 +112,16 @@ class TestImpact:
         shape, depth = self.smooth(), np.geomspace(1e-9, 1e-3, 13)
         medium = mdr.Medium(1e9)
         together = mdr.impact(shape, medium, 1e-9, np.geomspace(1e-4, 1.0, 5))
-        for i in range(5):
+        for i in (0, 2, 4):
             alone = mdr.impact(self.smooth(), medium, 1e-9, together.speed[i])
             # A search that goes on for its neighbours may end one digit better.
             assert alone.max_depth == pytest.approx(together.max_depth[i], rel=4e-16)
             assert alone.contact_time == pytest.approx(together.contact_time[i], rel=2e-15)
-        alone = [self.smooth().contact_radius(each) for each in depth]
-        np.testing.assert_allclose(shape.contact_radius(depth), alone, rtol=2e-15)
+        radius = shape.contact_radius(depth)
+        alone = [self.smooth().contact_radius(each) for each in depth[::4]]
+        np.testing.assert_allclose(radius[::4], alone, rtol=2e-15)
         # A series on the largest contact would hold the smallest with six digits less.
-        np.testing.assert_allclose(alone, self.EXACT.contact_radius(depth), rtol=2e-14)
+        np.testing.assert_allclose(radius, self.EXACT.contact_radius(depth), rtol=2e-14)
 
     def test_up_to_where_the_slope_ends(self):
         """The depth g(R) at the last radius R is still solved, nothing beyond."""

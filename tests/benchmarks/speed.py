@@ -19,6 +19,8 @@ MEDIUM, WET = mdr.Medium(1e9, 10.0), mdr.Medium(1e9, 10.0, eta=3.0)
 def rows(count=10**6):
     """What, how long, and against what: force, dry impacts and viscous ones of every shape."""
     depths = np.linspace(1e-9, 1e-6, count)
+    # A quick look does not judge times.
+    runs = 5 if count > 1000 else 1
     # The elastic forces of textbooks, at the depth and beyond the plastic one: a difference of curves.
     d_c = MEDIUM.critical_depth
     books = {
@@ -29,7 +31,7 @@ def rows(count=10**6):
     for what, taken in book.items():
         yield f"{count} textbook forces of a {what}, NumPy", time(taken), ""
     for shape in SHAPES:
-        taken = seconds(lambda s=shape: mdr.indent(s, MEDIUM, depths).force, runs=3)
+        taken = seconds(lambda s=shape: mdr.indent(s, MEDIUM, depths).force, runs=min(runs, 3))
         yield f"{count} forces, {name(shape)}", time(taken), _ratio(taken, book["paraboloid"])
     speeds = np.geomspace(1e-4, 0.3, count)
     for shape in SHAPES:
@@ -49,7 +51,7 @@ def rows(count=10**6):
         )
     yield from _ensembles(count)
     for shape in SHAPES:
-        taken = seconds(lambda s=shape: mdr.impact(s, WET, 1e-9, 0.1).restitution, runs=5)
+        taken = seconds(lambda s=shape: mdr.impact(s, WET, 1e-9, 0.1).restitution, runs=runs)
         yield f"one viscous impact, {name(shape)}", time(taken), ""
         many = speeds[:: max(1, count // 1000)]
         hits = _impacts(shape, WET, many)
