@@ -64,7 +64,7 @@ class Limit:
     ----------
     what : str
         What is bounded: "slope", "contact radius", "Poisson ratio", "viscosity", "speed", "fast limit",
-        and of friction "coupling", "slip direction", "static friction".
+        and of friction "coupling", "slip direction".
     value, bound : float
         Its worst value over all states, and the one up to which the assumption usually is good.
     exceeded : bool
@@ -166,8 +166,6 @@ def friction_limits(medium):
     value = float(np.max(np.abs(medium.poisson / (4 - 2 * medium.poisson))))
     text = f"Slip is along the speed, stick a disc or ring: up to {value:.2g} of the slip goes across."
     yield Limit("slip direction", value, 0.2, value > 0.2, text, severe=False)
-    text = "Friction is the same for stick and slip: no peak before slip begins."
-    yield Limit("static friction", 1.0, 1.0, False, text)
 
 
 def sealed(result, *names):

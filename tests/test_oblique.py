@@ -293,4 +293,4 @@ def test_limits():
     assert all(limit.holds for limit in hit_at(1.0, shape=mdr.Cone(0.1)).limits)
     limits = {limit.what: limit for limit in hit_at(1.0, medium=mdr.Medium(1e9, poisson=0.3)).limits}
     assert limits["coupling"].exceeded
-    assert {"slope", "coupling", "slip direction", "static friction"} <= limits.keys()
+    assert {"slope", "coupling", "slip direction"} <= limits.keys()

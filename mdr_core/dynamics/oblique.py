@@ -252,7 +252,6 @@ class ObliqueImpact(Report):
         slope 0.1 True
         coupling 0.286 False
         slip direction 0.088 True
-        static friction 1.0 True
         """
         return (*(x for x in self.normal.limits if x.concerns == "result"), *friction_limits(self.medium))
 
