@@ -19,7 +19,8 @@ from .row import Foundation
 _STEPS, _ELEMENTS, _REFINEMENTS = 8, 200, 6
 #: Share of the largest force that still presses where none is prescribed, so that contact is kept.
 _TOUCH = 1e-10
-#: Share of a step before the end of a piece in which the rate is that at the end.
+#: Share of a step before the end of a piece in which the rate is that at the end; share of the largest
+#: force by which that of mean rates may be off.
 _NEAR = 1 / 16
 
 
@@ -91,10 +92,14 @@ def creep(
         if error <= tolerance:
             break
     depth, *energies = limit.T
-    # Contact comes and goes: its radius, and the rate that a force needs, are those of a row on the limit.
-    path, places = _limit_of_paths(paths[-3:]), np.array(run.places)
-    half_width = max(run.row.half_width, float(profile.contact_radius(max(*path[1], 0.0))))
-    found, radius = _replay(Foundation(profile, medium, run.row.n, half_width), *path, places)
+    # Contact comes and goes: its radius, and the rate that a force needs, are those of a row on the limit,
+    # or on the last path where unloading is so steep that the force is not that of the limit.
+    places = np.array(run.places)
+    for path in (_limit_of_paths(paths[-3:]), paths[-1].T):
+        half_width = max(run.row.half_width, float(profile.contact_radius(max(np.max(path[1]), 0.0))))
+        found, radius = _replay(Foundation(profile, medium, run.row.n, half_width), *path, places)
+        if np.all(np.abs(found - force) <= _NEAR * np.max(force)):
+            break
     dashpots = 8 * medium.eta * radius
     missing = np.divide(force - found, dashpots, out=np.zeros(force.shape), where=dashpots > 0)
     path, places = _arriving(*path, places, missing)
@@ -144,7 +149,9 @@ class _Run:
     def __init__(self, profile, medium, bound, n, precision):
         self.bound = min(bound, profile.deepest)
         self.close = precision * self.bound
-        self.row = Foundation(profile, medium, n, profile.contact_radius(self.bound))
+        # A path that never presses has no width of its own.
+        half_width = float(profile.contact_radius(self.bound)) or min(1.0, profile.known_radius)
+        self.row = Foundation(profile, medium, n, half_width)
         self.rate = 0.0
         self.path, self.places, self.record = [], [], []
 
