@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from mdr_core.figures import Axis
 
 from .trajectory import onset
@@ -39,8 +41,9 @@ def scales(way):
     found |= dict.fromkeys(("x", "r", "plane x", "plane y", "section r", "depth"), along)
     found |= dict.fromkeys(("p", "stress"), (float(deepest.mean_pressure), "p_m"))
     if way.motion is not None:
-        found["t"] = float(way.motion.time[-1]), "T"
-        found["E"] = float(way.motion.kinetic_energy[0]), "E_0"
+        found["t"] = float(np.ptp(way.motion.time)), "T"
+        # A path begins without energy: the most that is put in stands in.
+        found["E"] = float(np.max(way.energy)), "E_max" if way.hit is None else "E_0"
     if way.oblique is not None:
         found["force"] = found["F"]
         found |= dict.fromkeys(("W", "v"), (way.scene.drive.speed, "v_0"))

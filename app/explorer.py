@@ -112,11 +112,12 @@ class Explorer(param.Parameterized):
     def settle(self):
         """Begin anew from what is set: there is nothing to undo."""
         self.past, self.future, self.mark, self._last = [], [], None, None
-        self._kept = self.snapshot()
+        self._kept, self._seen = self.snapshot(), {name: getattr(self, name) for name in self.VIEW}
 
     def accept(self):
         """Keep what is set now, and for undo what was before; changes of one `mark` count as one."""
         now, mark, self.mark = self.snapshot(), self.mark, None
+        self._seen = {name: getattr(self, name) for name in self.VIEW}
         if now == self._kept:
             return
         if mark is None or mark != self._last:
@@ -124,9 +125,11 @@ class Explorer(param.Parameterized):
         self.future, self._last, self._kept = [], mark, now
 
     def refuse(self):
-        """Go back to what was accepted last."""
+        """Go back to what was accepted last, the view too."""
         self.mark = None
-        self.restore(self._kept)
+        with param.parameterized.batch_call_watchers(self):
+            self.param.update(**self._seen)
+            self.restore(self._kept)
 
     def undo(self):
         """Take the last change back."""

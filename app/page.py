@@ -3,6 +3,7 @@
 import logging
 from dataclasses import replace
 from html import escape
+from urllib.parse import urlencode
 
 import panel as pn
 import param
@@ -114,8 +115,10 @@ class Page:
     def _watch(self):
         explorer = self.explorer
         names = [name for name in explorer.param if name not in (*explorer.VIEW, "name")]
-        explorer.param.watch(self._changed, names)
-        explorer.param.watch(self._viewed, [name for name in explorer.VIEW if name in CHOICES])
+        seen = [name for name in explorer.VIEW if name in (*CHOICES, "hold", "plots")]
+        explorer.param.watch(self._hold, "hold")
+        explorer.param.watch(self._changed, names, precedence=1)
+        explorer.param.watch(self._viewed, seen, precedence=1)
         acts = {self.undo: explorer.undo, self.redo: explorer.redo}
         acts[self.reset] = lambda: explorer.load(explorer.preset)
         acts[self.controls.parts["again"]] = lambda: explorer.hit_again(self.way.hit)
@@ -124,8 +127,7 @@ class Page:
         self.controls.tip.param.watch(self._bring_tip, "value")
         self.hold.param.watch(self._held, "value")
         for name, asked in self.asked.items():
-            asked.value = name in explorer.plots
-            asked.param.watch(self._asked, "value")
+            asked.param.watch(lambda event, name=name: self._asked(name, event.new), "value")
         self.dark.value = explorer.dark
         self.dark.param.watch(self._darkened, "value")
         self.player.state.on_change("value_throttled", self._stood)
@@ -158,13 +160,11 @@ class Page:
 
     def open(self, query):
         """Show the scene of a link, as a change that can be undone; plots and theme stay."""
-        kept = {name: getattr(self.explorer, name) for name in ("plots", "dark")}
+        kept = {"plots": " ".join(self.explorer.plots), "dark": int(self.explorer.dark)}
 
         def act():
             with param.parameterized.batch_call_watchers(self.explorer):
-                link.apply(self.explorer, link.arguments(query))
-                self.explorer.param.update(**kept)
-            self._hold()
+                link.apply(self.explorer, link.arguments(f"{query}&{urlencode(kept)}"))
             self._changed()
 
         self.tell(act)
@@ -184,16 +184,16 @@ class Page:
     @pn.io.hold()
     def _changed(self, *events):
         self._solve()
-        self.explorer.accept()
         self._around()
 
     def _bring_tip(self, event):
         if event.new:
             self.tell(lambda: self.explorer.take_tip(*read_tip(event.new.decode("utf-8", "replace"))))
 
-    def _asked(self, event):
-        self.explorer.plots = [name for name, asked in self.asked.items() if asked.value]
-        self._viewed()
+    def _asked(self, name, shown):
+        plots = {*self.explorer.plots, name} if shown else {*self.explorer.plots} - {name}
+        if plots != {*self.explorer.plots}:
+            self.tell(lambda: self.explorer.param.update(plots=[n for n in self.asked if n in plots]))
 
     @pn.io.hold()
     def _viewed(self, *events):
@@ -206,23 +206,21 @@ class Page:
 
     def _held(self, event):
         if event.new != is_held(self.explorer):
-            self.tell(lambda: self._keep(toggled(self.explorer)))
+            self._keep(lambda: toggled(self.explorer))
             self.hold.value = is_held(self.explorer)
 
     def _rename(self, k, name):
         if name != self.held[k].name:
             hold = self.explorer.hold
-            self._keep([*hold[:k], renamed(hold[k], name), *hold[k + 1 :]])
+            self._keep(lambda: [*hold[:k], renamed(hold[k], name), *hold[k + 1 :]])
 
     def _remove(self, k):
-        self._keep([*self.explorer.hold[:k], *self.explorer.hold[k + 1 :]])
+        self._keep(lambda: [*self.explorer.hold[:k], *self.explorer.hold[k + 1 :]])
 
     def _keep(self, queries):
-        self.explorer.hold = queries
-        self._hold()
-        self._viewed()
+        self.tell(lambda: self.explorer.param.update(hold=queries()))
 
-    def _hold(self):
+    def _hold(self, *events):
         """Solve the scenes that are held, from their queries."""
         self.held = [held(query, self._follow) for query in self.explorer.hold]
 
@@ -298,12 +296,15 @@ class Page:
         self.controls.notes["sketch"].object = readouts.sketch(way, explorer.shape)
         said = readouts.lights(way, explorer)
         self.lights.object = "".join(f'<span class="{level}">{linked(text)}</span>' for level, text in said)
-        self.undo.disabled, self.redo.disabled = not explorer.past, not explorer.future
         self.hold.value = is_held(explorer)
+        for name, asked in self.asked.items():
+            asked.value = name in explorer.plots
         self.table.show(way, self.held)
         self.grid.tell(readouts.summary(explorer))
         self.away.show()
         self.measuring.show()
+        explorer.accept()
+        self.undo.disabled, self.redo.disabled = not explorer.past, not explorer.future
         self._settle()
 
     def _begin(self, event):

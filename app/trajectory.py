@@ -71,6 +71,13 @@ class Trajectory:
         """The motion with all energies, those along the surface too; None of what has no times."""
         return self.motion if self.oblique is None else self.oblique
 
+    @property
+    def energy(self):
+        """All that is there and has been lost so far (J), of what has times."""
+        m = self.ledger
+        energy = m.kinetic_energy + m.stored_energy + m.plastic_work + m.viscous_work
+        return energy if self.oblique is None else energy + m.friction_work
+
     @cached_property
     def on(self):
         """Values (SI) of all states by the names of the axes that they are on."""

@@ -189,10 +189,7 @@ def _largest(way):
         size["d"] = 1.02 * max(depth, 1.02 * float(onset.depth))
         size["F"] = max(size["F"], 1.05 * float(onset.force))
     if way.motion is not None:
-        m = way.ledger
-        energy = m.kinetic_energy + m.stored_energy + m.plastic_work + m.viscous_work
-        energy += 0.0 if way.oblique is None else m.friction_work
-        size |= {"t": float(m.time[-1]), "E": float(np.max(energy))}
+        size |= {"t": float(way.motion.time[-1]), "E": float(np.max(way.energy))}
     return size
 
 

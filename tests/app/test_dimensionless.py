@@ -99,3 +99,19 @@ def test_logarithmic_axes_begin_before_yield_and_have_no_zero(label):
             shown = np.isfinite(x) & np.isfinite(y)
             assert np.all(np.asarray(x)[shown] >= d.start)
             assert np.all(np.asarray(y)[shown] >= F.start)
+
+
+@pytest.mark.parametrize("pattern", ["hold", "creep"])
+def test_a_path_in_time_has_the_most_that_is_put_in_for_its_energy(pattern):
+    explorer = Explorer()
+    explorer.choose("drive", "path")
+    explorer.choose("pattern", pattern)
+    view = seen(explorer)
+    m = view.way.motion
+    put_in = m.stored_energy + m.plastic_work + m.viscous_work
+    assert view.axes["E"].factor == pytest.approx(np.max(put_in), rel=1e-12)
+    assert view.axes["E"].label.startswith("E/E_max")
+    # From its beginning on, whenever that is.
+    explorer.path = [(row[0], row[1] - explorer.path[-1][1]) for row in explorer.path]
+    again = seen(explorer)
+    assert again.axes["t"].factor == pytest.approx(view.axes["t"].factor)

@@ -1,0 +1,69 @@
+"""What cannot be shown leaves the page as it was, and in use, wherever it fails. Without a browser."""
+
+import pytest
+
+from app import view
+from app.page import Page
+from app.presets import OPENING, PRESETS
+
+pytestmark = pytest.mark.filterwarnings("ignore:Widget.name is deprecated:PendingDeprecationWarning")
+
+
+@pytest.fixture
+def page(monkeypatch):
+    """A page that tells its notices to a list."""
+    page, said = Page(), []
+    page.notify, page.said = said.append, said
+    return page
+
+
+def failing(*arguments):
+    raise ArithmeticError("made to fail")
+
+
+def assert_in_use(page):
+    """It said so once, and the next change is drawn."""
+    (said,) = page.said
+    assert "Everything is as it was before" in said
+    page.explorer.q_c = 1.5 * PRESETS[OPENING].values["q_c"]
+    assert page.drawn.way.scene.medium.q_c == page.explorer.q_c
+    page.tell(page.explorer.undo)
+    assert page.drawn.way.scene.medium.q_c == PRESETS[OPENING].values["q_c"]
+    assert len(page.said) == 1
+
+
+def test_axes(page, monkeypatch):
+    monkeypatch.setattr(view, "scales", failing)
+    page.controls.choices["axes"].value = "ratio"
+    assert page.explorer.axes == page.controls.choices["axes"].value == "units"
+    assert_in_use(page)
+
+
+def test_a_plot_on_request(page, monkeypatch):
+    monkeypatch.setattr(page.grid, "_make", failing)
+    page.asked["map"].value = True
+    assert page.explorer.plots == []
+    assert not page.asked["map"].value
+    assert_in_use(page)
+
+
+def test_a_scene_that_is_held(page, monkeypatch):
+    monkeypatch.setattr(page.table, "show", lambda way, held: failing() if held else None)
+    page.hold.value = True
+    assert (page.explorer.hold, page.held, page.hold.value) == ([], [], False)
+    assert_in_use(page)
+
+
+def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
+    """What is beside the plots counts as shown too: undo leads to nothing that was refused."""
+    shown = page.away.show
+    monkeypatch.setattr(
+        page.away, "show", lambda: shown() if page.explorer.preset == OPENING else failing()
+    )
+    page.explorer.progress = page.way.progress[3]
+    page._around()
+    page.controls.choices["preset"].value = list(PRESETS)[2]
+    assert page.explorer.preset == page.controls.choices["preset"].value == OPENING
+    assert page.explorer.progress == page.way.progress[3]
+    assert page.undo.disabled
+    assert_in_use(page)
