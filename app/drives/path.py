@@ -12,7 +12,7 @@ from ..units import written
 from .chain import ChainStates
 from .drive import Drive
 from .impact import printed
-from .press import most_force
+from .press import Depth, Force, most_force
 
 #: What is prescribed: its kind of quantity, its value of a scene, its unit, and what of the core follows
 #: it, infinitely slowly and in time.
@@ -172,6 +172,8 @@ class Path(Drive):
 
     def opened(self, scene):
         name, values, time = _parts(scene.drive)
+        if time is None and (values.size == 1 or (values.size == 2 and values[1] < values[0])):
+            return {"depth": Depth, "force": Force}[name]().opened(scene)
         path = list(zip(values.tolist(), *(() if time is None else [time.tolist()]), strict=True))
         choices = {"drive": "path", "pattern": "own", "prescribed": name, "surface": "virgin"}
         return choices | {"path": checked(path, name)}, {}

@@ -31,14 +31,14 @@ class Press(Drive):
         return self.values[0](getattr(explorer, f"max_{self.kind}"))
 
     def owns(self, value):
-        """Whether a path presses once: to one value, or on from it to a smaller one."""
-        if not super().owns(value) or value.time:
-            return False
-        path = np.atleast_1d(getattr(value, self.kind))
-        return path.size == 1 or (path.size == 2 and path[1] < path[0])
+        """Whether it is one value; what has vertices is a path."""
+        return super().owns(value) and np.ndim(getattr(value, self.kind)) == 0
 
     def opened(self, scene):
-        """All that the way there leaves behind is the largest depth: the last state is one of unloading."""
+        """One value, or one and on to a smaller one.
+
+        All that the way there leaves behind is the largest depth: the last state is one of unloading.
+        """
         path = np.atleast_1d(getattr(scene.drive, self.kind))
         choices = {"drive": self.kind, "surface": "virgin"}
         if path[-1] < max(path):

@@ -217,3 +217,27 @@ def test_a_path_drawn_by_hand_is_kept_while_other_drives_are_looked_at():
     explorer.load(explorer.preset)
     explorer.choose("drive", "path")
     assert float(explorer.solved().depth) == pytest.approx(Explorer().max_depth)
+
+
+@pytest.mark.parametrize("prescribed", ["depth", "force"])
+@pytest.mark.parametrize("vertices", [(1.0,), (1.0, 0.6), (1.0, 0.0)])
+def test_a_path_of_one_or_two_vertices_ends_there(prescribed, vertices):
+    explorer = path("reload")
+    explorer.choose("prescribed", prescribed)
+    most = max(row[0] for row in explorer.path)
+    explorer.param.update(path=[(most * share,) for share in vertices], pattern="own")
+    again = Explorer()
+    link.restore(again, link.arguments(link.query(explorer)))
+    assert again.scene() == explorer.scene()
+    way = solved(again)
+    found = way.states.depth if prescribed == "depth" else way.force
+    assert found[0] == 0
+    assert found[-1] == pytest.approx(most * vertices[-1], abs=1e-9 * most)
+    assert max(found) == pytest.approx(most, rel=1e-9)
+    exec(export.python(way), {})
+    # As a file it is a press to the same state.
+    opened = Explorer()
+    link.load_scene(opened, link.scene_file(way))
+    state, asked = follow(opened.scene(), opened.progress).state, way.states[len(way) - 1]
+    assert opened.drive == prescribed
+    assert float(state.depth) == pytest.approx(float(asked.depth), rel=1e-4)
