@@ -54,10 +54,10 @@ class Explorer(param.Parameterized):
         return {name: getattr(self, name) for name in ("shape", *CHOICES)}
 
     def used(self):
-        """Names of the numbers that the choices use."""
+        """Names of the numbers that the scene is made of, and of those that its drive asks for."""
+        choices = [part for part in DRIVES[self.drive].form if part in USED]
         names = [name for name, _ in shape_quantities(self.shape)]
-        names += [n for choice, options in USED.items() for n in options[getattr(self, choice)]]
-        return [name for name in names if name not in ENDS]
+        return names + self.numbers(["elasticity", "plasticity", "damping", "drive", *choices])
 
     def numbers(self, names):
         """Names of numbers: of each choice out of some names those that its option uses."""

@@ -25,8 +25,8 @@ def query(explorer, view=True):
     """
     choices = {n: option for n, option in explorer.choices.items() if view or n not in explorer.VIEW}
     pairs = {"preset": explorer.preset} | choices
-    above = [name for plot in explorer.plots for name in PLOTS[plot].controls]
-    numbers = {name: getattr(explorer, name) for name in (*explorer.used(), *explorer.numbers(above))}
+    more = ["noise", *(name for plot in explorer.plots for name in PLOTS[plot].controls)]
+    numbers = {name: getattr(explorer, name) for name in (*explorer.used(), *explorer.numbers(more))}
     pairs |= {name: repr(number) for name, number in numbers.items() if number is not None}
     pairs["at"] = f"{explorer.progress:.6g}"
     if explorer.shape == "sampled":
