@@ -10,16 +10,17 @@ from mdr_core.shapes.tables import read_samples
 
 from .units import written
 
-#: Most samples that are pressed without keeping everybody waiting; most rows of a file.
-MOST_SAMPLES, MOST_ROWS = 60, 20_000
+#: Most samples that are pressed without keeping everybody waiting, most that a tip is fitted to, and most
+#: rows of a file.
+MOST_SAMPLES, _FITTED, MOST_ROWS = 60, 2000, 20_000
 
 
 def read_tip(text):
     """Radii and heights (m) of an uploaded tip, and a note on what was done to them.
 
-    A header names the units, as in "r (nm), z (nm)". Both sides of a profile are folded onto one another,
-    many rows are averaged to few, and what is not convex is replaced by the convex shape below it. Raises
-    ValueError if the text is not two columns of numbers, or no tip.
+    A header names the units, as in "r (nm), z (nm)". What is long, noisy or has both sides becomes the
+    convex tip that is nearest to it, see `mdr.Sampled.fit`. Raises ValueError if the text is not two
+    columns of numbers, or no tip.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "tip.csv"
@@ -30,22 +31,39 @@ def read_tip(text):
             r, z = read_samples(path, None, MOST_ROWS)
         except ValueError as error:
             raise ValueError(str(error).replace(str(path), "the file")) from None
-    return ((r, z), f"{len(r)} samples as they are") if len(r) <= MOST_SAMPLES else _averaged(r, z)
+    try:
+        if len(r) <= MOST_SAMPLES:
+            return (mdr.Sampled(r, z).r, z - z[0]), f"{len(r)} samples as they are"
+    except ValueError:
+        # Noise makes any tip concave somewhere.
+        pass
+    return _fitted(r, z)
 
 
-def _averaged(r, z):
+def _fitted(r, z):
     """A convex tip of few samples from many."""
     rows = len(r)
-    if np.any(r < 0):
-        r = np.abs(r - r[np.argmin(z)])
+    if min(r) < 0 < max(r):
+        r = r - _axis(r, z)
+    order = np.argsort(np.abs(r), kind="stable")
+    parts = np.array_split(order, min(rows, _FITTED))
+    tip = mdr.Sampled.fit(*(np.array([np.mean(of[part]) for part in parts]) for of in (np.abs(r), z)))
+    # On a convex polygon every other one of its vertices is convex too.
+    some = np.unique(np.linspace(0, len(tip.r) - 1, MOST_SAMPLES).round().astype(int))
+    samples = np.array(tip.r)[some], np.array(tip.z)[some]
+    apart = z - np.interp(np.abs(r), *samples)
+    by = written(float(np.std(apart)), "length", 2)
+    return samples, f"{len(some)} samples, nearest to {rows} rows, which scatter by {by} about them"
+
+
+def _axis(r, z):
+    """The radius about which both sides of a profile are most alike, near its lowest sample."""
     order = np.argsort(r, kind="stable")
-    # Averages over equal numbers of rows, the tip among them.
-    parts = np.array_split(order, MOST_SAMPLES)
-    mean_r, mean_z = (np.array([values[part].mean() for part in parts]) for values in (r, z))
-    mean_r, first = np.unique(np.append(0.0, mean_r), return_index=True)
-    mean_z = np.append(np.min(z[parts[0]]), mean_z)[first]
-    tip = mdr.Sampled.convex_envelope(mean_r, mean_z - mean_z[0])
-    moved = np.max(np.abs(np.interp(mean_r, tip.r, tip.z) - (mean_z - mean_z[0])))
-    by = written(float(moved), "length", 2)
-    note = f"{len(tip.r)} samples of {rows} rows: averaged, and made convex by at most {by}"
-    return (np.array(tip.r), np.array(tip.z)), note
+    r, z, reach = r[order], z[order], np.ptp(r)
+    lowest = np.clip(r[np.argmin(z)], r[0] + 0.2 * reach, r[-1] - 0.2 * reach)
+    axes = lowest + 0.1 * reach * np.linspace(-1, 1, 41)
+    away = np.linspace(0, min(axes[0] - r[0], r[-1] - axes[-1]), 400)
+    sides = (np.interp(axes[:, None] + side * away, r, z) for side in (1, -1))
+    # How unlike they are grows as a square; noise makes many least ones.
+    a, b, _ = np.polyfit(axes - lowest, np.mean(np.subtract(*sides) ** 2, axis=1), 2)
+    return float(lowest + np.clip(-b / (2 * a), axes[0] - lowest, axes[-1] - lowest)) if a > 0 else lowest

@@ -8,7 +8,7 @@ import pytest
 
 import mdr_core as mdr
 from app import export, link
-from app.drives import follow
+from app.drives import DRIVES, follow
 from app.explorer import FROM_FILE, Explorer
 from app.presets import OPENING, PRESETS
 from app.quantities import QUANTITIES, SHAPES
@@ -193,12 +193,72 @@ def test_measured_tips_as_instruments_write_them():
         read_tip("0, 0\n1, 1\n")
 
 
+@pytest.mark.parametrize("axis", [0, 20])
+def test_a_noisy_tip_is_as_hard_as_the_one_that_is_nearest_to_it(axis):
+    """As `Sampled.fit` has it of the same rows, wherever the axis is; near the tip without noise."""
+    r, medium = np.linspace(-300, 300, 400), Explorer().medium()
+    z = r**2 / 2000 + 0.3 * np.random.default_rng(2).standard_normal(r.size)
+    samples, note = read_tip(table(r + axis, z, "; ", comma=True))
+    assert len(samples[0]) <= MOST_SAMPLES
+    assert "which scatter by 290 pm" in note
+    depths = [2e-9, 5e-9, 10e-9]
+    read, fitted, smooth = (
+        mdr.indent(tip, medium, depths).force
+        for tip in (mdr.Sampled(*samples), mdr.Sampled.fit(r * 1e-9, z * 1e-9), mdr.Paraboloid(1e-6))
+    )
+    # The axis is found to about noise/(slope √rows), 0.1 nm.
+    np.testing.assert_allclose(read, fitted, rtol=0.01)
+    np.testing.assert_allclose(read, smooth, rtol=0.06)
+
+
+def test_a_tip_of_many_or_of_few_rows():
+    rng = np.random.default_rng(3)
+    r = np.linspace(0, 300, 20_000)
+    radii, heights = read_tip(table(r, r**2 / 2000 + 0.3 * rng.standard_normal(r.size)))[0]
+    assert len(radii) <= MOST_SAMPLES
+    assert heights[-1] == pytest.approx(45e-9, rel=0.01)
+    # Without noise there are more vertices than are kept; between them it is a little too high.
+    radii, heights = read_tip(table(r, r**2 / 2000))[0]
+    assert len(radii) == MOST_SAMPLES
+    np.testing.assert_allclose(heights, radii**2 / 2e-6, atol=0.005e-9)
+    # Few rows that noise has made concave.
+    r = np.linspace(-50, 50, 41)
+    assert "nearest to 41 rows" in read_tip(table(r, 0.2 * np.abs(r) + 0.5 * rng.standard_normal(41)))[1]
+    for upside_down in (-np.abs(r), 0 * r):
+        with pytest.raises(ValueError, match="does not rise"):
+            read_tip(table(r, upside_down))
+
+
 def test_a_tip_is_pressed_no_deeper_than_it_reaches():
     explorer = Explorer()
     samples, note = read_tip(table([0, 1, 2, 4], [0, 0.1, 0.3, 1]))
     changed(explorer, explorer.take_tip, samples, note)
     assert explorer.max_depth < explorer.profile().deepest
     assert explorer.scene().solve().force > 0
+
+
+@pytest.mark.parametrize("drive", DRIVES)
+def test_numbers_of_other_drives_are_neither_reported_nor_taken_away_nor_swept(drive):
+    theirs = {
+        "depth": {"max_depth"},
+        "force": {"max_force"},
+        "path": set(),
+        "impact": {"mass", "speed", "density"},
+        "oblique": {"mass", "friction", "incoming_speed", "attack", "density"},
+    }
+    explorer = Explorer()
+    explorer.choose("drive", drive)
+    explorer.choose("inertia", "density")
+    medium = {"cone_slope", "E_1", "nu_1", "E_2", "nu_2", "q_c"}
+    assert set(explorer.used()) == medium | theirs[drive]
+    taken = export.csv(follow(explorer.scene(), 1.0), explorer) + link.query(explorer)
+    for name in set().union(*theirs.values()) - theirs[drive]:
+        assert f" {name} = " not in taken
+        assert f"&{name}=" not in taken
+        assert drive in ("oblique", "path") or name not in explorer.options("swept")
+    # The noise that a fit is given is in the link, whatever the drive.
+    explorer.choose("noise", "given")
+    assert "depth_noise=" in link.query(explorer)
 
 
 def test_exports_say_what_the_medium_was_made_of():
