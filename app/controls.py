@@ -72,6 +72,10 @@ class Number(pn.custom.JSComponent):
             self.explorer.reset(self.key)
         return ""
 
+    def forget(self):
+        """Say no more what was refused, or how it was read."""
+        self.param.update(said="", refused=False)
+
     def show(self):
         """Show the value as it stands."""
         value = self.explorer.number(self.key)
@@ -88,7 +92,7 @@ class Controls:
     def __init__(self, explorer, attempt, tell):
         self.explorer, self.attempt, self.tell, self.numbers = explorer, attempt, tell, {}
         self.choices, self.rows, self._above = {}, {}, []
-        self._list("preset", {label or "Scene from a file": label for label in (*PRESETS, FROM_FILE)})
+        self._list("preset", {label: label for label in PRESETS})
         self._list("shape", {f"{s.label}{' (CSV)' * (key == 'sampled')}": key for key, s in SHAPES.items()})
         for name, texts in CHOICES.items():
             options = {text: option for option, text in texts.items()}
@@ -138,8 +142,9 @@ class Controls:
         explorer = self.explorer
         for name, widget in self.choices.items():
             shown = {"value": explorer.option(name)}
-            if name in ("swept", "against"):
-                shown["options"] = {CHOICES[name][option]: option for option in explorer.options(name)}
+            if name in ("preset", "swept", "against"):
+                texts = CHOICES.get(name, {FROM_FILE: "Scene from a file"})
+                shown["options"] = {texts.get(option, option): option for option in explorer.options(name)}
             # Telling a widget what it knows takes a good part of a move.
             if any(getattr(widget, part) != value for part, value in shown.items()):
                 widget.param.update(**shown)

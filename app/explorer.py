@@ -66,6 +66,8 @@ class Explorer(param.Parameterized):
     def options(self, name):
         """The options of a choice that apply to the scene, the one to begin with first."""
         drive = DRIVES[self.drive]
+        if name == "preset":
+            return [*PRESETS, *[FROM_FILE] * (self.preset == FROM_FILE)]
         if name not in ("swept", "against") or not drive.solver:
             return self.param[name].objects
         if name == "against":

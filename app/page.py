@@ -154,6 +154,8 @@ class Page:
         """Make a change; a refusal is a notice."""
         try:
             self.attempt(act)
+            for number in self.controls.numbers.values():
+                number.forget()
         except ValueError as error:
             self.notify(str(error))
             self.controls.show(self.way)

@@ -33,7 +33,7 @@ export function render({ model, el }) {
     if (next) ask(next)
     show()
   })
-  model.on(["change:text", "change:position"], () => busy || show())
+  model.on(["text", "position", "refused", "said"].map((what) => `change:${what}`), () => busy || show())
   range.addEventListener("input", () => {
     range.style.setProperty("--share", range.value / range.max)
     ask({ position: range.valueAsNumber })

@@ -2,7 +2,8 @@
 
 import pytest
 
-from app import view
+from app import link, view
+from app.explorer import FROM_FILE
 from app.page import Page
 from app.presets import OPENING, PRESETS
 
@@ -67,3 +68,42 @@ def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
     assert page.explorer.progress == page.way.progress[3]
     assert page.undo.disabled
     assert_in_use(page)
+
+
+class Typed:
+    """What a field sends."""
+
+    def __init__(self, text):
+        self.data = {"text": text}
+
+
+@pytest.mark.parametrize("act", ["preset", "undo", "reset"])
+def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
+    number = page.controls.number("q_c")
+    page.controls.number("max_depth")._asked(Typed("5 nm"))
+    number._asked(Typed("abc"))
+    assert (number.refused, number.said) == (
+        True,
+        "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m",
+    )
+    # It stays to be mended while other numbers are set.
+    page.controls.number("max_depth")._asked(Typed("6 nm"))
+    assert number.refused
+    if act == "preset":
+        page.controls.choices["preset"].value = list(PRESETS)[1]
+    else:
+        getattr(page, act).clicks += 1
+    assert (number.refused, number.said) == (False, "")
+
+
+def test_a_scene_from_a_file_can_be_chosen_only_where_there_is_one(page):
+    presets = page.controls.choices["preset"]
+    assert list(presets.options) == list(PRESETS)
+    page.tell(lambda: link.load_scene(page.explorer, page.explorer.scene().to_json()))
+    assert list(presets.options) == [*PRESETS, "Scene from a file"]
+    assert presets.value == FROM_FILE
+    presets.value = list(PRESETS)[3]
+    assert page.explorer.preset == list(PRESETS)[3]
+    assert list(presets.options) == list(PRESETS)
+    page.undo.clicks += 1
+    assert presets.value == page.explorer.preset == FROM_FILE

@@ -143,6 +143,10 @@ def test_typed_numbers_are_read_as_they_say_refused_where_they_stand_and_undone(
         assert explorer.field("d_max").get_attribute("aria-invalid") == "true"
         assert number.locator("img").count() == 0
     assert_draws(explorer, State())
+    explorer.press("Reset")
+    number.locator("#said", has_text="is not").wait_for(state="detached")
+    assert explorer.field("d_max").input_value() == "8.978 nm"
+    assert explorer.field("d_max").get_attribute("aria-invalid") == "false"
     with explorer.change():
         explorer.type("d_max", "5 nm")
     assert explorer.field("d_max").get_attribute("aria-invalid") == "false"
