@@ -73,6 +73,8 @@ class Grid:
     def _make(self, name):
         figure, plot = figures.figure(name), PLOTS[name]
         self.figures[name] = figure
+        # Until something has been found there is nothing on them.
+        figure.axis.axis_label = ""
         if _BELOW.get(name) in self.figures:
             figure.x_range = self.figures[_BELOW[name]].x_range
         if name == "force":

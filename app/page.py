@@ -23,7 +23,7 @@ from .parts import FULL, HERE, JS, STYLE, WIDE, button, html, linked, toggle, to
 from .player import Player
 from .plots import PLOTS
 from .quantities import CHOICES, DATA
-from .resting import Resting, in_time
+from .resting import Resting, about, in_time
 from .takeaway import TakeAway
 from .tip import read_tip
 from .tour import Tour
@@ -42,7 +42,7 @@ class Page:
 
     def __init__(self, arguments=None):
         self.document, self.explorer, self.held = pn.state.curdoc, Explorer(), []
-        self.found, self.solved, self._waiting, self._ready = {}, {}, None, False
+        self.solved, self._waiting, self._ready = {}, None, False
         self._widgets()
         notice = self._open(arguments or {})
         self.resting = Resting(self._show_found)
@@ -242,11 +242,9 @@ class Page:
 
     def _show(self, anew=True):
         """Draw the present state: one array of all columns; `anew` if other states are to be played."""
-        for plot, values in self._asks():
-            if plot.quick(*values):
-                (self.found[plot.title],) = plot.resting(self.way, *values)
+        found = {plot.title: self.resting.known(plot, self.way, values) for plot, values in self._asks()}
         held, curve = [each.way for each in self.held], Curve.of(self.explorer)
-        self.drawn = View(self.way, held, self.found, self.explorer.choices, curve)
+        self.drawn = View(self.way, held, found, self.explorer.choices, curve)
         self.grid.show(self.drawn, self._shown())
         self.readout.text = readouts.heads(self.cells)
         self.player.send(self.drawn, self.grid.layers, self.cells, anew)
@@ -270,17 +268,23 @@ class Page:
 
     @pn.io.hold()
     def _show_found(self, title, found):
-        """Draw what was found of a plot while the input was at rest."""
-        if isinstance(found, str):
-            self.notify(found)
-        elif isinstance(found, Trajectory):
-            self.solved = dict([*self.solved.items(), (found.scene, found)][-4:])
+        """Draw what was found while the input was at rest; if that fails, go on without it."""
+        solved = self.solved
+        try:
+            if isinstance(found, str):
+                self.notify(found)
+            elif isinstance(found, Trajectory):
+                self.solved = dict([*solved.items(), (found.scene, found)][-4:])
+                self._hold()
+                self._changed()
+            else:
+                self._show(anew=False)
+        except Exception as error:
+            self.solved = solved
+            self.resting.give_up(title)
+            self.notify(self._refusal(error))
             self._hold()
-            self._solve()
-            self._around()
-        else:
-            self.found[title] = found
-            self._show(anew=False)
+            self._changed()
 
     @pn.io.hold()
     def _stood(self, attr, old, new):
@@ -289,6 +293,8 @@ class Page:
         self.drawn.way = self.way = replace(self.way, now=now)
         self.player.stand(self.way)
         self.explorer.progress = float(self.way.progress[now])
+        if any(plot.of_state for plot, _ in self._asks()):
+            self._show(anew=False)
         self._around()
 
     def _around(self):
@@ -333,5 +339,5 @@ class Page:
         asked = {plot: values for plot, values in self._asks() if not plot.quick(*values)}
         for plot in (plot for plot in PLOTS.values() if plot.resting):
             values = asked.get(plot, ())
-            about = (way.scene, *values, *[way.progress[way.now]] * plot.of_state)
-            self.resting.follow(plot.title, about if plot in asked else None, plot.resting, way, *values)
+            of = about(plot, way, values) if plot in asked else None
+            self.resting.follow(plot.title, of, plot.resting, way, *values)

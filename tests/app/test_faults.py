@@ -1,11 +1,16 @@
 """What cannot be shown leaves the page as it was, and in use, wherever it fails. Without a browser."""
 
+import time
+from dataclasses import replace
+
 import pytest
 
 from app import link, view
 from app.explorer import FROM_FILE
 from app.page import Page
+from app.plots import PLOTS
 from app.presets import OPENING, PRESETS
+from app.resting import COMPUTING, FAULT
 
 pytestmark = pytest.mark.filterwarnings("ignore:Widget.name is deprecated:PendingDeprecationWarning")
 
@@ -107,3 +112,47 @@ def test_a_scene_from_a_file_can_be_chosen_only_where_there_is_one(page):
     assert list(presets.options) == list(PRESETS)
     page.undo.clicks += 1
     assert presets.value == page.explorer.preset == FROM_FILE
+
+
+def found(page, title=PLOTS["section"].title):
+    """What is shown of the section once the input has been at rest."""
+    page._settled()
+    until = time.monotonic() + 30
+    while page.drawn.found[title] is COMPUTING or not page.drawn.found[title].rows:
+        assert time.monotonic() < until
+        time.sleep(0.02)
+    return page.drawn.found[title]
+
+
+def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
+    title = PLOTS["section"].title
+    page.asked["section"].value = True
+    assert page.drawn.found[title] == COMPUTING
+    first = found(page)
+    page.explorer.q_c = 1.2 * page.explorer.q_c
+    assert page.drawn.found[title] == replace(COMPUTING, axes=first.axes)
+    page.asked["section"].value = False
+    page.tell(page.explorer.undo)
+    page.asked["section"].value = True
+    assert page.drawn.found[title] is first
+    page._stood("value_throttled", page.way.now, 5)
+    assert page.drawn.found[title].note == "computing …"
+    assert found(page).rows["contact radius a"][0][0] == page.way.state.contact_radius
+
+
+def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
+    show = page.grid.show
+    page.asked["section"].value = True
+    monkeypatch.setattr(
+        page.grid, "show", lambda view, names: failing() if found_rows(view) else show(view, names)
+    )
+    page._settled()
+    until = time.monotonic() + 30
+    while page.drawn.found[PLOTS["section"].title] is not FAULT:
+        assert time.monotonic() < until
+        time.sleep(0.02)
+    assert_in_use(page)
+
+
+def found_rows(view):
+    return view.found[PLOTS["section"].title].rows
