@@ -12,7 +12,7 @@ from .convert import CONVERT
 from .drives import DRIVES
 from .measured import Measured
 from .presets import OPENING, PRESETS
-from .quantities import CHOICES, ENDS, NUMBERS, QUANTITIES, SHAPES, USED, Scale, shape_quantities
+from .quantities import CHOICES, ENDS, NUMBERS, QUANTITIES, SHAPES, USED, Scale, lowered, shape_quantities
 from .trajectory import LAST_PROGRESS
 from .units import fitting, read, written
 
@@ -175,7 +175,7 @@ class Explorer(param.Parameterized):
         quantity = NUMBERS[name]
         if quantity.bounded(value) != value:
             shown, low, high = (written(v, quantity.kind) for v in (value, *quantity.bounds))
-            raise ValueError(f"{quantity.symbol} = {shown} is out of bounds: {low} to {high}")
+            raise ValueError(f"{lowered(quantity.symbol)} = {shown} is out of bounds: {low} to {high}")
         return float(value)
 
     def scale(self, name):

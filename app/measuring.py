@@ -5,7 +5,7 @@ from html import escape
 import panel as pn
 
 from . import measured
-from .parts import WIDE, button, field, fill, html, indexed, marked, tools, upload
+from .parts import WIDE, button, field, fill, html, indexed, marked, plain, tools, upload
 from .quantities import QUANTITIES, USED
 
 
@@ -99,4 +99,5 @@ class Measuring:
         said = "What is set on the page is not this fit any more."
         if measured.agrees(self.explorer):
             said = "Its values are those set on the page; Undo takes it back."
-        return f"{said} Save it as CSV or Python under Take with you.{indexed(curve.fit._repr_html_())}"
+        said += " Save it as CSV or Python under Take with you."
+        return said + indexed(plain(curve.fit._repr_html_()))

@@ -19,7 +19,7 @@ from .grid import Grid
 from .held import Table, held, is_held, renamed, toggled
 from .measured import Curve
 from .measuring import Measuring
-from .parts import FULL, HERE, JS, STYLE, WIDE, button, html, linked, toggle, tools
+from .parts import FULL, HERE, JS, STYLE, WIDE, button, html, linked, plain, toggle, tools
 from .player import Player
 from .plots import PLOTS
 from .quantities import CHOICES, DATA
@@ -179,7 +179,7 @@ class Page:
     def _refusal(self, error):
         """What is said of an error; one that is not the person's is logged with what led to it."""
         if isinstance(error, ValueError):
-            return str(error)
+            return plain(str(error))
         _LOG.error("a change could not be shown, scene %s", self.explorer.described(), exc_info=error)
         return _FAULT
 
@@ -272,7 +272,7 @@ class Page:
         solved = self.solved
         try:
             if isinstance(found, str):
-                self.notify(found)
+                self.notify(plain(found))
             elif isinstance(found, Trajectory):
                 self.solved = dict([*solved.items(), (found.scene, found)][-4:])
                 self._hold()

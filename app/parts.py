@@ -6,6 +6,8 @@ from pathlib import Path
 
 import panel as pn
 
+from .quantities import QUANTITIES
+
 HERE = Path(__file__).parent
 JS = {path.stem: path.read_text(encoding="utf-8") for path in (HERE / "js").glob("*.js")}
 # Inline where the size of a plot depends on it: Bokeh lays out before a linked sheet is there.
@@ -13,10 +15,20 @@ STYLE = [(HERE / "static" / "style.css").read_text(encoding="utf-8")]
 WIDE = {"sizing_mode": "stretch_width", "margin": 0}
 FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": STYLE}
 
+_LABELS = {name: quantity.label for name, quantity in QUANTITIES.items()}
+
 
 def indexed(text):
     """HTML in which every symbol such as d_c has its index."""
-    return re.sub(r"(\b[a-zA-Z]|[αψσντηρ])_([a-zA-Z0-9]+)", r"<i>\1</i><sub>\2</sub>", text)
+    return re.sub(r"(\b[a-zA-Z]|[ακψσντηρ])_([a-zA-Z0-9]+)", r"<i>\1</i><sub>\2</sub>", text)
+
+
+def plain(text):
+    """What the core says of arguments, in words of the page: numbers by their labels, and of one place."""
+    for name, label in _LABELS.items():
+        text = text.replace(f"{label} {name} ", f"{label} ")
+    text = re.sub(r"\[[\d, ]+\](?= = )| \(and \d+ more of \d+ entries\)|; or give unit='nm'", "", text)
+    return re.sub(r"\b[a-zA-Z]+_[a-z_]{2,}\b", lambda name: _LABELS.get(name[0], name[0]), text)
 
 
 def marked(text):

@@ -1,6 +1,7 @@
 """Every number, choice and shape that can be set: their words and bounds are in assets/quantities.json."""
 
 import json
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import log
@@ -67,6 +68,14 @@ def _shape(key, label, height, reduced, quantities):
     return Shape(label, height, reduced, tuple(_quantity(**each) for each in quantities), build)
 
 
+_LOWERED = str.maketrans("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
+
+
+def lowered(text):
+    """A text in which indices, as in v_0, are letters of Unicode; those it has not stay as high: qc."""
+    return re.sub("_([a-z0-9]+)", lambda index: index[1].translate(_LOWERED), text)
+
+
 SHAPES = {key: _shape(key, **words) for key, words in DATA["shapes"].items()}
 #: What each choice is called, its options as they are shown, the numbers that each of them uses, and
 #: what it is.
@@ -102,7 +111,7 @@ ABOUT |= {
     "preset": "A medium and an indenter that exist, with their numbers. Choosing one sets everything.",
     "shape": "What is pressed or hits: a body of revolution, which touches with its tip.",
 }
-CHOICES["swept"] = {name: f"{q.symbol}, {q.label}" for name, q in SWEPT.items()}
+CHOICES["swept"] = {name: lowered(f"{q.symbol}, {q.label}") for name, q in SWEPT.items()}
 USED["swept"] = {name: [f"{name}_from", f"{name}_to"] for name in SWEPT}
 
 

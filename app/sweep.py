@@ -12,8 +12,8 @@ from mdr_core.report import QUANTITIES as RESULTS
 
 from .drives import DRIVES
 from .explorer import Explorer
-from .parts import marked
-from .quantities import SWEPT
+from .parts import marked, plain
+from .quantities import SWEPT, lowered
 from .resting import Found
 from .units import UNITS, Unit, digits, written
 from .view import axis
@@ -150,24 +150,18 @@ def found(way, sweep):
 
 def _axes(sweep, values, here):
     quantity, result = SWEPT[sweep.swept], RESULTS[sweep.against]
-    x = axis("swept", _title(quantity.symbol, quantity.label), quantity.kind, sweep.high)
+    x = axis("swept", lowered(f"{quantity.symbol}, {quantity.label}"), quantity.kind, sweep.high)
     x = replace(x, start=sweep.low, end=sweep.high, log=sweep.logarithmic)
     some = np.append(values, here)
     some = some[np.isfinite(some)]
     kind = next(kind for kind, units in UNITS.items() if Unit(result.unit, 1.0) in units)
-    y = axis("against", _title(result.symbol, result.long_name), kind, max(some, default=1.0))
+    y = axis("against", lowered(f"{result.symbol}, {result.long_name}"), kind, max(some, default=1.0))
     if sweep.axes != "log" or not (some > 0).any():
         return x, y
     # Six decades at most, from power to power of ten.
     least, most = max(min(some[some > 0]), 1e-6 * max(some)), max(some)
     low, high = 10.0 ** np.floor(np.log10(least / y.factor)), 10.0 ** np.ceil(np.log10(most / y.factor))
     return x, replace(y, start=low * y.factor, end=max(high, 10 * low) * y.factor, log=True)
-
-
-def _title(symbol, label):
-    for written_as, shown in zip(("_0", "_1", "_2", "_"), ("₀", "₁", "₂", ""), strict=True):
-        symbol = symbol.replace(written_as, shown)
-    return f"{symbol}, {label}"
 
 
 def _notes(sweep, numbers, values, powers, inside):
@@ -190,4 +184,4 @@ def _notes(sweep, numbers, values, powers, inside):
         try:
             sweep.solve(float(refused[0]))
         except ValueError as error:
-            yield marked(f"Not all of the range can be solved: {error}.")
+            yield marked(f"Not all of the range can be solved: {plain(str(error))}.")

@@ -151,7 +151,7 @@ def _viscosity_limit(medium):
     value = float(np.max(medium.relaxation_time))
     text = (
         "Without times the path is followed infinitely slowly: the viscosity carries nothing; τ = "
-        f"{engineering(value, 's')}. indent_in_time and creep follow it in time."
+        f"{engineering(value, 's')}. With times it is felt."
     )
     return Limit("viscosity", value, 0.0, True, text, severe=False)
 

@@ -85,7 +85,7 @@ def changed(**changes):
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("", "scene: Expecting value"),
+        ("", "scene: no JSON text .Expecting value"),
         ("[1, 2", "scene: "),
         ("null", "must have exactly"),
         ("[" * 100_000, "nested too deeply"),

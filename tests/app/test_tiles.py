@@ -29,7 +29,10 @@ def test_several_are_held_on_one_dimensionless_curve_and_come_back_from_the_addr
     explorer.link("shallow")
     explorer.choose("Axes", "dimensionless")
     explorer.choose("Preset", list(PRESETS)[4])
-    assert explorer.axis("force")["labels"] == ["d/d_c, indentation depth", "F/F_c, normal force"]
+    assert explorer.axis("force")["labels"] == [
+        "d, indentation depth (× d at onset)",
+        "F, normal force (× F at onset)",
+    ]
     # F/F_c = 2 d/d_c − 1 on every cone: gold is held, this is PDMS.
     for row in ("yielding", "held 2"):
         d, force = explorer.row("force", row)
@@ -46,7 +49,7 @@ def test_several_are_held_on_one_dimensionless_curve_and_come_back_from_the_addr
     explorer.press("Dark")
     pairs, held = explorer.link("dark=1"), explorer.row("force", "held 1")
     assert (pairs["q_c"], pairs["plots"], pairs["dark"]) == ("2.0", "map", "1")
-    assert explorer.axis("map")["labels"][1].startswith("y/a_max, in the plane")
+    assert explorer.axis("map")["labels"][1] == "y, in the plane (× largest a)"
     page.reload()
     explorer.wait("window.explorer?.idle() && document.documentElement.classList.contains('dark')")
     np.testing.assert_allclose(explorer.row("force", "held 1"), held, rtol=1e-6)
@@ -138,7 +141,7 @@ def test_the_sweep_shows_the_damaged_area_over_the_energy_and_moves_with_a_slide
         shown = explorer.field("q_c" if name == "q_c" else "v_0").input_value()
         setattr(state, name, state.checked(name, read(shown, QUANTITIES[name].kind, None)[0]))
         agrees()
-    explorer.choose("Swept", "v_0, speed at first contact")
+    explorer.choose("Swept", "v₀, speed at first contact")
     with explorer.change():
         explorer.type("v_0 from", "20 mm/s")
     assert explorer.axis("sweep")["x"][0] * unit(explorer.axis("sweep")["labels"][0], "speed") == 0.02

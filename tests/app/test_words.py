@@ -10,12 +10,14 @@ from app import link, theory
 from app.drives import follow
 from app.explorer import Explorer
 from app.page import Page
-from app.parts import linked
+from app.parts import linked, marked, plain
 from app.plots import PLOTS
 from app.presets import PRESETS
-from app.quantities import ABOUT, CHOICES, DATA, QUANTITIES
+from app.quantities import ABOUT, CHOICES, DATA, QUANTITIES, SHAPES
 from app.readouts import cells, heads
+from app.tip import read_tip
 from app.tour import TOURS
+from app.view import View
 
 from .conftest import DROP
 
@@ -143,3 +145,39 @@ def test_a_guided_scene_is_stepped_through_and_undone():
     for _ in range(4):
         page.tell(page.explorer.undo)
     assert page.explorer.snapshot()[0] == opening[0]
+
+
+def test_python_and_raw_indices_are_not_on_the_page():
+    explorer = Explorer()
+    shown = [text for texts in CHOICES.values() for text in texts.values()] + [ABOUT["shape"]]
+    shown += [quantity.label for quantity in QUANTITIES.values()]
+    shown += [axis.label for choice in ("units", "ratio") for axis in axes(explorer, choice)]
+    assert [text for text in shown if "_" in text] == []
+    for shape in SHAPES.values():
+        assert "_" not in marked(shape.height + shape.reduced)
+    with pytest.raises(ValueError, match=r"E₁ = 1\.000 mPa is out of bounds"):
+        explorer.checked("E_1", 1e-3)
+    explorer.choose("shape", "flat_punch")
+    explorer.choose("drive", "path")
+    explorer.choose("prescribed", "force")
+    most = 2 * explorer.medium().yield_line_load * explorer.profile().wall
+    explorer.path = [(k * most / 3,) for k in range(1, 6)]
+    with pytest.raises(ValueError, match="of 5 entries") as refused:
+        explorer.scene().solve()
+    said = plain(str(refused.value))
+    assert "[" not in said
+    assert "entries" not in said
+    with pytest.raises(ValueError, match="header must name") as refused:
+        read_tip("0, 0\n1, 1\n")
+    assert plain(str(refused.value)).endswith("m, mm, um, µm, μm, nm")
+    assert plain("give depth_noise, about 54 pm") == "give depth noise, about 54 pm"
+    assert (
+        plain("scene medium: effective modulus E_star = -1 Pa") == "scene medium: effective modulus = -1 Pa"
+    )
+    with pytest.raises(ValueError, match="no JSON text"):
+        link.load_scene(explorer, "")
+
+
+def axes(explorer, choice):
+    way = follow(explorer.scene(), 1.0)
+    return View(way, chosen={"axes": choice}).axes.values()
