@@ -311,6 +311,7 @@ class Page:
         self.grid.tell(readouts.summary(explorer))
         self.away.show()
         self.measuring.show()
+        self.tour.show()
         explorer.accept()
         self.undo.disabled, self.redo.disabled = not explorer.past, not explorer.future
         self._settle()

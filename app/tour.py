@@ -12,7 +12,8 @@ from .units import written
 
 #: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
 TOURS = json.loads((ASSETS / "tours.json").read_text(encoding="utf-8"))
-_INTRO = "Three scenes, each of a few steps. Next begins; Undo takes a step back out of the page."
+_INTRO = "Three scenes, each of a few steps. Next begins; Undo takes back what a step has set."
+_LEFT = "The page shows something else by now. Back and Next go on with the steps."
 
 
 def said(step, way):
@@ -25,7 +26,7 @@ class Tour:
     """The panel *Guide* of a page."""
 
     def __init__(self, page):
-        self.page, self.at = page, -1
+        self.page, self.at, self._scene, self._text = page, -1, None, ""
         self.title = field(pn.widgets.Select, "tour", options=list(TOURS), width=270, sizing_mode=None)
         self.back, self.next = (button(name, width=70) for name in ("Back", "Next"))
         self.words = html(_INTRO)
@@ -38,9 +39,16 @@ class Tour:
     def _go(self, at):
         self.at, steps = at, TOURS[self.title.value]
         self.page.open(urlencode(steps[at]["set"]))
-        text = linked(said(steps[at], self.page.way))
-        self.words.object = f'<p role="status">{at + 1} of {len(steps)}. {text}</p>'
+        self._scene, self._text = self.page.way.scene, linked(said(steps[at], self.page.way))
+        self.show()
         self._bound()
+
+    def show(self):
+        """What the step says, while the page shows its scene."""
+        if self.at >= 0:
+            text = self._text if self.page.way.scene == self._scene else _LEFT
+            count = len(TOURS[self.title.value])
+            self.words.object = f'<p role="status">{self.at + 1} of {count}. {text}</p>'
 
     def _bound(self):
         self.back.disabled = self.at <= 0

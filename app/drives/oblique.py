@@ -77,10 +77,18 @@ class Oblique(impact.Impact):
         return numbers | _aimed(numbers["speed"], float(along))
 
     def snippet(self, way, given, prefix):
-        hit, told = f"{prefix}hit", ("tangential_velocity", "rebound_angle", "friction_work")
+        hit, told = f"{prefix}hit", ("tangential_velocity", "friction_work")
         values = ("time", "force", "tangential_force", "tangential_velocity", "stick_radius", "slip_radius")
         solved = f"{hit} = mdr.oblique_impact({given}, {arguments(way.scene.drive)})"
-        return [solved, impact.printed(hit, told), *impact.in_motion(way, prefix, values)]
+        drive = way.scene.drive
+        before, share = drive.tangential_speed, drive.tangential_mass / drive.mass
+        body = f"{before!r} + {share!r} * ({hit}.tangential_velocity - {before!r})"
+        # The core has the angle of the contact point from the normal.
+        angle = [
+            "from math import atan2, degrees",
+            f"print(degrees(atan2({hit}.normal.rebound_speed, {body})))  # α_r: of the body, to the surface",
+        ]
+        return [solved, impact.printed(hit, told), *angle, *impact.in_motion(way, prefix, values)]
 
     def cells(self, way):
         drive, motion, profile = way.scene.drive, way.oblique, way.scene.profile

@@ -186,7 +186,9 @@ def test_snippet_and_curves_come_to_the_state(ball, capsys):
     explorer, way = ball
     way, values = replace(way, now=90), {}
     exec(export.python(way), values)
-    capsys.readouterr()
+    # The rebound angle is that of the page.
+    angle = next(value for name, _, _, value in readouts.cells(way) if name == "α_r")
+    assert float(capsys.readouterr().out.splitlines()[1]) == pytest.approx(np.degrees(angle), rel=1e-3)
     assert values["hit"].friction_work == way.oblique.impact.friction_work
     drawn, found = way.oblique.tangential_force, values["motion"].tangential_force
     assert found[90] == pytest.approx(drawn[90], abs=1e-3 * np.max(np.abs(drawn)))

@@ -141,9 +141,15 @@ def test_a_guided_scene_is_stepped_through_and_undone():
     page.tour.title.value = "A fast impact, and what it destroys"
     assert "e = 1.00" in re.sub("<[^>]+>", "", page.tour.words.object)
     assert page.explorer.plots == ["map"]
+    # What it says is gone while the page shows something else.
+    page.explorer.speed = 2 * page.explorer.speed
+    assert "1 of 5. The page shows something else" in page.tour.words.object
+    page.tell(page.explorer.undo)
+    assert "e = 1.00" in re.sub("<[^>]+>", "", page.tour.words.object)
     # Each step that sets something is one change.
     for _ in range(4):
         page.tell(page.explorer.undo)
+    assert "something else" in page.tour.words.object
     assert page.explorer.snapshot()[0] == opening[0]
 
 
