@@ -86,7 +86,7 @@ class Oblique(impact.Impact):
         # The core has the angle of the contact point from the normal.
         angle = [
             "from math import atan2, degrees",
-            f"print(degrees(atan2({hit}.normal.rebound_speed, {body})))  # α_r: of the body, to the surface",
+            f"print(degrees(atan2({hit}.normal.rebound_speed, {body})))  # of the body, to the surface",
         ]
         return [solved, impact.printed(hit, told), *angle, *impact.in_motion(way, prefix, values)]
 

@@ -98,7 +98,7 @@ def test_a_drag_is_one_change():
 
 def test_a_number_out_of_bounds_is_refused_by_name():
     explorer = Explorer()
-    with pytest.raises(ValueError, match=r"d_max = 1000 m is out of bounds: .* to 10\.00 m"):
+    with pytest.raises(ValueError, match=r"dₘₐₓ = 1000 m is out of bounds: .* to 10\.00 m"):
         explorer.type("max_depth", "1000 m")
 
 
