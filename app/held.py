@@ -127,7 +127,7 @@ def _row(name, cells, dash=None, remove=None):
 
 
 def _cells():
-    return html("", "cells", min_width=640)
+    return html("", "cells")
 
 
 def _spans(texts):

@@ -26,13 +26,13 @@ class Measuring:
         }
         self.holds = field(pn.widgets.CheckBoxGroup, name="Held", options=named, inline=True)
         self.about, self.said = html(), html("", "note", "said")
-        self.controls.rows["noise"].param.update(sizing_mode="fixed", width=400)
+        self.controls.rows["noise"].param.update(sizing_mode=None, width=400)
         # Without widths of their own parts give way where a page is narrow.
         self.place, self.noise = tools(), tools()
         choices = [
             part[role] for role in self.columns for part in (self.columns, self.units) if role in part
         ]
-        held = html("Held in the fit:", width=90, sizing_mode="fixed")
+        held = html("Held in the fit:", width=90, sizing_mode=None)
         self.rest = pn.Column(tools(*choices), self.place, tools(held, self.holds), self.noise, **WIDE)
         file = tools(html("Depth and force as CSV, drop or choose:"), self.file, self.made, self.remove)
         left = pn.Column(file, self.about, self.rest, css_classes=["measuring"], margin=0)

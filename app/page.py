@@ -88,7 +88,7 @@ class Page:
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 320}
         side = pn.Column(title, self.controls.form, about, **look)
         axes = self.controls.rows["axes"]
-        axes.param.update(sizing_mode="fixed", width=180)
+        axes.param.update(sizing_mode=None, width=180)
         buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values())
         buttons = (*buttons, self.dark, self.take, self.measure, self.guide, axes)
         parts = (tools(*buttons, stylesheets=STYLE), self.table.view)

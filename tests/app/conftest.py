@@ -100,7 +100,7 @@ class Server:
             r"Task exception was never retrieved\n(?:(?!Task exc).)*?\ntornado\S+WebSocketClosedError\n"
         )
         log = re.sub(closed, "", self.log, flags=re.DOTALL)
-        return log if "Traceback" in log or "ERROR" in log else ""
+        return log if re.search(r"Traceback|ERROR|\b[EW]-1\d{3}\b", log) else ""
 
     def stop(self, kill=False):
         # The group, as a service manager does: a server of several processes would leave its children.

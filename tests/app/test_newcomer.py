@@ -62,8 +62,8 @@ def test_a_newcomer_takes_the_report_home(explorer, context):
 
 
 def test_small_screens(server, browser):
-    """A phone, and a window of 1440 × 900 at 200 %."""
-    with browser.new_context(viewport={"width": 390, "height": 844}) as context:
+    """A phone, a window of 1440 × 900 at 200 %, and those in which both columns are just there."""
+    with browser.new_context(viewport={"width": 390, "height": 844}, is_mobile=True) as context:
         explorer = Explorer(context.new_page(), server.url)
         page, card = explorer.page, explorer.page.locator(".card.force")
         assert page.evaluate(SEEN) == {"small": [], "sideways": [], "scroll": 390}
@@ -85,6 +85,9 @@ def test_small_screens(server, browser):
         page.set_viewport_size({"width": 720, "height": 450})
         explorer.wait("explorer.model('force').inner_width > 400")
         assert page.evaluate(SEEN) == {"small": [], "sideways": [], "scroll": 720}
+        for width in (1001, 1280):
+            page.set_viewport_size({"width": width, "height": 800})
+            assert page.evaluate(SEEN)["scroll"] == width
         assert explorer.problems == []
 
 

@@ -47,6 +47,8 @@ def test_several_are_held_on_one_dimensionless_curve_and_come_back_from_the_addr
     explorer.press("Map")
     page.locator(".card.map").wait_for()
     explorer.press("Dark")
+    colour = "(on) => getComputedStyle(on).color"
+    assert page.locator(".cells").last.evaluate(colour) == page.locator("h1").evaluate(colour)
     pairs, held = explorer.link("dark=1"), explorer.row("force", "held 1")
     assert (pairs["q_c"], pairs["plots"], pairs["dark"]) == ("2.0", "map", "1")
     assert explorer.axis("map")["labels"][1] == "y, in the plane (× largest a)"
