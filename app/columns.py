@@ -68,8 +68,10 @@ def force(view, i):
     past = np.flatnonzero(way.deeper[: i + 1])
     (lost_d, lost_F), (back_d, back_F) = (way.released(k) for k in (past[-1], i))
     d, F = way.states.depth[past], way.force[past]
+    lost = np.concatenate([d[:1], d, lost_d]), np.concatenate([[0.0], F, lost_F])
+    elastic = lower == way.before and way.scene.medium.eta == 0
     return rows | {
-        "dissipated": (np.concatenate([d[:1], d, lost_d]), np.concatenate([[0.0], F, lost_F])),
+        "dissipated": figures.NOTHING if elastic else lost,
         "recoverable": (np.append(back_d[:1], back_d), np.append(0.0, back_F)),
     }
 
@@ -162,9 +164,10 @@ def energy_still(view):
     sums = np.cumsum([np.zeros_like(m.time), *parts], axis=0)
     time = np.append(m.time, m.time[::-1])
     between = [(time, np.append(upper, lower[::-1])) for lower, upper in pairwise(sums)]
-    rows = dict(zip(("friction", "plastic", "viscous", "stored", "kinetic"), between, strict=True))
-    of = {"friction": slip, "viscous": m.viscous_work, "kinetic": m.kinetic_energy}
-    return rows | {name: figures.NOTHING for name, energy in of.items() if not energy.any()}
+    # What is nothing but rounding is not in the legend.
+    some = [part.max() > 1e-9 * sums.max() for part in parts]
+    rows = [row if there else figures.NOTHING for row, there in zip(between, some, strict=True)]
+    return dict(zip(("friction", "plastic", "viscous", "stored", "kinetic"), rows, strict=True))
 
 
 def plane(view, i):

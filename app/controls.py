@@ -41,7 +41,7 @@ class Number(pn.custom.JSComponent):
         quantity = NUMBERS[name]
         self.explorer, self.key, self.kind, self.attempt = explorer, name, quantity.kind, attempt
         super().__init__(
-            label=f"{symbol(quantity.symbol)} {escape(quantity.label)}",
+            label=f"{symbol(quantity.symbol)} {marked(quantity.label)}",
             spoken=f"{quantity.symbol}, {quantity.label}",
             about=_about(quantity),
             steps=Scale.STEPS if quantity.span >= 0 else 0,

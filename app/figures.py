@@ -95,6 +95,9 @@ def _finished(renderer, mapper, rows):
     elif kind == "marks":
         glyph.update(fill_color=role, hatch_color=role, line_color=edge, line_width=1.6)
         glyph.update(marker={"field": "marker"}, size={"field": "size"})
+    elif kind == "labels":
+        # To be read where lines pass below.
+        glyph.update(background_fill_color=LIGHT["paper"], background_fill_alpha=0.8)
     elif kind == "tips":
         # There to be found by the pointer only.
         glyph.update(fill_color=None, line_color=None, hatch_color=None)
@@ -141,7 +144,7 @@ def set_axes(figure, axes):
             start, end = axis.ends
             bounds.update(start=start, end=end, reset_start=start, reset_end=end)
             side.axis_label = axis.label
-            _scale(figure, side, axis.log)
+            _scale(figure, side, axis)
     symbols = {row.symbol for row in PLOTS[figure.name].rows if row.symbol}
     for hover in (tool for tool in figure.toolbar.tools if isinstance(tool, bk.HoverTool)):
         x, y = axes[0], axes[2 if hover.name.endswith("right") else 1]
@@ -154,17 +157,27 @@ def set_axes(figure, axes):
         bar.title = f"{axes[2].title.split(',')[0]} ({axes[2].unit})"
 
 
-def _scale(figure, side, log):
+def _scale(figure, side, axis):
     """Make the scale along one side of a figure logarithmic, or linear again."""
     name = "x_scale" if side is figure.below[0] else "y_scale"
-    if PLOTS[figure.name].log or isinstance(getattr(figure, name), bk.LogScale) == log:
+    log = axis.log or PLOTS[figure.name].log
+    if isinstance(getattr(figure, name), bk.LogScale) != log:
+        setattr(figure, name, bk.LogScale() if log else bk.LinearScale())
+    elif not log:
         return
-    linear = bk.LinearScale, bk.BasicTicker, bk.BasicTickFormatter
-    scale, ticker, formatter = (bk.LogScale, bk.LogTicker, bk.LogTickFormatter) if log else linear
-    setattr(figure, name, scale())
-    side.update(ticker=ticker(), formatter=formatter())
+    ticker, formatter = ticks(*axis.ends) if log else (bk.BasicTicker(), bk.BasicTickFormatter())
+    side.update(ticker=ticker, formatter=formatter)
     for grid in (each for each in figure.center if getattr(each, "axis", None) is side):
         grid.ticker = side.ticker
+
+
+def ticks(low, high):
+    """Ticker and formatter of a logarithmic axis; over two decades or less Bokeh's has too many."""
+    if high > 101 * low:
+        return bk.LogTicker(), bk.LogTickFormatter()
+    powers = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
+    fixed = bk.FixedTicker(ticks=[float(f"{n}e{power:.0f}") for power in powers for n in (1, 2, 5)])
+    return fixed if high > 5 * low else bk.BasicTicker(), bk.BasicTickFormatter()
 
 
 @cache

@@ -20,7 +20,7 @@ _LABELS = {name: quantity.label for name, quantity in QUANTITIES.items()}
 
 def indexed(text):
     """HTML in which every symbol such as d_c has its index."""
-    return re.sub(r"(\b[a-zA-Z]|[ακψσντηρ])_([a-zA-Z0-9]+)", r"<i>\1</i><sub>\2</sub>", text)
+    return re.sub(r"(\b[a-zA-Z]|[α-ω])_([a-zA-Z0-9]+)", r"<i>\1</i><sub>\2</sub>", text)
 
 
 def plain(text):

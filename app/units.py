@@ -25,13 +25,18 @@ UNITS = {
 
 
 def fitting(value, kind):
-    """The unit of that kind in which a value in SI has one to three digits before the point."""
+    """The unit of that kind in which a value in SI has one to three digits before the point.
+
+    Of areas, whose units are further apart, up to four: 0.01 mm² from there on.
+    """
     units = UNITS[kind]
     size = abs(value) if isfinite(value) else 0.0
     if size == 0:
         return next((unit for unit in units if unit.factor == 1), units[0])
     # A value a rounding error below the next unit is written in that unit: 1 mm, not 1000 µm.
-    return next((unit for unit in units[::-1] if unit.factor <= size * (1 + 1e-9)), units[0])
+    pairs = zip(units[:0:-1], units[-2::-1], strict=True)
+    fits = (unit for unit, below in pairs if min(unit.factor, 1e4 * below.factor) <= size * (1 + 1e-9))
+    return next(fits, units[0])
 
 
 def digits(value, count=4):

@@ -53,7 +53,8 @@ class View:
         size, way, curve = _largest(self.way), self.way, self.curve
         for k, held in enumerate(self.held):
             theirs = _largest(held)
-            for name in size.keys() & theirs.keys():
+            # Heights are those of this scene: nothing that is held is drawn over them.
+            for name in size.keys() & theirs.keys() - {"z"}:
                 size[name] = max(size[name], self.beside(k, name, theirs[name]))
         if curve is not None:
             size["d"] = max(size["d"], 1.02 * float(curve.depth.max()))

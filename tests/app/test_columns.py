@@ -11,12 +11,13 @@ from app import columns, readouts, section
 from app.comparison import Row, compare, points
 from app.drives import follow
 from app.explorer import Explorer
-from app.figures import figure
+from app.figures import figure, ticks
 from app.packet import drawn, layers, packed
 from app.parts import legend
 from app.plots import PLOTS, Plot
 from app.presets import PRESETS
 from app.quantities import SHAPES
+from app.units import written
 from app.view import View
 from mdr_core.figures import SPRINGS, line, mark
 
@@ -262,7 +263,18 @@ def test_what_is_found_at_rest_is_drawn_on_its_own_axes():
 def test_legends_name_what_is_drawn_only():
     shown = drawn(seen(Explorer()), PLOTS["force"], [50])
     assert "held 1" not in shown
-    assert "yielding" not in drawn(seen(Explorer(ELASTIC)), PLOTS["force"], [20])
+    elastic = Explorer(ELASTIC)
+    assert not drawn(seen(elastic), PLOTS["force"], [20, 40]) & {"yielding", "dissipated"}
+    elastic.choose("drive", "impact")
+    assert drawn(seen(elastic), PLOTS["energy"], [20]) == {"stored", "kinetic", "time"}
+
+
+def test_numbers_along_a_logarithmic_axis_have_room():
+    short, _ = ticks(0.9, 90)
+    assert [tick for tick in short.ticks if 0.9 <= tick <= 90] == [1, 2, 5, 10, 20, 50]
+    assert [type(ticks(1, most)[0]).__name__ for most in (3, 1000)] == ["BasicTicker", "LogTicker"]
+    # Units of areas are a million apart.
+    assert [written(area, "area") for area in (9.99e-9, 4.98e-7)] == ["9990 µm²", "0.4980 mm²"]
 
 
 def test_every_model_is_timed_alike_and_the_chains_go_from_left_to_right():

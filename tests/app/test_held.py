@@ -43,6 +43,14 @@ def test_one_gesture_holds_a_scene_and_lets_it_go():
     assert is_held(explorer)
 
 
+def test_springs_keep_their_height_beside_a_deeper_scene():
+    explorer = holding(9e-9, 2e-9)
+    way = follow(explorer.scene(), 1.0)
+    alone, beside = View(way), View(way, [held(explorer.hold[0]).way])
+    assert beside.end["z"] == alone.end["z"]
+    assert beside.end["d"] > alone.end["d"]
+
+
 def test_a_fifth_is_refused():
     explorer = holding(1e-9, 2e-9, 3e-9, 4e-9)
     assert len(explorer.hold) == len(DASHES) == 4

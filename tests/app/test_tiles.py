@@ -16,6 +16,17 @@ from .conftest import DROP
 from .test_page import unit
 
 
+#: Every plot, and what is said below it, is within its card.
+WHOLE = """() => {
+  const all = (root) => [...root.querySelectorAll("*")].flatMap(
+    (each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
+  const bottom = (on) => on.getBoundingClientRect().bottom
+  const cards = all(document).filter((on) => on.shadowRoot && on.classList.contains("card"))
+  return cards.every((card) => all(card.shadowRoot).filter((on) => on.matches("canvas, .found")).every(
+    (on) => bottom(on) <= bottom(card) && on.scrollHeight <= on.clientHeight + 1))
+}"""
+
+
 def test_several_are_held_on_one_dimensionless_curve_and_come_back_from_the_address(explorer):
     page = explorer.page
     for k, depth in enumerate(("4 nm", "7 nm"), 1):
@@ -74,6 +85,7 @@ def test_surface_references_and_logarithmic_axes(explorer):
     explorer.press("Log–log")
     explorer.choose("Reference curves", "elastic, and classes (a) and (c)")
     explorer.page.get_by_text("as hard as this scene").wait_for()
+    explorer.wait(WHOLE)
     d, force = explorer.row("loglog", "elastic throughout")
     inside = np.isfinite(d) & np.isfinite(force)
     # Of a cone F = 2E* d²/(π s), to single precision; the last point is cut at the end of the axis.
@@ -92,12 +104,13 @@ def test_the_section_follows_once_the_input_rests_and_models_are_timed(explorer)
     x, z = explorer.row("section", "largest")
     assert [x[0], z[0]] == pytest.approx([peak.r * 1e9, -peak.z * 1e9], rel=1e-5)
     np.testing.assert_allclose(explorer.row("section", "contact radius a")[0], state.contact_radius * 1e9)
-    explorer.choose("Stress below the surface", "von Mises stress")
+    explorer.choose("Stress", "von Mises stress")
     deeper = state.stress_peak("von_mises")
     explorer.wait(
         "(z) => Math.abs(explorer.row('section', 'largest')[1][0] + z) < 1e-4 * z", deeper.z * 1e9
     )
     explorer.page.get_by_text(f"σvM is largest at r = {deeper.r * 1e9:.1f} nm").wait_for()
+    explorer.wait(WHOLE)
     explorer.link("section=von_mises")
     with explorer.change():
         explorer.type("d_max", "6 nm")
@@ -179,3 +192,4 @@ def test_a_path_is_typed_played_and_taken_away(explorer):
     explorer.choose("Pattern", "creep under a force, in time")
     explorer.wait("explorer.row('motion', 'depth d')[0].length === 17")
     assert explorer.readout("ε") != ""
+    explorer.wait(WHOLE)
