@@ -10,6 +10,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.shapes.tables import read_columns
 
+from .parts import decoded
 from .tip import MOST_ROWS
 from .units import UNITS, fitting, named
 
@@ -76,11 +77,9 @@ def read_curve(data, name):
 
     Raises ValueError if there are no two columns of numbers in it.
     """
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = data.decode("cp1252", "replace")
-    heads, values = read_columns(StringIO(text), MOST_ROWS, "the file")
+    heads, values = read_columns(StringIO(decoded(data)), MOST_ROWS, "the file")
+    if len(values) < 2:
+        raise ValueError("the file has one row of numbers: give a curve, a sample a line")
     if values.shape[1] < 2:
         raise ValueError("the file has one column: give one of depth and one of force")
     if not np.isfinite(values).all():

@@ -5,7 +5,7 @@ from html import escape
 import panel as pn
 
 from . import measured
-from .parts import WIDE, button, field, fill, html, indexed, marked, plain, tools, upload
+from .parts import WIDE, brought, button, field, fill, html, indexed, marked, plain, tools, upload
 from .quantities import QUANTITIES, USED
 
 
@@ -41,7 +41,7 @@ class Measuring:
         self._watch()
 
     def _watch(self):
-        self.file.param.watch(self._bring, "value")
+        brought(self.file, self._bring)
         self.made.on_click(lambda event: self._take(lambda: measured.example(self.explorer)))
         self.remove.on_click(lambda event: self._take(lambda: None))
         self.fit.on_click(lambda event: self._do(lambda: measured.fit(self.explorer), self.said))
@@ -61,9 +61,8 @@ class Measuring:
     def _take(self, make):
         self._do(lambda: self.explorer.take_curve(make()), self.about)
 
-    def _bring(self, event):
-        if event.new:
-            self._take(lambda: measured.read_curve(event.new, self.file.filename or "the file"))
+    def _bring(self, data):
+        self._take(lambda: measured.read_curve(data, self.file.filename))
 
     def _correct(self, role, chosen):
         curve = self.explorer.measured

@@ -19,7 +19,7 @@ from .grid import Grid
 from .held import Table, held, is_held, renamed, toggled
 from .measured import Curve
 from .measuring import Measuring
-from .parts import FULL, HERE, JS, STYLE, WIDE, button, html, linked, plain, toggle, tools
+from .parts import FULL, HERE, JS, STYLE, WIDE, brought, button, decoded, html, linked, plain, toggle, tools
 from .player import Player
 from .plots import PLOTS
 from .quantities import CHOICES, DATA
@@ -124,7 +124,7 @@ class Page:
         acts[self.controls.parts["again"]] = lambda: explorer.hit_again(self.way.hit)
         for pressed, act in acts.items():
             pressed.on_click(lambda event, act=act: self.tell(act))
-        self.controls.tip.param.watch(self._bring_tip, "value")
+        brought(self.controls.tip, self._bring_tip)
         self.hold.param.watch(self._held, "value")
         for name, asked in self.asked.items():
             asked.param.watch(lambda event, name=name: self._asked(name, event.new), "value")
@@ -188,9 +188,8 @@ class Page:
         self._solve()
         self._around()
 
-    def _bring_tip(self, event):
-        if event.new:
-            self.tell(lambda: self.explorer.take_tip(*read_tip(event.new.decode("utf-8", "replace"))))
+    def _bring_tip(self, data):
+        self.tell(lambda: self.explorer.take_tip(*read_tip(decoded(data))))
 
     def _asked(self, name, shown):
         plots = {*self.explorer.plots, name} if shown else {*self.explorer.plots} - {name}

@@ -92,6 +92,28 @@ def upload(name, accept, **options):
     return pn.widgets.FileInput(accept=accept, css_classes=["file", name], **WIDE | options)
 
 
+def brought(widget, act):
+    """Call a function with the bytes of each file that is brought; there are none in an empty one."""
+
+    def bring(*events):
+        if widget.filename:
+            act(widget.value or b"")
+
+    widget.param.watch(bring, ["value", "filename"])
+
+
+def decoded(data):
+    """The text of a file, in the encodings in which programs for tables write it too."""
+    if not data.strip():
+        raise ValueError("the file is empty")
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return data.decode("utf-16", "replace")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("cp1252", "replace")
+
+
 def tools(*parts, **options):
     """Parts in a row that is wrapped where it is narrow."""
     return pn.Row(*parts, css_classes=["tools"], **WIDE | options)

@@ -5,7 +5,7 @@ from io import StringIO
 import panel as pn
 
 from . import export, link
-from .parts import button, field, html, panel, tools, upload
+from .parts import brought, button, decoded, field, html, panel, tools, upload
 from .report import report
 
 _COPY = """
@@ -32,7 +32,7 @@ class TakeAway:
         ]
         self.fit = self._file("Fit (CSV)", "fit.csv", lambda: export.fit_csv(page.way, page.explorer))
         scene = upload("scene", ".json,application/json", width=230, sizing_mode=None)
-        scene.param.watch(self._bring, "value")
+        brought(scene, self._bring)
         self.link = field(pn.widgets.TextInput, name="Link to this page")
         self.python = field(pn.widgets.TextAreaInput, name="This state with mdr_core", rows=9)
         rows = [tools(*files, self.fit), tools(html("Load a scene (JSON)", sizing_mode=None), scene)]
@@ -76,7 +76,5 @@ class TakeAway:
     def _here(self):
         return pn.state.location.href.split("?")[0] if pn.state.location else ""
 
-    def _bring(self, event):
-        if event.new:
-            text = event.new.decode("utf-8", "replace")
-            self.page.tell(lambda: link.load_scene(self.page.explorer, text))
+    def _bring(self, data):
+        self.page.tell(lambda: link.load_scene(self.page.explorer, decoded(data)))

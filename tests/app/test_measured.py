@@ -47,8 +47,9 @@ def test_curves_as_instruments_write_them(data, note):
 def test_old_encodings_and_long_files():
     rows = 5000
     depth = np.linspace(0, 10, rows)
-    data = file((depth, depth**2), ["h (µm), F (µN)"]).decode().encode("cp1252")
-    curve = read_curve(data, "run.csv")
+    data = file((depth, depth**2), ["h (µm), F (µN)"]).decode()
+    for encoding in ("utf-16", "cp1252"):
+        curve = read_curve(data.encode(encoding), "run.csv")
     assert "5000 samples, one in 3 of them taken" in curve.note
     assert curve.data[0][-1] == pytest.approx(10e-6, rel=1e-3)
     assert len(curve.data[0]) <= 2000
@@ -62,6 +63,8 @@ def test_old_encodings_and_long_files():
         (b"h (nm), F (nN)\n1,5,2,3\n", "separate columns by semicolons"),
         (b"h (nm), F (nN)\n1, 2\nx, 3\n", "line 3: expected 2 numbers, found 'x, 3'"),
         (b"nothing", "no rows of numbers"),
+        (b"h (nm), F (nN)\n1, 2\n", "one row of numbers"),
+        (b" \n", "the file is empty"),
     ],
 )
 def test_what_is_no_curve_is_refused(data, says):

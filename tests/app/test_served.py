@@ -70,13 +70,14 @@ def assert_a_fault_is_told(explorer, server):
 
 def test_text_of_others_is_never_markup(explorer, tmp_path):
     explorer.press("Take with you")
-    path = tmp_path / "brought"
     scene = mdr.Scene(mdr.Cone(0.5), mdr.Medium(2e9, 5.0), mdr.DepthPath(5e-9)).to_json()
     told = explorer.page.locator(".notyf__message")
     for label, text in (
+        ("CSV file of a measured tip: r, z", ""),
         ("CSV file of a measured tip: r, z", f"{MARKUP} (nm), z (nm)\n0, 0\n1, {MARKUP}\n"),
         ("Load a scene (JSON)", scene.replace("Cone", MARKUP)),
     ):
+        path = tmp_path / f"brought {len(text)}"
         path.write_text(text, encoding="utf-8")
         count = told.count()
         explorer.page.get_by_label(label).set_input_files(path)
