@@ -85,7 +85,8 @@ PLOTS = {
         columns.force_still, columns.force, controls=("references",), note=references.note,
     ),
     "motion": Plot(
-        "Depth and force over time", "a free body: m d²d/dt² = −F;  else as prescribed  § 9", ("t", "d", "F"),
+        "Depth and force over time", "a free body: m d²d/dt² = −F;  else as prescribed  § 9",
+        ("t", "d", "F"),
         (
             *_held("F", axis=2),
             line("depth d", "speed", 2.2, symbol="d"),

@@ -15,7 +15,6 @@ from app.units import read
 from .conftest import DROP
 from .test_page import unit
 
-
 #: Every plot, and what is said below it, is within its card.
 WHOLE = """() => {
   const all = (root) => [...root.querySelectorAll("*")].flatMap(
