@@ -18,6 +18,12 @@ FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": STYLE}
 _LABELS = {name: quantity.label for name, quantity in QUANTITIES.items()}
 
 
+#: What the core says to those who call it alone: indices, counts, names of functions.
+_PYTHON = re.compile(
+    r"\[[\d, ]+\](?= = )| \(and \d+ more of \d+ entries\)|; or give unit='nm'| \(indent_in_time, creep\)"
+)
+
+
 def indexed(text):
     """HTML in which every symbol such as d_c has its index."""
     return re.sub(r"(\b[a-zA-Z]|[α-ω])_([a-zA-Z0-9]+)", r"<i>\1</i><sub>\2</sub>", text)
@@ -27,7 +33,7 @@ def plain(text):
     """What the core says of arguments, in words of the page: numbers by their labels, and of one place."""
     for name, label in _LABELS.items():
         text = text.replace(f"{label} {name} ", f"{label} ")
-    text = re.sub(r"\[[\d, ]+\](?= = )| \(and \d+ more of \d+ entries\)|; or give unit='nm'", "", text)
+    text = _PYTHON.sub("", text)
     return re.sub(r"\b[a-zA-Z]+_[a-z_]{2,}\b", lambda name: _LABELS.get(name[0], name[0]), text)
 
 

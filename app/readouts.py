@@ -7,7 +7,7 @@ import numpy as np
 from mdr_core.results import friction_limits
 
 from .drives import DRIVES, drive_of
-from .parts import explained, linked, marked, symbol
+from .parts import explained, linked, marked, plain, symbol
 from .quantities import DATA, QUANTITIES, SHAPES, USED, shape_quantities
 from .units import written
 from .view import phase
@@ -80,7 +80,7 @@ def lights(way, explorer):
         elif limit.what == "coupling" and not given:
             yield "note", "Friction along the surface is that of ν = ½; ν is not given with E*."
         else:
-            yield limit.level, limit.sentence
+            yield limit.level, plain(limit.sentence)
 
 
 def sketch(way, shape):

@@ -151,7 +151,7 @@ def _viscosity_limit(medium):
     value = float(np.max(medium.relaxation_time))
     text = (
         "Without times the path is followed infinitely slowly: the viscosity carries nothing; τ = "
-        f"{engineering(value, 's')}. With times it is felt."
+        f"{engineering(value, 's')}. With times (indent_in_time, creep) it is felt."
     )
     return Limit("viscosity", value, 0.0, True, text, severe=False)
 
