@@ -13,11 +13,12 @@ from .parts import STYLE
 from .quantities import ASSETS
 
 _SHOW = """
-const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
+const all = (root) => [...root.querySelectorAll("*")].flatMap(within)
+const within = (each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])]
 setTimeout(() => all(document).find(({ id }) => id === place)?.scrollIntoView(), 100)
 document.documentElement.lang = "en"
 if (matchMedia("(prefers-color-scheme: dark)").matches) document.documentElement.classList.add("dark")
-"""  # noqa: E501
+"""
 #: Equations that a text names, (4) or (4)–(8).
 _NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
 

@@ -45,12 +45,12 @@ def collocate(derivative, first, length):
     for _ in range(8):
         value, rate = derivative(u)
         rest, rate = u - first - length * (value @ integrate.T), length * rate
-        # The linear equation δ − ∫ f′δ = r in closed form: δ = r + E ∫ f′r/E with E = exp ∫ f′, of which
-        # polynomials have the digits unless it grows too much.
+        # The linear equation δ − ∫ f′δ = r in closed form: δ = r + E ∫ f′r/E with E = exp ∫ f′. Up to
+        # e^20 the polynomial leaves 10⁻¹⁰ of E, so that Newton's method stays as quick as with a solution.
         exponent = rate @ integrate.T
         growth = np.exp(exponent)
         change = rest + growth * ((rate * rest / growth) @ integrate.T)
-        steep = np.flatnonzero(~(np.abs(exponent).max(axis=1) < 20))
+        steep = np.flatnonzero(~(np.abs(exponent).max(axis=1) < 20.0))
         if steep.size:
             matrix = one - rate[steep, None, :] * integrate
             matrix[~np.isfinite(matrix).all(axis=(1, 2))] = one
@@ -142,6 +142,10 @@ def crowded():
 def root(x, r):
     """√(x² − r²) of two lengths without cancellation or underflow, 0 for x < r."""
     return np.sqrt(np.maximum(x - r, 0.0)) * np.sqrt(x + r)
+
+
+#: Rows of a block where each block takes a thousand calls of NumPy.
+LONG = 2**14
 
 
 def chunks(size, most=8192):

@@ -257,4 +257,5 @@ def how_fast(hit):
 
 
 def _percent(share):
-    return (f"{100 * share:+.2g} %" if abs(share) < 1 else f"{100 * share:+.3g} %").replace("-", "−")
+    """A share with its sign, as text."""
+    return f"{100 * share:+.3g} %".replace("-", "−")

@@ -17,7 +17,7 @@ from functools import lru_cache, singledispatch
 import numpy as np
 import scipy
 
-from ._numeric import broadcast_flat, chunks, gauss_legendre, increasing_root
+from ._numeric import LONG, broadcast_flat, chunks, gauss_legendre, increasing_root
 from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
 from .shapes.tabulated import OneLength, Tabulated
 from .yielding import LiveInterval, first_loading
@@ -200,7 +200,7 @@ def _from_table(profile, live, moments):
     unit, *scales = profile.unit
     shape, parts = broadcast_flat(live.lower, live.upper, live.length, *scales)
     result = np.empty((moments, np.prod(shape, dtype=int)))
-    for rows in chunks(result.shape[1], 2**14):
+    for rows in chunks(result.shape[1], LONG):
         *ends, length, depth = (part[rows] for part in parts)
         _fill(result[:, rows], unit, *(part / depth for part in ends))
         result[:, rows] *= length * depth ** np.arange(1, moments + 1)[:, None]

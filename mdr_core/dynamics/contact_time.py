@@ -152,6 +152,7 @@ def _stretch(profile, interval, lower, end, more, kinks, breaks, spent):
             row, at = rows[some, None], begin[some, None]
             beyond, rate = _places(at - origin[some, None], size[some, None], rest[some, None], node)
             flow = _flow(profile.entries((row,), (len(end),)), *interval(at + beyond, row[:, 0])) * rate
+            # Not by @: for sums as short as these the threads of BLAS take a second core, and no less time.
             spending[row[:, 0], k[some]] = np.einsum("ij,j", flow, weight)
             pieces.append((row[:, 0], k[some], rate, np.einsum("ij,kj", flow, tail), weight))
     # What is left after each piece.

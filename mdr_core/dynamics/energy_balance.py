@@ -9,7 +9,7 @@ from functools import singledispatch
 
 import numpy as np
 
-from .._numeric import broadcast_flat, chunks, increasing_root
+from .._numeric import LONG, broadcast_flat, chunks, increasing_root
 from ..shapes.power import Cone, Paraboloid
 from ..shapes.tabulated import tabulated
 from ..superposition import energy_integral, radius_and_energy, radius_integral
@@ -37,7 +37,7 @@ def turning_point(profile, target, d_c, before):
     # Beside the results there is no more than a block of anything.
     _, arrays = broadcast_flat(target, d_c, before, *scales)
     found = np.empty((4, target.size))
-    for rows in chunks(target.size, 2**14):
+    for rows in chunks(target.size, LONG):
         target, d_c, before, radius, depth = (part[rows] for part in arrays)
         target, d_c, before = target / (radius * depth**2), d_c / depth, before / depth
         y = _penetration(unit.flat_entries(rows, shape), target, d_c, before)

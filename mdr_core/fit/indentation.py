@@ -278,7 +278,7 @@ class IndentationFit(Fit):
         )  # fmt: skip
 
     @property
-    def remarks(self) -> tuple[str, ...]:  # type: ignore[override]
+    def remarks(self) -> tuple[str, ...]:
         """Remarks in words; of many curves each kind once, with how many it is about."""
         if not self.shape:
             return tuple(text for _, text in self._said[0])

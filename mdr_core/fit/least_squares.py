@@ -144,7 +144,6 @@ class Fit(Report):
     medium: Any
     standard_errors: dict[str, Any]
     covariance: Any
-    remarks: tuple[str, ...]
 
     def _value(self, name):
         return getattr(self.medium if hasattr(self.medium, name) else self, name)

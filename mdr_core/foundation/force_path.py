@@ -19,9 +19,10 @@ from .row import Foundation
 _STEPS, _ELEMENTS, _REFINEMENTS = 8, 200, 6
 #: Share of the largest force that still presses where none is prescribed, so that contact is kept.
 _TOUCH = 1e-10
-#: Share of a step before the end of a piece in which the rate is that at the end; share of the largest
-#: force by which that of mean rates may be off.
-_NEAR = 1 / 16
+#: Share of the last step of a piece in which the rate is the one at its end, not the mean one of the step.
+_ARRIVAL = 1 / 16
+#: Share of the largest force by which that of the mean rates may differ from it where a path is followed.
+_OFF = 1 / 16
 
 
 def creep(
@@ -46,7 +47,8 @@ def creep(
     Returns
     -------
     TimedIndentation
-        Quantities of the shape of `time`, with the estimate reached as `error`.
+        Quantities of the shape of `time`, with the estimate reached as `error`. Contact radius and fields are
+        those of a row of elements that follows the extrapolated depths and carries the force.
 
     Raises
     ------
@@ -98,7 +100,7 @@ def creep(
     for path in (_limit_of_paths(paths[-3:]), paths[-1].T):
         half_width = max(run.row.half_width, float(profile.contact_radius(max(np.max(path[1]), 0.0))))
         found, radius = _replay(Foundation(profile, medium, run.row.n, half_width), *path, places)
-        if np.all(np.abs(found - force) <= _NEAR * np.max(force)):
+        if np.all(np.abs(found - force) <= _OFF * np.max(force)):
             break
     dashpots = 8 * medium.eta * radius
     missing = np.divide(force - found, dashpots, out=np.zeros(force.shape), where=dashpots > 0)
@@ -137,7 +139,7 @@ def _arriving(time, depth, places, surplus):
     step = time[ends] - time[ends - 1]
     rate = (depth[ends] - depth[ends - 1]) / step + surplus[1:]
     path = [
-        np.insert(values, ends, values[ends] - _NEAR * step * change)
+        np.insert(values, ends, values[ends] - _ARRIVAL * step * change)
         for values, change in ((time, 1.0), (depth, rate))
     ]
     return tuple(path), places + np.arange(len(places))

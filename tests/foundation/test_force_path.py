@@ -69,6 +69,23 @@ def test_states_of_creep_agree_in_themselves():
         assert 2 * trapezoid(path[i].line_load(x), x) == pytest.approx(path.force[i], rel=1e-5)
 
 
+def test_where_nothing_presses_nothing_happens():
+    path = mdr.creep(mdr.Sphere(1e-3), MEDIUM, [0.0, 0.0], [0.0, 1.0])
+    assert path.depth.tolist() == path.contact_radius.tolist() == [0.0, 0.0]
+
+
+def test_a_force_is_carried_by_a_contact_also_where_unloading_is_steep():
+    """Millions of critical depths deep the tolerance of the depth is more than all that springs recover."""
+    shape, medium = mdr.TruncatedParaboloid(1e-6, 1e-5), mdr.Medium(3.5e9, 3.2)
+    force = [3.1e-3, 0.0, 5.4e-3, 4.8e-3, 6.2e-3]
+    path = mdr.creep(shape, medium, force, [0.1, 0.3, 0.4, 1.0, 2.2])
+    assert np.all(path.depth > 1e6 * medium.critical_depth)
+    # Without dashpots it is the slow path, whose contact hardly shrinks before the load is gone.
+    slow = mdr.indent_to_force(shape, medium, force)
+    pressed = np.array(force) > 0
+    np.testing.assert_allclose(path.contact_radius[pressed], slow.contact_radius[pressed], rtol=1e-4)
+
+
 def test_depths_lead_back_to_the_forces():
     """Indented along the depths found, the chain carries on the average what was prescribed."""
     slow = mdr.indent(mdr.Paraboloid(1e-5), DRY, 3 * D_C)
