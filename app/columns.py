@@ -27,7 +27,7 @@ def _relaxing(view, i, g):
     if way.hit is None or tau == 0 or i <= way.peak:
         return 0.0
     past = slice(way.peak, i + 1)
-    upper, time = way.states.live.upper[past], way.motion.time[past]
+    upper, time = way.states.live_interval.upper[past], way.motion.time[past]
     ahead = way.states.depth[past] - upper
     gone = np.minimum(np.searchsorted(-upper, -g), len(upper) - 1)
     return np.where(g >= upper[-1], ahead[gone] * np.exp((time[gone] - time[-1]) / tau), 0.0)
@@ -43,7 +43,7 @@ def springs(view, i):
 def _curve(way, until=None):
     """The curve of force and depth in parts, all of it or until some state."""
     depth, past = way.states.depth, slice(until)
-    return split(depth[past], way.force[past], depth[past], way.states.live.lower[past])
+    return split(depth[past], way.force[past], depth[past], way.states.live_interval.lower[past])
 
 
 def force_still(view):
@@ -57,7 +57,7 @@ def force_still(view):
 
 
 def force(view, i):
-    way, right, lower = view.way, 0.02 * view.end["d"], float(view.way.states.live.lower[i])
+    way, right, lower = view.way, 0.02 * view.end["d"], float(view.way.states.live_interval.lower[i])
     rows = {"now": view.mark(i, "d", "F"), "dₚ": (np.nan, np.nan, "")}
     if lower > 0:
         rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end["F"], "dₚ"
@@ -109,11 +109,11 @@ def _zone(way):
     """Loading, unloading and plastic zone: the contact radius falls by a step where the load is gone."""
     depth, a, c = way.states.depth, way.states.contact_radius, way.states.plastic_radius
     if way.turns:
-        rows = split(depth, a, depth, way.states.live.lower)
+        rows = split(depth, a, depth, way.states.live_interval.lower)
         loading = np.concatenate([rows["elastic"], [[np.nan]] * 2, rows["yielding"]], axis=1)
         return tuple(loading), rows["unloading"], (depth[way.deeper], c[way.deeper])
-    peak, gone = way.peak, int(np.flatnonzero(way.states.live.length > 0)[-1]) + 1
-    last = c[-1:] if way.states.live.lower[-1] > 0 else a[gone : gone + 1]
+    peak, gone = way.peak, int(np.flatnonzero(way.states.live_interval.length > 0)[-1]) + 1
+    last = c[-1:] if way.states.live_interval.lower[-1] > 0 else a[gone : gone + 1]
     back = np.append(depth[peak : gone + 1], depth[gone:])
     past = slice(peak + 1)
     falling = np.concatenate([a[peak:gone], last, 0 * depth[gone:]])

@@ -58,7 +58,7 @@ def _surface(state, option):
     if option == "virgin" or state.drive != "impact":
         return {}
     deepest = state.solved()
-    return {"plastic_depth": float(deepest.live.lower) or float(f"{0.1 * float(deepest.depth):.2g}")}
+    return {"plastic_depth": float(deepest.plastic_depth) or float(f"{0.1 * float(deepest.depth):.2g}")}
 
 
 CONVERT = {

@@ -224,8 +224,8 @@ class Explorer(param.Parameterized):
         """Take the samples of a tip as the indenter, pressed no deeper than they reach."""
         tip = mdr.Sampled(*samples)
         changes = {}
-        if self.drive == "depth" and self.max_depth > tip.deepest:
-            changes["max_depth"] = float(f"{tip.deepest / 2:.3g}")
+        if self.drive == "depth" and self.max_depth > tip.known_depth:
+            changes["max_depth"] = float(f"{tip.known_depth / 2:.3g}")
         self.resets = self.resets | changes
         self.param.update(samples=(tip.r, tip.z), tip_note=note, shape="sampled", **changes)
 
@@ -235,7 +235,7 @@ class Explorer(param.Parameterized):
 
     def hit_again(self, hit):
         """Let the body hit the imprint that it has left itself."""
-        if not hit.growth > 0:
+        if not hit.plastic_depth_increase > 0:
             raise ValueError("nothing has yielded further: the next impact is the same as this one")
         left = self.checked("plastic_depth", float(hit.plastic_depth))
         self.resets = self.resets | {"plastic_depth": left}

@@ -27,7 +27,7 @@ def csv(trajectory, explorer):
         "force F (N)": trajectory.force,
         "contact radius a (m)": states.contact_radius,
         "plastic radius c (m)": states.plastic_radius,
-        "plastic depth d_p (m)": states.live.lower,
+        "plastic depth d_p (m)": states.live_interval.lower,
         "stored energy U (J)": trajectory.stored_energy,
         "plastic work W_p (J)": trajectory.plastic_work,
     }

@@ -25,10 +25,10 @@ def curves(view):
     """Those that are chosen, as deep as the axis reaches and the shape is known."""
     chosen, way, rows = view.chosen["references"], view.way, {}
     profile, deepest = way.scene.profile, way.deepest
-    depth = _SHARE * min(view.end["d"], profile.deepest)
+    depth = _SHARE * min(view.end["d"], profile.known_depth)
     if chosen in ("elastic", "all"):
         rows[_ELASTIC] = depth, mdr.indent(profile, mdr.Medium(way.scene.medium.E_star), depth).force
-    if chosen in ("classes", "all") and deepest.live.lower > 0:
+    if chosen in ("classes", "all") and deepest.live_interval.lower > 0:
         share = profile.contact_radius(depth) / deepest.contact_radius
         for name, row in _CLASSES.items():
             rows[row] = depth, deepest.force * share ** mdr.ScalingLaw(name, 1.0).force
@@ -44,7 +44,7 @@ def note(view):
         return (
             "The same tip on the same medium if it never yielded: F = 2E* ∫ a dd, of a paraboloid Hertz's."
         )
-    if view.way.deepest.live.lower == 0:
+    if view.way.deepest.live_interval.lower == 0:
         return "Nothing has yielded: this scene has no hardness that the classes could share."
     return (
         "Fully yielded, hardness constant (a) or ∝ 1/a² (c), as hard as this scene (b) where it is deepest."

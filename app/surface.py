@@ -44,5 +44,5 @@ def moving(view, i):
         "medium": (np.append(surface[0], ends[::-1]), np.append(surface[1], bottom)),
         "undeformed": (ends, np.zeros(2)),
         "deformed surface": surface,
-        "residual imprint": (both(r, -1), both(imprint)) if state.live.lower > 0 else NOTHING,
+        "residual imprint": (both(r, -1), both(imprint)) if state.live_interval.lower > 0 else NOTHING,
     }

@@ -106,7 +106,7 @@ class Trajectory:
 
     def released(self, index):
         """Depths and elastic forces of unloading from one state."""
-        live = self.states.live[index]
+        live = self.states.live_interval[index]
         length = live.length * _RELEASE
         interval = LiveInterval(np.full_like(length, live.lower), live.lower + length, length)
         states = mdr.Indentation(self.states.profile, self.states.medium, interval.upper, interval)
@@ -116,7 +116,7 @@ class Trajectory:
 def onset(scene, before=0.0):
     """The state where yield starts above some plastic depth (m); None if there is no such state."""
     depth = before + scene.medium.critical_depth
-    reached = depth <= min(scene.profile.deepest, 1e300)
+    reached = depth <= min(scene.profile.known_depth, 1e300)
     return mdr.indent(scene.profile, scene.medium, depth) if reached else None
 
 

@@ -46,7 +46,8 @@ class View:
     @cached_property
     def first(self):
         """Number of the first state that has yielded; one past the deepest if none has."""
-        yielded = np.flatnonzero(self.way.states.live.lower > self.way.states.live.lower[0])
+        depth = self.way.states.plastic_depth
+        yielded = np.flatnonzero(depth > depth[0])
         return int(yielded[0]) if len(yielded) else self.way.peak + 1
 
     def _axes(self):

@@ -13,33 +13,33 @@ import numpy as np
 from ._numeric import chunks, root, tanh_sinh
 from .shapes.power import Cone, Paraboloid
 from .superposition import nodes, pieces, radius_drop
-from .yielding import virgin
+from .yielding import elastic_interval
 
 
-def _punches(profile, live):
+def _punches(profile, interval):
     """Where the pieces of a state begin beyond d_p (m); radii and increments (m) of their flat punches."""
-    ends = (np.atleast_1d(part) for part in (live.lower, live.upper, live.length))
+    ends = (np.atleast_1d(part) for part in (interval.lower, interval.upper, interval.length))
     _, _, begin, *rest = pieces(profile, *ends)
     beyond, weight = nodes(begin, *rest, tanh_sinh())
-    return begin, profile._radius(live.lower + beyond), weight
+    return begin, profile._radius(interval.lower + beyond), weight
 
 
 @singledispatch
-def pressure_integral(profile, live, r):
+def pressure_integral(profile, interval, r):
     """∫ ds/√(a(s)² − r²) over a(s) > r in the live interval (dimensionless), for one state and many r ≥ 0.
 
     Infinite where the contact pressure is: at the rim of a flat face, and under a sharp tip as
     long as nothing has yielded there.
     """
     result = np.zeros_like(r)
-    if live.length == 0:
+    if interval.length == 0:
         return result
-    begin, a, weight = _punches(profile, live)
-    depth = live.lower + np.append(begin, live.length)
+    begin, a, weight = _punches(profile, interval)
+    depth = interval.lower + np.append(begin, interval.length)
     edges = profile._radius(depth)
     # Next to a kink the rounding of r counts; a piece that ends without one begins a little before.
     kink = np.isclose(
-        depth[:, None], [0.0, live.lower, live.upper, *profile.kinks], rtol=1e-9, atol=0.0
+        depth[:, None], [0.0, interval.lower, interval.upper, *profile.kinks], rtol=1e-9, atol=0.0
     ).any(axis=1)
     begins = np.where(kink, edges, np.maximum(edges * (1 - 1e-3), np.append(0.0, edges[:-1])))
     for rows in chunks(r.size, 1024):
@@ -83,9 +83,9 @@ def _pressure_from(profile, r, end):
 
 
 @pressure_integral.register
-def _(profile: Cone, live, r):
-    a, c = (profile._radius(part) for part in (live.upper, live.lower))
-    inside, result = (r < a) & (live.length > 0), np.zeros_like(r)
+def _(profile: Cone, interval, r):
+    a, c = (profile._radius(part) for part in (interval.upper, interval.lower))
+    inside, result = (r < a) & (interval.length > 0), np.zeros_like(r)
     r = r[inside]
     root_a = root(a, r)
     if c == 0:
@@ -94,7 +94,7 @@ def _(profile: Cone, live, r):
     else:
         # arccosh(a/r) − arccosh(c/r), with the difference of the logarithms' arguments written out.
         low = np.maximum(c, r)
-        drop = np.where(r < c, radius_drop(profile, live), a - r)
+        drop = np.where(r < c, radius_drop(profile, interval), a - r)
         root_low = root(low, r)
         logarithm = _log_beyond(drop + drop * ((a + low) / (root_a + root_low)), low + root_low)
     result[inside] = np.pi / 2 * profile.slope * logarithm
@@ -109,33 +109,33 @@ def _log_beyond(above, below):
 
 
 @pressure_integral.register
-def _(profile: Paraboloid, live, r):
-    a, c = (profile._radius(part) for part in (live.upper, live.lower))
+def _(profile: Paraboloid, interval, r):
+    a, c = (profile._radius(part) for part in (interval.upper, interval.lower))
     root_a, root_c = root(a, r), root(c, r)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return np.where(r < c, 2 * live.length / (root_a + root_c), 2 / profile.radius * root_a)
+        return np.where(r < c, 2 * interval.length / (root_a + root_c), 2 / profile.radius * root_a)
 
 
-def displacement_integral(profile, live, r):
+def displacement_integral(profile, interval, r):
     """∫ h(r, a(s)) ds over the live interval (m), for one state and many r ≥ 0.
 
     h is the surface displacement of a flat punch of radius a per unit of its indentation: 1 for
     r < a and (2/π) arcsin(a/r) outside.
     """
-    if live.length == 0:
+    if interval.length == 0:
         return np.zeros_like(r)
-    a, c = (profile._radius(np.asarray(part)) for part in (live.upper, live.lower))
+    a, c = (profile._radius(np.asarray(part)) for part in (interval.upper, interval.lower))
     inside = r < a
-    result = np.full_like(r, live.length)
+    result = np.full_like(r, interval.length)
     # Under the indenter the displacements of the whole past add up to d − z(r).
-    ring = inside if live.lower == 0 else inside & (r >= c)
+    ring = inside if interval.lower == 0 else inside & (r >= c)
     if ring.any():
-        result[ring] = live.upper - profile._height(r[ring])
-        if live.lower > 0:
-            result[ring] -= displacement_integral(profile, virgin(live.lower), r[ring])
-        result[ring] = np.clip(result[ring], 0.0, live.length)
+        result[ring] = interval.upper - profile._height(r[ring])
+        if interval.lower > 0:
+            result[ring] -= displacement_integral(profile, elastic_interval(interval.lower), r[ring])
+        result[ring] = np.clip(result[ring], 0.0, interval.length)
     if not inside.all():
-        _, radii, weight = (part.ravel() for part in _punches(profile, live))
+        _, radii, weight = (part.ravel() for part in _punches(profile, interval))
         outside = r[~inside]
         for rows in chunks(outside.size, 1024):
             outside[rows] = np.arcsin(np.minimum(radii / outside[rows, None], 1.0)) @ weight

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .report import QUANTITIES, Report, imported, prefixed
+from .report import QUANTITIES, imported, prefixed
 
 #: Colours of the roles, on light and on dark ground: Okabe–Ito; they mean the same thing in every plot.
 ROLES = {
@@ -187,11 +187,11 @@ def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
     `along` gives at some radii how far their elements lean (m), and whether they stick: drawn half as large
     as depths are, because heights are drawn larger than lengths.
     """
-    profile, live, far, rest = state.profile, state.live, 3 * height, -REST * height
+    profile, interval, far, rest = state.profile, state.live_interval, 3 * height, -REST * height
     x = half * (2 * (np.arange(SPRINGS) + 0.5) / SPRINGS - 1)
     g = reduced(profile, np.abs(x))
-    left = np.fmax(live.lower - g, 0.0)
-    contact = (live.length > 0) & (g < live.upper)
+    left = np.fmax(interval.lower - g, 0.0)
+    contact = (interval.length > 0) & (g < interval.upper)
     top = np.where(contact, g - state.depth, -left - np.where(contact, 0.0, relaxing(g)))
     lean, stick = (0.0 * x, None) if along is None else along(np.abs(x))
     lean = np.where(contact, lean, 0.0)[:, None] * (half / 2 / height) * _ALONG
@@ -209,8 +209,8 @@ def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
     )
     # Once more as a line, which ends where the body leaves the plot.
     rows["edge"] = rows["profile g(x)"]
-    if live.lower > 0:
-        rows["residual imprint"] = shape_x, 0.0 - np.maximum(live.lower - shape_g, 0)
+    if interval.lower > 0:
+        rows["residual imprint"] = shape_x, 0.0 - np.maximum(interval.lower - shape_g, 0)
     return rows | at_radii(float(state.contact_radius), float(state.plastic_radius), half, rest, height)
 
 
@@ -280,35 +280,19 @@ def overlay(title, rows, columns, axes):
     return hv.Overlay(made).opts(backend="bokeh", **look) if bokeh else hv.Overlay(made)
 
 
-class Plotted(Report):
-    """A result of one path, or of a row of impacts, whose quantities can be plotted over one another."""
-
-    def plot(self, quantity: str = "force", over: str = "depth") -> Any:
-        """A quantity over another one, as HoloViews elements: the curve of force and depth.
-
-        Of a path in parts: pressed elastically, yielding, unloaded. Axes have names and units.
-
-        Parameters
-        ----------
-        quantity, over : str
-            Names of two quantities of this result: those of `to_dict()`.
-
-        Raises
-        ------
-        ValueError
-            If a name is none of them, or this is not one path.
-        """
-        for name in {quantity, over} - set(self._quantities):
-            known = ", ".join(self._quantities)
-            raise ValueError(f"{type(self).__name__} has no {name!r} to plot; it has {known}")
-        if len(self.shape) != 1:
-            raise ValueError(f"plot() is for one path, this is of shape {self.shape}: take one of it")
-        x, y = (np.asarray(getattr(self, name)) for name in (over, quantity))
-        axes = [_axis_of(name, values) for name, values in ((over, x), (quantity, y))]
-        if {"depth", "plastic_depth"} <= set(self._quantities):
-            columns = split(x, y, self.depth, self.plastic_depth)
-            return overlay(self._title(), parts(""), columns, axes)
-        return overlay(self._title(), [line("", "elastic", legend=False)], {"": (x, y)}, axes)
+def plot_curve(result, quantity, over):
+    """A quantity of a result over another one: `Result.plot`."""
+    for name in {quantity, over} - set(result._quantities):
+        known = ", ".join(result._quantities)
+        raise ValueError(f"{type(result).__name__} has no {name!r} to plot; it has {known}")
+    if len(result.shape) != 1:
+        raise ValueError(f"plot() is for one path, this is of shape {result.shape}: take one of it")
+    x, y = (np.asarray(getattr(result, name)) for name in (over, quantity))
+    axes = [_axis_of(name, values) for name, values in ((over, x), (quantity, y))]
+    if {"depth", "plastic_depth"} <= set(result._quantities):
+        columns = split(x, y, result.depth, result.plastic_depth)
+        return overlay(result._title(), parts(""), columns, axes)
+    return overlay(result._title(), [line("", "elastic", legend=False)], {"": (x, y)}, axes)
 
 
 def _axis_of(name, values):
@@ -317,34 +301,33 @@ def _axis_of(name, values):
     return Axis.fitting(name, f"{known.symbol}, {known.long_name}", known.unit, largest)
 
 
-class PlottedState(Plotted):
-    """A result that has plots of one of its states, too."""
+def plot_pressure(state):
+    """Contact pressure of one state: `Indentation.plot_pressure`."""
+    half = _drawn_radius(state, "plot_pressure")
+    top, r = 1.05 * ceiling(state, half), radii(state, half)
+    axes = [
+        Axis.fitting("r", "r, radius", "m", half, start=-half, end=half),
+        Axis.fitting("pressure", "−σzz, contact pressure", "Pa", top, start=0.0, end=top),
+    ]
+    columns = pressure(state, r, state.pressure(r), half, top)
+    return overlay("Contact pressure", PRESSURE_ROWS, columns, axes)
 
-    def plot_pressure(self) -> Any:
-        """Contact pressure p(r) of one state with a, c and its mean, as HoloViews elements."""
-        half = self._half("plot_pressure")
-        top, r = 1.05 * ceiling(self, half), radii(self, half)
-        columns = pressure(self, r, self.pressure(r), half, top)
-        axes = [
-            Axis.fitting("r", "r, radius", "m", half, start=-half, end=half),
-            Axis.fitting("pressure", "−σzz, contact pressure", "Pa", top, start=0.0, end=top),
-        ]
-        return overlay("Contact pressure", PRESSURE_ROWS, columns, axes)
 
-    def plot_springs(self) -> Any:
-        """The 1D foundation in one state, springs below the profile g(x), as HoloViews elements."""
-        half = self._half("plot_springs")
-        height = max(float(self.depth), float(self.live.upper))
-        axes = [
-            Axis.fitting("x", "x, coordinate of the springs", "m", half, start=-half, end=half),
-            Axis.fitting("z", "z, height", "m", height, start=-REST * height, end=height),
-        ]
-        return overlay("1D foundation", SPRING_ROWS, springs(self, half, height), axes)
+def plot_springs(state):
+    """Springs of the 1D foundation in one state: `Indentation.plot_springs`."""
+    half = _drawn_radius(state, "plot_springs")
+    height = max(float(state.depth), float(state.live_interval.upper))
+    axes = [
+        Axis.fitting("x", "x, coordinate of the springs", "m", half, start=-half, end=half),
+        Axis.fitting("z", "z, height", "m", height, start=-REST * height, end=height),
+    ]
+    return overlay("1D foundation", SPRING_ROWS, springs(state, half, height), axes)
 
-    def _half(self, what):
-        """The radius that is drawn: that of the contact, or of the imprint, and some more."""
-        self._one(what)
-        largest = max(float(self.contact_radius), float(self.plastic_radius))
-        if not largest:
-            raise ValueError(f"{what} needs a contact or an imprint, and at d = {self.depth:g} m is none")
-        return 1.25 * largest
+
+def _drawn_radius(state, what):
+    """Half-width (m) of a plot: the radius of the contact or of the imprint, and a quarter more."""
+    state._one(what)
+    largest = max(float(state.contact_radius), float(state.plastic_radius))
+    if not largest:
+        raise ValueError(f"{what} needs a contact or an imprint, and at d = {state.depth:g} m is none")
+    return 1.25 * largest

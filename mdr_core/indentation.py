@@ -9,13 +9,12 @@ import numpy as np
 from . import _check, fields, stress
 from ._check import Array, ArrayLike
 from ._numeric import root
-from .figures import PlottedState
 from .medium import Medium, check_pair, paths_on
-from .results import CLOSED_FORM, Limit, contact_limits, sealed
+from .results import CLOSED_FORM, Limit, Result, contact_limits, sealed
 from .shapes.profile import Profile
 from .stress import Stress, StressPeak
 from .superposition import energy_integral, live_length, loading_depth, radius_drop, radius_integral
-from .yielding import LiveInterval, first_loading, live_interval, virgin
+from .yielding import LiveInterval, elastic_interval, first_loading, path_intervals
 
 
 def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
@@ -60,7 +59,7 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
     check_pair(profile, medium)
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
     depth = profile._known(paths_on(profile, medium, depth))
-    return Indentation(profile, medium, depth, live_interval(depth, medium.critical_depth))
+    return Indentation(profile, medium, depth, path_intervals(depth, medium.critical_depth))
 
 
 def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Indentation":
@@ -103,7 +102,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Inde
     peak = np.maximum.accumulate(area, axis=-1) if area.ndim else area
     with np.errstate(all="ignore"):
         deepest = loading_depth(profile, medium.critical_depth, peak)
-    reached = deepest <= min(profile.deepest, _check.LARGEST)
+    reached = deepest <= min(profile.known_depth, _check.LARGEST)
     bound = f"presses {profile._too_deep()}"
     _check.refuse("force", force, ~reached, bound, unit="N", remedy="press less")
     front = first_loading(deepest, medium.critical_depth)
@@ -113,11 +112,11 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Inde
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Indentation(PlottedState):
+class Indentation(Result):
     """States of an indentation, one for each point of its path; made by `indent` or `indent_to_force`.
 
     Every quantity has the shape of `depth`. `result[i]` picks a state; `pressure`, `line_load`,
-    `surface` and `imprint` are fields of one state. `live` is the interval of depths [d_p, d_p + ℓ]
+    `surface` and `imprint` are fields of one state. `live_interval` is [d_p, d_p + ℓ], the depths
     that everything is integrated over: it ends at the depth itself, but for a viscous body on its way
     out, whose elements let go ahead of it. `dashpot_load` is what the dashpots add to the line load in
     contact while a viscous medium is pressed at some speed, 4ηḋ (N/m); `Motion.states` has both.
@@ -127,7 +126,7 @@ class Indentation(PlottedState):
     profile: Profile
     medium: Medium
     depth: Array
-    live: LiveInterval
+    live_interval: LiveInterval
     dashpot_load: np.ndarray | float = 0.0
     in_time: bool = False
     _made_of: tuple[Any, ...] = field(default=(), repr=False)
@@ -147,14 +146,14 @@ class Indentation(PlottedState):
         if not self._made_of:
             # A copy: what the caller does with the path later must not change the result.
             object.__setattr__(self, "depth", _check.frozen(np.array(self.depth)))
-        sealed(self, "profile", "medium", "depth", "live")
+        sealed(self, "profile", "medium", "depth", "live_interval")
 
     def __getitem__(self, index: Any) -> "Indentation":
         shape = np.shape(self.depth)
         profile, medium = self.profile.entries(index, shape), self.medium.entries(index, shape)
         load = self.dashpot_load[index] if np.ndim(self.dashpot_load) else self.dashpot_load
-        depth, live = np.asarray(self.depth[index]), self.live[index]
-        return Indentation(profile, medium, depth, live, load, self.in_time)
+        depth, interval = np.asarray(self.depth[index]), self.live_interval[index]
+        return Indentation(profile, medium, depth, interval, load, self.in_time)
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
@@ -165,24 +164,26 @@ class Indentation(PlottedState):
     @property
     def _ahead(self):
         """How much more each element in contact is compressed than its load tells (m): −τḋ on unloading."""
-        return np.where(self.live.length > 0, self.depth - self.live.upper, 0.0)
+        return np.where(self.live_interval.length > 0, self.depth - self.live_interval.upper, 0.0)
 
     @_check.frozen_property
     def force(self):
         """Normal force F = 2E* ∫ a(s) ds (N) and that of the dashpots; Popov (2015), Eqs. (20), (22)."""
-        springs = 2 * self.medium.E_star * radius_integral(self.profile, self.live)
+        springs = 2 * self.medium.E_star * radius_integral(self.profile, self.live_interval)
         return springs + 2 * self.dashpot_load * self.contact_radius
 
     @_check.frozen_property
     def contact_radius(self):
         """Contact radius a (m), Popov (2015), Eq. (16); 0 without contact."""
-        touching = (self.live.length > 0) | (self.dashpot_load > 0)
-        return np.where(touching, self.profile._radius(np.asarray(self.live.upper)), 0.0)
+        touching = (self.live_interval.length > 0) | (self.dashpot_load > 0)
+        return np.where(touching, self.profile._radius(np.asarray(self.live_interval.upper)), 0.0)
 
     @_check.frozen_property
     def plastic_radius(self):
         """Radius c (m) of the plastic zone, Popov (2015), Eq. (21); 0 if nothing has yielded."""
-        return np.where(self.live.lower > 0, self.profile._radius(np.asarray(self.live.lower)), 0.0)
+        return np.where(
+            self.live_interval.lower > 0, self.profile._radius(np.asarray(self.live_interval.lower)), 0.0
+        )
 
     @_check.frozen_property
     def mean_pressure(self):
@@ -194,23 +195,23 @@ class Indentation(PlottedState):
     @property
     def plastic_depth(self) -> Array:
         """Plastic depth d_p (m): the depth of the residual imprint in the 1D foundation."""
-        return _check.frozen(self.live.lower)
+        return _check.frozen(self.live_interval.lower)
 
     @_check.frozen_property
     def stored_energy(self):
         """Elastic energy of the springs in contact, U = 2E* ∫ (d − s) a(s) ds (J)."""
-        energy, ahead = energy_integral(self.profile, self.live), self._ahead
+        energy, ahead = energy_integral(self.profile, self.live_interval), self._ahead
         if np.any(ahead > 0):
-            area = radius_integral(self.profile, self.live)
+            area = radius_integral(self.profile, self.live_interval)
             energy = energy + ahead * (area + ahead / 2 * self.contact_radius)
         return 2 * self.medium.E_star * energy
 
     @_check.frozen_property
     def plastic_work(self):
         """Work W_p = d_c φ(d_p) (J) dissipated over the whole past, φ the elastic force."""
-        integral = radius_integral(self.profile, virgin(np.asarray(self.live.lower)))
+        integral = radius_integral(self.profile, elastic_interval(np.asarray(self.live_interval.lower)))
         # π q_c a at every increment: the critical depth times the modulus, which may be infinite.
-        yield_load = np.where(self.live.lower > 0, 2 * self.medium.yield_line_load, 0.0)
+        yield_load = np.where(self.live_interval.lower > 0, 2 * self.medium.yield_line_load, 0.0)
         return yield_load * integral
 
     @_check.frozen_property
@@ -220,9 +221,11 @@ class Indentation(PlottedState):
         There it is the slope for going on deeper; unloading starts with 2E*a.
         """
         width = self.contact_radius
-        yielding = (self.live.lower > 0) & (self.live.length == self.medium.critical_depth)
+        yielding = (self.live_interval.lower > 0) & (
+            self.live_interval.length == self.medium.critical_depth
+        )
         if np.any(yielding):
-            width = np.where(yielding, radius_drop(self.profile, self.live), width)[()]
+            width = np.where(yielding, radius_drop(self.profile, self.live_interval), width)[()]
         return 2 * self.medium.E_star * width
 
     def pressure(self, r: ArrayLike) -> Array:
@@ -240,8 +243,8 @@ class Indentation(PlottedState):
         0.063661977237
         """
         self._one("pressure")
-        live, r = self.live, self._radii(r)
-        pressure = self.medium.E_star / np.pi * fields.pressure_integral(self.profile, live, r.ravel())
+        interval, r = self.live_interval, self._radii(r)
+        pressure = self.medium.E_star / np.pi * fields.pressure_integral(self.profile, interval, r.ravel())
         if self.dashpot_load > 0:
             with np.errstate(divide="ignore"):
                 punch = self.dashpot_load / np.pi / root(self.contact_radius, r.ravel())
@@ -251,10 +254,10 @@ class Indentation(PlottedState):
     def line_load(self, x: ArrayLike) -> Array:
         """Line load q(x) (N/m) of the 1D foundation at x (m); Popov (2015), Eqs. (1), (17), (18)."""
         self._one("line_load")
-        live, x = self.live, self._radii(x)
-        ring = live.upper - self.profile._reduced(np.minimum(x, self.contact_radius))
+        interval, x = self.live_interval, self._radii(x)
+        ring = interval.upper - self.profile._reduced(np.minimum(x, self.contact_radius))
         # Inside c the compression is the interval's length itself, free of rounding.
-        inside = np.where(x < self.plastic_radius, live.length, np.clip(ring, 0.0, live.length))
+        inside = np.where(x < self.plastic_radius, interval.length, np.clip(ring, 0.0, interval.length))
         load = self.medium.E_star * inside + self.dashpot_load
         return np.where(x < self.contact_radius, load, 0.0)[()]
 
@@ -266,7 +269,7 @@ class Indentation(PlottedState):
         """
         self._one("surface")
         r, radius = self._radii(r), self.contact_radius
-        surface = self._displacement(self.live, r)
+        surface = self._displacement(self.live_interval, r)
         if self._ahead > 0:
             with np.errstate(divide="ignore"):
                 surface += self._ahead * 2 / np.pi * np.arcsin(np.minimum(radius / r, 1.0))
@@ -275,11 +278,11 @@ class Indentation(PlottedState):
     def imprint(self, r: ArrayLike) -> Array:
         """Depth (m) of the residual imprint at radii r (m): what is left once the load is gone."""
         self._one("imprint")
-        return self._displacement(virgin(self.live.lower), r)
+        return self._displacement(elastic_interval(self.live_interval.lower), r)
 
-    def _displacement(self, live, r):
+    def _displacement(self, interval, r):
         r = self._radii(r)
-        return fields.displacement_integral(self.profile, live, r.ravel()).reshape(r.shape)[()]
+        return fields.displacement_integral(self.profile, interval, r.ravel()).reshape(r.shape)[()]
 
     def stress(self, r: ArrayLike, z: ArrayLike) -> Stress:
         """Stress tensor (Pa) at radii r and depths z ≥ 0 below the surface (m), which broadcast.
@@ -335,12 +338,24 @@ class Indentation(PlottedState):
         >>> medium = Medium(E_star=1.0, poisson=0.3)
         >>> hit = impact(Paraboloid(radius=1.0), medium, 1.0, 0.01)
         >>> largest = hit.motion(9).states.largest_stress(0.481 * hit.contact_radius)
-        >>> print(f"{largest / hit.deepest.pressure(0.0):.3f} p0")
+        >>> print(f"{largest / hit.turning_point.pressure(0.0):.3f} p0")
         0.310 p0
         """
         return stress.largest_stress(
             self, stress.depths(z), _check.one_of("quantity", quantity, stress.SIZES)
         )
+
+    def plot_pressure(self) -> Any:
+        """Contact pressure p(r) of one state with a, c and the mean pressure, as HoloViews elements."""
+        from .figures import plot_pressure
+
+        return plot_pressure(self)
+
+    def plot_springs(self) -> Any:
+        """The 1D foundation in one state, springs below the profile g(x), as HoloViews elements."""
+        from .figures import plot_springs
+
+        return plot_springs(self)
 
     @staticmethod
     def _radii(r):

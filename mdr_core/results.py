@@ -7,8 +7,7 @@ import numpy as np
 
 from . import _check
 from ._check import Array, shown
-from .figures import Plotted
-from .report import engineering
+from .report import Report, engineering
 
 if TYPE_CHECKING:
     from .indentation import Indentation
@@ -183,7 +182,31 @@ def sealed(result, *names):
     object.__setattr__(result, "_made_of", parts)
 
 
-class ImpactResult(Plotted):
+class Result(Report):
+    """Base class of results along a path, over time, or of several impacts: what they can plot."""
+
+    def plot(self, quantity: str = "force", over: str = "depth") -> Any:
+        """One quantity over another as HoloViews elements, by default the force–depth curve.
+
+        A path is shown in parts: loaded elastically, yielding, unloaded. Axes have names and units.
+
+        Parameters
+        ----------
+        quantity, over : str
+            Names of two quantities of this result, as in `to_dict()`.
+
+        Raises
+        ------
+        ValueError
+            If a name is unknown, or the result has other than one dimension.
+        """
+        # Plots stand above results, and HoloViews is needed for them only.
+        from .figures import plot_curve
+
+        return plot_curve(self, quantity, over)
+
+
+class ImpactResult(Result):
     """What impacts along the normal share, solved in whatever way."""
 
     _quantities = (
@@ -209,7 +232,7 @@ class ImpactResult(Plotted):
         return Limit("speed", value, _SLOW, value > _SLOW, text)
 
 
-class MotionResult(Plotted):
+class MotionResult(Result):
     """What motions of one impact share, along the normal alone or along the surface, too."""
 
     _dimensions = ("time",)
@@ -226,7 +249,7 @@ class MotionResult(Plotted):
         return () if self.impact is None else self.impact.limits
 
     @property
-    def turning_point(self) -> int:
+    def turning_index(self) -> int:
         """Number of the instant at which the body turns round."""
         return int(np.argmax(self.depth))
 

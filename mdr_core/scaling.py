@@ -17,7 +17,7 @@ from ._numeric import increasing_root
 from .report import Report
 from .results import Limit
 from .superposition import radius_integral
-from .yielding import virgin
+from .yielding import elastic_interval
 
 _FORCE_POWER = {"a": 2, "b": 1, "c": 0}
 #: Relative error up to which the fast limit is near.
@@ -216,11 +216,11 @@ def fast_limit(hit):
     target = np.broadcast_to(energy / (np.pi * medium.q_c), shape)
 
     def work(depth):
-        return radius_integral(profile, virgin(depth)), profile._radius(depth)
+        return radius_integral(profile, elastic_interval(depth)), profile._radius(depth)
 
     with np.errstate(over="ignore", under="ignore"):
-        depth = increasing_root(work, target, hit.max_depth, profile.deepest)
-    known = np.min(profile.deepest, initial=_check.LARGEST)
+        depth = increasing_root(work, target, hit.max_depth, profile.known_depth)
+    known = np.min(profile.known_depth, initial=_check.LARGEST)
     bound = f"m/s presses deeper than the shape is known, {known:g} m, in this limit"
     _check.refuse("speed", np.asarray(hit.speed), np.isinf(depth), bound, remedy="hit less hard")
     a = profile._radius(depth)
@@ -232,9 +232,9 @@ def fast_limit(hit):
 
 def how_fast(hit):
     """How far the fast limit (23), (24) is off for an `Impact`, as `Limit`s: none where nothing yields."""
-    if np.any(np.isinf(hit.medium.critical_depth)) or not np.any(hit.growth > 0):
+    if np.any(np.isinf(hit.medium.critical_depth)) or not np.any(hit.plastic_depth_increase > 0):
         return ()
-    equations, first = "Eqs. (23), (24)", np.all(hit.plastic_depth == hit.growth)
+    equations, first = "Eqs. (23), (24)", np.all(hit.plastic_depth == hit.plastic_depth_increase)
     try:
         limit = hit.fast_limit
     except ValueError as error:

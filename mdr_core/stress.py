@@ -174,7 +174,7 @@ def _grid(state):
     profile, a, c = state.profile, state.contact_radius, state.plastic_radius
     inner = max(c, profile.face_radius)
     # The load stands between the inner radius and a, as closely as they are together.
-    width = (float(radius_drop(profile, state.live)) if c == inner else a - inner) or a
+    width = (float(radius_drop(profile, state.live_interval)) if c == inner else a - inner) or a
     ring = width * np.linspace(-2, 1, 37)
     r = np.unique(np.abs(np.concatenate([a * np.linspace(0, 1.5, 31), a + ring])))
     z = np.concatenate([[0.0], width * np.geomspace(1e-3, 3, 36), np.geomspace(3 * width, 3 * a, 20)[1:]])
@@ -190,16 +190,16 @@ def _grid(state):
 
 def _integrals(state, unit, r, z):
     """∫ of J, K, r z Im(1/S³), L and z M over the load of a state; places in a unit of length (m)."""
-    profile, live = state.profile, state.live
+    profile, interval = state.profile, state.live_interval
     total, order = np.zeros((5, r.size)), np.argsort(r, kind="stable")
     if state.dashpot_load > 0:
         width = np.array([state.dashpot_load / state.medium.E_star])
         _add(total, order, np.array([state.contact_radius]), width, unit, r, z)
-    if live.length == 0:
+    if interval.length == 0:
         return total
-    for piece in _pieces(profile, live):
+    for piece in _pieces(profile, interval):
         begin, end, _ = piece
-        low, high = profile._radius(live.lower + piece[:2])
+        low, high = profile._radius(interval.lower + piece[:2])
         if low == high:
             _add(total, order, np.array([low]), np.array([end - begin]), unit, r, z)
             continue
@@ -207,23 +207,25 @@ def _integrals(state, unit, r, z):
         away = np.hypot(np.maximum(np.maximum(low / unit - r, r - high / unit), 0.0), z)[order]
         close = away < _NEAR * width
         beyond, weight = (part[0] for part in nodes(*piece[:, None], _WHOLE))
-        _add(total, order[~close], profile._radius(live.lower + beyond), weight, unit, r, z)
+        _add(total, order[~close], profile._radius(interval.lower + beyond), weight, unit, r, z)
         close = order[close]
         for rows in chunks(close.size, 64):
             rows = close[rows]
             # Of a grid many places have one radius, and share their nodes.
             cut, which = np.unique(np.clip(unit * r[rows], low, high), return_inverse=True)
-            x, weight = _cut(profile, live.lower, piece, low, high, cut)
+            x, weight = _cut(profile, interval.lower, piece, low, high, cut)
             _add(total, rows, x[which], weight[which], unit, r, np.maximum(z, _LEAST * width))
     return total
 
 
-def _pieces(profile, live):
+def _pieces(profile, interval):
     """Begin and end (m) beyond d_p of each piece of the load, and its begin behind a kink or the tip."""
     if isinstance(profile, FlatPunch | Cone | Paraboloid):
         # Polynomials of what the nodes are even in.
-        return np.array([[0.0, live.length, live.lower]])
-    return np.transpose(pieces(profile, *map(np.atleast_1d, (live.lower, live.upper, live.length)))[2:])
+        return np.array([[0.0, interval.length, interval.lower]])
+    return np.transpose(
+        pieces(profile, *map(np.atleast_1d, (interval.lower, interval.upper, interval.length)))[2:]
+    )
 
 
 def _cut(profile, lower, piece, low, high, cut):

@@ -30,15 +30,15 @@ _FAR, _NEAR = 0.15, ((0.03, 4), (0.15, 6), (0.5, 10))
 
 
 @singledispatch
-def radius_integral(profile, live):
+def radius_integral(profile, interval):
     """∫ a(s) ds over the live interval (m²), elementwise."""
-    return _integrate(profile, live, _radius, moment=0)
+    return _integrate(profile, interval, _radius, moment=0)
 
 
 @singledispatch
-def energy_integral(profile, live):
+def energy_integral(profile, interval):
     """∫ (d − s) a(s) ds over the live interval (m³), elementwise."""
-    return _integrate(profile, live, _radius, moment=1)
+    return _integrate(profile, interval, _radius, moment=1)
 
 
 def _radius(profile, depth):
@@ -51,13 +51,15 @@ def _radius_rate(profile, depth):
         return 1 / profile._reduced_slope(profile._radius(depth))
 
 
-def _integrate(profile, live, function, moment):
+def _integrate(profile, interval, function, moment):
     """∫ (d − s)^moment function(s) ds over the live interval, elementwise."""
     if profile.shape and profile.unit:
         unit, length, depth = profile.unit
-        return length * depth ** (moment + 1) * _integrate(unit, live.over(depth), function, moment)
-    shape = np.shape(live.length)
-    lower, upper, length = (np.ravel(part) for part in (live.lower, live.upper, live.length))
+        return (
+            length * depth ** (moment + 1) * _integrate(unit, interval.in_units_of(depth), function, moment)
+        )
+    shape = np.shape(interval.length)
+    lower, upper, length = (np.ravel(part) for part in (interval.lower, interval.upper, interval.length))
     result = np.zeros_like(length)
     # Shapes that are cut at depths of their own, one by one.
     alone = profile.shape and _is_cut_by_shape(profile)
@@ -161,44 +163,44 @@ def _cuts(profile):
 
 
 @singledispatch
-def radius_drop(profile, live):
+def radius_drop(profile, interval):
     """a(d) − a(d_p) (m), elementwise: where something has yielded, the width of the elastic ring."""
     if profile.shape and profile.unit:
         unit, length, depth = profile.unit
-        return length * radius_drop(unit, live.over(depth))
-    a, c = profile._radius(live.upper), profile._radius(live.lower)
-    narrow = live.length < 1e-2 * live.upper
+        return length * radius_drop(unit, interval.in_units_of(depth))
+    a, c = profile._radius(interval.upper), profile._radius(interval.lower)
+    narrow = interval.length < 1e-2 * interval.upper
     if not np.any(narrow):
         return a - c
     # ∫ da: the difference of the radii has few digits in a short interval. At the very tip, where it has
     # all of them, the rate may be infinite.
     with np.errstate(invalid="ignore"):
-        return np.where(narrow, _integrate(profile, live, _radius_rate, moment=0), a - c)
+        return np.where(narrow, _integrate(profile, interval, _radius_rate, moment=0), a - c)
 
 
 @radius_integral.register(OneLength)
 @radius_integral.register(Tabulated)
-def _(profile, live):
-    return _from_table(profile, live, 1)[0]
+def _(profile, interval):
+    return _from_table(profile, interval, 1)[0]
 
 
 @energy_integral.register(OneLength)
 @energy_integral.register(Tabulated)
-def _(profile, live):
-    return _from_table(profile, live, 2)[1]
+def _(profile, interval):
+    return _from_table(profile, interval, 2)[1]
 
 
-def radius_and_energy(profile, live):
+def radius_and_energy(profile, interval):
     """`radius_integral` and `energy_integral`, at the cost of one where a table gives them."""
     if isinstance(profile, OneLength | Tabulated):
-        return _from_table(profile, live, 2)
-    return radius_integral(profile, live), energy_integral(profile, live)
+        return _from_table(profile, interval, 2)
+    return radius_integral(profile, interval), energy_integral(profile, interval)
 
 
-def _from_table(profile, live, moments):
+def _from_table(profile, interval, moments):
     """The first or both integrals, from the table of the shape with parameters of 1."""
     unit, *scales = profile.unit
-    shape, parts = broadcast_flat(live.lower, live.upper, live.length, *scales)
+    shape, parts = broadcast_flat(interval.lower, interval.upper, interval.length, *scales)
     result = np.empty((moments, np.prod(shape, dtype=int)))
     for rows in chunks(result.shape[1], LONG):
         *ends, length, depth = (part[rows] for part in parts)
@@ -241,101 +243,103 @@ def _fill(result, profile, lower, upper, length):
 
 
 @radius_integral.register
-def _(profile: FlatPunch, live):
-    return profile.radius * live.length
+def _(profile: FlatPunch, interval):
+    return profile.radius * interval.length
 
 
 @energy_integral.register
-def _(profile: FlatPunch, live):
-    return profile.radius / 2 * live.length**2
+def _(profile: FlatPunch, interval):
+    return profile.radius / 2 * interval.length**2
 
 
 @radius_drop.register
-def _(profile: FlatPunch, live):
-    return np.zeros_like(live.length)
+def _(profile: FlatPunch, interval):
+    return np.zeros_like(interval.length)
 
 
 @radius_integral.register
-def _(profile: Cone, live):
-    return (live.upper + live.lower) * live.length / (np.pi * profile.slope)
+def _(profile: Cone, interval):
+    return (interval.upper + interval.lower) * interval.length / (np.pi * profile.slope)
 
 
 @energy_integral.register
-def _(profile: Cone, live):
-    return live.length**2 * (live.upper + 2 * live.lower) / (3 * np.pi * profile.slope)
+def _(profile: Cone, interval):
+    return interval.length**2 * (interval.upper + 2 * interval.lower) / (3 * np.pi * profile.slope)
 
 
 @radius_drop.register
-def _(profile: Cone, live):
-    return live.length / (np.pi / 2 * profile.slope)
+def _(profile: Cone, interval):
+    return interval.length / (np.pi / 2 * profile.slope)
 
 
 @radius_integral.register
-def _(profile: Paraboloid, live):
+def _(profile: Paraboloid, interval):
     # A³ − C³ with A² − C² = length.
-    A, C = np.sqrt(live.upper), np.sqrt(live.lower)
-    mean = (live.upper + A * C + live.lower) / np.maximum(A + C, _TINY)
-    return (2 / 3 * np.sqrt(profile.radius)) * mean * live.length
+    A, C = np.sqrt(interval.upper), np.sqrt(interval.lower)
+    mean = (interval.upper + A * C + interval.lower) / np.maximum(A + C, _TINY)
+    return (2 / 3 * np.sqrt(profile.radius)) * mean * interval.length
 
 
 @energy_integral.register
-def _(profile: Paraboloid, live):
+def _(profile: Paraboloid, interval):
     # ∫ 2x²(A² − x²) dx from C to A = C + e, as a polynomial with positive terms in e.
-    C = np.sqrt(live.lower)
-    e = live.length / np.maximum(np.sqrt(live.upper) + C, _TINY)
+    C = np.sqrt(interval.lower)
+    e = interval.length / np.maximum(np.sqrt(interval.upper) + C, _TINY)
     polynomial = ((4 / 15 * e + 4 / 3 * C) * e + 8 / 3 * C**2) * e + 2 * C**3
     return np.sqrt(profile.radius) * e**2 * polynomial
 
 
 @radius_drop.register
-def _(profile: Paraboloid, live):
-    both = np.sqrt(live.upper) + np.sqrt(live.lower)
-    return np.sqrt(profile.radius) * live.length / np.maximum(both, _TINY)
+def _(profile: Paraboloid, interval):
+    both = np.sqrt(interval.upper) + np.sqrt(interval.lower)
+    return np.sqrt(profile.radius) * interval.length / np.maximum(both, _TINY)
 
 
 @radius_integral.register
-def _(profile: PowerLaw, live):
+def _(profile: PowerLaw, interval):
     q = 1 + 1 / profile.exponent
     # 1 − (1 − fraction)^q without cancellation.
     with np.errstate(divide="ignore"):
-        drop = -np.expm1(q * np.log1p(-_fraction(live)))
-    return profile._radius(live.upper) * live.upper / q * drop
+        drop = -np.expm1(q * np.log1p(-_fraction(interval)))
+    return profile._radius(interval.upper) * interval.upper / q * drop
 
 
 @energy_integral.register
-def _(profile: PowerLaw, live):
+def _(profile: PowerLaw, interval):
     q = 1 + 1 / profile.exponent
-    a = profile._radius(live.upper)
-    return a * live.upper**2 * scipy.special.betainc(2, q, _fraction(live)) / (q * (q + 1))
+    a = profile._radius(interval.upper)
+    return a * interval.upper**2 * scipy.special.betainc(2, q, _fraction(interval)) / (q * (q + 1))
 
 
 @radius_drop.register
-def _(profile: PowerLaw, live):
-    return -profile._radius(live.upper) * np.expm1(_log_ratio(live) / profile.exponent)
+def _(profile: PowerLaw, interval):
+    return -profile._radius(interval.upper) * np.expm1(_log_ratio(interval) / profile.exponent)
 
 
-def _fraction(live):
+def _fraction(interval):
     """Length of the live interval as a fraction of the depth, 0 where both vanish."""
-    return np.divide(live.length, live.upper, out=np.zeros_like(live.upper), where=live.upper > 0)
+    return np.divide(
+        interval.length, interval.upper, out=np.zeros_like(interval.upper), where=interval.upper > 0
+    )
 
 
-def _log_ratio(live):
+def _log_ratio(interval):
     """ln(d_p/d) without cancellation: from the length where that is short, else from the ends."""
-    fraction = _fraction(live)
+    fraction = _fraction(interval)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(fraction < 0.5, np.log1p(-fraction), np.log(live.lower / live.upper))
+        return np.where(fraction < 0.5, np.log1p(-fraction), np.log(interval.lower / interval.upper))
 
 
 def loading_depth(profile, critical_depth, area):
     """Depth (m) at which a first loading has ∫ a ds = `area` (m²), elementwise."""
 
     def loading(depth):
-        live = first_loading(depth, critical_depth)
-        ring = np.where(live.lower > 0, radius_drop(profile, live), profile._radius(depth))
-        return radius_integral(profile, live), ring
+        interval = first_loading(depth, critical_depth)
+        ring = np.where(interval.lower > 0, radius_drop(profile, interval), profile._radius(depth))
+        return radius_integral(profile, interval), ring
 
     start = critical_depth if critical_depth < np.inf else 1.0
-    return increasing_root(loading, area, start, profile.deepest)
+    return increasing_root(loading, area, start, profile.known_depth)
 
 
 def live_length(profile, front, area):
@@ -343,8 +347,8 @@ def live_length(profile, front, area):
 
     def unloading(length):
         length = np.minimum(length, front.length)
-        live = LiveInterval(front.lower, front.lower + length, length)
-        return radius_integral(profile, live), profile._radius(live.upper)
+        interval = LiveInterval(front.lower, front.lower + length, length)
+        return radius_integral(profile, interval), profile._radius(interval.upper)
 
     longest = np.where(front.length > 0, front.length, 1.0)
     return np.minimum(increasing_root(unloading, area, longest, longest), front.length)

@@ -37,7 +37,7 @@ import numpy as np
 
 from . import _check
 from ._numeric import chunks
-from .dynamics.energy_balance import pressed
+from .dynamics.energy_balance import loading_interval
 from .dynamics.impact import Impact, impact
 from .dynamics.oblique import ObliqueImpact, oblique_impact
 from .indentation import Indentation
@@ -325,8 +325,8 @@ def _press(profile, E_star, q_c, depth):
     medium, depth = Medium(E_star, q_c), _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
     shape = np.broadcast_shapes(profile.shape, medium.shape, depth.shape)
     depth = profile._known(np.broadcast_to(depth, shape))
-    live, _ = pressed(np.maximum(depth, 0.0), medium.critical_depth, np.zeros(shape))
-    return Indentation(profile, medium, depth, live)
+    interval, _ = loading_interval(np.maximum(depth, 0.0), medium.critical_depth, np.zeros(shape))
+    return Indentation(profile, medium, depth, interval)
 
 
 def _attributes(kind, shape, given):

@@ -25,25 +25,27 @@ class LiveInterval:
     def __getitem__(self, index):
         return LiveInterval(self.lower[index], self.upper[index], self.length[index])
 
-    def over(self, unit):
+    def in_units_of(self, unit):
         """The interval in units of a depth (m)."""
         return LiveInterval(*np.broadcast_arrays(self.lower / unit, self.upper / unit, self.length / unit))
 
 
-def live_interval(depth, critical_depth):
+def path_intervals(depth, critical_depth):
     """Live interval after each point of a depth path (m) along the last axis, negative where lifted off.
 
     Yield starts at the critical depth d_c (m), which may be infinite.
 
     Examples
     --------
-    >>> live_interval(np.array([0.5, 3.0, 2.5, 1.0]), 1.0).length.tolist()
+    >>> path_intervals(np.array([0.5, 3.0, 2.5, 1.0]), 1.0).length.tolist()
     [0.5, 1.0, 0.5, 0.0]
     """
-    return after(np.maximum.accumulate(depth, axis=-1) if depth.ndim else depth, depth, critical_depth)
+    return interval_at(
+        np.maximum.accumulate(depth, axis=-1) if depth.ndim else depth, depth, critical_depth
+    )
 
 
-def after(deepest, depth, critical_depth):
+def interval_at(deepest, depth, critical_depth):
     """Live interval at each depth (m) when the largest one so far is `deepest` (m)."""
     lower = np.maximum(deepest - critical_depth, 0.0)
     # Before the first yield the length is the depth itself, afterwards what is left of d_c.
@@ -53,9 +55,9 @@ def after(deepest, depth, critical_depth):
 
 def first_loading(depth, critical_depth):
     """Live intervals after pressing a virgin medium to each of an array of depths (m) on its own."""
-    return live_interval(depth[..., None], critical_depth)[..., 0]
+    return path_intervals(depth[..., None], critical_depth)[..., 0]
 
 
-def virgin(depth):
+def elastic_interval(depth):
     """Live interval of an elastic indentation from zero to `depth`."""
     return LiveInterval(np.zeros_like(depth), depth, depth)

@@ -24,7 +24,7 @@ hit = mdr.impact(mdr.Cone(slope=[0.1, 0.3]), medium, mass=1e-12, speed=0.1)
 fast = hit.fast_limit.max_depth_error
 motion = hit[0].motion(50)
 energy = motion.kinetic_energy + motion.stored_energy + motion.plastic_work
-turning: int = motion.turning_point
+turning: int = motion.turning_index
 drop = mdr.impact(mdr.Paraboloid(2e-3), mdr.Medium(4e6, 200.0, 30.0), 1e-4, 0.5)
 chain = mdr.chain_impact(mdr.Paraboloid(2e-3), mdr.Medium(4e6, 200.0, 30.0), 1e-4, 0.5)
 difference = abs(chain.restitution - drop.restitution)

@@ -109,7 +109,7 @@ class Reference:
         self.depth = mpf(depth)
         deepest = self.depth if deepest is None else max(self.depth, mpf(deepest))
         self.plastic_depth = max(mpf(0), deepest - self.critical)
-        self.live = self.depth - self.plastic_depth
+        self.live_interval = self.depth - self.plastic_depth
         self.a = self.radius(self.depth)
         self.c = self.radius(self.plastic_depth) if self.plastic_depth else mpf(0)
 
@@ -139,7 +139,7 @@ class Reference:
         return itertools.pairwise(points)
 
     def _over_contact(self, power, depth, low):
-        total = low * self.live**power if low == self.c else mpf(0)
+        total = low * self.live_interval**power if low == self.c else mpf(0)
         for left, right in self._pieces(low, self.radius(depth)):
             # x = left + h u⁴: fractional powers and square roots at the lower end unfolded.
             h = right - left

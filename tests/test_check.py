@@ -137,7 +137,7 @@ def test_eight_threads_get_the_same_results():
 
     def everything(shape):
         hit = mdr.impact(shape, mdr.Medium(1e9, 10.0), 1e-9, [1e-3, 0.1])
-        state = hit[1].deepest
+        state = hit[1].turning_point
         return np.hstack([hit.max_depth, hit.restitution, hit.contact_time, state.pressure([0.0, 1e-8])])
 
     def fresh():

@@ -46,7 +46,7 @@ def test_elastic_contact_time_of_power_laws(n):
 def test_contact_time_by_direct_quadrature(shape, times):
     """T = ∫ dd/v in and out, from the force alone, with v from the work done so far."""
     hit = hit_to_depth(shape, MEDIUM, times * D_C)
-    d_max, live = float(hit.max_depth), float(hit.deepest.live.length)
+    d_max, live = float(hit.max_depth), float(hit.turning_point.live_interval.length)
 
     s = np.linspace(0, 1, 4001)
 

@@ -225,7 +225,7 @@ def test_live_depth_shorter_than_the_spacing_of_doubles(shape):
     """Unloaded all but completely from far beyond d_c: a flat punch of radius a."""
     deep = min(1e6 * D_C, 1e-5)
     s = mdr.indent(shape, MEDIUM, [deep, np.nextafter(deep - D_C, 1)])[-1]
-    a, live = s.contact_radius, s.live.length
+    a, live = s.contact_radius, s.live_interval.length
     assert live > 0
     assert s.force == pytest.approx(2 * MEDIUM.E_star * a * live, rel=1e-9)
     assert s.pressure(0.5 * a) == pytest.approx(MEDIUM.E_star / math.pi * live / (a * 0.75**0.5), rel=1e-6)

@@ -99,7 +99,7 @@ def test_bad_number_of_instants_is_refused(n):
 def test_the_turning_point_is_among_the_instants(shape, eta, n):
     hit = mdr.impact(shape, mdr.Medium(E_STAR, 10.0, eta), MASS, SPEED)
     motion = hit.motion(n)
-    turn = motion.turning_point
+    turn = motion.turning_index
     assert motion.velocity[turn] == 0.0
     # The same number, read off.
     assert motion.depth[turn] == pytest.approx(hit.max_depth, rel=1e-15)

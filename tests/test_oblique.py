@@ -140,7 +140,7 @@ def jaeger(psi, steps=1000):
     Between the depths of the motion s goes straight with depth: each piece is a normal solution.
     """
     motion = mdr.impact(PARABOLOID, ELASTIC, MASS, SPEED).motion(steps)
-    met = motion.depth[: motion.turning_point + 1]
+    met = motion.depth[: motion.turning_index + 1]
     share = np.diff(mdr.indent(PARABOLOID, ELASTIC, met).force) / np.diff(met)
     w, s, force = speed_at(psi), np.zeros(met.size), 0.0
     for i, dt in enumerate(np.diff(motion.time), 1):

@@ -52,7 +52,7 @@ def test_fields_of_a_state_are_sound(shape, medium, deepest, unloading, where):
     r = where * (state.contact_radius or 1e-6)
     assert state.pressure(r) >= 0
     assert 0 <= state.line_load(r) <= medium.yield_line_load * (1 + 1e-15)
-    assert 0 <= state.surface(r) <= state.live.length * (1 + 1e-14)
+    assert 0 <= state.surface(r) <= state.live_interval.length * (1 + 1e-14)
     assert 0 <= state.imprint(r) <= state.plastic_depth * (1 + 1e-14)
 
 
@@ -87,7 +87,7 @@ def test_force_path_is_the_inverse_of_a_depth_path(shape, medium, fractions):
     np.testing.assert_allclose(states.force, force, rtol=1e-13)
     again = mdr.indent(shape, medium, states.depth)
     # Unloaded from far beyond d_c the depth holds the live depth with few digits: 10¹⁵ d_c/d.
-    error = 1e-14 * states.depth.max() / states.live.length * force
+    error = 1e-14 * states.depth.max() / states.live_interval.length * force
     assert np.all(np.abs(again.force - force) <= error + 1e-13 * force)
 
 

@@ -121,7 +121,7 @@ def test_states_of_an_iteration_are_those_of_the_path():
     assert [state.force for state in PATH[:3]] == PATH.force[:3].tolist()
     instants = HIT.motion(9)
     assert [instant.force for instant in instants] == instants.force.tolist()
-    assert instants[instants.turning_point].velocity == 0.0
+    assert instants[instants.turning_index].velocity == 0.0
 
 
 @every_result

@@ -102,7 +102,7 @@ def test_a_slow_path_says_that_the_dashpots_carry_nothing():
     hit = mdr.impact(mdr.Cone(0.3), VISCOUS, 1e-6, 0.1)
     # States of a motion have their dashpots.
     assert (
-        exceeded(hit.deepest)
+        exceeded(hit.turning_point)
         == exceeded(hit.motion(5).states)
         == exceeded(hit.motion(5).states[2])
         == set()

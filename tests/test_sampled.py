@@ -176,9 +176,9 @@ class TestInverse:
 
     def test_everywhere(self, tip):
         tip = mdr.Sampled(*TIPS[tip])
-        least = min(k for k in (*tip.kinks, tip.deepest))
-        depth = np.geomspace(1e-12 * least, tip.deepest, 3000)
-        depth[-1] = tip.deepest
+        least = min(k for k in (*tip.kinks, tip.known_depth))
+        depth = np.geomspace(1e-12 * least, tip.known_depth, 3000)
+        depth[-1] = tip.known_depth
         self.assert_inverted(tip, depth)
         # Behind a flat face neighbours may differ by less than their roundings.
         a = tip.contact_radius(depth)
@@ -188,15 +188,17 @@ class TestInverse:
         tip = mdr.Sampled(*TIPS[tip])
         steps = 1 + np.finfo(float).eps * np.arange(-4, 5)
         depth = (np.array(tip.kinks)[:, None] * steps).ravel()
-        depth = np.append(depth, tip.deepest * steps[:5])
+        depth = np.append(depth, tip.known_depth * steps[:5])
         self.assert_inverted(tip, depth)
 
     def test_the_deepest_itself_is_known(self, tip):
         tip = mdr.Sampled(*TIPS[tip])
-        assert tip.contact_radius(tip.deepest) == pytest.approx(tip.r[-1], rel=4e-16)
-        assert mdr.indent(tip, MEDIUM, tip.deepest).contact_radius == pytest.approx(tip.r[-1], rel=4e-16)
+        assert tip.contact_radius(tip.known_depth) == pytest.approx(tip.r[-1], rel=4e-16)
+        assert mdr.indent(tip, MEDIUM, tip.known_depth).contact_radius == pytest.approx(
+            tip.r[-1], rel=4e-16
+        )
         with pytest.raises(ValueError, match="is deeper than the shape is known"):
-            tip.contact_radius(np.nextafter(tip.deepest, np.inf))
+            tip.contact_radius(np.nextafter(tip.known_depth, np.inf))
 
 
 class TestCsv:

@@ -129,6 +129,6 @@ class TestImpact:
         shape = mdr.Smooth(lambda r: r / 1e-5, radius=radius)
         deepest = radius**2 / 1e-5
         assert shape.contact_radius(deepest * (1 - 1e-9)) == pytest.approx(radius * (1 - 5e-10), rel=1e-14)
-        assert shape.deepest == pytest.approx(deepest, rel=0.1)
+        assert shape.known_depth == pytest.approx(deepest, rel=0.1)
         with pytest.raises(ValueError, match="presses deeper than the Smooth shape is known"):
             mdr.impact(shape, mdr.Medium(1e9), 1e-9, 10.0)

@@ -64,7 +64,7 @@ class ChainStates:
 
     def imprint(self, r):
         """Depth (m) of the residual imprint, as at rest."""
-        return mdr.Indentation(self.profile, self.medium, self.depth, self.live).imprint(r)
+        return mdr.Indentation(self.profile, self.medium, self.depth, self.live_interval).imprint(r)
 
     def pressure(self, r):
         """Contact pressure (Pa) at radii r (m), from the elements followed for all states."""

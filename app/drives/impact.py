@@ -37,7 +37,7 @@ class Impact(Drive):
         return along(scene, progress, hit, hit.motion(INSTANTS))
 
     def deepest(self, scene):
-        return scene.solve().deepest
+        return scene.solve().turning_point
 
     def alike(self, explorer, deepest):
         """Mass and speed of the body that hits, or of one that comes as deep."""
@@ -73,7 +73,7 @@ class Impact(Drive):
 
 def along(scene, progress, hit, motion, **more):
     """All states of an impact, from its motion along the normal."""
-    way, peak = passed(motion.time, motion.turning_point), motion.turning_point
+    way, peak = passed(motion.time, motion.turning_index), motion.turning_index
     return Trajectory(scene, way, motion.states, nearest(way, progress), peak, hit, motion, **more)
 
 

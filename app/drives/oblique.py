@@ -69,7 +69,7 @@ class Oblique(impact.Impact):
         return impact.along(scene, 1.0, hit.normal, motion.normal, oblique=motion)
 
     def deepest(self, scene):
-        return _normal(scene).deepest
+        return _normal(scene).turning_point
 
     def alike(self, explorer, deepest):
         numbers = super().alike(explorer, deepest)

@@ -150,7 +150,7 @@ def _solved(scene, progress, chain, pending):
 
 def _motion(states, time):
     """The same in time, with a ledger of what has been put in."""
-    none, live = np.zeros_like(time), states.live
+    none, live = np.zeros_like(time), states.live_interval
     rate = np.append(0.0, np.diff(states.depth) / np.diff(time))
     viscous = none if isinstance(states, mdr.Indentation) else states.viscous_work
     return mdr.Motion(

@@ -10,7 +10,7 @@ from .._numeric import chunks, cube_rise, cube_way, gauss_integrals, gauss_legen
 from ..shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
 from ..shapes.tabulated import OneLength, Tabulated, tabulated
 from ..superposition import energy_integral, radius_integral
-from ..yielding import LiveInterval, virgin
+from ..yielding import LiveInterval, elastic_interval
 
 #: Nodes for pieces that come near the turning point, and for others.
 _NEAR, _FAR = 28, 12
@@ -21,19 +21,19 @@ _OVER, _LENGTHS = np.array([1.0, 6.0]), 5 * 25.0 ** np.arange(6)
 _SHORT = 1e-4
 
 
-def contact_time(profile, inertia, speed, live, growth):
+def contact_time(profile, inertia, speed, interval, increase):
     """Time (s) from first contact to its loss, elementwise.
 
-    From inertia m/(2E*) (m s²), speed v₀ (m/s), live interval at the turning point, and `growth` (m), what
-    the impact added to the plastic depth. Everything broadcasts to the shape of these two.
+    From inertia m/(2E*) (m s²), speed v₀ (m/s), live interval at the turning point, and `increase` (m)
+    of the plastic depth by the impact. Everything broadcasts to the shape of these two.
     """
-    shape = np.shape(live.upper)
+    shape = np.shape(interval.upper)
     factor = np.broadcast_to(np.sqrt(inertia / 2), shape).ravel()
-    growth = np.ravel(growth)
-    lower, upper, length = (np.ravel(part) for part in (live.lower, live.upper, live.length))
+    increase = np.ravel(increase)
+    lower, upper, length = (np.ravel(part) for part in (interval.lower, interval.upper, interval.length))
     passage = np.broadcast_to(upper.reshape(shape) / speed, shape).ravel()
     # Of a power law, the contact time over d_max/v₀ depends on d_p/d_c alone.
-    fresh = growth == lower
+    fresh = increase == lower
     known = fresh & (lower == 0) & (power(profile) is not None)
     by_ratio = fresh & (lower > 0) & isinstance(profile, Cone | Paraboloid)
     time = np.empty(upper.shape)
@@ -51,8 +51,8 @@ def contact_time(profile, inertia, speed, live, growth):
     for part in chunks(rest.size, max(32, 2048 // (1 + len(unit.kinks)))):
         rows = rest[part]
         # The kinetic energy is 2E* times the integral of a ds that is still to be spent.
-        state = LiveInterval(lower[rows], upper[rows], length[rows]).over(depth[rows])
-        ratio = time_over_root(unit.flat_entries(rows, shape), state, growth[rows] / depth[rows])
+        state = LiveInterval(lower[rows], upper[rows], length[rows]).in_units_of(depth[rows])
+        ratio = time_over_root(unit.flat_entries(rows, shape), state, increase[rows] / depth[rows])
         time[rows] = ratio / root[rows] * factor[rows]
     return time.reshape(shape)[()]
 
@@ -94,14 +94,14 @@ def _table(kind):
     def time(place):
         X = ((1 + place) / (1 - place)) ** 2
         one = np.ones_like(X)
-        profile, live = kind(1.0), LiveInterval(X, X + one, one)
-        energy = energy_integral(profile, live) + radius_integral(profile, virgin(X))
-        return time_over_root(profile, live, X) * np.sqrt(energy) / live.upper
+        profile, interval = kind(1.0), LiveInterval(X, X + one, one)
+        energy = energy_integral(profile, interval) + radius_integral(profile, elastic_interval(X))
+        return time_over_root(profile, interval, X) * np.sqrt(energy) / interval.upper
 
     return chebyshev.chebtrim(chebyshev.chebinterpolate(time, 71), 1e-15)
 
 
-def time_over_root(profile, live, growth):
+def time_over_root(profile, interval, increase):
     """∫ ds/√(∫∫ a ds ds) over unloading and loading (m^(−1/2)), one impact a row.
 
     1. Unloading is one stretch of depth, loading two: beyond the critical depth both ends of the live
@@ -110,8 +110,8 @@ def time_over_root(profile, live, growth):
     3. In each piece what is still to be spent is integrated at Gauss nodes, from the turning point back, so
        that it never cancels.
     """
-    lower, length, growth = live.lower[:, None], live.length[:, None], growth[:, None]
-    start, nothing = lower - growth, np.zeros(live.length.shape)
+    lower, length, increase = interval.lower[:, None], interval.length[:, None], increase[:, None]
+    start, nothing = lower - increase, np.zeros(interval.length.shape)
     kinks = np.column_stack(profile.kinks) if profile.kinks else np.empty((1, 0))
     over = np.empty((1, 0)) if profile.scale is None else np.multiply.outer(profile.scale, _OVER)
     over = np.atleast_2d(over)
@@ -123,10 +123,17 @@ def time_over_root(profile, live, growth):
     cuts = np.hstack([kinks - start, kinks - start - length])
     breaks = np.hstack([over - start, _LENGTHS * length])
     beyond, spent = _stretch(
-        profile, lambda s, rows: (start[rows] + s, length[rows]), start, growth, 0.0, cuts, breaks, nothing
+        profile,
+        lambda s, rows: (start[rows] + s, length[rows]),
+        start,
+        increase,
+        0.0,
+        cuts,
+        breaks,
+        nothing,
     )
     # Loading up to it, about where it would turn if the interval went on to grow.
-    force, a = _flow(profile, start[:, 0], live.length), profile._radius(start[:, 0] + live.length)
+    force, a = _flow(profile, start[:, 0], interval.length), profile._radius(start[:, 0] + interval.length)
     more = (2 * spent / (force + np.sqrt(force**2 + 2 * a * spent)))[:, None]
     below, _ = _stretch(
         profile, lambda s, rows: (start[rows], s), start, length, more, kinks - start, over - start, spent
@@ -134,11 +141,11 @@ def time_over_root(profile, live, growth):
     return time + beyond + below
 
 
-def _stretch(profile, interval, lower, end, more, kinks, breaks, spent):
+def _stretch(profile, limits_at, lower, end, more, kinks, breaks, spent):
     """∫ ds/√spent over a stretch of depth, and what is spent from its beginning on, one impact a row.
 
     The stretch begins at a depth `lower` and is `end` long, after which `spent` is still to be spent on
-    what is `more` up to the turning point (m). `interval` gives lower end and length of the live interval
+    what is `more` up to the turning point (m). `limits_at` gives lower end and length of the live interval
     at depths from the beginning; at depths `kinks`, of shape (N, K), the force has a kink.
     """
     edges, origin = _edges(profile, lower, end, kinks, breaks)
@@ -151,7 +158,7 @@ def _stretch(profile, interval, lower, end, more, kinks, breaks, spent):
             node, weight, tail = _rule(count)
             row, at = rows[some, None], begin[some, None]
             beyond, rate = _places(at - origin[some, None], size[some, None], rest[some, None], node)
-            flow = _flow(profile.entries((row,), (len(end),)), *interval(at + beyond, row[:, 0])) * rate
+            flow = _flow(profile.entries((row,), (len(end),)), *limits_at(at + beyond, row[:, 0])) * rate
             # Not by @: for sums as short as these the threads of BLAS take a second core, and no less time.
             spending[row[:, 0], k[some]] = np.einsum("ij,j", flow, weight)
             pieces.append((row[:, 0], k[some], rate, np.einsum("ij,kj", flow, tail), weight))
@@ -170,7 +177,7 @@ def _edges(profile, lower, end, kinks, breaks):
     order = np.argsort(cuts, axis=1)
     cuts = np.take_along_axis(cuts, order, axis=1)
     roots = np.where((order < kinks.shape[1]) & (cuts > 0), cuts, -np.inf)
-    foot = profile._foot(lower[:, 0])[:, None] - lower
+    foot = profile._kink_above(lower[:, 0])[:, None] - lower
     return np.hstack([0 * end, cuts, end]), np.maximum.accumulate(np.hstack([foot, roots]), axis=1)
 
 

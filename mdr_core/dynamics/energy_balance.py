@@ -21,7 +21,7 @@ _FEW = 16
 _LAST_STEP = 1e-7
 
 
-def turning_point(profile, target, d_c, before):
+def turning_interval(profile, target, d_c, before):
     """Live interval at which a dry impact has spent its energy, and Δ (m), the growth of the plastic depth.
 
     Elementwise for energies `target` over 2E* (m³), to whose shape indenters, critical depths d_c (m) and
@@ -29,9 +29,9 @@ def turning_point(profile, target, d_c, before):
     known as deep; Δ is carried, because p₀ may be much larger.
     """
     if not np.any(before):
-        virgin = virgin_turning_point(profile, target, d_c)
-        if virgin is not None:
-            return virgin, virgin.lower
+        first = first_turning_interval(profile, target, d_c)
+        if first is not None:
+            return first, first.lower
     profile, shape = quick(profile, target.size), target.shape
     unit, *scales = profile.unit or (profile, 1.0, 1.0)
     # Beside the results there is no more than a block of anything.
@@ -41,39 +41,39 @@ def turning_point(profile, target, d_c, before):
         target, d_c, before, radius, depth = (part[rows] for part in arrays)
         target, d_c, before = target / (radius * depth**2), d_c / depth, before / depth
         y = _penetration(unit.flat_entries(rows, shape), target, d_c, before)
-        live, growth = pressed(np.where(np.isinf(y), 0.0, y), d_c, before)
-        upper = np.where(np.isinf(y), np.inf, live.upper)
-        found[:, rows] = depth * np.array([live.lower, upper, live.length, growth])
-    *live, growth = found.reshape(4, *shape)
-    return LiveInterval(*live), growth
+        interval, increase = loading_interval(np.where(np.isinf(y), 0.0, y), d_c, before)
+        upper = np.where(np.isinf(y), np.inf, interval.upper)
+        found[:, rows] = depth * np.array([interval.lower, upper, interval.length, increase])
+    *interval, increase = found.reshape(4, *shape)
+    return LiveInterval(*interval), increase
 
 
 def quick(profile, count):
     """The shape to solve so many impacts with: that of a tip which ends somewhere as a table of it."""
-    many = count > _FEW and np.all(profile.deepest < np.inf)
-    return tabulated(profile, profile.deepest) if many else profile
+    many = count > _FEW and np.all(profile.known_depth < np.inf)
+    return tabulated(profile, profile.known_depth) if many else profile
 
 
-def pressed(y, d_c, before):
+def loading_interval(y, d_c, before):
     """Live interval and growth of the plastic depth after pressing by y ≥ 0 (m) into an imprint."""
-    growth = np.maximum(y - d_c, 0.0)
-    lower, length = before + growth, np.minimum(y, d_c)
-    return LiveInterval(lower, np.maximum(before + y, lower), length), growth
+    increase = np.maximum(y - d_c, 0.0)
+    lower, length = before + increase, np.minimum(y, d_c)
+    return LiveInterval(lower, np.maximum(before + y, lower), length), increase
 
 
-def plastic_integral(profile, live, d_c, growth):
+def plastic_integral(profile, interval, d_c, increase):
     """d_c ∫ a ds over the depths by which the imprint has grown: plastic work over 2E* (m³)."""
-    integral = radius_integral(profile, LiveInterval(live.lower - growth, live.lower, growth))
+    integral = radius_integral(profile, LiveInterval(interval.lower - increase, interval.lower, increase))
     with np.errstate(invalid="ignore"):
-        return np.where(growth > 0, d_c * integral, 0.0)
+        return np.where(increase > 0, d_c * integral, 0.0)
 
 
-def dry_restitution(profile, live, d_c, growth):
+def dry_restitution(profile, interval, d_c, increase):
     """Coefficient of restitution e = √(U/(U + W_p)) of an impact without viscosity."""
-    profile = quick(profile, np.size(live.length))
-    stored = energy_integral(profile, live)
+    profile = quick(profile, np.size(interval.length))
+    stored = energy_integral(profile, interval)
     # U over the sum instead of U over the kinetic energy: never above 1.
-    return np.sqrt(stored / (stored + plastic_integral(profile, live, d_c, growth)))
+    return np.sqrt(stored / (stored + plastic_integral(profile, interval, d_c, increase)))
 
 
 def _penetration(profile, target, d_c, before):
@@ -84,12 +84,12 @@ def _penetration(profile, target, d_c, before):
     """
 
     def work(y, rows):
-        live, growth = pressed(y, d_c[rows], before[rows])
+        interval, increase = loading_interval(y, d_c[rows], before[rows])
         indenters = profile.entries(rows, target.shape)
-        force, stored = radius_and_energy(indenters, live)
-        return stored + plastic_integral(indenters, live, d_c[rows], growth), force
+        force, stored = radius_and_energy(indenters, interval)
+        return stored + plastic_integral(indenters, interval, d_c[rows], increase), force
 
-    highest = np.broadcast_to(profile.deepest - before, target.shape)
+    highest = np.broadcast_to(profile.known_depth - before, target.shape)
     with np.errstate(all="ignore"):
         y = np.minimum(_about(profile, target, d_c, before), highest)
         rows = np.arange(y.size)
@@ -125,12 +125,12 @@ def _about(profile, target, d_c, before):
 
 
 @singledispatch
-def virgin_turning_point(profile, target, d_c):
-    """Closed form of `turning_point` on a virgin medium, for work over 2E* (m³); else None."""
+def first_turning_interval(profile, target, d_c):
+    """Closed form of `turning_interval` on a virgin medium, for work over 2E* (m³); else None."""
     return None
 
 
-@virgin_turning_point.register
+@first_turning_interval.register
 def _(profile: Cone, target, d_c):
     # d³/3 = πs·target; yielding, with X = d_p/d_c: X² + X = (λ³ − 1)/3.
     elastic = np.cbrt(3 * np.pi * profile.slope * target)
@@ -139,7 +139,7 @@ def _(profile: Cone, target, d_c):
     return _from_ratio(elastic, 2 * surplus / (1 + np.sqrt(1 + 4 * surplus)), d_c)
 
 
-@virgin_turning_point.register
+@first_turning_interval.register
 def _(profile: Paraboloid, target, d_c):
     # (4/15) √R d^(5/2) = target; yielding, with A² = d/d_c = C² + 1: A⁵ − C⁵ = λ^(5/2).
     elastic = (target * 3.75 / np.sqrt(profile.radius)) ** 0.4

@@ -33,7 +33,7 @@ from ..shapes.profile import Profile
 from ..shapes.tabulated import tabulated
 from ..superposition import radius_integral
 from ..yielding import LiveInterval
-from .energy_balance import pressed
+from .energy_balance import loading_interval
 
 #: What the last coefficients may leave of velocity, depth and time; the ends of steps are far better.
 TOLERANCE = 1e-5
@@ -66,7 +66,7 @@ class Bodies:
         arrays = medium.relaxation_time, inertia, speed, medium.critical_depth, before, dry
         columns = [np.broadcast_to(part, shape).reshape(-1, 1) for part in arrays]
         profile = profile.flat_entries(slice(None), shape).entries((slice(None), None), (columns[0].size,))
-        columns[-1] = np.minimum(columns[-1], profile.deepest - columns[-2])
+        columns[-1] = np.minimum(columns[-1], profile.known_depth - columns[-2])
         # A little deeper than it comes, for the end of what is interpolated is not to be where it turns.
         return cls(tabulated(profile, columns[-2] + 1.1 * columns[-1]), *columns)
 
@@ -82,12 +82,14 @@ class Bodies:
         """Φ, a and dΦ/dq at depths q: y, or ℓ on unloading."""
         depth = np.maximum(depth, 0.0)
         if self.lower is None:
-            live, growth = pressed(depth, self.critical_depth, self.before)
+            interval, increase = loading_interval(depth, self.critical_depth, self.before)
         else:
-            live, growth = LiveInterval(self.lower + 0 * depth, self.lower + depth, depth), 0.0
-        a = self.profile._radius(live.upper)
-        ring = np.where(growth > 0, a - self.profile._radius(live.lower), a) if np.any(growth) else a
-        return radius_integral(self.profile, live), a, ring
+            interval, increase = LiveInterval(self.lower + 0 * depth, self.lower + depth, depth), 0.0
+        a = self.profile._radius(interval.upper)
+        ring = (
+            np.where(increase > 0, a - self.profile._radius(interval.lower), a) if np.any(increase) else a
+        )
+        return radius_integral(self.profile, interval), a, ring
 
     def rates(self, load, a, velocity):
         """Rates of depth, velocity and viscous work at loads Φ, contact radii and velocities."""
@@ -172,11 +174,11 @@ class Steps:
         def derivatives(depth):
             load, a, stiffness = self.bodies.loads(depth)
             rate, acceleration, work = self.bodies.rates(load, a, velocity)
-            growth = stiffness * velocity
+            increase = stiffness * velocity
             if self.bodies.lower is None:
                 # The drag grows as the contact does, by 1/g′.
-                growth += self.bodies.tau * velocity**2 / self.bodies.profile._reduced_slope(a)
-            own = growth / self.bodies.inertia / acceleration**2
+                increase += self.bodies.tau * velocity**2 / self.bodies.profile._reduced_slope(a)
+            own = increase / self.bodies.inertia / acceleration**2
             return rate / acceleration, 1 / acceleration, work / acceleration, own
 
         return derivatives
@@ -227,10 +229,10 @@ def _load(bodies, tolerance):
     """State at the turning point, and the steps there."""
     count, steps = bodies.speed.size, []
     state = bodies.speed * np.array([0.0, 1.0, 0.0, 0.0])[:, None, None]
-    below = bodies.before - bodies.profile._foot(bodies.before)
+    below = bodies.before - bodies.profile._kink_above(bodies.before)
     kinks = [kink - bodies.before for kink in bodies.profile.kinks]
     edges = np.array([bodies.critical_depth, *kinks, *(kink + bodies.critical_depth for kink in kinks)])
-    end = np.broadcast_to(bodies.profile.deepest - bodies.before, (count, 1))
+    end = np.broadcast_to(bodies.profile.known_depth - bodies.before, (count, 1))
     edges = np.sort(np.where((edges > 0) & (edges < end), edges, end), axis=0)
     base, rows = np.zeros((count, 1)), np.arange(count)
     for edge in [*edges, end]:
@@ -247,12 +249,12 @@ def _load(bodies, tolerance):
 def _unload(bodies, state, tolerance):
     """State at the loss of contact, and the steps there."""
     steps, count = [], bodies.speed.size
-    live, _ = pressed(state[0], bodies.critical_depth, bodies.before)
-    bodies = replace(bodies, lower=live.lower)
-    state = np.stack([live.length, np.zeros((count, 1)), state[2], state[3]])
-    below = live.lower - bodies.profile._foot(live.lower)
-    for edge in [*(kink - live.lower for kink in bodies.profile.kinks[::-1]), np.zeros((count, 1))]:
-        rows = np.flatnonzero(((edge >= 0) & (edge < state[0]) & (live.upper < np.inf))[:, 0])
+    interval, _ = loading_interval(state[0], bodies.critical_depth, bodies.before)
+    bodies = replace(bodies, lower=interval.lower)
+    state = np.stack([interval.length, np.zeros((count, 1)), state[2], state[3]])
+    below = interval.lower - bodies.profile._kink_above(interval.lower)
+    for edge in [*(kink - interval.lower for kink in bodies.profile.kinks[::-1]), np.zeros((count, 1))]:
+        rows = np.flatnonzero(((edge >= 0) & (edge < state[0]) & (interval.upper < np.inf))[:, 0])
         begin = np.cbrt(np.where(edge == 0, below, 0.0))
         leg = _Leg(bodies.rows(rows), edge[rows], begin[rows], edge[rows], tolerance)
         state[:, rows], _ = leg.run(state[:, rows], np.full((rows.size, 1), np.inf), rows, steps)

@@ -120,7 +120,7 @@ def slide(motion, levels, inertia, hold, instants=()):
     """One `Run` of a body that comes with tangential speed 1, C = `inertia`, and B = `hold` × load."""
     row = Row.of(motion.profile, levels.depth)
     lower = np.maximum(levels.depth - motion.critical_depth, 0.0)
-    live = np.minimum(levels.depth, motion.critical_depth) + motion.tau * levels.velocity
+    interval = np.minimum(levels.depth, motion.critical_depth) + motion.tau * levels.velocity
     number, part = _partly_yielded(motion.profile, row, levels, lower)
     state = _State(row, inertia, motion.tau, np.append(levels.down, levels.up[1:]), instants)
     total = row.mean.size
@@ -131,12 +131,12 @@ def slide(motion, levels, inertia, hold, instants=()):
             rise[number[i]] = part[i]
         # What is met at a speed begins with the load of its dashpot.
         state.meet(old, count, hold * motion.tau * levels.velocity[max(i - 1, 0)])
-        state.step(i, np.maximum(hold * (live[i] - rise), 0.0), slice(old, count))
+        state.step(i, np.maximum(hold * (interval[i] - rise), 0.0), slice(old, count))
     rise = np.maximum(row.mean - motion.lower, 0.0)
-    for k in range(1, levels.live.size):
+    for k in range(1, levels.live_depth.size):
         count = min(levels.depth.size - k, total)
         bound = np.zeros(state.count)
-        bound[:count] = np.maximum(hold * (levels.live[k] - rise[:count]), 0.0)
+        bound[:count] = np.maximum(hold * (levels.live_depth[k] - rise[:count]), 0.0)
         state.step(levels.depth.size - 1 + k, bound, slice(count, state.count))
         state.let_go(count)
     return state.run()

@@ -20,7 +20,7 @@ from ..scaling import FastLimit, fast_limit, how_fast
 from ..shapes.profile import Profile
 from ..superposition import radius_integral
 from .contact_time import contact_time
-from .energy_balance import dry_restitution, plastic_integral, pressed, quick, turning_point
+from .energy_balance import dry_restitution, loading_interval, plastic_integral, quick, turning_interval
 from .equation_of_motion import Bodies, solve
 from .motion import motion
 
@@ -94,19 +94,19 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
     shape = shape_with("impact", profile, medium, mass=mass, speed=speed, plastic_depth=before)
     mass, speed, before = (np.broadcast_to(part, shape) for part in (mass, speed, before))
     too_deep = profile._too_deep()
-    _check.refuse("plastic_depth", before, before > profile.deepest, f"is {too_deep}", unit="m")
+    _check.refuse("plastic_depth", before, before > profile.known_depth, f"is {too_deep}", unit="m")
     # The search may begin far from the root, where powers leave double precision.
     with np.errstate(all="ignore"):
         arguments = profile, medium, mass, speed, before
         if in_time or np.any(np.asarray(medium.eta) > 0):
-            live, growth, rebound = _in_time(*arguments, in_time)
+            interval, increase, rebound = _in_time(*arguments, in_time)
         else:
-            live, growth, rebound = *_dry(*arguments), None
-    known = np.minimum(profile.deepest, _check.LARGEST)
+            interval, increase, rebound = *_dry(*arguments), None
+    known = np.minimum(profile.known_depth, _check.LARGEST)
     bound = f"m/s presses {too_deep}"
-    _check.refuse("speed", speed, ~(live.upper <= known), bound, remedy="hit less hard")
-    deepest = Indentation(profile, medium, live.upper, live, in_time=True)
-    return Impact(profile, medium, mass[()], speed[()], deepest, growth, rebound)
+    _check.refuse("speed", speed, ~(interval.upper <= known), bound, remedy="hit less hard")
+    turning_point = Indentation(profile, medium, interval.upper, interval, in_time=True)
+    return Impact(profile, medium, mass[()], speed[()], turning_point, increase, rebound)
 
 
 @dataclass(frozen=True)
@@ -128,17 +128,17 @@ class Rebound:
 def _dry(profile, medium, mass, speed, before):
     """Live interval at the turning point without viscosity, and growth of the plastic depth."""
     target = np.broadcast_to(mass * speed**2 / (4 * medium.E_star), np.shape(speed))
-    return turning_point(profile, target, medium.critical_depth, before)
+    return turning_interval(profile, target, medium.critical_depth, before)
 
 
 def _in_time(profile, medium, mass, speed, before, dry_too):
-    """Live interval at the turning point, growth of the plastic depth, and `Rebound`, elementwise.
+    """Live interval at the turning point, increase of the plastic depth, and `Rebound`, elementwise.
 
     Where eta is 0 they are those of the energy balance, unless these too are to be solved in time.
     """
     shape, modulus, d_c = np.shape(speed), 2 * medium.E_star, medium.critical_depth
-    live, growth = _dry(profile, medium, mass, speed, before)
-    y = np.where(live.upper < np.inf, live.length + growth, np.inf)
+    interval, increase = _dry(profile, medium, mass, speed, before)
+    y = np.where(interval.upper < np.inf, interval.length + increase, np.inf)
     bodies = Bodies.of(profile, medium, mass, speed, before, y)
     wet = (bodies.tau[:, 0] > 0) | dry_too
     ends = np.zeros((4, y.size))
@@ -149,33 +149,33 @@ def _in_time(profile, medium, mass, speed, before, dry_too):
         ends[:, rows] = course.velocity, course.time, course.work, course.peak
     velocity, time, work, peak = ends.reshape(4, *shape)
     restitution, force, still = np.minimum(-velocity / speed, 1.0), peak * mass, ~wet.reshape(shape)
-    live, growth = pressed(y, d_c, before)
+    interval, increase = loading_interval(y, d_c, before)
     if still.any():
-        restitution = np.where(still, dry_restitution(profile, live, d_c, growth), restitution)
-        time = np.where(still, contact_time(profile, mass / modulus, speed, live, growth), time)
-        force = np.where(still, modulus * radius_integral(profile, live), force)
-    return live, growth, Rebound(*(part[()] for part in (restitution, time, modulus * work, force)))
+        restitution = np.where(still, dry_restitution(profile, interval, d_c, increase), restitution)
+        time = np.where(still, contact_time(profile, mass / modulus, speed, interval, increase), time)
+        force = np.where(still, modulus * radius_integral(profile, interval), force)
+    return interval, increase, Rebound(*(part[()] for part in (restitution, time, modulus * work, force)))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Impact(ImpactResult):
     """One impact or many; made by `impact`. Every quantity has the shape of the ensemble.
 
-    `deepest` is the state at the turning point, `growth` what the impact added to the plastic depth
-    (m), `rebound` what a viscous impact ends with, None for a dry one. `result[i]` picks one impact.
+    `turning_point` is the state of largest depth, `plastic_depth_increase` (m) is that by this impact,
+    `rebound` what a viscous impact ends with, None for a dry one. `result[i]` picks one impact.
     """
 
     profile: Profile
     medium: Medium
     mass: Array
     speed: Array
-    deepest: Indentation
-    growth: np.ndarray
+    turning_point: Indentation
+    plastic_depth_increase: np.ndarray
     rebound: Rebound | None = None
     _made_of: tuple[Any, ...] = field(default=(), repr=False)
 
     def __post_init__(self):
-        sealed(self, "profile", "medium", "mass", "speed", "deepest", "growth")
+        sealed(self, "profile", "medium", "mass", "speed", "turning_point", "plastic_depth_increase")
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
@@ -192,10 +192,9 @@ class Impact(ImpactResult):
         return (*limits, *how_fast(self))
 
     def __getitem__(self, index: Any) -> "Impact":
-        deepest = self.deepest[index]
-        mass, speed, growth = self.mass[index], self.speed[index], self.growth[index]
-        rebound = self.rebound and self.rebound[index]
-        return Impact(deepest.profile, deepest.medium, mass, speed, deepest, growth, rebound)
+        state, increase = self.turning_point[index], self.plastic_depth_increase[index]
+        mass, speed, rebound = self.mass[index], self.speed[index], self.rebound and self.rebound[index]
+        return Impact(state.profile, state.medium, mass, speed, state, increase, rebound)
 
     @property
     def model(self) -> Model:
@@ -205,27 +204,27 @@ class Impact(ImpactResult):
     @property
     def max_depth(self) -> Array:
         """Largest indentation depth d_max (m), from the virgin surface."""
-        return self.deepest.depth
+        return self.turning_point.depth
 
     @property
     def max_force(self) -> Array:
         """Largest force (N); a viscous impact has it before the turning point."""
-        return self.deepest.force if self.rebound is None else self.rebound.max_force
+        return self.turning_point.force if self.rebound is None else self.rebound.max_force
 
     @property
     def contact_radius(self) -> Array:
         """Largest contact radius a (m)."""
-        return self.deepest.contact_radius
+        return self.turning_point.contact_radius
 
     @property
     def plastic_radius(self) -> Array:
         """Radius c (m) of the plastic zone that remains."""
-        return self.deepest.plastic_radius
+        return self.turning_point.plastic_radius
 
     @property
     def plastic_depth(self) -> Array:
         """Plastic depth d_p (m) that remains."""
-        return self.deepest.plastic_depth
+        return self.turning_point.plastic_depth
 
     @property
     def damaged_area(self) -> Array:
@@ -235,13 +234,14 @@ class Impact(ImpactResult):
     @property
     def stored_energy(self) -> Array:
         """Elastic energy (J) at the turning point; a dry impact returns all of it."""
-        return self.deepest.stored_energy
+        return self.turning_point.stored_energy
 
     @_check.frozen_property
     def plastic_work(self):
         """Energy (J) dissipated by yielding in this impact."""
-        profile, d_c = quick(self.profile, self.growth.size), self.medium.critical_depth
-        return 2 * self.medium.E_star * plastic_integral(profile, self.deepest.live, d_c, self.growth)
+        interval, increase = self.turning_point.live_interval, self.plastic_depth_increase
+        profile, d_c = quick(self.profile, increase.size), self.medium.critical_depth
+        return 2 * self.medium.E_star * plastic_integral(profile, interval, d_c, increase)
 
     @property
     def viscous_work(self) -> Array:
@@ -253,7 +253,8 @@ class Impact(ImpactResult):
         """Coefficient of restitution e, speed after over speed before."""
         if self.rebound is not None:
             return self.rebound.restitution
-        return dry_restitution(self.profile, self.deepest.live, self.medium.critical_depth, self.growth)
+        interval, d_c = self.turning_point.live_interval, self.medium.critical_depth
+        return dry_restitution(self.profile, interval, d_c, self.plastic_depth_increase)
 
     @property
     def rebound_speed(self) -> Array:
@@ -266,7 +267,8 @@ class Impact(ImpactResult):
         if self.rebound is not None:
             return self.rebound.contact_time
         inertia = self.mass / (2 * self.medium.E_star)
-        return contact_time(self.profile, inertia, self.speed, self.deepest.live, self.growth)
+        interval, increase = self.turning_point.live_interval, self.plastic_depth_increase
+        return contact_time(self.profile, inertia, self.speed, interval, increase)
 
     @property
     def fast_limit(self) -> FastLimit:

@@ -105,5 +105,5 @@ class Levels(NamedTuple):
     depth: np.ndarray
     down: np.ndarray
     velocity: np.ndarray
-    live: np.ndarray
+    live_depth: np.ndarray
     up: np.ndarray

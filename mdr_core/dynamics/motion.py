@@ -5,7 +5,7 @@ import numpy as np
 from ..indentation import Indentation
 from ..results import Motion, instants
 from ..yielding import LiveInterval
-from .energy_balance import plastic_integral, pressed
+from .energy_balance import loading_interval, plastic_integral
 from .equation_of_motion import Bodies, solve
 
 #: What the polynomials between the nodes may leave, and instants at which what has let go is followed.
@@ -15,8 +15,8 @@ _TOLERANCE, _INSTANTS, _PARTS = 1e-10, 400, 33
 def motion(hit, n):
     """The `Motion` of one `Impact` at n instants."""
     hit._one("motion")
-    before = np.asarray(hit.plastic_depth - hit.growth)
-    deepest = hit.deepest.live.length + hit.growth
+    before = np.asarray(hit.plastic_depth - hit.plastic_depth_increase)
+    deepest = hit.turning_point.live_interval.length + hit.plastic_depth_increase
     bodies = Bodies.of(hit.profile, hit.medium, hit.mass, hit.speed, before, deepest)
     course = solve(bodies, _TOLERANCE)
     turn, end = float(course.unloading[0][1].start[2, 0, 0]), float(course.time[0])
@@ -27,14 +27,14 @@ def motion(hit, n):
     y[0], velocity[0], work[0] = 0.0, hit.speed, 0.0
     y = np.minimum(y, deepest)
     y[time[:count] == turn], velocity[time[:count] == turn] = deepest, 0.0
-    loading, growth = pressed(y, hit.medium.critical_depth, before)
+    loading, increase = loading_interval(y, hit.medium.critical_depth, before)
     length, *falling = _unloading(hit, course, time[count:], turn, end)
-    live = _appended(loading, hit.deepest.live.lower, length)
-    growth = np.append(growth, np.full(length.size, hit.growth))
+    interval = _appended(loading, hit.turning_point.live_interval.lower, length)
+    increase = np.append(increase, np.full(length.size, hit.plastic_depth_increase))
     velocity, work, free = map(np.append, (velocity, work, np.zeros(count)), falling)
-    depth = live.upper - hit.medium.relaxation_time * np.minimum(velocity, 0.0)
+    depth = interval.upper - hit.medium.relaxation_time * np.minimum(velocity, 0.0)
     depth[:count] = before + y
-    return _ledger(hit, time, depth, velocity, live, growth, work, free)
+    return _ledger(hit, time, depth, velocity, interval, increase, work, free)
 
 
 def _unloading(hit, course, time, turn, end):
@@ -57,11 +57,11 @@ def _appended(loading, lower, length):
     return LiveInterval(lower, lower + length, length)
 
 
-def _ledger(hit, time, depth, velocity, live, growth, work, free):
+def _ledger(hit, time, depth, velocity, interval, increase, work, free):
     """The `Motion` from its states; `work` and `free` are over 2E* (m³)."""
     medium, modulus = hit.medium, 2 * hit.medium.E_star
     load = 4 * medium.eta * np.maximum(velocity, 0.0)
-    states = Indentation(hit.profile, medium, depth, live, load, in_time=True)
+    states = Indentation(hit.profile, medium, depth, interval, load, in_time=True)
     # What the elements that have let go took with them has been dissipated, or is still theirs.
     taken = (medium.relaxation_time * np.minimum(velocity, 0.0)) ** 2 * states.contact_radius / 2
     return Motion(
@@ -71,11 +71,11 @@ def _ledger(hit, time, depth, velocity, live, growth, work, free):
         force=states.force,
         contact_radius=states.contact_radius,
         plastic_radius=states.plastic_radius,
-        plastic_depth=live.lower,
-        live_depth=live.length,
+        plastic_depth=interval.lower,
+        live_depth=interval.length,
         kinetic_energy=hit.mass * velocity**2 / 2,
         stored_energy=states.stored_energy + modulus * free,
-        plastic_work=modulus * plastic_integral(hit.profile, live, medium.critical_depth, growth),
+        plastic_work=modulus * plastic_integral(hit.profile, interval, medium.critical_depth, increase),
         viscous_work=modulus * (work - taken - free),
         states=states,
         impact=hit,
@@ -91,7 +91,7 @@ def _let_go(hit, time, length, velocity):
     tau, energy = hit.medium.relaxation_time, np.zeros_like(time)
     if tau == 0:
         return energy
-    a = hit.profile._radius(hit.deepest.live.lower + length)
+    a = hit.profile._radius(hit.turning_point.live_interval.lower + length)
     taken = (tau * velocity) ** 2 / 2
     fade = 2 * np.diff(time) / tau
     kept = np.exp(-fade)

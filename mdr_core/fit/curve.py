@@ -16,7 +16,7 @@ from functools import cached_property
 import numpy as np
 
 from ..superposition import radius_integral
-from ..yielding import LiveInterval, after
+from ..yielding import LiveInterval, interval_at
 
 #: All parameters, in the order of a fit.
 NAMES = ("E_star", "q_c", "contact_point", "baseline", "frame_compliance")
@@ -143,7 +143,7 @@ class Curves:
         def distance(state):
             return ((measured - state.seen) / noise) ** 2 + ((load - state.force) / self.sigma) ** 2
 
-        best, least, inside = here, distance(here), np.maximum(measured, here.live.lower + noise)
+        best, least, inside = here, distance(here), np.maximum(measured, here.live_interval.lower + noise)
         place = State.at(self, values, inside, turning)
         for _ in range(_PROJECTIONS):
             cost = distance(place)
@@ -196,7 +196,7 @@ class State:
     seen: np.ndarray
     depth: np.ndarray
     own: np.ndarray
-    live: LiveInterval
+    live_interval: LiveInterval
     force: np.ndarray
     slope: np.ndarray
     memory: np.ndarray
@@ -217,7 +217,7 @@ class State:
         gradient = (here.gradient - C * back * front.gradient) / give
         frame = -(here.slope * here.force + back * front.force) / give
         gradient = np.concatenate([gradient, frame[None]])
-        return cls(seen, d, own, here.live, here.force, here.slope / give, back / give, gradient)
+        return cls(seen, d, own, here.live_interval, here.force, here.slope / give, back / give, gradient)
 
     def where(self, chosen, other):
         """This state, and the `other` one where it is chosen."""
@@ -225,9 +225,11 @@ class State:
         def mixed(one, two, names):
             return (np.where(chosen, getattr(two, name), getattr(one, name)) for name in names)
 
-        live = LiveInterval(*mixed(self.live, other.live, ("lower", "upper", "length")))
+        interval = LiveInterval(
+            *mixed(self.live_interval, other.live_interval, ("lower", "upper", "length"))
+        )
         rest = mixed(self, other, ("force", "slope", "memory", "gradient"))
-        return State(*mixed(self, other, ("seen", "depth", "own")), live, *rest)
+        return State(*mixed(self, other, ("seen", "depth", "own")), interval, *rest)
 
     def derivatives(self, curves):
         """−∂F/∂p of all parameters that are free, and of the turning depths (R, N, P)."""
@@ -247,15 +249,15 @@ def critical_depth(values):
 def _springs(tip, values, depth, deepest, own):
     """Live interval, force, slope and derivative by the largest depth, and those by ln E* and ln q_c."""
     d_c, modulus = critical_depth(values), 2 * values["E_star"]
-    depth, deepest = np.minimum(depth, tip.deepest), np.minimum(deepest, tip.deepest)
-    live = after(deepest, depth, d_c)
-    touching = live.length > 0
-    a = np.where(touching, tip._radius(live.upper), 0.0)
-    c = np.where(touching & (live.lower > 0), tip._radius(live.lower), 0.0)
-    force, back = modulus * radius_integral(tip, live), modulus * c
+    depth, deepest = np.minimum(depth, tip.known_depth), np.minimum(deepest, tip.known_depth)
+    interval = interval_at(deepest, depth, d_c)
+    touching = interval.length > 0
+    a = np.where(touching, tip._radius(interval.upper), 0.0)
+    c = np.where(touching & (interval.lower > 0), tip._radius(interval.lower), 0.0)
+    force, back = modulus * radius_integral(tip, interval), modulus * c
     yielded = np.where(c > 0, back * d_c, 0.0)
     slope = modulus * a - np.where(own, back, 0.0)
-    return live, force, slope, np.where(own, 0.0, -back), np.stack([force - yielded, yielded])
+    return interval, force, slope, np.where(own, 0.0, -back), np.stack([force - yielded, yielded])
 
 
 def _without_frame(tip, values, seen, deepest, own):

@@ -11,7 +11,7 @@ from ..report import engineering
 from ..scaling import HardnessClass, class_of, straight_line
 from ..shapes.profile import Profile
 from ..superposition import radius_integral
-from ..yielding import LiveInterval, virgin
+from ..yielding import LiveInterval, elastic_interval
 from .least_squares import Fit
 
 #: Power of the contact radius that the hardness goes with in each class, and what is near to it.
@@ -110,11 +110,13 @@ def _critical_depths(profile, depth, area):
     The integral grows with ℓ and bends downward: Newton's method from area/a comes from below, and never
     too far.
     """
-    told = area < radius_integral(profile, virgin(depth))
+    told = area < radius_integral(profile, elastic_interval(depth))
     ell = np.minimum(area / profile._radius(depth), depth)
     for _ in range(200):
-        live = LiveInterval(depth - ell, depth, ell)
-        step = (area - radius_integral(profile, live)) / np.maximum(profile._radius(live.lower), 1e-300)
+        interval = LiveInterval(depth - ell, depth, ell)
+        step = (area - radius_integral(profile, interval)) / np.maximum(
+            profile._radius(interval.lower), 1e-300
+        )
         new = np.minimum(ell + np.maximum(step, 0.0), depth)
         if np.all((new - ell <= 1e-15 * new) | ~told):
             break

@@ -159,7 +159,7 @@ def _reach(profile, depth, fixed):
         deep = depth.max(axis=1) - fixed["contact_point"]
         if fixed.get("frame_compliance", np.ones(1)).max() == 0:
             profile._known(deep)
-    return min(reach, profile.deepest)
+    return min(reach, profile.known_depth)
 
 
 def _progress(jobs, count) -> "Iterator[Any]":
@@ -187,8 +187,8 @@ def _collected(profile, parts, count, noise):
     medium = Medium(joined["E_star"], joined["q_c"])
     column = Medium(joined["E_star"][:, None], joined["q_c"][:, None])
     if noise:
-        live = LiveInterval(joined["lower"], joined["upper"], joined["length"])
-        path = Indentation(profile, column, joined["depth"], live)
+        interval = LiveInterval(joined["lower"], joined["upper"], joined["length"])
+        path = Indentation(profile, column, joined["depth"], interval)
     else:
         path = indent(profile, column, joined["depth"])
     return IndentationFit(
@@ -219,8 +219,8 @@ def _piece(rows, curves, solution, elastic, known):
         "residuals": residual * curves.noise(state.slope),
         "reduced_chi_square": chi if known else np.ones_like(chi),
         "force_noise": sigma if known else sigma * np.sqrt(chi),
-        "depth": state.depth, "lower": state.live.lower, "upper": state.live.upper,
-        "length": state.live.length,
+        "depth": state.depth, "lower": state.live_interval.lower, "upper": state.live_interval.upper,
+        "length": state.live_interval.length,
     }, said  # fmt: skip
 
 

@@ -19,7 +19,7 @@ def remarks_of(curves, state, values, residual, jacobian, covariance, elastic, k
     for i in range(len(residual)):
         one = curves.rows(np.array([i]))
         errors = dict(zip(curves.free, shares[i].tolist(), strict=True))
-        back = np.count_nonzero((state.live.length[i] > 0) & ~state.own[i])
+        back = np.count_nonzero((state.live_interval.length[i] > 0) & ~state.own[i])
         d_c = float(critical_depth(values)[i, 0])
         said = [
             *_told(
@@ -87,8 +87,8 @@ def _class_b(curve, state, i, residual, jacobian, d_c):
     """
     if curve.turns.shape[1] < 2 or d_c == np.inf:
         return
-    deepest = state.live.lower[i] + d_c
-    unloaded = ~state.own[i] & (state.live.length[i] > 0) | ~state.own[i] & (state.memory[i] < 0)
+    deepest = state.live_interval.lower[i] + d_c
+    unloaded = ~state.own[i] & (state.live_interval.length[i] > 0) | ~state.own[i] & (state.memory[i] < 0)
     if not unloaded.any():
         return
     mean = float(np.mean(deepest[unloaded]))

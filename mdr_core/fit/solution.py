@@ -79,7 +79,7 @@ def _minimum(curves, start=None):
             low[:, i] = 0.0
         elif name == "contact_point":
             # As far as the tip is known.
-            least = curves.depth.max(axis=1) - curves.tip.deepest
+            least = curves.depth.max(axis=1) - curves.tip.known_depth
             low[:, i] = np.maximum((least - curves.offset[:, i]) / curves.scale[:, i], -1.0)
             high[:, i] = 1.0
     return least_squares(curves.residuals, start, low, high)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..superposition import radius_integral
-from ..yielding import after, virgin
+from ..yielding import elastic_interval, interval_at
 from .curve import NAMES
 
 #: Compliances of the frame to begin with, in units of the range of depth over that of force.
@@ -39,9 +39,9 @@ def first_guess(curves):
     """
     count = curves.depth.shape[1]
     some = np.unique(np.linspace(0, count - 1, min(count, 64)).astype(int))
-    reach = min(2 * float(curves.length.max()), curves.tip.deepest)
+    reach = min(2 * float(curves.length.max()), curves.tip.known_depth)
     steps = reach * np.append(0.0, np.geomspace(1e-5, 1, 300))
-    table = steps, radius_integral(curves.tip, virgin(steps))
+    table = steps, radius_integral(curves.tip, elastic_interval(steps))
     peak = _turning(curves)
     found = []
     for row in range(len(curves.depth)):
@@ -80,8 +80,8 @@ def _guess(curve, peak, some, table, compliance):
         d_c[:] = np.pi / 2 * held["q_c"] / held.get("E_star", 1.0)
     deepest, _ = curve.memory(depth[None], peak)
     deepest, d, load = deepest[:, some] - point, depth[some] - point, force[some]
-    live = after(deepest, d, d_c)
-    unit = 2 * (np.interp(live.upper, *table) - np.interp(live.lower, *table))
+    interval = interval_at(deepest, d, d_c)
+    unit = 2 * (np.interp(interval.upper, *table) - np.interp(interval.lower, *table))
     modulus, base = _line(unit, load, held, d_c)
     miss = np.sum((load - base - modulus * unit) ** 2, axis=1)
     best = int(np.argmin(np.where(np.isfinite(miss), miss, np.inf)))

@@ -8,9 +8,8 @@ import numpy as np
 
 from .. import _check, abel
 from .._check import Array, ArrayLike
-from ..figures import Plotted
 from ..medium import Medium, check_pair
-from ..results import CHAIN, Limit, contact_limits, sealed
+from ..results import CHAIN, Limit, Result, contact_limits, sealed
 from ..shapes.profile import Profile
 from . import element
 from .element import Elements, Ramp
@@ -133,7 +132,7 @@ def _run(profile, medium, depth, time, n, nodes):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class TimedIndentation(Plotted):
+class TimedIndentation(Result):
     """States of a viscous indentation, one for each time of its path; made by `indent_in_time` or `creep`.
 
     Every quantity has the shape of `time`; `result[i]` picks a state. At a time at which the rate

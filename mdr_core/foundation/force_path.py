@@ -47,8 +47,8 @@ def creep(
     Returns
     -------
     TimedIndentation
-        Quantities of the shape of `time`, with the estimate reached as `error`. Contact radius and fields are
-        those of a row of elements that follows the extrapolated depths and carries the force.
+        Quantities of the shape of `time`, with the estimate reached as `error`. Contact radius and fields
+        are those of a row of elements that follows the extrapolated depths and carries the force.
 
     Raises
     ------
@@ -149,7 +149,7 @@ class _Run:
     """One run: the chain, its path, and what has been recorded at the given times."""
 
     def __init__(self, profile, medium, bound, n, precision):
-        self.bound = min(bound, profile.deepest)
+        self.bound = min(bound, profile.known_depth)
         self.close = precision * self.bound
         # A path that never presses has no width of its own.
         half_width = float(profile.contact_radius(self.bound)) or min(1.0, profile.known_radius)

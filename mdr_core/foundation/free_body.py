@@ -67,7 +67,7 @@ class Body:
         level = np.array([self.met_before, deepest])
         level = np.append(level, level - self.medium.critical_depth)
         nodes = self.profile.contact_radius(level[level > 0]) if n >= 16 else ()
-        widest = min((1.02 + 2 / n) * level.max(), self.profile.deepest)
+        widest = min((1.02 + 2 / n) * level.max(), self.profile.known_depth)
         half_width = self.profile.contact_radius(widest)
         row = Foundation(self.profile, self.medium, n, half_width, nodes=tuple(nodes))
         for depth, dt in self.history:
@@ -114,7 +114,7 @@ class Flight:
         stored, plastic, viscous = motion.stored_energy, motion.plastic_work, motion.viscous_work
         # What relaxing elements still store at the end is lost, too.
         lost = viscous[-1] - viscous[0] + stored[-1] - stored[0]
-        energies = stored[motion.turning_point], plastic[-1] - plastic[0], lost
+        energies = stored[motion.turning_index], plastic[-1] - plastic[0], lost
         restitution = -self.velocity / self.body.speed
         return Run(motion, self.row, np.array([restitution, motion.depth.max(), peak, lasts, *energies]))
 
@@ -229,17 +229,17 @@ class Flight:
     def _record(self):
         row, v = self.row, self.velocity
         axis = row._elements.elastic[0] + min(row.medium.relaxation_time * v, 0.0)
-        live = max(axis, 0.0) if row._elements.contact[0] else 0.0
+        interval = max(axis, 0.0) if row._elements.contact[0] else 0.0
         ledger = (self.body.mass * v**2 / 2, row.stored_energy, row.plastic_work, row.viscous_work)
-        self.records.append((self.time, row.depth, v, *force_and_radius(row), live, *ledger))
+        self.records.append((self.time, row.depth, v, *force_and_radius(row), interval, *ledger))
 
     def _motion(self, end):
         """What was recorded, with the end where contact is lost."""
         columns = [np.array(column) for column in zip(*self.records, strict=True)]
-        time, depth, velocity, force, radius, live, *ledger = columns
+        time, depth, velocity, force, radius, interval, *ledger = columns
         end = max(end, time[-2])
         time[-1], depth[-1] = end, depth[-1] + velocity[-1] * (end - time[-1])
         past = np.maximum(np.maximum.accumulate(depth), self.body.met_before)
         plastic = np.maximum(past - self.body.medium.critical_depth, 0.0)
         zone = np.where(plastic > 0, self.body.profile.contact_radius(plastic), 0.0)
-        return Motion(time, depth, velocity, force, radius, zone, plastic, live, *ledger)
+        return Motion(time, depth, velocity, force, radius, zone, plastic, interval, *ledger)

@@ -181,7 +181,7 @@ class ChainImpact(ImpactResult):
         steps = replace(self._motion, impact=self)
         if n is None:
             return steps
-        time = instants(n, steps.time[steps.turning_point], steps.time[-1], steps.time[0])
+        time = instants(n, steps.time[steps.turning_index], steps.time[-1], steps.time[0])
         columns = {name: values for name, values in steps.to_dict().items() if name != "time"}
         values = {name: np.interp(time, steps.time, column) for name, column in columns.items()}
         return Motion(time, **values, impact=self)

@@ -29,9 +29,9 @@ def reach(profile, medium, quantity, amount, above=0.0):
         return (work, force) if quantity == "work" else (force, modulus * np.count_nonzero(u < d_c))
 
     if quantity == "momentum" and medium.eta == 0:
-        return profile.deepest
-    deepest = min(profile.deepest, _check.LARGEST)
+        return profile.known_depth
+    deepest = min(profile.known_depth, _check.LARGEST)
     start = max(min(d_c, deepest, 1.0), above)
     before = taken(above)[0] if above > 0 else 0.0
     depth = increasing_root(taken, before + amount, start, deepest)
-    return min(1.05 * float(depth), profile.deepest)
+    return min(1.05 * float(depth), profile.known_depth)

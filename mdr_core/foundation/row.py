@@ -187,7 +187,7 @@ class Foundation:
         return new
 
     def _refuse_overflow(self, depth):
-        if depth > self.profile.deepest:
+        if depth > self.profile.known_depth:
             self.profile._known(np.asarray(depth))
         if depth > self._rim:
             raise ValueError(

@@ -50,7 +50,7 @@ class Profile(_check.Parameters, ABC):
     face_radius = 0.0
 
     #: Depth and radius (m) beyond which the shape is not known.
-    deepest = np.inf
+    known_depth = np.inf
     _end_of_depth = "the shape is known"
     known_radius = np.inf
 
@@ -117,7 +117,7 @@ class Profile(_check.Parameters, ABC):
 
         return np.maximum(increasing_root(height, depth, 1.0, self.known_radius), self.face_radius)
 
-    def _foot(self, depth):
+    def _kink_above(self, depth):
         """The last kink (m) above each depth, or the tip."""
         return np.max([np.where(foot <= depth, foot, 0.0) for foot in (0.0, *self.kinks)], axis=0)
 
@@ -146,13 +146,13 @@ class Profile(_check.Parameters, ABC):
 
     def _known(self, depth):
         """`depth`, if the shape is known so far."""
-        if np.all(self.deepest == np.inf):
+        if np.all(self.known_depth == np.inf):
             return depth
         bound = f"is {self._too_deep()}"
         return _check.refuse(
-            "depth", depth, depth > self.deepest, bound, unit="m", remedy="press less deep"
+            "depth", depth, depth > self.known_depth, bound, unit="m", remedy="press less deep"
         )
 
     def _too_deep(self):
-        """What is wrong with a depth beyond `deepest`, for a refusal."""
-        return f"deeper than {self._end_of_depth}, {np.min(self.deepest, initial=_check.LARGEST):g} m"
+        """What is wrong with a depth beyond `known_depth`, for a refusal."""
+        return f"deeper than {self._end_of_depth}, {np.min(self.known_depth, initial=_check.LARGEST):g} m"

@@ -30,7 +30,7 @@ class Sphere(OneLength):
     _length = _depth = body_radius = property(lambda self: self.radius)
 
     # There a is R to any precision.
-    deepest = property(lambda self: 100 * self.radius)
+    known_depth = property(lambda self: 100 * self.radius)
     _end_of_depth = "the equator, which the contact has come to at d = 100 R"
     _end = np.nextafter(1.0, 0.0)
 

@@ -41,7 +41,7 @@ class Sampled(Profile):
     Examples
     --------
     >>> tip = Sampled([0.0, 1.0, 2.0], [0.0, 1.0, 3.0])
-    >>> print(round(tip.reduced(1.0), 12), tip.deepest > 3)  # π/2
+    >>> print(round(tip.reduced(1.0), 12), tip.known_depth > 3)  # π/2
     1.570796326795 True
     """
 
@@ -204,7 +204,7 @@ class Sampled(Profile):
     # The samples are one indenter, not many.
     shape = ()
     known_radius = property(lambda self: self.r[-1])
-    deepest = property(lambda self: float(self._g[-1]))
+    known_depth = property(lambda self: float(self._g[-1]))
     face_radius = property(lambda self: float(self._r[np.count_nonzero(self._g == 0) - 1]))
 
     @cached_property
@@ -267,7 +267,7 @@ class Sampled(Profile):
                 if not rows.size:
                     break
         radius = np.where(depth > 0, vertex + t * t, self.face_radius)
-        return np.where(depth <= self.deepest, radius, np.inf).reshape(shape)
+        return np.where(depth <= self.known_depth, radius, np.inf).reshape(shape)
 
     def _first_guess(self, depth):
         """Number of the vertex behind which the contact ends, and about the root of the way from it."""

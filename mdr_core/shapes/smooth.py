@@ -56,7 +56,7 @@ class Smooth(Profile):
     known_radius = property(lambda self: self.radius)
 
     @cached_property
-    def deepest(self):
+    def known_depth(self):
         """Depth (m) up to which the shape is known, within 10⁻³ of it."""
         end = self._mean_slope.x[-1]
         return float(np.exp(end) * self._mean_slope(end))
@@ -64,7 +64,7 @@ class Smooth(Profile):
     def _too_deep(self):
         end = np.exp(self._mean_slope.x[-1])
         return (
-            f"deeper than the Smooth shape is known: beyond r = {end:g} m, at g = {self.deepest:g} m, "
+            f"deeper than the Smooth shape is known: beyond r = {end:g} m, at g = {self.known_depth:g} m, "
             "the slope ends, is not finite or smooth, or g falls, so that the contact would not be compact"
         )
 

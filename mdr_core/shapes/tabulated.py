@@ -250,7 +250,7 @@ def _unit(kind):
 @lru_cache
 def _unit_table(kind):
     unit = _unit(kind)
-    end = min(unit.deepest, 2.0**_OCTAVES)
+    end = min(unit.known_depth, 2.0**_OCTAVES)
     octaves = [_OCTAVES + int(np.log2(end)) for end in (*unit.kinks[:1], end)]
     coarse = np.ldexp(1.0, np.arange(-_OCTAVES, _OCTAVES))
 
@@ -268,7 +268,7 @@ class Tabulated(Profile):
     """A shape with the contact radius of another one as a table, down to a depth (m)."""
 
     profile: Profile
-    deepest: float
+    known_depth: float
 
     unit = property(lambda self: (self, 1.0, 1.0))
     kinks = property(lambda self: self.profile.kinks)
@@ -282,10 +282,10 @@ class Tabulated(Profile):
 
     @cached_property
     def table(self):
-        feet = (0.0, *(kink for kink in self.kinks if kink < self.deepest))
+        feet = (0.0, *(kink for kink in self.kinks if kink < self.known_depth))
         with np.errstate(all="ignore"):
             return RadiusTable(
-                lambda s: self.profile._radius(np.minimum(s, self.deepest)), feet, self.deepest
+                lambda s: self.profile._radius(np.minimum(s, self.known_depth)), feet, self.known_depth
             )
 
     def _radius(self, depth):
@@ -293,7 +293,7 @@ class Tabulated(Profile):
         return radius if np.all(covered) else np.where(covered, radius, self.profile._radius(depth))
 
 
-def tabulated(profile, deepest):
+def tabulated(profile, known_depth):
     """A shape that gives the contact radius of `profile` quickly, down to a depth (m) or its own end.
 
     Pure powers and shapes of one length, which are quick, come back as they are, and so do many shapes.
@@ -301,8 +301,8 @@ def tabulated(profile, deepest):
     powers = FlatPunch | Cone | Paraboloid | PowerLaw
     if profile.shape or isinstance(profile, powers | OneLength | Tabulated):
         return profile
-    deepest = min(2.0 ** np.ceil(np.log2(np.max(deepest))), np.min(profile.deepest))
-    return _tabulated(profile, float(deepest))
+    known_depth = min(2.0 ** np.ceil(np.log2(np.max(known_depth))), np.min(profile.known_depth))
+    return _tabulated(profile, float(known_depth))
 
 
 _tabulated = lru_cache(maxsize=16)(Tabulated)

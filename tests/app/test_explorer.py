@@ -233,7 +233,7 @@ def test_a_tip_is_pressed_no_deeper_than_it_reaches():
     explorer = Explorer()
     samples, note = read_tip(table([0, 1, 2, 4], [0, 0.1, 0.3, 1]))
     changed(explorer, explorer.take_tip, samples, note)
-    assert explorer.max_depth < explorer.profile().deepest
+    assert explorer.max_depth < explorer.profile().known_depth
     assert explorer.scene().solve().force > 0
 
 
