@@ -216,15 +216,20 @@ class Parameters:
     @cached_property
     def shape(self) -> tuple[int, ...]:
         """Shape to which array-valued parameters broadcast, () for a single one."""
-        return np.broadcast_shapes(*map(np.shape, self.__getstate__().values()))
+        # A tuple, as of vertices, is one parameter.
+        arrays = (value for value in self.__getstate__().values() if isinstance(value, np.ndarray))
+        return np.broadcast_shapes(*(value.shape for value in arrays))
 
     def entries(self, index: Any, shape: tuple[int, ...] | None = None) -> Self:
         """Those at an index of the parameters, broadcast to `shape` before."""
         if not self.shape:
             return self
         shape = self.shape if shape is None else shape
-        values = self.__getstate__().values()
-        return type(self)(*(np.broadcast_to(v, shape)[index] if np.ndim(v) else v for v in values))
+        values = self.__getstate__()
+        for name, value in values.items():
+            if isinstance(value, np.ndarray):
+                values[name] = np.broadcast_to(value, shape)[index]
+        return type(self)(**values)
 
     def __eq__(self, other):
         if type(other) is not type(self):

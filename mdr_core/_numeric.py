@@ -160,50 +160,54 @@ def broadcast_flat(*arrays):
 
 
 @np.errstate(all="ignore")
-def increasing_root(function, target, start, highest=np.inf, largest=_check.LARGEST):
+def increasing_root(function, target, start, highest=np.inf, *, largest=_check.LARGEST, quantity="depth"):
     """Positive x with function(x) = target, elementwise, for a function that grows about as a power.
 
-    Newton's method on ln f against ln x from `start` on, inside a bracket that every step narrows. The
-    function gives values and derivatives at an array x > 0, up to the `highest` at which it is known; where
-    it falls short of the target there, or at the `largest` x that counts, the result is infinite.
+    Newton's method on ln f against ln x inside a bracket, with bisection where a step leaves it and, after a
+    dozen steps, at every other one: at a kink of f Newton's method alone may alternate between both sides.
+
+    Parameters
+    ----------
+    function : callable
+        Values and derivatives at an array x > 0, up to `highest`.
+    target, start : array_like
+        Values to be reached, and first guesses of x.
+    highest : float or ndarray
+        Where the function is known to; the result is infinite where the target is larger than its value there.
+    largest : float
+        The result is infinite where it would be larger.
+    quantity : str
+        Name of x, for the error that is raised if the iteration does not converge.
     """
     target = np.asarray(target, dtype=float)
     x = np.zeros(target.shape) + np.minimum(start, highest)
     low, high = np.zeros_like(x), np.zeros_like(x) + highest
-    bounded = high < np.inf
-    reachable = ~bounded
-    if bounded.any():
-        reachable |= target <= function(np.where(bounded, high, x))[0]
+    reachable = high == np.inf
+    if not reachable.all():
+        reachable |= target <= function(np.where(reachable, x, high))[0]
     sought = (target > 0) & reachable
     eps = np.finfo(float).eps
     best, least, stalled = x.copy(), np.full(x.shape, np.inf), np.zeros(x.shape, int)
-    for iteration in range(300):
+    for iteration in range(200):
         value, slope = function(x)
-        high = np.where(value >= target, x, high)
-        low = np.where(value <= target, x, low)
+        high, low = np.where(value >= target, x, high), np.where(value <= target, x, low)
         miss = np.log(target / value)
-        # At the edge of a flat face or a kink the slope may be infinite, and tells nothing.
-        step = np.where(slope < np.inf, miss * value / (slope * x), np.nan)
-        new = x * np.exp(np.clip(step, -3, 3))
+        stalled = np.where(np.abs(miss) < least, 0, stalled + 1)
+        best, least = np.where(stalled == 0, x, best), np.fmin(np.abs(miss), least)
+        # The slope is infinite at the edge of a flat face and at some kinks, and a step there is 0.
+        new = x * np.exp(np.clip(np.where(slope < np.inf, miss * value / (slope * x), np.nan), -3, 3))
         middle = np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 16)
         middle = np.where(high < np.inf, middle, 16 * x)
-        better = np.abs(miss) < least
-        stalled = np.where(better, 0, stalled + 1)
-        best, least = np.where(better, x, best), np.where(better, np.abs(miss), least)
-        # Long steps in a bracket take turns with halving it, so that none can go round in circles.
-        halve = (iteration % 3 == 2) & (np.abs(step) > 0.1) & (low > 0) & (high < np.inf)
-        new = np.where((new >= low) & (new <= high) & ~halve, new, middle)
-        # In the end the rounding of f decides: it no longer comes closer.
-        noisy = stalled > np.where(least <= 1e-14, 0, np.where(least <= 1e-13, 1, 5))
-        settled = (np.abs(new - x) <= 4 * eps * x) | (least <= 8 * eps) | (noisy & (least <= 1e-12))
-        # Of all but flat shapes no depth may be enough.
+        inside = (new > low) & (new < high) & (iteration < 12 or iteration % 2 == 0)
+        new = np.where(inside, new, middle)
+        # Rounding of f ends the iteration where no step comes closer any more.
+        settled = (np.abs(new - x) <= 4 * eps * x) | (high - low <= 4 * eps * low) | (least <= 8 * eps)
+        settled |= (stalled > 0) & (least <= 1e-14) | (stalled > 1) & (least <= 1e-13)
         reachable &= low < largest
         if np.all(settled | ~sought | ~reachable):
             return np.where(reachable, np.where(target > 0, best, 0.0), np.inf)
         x = np.where(sought, new, x)
-    raise ValueError(
-        "the depth of this force or energy was not found; check that all quantities are in SI units"
-    )
+    raise ValueError(f"no {quantity} was found in 200 steps; check that all quantities are in SI units")
 
 
 def root_in_bracket(function, x, low, high, close):

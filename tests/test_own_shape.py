@@ -171,3 +171,53 @@ def test_a_shape_that_may_change_is_refused():
     ):
         with pytest.raises(TypeError, match=r"Loose must not change .* @dataclass\(frozen=True\)"):
             use()
+
+
+@dataclass(frozen=True)
+class Polygon(mdr.Profile):
+    """A generator of straight lines between vertices, g = x Σ Δs arccos(b/x) over the vertices b < x."""
+
+    vertices: tuple[tuple[float, float], ...]
+
+    @property
+    def kinks(self):
+        return tuple(self._reduced(self._radii[1:-1]))
+
+    @property
+    def _radii(self):
+        return np.array(self.vertices)[:, 0]
+
+    def _changes(self, x):
+        """Changes of slope at the vertices, and for each of them arccos(b/x) and its tangent."""
+        r, z = np.transpose(self.vertices)
+        change = np.diff(np.diff(z) / np.diff(r), prepend=0.0, append=0.0)
+        change[-1] = 0.0
+        tangent = np.sqrt(np.maximum(np.subtract.outer(x, r), 0.0) * np.add.outer(x, r)) / np.maximum(
+            r, 1e-300
+        )
+        return change, np.arctan(tangent), tangent
+
+    def _height(self, r):
+        return np.interp(r, *np.transpose(self.vertices))
+
+    def _reduced(self, x):
+        change, angle, _ = self._changes(x)
+        return x * (angle @ change)
+
+    def _reduced_slope(self, x):
+        change, angle, tangent = self._changes(x)
+        return (angle + np.where(angle > 0, 1 / tangent, 0.0)) @ change
+
+
+def test_a_polygon_has_a_contact_radius_at_any_depth():
+    """The slope of g is infinite at each of 59 kinks, between which a root must not be lost."""
+    r = np.linspace(0.0, 2e-3, 61)
+    polygon = Polygon(tuple(zip(r.tolist(), (r**2 / 2e-3 + 0.05 * r).tolist(), strict=True)))
+    depth = np.append(10 ** np.random.default_rng(1).uniform(-9, -3.2, 20_000), 3.5575617283436532e-06)
+    radius = polygon.contact_radius(depth)
+    with np.errstate(divide="ignore"):
+        # The rounding of the depth, and of the radius by the slope of g.
+        close = 8 * np.finfo(float).eps * (depth + radius * polygon._reduced_slope(radius))
+    assert np.all(np.abs(polygon._reduced(radius) - depth) <= close)
+    alone = polygon.contact_radius(3.5575617283436532e-06)
+    assert alone == pytest.approx(radius[-1], rel=1e-14)

@@ -237,7 +237,7 @@ def _unit_radius(kind, depth, start):
     """u with G(u) = depth of a class of shapes, elementwise, from places u to begin with."""
     # The largest of depths over the smallest of lengths.
     most = _check.LARGEST**3
-    u = increasing_root(lambda u: (kind._G(u), kind._G_slope(u)), depth, start, kind._end, most)
+    u = increasing_root(lambda u: (kind._G(u), kind._G_slope(u)), depth, start, kind._end, largest=most)
     return np.maximum(np.where(u < np.inf, u, kind._end), kind._edge)
 
 
