@@ -19,6 +19,7 @@ from .foundation.impact import ChainImpact, chain_impact
 from .foundation.row import Foundation
 from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium
+from .onset import critical_force, yield_speed
 from .results import Motion
 from .scaling import FastLimit, ScalingLaw, hardness_class
 from .scene import Scene
@@ -70,6 +71,7 @@ __all__ = [
     "at_angle",
     "chain_impact",
     "creep",
+    "critical_force",
     "fit_hardness",
     "fit_impacts",
     "fit_indentation",
@@ -80,6 +82,7 @@ __all__ = [
     "indent_to_force",
     "oblique_impact",
     "sweep",
+    "yield_speed",
 ]
 
 __version__ = "0.3.0"

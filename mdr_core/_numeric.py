@@ -163,8 +163,8 @@ def broadcast_flat(*arrays):
 def increasing_root(function, target, start, highest=np.inf, *, largest=_check.LARGEST, quantity="depth"):
     """Positive x with function(x) = target, elementwise, for a function that grows about as a power.
 
-    Newton's method on ln f against ln x inside a bracket, with bisection where a step leaves it and, after a
-    dozen steps, at every other one: at a kink of f Newton's method alone may alternate between both sides.
+    Newton's method on ln f against ln x inside a bracket, with bisection where a step leaves it and, after
+    a dozen steps, at every other one: Newton's method alone may alternate between both sides of a kink.
 
     Parameters
     ----------
@@ -173,7 +173,7 @@ def increasing_root(function, target, start, highest=np.inf, *, largest=_check.L
     target, start : array_like
         Values to be reached, and first guesses of x.
     highest : float or ndarray
-        Where the function is known to; the result is infinite where the target is larger than its value there.
+        Largest x at which the function is known; the result is infinite where the target is not reached.
     largest : float
         The result is infinite where it would be larger.
     quantity : str

@@ -134,7 +134,7 @@ class Indentation(Result):
     #: How it was found.
     model = CLOSED_FORM
     _quantities = (
-        "depth", "force", "stiffness", "contact_radius", "plastic_radius", "plastic_depth",
+        "depth", "force", "stiffness", "contact_radius", "contact_area", "plastic_radius", "plastic_depth",
         "mean_pressure", "stored_energy", "plastic_work",
     )  # fmt: skip
     _shown = (
@@ -184,6 +184,11 @@ class Indentation(Result):
         return np.where(
             self.live_interval.lower > 0, self.profile._radius(np.asarray(self.live_interval.lower)), 0.0
         )
+
+    @_check.frozen_property
+    def contact_area(self):
+        """Contact area A = π a² (m²); 0 without contact."""
+        return np.pi * self.contact_radius**2
 
     @_check.frozen_property
     def mean_pressure(self):

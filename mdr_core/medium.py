@@ -119,11 +119,39 @@ class Medium(_check.Parameters):
         100.0
         """
         if "q_c" in rest:
-            raise ValueError("q_c and hardness both say when it yields; give one of them")
+            raise ValueError("q_c and hardness both determine where yield starts; give one of them")
         hardness = _check.positive("hardness", hardness, unit="Pa")
         radius = _check.positive("radius of the hardness", radius, unit="m")
         _check.common_shape("medium", hardness=hardness, radius=radius)
         return cls(E_star, hardness * radius, **rest)
+
+    @classmethod
+    def from_critical_depth(
+        cls, E_star: ArrayLike, critical_depth: ArrayLike, **rest: ArrayLike
+    ) -> "Medium":
+        """The medium in which yield starts at a given depth: q_c = 2E* d_c/π, Popov (2015), Eq. (19).
+
+        Parameters
+        ----------
+        E_star : float
+            Effective modulus E* (Pa).
+        critical_depth : float
+            Indentation depth d_c (m) at which yield starts; also the depth that is recovered on unloading.
+        **rest
+            `eta` and `poisson`, as in `Medium`.
+
+        Examples
+        --------
+        >>> medium = Medium.from_critical_depth(1e9, critical_depth=2e-9)
+        >>> print(round(medium.q_c, 9), round(medium.critical_depth * 1e9, 9))
+        1.273239545 2.0
+        """
+        if "q_c" in rest:
+            raise ValueError("q_c and critical_depth both determine where yield starts; give one of them")
+        E_star = _check.positive("effective modulus E_star", E_star, unit="Pa")
+        depth = _check.positive("critical depth", critical_depth, unit="m")
+        _check.common_shape("medium", E_star=E_star, critical_depth=depth)
+        return cls(E_star, 2 / np.pi * E_star * depth, **rest)
 
     @classmethod
     def from_bodies(

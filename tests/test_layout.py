@@ -17,7 +17,7 @@ ORDER = (
     "report", "results",
     "foundation.element", "foundation.fronts", "foundation.reach", "foundation.row",
     "foundation.depth_path", "foundation.force_path", "foundation.free_body", "foundation.impact",
-    "yielding", "superposition", "fields", "stress", "indentation",
+    "yielding", "superposition", "onset", "fields", "stress", "indentation",
     "dynamics.energy_balance", "dynamics.contact_time", "scaling", "dynamics.equation_of_motion",
     "dynamics.motion", "dynamics.impact", "dynamics.levels", "dynamics.friction",
     "dynamics.oblique_motion", "dynamics.ball",
