@@ -3,8 +3,9 @@
 import reprlib
 from collections.abc import Callable
 from dataclasses import fields
-from functools import cached_property, wraps
-from typing import TYPE_CHECKING, Any, Self
+from functools import cached_property, lru_cache, wraps
+from inspect import signature
+from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 
 import numpy as np
 
@@ -206,8 +207,63 @@ def frozen_property(function: "Callable[[Any], Any]") -> "cached_property[Array]
     return cached_property(wraps(function)(lambda self: frozen(function(self))))
 
 
+_ANGLE = (
+    "Its slope is the tangent of the angle to the surface; Cone.from_half_angle(degrees) takes the other"
+)
+_RADIUS = "A radius is half of the diameter, in m"
+_MODULUS = "E_star is E/(1 − ν²) under a rigid indenter; Medium.from_bodies(E1, nu1) takes E and ν"
+_SPEED = "The speed before the impact is `speed` (m/s); from an energy it is (2 energy/mass)**0.5"
+#: What to give in place of a keyword that is none.
+_INSTEAD = (
+    dict.fromkeys(("angle", "half_angle", "alpha", "theta"), _ANGLE)
+    | dict.fromkeys(("R", "r", "diameter", "D"), _RADIUS)
+    | dict.fromkeys(("E", "modulus", "youngs_modulus", "nu"), _MODULUS)
+    | dict.fromkeys(("velocity", "v", "v0", "energy"), _SPEED)
+    | {
+        "hardness": "Medium.from_hardness(E_star, hardness, radius) takes a hardness",
+        "critical_depth": "Medium.from_critical_depth(E_star, critical_depth) takes a critical depth",
+        "viscosity": "The viscosity is `eta` (Pa·s)",
+        "tau": "The viscosity is `eta` = E_star τ/4 (Pa·s)",
+    }
+)
+
+_Arguments = ParamSpec("_Arguments")
+_Result = TypeVar("_Result")
+
+
+@lru_cache
+def _parameters(function):
+    """Names of the parameters of a function; None if it takes any keyword."""
+    parameters = signature(function).parameters
+    return None if any(each.kind == each.VAR_KEYWORD for each in parameters.values()) else list(parameters)
+
+
+def _refuse_keywords(name, keywords, parameters):
+    """Refuses keywords that are no parameters, and names the parameters."""
+    for keyword in keywords:
+        if parameters is not None and keyword not in parameters:
+            instead = f". {_INSTEAD[keyword]}" if keyword in _INSTEAD else ""
+            raise TypeError(f"{name} has no parameter {keyword!r}; it has {', '.join(parameters)}{instead}")
+
+
+def keywords_explained(function: "Callable[_Arguments, _Result]") -> "Callable[_Arguments, _Result]":
+    """A function whose refusal of an unknown keyword names its parameters, and the one that was meant."""
+
+    @wraps(function)
+    def checked(*arguments: _Arguments.args, **keywords: _Arguments.kwargs) -> _Result:
+        _refuse_keywords(function.__name__, keywords, _parameters(function))
+        return function(*arguments, **keywords)
+
+    return checked
+
+
 class Parameters:
     """A frozen dataclass whose parameters may be arrays: equal where all entries are, and hashable."""
+
+    def __new__(cls, *_: Any, **keywords: Any) -> Self:
+        if keywords and (parameters := _parameters(cls.__init__)):
+            _refuse_keywords(cls.__name__, keywords, parameters[1:])
+        return super().__new__(cls)
 
     def __getstate__(self):
         # What is computed from the parameters is not worth keeping, and may hold functions.

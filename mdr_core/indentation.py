@@ -17,6 +17,7 @@ from .superposition import energy_integral, live_length, loading_depth, radius_d
 from .yielding import LiveInterval, elastic_interval, first_loading, path_intervals
 
 
+@_check.keywords_explained
 def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
     """Press an indenter along a depth path: loading, unloading and reloading in any order.
 
@@ -62,6 +63,7 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
     return Indentation(profile, medium, depth, path_intervals(depth, medium.critical_depth))
 
 
+@_check.keywords_explained
 def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Indentation":
     """Press an indenter along a force path, infinitely slowly: the inverse of `indent`, with its memory.
 

@@ -10,6 +10,7 @@ from .superposition import energy_integral, radius_integral
 from .yielding import elastic_interval
 
 
+@_check.keywords_explained
 def critical_force(profile: Profile, medium: Medium) -> Array:
     """Normal force F_c (N) at which yield starts, that of an elastic indentation to the critical depth.
 
@@ -43,6 +44,7 @@ def critical_force(profile: Profile, medium: Medium) -> Array:
     return _check.frozen(np.broadcast_to(np.where(np.isinf(medium.q_c), np.inf, force), shape))
 
 
+@_check.keywords_explained
 def yield_speed(profile: Profile, medium: Medium, mass: ArrayLike) -> Array:
     """Speed v_y (m/s) of a free body above which an impact on a virgin medium without viscosity yields.
 

@@ -182,3 +182,30 @@ def test_stress_at_a_radius_next_to_nothing():
     np.testing.assert_allclose(stress, stress[2], rtol=1e-13)
     with pytest.raises(ValueError, match="radius r = 1e-300 m must be 0 or lie between 1e-60 and"):
         mdr.abel.stress_from_line_load(x, 1 - x * x, 1e-300)
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: mdr.Cone(angle=20), r"Cone has no parameter 'angle'; it has slope\. .*from_half_angle"),
+        (lambda: mdr.Sphere(R=1.0), r"Sphere has no parameter 'R'; it has radius\. .*half of the diameter"),
+        (lambda: mdr.Medium(E=1e9), r"Medium has no parameter 'E'; it has E_star, q_c, eta, .*from_bodies"),
+        (lambda: mdr.Medium(1e9, hardness=1e9), "Medium has no parameter 'hardness'; .*from_hardness"),
+        (
+            lambda: mdr.impact(mdr.Cone(0.3), MEDIUM, mass=1.0, velocity=1),
+            r"impact has no parameter 'velocity'; it has profile, medium, mass, speed, .*`speed`",
+        ),
+        (
+            lambda: mdr.indent(mdr.Cone(0.3), MEDIUM, load=1.0),
+            "indent has no parameter 'load'; it has profile",
+        ),
+    ],
+)
+def test_an_unknown_keyword_is_told_what_there_is(make, says):
+    with pytest.raises(TypeError, match=says):
+        make()
+
+
+def test_a_missing_argument_is_named_by_python():
+    with pytest.raises(TypeError, match="missing 1 required positional argument: 'slope'"):
+        mdr.Cone()

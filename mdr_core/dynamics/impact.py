@@ -25,6 +25,7 @@ from .equation_of_motion import Bodies, solve
 from .motion import motion
 
 
+@_check.keywords_explained
 def impact(
     profile: Profile,
     medium: Medium,

@@ -34,6 +34,7 @@ _MOST_RUNS = 8
 _EXACT = 1e-9
 
 
+@_check.keywords_explained
 def oblique_impact(
     profile: Profile,
     medium: Medium,

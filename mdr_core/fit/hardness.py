@@ -18,6 +18,7 @@ from .least_squares import Fit
 _POWERS = {"a": (0.0, 0.1), "b": (-1.0, 0.1), "c": (-2.0, 0.1)}
 
 
+@_check.keywords_explained
 def fit_hardness(
     profile: Profile, hardness: ArrayLike, radius: ArrayLike, *, E_star: float
 ) -> "HardnessFit":

@@ -23,6 +23,7 @@ _NOISE = (0.01, 0.02)
 _VAGUE = 0.3
 
 
+@_check.keywords_explained
 def fit_impacts(
     profile: Profile,
     mass: ArrayLike,

@@ -27,6 +27,7 @@ _LONG = 256
 _QUALITY = ("covariance", "residuals", "reduced_chi_square", "force_noise")
 
 
+@_check.keywords_explained
 def fit_indentation(
     profile: Profile,
     depth: ArrayLike,

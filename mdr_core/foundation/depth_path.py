@@ -36,6 +36,7 @@ def check_times(time, path, quantity):
     return _check.refuse("time", time, back, "does not increase", unit="s", remedy=remedy)
 
 
+@_check.keywords_explained
 def indent_in_time(
     profile: Profile, medium: Medium, depth: ArrayLike, time: ArrayLike, *, tolerance: float = 1e-6
 ) -> "TimedIndentation":

@@ -25,6 +25,7 @@ _ARRIVAL = 1 / 16
 _OFF = 1 / 16
 
 
+@_check.keywords_explained
 def creep(
     profile: Profile, medium: Medium, force: ArrayLike, time: ArrayLike, *, tolerance: float = 1e-4
 ) -> TimedIndentation:

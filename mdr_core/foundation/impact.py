@@ -24,6 +24,7 @@ _ELEMENTS, _STEPS, _RUNS = 150, 12, 8
 _TRUST = np.array([0.1, 0.2, 2.0, 1.0])
 
 
+@_check.keywords_explained
 def chain_impact(
     profile: Profile,
     medium: Medium,
