@@ -10,18 +10,18 @@ from .drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
 from .dynamics.ball import Ball, at_angle
 from .dynamics.impact import Impact, impact
 from .dynamics.oblique import ObliqueImpact, oblique_impact
-from .fit.hardness import HardnessFit, fit_hardness
-from .fit.impacts import ImpactFit, fit_impacts
-from .fit.indentation import IndentationFit, fit_indentation
+from .fit.hardness import fit_hardness
+from .fit.impacts import fit_impacts
+from .fit.indentation import fit_indentation
 from .foundation.depth_path import TimedIndentation, indent_in_time
 from .foundation.force_path import creep
-from .foundation.impact import ChainImpact, chain_impact
+from .foundation.impact import chain_impact
 from .foundation.row import Foundation
 from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium
 from .onset import critical_force, yield_speed
 from .results import Motion
-from .scaling import FastLimit, ScalingLaw, hardness_class
+from .scaling import ScalingLaw, hardness_class
 from .scene import Scene
 from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
 from .shapes.profile import Profile
@@ -29,25 +29,19 @@ from .shapes.rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
 from .shapes.sampled import Sampled
 from .shapes.smooth import Smooth
 from .shapes.truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
-from .stress import Stress, StressPeak
 
 __all__ = [
     "Ball",
-    "ChainImpact",
     "Cone",
     "DepthPath",
-    "FastLimit",
     "FlatPunch",
     "ForcePath",
     "Foundation",
     "FreeImpact",
     "FreeObliqueImpact",
-    "HardnessFit",
     "Hyperboloid",
     "Impact",
-    "ImpactFit",
     "Indentation",
-    "IndentationFit",
     "Medium",
     "Motion",
     "ObliqueImpact",
@@ -62,8 +56,6 @@ __all__ = [
     "Scene",
     "Smooth",
     "Sphere",
-    "Stress",
-    "StressPeak",
     "TimedIndentation",
     "TruncatedCone",
     "TruncatedParaboloid",

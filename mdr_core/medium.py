@@ -43,6 +43,21 @@ def shape_with(what, profile, medium, **values):
     return _check.common_shape(what, **values, **sizes)
 
 
+def critical_depth(E_star, q_c):
+    """Depth d_c = π q_c/(2E*) (m) at which yield starts, Popov (2015), Eq. (19)."""
+    return np.pi / 2 * (q_c / E_star)
+
+
+def yield_constant(E_star, critical_depth):
+    """Yield constant q_c = 2E* d_c/π (N/m), the inverse of `critical_depth`."""
+    return 2 / np.pi * E_star * critical_depth
+
+
+def plastic_depth(largest_depth, critical_depth):
+    """Plastic depth d_p = max(0, d_max − d_c) (m) that a largest depth d_max (m) leaves behind."""
+    return np.maximum(largest_depth - critical_depth, 0.0)
+
+
 def _poisson(quantity, ratio):
     """A Poisson ratio as a float array."""
     ratio, bound = _check.finite_array(quantity, ratio), "must lie in −1 < ν ≤ 0.5"
@@ -151,7 +166,7 @@ class Medium(_check.Parameters):
         E_star = _check.positive("effective modulus E_star", E_star, unit="Pa")
         depth = _check.positive("critical depth", critical_depth, unit="m")
         _check.common_shape("medium", E_star=E_star, critical_depth=depth)
-        return cls(E_star, 2 / np.pi * E_star * depth, **rest)
+        return cls(E_star, yield_constant(E_star, depth), **rest)
 
     @classmethod
     def from_bodies(
@@ -196,7 +211,7 @@ class Medium(_check.Parameters):
     @property
     def critical_depth(self) -> Array:
         """Indentation depth d_c = π q_c/(2E*) (m) at which yield starts, Popov (2015), Eq. (19)."""
-        return np.pi / 2 * (self.q_c / self.E_star)
+        return critical_depth(self.E_star, self.q_c)
 
     @property
     def yield_line_load(self) -> Array:

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .medium import plastic_depth
+
 
 @dataclass(frozen=True)
 class LiveInterval:
@@ -40,16 +42,15 @@ def path_intervals(depth, critical_depth):
     >>> path_intervals(np.array([0.5, 3.0, 2.5, 1.0]), 1.0).length.tolist()
     [0.5, 1.0, 0.5, 0.0]
     """
-    return interval_at(
-        np.maximum.accumulate(depth, axis=-1) if depth.ndim else depth, depth, critical_depth
-    )
+    largest = np.maximum.accumulate(depth, axis=-1) if depth.ndim else depth
+    return interval_at(largest, depth, critical_depth)
 
 
-def interval_at(deepest, depth, critical_depth):
-    """Live interval at each depth (m) when the largest one so far is `deepest` (m)."""
-    lower = np.maximum(deepest - critical_depth, 0.0)
+def interval_at(largest, depth, critical_depth):
+    """Live interval at each depth (m) when the largest one so far is `largest` (m)."""
+    lower = plastic_depth(largest, critical_depth)
     # Before the first yield the length is the depth itself, afterwards what is left of d_c.
-    length = np.maximum(np.minimum(depth, critical_depth - (deepest - depth)), 0.0)
+    length = np.maximum(np.minimum(depth, critical_depth - (largest - depth)), 0.0)
     return LiveInterval(lower, np.maximum(depth, lower), length)
 
 

@@ -7,6 +7,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 import mdr_core as mdr
+from mdr_core.stress import StressPeak
 
 from .shapes import SHAPES, name
 from .test_indentation import D_C, HISTORIES
@@ -42,7 +43,7 @@ def test_peak_of_a_cone():
     peak = mdr.indent(tip, mdr.Medium(1e9), 1e-8).stress_peak()
     assert peak.value == pytest.approx(3 / 8 * 1e9 * 0.3, rel=1e-6)
     assert max(peak.r, peak.z) < 1e-3 * mdr.indent(tip, mdr.Medium(1e9), 1e-8).contact_radius
-    assert mdr.indent(tip, mdr.Medium(1e9, poisson=0.49), 1e-8).stress_peak() == mdr.StressPeak(
+    assert mdr.indent(tip, mdr.Medium(1e9, poisson=0.49), 1e-8).stress_peak() == StressPeak(
         math.inf, 0.0, 0.0
     )
 
@@ -59,7 +60,7 @@ def test_peak_of_a_cone():
 )
 def test_peak_where_the_shear_is_infinite(shape, history, radius, nu):
     medium = mdr.Medium(1e9, poisson=nu)
-    assert mdr.indent(shape, medium, history[0]).stress_peak() == mdr.StressPeak(math.inf, radius, 0.0)
+    assert mdr.indent(shape, medium, history[0]).stress_peak() == StressPeak(math.inf, radius, 0.0)
 
 
 def test_peak_at_the_edges_of_a_polygon():
