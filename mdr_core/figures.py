@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from .report import QUANTITIES, imported, prefixed
+from .quantities import QUANTITIES, prefixed
+from .report import imported
 
 #: Colours of the roles, on light and on dark ground: Okabe–Ito; they mean the same thing in every plot.
 ROLES = {

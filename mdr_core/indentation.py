@@ -1,4 +1,4 @@
-"""Indentation along a prescribed path of depth or force, followed infinitely slowly."""
+"""Indentation along a prescribed path of depth or force, infinitely slowly: functions and states."""
 
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -9,8 +9,9 @@ import numpy as np
 from . import _check, fields, stress
 from ._check import Array, ArrayLike
 from ._numeric import root
+from .limits import Limit, contact_limits
 from .medium import Medium, check_pair, paths_on
-from .results import CLOSED_FORM, Limit, Result, contact_limits, sealed
+from .results import CLOSED_FORM, Result, sealed
 from .shapes.profile import Profile
 from .stress import Stress, StressPeak
 from .superposition import energy_integral, live_length, loading_depth, radius_drop, radius_integral
@@ -19,10 +20,10 @@ from .yielding import LiveInterval, elastic_interval, first_loading, path_interv
 
 @_check.keywords_explained
 def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
-    """Press an indenter along a depth path: loading, unloading and reloading in any order.
+    """Press an indenter along a path of depths: loading, unloading and reloading in any order.
 
-    The path is followed infinitely slowly, so that the dashpots of a viscous medium carry nothing;
-    `indent_in_time` follows it in time.
+    The path is followed infinitely slowly, so that the dashpots of a viscous medium carry nothing; for a
+    path in time see `indent_in_time`.
 
     Parameters
     ----------
@@ -31,30 +32,28 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
     medium : Medium
         The medium.
     depth : float or array_like
-        Indentation depth d (m), one number or a path along the last axis; each row of a larger
-        array is a path of its own that starts on a virgin medium, or on one of many: parameters of
-        medium and profile may be arrays of shape (…, 1). Negative means lifted off.
+        Indentation depth d (m), one number or a path along the last axis; negative out of contact. Each
+        row of a larger array is a path of its own on a virgin medium. Parameters of medium and profile may
+        be arrays of shape (…, 1), for one path each.
 
     Returns
     -------
     Indentation
-        Quantities of the shape of `depth`, computed when asked for.
+        Quantities of the shape of `depth`, computed when they are first read.
 
     Raises
     ------
     ValueError
-        If a depth is not finite, or deeper than the profile is known.
+        If a depth is not finite, or larger than the known depth of the profile.
 
     Examples
     --------
-    Cone of slope 1 pressed twice as deep as where it starts to yield, F = 3 F_c (Popov 2015,
-    Eqs. (20), (22)):
+    A cone at twice the critical depth, F = 3 F_c (Popov 2015, Eqs. (20), (22)):
 
-    >>> from mdr_core import Cone, Medium
-    >>> medium = Medium(E_star=1.0, q_c=2.0)
-    >>> state = indent(Cone(slope=1.0), medium, 2 * medium.critical_depth)
-    >>> critical_force = 3.141592653589793 * 2.0**2 / 2
-    >>> print(round(state.force / critical_force, 12))
+    >>> from mdr_core import Cone, Medium, critical_force
+    >>> cone, medium = Cone(slope=1.0), Medium(E_star=1.0, q_c=2.0)
+    >>> state = indent(cone, medium, 2 * medium.critical_depth)
+    >>> print(round(state.force / critical_force(cone, medium), 12))
     3.0
     """
     check_pair(profile, medium)
@@ -65,17 +64,17 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
 
 @_check.keywords_explained
 def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Indentation":
-    """Press an indenter along a force path, infinitely slowly: the inverse of `indent`, with its memory.
+    """Press an indenter along a path of forces, infinitely slowly: the inverse of `indent`.
 
-    How a viscous medium gives way under a force in time is for `creep`.
+    For a viscous medium under a force in time see `creep`.
 
     Parameters
     ----------
     profile, medium
         As for `indent`.
     force : float or array_like
-        Normal force (N), not negative; one number or a path along the last axis. Where it falls
-        to 0 the indenter rests at the bottom of the imprint.
+        Normal force (N), not negative; one number or a path along the last axis. At 0 the indenter
+        rests on the bottom of the imprint.
 
     Returns
     -------
@@ -85,8 +84,8 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Inde
     Raises
     ------
     ValueError
-        If a force is negative or not finite, larger than a flat face carries before all of it
-        yields (π q_c b, Popov 2015, Eq. (11)), or beyond the depth to which the shape is known.
+        If a force is negative or not finite, larger than a flat face carries before all of it yields
+        (π q_c b, Popov 2015, Eq. (11)), or presses deeper than the known depth of the profile.
 
     Examples
     --------
@@ -97,32 +96,40 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Inde
     """
     check_pair(profile, medium, "an indentation")
     force = _check.force("force", force)
-    most = 2 * medium.yield_line_load * profile.wall
-    bound = f"must be less than the {most:g} N at which the whole flat face yields"
-    _check.refuse("force", force, force >= most, bound, unit="N", remedy="press to a depth instead")
-    area = force / (2 * medium.E_star)
-    peak = np.maximum.accumulate(area, axis=-1) if area.ndim else area
+    limit = 2 * medium.yield_line_load * profile.wall
+    bound = f"must be less than the {limit:g} N at which the whole flat face yields"
+    _check.refuse("force", force, force >= limit, bound, unit="N", remedy="press to a depth instead")
+    integral = force / (2 * medium.E_star)
+    largest = np.maximum.accumulate(integral, axis=-1) if integral.ndim else integral
     with np.errstate(all="ignore"):
-        deepest = loading_depth(profile, medium.critical_depth, peak)
-    reached = deepest <= min(profile.known_depth, _check.LARGEST)
+        largest_depth = loading_depth(profile, medium.critical_depth, largest)
+    known = largest_depth <= min(profile.known_depth, _check.LARGEST)
     bound = f"presses {profile._too_deep()}"
-    _check.refuse("force", force, ~reached, bound, unit="N", remedy="press less")
-    front = first_loading(deepest, medium.critical_depth)
-    length = np.where(area == peak, front.length, live_length(profile, front, area))
-    upper = np.where(area == peak, deepest, front.lower + length)
-    return Indentation(profile, medium, upper, LiveInterval(front.lower, upper, length))
+    _check.refuse("force", force, ~known, bound, unit="N", remedy="press less")
+    loaded = first_loading(largest_depth, medium.critical_depth)
+    length = np.where(integral == largest, loaded.length, live_length(profile, loaded, integral))
+    depth = np.where(integral == largest, largest_depth, loaded.lower + length)
+    return Indentation(profile, medium, depth, LiveInterval(loaded.lower, depth, length))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Indentation(Result):
     """States of an indentation, one for each point of its path; made by `indent` or `indent_to_force`.
 
-    Every quantity has the shape of `depth`. `result[i]` picks a state; `pressure`, `line_load`,
-    `surface` and `imprint` are fields of one state. `live_interval` is [d_p, d_p + ℓ], the depths
-    that everything is integrated over: it ends at the depth itself, but for a viscous body on its way
-    out, whose elements let go ahead of it. `dashpot_load` is what the dashpots add to the line load in
-    contact while a viscous medium is pressed at some speed, 4ηḋ (N/m); `Motion.states` has both.
-    `in_time` tells that it is of a motion; else the path is followed infinitely slowly.
+    Every quantity has the shape of `depth`; `result[i]` is one state. `pressure`, `line_load`, `surface`,
+    `imprint` and `stress` are fields of one state.
+
+    Attributes
+    ----------
+    depth : float or ndarray
+        Indentation depth d (m).
+    live_interval : LiveInterval
+        Depths [d_p, d_p + ℓ] over which the springs in contact are compressed. Its end is d, except on
+        unloading from a viscous medium, where elements are released before the springs are relaxed.
+    dashpot_load : float or ndarray
+        Line load 4ηḋ (N/m) of the dashpots in contact on loading; 0 on an infinitely slow path.
+    in_time : bool
+        Whether the states belong to a motion in time.
     """
 
     profile: Profile
@@ -133,7 +140,7 @@ class Indentation(Result):
     in_time: bool = False
     _made_of: tuple[Any, ...] = field(default=(), repr=False)
 
-    #: How it was found.
+    #: Name of the model.
     model = CLOSED_FORM
     _quantities = (
         "depth", "force", "stiffness", "contact_radius", "contact_area", "plastic_radius", "plastic_depth",
@@ -159,18 +166,18 @@ class Indentation(Result):
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """Where the model's assumptions end for these states, as data."""
+        """Limits of the model for these states."""
         slow = not self.in_time
         return contact_limits(self.profile, self.medium, self.contact_radius, slow=slow)
 
     @property
     def _ahead(self):
-        """How much more each element in contact is compressed than its load tells (m): −τḋ on unloading."""
+        """Elastic compression −τḋ (m) that the dashpots of elements in contact balance on unloading."""
         return np.where(self.live_interval.length > 0, self.depth - self.live_interval.upper, 0.0)
 
     @_check.frozen_property
     def force(self):
-        """Normal force F = 2E* ∫ a(s) ds (N) and that of the dashpots; Popov (2015), Eqs. (20), (22)."""
+        """Normal force F = 2E* ∫ a(s) ds (N) with that of the dashpots; Popov (2015), Eqs. (20), (22)."""
         springs = 2 * self.medium.E_star * radius_integral(self.profile, self.live_interval)
         return springs + 2 * self.dashpot_load * self.contact_radius
 
@@ -215,18 +222,15 @@ class Indentation(Result):
 
     @_check.frozen_property
     def plastic_work(self):
-        """Work W_p = d_c φ(d_p) (J) dissipated over the whole past, φ the elastic force."""
+        """Work W_p = d_c φ(d_p) (J) dissipated by yielding so far; φ(d) is the elastic force."""
         integral = radius_integral(self.profile, elastic_interval(np.asarray(self.live_interval.lower)))
-        # π q_c a at every increment: the critical depth times the modulus, which may be infinite.
+        # Every increment of d_p dissipates π q_c a; q_c may be infinite where nothing yields.
         yield_load = np.where(self.live_interval.lower > 0, 2 * self.medium.yield_line_load, 0.0)
         return yield_load * integral
 
     @_check.frozen_property
     def stiffness(self):
-        """Stiffness dF/dd (N/m): 2E*a, but 2E*(a − c) where the depth is the largest so far.
-
-        There it is the slope for going on deeper; unloading starts with 2E*a.
-        """
+        """Stiffness dF/dd (N/m): 2E* a, and 2E* (a − c) for loading beyond the largest depth so far."""
         width = self.contact_radius
         yielding = (self.live_interval.lower > 0) & (
             self.live_interval.length == self.medium.critical_depth
@@ -238,9 +242,9 @@ class Indentation(Result):
     def pressure(self, r: ArrayLike) -> Array:
         """Contact pressure p = −σ_zz (Pa) at radii r (m), of the shape of `r`.
 
-        p(r) = (E*/π) ∫ ds/√(a(s)² − r²), from Popov (2015), Eq. (10), and for the dashpots that of a flat
-        punch. Zero outside the contact; infinite at the rim of a flat face, at a rim that the dashpots
-        press down, and under a sharp tip that has not yielded.
+        p(r) = (E*/π) ∫ ds/√(a(s)² − r²), from Popov (2015), Eq. (10), with that of a flat punch for the
+        dashpots. Zero outside the contact. Infinite at the rim of a flat face, at any rim while dashpots
+        carry load, and under a sharp tip that has not yielded.
 
         Examples
         --------
@@ -263,7 +267,7 @@ class Indentation(Result):
         self._one("line_load")
         interval, x = self.live_interval, self._radii(x)
         ring = interval.upper - self.profile._reduced(np.minimum(x, self.contact_radius))
-        # Inside c the compression is the interval's length itself, free of rounding.
+        # For x < c the compression is the length of the interval, which has no rounding of a difference.
         inside = np.where(x < self.plastic_radius, interval.length, np.clip(ring, 0.0, interval.length))
         load = self.medium.E_star * inside + self.dashpot_load
         return np.where(x < self.contact_radius, load, 0.0)[()]
@@ -271,8 +275,8 @@ class Indentation(Result):
     def surface(self, r: ArrayLike) -> Array:
         """Elastic displacement u(r) (m) of the surface at radii r (m), positive downward.
 
-        Together with `imprint` it is d − z(r) under the indenter. What has let go of a viscous medium and
-        still relaxes is not in it.
+        Its sum with `imprint` is d − z(r) under the indenter. Displacements of released elements that relax
+        in a viscous medium are not included.
         """
         self._one("surface")
         r, radius = self._radii(r), self.contact_radius
@@ -283,7 +287,7 @@ class Indentation(Result):
         return surface
 
     def imprint(self, r: ArrayLike) -> Array:
-        """Depth (m) of the residual imprint at radii r (m): what is left once the load is gone."""
+        """Depth (m) of the residual imprint at radii r (m), after the load is removed."""
         self._one("imprint")
         return self._displacement(elastic_interval(self.live_interval.lower), r)
 
@@ -294,15 +298,15 @@ class Indentation(Result):
     def stress(self, r: ArrayLike, z: ArrayLike) -> Stress:
         """Stress tensor (Pa) at radii r and depths z ≥ 0 below the surface (m), which broadcast.
 
-        Each increment of depth adds that of a flat punch, and so do the dashpots; residual stresses of the
-        imprint are not in it. Even in r; at z = 0 with σ_zz = −p, and infinite where p is. Of one state, a
-        `Stress` right to 10⁻⁸ of the largest one, to 10⁻⁶ closer to the surface than 10⁻³ a; next to the
-        axis of a tip of exponent n < 1/2 that has not yielded, to 10⁻⁴.
+        The integral over the live interval of the stress of a flat punch, with one more for the dashpots;
+        residual stresses of the imprint are not included. Even in r; σ_zz = −p at z = 0. Accurate to 10⁻⁸
+        of the largest stress, to 10⁻⁶ for z < 10⁻³ a, and to 10⁻⁴ next to the axis of a profile of exponent
+        n < 1/2 that has not yielded.
 
         Parameters
         ----------
         r, z : float or array_like
-            Radius and depth (m); 0 < z < 10⁻¹³ of the ring between c and a counts as that deep.
+            Radius and depth (m). A depth 0 < z < 10⁻¹³ (a − c) is taken as 10⁻¹³ (a − c).
 
         Examples
         --------
@@ -317,11 +321,11 @@ class Indentation(Result):
         return stress.stress(self, np.broadcast_to(r, shape), np.broadcast_to(z, shape))
 
     def stress_peak(self, quantity: str = "max_shear") -> StressPeak:
-        """Where in one state the shear stress, or `quantity="von_mises"`, is largest, and how large.
+        """Largest shear stress of one state, or of `quantity="von_mises"`, and its position.
 
-        Infinite at the rim of a flat face and at one that the dashpots press down; for ν < 1/2 also at an
-        edge of the shape and at a sharp tip that have not yielded. A `StressPeak` with `value` (Pa) to
-        10⁻⁸, and the place `r`, `z` (m) to about 10⁻⁴ of the contact radius.
+        A `StressPeak` with `value` (Pa), accurate to 10⁻⁸, and position `r`, `z` (m), accurate to 10⁻⁴ a.
+        Infinite at the rim of a flat face and at any rim while dashpots carry load; for ν < 1/2 also at an
+        edge and at a sharp tip that have not yielded.
 
         Examples
         --------

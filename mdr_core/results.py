@@ -1,25 +1,21 @@
-"""What results share: the model that was solved and why that one, where it ends, and the motion in time."""
+"""Base classes of results along a path, of impacts and of motions; the names of the models."""
 
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _check
 from ._check import Array, shown
-from .report import Report, engineering
+from .limits import Limit, speed_limit
+from .report import Report
 
 if TYPE_CHECKING:
     from .indentation import Indentation
     from .medium import Medium
 
-#: Slopes up to which they count as small, beyond which results are estimates, and beyond which they hardly
-#: are what was meant; contact radius over that of the body, and share of the wave speed that is slow.
-_SMALL, _STEEP, _NEEDLE, _BODY, _SLOW = 0.3, 0.5, 3.0, 0.5, 0.1
-
 
 class Model(str):
-    """Name of a model, and in `reason` what makes it the one for a result.
+    """Name of a model, with the reason for choosing it in `reason`.
 
     Examples
     --------
@@ -40,131 +36,19 @@ class Model(str):
 
 CLOSED_FORM = Model(
     "closed form",
-    "without viscosity, or infinitely slowly, all that the past leaves behind is the plastic depth, and "
+    "without viscosity, or infinitely slowly, the plastic depth is the only memory of the medium, and "
     "every result is an integral over the live interval",
 )
 SCALAR_ODE = Model(
     "scalar ODE",
-    "a viscous body that comes in at one go obeys one equation of motion, because elements let go from "
-    "outside inward and are not met again",
+    "a single viscous impact obeys one scalar equation of motion, because elements are released from the "
+    "outside inward and do not come into contact again",
 )
 CHAIN = Model(
     "chain",
-    "on a viscous path elements that have let go may be met again while they relax, so that every one "
-    "has a memory of its own",
+    "on a viscous path released elements may come into contact again while they relax, so that each "
+    "element has a memory of its own",
 )
-
-
-@dataclass(frozen=True)
-class Limit:
-    """An assumption of the model, and how far a result goes towards its end; an entry of `result.limits`.
-
-    Attributes
-    ----------
-    what : str
-        What is bounded: "slope", "contact radius", "Poisson ratio", "viscosity", "speed", "fast limit",
-        and of friction "coupling", "slip direction".
-    value, bound : float
-        Its worst value over all states, and the one up to which the assumption usually is good.
-    exceeded : bool
-        Whether the value is beyond the bound.
-    sentence : str
-        The same in words, with what to do.
-    concerns : str
-        "result", or the formula of the paper that it is about while the result itself is exact.
-    severe : bool
-        Whether what is exceeded leaves of the result an estimate, and not most of its digits.
-    """
-
-    what: str
-    value: float
-    bound: float
-    exceeded: bool
-    sentence: str
-    concerns: str = "result"
-    severe: bool = True
-
-    @property
-    def holds(self) -> bool:
-        """Whether the value is within the bound."""
-        return not self.exceeded
-
-    @property
-    def level(self) -> str:
-        """In a word: "good", "note" where the result is hardly touched, else "beyond"."""
-        if self.holds:
-            return "good"
-        return "beyond" if self.severe and self.concerns == "result" else "note"
-
-
-def contact_limits(profile, medium, radius, *, slow=False):
-    """Limits of a contact that has reached some radii (m); `slow` its dashpots have carried nothing."""
-    found = [_slope_limit(profile, radius), *_body_limit(profile, radius)]
-    if np.any(np.asarray(medium.eta) > 0):
-        found.append(_viscosity_limit(medium) if slow else _poisson_limit(medium))
-    return tuple(found)
-
-
-def _slope_limit(profile, radius):
-    """The largest slope of the indenter within the contact: at its edge, or on the way there."""
-    a = np.asarray(radius) if profile.shape else np.max(radius, initial=0.0)
-    with np.errstate(all="ignore"):
-        top = profile._height(a)
-        edge = (top - profile._height(a * (1 - 1e-6))) / (1e-6 * a)
-        slope = np.where(a > 0, np.fmax(edge, top / a), 0.0)
-    # A difference has nine digits.
-    value = float(f"{np.max(slope, initial=0.0):.9g}")
-    text = f"Slopes reach {value:.3g} within the contact"
-    if value > _NEEDLE and hasattr(profile, "slope"):
-        text += (
-            ": a needle, far from a half-space. A slope is the tangent of the angle to the surface; for a "
-            "cone by its half-angle in degrees take Cone.from_half_angle(degrees)."
-        )
-    elif value > _SMALL:
-        text += f": small slopes are an approximation, good to about s² = {100 * value**2:.2g} %."
-    else:
-        text += ", which is small."
-    return Limit("slope", value, _SMALL, value > _SMALL, text, severe=value > _STEEP)
-
-
-def _body_limit(profile, radius):
-    """Contact radius over the radius of the body that the tip belongs to, if it has one."""
-    if np.all(profile.body_radius == np.inf):
-        return
-    value = float(np.max(radius / profile.body_radius, initial=0.0))
-    text = f"The contact radius reaches {value:.3g} R"
-    far = (
-        f": it is of the order of the radius, the equator is at R; up to {_BODY:g} R a half-space is near."
-    )
-    yield Limit("contact radius", value, _BODY, value > _BODY, text + (far if value > _BODY else "."))
-
-
-def _poisson_limit(medium):
-    value = float(np.min(medium.poisson))
-    text = f"Dashpots beside springs are exact for ν = ½ only, and ν = {value:.3g}"
-    text += ": take viscous results as an estimate." if value < 0.5 else "."
-    return Limit("Poisson ratio", value, 0.5, value < 0.5, text)
-
-
-def _viscosity_limit(medium):
-    value = float(np.max(medium.relaxation_time))
-    text = (
-        "Without times the path is followed infinitely slowly: the viscosity carries nothing; τ = "
-        f"{engineering(value, 's')}. With times (indent_in_time, creep) it is felt."
-    )
-    return Limit("viscosity", value, 0.0, True, text, severe=False)
-
-
-def friction_limits(medium):
-    """What is assumed of friction; ν/(4 − 2ν) is the ratio of slip across the speed to slip along it."""
-    nu = float(np.min(medium.poisson))
-    value = (1 - 2 * nu) / (2 - 2 * nu)
-    text = "Normal and tangential displacements are taken as uncoupled, which is exact for ν = ½"
-    text += f", and ν = {nu:.3g}." if value > 0 else "."
-    yield Limit("coupling", value, 0.0, value > 0, text, severe=False)
-    value = float(np.max(np.abs(medium.poisson / (4 - 2 * medium.poisson))))
-    text = f"Slip is along the speed, stick a disc or ring: up to {value:.2g} of the slip goes across."
-    yield Limit("slip direction", value, 0.2, value > 0.2, text, severe=False)
 
 
 def sealed(result, *names):
@@ -183,7 +67,7 @@ def sealed(result, *names):
 
 
 class Result(Report):
-    """Base class of results along a path, over time, or of several impacts: what they can plot."""
+    """Base class of results of one profile on one medium, along a path, over time or of impacts."""
 
     def plot(self, quantity: str = "force", over: str = "depth") -> Any:
         """One quantity over another as HoloViews elements, by default the force–depth curve.
@@ -205,9 +89,15 @@ class Result(Report):
 
         return plot_curve(self, quantity, over)
 
+    def _source(self):
+        return self
+
+    def _limits(self):
+        return self.limits
+
 
 class ImpactResult(Result):
-    """What impacts along the normal share, solved in whatever way."""
+    """Base class of impacts along the normal, by `impact` and by `chain_impact`."""
 
     _quantities = (
         "mass", "speed", "restitution", "rebound_speed", "contact_time", "max_depth", "max_force",
@@ -224,16 +114,12 @@ class ImpactResult(Result):
     speed: Any
 
     def speed_limit(self, density: float) -> Limit:
-        """The speed over the wave speed √(E*/ρ) of a medium of some density ρ (kg/m³)."""
-        density = _check.positive("density", density, unit="kg/m³")
-        value = float(np.max(self.speed / np.sqrt(self.medium.E_star / density)))
-        text = f"The speed is {value:.3g} of the wave speed √(E*/ρ)"
-        text += ": waves carry energy away." if value > _SLOW else ": quasi-static."
-        return Limit("speed", value, _SLOW, value > _SLOW, text)
+        """The speed over the wave speed √(E*/ρ) of a medium of density ρ (kg/m³), as a `Limit`."""
+        return speed_limit(self.speed, self.medium, density)
 
 
 class MotionResult(Result):
-    """What motions of one impact share, along the normal alone or along the surface, too."""
+    """Base class of motions of one impact, normal or oblique."""
 
     _dimensions = ("time",)
 
@@ -245,41 +131,40 @@ class MotionResult(Result):
 
     @property
     def limits(self) -> tuple[Limit, ...]:
-        """Where the model's assumptions end, for the impact whose motion it is."""
+        """Limits of the model for the impact."""
         return () if self.impact is None else self.impact.limits
 
     @property
     def turning_index(self) -> int:
-        """Number of the instant at which the body turns round."""
+        """Index of the turning point, the instant of largest depth."""
         return int(np.argmax(self.depth))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Motion(MotionResult):
-    """One impact from first contact to its loss, as arrays of one length, its turning point among them.
+    """Motion of one impact from first contact to loss of contact, as arrays of one length.
 
-    On a virgin medium elements of the foundation under the contact radius are in contact. On
-    unloading of a viscous one its edge is where g = d_p + ℓ, ahead of the depth d itself; elements
-    outside have let go and relax. The energies sum to the same, at every instant.
+    The turning point is among the instants. On unloading from a viscous medium the edge of the contact is
+    where g = d_p + ℓ, which is less than the depth d; elements outside are released and relax. The sum of
+    the energies is the same at every instant.
 
     Attributes
     ----------
     time : ndarray
-        Time (s) since first contact; of a chain that is not virgin, since the start.
+        Time (s) since first contact; since the start for a chain that has a history.
     depth, velocity, force : ndarray
         Indentation depth d (m), its rate (m/s), force (N).
     contact_radius, plastic_radius : ndarray
         Radii a and c (m).
     plastic_depth, live_depth : ndarray
-        Plastic depth d_p and length ℓ of the live interval [d_p, d_p + ℓ] (m): what the load has
-        compressed the spring at the axis by.
+        Plastic depth d_p and length ℓ of the live interval [d_p, d_p + ℓ] (m); ℓ is the elastic
+        compression of the spring at the axis under the load.
     kinetic_energy, stored_energy, plastic_work, viscous_work : ndarray
-        The ledger (J). Stored is the energy of all springs, of those too that have let go.
+        Energies (J). The stored energy is that of all springs, released ones included.
     states : Indentation or None
-        The states of contact: load, pressure and surface at each instant; None for the chain, whose
-        elements each have a state of their own.
+        States of the contact at each instant, with pressure and surface; None for the chain.
     impact : Impact, ChainImpact or None
-        The impact whose motion it is.
+        The impact.
     """
 
     time: Array
@@ -309,7 +194,7 @@ class Motion(MotionResult):
 
 
 def instants(n, turn, end, begin=0.0):
-    """n times (s) at equal steps from `begin` to `turn`, and about the same ones from there to `end`."""
+    """n times (s) from `begin` to `end`, at equal steps on either side of the turning point at `turn`."""
     if isinstance(n, bool) or not isinstance(n, int | np.integer) or not 2 <= n <= 10**7:
         raise ValueError(f"number of instants n = {shown(n)} must be a whole number from 2 to 10⁷")
     down = min(max(round((n - 1) * (turn - begin) / (end - begin)), 1), n - 2)

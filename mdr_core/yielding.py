@@ -1,4 +1,4 @@
-"""Plastic memory: all that a depth history leaves behind is one number, the plastic depth.
+"""Plastic memory of the medium: one number, the plastic depth, stands for the whole depth history.
 
 Every 1D element yields at the same compression d_c (Popov 2015, Eqs. (11), (12), (19)), so an
 element at x keeps the plastic part max(0, d_max − d_c − g(x)), and the state at depth d is the
@@ -14,10 +14,10 @@ from .medium import plastic_depth
 
 @dataclass(frozen=True)
 class LiveInterval:
-    """The depths [d_p, d] that are elastically alive (m): floats, or arrays of one shape.
+    """Interval [d_p, d] of depths (m) that are elastic: floats, or arrays of one shape.
 
-    `length` is carried, not recovered as `upper − lower`: far beyond the critical depth that
-    difference has no digits left. Without contact the length is 0 and both ends are d_p.
+    `length` is stored because the difference `upper − lower` cancels where d is much larger than the
+    critical depth. Without contact the length is 0 and both ends are d_p.
     """
 
     lower: np.ndarray
@@ -33,9 +33,9 @@ class LiveInterval:
 
 
 def path_intervals(depth, critical_depth):
-    """Live interval after each point of a depth path (m) along the last axis, negative where lifted off.
+    """Live interval after each point of a path of depths (m) along the last axis, negative out of contact.
 
-    Yield starts at the critical depth d_c (m), which may be infinite.
+    The critical depth d_c (m) may be infinite.
 
     Examples
     --------
@@ -47,18 +47,18 @@ def path_intervals(depth, critical_depth):
 
 
 def interval_at(largest, depth, critical_depth):
-    """Live interval at each depth (m) when the largest one so far is `largest` (m)."""
+    """Live interval at each depth (m) where the largest depth so far is `largest` (m)."""
     lower = plastic_depth(largest, critical_depth)
-    # Before the first yield the length is the depth itself, afterwards what is left of d_c.
+    # The length is the depth before the first yield, and afterwards d_c less the depth of unloading.
     length = np.maximum(np.minimum(depth, critical_depth - (largest - depth)), 0.0)
     return LiveInterval(lower, np.maximum(depth, lower), length)
 
 
 def first_loading(depth, critical_depth):
-    """Live intervals after pressing a virgin medium to each of an array of depths (m) on its own."""
+    """Live intervals of a virgin medium that is pressed to each one of an array of depths (m)."""
     return path_intervals(depth[..., None], critical_depth)[..., 0]
 
 
 def elastic_interval(depth):
-    """Live interval of an elastic indentation from zero to `depth`."""
+    """Live interval of an elastic indentation to a depth (m)."""
     return LiveInterval(np.zeros_like(depth), depth, depth)

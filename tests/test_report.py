@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core.report import QUANTITIES, engineering
+from mdr_core.quantities import QUANTITIES, engineering
 
 GOLD = mdr.Medium.from_bodies(E1=78e9, nu1=0.42, q_c=100.0)
 POLYMER = mdr.Medium(E_star=4e6, q_c=200.0, eta=30.0)

@@ -14,8 +14,9 @@ from .. import _check
 from .._check import Array, ArrayLike
 from .._numeric import chunks
 from ..indentation import Indentation
+from ..limits import Limit, contact_limits
 from ..medium import Medium, check_pair, shape_with
-from ..results import CLOSED_FORM, SCALAR_ODE, ImpactResult, Limit, Model, Motion, contact_limits, sealed
+from ..results import CLOSED_FORM, SCALAR_ODE, ImpactResult, Model, Motion, sealed
 from ..scaling import FastLimit, fast_limit, how_fast
 from ..shapes.profile import Profile
 from ..superposition import radius_integral

@@ -13,9 +13,9 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
+from ..limits import Limit, friction_limits
 from ..medium import Medium, check_pair, shape_with
-from ..report import Report
-from ..results import Limit, Model, friction_limits
+from ..results import Model, Result
 from ..shapes.profile import Profile
 from .friction import changes, grip, slide
 from .impact import Impact, impact
@@ -187,7 +187,7 @@ class ObliqueErrors(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ObliqueImpact(Report):
+class ObliqueImpact(Result):
     """Oblique impacts, one or many; made by `oblique_impact`. `result[i]` picks one of many.
 
     `normal` is the `Impact` along the normal, with all of its quantities.

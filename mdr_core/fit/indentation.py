@@ -12,7 +12,7 @@ from .. import _check
 from .._check import Array, ArrayLike
 from ..indentation import Indentation, indent
 from ..medium import Medium, check_pair
-from ..report import engineering
+from ..quantities import engineering
 from ..shapes.profile import Profile
 from ..shapes.tabulated import tabulated
 from ..yielding import LiveInterval

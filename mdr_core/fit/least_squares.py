@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ..report import QUANTITIES, Quantity, Report, described, engineering, prefixed
+from ..quantities import QUANTITIES, Quantity, described, engineering, prefixed
+from ..report import Report
 from ..results import Model
 
 if TYPE_CHECKING:

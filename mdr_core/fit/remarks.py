@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..report import engineering
+from ..quantities import engineering
 from .curve import critical_depth
 from .least_squares import autocorrelation, roughness
 

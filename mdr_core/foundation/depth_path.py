@@ -8,8 +8,9 @@ import numpy as np
 
 from .. import _check, abel
 from .._check import Array, ArrayLike
+from ..limits import Limit, contact_limits
 from ..medium import Medium, check_pair
-from ..results import CHAIN, Limit, Result, contact_limits, sealed
+from ..results import CHAIN, Result, sealed
 from ..shapes.profile import Profile
 from . import element
 from .element import Elements, Ramp

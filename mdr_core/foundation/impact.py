@@ -12,8 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check
+from ..limits import Limit, contact_limits
 from ..medium import Medium, check_pair
-from ..results import CHAIN, ImpactResult, Limit, Motion, contact_limits, instants, sealed
+from ..results import CHAIN, ImpactResult, Motion, instants, sealed
 from ..shapes.profile import Profile
 from .free_body import Body, Flight
 from .row import Foundation, element_count

@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import _check
 from ..medium import Medium, check_pair
-from ..report import described, engineering
+from ..quantities import described, engineering
 from ..shapes.profile import Profile
 from . import element
 from .element import Elements, Ramp

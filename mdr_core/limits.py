@@ -1,0 +1,133 @@
+"""Where the assumptions of the model end: limits of a result, as data and in words."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _check
+from .quantities import engineering
+
+#: Slope up to which results are good, above which they are estimates, and above which the slope is
+#: probably a mistake; contact radius over the radius of the body; share of the wave speed.
+_SMALL, _STEEP, _NEEDLE, _BODY, _SLOW = 0.3, 0.5, 3.0, 0.5, 0.1
+
+
+@dataclass(frozen=True)
+class Limit:
+    """An assumption of the model, and how near a result is to its end; an entry of `result.limits`.
+
+    Attributes
+    ----------
+    what : str
+        Quantity that is bounded: "slope", "contact radius", "Poisson ratio", "viscosity", "speed", "fast
+        limit", and for friction "coupling" and "slip direction".
+    value, bound : float
+        Its largest value over all states, and the largest one for which the assumption is good.
+    exceeded : bool
+        Whether the value is larger than the bound.
+    sentence : str
+        The same in words, and a remedy.
+    concerns : str
+        "result", or the formula of the paper that is concerned while the result itself is exact.
+    severe : bool
+        Whether the result is only an estimate where the bound is exceeded.
+    """
+
+    what: str
+    value: float
+    bound: float
+    exceeded: bool
+    sentence: str
+    concerns: str = "result"
+    severe: bool = True
+
+    @property
+    def holds(self) -> bool:
+        """Whether the value is within the bound."""
+        return not self.exceeded
+
+    @property
+    def level(self) -> str:
+        """One word: "good", "note" where the result hardly changes, else "beyond"."""
+        if self.holds:
+            return "good"
+        return "beyond" if self.severe and self.concerns == "result" else "note"
+
+
+def contact_limits(profile, medium, radius, *, slow=False):
+    """Limits of contacts of radii up to `radius` (m); `slow` if the dashpots carry nothing."""
+    limits = [_slope_limit(profile, radius), *_body_limit(profile, radius)]
+    if np.any(np.asarray(medium.eta) > 0):
+        limits.append(_viscosity_limit(medium) if slow else _poisson_limit(medium))
+    return tuple(limits)
+
+
+def _slope_limit(profile, radius):
+    """Largest slope of the indenter within the contact: that at its edge, or the mean up to there."""
+    a = np.asarray(radius) if profile.shape else np.max(radius, initial=0.0)
+    with np.errstate(all="ignore"):
+        height = profile._height(a)
+        edge = (height - profile._height(a * (1 - 1e-6))) / (1e-6 * a)
+        slope = np.where(a > 0, np.fmax(edge, height / a), 0.0)
+    # The difference has nine digits.
+    value = float(f"{np.max(slope, initial=0.0):.9g}")
+    text = f"Slopes reach {value:.3g} within the contact"
+    if value > _NEEDLE and "slope" in profile.__dataclass_fields__:
+        text += (
+            ": a needle, for which a half-space is no approximation. A slope is the tangent of the angle to "
+            "the surface; Cone.from_half_angle(degrees) takes the angle to the axis."
+        )
+    elif value > _SMALL:
+        text += f": small slopes are an approximation, good to about s² = {100 * value**2:.2g} %."
+    else:
+        text += ", which is small."
+    return Limit("slope", value, _SMALL, value > _SMALL, text, severe=value > _STEEP)
+
+
+def _body_limit(profile, radius):
+    """Contact radius over the radius of the body, if the profile has one."""
+    if np.all(profile.body_radius == np.inf):
+        return
+    value = float(np.max(radius / profile.body_radius, initial=0.0))
+    text = f"The contact radius reaches {value:.3g} R"
+    text += (
+        f"; a half-space is good up to about {_BODY:g} R, the equator is at R." if value > _BODY else "."
+    )
+    yield Limit("contact radius", value, _BODY, value > _BODY, text)
+
+
+def _poisson_limit(medium):
+    value = float(np.min(medium.poisson))
+    text = f"Dashpots beside springs are exact for ν = ½ only, and ν = {value:.3g}"
+    text += ": take viscous results as an estimate." if value < 0.5 else "."
+    return Limit("Poisson ratio", value, 0.5, value < 0.5, text)
+
+
+def _viscosity_limit(medium):
+    value = float(np.max(medium.relaxation_time))
+    text = (
+        "A path without times is followed infinitely slowly, so that the viscosity carries nothing; τ = "
+        f"{engineering(value, 's')}. Use indent_in_time or creep for a path in time."
+    )
+    return Limit("viscosity", value, 0.0, True, text, severe=False)
+
+
+def friction_limits(medium):
+    """Limits of the model of friction; ν/(4 − 2ν) is the slip across the velocity over that along it."""
+    nu = float(np.min(medium.poisson))
+    value = (1 - 2 * nu) / (2 - 2 * nu)
+    text = "Normal and tangential displacements are taken as uncoupled, which is exact for ν = ½"
+    text += f", and ν = {nu:.3g}." if value > 0 else "."
+    yield Limit("coupling", value, 0.0, value > 0, text, severe=False)
+    value = float(np.max(np.abs(medium.poisson / (4 - 2 * medium.poisson))))
+    text = f"Slip is taken along the velocity; up to {value:.2g} of the slip is across it."
+    yield Limit("slip direction", value, 0.2, value > 0.2, text, severe=False)
+
+
+def speed_limit(speed, medium, density):
+    """The largest speed (m/s) over the wave speed √(E*/ρ) of a medium of density ρ (kg/m³)."""
+    density = _check.positive("density", density, unit="kg/m³")
+    value = float(np.max(speed / np.sqrt(medium.E_star / density)))
+    text = f"The speed is {value:.3g} of the wave speed √(E*/ρ)"
+    text += ": waves carry energy away." if value > _SLOW else ": quasi-static."
+    return Limit("speed", value, _SLOW, value > _SLOW, text)

@@ -1,0 +1,138 @@
+"""Names, symbols and units of all quantities, and how their values are written."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _check
+
+_PREFIXES = dict(zip(range(-15, 13, 3), "fpnµm kMGT", strict=True)) | {0: ""}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Symbol, unit and long name of a quantity."""
+
+    symbol: str
+    unit: str
+    long_name: str
+
+    @property
+    def attributes(self):
+        """Attributes of the variable in an xarray.Dataset."""
+        return {"units": self.unit or "1", "long_name": self.long_name, "symbol": self.symbol}
+
+
+QUANTITIES = {
+    name: Quantity(*rest)
+    for name, *rest in (
+        ("time", "t", "s", "time"),
+        ("depth", "d", "m", "indentation depth"),
+        ("velocity", "v", "m/s", "indentation rate"),
+        ("force", "F", "N", "normal force"),
+        ("stiffness", "dF/dd", "N/m", "contact stiffness"),
+        ("contact_radius", "a", "m", "contact radius"),
+        ("plastic_radius", "c", "m", "radius of the plastic zone"),
+        ("plastic_depth", "d_p", "m", "plastic depth"),
+        ("live_depth", "ℓ", "m", "live depth"),
+        ("mean_pressure", "p_m", "Pa", "mean contact pressure"),
+        ("kinetic_energy", "W_k", "J", "kinetic energy"),
+        ("stored_energy", "U", "J", "stored elastic energy"),
+        ("plastic_work", "W_p", "J", "plastic work"),
+        ("viscous_work", "W_v", "J", "viscous work"),
+        ("mass", "m", "kg", "mass"),
+        ("speed", "v₀", "m/s", "impact speed"),
+        ("restitution", "e", "", "coefficient of restitution"),
+        ("rebound_speed", "v_r", "m/s", "rebound speed"),
+        ("tangential_speed", "W₀", "m/s", "tangential speed"),
+        ("friction", "μ", "", "coefficient of friction"),
+        ("tangential_mass", "m_t", "kg", "tangential mass"),
+        ("tangential_velocity", "W", "m/s", "tangential velocity"),
+        ("tangential_restitution", "e_t", "", "tangential restitution"),
+        ("rebound_angle", "β", "rad", "rebound angle"),
+        ("tangential_force", "F_x", "N", "tangential force"),
+        ("max_tangential_force", "F_x,max", "N", "largest tangential force"),
+        ("friction_work", "W_f", "J", "friction work"),
+        ("stick_radius", "r_o", "m", "outer radius of stick"),
+        ("slip_radius", "r_i", "m", "inner radius of stick"),
+        ("contact_time", "T", "s", "contact time"),
+        ("max_depth", "d_max", "m", "largest depth"),
+        ("max_force", "F_max", "N", "largest force"),
+        ("damaged_area", "A", "m²", "damaged area"),
+        ("contact_area", "A", "m²", "contact area"),
+        ("max_depth_error", "Δd/d", "", "relative error of the largest depth"),
+        ("contact_area_error", "ΔA/A", "", "relative error of the contact area"),
+        ("restitution_error", "Δe/e", "", "relative error of the restitution"),
+        # Parameters of media and shapes.
+        ("E_star", "E*", "Pa", "effective modulus"),
+        ("q_c", "q_c", "N/m", "yield constant"),
+        ("eta", "η", "Pa·s", "viscosity"),
+        ("poisson", "ν", "", "Poisson ratio"),
+        ("slope", "s", "", "slope"),
+        ("exponent", "n", "", "exponent"),
+        ("coefficient", "c", "m^(1-n)", "coefficient"),
+        *((name, symbol, "m", name.replace("_", " ")) for name, symbol in (
+            ("radius", "R"), ("tip_radius", "R"), ("cylinder_radius", "b"), ("flat_radius", "b"),
+            ("edge_radius", "R"), ("r", "r"), ("z", "z"),
+        )),
+    )
+}  # fmt: skip
+
+
+def engineering(values, unit):
+    """Text of a number, or of the range of an array: four digits, and a unit with a prefix.
+
+    Examples
+    --------
+    >>> engineering(1.33472e-5, "N"), engineering([0.0, 2e-13], "m²"), engineering(1e-12, "kg")
+    ('13.35 µN', '0 … 0.2 µm²', '1 ng')
+    """
+    values = np.asarray(values, dtype=float)
+    if not values.size:
+        return "none"
+    ends = [float(np.min(values)), float(np.max(values))] if values.ndim else [float(values)]
+    if unit == "kg":
+        ends, unit = [1e3 * end for end in ends], "g"
+    factor, unit = prefixed(max(map(abs, ends)), unit)
+    written = [_digits(end / factor) for end in ends]
+    text = written[0] if len(written) == 1 or written[0] == written[1] else " … ".join(written)
+    return f"{text} {unit}".rstrip()
+
+
+def prefixed(largest, unit):
+    """Size and name of the unit with a prefix in which a value has one to three digits before the point.
+
+    Examples
+    --------
+    >>> prefixed(2e-8, "m")
+    (1e-09, 'nm')
+    """
+    if unit in ("", "m^(1-n)") or not 0 < largest < np.inf:
+        return 1.0, unit
+    # 999.95 is written as 1000; a prefix of an area spans six decades, from 0.1.
+    power = 2 if unit == "m²" else 1
+    exponent = 3 * int(np.floor((np.log10(largest * 1.00005) + power - 1) / 3 / power))
+    exponent = min(max(exponent, -15), 12)
+    return float(f"1e{power * exponent}"), f"{_PREFIXES[exponent]}{unit}"
+
+
+def _digits(value):
+    """Text of a number with four digits, without a power of ten below a million."""
+    text = f"{value:.4g}"
+    return f"{float(text):.0f}" if "e+05" in text or "e+04" in text else text
+
+
+def described(thing):
+    """One line on a profile or a medium: its name, and its parameters that are not at their defaults."""
+    parts = [type(thing).__name__]
+    for name, field in thing.__dataclass_fields__.items():
+        known, value = QUANTITIES.get(name), getattr(thing, name)
+        if np.ndim(value) == 0 and value == field.default:
+            continue
+        try:
+            text = engineering(value, known.unit if known else "")
+            count = f" ({np.size(value)})" if np.ndim(value) else ""
+        except (TypeError, ValueError):
+            text, count = _check.shown(value), ""
+        parts.append(f"{known.symbol if known else name} {text}{count}")
+    return ", ".join(parts)
