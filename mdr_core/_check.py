@@ -1,4 +1,4 @@
-"""Checks of what a caller hands in: quantity, value, bound, and what to do about it."""
+"""Checks of arguments, with errors that name the quantity, its value, the bound and a remedy."""
 
 import reprlib
 from collections.abc import Callable
@@ -13,47 +13,47 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     class Array(np.ndarray[tuple[Any, ...], np.dtype[np.float64]]):
-        """A quantity: an array, or NumPy's scalar of one state, which can do all that an array can."""
+        """A quantity: an array, or NumPy's scalar for one state, which has the methods of an array."""
 
         def __round__(self, ndigits: int = ...) -> float: ...
 
 else:
     Array, ArrayLike = np.ndarray, Any
 
-#: A parameter: any number or array is given, a float or an array is kept, which no one type says.
+#: Type of a parameter of a profile or medium: given as any number or array, stored as float or array.
 Parameter = Any
 
-#: Beyond these the squares and products of quantities would leave double precision.
+#: Bounds of quantities (SI), within which squares and products stay in double precision.
 SMALLEST, LARGEST = 1e-60, 1e60
 
-#: Lengths of a shape are divided by each other and squared, too.
+#: Bounds of the parameters of a profile, which are also divided by each other and squared.
 SHORTEST, LONGEST = 1e-30, 1e30
 
-# Radii grow faster than depths below blunt exponents; their squares are still numbers.
+# Bound of radii, whose squares stay in double precision.
 FARTHEST = 1e140
 
-# NumPy broadcasts up to 32 dimensions, and a few are added on the way.
+# NumPy broadcasts up to 32 dimensions, and a few are added internally.
 _MOST_DIMENSIONS = 16
 
-# What was handed in may be nested deeper or be longer than its own repr can bear.
+# The argument may be nested too deeply for its own repr, or be very long.
 _short = reprlib.Repr()
 _short.maxstring = _short.maxother = 80
 
 
 def shown(value):
-    """`value` as a message quotes it, whatever it is."""
+    """Short text of any argument, for a message."""
     return _short.repr(value)
 
 
 def one_of(quantity, value, known):
-    """`value`, if it is one of the known names."""
+    """`value`, if it is one of the `known` names."""
     if not isinstance(value, str) or value not in known:
         raise ValueError(f"{quantity} = {shown(value)} must be one of {', '.join(map(repr, known))}")
     return value
 
 
 def number(quantity, value, unit=""):
-    """`value` as a float, if it is one real number (no bool, no text, no array)."""
+    """`value` as a float, if it is one real number: no bool, no text, no array."""
     value = in_unit(quantity, value, unit)
     try:
         array = np.asarray(value)
@@ -65,16 +65,16 @@ def number(quantity, value, unit=""):
 
 
 def in_unit(quantity, value, unit):
-    """`value` without its unit, if it carries one that can be converted; what carries none stays as it is.
+    """`value` converted to a unit and without it; a value without a unit is returned unchanged.
 
-    What pint, astropy and unyt have in common is asked for: a `unit` or `units`, and `to`. Labelled axes
-    (xarray) are refused, for arrays broadcast by the order of their axes here, and so are lazy arrays
-    (dask), for all of them would have to be in memory.
+    Quantities of pint, astropy and unyt have `unit` or `units`, and `to`. Arrays with labelled axes
+    (xarray) are refused because arrays broadcast by the order of their axes here, and lazy arrays (dask)
+    because they would be loaded into memory as a whole.
     """
     if hasattr(value, "dims") and hasattr(value, "coords"):
         raise ValueError(
             f"{quantity} has dimensions with names, {shown(value.dims)}, which would be lost: arrays "
-            "broadcast by the order of their axes; give its .values, transposed to what is meant"
+            "broadcast by the order of their axes; give its .values, transposed as needed"
         )
     if hasattr(type(value), "__dask_graph__") and not _carries_unit(value):
         raise ValueError(
@@ -87,7 +87,7 @@ def in_unit(quantity, value, unit):
         return value
     wanted = (unit or "").replace("·", "*").replace("³", "**3").replace("²", "**2")
     try:
-        # Astropy's number without a unit is "", that of the others "dimensionless".
+        # The unit of a plain number is "" in astropy, and "dimensionless" in pint and unyt.
         value = value.to(wanted if wanted or hasattr(value, "unit") else "dimensionless")
         bare = value.magnitude if hasattr(value, "magnitude") else value.value
     except Exception as error:
@@ -105,7 +105,7 @@ def _carries_unit(value):
 def positive(quantity, value, *, unit="", infinite=False, zero=False, within=(SMALLEST, LARGEST)):
     """`value` as a float or a read-only array, if positive (or zero, or infinite, where allowed).
 
-    Other numbers must lie within bounds that physical quantities in SI units keep.
+    Finite numbers must lie `within` bounds, which hold for physical quantities in SI units.
     """
     value = in_unit(quantity, value, unit)
     many = isinstance(value, list | tuple | np.ndarray)
@@ -134,7 +134,7 @@ def set_positive(profile, **units):
     """Replace each named field of a frozen profile by its checked value, a float or an array."""
     for name, unit in units.items():
         quantity = f"{type(profile).__name__} {name}"
-        # A coefficient may be of any size.
+        # The coefficient of a power law may have any size.
         within = (0.0, np.inf) if unit == "m^(1-n)" else (SHORTEST, LONGEST)
         value = positive(quantity, getattr(profile, name), unit=unit, within=within)
         object.__setattr__(profile, name, value)
@@ -146,7 +146,7 @@ def _real_array(quantity, value, what="real numbers"):
         array = np.asarray(value)
         if array.dtype.kind not in "iuf" or array.ndim > _MOST_DIMENSIONS or np.ma.is_masked(value):
             raise TypeError
-        # Longer types than double become infinite, and are refused as such.
+        # Numbers of longer types that overflow become infinite, and are refused.
         with np.errstate(over="ignore"):
             return array.astype(float, copy=False)
     except (TypeError, ValueError):
@@ -154,7 +154,7 @@ def _real_array(quantity, value, what="real numbers"):
 
 
 def finite_array(quantity, value, *, unit="", most=FARTHEST):
-    """`value` as a float array without NaN or infinity, of numbers up to a size."""
+    """`value` as a float array without NaN or infinity, of numbers up to `most` in size."""
     array = _real_array(quantity, in_unit(quantity, value, unit))
     large = np.isfinite(array) & (np.abs(array) > most)
     refuse(quantity, array, large, f"is beyond {most:g}", unit=unit, remedy="give it in SI units")
@@ -163,7 +163,7 @@ def finite_array(quantity, value, *, unit="", most=FARTHEST):
 
 
 def force(quantity, value):
-    """`value` as a float array of normal forces, which only press."""
+    """`value` as a float array of normal forces, which are not negative."""
     array = finite_array(quantity, value, unit="N")
     refuse(quantity, array, array < 0, "is negative", unit="N", remedy="there is no adhesion")
     tiny = (array > 0) & (array < SMALLEST)
@@ -171,7 +171,7 @@ def force(quantity, value):
 
 
 def refuse(quantity, array, bad, bound, *, unit="", remedy=""):
-    """`array`, if no entry is `bad`; otherwise an error that names the first and counts the others."""
+    """`array`, if no entry is `bad`; else an error that names the first one and counts the others."""
     if np.any(bad):
         index = np.unravel_index(np.argmax(bad), array.shape)
         where = f"[{', '.join(map(str, index))}]" if array.ndim else ""
@@ -184,7 +184,7 @@ def refuse(quantity, array, bad, bound, *, unit="", remedy=""):
 
 
 def common_shape(what, **values):
-    """Shape to which the values broadcast, or an error that names their shapes."""
+    """Shape to which the values broadcast; else an error that names their shapes."""
     for name, value in values.items():
         if not _carries_unit(value):
             _real_array(name, value)
@@ -203,7 +203,7 @@ def frozen(values):
 
 
 def frozen_property(function: "Callable[[Any], Any]") -> "cached_property[Array]":
-    """A property that is computed once and handed out as `frozen`."""
+    """A property that is computed once, and `frozen`."""
     return cached_property(wraps(function)(lambda self: frozen(function(self))))
 
 
@@ -213,7 +213,7 @@ _ANGLE = (
 _RADIUS = "A radius is half of the diameter, in m"
 _MODULUS = "E_star is E/(1 − ν²) under a rigid indenter; Medium.from_bodies(E1, nu1) takes E and ν"
 _SPEED = "The speed before the impact is `speed` (m/s); from an energy it is (2 energy/mass)**0.5"
-#: What to give in place of a keyword that is none.
+#: Remarks on keywords that are no parameters.
 _INSTEAD = (
     dict.fromkeys(("angle", "half_angle", "alpha", "theta"), _ANGLE)
     | dict.fromkeys(("R", "r", "diameter", "D"), _RADIUS)
@@ -247,7 +247,7 @@ def _refuse_keywords(name, keywords, parameters):
 
 
 def keywords_explained(function: "Callable[_Arguments, _Result]") -> "Callable[_Arguments, _Result]":
-    """A function whose refusal of an unknown keyword names its parameters, and the one that was meant."""
+    """The function with errors on unknown keywords that name its parameters and suggest one."""
 
     @wraps(function)
     def checked(*arguments: _Arguments.args, **keywords: _Arguments.kwargs) -> _Result:
@@ -266,7 +266,7 @@ class Parameters:
         return super().__new__(cls)
 
     def __getstate__(self):
-        # What is computed from the parameters is not worth keeping, and may hold functions.
+        # Cached results are not pickled; some hold functions.
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @cached_property
@@ -277,7 +277,7 @@ class Parameters:
         return np.broadcast_shapes(*(value.shape for value in arrays))
 
     def entries(self, index: Any, shape: tuple[int, ...] | None = None) -> Self:
-        """Those at an index of the parameters, broadcast to `shape` before."""
+        """The profiles or media at an index, with parameters broadcast to `shape` first."""
         if not self.shape:
             return self
         shape = self.shape if shape is None else shape

@@ -1,4 +1,4 @@
-"""Rules of quadrature, roots on arrays, and functions that closed forms need."""
+"""Quadrature, collocation, roots of arrays, and functions that avoid cancellation."""
 
 from functools import lru_cache
 
@@ -15,12 +15,12 @@ def gauss_legendre(count):
 
 
 def gauss_integrals(count, places):
-    """Matrix from values at Gauss–Legendre nodes on [0, 1] to the integrals of their polynomial from 0 on.
+    """Matrix from values at Gauss–Legendre nodes on [0, 1] to integrals of their polynomial from 0.
 
-    One row for each of the `places` to which they go.
+    One row for each upper limit in `places`.
     """
     values = np.polynomial.legendre.legvander(2 * places - 1, count)
-    # ∫ P_k from 0 is (P_{k+1} − P_{k−1})/(2(2k + 1)), for k = 0 the way itself.
+    # ∫ P_k from 0 is (P_{k+1} − P_{k−1})/(2(2k + 1)), for k = 0 the upper limit itself.
     rise = np.column_stack([places, (values[:, 2:] - values[:, :-2]) / (4 * np.arange(1, count) + 2)])
     return rise @ _to_legendre(count)
 
@@ -36,17 +36,17 @@ def _to_legendre(count):
 def collocate(derivative, first, length):
     """Solutions of u′ = f(u) over intervals as polynomials through 24 Gauss nodes, one interval a row.
 
-    `derivative` gives f and ∂f/∂u at the nodes, from u there; `first` and `length`, of shape (N, 1), are u
-    at the beginning, and the length of each interval. Back come u at the nodes, of shape (N, 24) and of one
-    sign throughout an interval, and whether Newton's method has settled.
+    `derivative` gives f and ∂f/∂u for values of u at the nodes; `first` and `length`, of shape (N, 1), are
+    u at the start and the length of each interval. Returns u at the nodes, of shape (N, 24) and of one sign
+    in each interval, and whether Newton's method has converged.
     """
     integrate, one, _ = _collocation()
     u, settled = np.repeat(first, len(one), axis=1), np.zeros(len(first), bool)
     for _ in range(8):
         value, rate = derivative(u)
         rest, rate = u - first - length * (value @ integrate.T), length * rate
-        # The linear equation δ − ∫ f′δ = r in closed form: δ = r + E ∫ f′r/E with E = exp ∫ f′. Up to
-        # e^20 the polynomial leaves 10⁻¹⁰ of E, so that Newton's method stays as quick as with a solution.
+        # The linear equation δ − ∫ f′δ = r has the solution δ = r + E ∫ f′r/E with E = exp ∫ f′. Up to
+        # E = e^20 its polynomial is accurate to 10⁻¹⁰, so that Newton's method converges as fast.
         exponent = rate @ integrate.T
         growth = np.exp(exponent)
         change = rest + growth * ((rate * rest / growth) @ integrate.T)
@@ -75,9 +75,9 @@ def last_coefficient(values):
 
 
 def largest_value(function, low, high):
-    """Largest value of a function with one top between two places (N, 1), one a row.
+    """Largest value of a function with one maximum between `low` and `high` (N, 1), one a row.
 
-    `function` takes places (N, K). Two grids, and the parabola through the best three places.
+    `function` takes arguments of shape (N, K). Two grids, and the parabola through the best three points.
     """
     rows = np.arange(len(low))
     for _ in range(2):
@@ -106,10 +106,10 @@ def cube_way(begin, rise):
 
 @lru_cache
 def tanh_sinh(step=1 / 28):
-    """Nodes and weights on [0, 1] that crowd at both ends, where the function may have any power.
+    """Nodes and weights on [0, 1] for functions that behave as any power at both ends.
 
-    u = 1/(1 + e^(−2s)), s = (π/2) sinh t: nodes come as close to 0 as 10⁻³⁹, so that a singularity
-    just outside of the interval is resolved at its own distance.
+    u = 1/(1 + e^(−2s)), s = (π/2) sinh t. The first node is 10⁻³⁹, so that a singularity just outside the
+    interval is resolved, too.
     """
     t = step * np.arange(-round(3.4 / step), round(3.4 / step) + 1)
     s = np.pi / 2 * np.sinh(t)
@@ -120,11 +120,11 @@ def tanh_sinh(step=1 / 28):
 
 @lru_cache
 def crowded():
-    """Nodes and weights on [0, 1] for a function that is singular at 0, or just beside it.
+    """Nodes and weights on [0, 1] for a function that is singular at 0, or just outside.
 
-    Nodes stand at e^(−y), at even steps of t. As y grows as t, a singularity at a distance δ beside the
-    interval stays π/2 away from all t, however small δ is: the error is e^(−π²/0.4), and down to 10⁻¹³ no
-    distance costs more than another. At both ends y runs off as an exponential, for what is left there.
+    Nodes e^(−y) at even steps of t. As y grows as t, a singularity at a distance δ outside the interval
+    stays π/2 away from all t for any δ down to 10⁻¹³: the error is e^(−π²/0.4). At both ends y grows
+    exponentially, so that the sum may be truncated.
 
     Returns
     -------
@@ -144,17 +144,17 @@ def root(x, r):
     return np.sqrt(np.maximum(x - r, 0.0)) * np.sqrt(x + r)
 
 
-#: Rows of a block where each block takes a thousand calls of NumPy.
+#: Rows of a block where each block takes about a thousand calls of NumPy.
 LONG = 2**14
 
 
 def chunks(size, most=8192):
-    """Slices of at most so many rows: enough to amortise a call, few enough to stay in the cache."""
+    """Slices of at most `most` rows, so that the arrays of a block fit into the cache."""
     return (slice(start, start + most) for start in range(0, size, most))
 
 
 def broadcast_flat(*arrays):
-    """The shape to which arrays broadcast, and flat views of them, of which slices can be taken."""
+    """Shape to which arrays broadcast, and flat views of them that can be sliced."""
     arrays = np.broadcast_arrays(*arrays)
     return arrays[0].shape, [part.ravel() if part.flags.c_contiguous else part.flat for part in arrays]
 
@@ -211,18 +211,18 @@ def increasing_root(function, target, start, highest=np.inf, *, largest=_check.L
 
 
 def root_in_bracket(function, x, low, high, close):
-    """What `function` finds at its root, to within `close`: by Newton's method from x, inside a bracket.
+    """Result at the root of an increasing function, by Newton's method from x inside a bracket.
 
-    `function` increases, and gives its value, its slope, and what it has found at x.
+    `function` gives its value, its slope and a result at x; the root is found to within `close`.
     """
     for count in range(80):
-        value, slope, found = function(x)
+        value, slope, result = function(x)
         miss = value / slope
         if abs(miss) <= close or high - low <= close:
             break
         low, high = (x, high) if miss < 0 else (low, x)
         x -= miss
-        # Where the function bends sharply, or jumps: then halve the bracket by turns.
+        # Bisection at every other step, where the function has a kink or jumps.
         if not low < x < high or (count > 5 and count % 2 and high - low < np.inf):
             x = (low + high) / 2
-    return found
+    return result

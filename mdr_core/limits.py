@@ -74,8 +74,8 @@ def _slope_limit(profile, radius):
     text = f"Slopes reach {value:.3g} within the contact"
     if value > _NEEDLE and "slope" in profile.__dataclass_fields__:
         text += (
-            ": a needle, for which a half-space is no approximation. A slope is the tangent of the angle to "
-            "the surface; Cone.from_half_angle(degrees) takes the angle to the axis."
+            ": a needle, for which a half-space is no approximation. A slope is the tangent of the angle "
+            "to the surface; Cone.from_half_angle(degrees) takes the angle to the axis."
         )
     elif value > _SMALL:
         text += f": small slopes are an approximation, good to about s² = {100 * value**2:.2g} %."

@@ -1,4 +1,4 @@
-"""The medium: modulus, yield constant and viscosity, and what follows from them alone."""
+"""The medium: modulus, yield constant, viscosity and Poisson ratio."""
 
 from dataclasses import dataclass
 
@@ -10,12 +10,12 @@ from .shapes.profile import Profile
 
 
 def check_pair(profile, medium, what=None):
-    """Refuses what is no indenter or no medium, and more than one of either for `what` is of one only."""
+    """Refuses arguments that are no profile or no medium, and arrays of either if `what` takes one only."""
     if not isinstance(profile, Profile):
         raise TypeError(f"profile must be an mdr_core shape such as Cone(slope=1), got {shown(profile)}")
     if type(profile).__hash__ is None:
         name = type(profile).__name__
-        raise TypeError(f"{name} must not change once it is made: declare it with @dataclass(frozen=True)")
+        raise TypeError(f"{name} must be immutable: declare it with @dataclass(frozen=True)")
     if not isinstance(medium, Medium):
         raise TypeError(f"medium must be a Medium, got {shown(medium)}")
     if what and (profile.shape or medium.shape):
@@ -26,7 +26,7 @@ def check_pair(profile, medium, what=None):
 
 
 def paths_on(profile, medium, depth):
-    """Depths of paths along the last axis, one for each of many media or indenters."""
+    """Depths of paths along the last axis, broadcast to arrays of media or profiles."""
     for thing in (profile, medium):
         if thing.shape and thing.shape[-1] != 1:
             raise ValueError(
@@ -79,10 +79,10 @@ class Medium(_check.Parameters):
     eta : float, optional
         Dynamic viscosity η (Pa·s), not negative; 0 (the default) means rate-independent.
     poisson : float, optional
-        Poisson ratio ν of the half-space, −1 < ν ≤ 1/2; beside E* only the stress below and friction feel
-        it. The dashpots are exact for 1/2.
+        Poisson ratio ν of the half-space, −1 < ν ≤ 1/2, for the stress below the surface and for friction.
+        The dashpots are exact for 1/2.
 
-    Each may be an array for many impacts at once (`impact`); then every property is one too.
+    Parameters may be arrays that broadcast, for many impacts at once; properties are then arrays.
 
     Raises
     ------
