@@ -129,6 +129,11 @@ class Steps:
         matrix = _numeric.gauss_integrals(_NODES.size, theta.ravel()).reshape(*theta.shape, -1)
         return self._state(theta, np.einsum("nkj,snj->snk", matrix, self.slopes))
 
+    def share(self, own):
+        """Shares θ (N, K) of the steps at depths (m), for steps in the depth, or at velocities."""
+        place = cube_way(self.begin, np.maximum(own - self.base, 0.0)) if self.deep else own
+        return np.clip((place - self.place) / self.length, 0.0, 1.0)
+
     def end(self):
         """The states (4, N, 1) at the ends of the steps: more exact than those between the nodes."""
         return self._state(np.ones((1, 1)), (self.slopes @ _WEIGHTS)[..., None])

@@ -10,6 +10,8 @@ from .equation_of_motion import Bodies, solve
 
 #: What the polynomials between the nodes may leave, and instants at which what has let go is followed.
 _TOLERANCE, _INSTANTS, _PARTS = 1e-10, 400, 33
+#: Places of a step that bracket an instant; Newton's method from there: most trials, and error of the time.
+_GRID, _MOST_TRIALS, _CLOSE = 65, 20, 1e-14
 
 
 def motion(hit, n):
@@ -113,13 +115,28 @@ def _states(steps, time):
     owner = np.maximum(np.searchsorted(begins, time, side="right") - 1, 0)
     for i in np.unique(owner):
         _, step = steps[i]
-        theta = np.linspace(0, 1, 65)[None]
-        theta = np.interp(time[owner == i], step.at(theta)[2, 0], theta[0])[None]
-        for _ in range(3):
-            # Newton's method, with a difference for the derivative.
-            shift = np.where(theta < 0.5, 1e-6, -1e-6)
-            there, beside = np.hsplit(step.at(np.hstack([theta, theta + shift]))[2], 2)
-            rate = np.maximum((beside - there) / shift, 1e-300)
-            theta = np.clip(theta + (time[owner == i] - there) / rate, 0.0, 1.0)
-        result[:, owner == i] = step.at(theta)[[0, 1, 3], 0]
+        result[:, owner == i] = _states_within(step, time[owner == i])[[0, 1, 3]]
     return result
+
+
+def _states_within(step, time):
+    """The states (4, n) at n instants within one step of one impact.
+
+    By Newton's method, which needs the slope of the time. By the depth it is 1/ḋ, by the velocity 1/v̇, and
+    a step runs in the one of both that changes more quickly. By the share θ of the step it may be zero at
+    an end, because the depth goes with the cube of δ; there one unit of rounding in the time would lead
+    Newton's method away from the solution.
+    """
+    own, grid = 0 if step.deep else 1, step.at(np.linspace(0, 1, _GRID)[None])[:, 0]
+    cell = np.clip(np.searchsorted(grid[2], time, side="right") - 1, 0, _GRID - 2)
+    low, high = np.sort([grid[own, cell], grid[own, cell + 1]], axis=0)
+    place = np.interp(time, grid[2], grid[own])
+    for _ in range(_MOST_TRIALS):
+        state = step.at(step.share(place[None]))
+        late = time - state[2, 0]
+        if np.all(np.abs(late) <= _CLOSE * grid[2, -1]):
+            break
+        depth, velocity = state[:2]
+        rate = step.bodies.rates(*step.bodies.loads(depth)[:2], velocity)[own][0]
+        place = np.clip(place + late * rate, low, high)
+    return state[:, 0]
