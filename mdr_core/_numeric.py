@@ -44,17 +44,17 @@ def collocate(derivative, first, length):
     u, settled = np.repeat(first, len(one), axis=1), np.zeros(len(first), bool)
     for _ in range(8):
         value, rate = derivative(u)
-        rest, rate = u - first - length * (value @ integrate.T), length * rate
+        residual, rate = u - first - length * (value @ integrate.T), length * rate
         # The linear equation δ − ∫ f′δ = r has the solution δ = r + E ∫ f′r/E with E = exp ∫ f′. Up to
         # E = e^20 its polynomial is accurate to 10⁻¹⁰, so that Newton's method converges as fast.
         exponent = rate @ integrate.T
-        growth = np.exp(exponent)
-        change = rest + growth * ((rate * rest / growth) @ integrate.T)
+        factor = np.exp(exponent)
+        change = residual + factor * ((rate * residual / factor) @ integrate.T)
         steep = np.flatnonzero(~(np.abs(exponent).max(axis=1) < 20.0))
         if steep.size:
             matrix = one - rate[steep, None, :] * integrate
             matrix[~np.isfinite(matrix).all(axis=(1, 2))] = one
-            change[steep] = np.linalg.solve(matrix, rest[steep, :, None])[..., 0]
+            change[steep] = np.linalg.solve(matrix, residual[steep, :, None])[..., 0]
         u = np.where(change / u < 0.75, u - change, u / 4)
         settled = np.all(np.abs(change) <= 1e-9 * np.abs(u), axis=1)
         if settled.all():

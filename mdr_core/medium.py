@@ -113,7 +113,7 @@ class Medium(_check.Parameters):
 
     @classmethod
     def from_hardness(
-        cls, E_star: ArrayLike, hardness: ArrayLike, radius: ArrayLike, **rest: ArrayLike
+        cls, E_star: ArrayLike, hardness: ArrayLike, radius: ArrayLike, **other: ArrayLike
     ) -> "Medium":
         """The medium whose fully yielded contact of some radius has a given hardness: q_c = σ_c a.
 
@@ -125,7 +125,7 @@ class Medium(_check.Parameters):
             Mean pressure σ_c (Pa) under a fully yielded contact, Popov (2015), Eq. (11).
         radius : float
             Contact radius a (m) at which it was measured.
-        **rest
+        **other
             `eta` and `poisson`, as in `Medium`.
 
         Examples
@@ -133,16 +133,16 @@ class Medium(_check.Parameters):
         >>> print(Medium.from_hardness(95e9, hardness=1e9, radius=100e-9).q_c)
         100.0
         """
-        if "q_c" in rest:
+        if "q_c" in other:
             raise ValueError("q_c and hardness both determine where yield starts; give one of them")
         hardness = _check.positive("hardness", hardness, unit="Pa")
         radius = _check.positive("radius of the hardness", radius, unit="m")
         _check.common_shape("medium", hardness=hardness, radius=radius)
-        return cls(E_star, hardness * radius, **rest)
+        return cls(E_star, hardness * radius, **other)
 
     @classmethod
     def from_critical_depth(
-        cls, E_star: ArrayLike, critical_depth: ArrayLike, **rest: ArrayLike
+        cls, E_star: ArrayLike, critical_depth: ArrayLike, **other: ArrayLike
     ) -> "Medium":
         """The medium in which yield starts at a given depth: q_c = 2E* d_c/π, Popov (2015), Eq. (19).
 
@@ -152,7 +152,7 @@ class Medium(_check.Parameters):
             Effective modulus E* (Pa).
         critical_depth : float
             Indentation depth d_c (m) at which yield starts; also the depth that is recovered on unloading.
-        **rest
+        **other
             `eta` and `poisson`, as in `Medium`.
 
         Examples
@@ -161,12 +161,12 @@ class Medium(_check.Parameters):
         >>> print(round(medium.q_c, 9), round(medium.critical_depth * 1e9, 9))
         1.273239545 2.0
         """
-        if "q_c" in rest:
+        if "q_c" in other:
             raise ValueError("q_c and critical_depth both determine where yield starts; give one of them")
         E_star = _check.positive("effective modulus E_star", E_star, unit="Pa")
         depth = _check.positive("critical depth", critical_depth, unit="m")
         _check.common_shape("medium", E_star=E_star, critical_depth=depth)
-        return cls(E_star, yield_constant(E_star, depth), **rest)
+        return cls(E_star, yield_constant(E_star, depth), **other)
 
     @classmethod
     def from_bodies(

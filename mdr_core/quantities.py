@@ -24,8 +24,8 @@ class Quantity:
 
 
 QUANTITIES = {
-    name: Quantity(*rest)
-    for name, *rest in (
+    name: Quantity(*description)
+    for name, *description in (
         ("time", "t", "s", "time"),
         ("depth", "d", "m", "indentation depth"),
         ("velocity", "v", "m/s", "indentation rate"),

@@ -181,8 +181,8 @@ class Report:
         limits = [x for x in self._limits() if x.exceeded and x.concerns == "result"]
         first = limits if len(limits) <= most else limits[: most - 1]
         yield from (("limit", limit.sentence) for limit in first)
-        if rest := limits[len(first) :]:
-            yield "limits", f"{', '.join(limit.what for limit in rest)}: see .limits"
+        if others := limits[len(first) :]:
+            yield "limits", f"{', '.join(limit.what for limit in others)}: see .limits"
 
     def __getitem__(self, index: Any) -> Self:
         raise TypeError(f"this {type(self).__name__} is a single one: it has no entries")
