@@ -63,8 +63,8 @@ def fit_csv(trajectory, explorer):
     columns = {
         "measured depth z (m)": depth,
         "measured force (N)": force,
-        "depth d (m)": found.indentation.depth,
-        "modelled force F (N)": found.indentation.force,
+        "depth d (m)": found.path.depth,
+        "modelled force F (N)": found.path.force,
         "residual (N)": found.residuals,
     }
     asked = {name: value for name, value in explorer.measured.asked.items() if value is not None}

@@ -155,7 +155,7 @@ def fit(explorer):
         asked["depth_noise"] = explorer.depth_noise
     found = mdr.fit_indentation(explorer.profile(), *curve.data, **asked)
     numbers = {name: float(getattr(found, name)) for name in PLACE}
-    numbers["max_depth"] = float(np.max(found.indentation.depth))
+    numbers["max_depth"] = float(np.max(found.path.depth))
     choices = {"drive": "depth"}
     if "E_star" not in held:
         choices["elasticity"], numbers["E_star"] = "modulus", float(found.medium.E_star)

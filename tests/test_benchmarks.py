@@ -77,7 +77,7 @@ def test_the_chain_covers_its_errors():
 
 def test_fits_keep_what_is_promised():
     """E* within 1 %, q_c within 0.5 % in all of 40 media; widths of 40 pulls are known to 11 %."""
-    _, _, E, q_c, *pulls, _ = fits.row(fits.TIPS[1], 0.0, 40)
+    _, _, E, q_c, *pulls, _ = fits.row(fits.PROFILES[1], 0.0, 40)
     worst = [float(cell.split()[2]) for cell in (E, q_c)]
     assert worst[0] < 1
     assert worst[1] < 0.5

@@ -1,1 +1,1 @@
-"""From measurements to the medium: curves of indentation, impacts, hardness over radius."""
+"""Fits of media to measurements: force–depth curves, impacts, hardness at several radii."""

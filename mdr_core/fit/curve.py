@@ -1,13 +1,13 @@
-"""Curves of force over depth: their model with its derivatives, and its branches.
+"""Force–depth curves: their model with its derivatives, and their branches.
 
     ∂F/∂ln E* = F − 2E* c d_c,   ∂F/∂ln q_c = 2E* c d_c,   ∂F/∂d = 2E* a,   ∂F/∂d_max = −2E* c
 
-with d_max the largest depth so far, which is d itself on a first loading: there the last two add up.
+with d_max the largest depth so far; on a first loading it is d itself, and the last two add up.
 
-Noise of the depth must not be taken for memory, as the running maximum of the samples would. Where there is
-some, a branch knows its d_max as a parameter, and every sample belongs to the place of its branch that is
-nearest in units of both noises (orthogonal distances: Boggs, Byrd & Schnabel, SIAM J. Sci. Stat. Comput. 8,
-1987, 1052). Its distance in units of √(σ_F² + (S σ_d)²), S the slope there, is what is made small.
+A running maximum of noisy depths would grow with every jitter. With depth noise the d_max of each turning
+point is therefore a parameter, and each sample is assigned to the nearest point of its branch, in units of
+both noises (orthogonal distances: Boggs, Byrd & Schnabel, SIAM J. Sci. Stat. Comput. 8, 1987, 1052). The
+residual is the distance in units of √(σ_F² + (S σ_d)²), S the slope at that point.
 """
 
 from dataclasses import dataclass, replace
@@ -18,39 +18,36 @@ import numpy as np
 from ..superposition import radius_integral
 from ..yielding import LiveInterval, interval_at
 
-#: All parameters, in the order of a fit.
-NAMES = ("E_star", "q_c", "contact_point", "baseline", "frame_compliance")
-#: What the force depends on beside the depth.
-_MATTER = ("E_star", "q_c", "frame_compliance")
-#: Steps of the search for the nearest place.
+#: All parameters in the order of a fit, those fitted as logarithms, and those of springs and frame.
+PARAMETERS = ("E_star", "q_c", "contact_point", "baseline", "frame_compliance")
+LOGARITHMIC = ("E_star", "q_c")
+_OF_FORCE = ("E_star", "q_c", "frame_compliance")
+#: Steps of the search for the nearest point of a branch.
 _PROJECTIONS = 6
 
 
 @dataclass(frozen=True)
-class Curves:
-    """Curves of as many turning points, one a row: what was measured, what is held, how branches are told.
+class CurveProblem:
+    """Least-squares problem of R curves of N samples with K turning points each, one curve a row.
 
-    `fixed` are the held parameters by name (R,), `free` the names of the others; `depth_noise` and `sigma`
-    the standard deviations of depth (m) and force (N), the latter (R, N). Scaled parameters x are
-    logarithms of E* and q_c, else shares of the measured ranges `length` and `load`.
+    `fixed` holds the fixed parameters by name (R,); `depth_noise` and `sigma` (R, N) are the standard
+    deviations of depth (m) and force (N); `turning_points` (R, K) and `loading_starts` are indices. Scaled
+    parameters x are logarithms of E* and q_c, otherwise shares of the ranges `length` (m) and `load` (N).
     """
 
-    tip: object
+    profile: object
     depth: np.ndarray
     force: np.ndarray
     fixed: dict
     depth_noise: float
     sigma: np.ndarray
-    turns: np.ndarray
-    lows: np.ndarray
+    turning_points: np.ndarray
+    loading_starts: np.ndarray
 
     def rows(self, rows):
         fixed = {name: value[rows] for name, value in self.fixed.items()}
-        names = "depth", "force", "sigma", "turns", "lows"
+        names = "depth", "force", "sigma", "turning_points", "loading_starts"
         return replace(self, fixed=fixed, **{name: getattr(self, name)[rows] for name in names})
-
-    def holding(self, **values):
-        return replace(self, fixed=self.fixed | values)
 
     @cached_property
     def length(self):
@@ -62,183 +59,194 @@ class Curves:
 
     @cached_property
     def free(self):
-        return tuple(name for name in NAMES if name not in self.fixed)
+        return tuple(name for name in PARAMETERS if name not in self.fixed)
 
     @property
-    def peaks(self):
-        """Number of turning depths that are parameters."""
-        return self.turns.shape[1] if self.depth_noise else 0
+    def free_turning_points(self):
+        """Number of turning points whose depths are parameters."""
+        return self.turning_points.shape[1] if self.depth_noise else 0
+
+    def _columns(self, values, turning_depth):
+        """Columns of the free parameters and of the free turning depths (R, P)."""
+        columns = [values[name] for name in self.free]
+        return np.hstack([*columns, turning_depth[:, : self.free_turning_points]])
 
     @cached_property
     def scale(self):
-        """What one unit of each scaled parameter is, 1 of a logarithm (R, P)."""
-        one = np.ones_like(self.length)
-        units = dict(zip(NAMES, (one, one, self.length, self.load, self.length / self.load), strict=True))
-        return np.hstack([one[:, :0], *(units[name] for name in self.free), *[self.length] * self.peaks])
+        """Unit of each scaled parameter, 1 for a logarithm (R, P)."""
+        length, load, logarithm = self.length, self.load, np.ones_like(self.length)
+        units = dict(zip(PARAMETERS, (logarithm, logarithm, length, load, length / load), strict=True))
+        return self._columns(units, np.repeat(length, self.turning_points.shape[1], axis=1))
 
     @cached_property
     def offset(self):
-        """Where scaled lengths count from (R, P)."""
+        """Origin of each scaled parameter (R, P): lengths count from the lowest measured depth."""
         low = self.depth.min(axis=1, keepdims=True)
-        none = np.zeros_like(low)
-        begin = [low if name == "contact_point" else none for name in self.free]
-        return np.hstack([none[:, :0], *begin, *[low] * self.peaks])
+        origins = dict.fromkeys(PARAMETERS, np.zeros_like(low)) | {"contact_point": low}
+        return self._columns(origins, np.repeat(low, self.turning_points.shape[1], axis=1))
 
-    def values(self, x):
-        """Parameters by name (R, 1), and the turning depths (R, K)."""
+    def parameters(self, x):
+        """Parameters by name (R, 1) and turning depths (R, K) of scaled parameters."""
         plain = self.offset + self.scale * x
         values = {name: value[:, None] for name, value in self.fixed.items()}
-        for i, name in enumerate(self.free):
-            values[name] = np.exp(x[:, i, None]) if name in NAMES[:2] else plain[:, i, None]
+        for name, column in zip(self.free, plain.T, strict=False):
+            values[name] = (np.exp(column) if name in LOGARITHMIC else column)[:, None]
         return values, plain[:, len(self.free) :]
 
-    def scaled(self, values, turning):
-        """The inverse of `values`."""
-        plain = np.hstack([*(values[name] for name in self.free), turning[:, : self.peaks]])
-        plain = plain.reshape(len(self.depth), -1)
-        x = (plain - self.offset) / self.scale
-        for i, name in enumerate(self.free):
-            x[:, i] = np.log(values[name][:, 0]) if name in NAMES[:2] else x[:, i]
-        return x
+    def scaled(self, values, turning_depth):
+        """Scaled parameters: the inverse of `parameters`."""
+        logarithms = {name: np.log(values[name]) for name in LOGARITHMIC}
+        return (self._columns(values | logarithms, turning_depth) - self.offset) / self.scale
 
     @cached_property
     def branches(self):
-        """Which turning depth each sample has behind it (−1: none), and whether it may go deeper (R, N)."""
-        place = np.arange(self.depth.shape[1])
-        behind = np.sum(place > self.turns[:, :, None], axis=1) - 1
-        deeper = np.zeros(self.depth.shape, bool)
-        for k in range(self.lows.shape[1]):
-            end = self.turns[:, k, None] if k < self.turns.shape[1] else place.size
-            deeper |= (place >= self.lows[:, k, None]) & (place <= end)
-        return behind, deeper
+        """Index of the last turning point before each sample (−1: none), and whether it is on a loading."""
+        sample = np.arange(self.depth.shape[1])
+        last = np.sum(sample > self.turning_points[:, :, None], axis=1) - 1
+        loading = np.zeros(self.depth.shape, bool)
+        for k in range(self.loading_starts.shape[1]):
+            stop = self.turning_points[:, k, None] if k < self.turning_points.shape[1] else sample.size
+            loading |= (sample >= self.loading_starts[:, k, None]) & (sample <= stop)
+        return last, loading
 
-    def memory(self, depth, turning):
-        """The largest depth so far, and where it is the sample's own; without noise the running maximum."""
+    def largest_so_far(self, depth, turning_depth):
+        """Largest depth so far (m), and whether it is the depth of the sample itself."""
         if not self.depth_noise:
-            deepest = np.maximum.accumulate(depth, axis=1)
-            return deepest, depth >= deepest
-        behind, deeper = self.branches
-        padded = np.hstack([np.full_like(self.length, -np.inf), turning])
-        before = np.take_along_axis(padded, behind + 1, axis=1)
-        own = deeper & (depth >= before)
-        return np.where(own, depth, before), own
+            largest = np.maximum.accumulate(depth, axis=1)
+            return largest, depth >= largest
+        last, loading = self.branches
+        turning_depth = np.hstack([np.full_like(self.length, -np.inf), turning_depth])
+        largest = np.take_along_axis(turning_depth, last + 1, axis=1)
+        loading = loading & (depth >= largest)
+        return np.where(loading, depth, largest), loading
 
     def states(self, x):
-        """Parameters, the nearest `State` of each sample, and before it how far that is in depth (m)."""
-        values, turning = self.values(x)
-        seen, turning = self.depth - values["contact_point"], turning - values["contact_point"]
+        """Parameters, distance (m) of each sample from the nearest state of its branch, and that state."""
+        values, turning_depth = self.parameters(x)
+        measured, turning_depth = (z - values["contact_point"] for z in (self.depth, turning_depth))
         with np.errstate(all="ignore"):
-            here = State.at(self, values, seen, turning)
+            state = CurveState.at(self, values, measured, turning_depth)
             if self.depth_noise:
-                here = self._nearest(values, seen, turning, here)
-        return values, seen - here.seen, here
+                state = self._nearest(values, measured, turning_depth, state)
+        return values, measured - state.displacement, state
 
-    def _nearest(self, values, measured, turning, here):
+    def _nearest(self, values, measured, turning_depth, state):
         """The state of each branch that is nearest to its sample.
 
-        Out of contact the slope tells no way; so the search begins within the contact, too.
+        The slope is 0 without contact: the search also starts just within the contact.
         """
         load, noise = self.force - values["baseline"], self.depth_noise
 
         def distance(state):
-            return ((measured - state.seen) / noise) ** 2 + ((load - state.force) / self.sigma) ** 2
+            return ((measured - state.displacement) / noise) ** 2 + ((load - state.force) / self.sigma) ** 2
 
-        best, least, inside = here, distance(here), np.maximum(measured, here.live_interval.lower + noise)
-        place = State.at(self, values, inside, turning)
+        nearest, least = state.displacement, distance(state)
+        inside = np.maximum(measured, state.live_interval.lower + noise)
+        state = CurveState.at(self, values, inside, turning_depth)
         for _ in range(_PROJECTIONS):
-            cost = distance(place)
-            best, least = best.where(cost < least, place), np.minimum(cost, least)
-            pull = load - place.force - place.slope * (measured - place.seen)
-            step = place.slope * noise**2 * pull / (self.sigma**2 + (place.slope * noise) ** 2)
-            place = State.at(self, values, measured + step, turning)
-        return best.where(distance(place) < least, place)
+            squares = distance(state)
+            nearest = np.where(squares < least, state.displacement, nearest)
+            least = np.minimum(squares, least)
+            residual = load - state.force - state.slope * (measured - state.displacement)
+            step = state.slope * noise**2 * residual / (self.sigma**2 + (state.slope * noise) ** 2)
+            state = CurveState.at(self, values, measured + step, turning_depth)
+        nearest = np.where(distance(state) < least, state.displacement, nearest)
+        return CurveState.at(self, values, nearest, turning_depth)
 
-    def residuals(self, x, rows=slice(None)):
+    def residuals(self, x):
         """Residuals in units of their noise (R, N), and derivatives by the scaled parameters (R, N, P)."""
-        if not isinstance(rows, slice):
-            return self.rows(rows).residuals(x)
-        values, off, state = self.states(x)
+        values, distance, state = self.states(x)
         noise = self.noise(state.slope)
-        load = self.force - values["baseline"]
-        jacobian = state.derivatives(self) / noise[..., None] * self.scale[:, None, :]
-        return (load - state.force - state.slope * off) / noise, jacobian
+        residual = self.force - values["baseline"] - state.force - state.slope * distance
+        return residual / noise, state.derivatives(self) / noise[..., None] * self.scale[:, None, :]
 
     def noise(self, slope):
-        """Standard deviation (N) of what is missed, of both noises where the curve has some slope."""
+        """Standard deviation (N) of the residuals from both noises, at slopes of the curve (N/m)."""
         return np.sqrt(self.sigma**2 + (slope * self.depth_noise) ** 2)
 
-    def relabelled(self, x):
-        """With turning points where the two branches that meet there fit best."""
-        turns, count = self.turns.copy(), self.depth.shape[1]
-        for k in range(turns.shape[1]):
-            first = self.lows[:, k]
-            last = self.lows[:, k + 1] if k + 1 < self.lows.shape[1] else np.full(len(turns), count)
-            costs = []
-            for place in (np.minimum(last, count) - 1, first):
-                trial = self.turns.copy()
-                trial[:, k] = place
-                costs.append(replace(self, turns=trial).residuals(x)[0] ** 2)
-            gain = np.cumsum(costs[0] - costs[1], axis=1)
-            place = np.arange(count)
-            within = (place >= first[:, None]) & (place < last[:, None])
-            turns[:, k] = np.argmin(np.where(within, gain, np.inf), axis=1)
-        return replace(self, turns=turns)
+    def with_best_turning_points(self, x):
+        """The problem with each turning point at the sample for which its two branches fit best."""
+        sample, turning_points = np.arange(self.depth.shape[1]), self.turning_points.copy()
+        stops = np.hstack([self.loading_starts[:, 1:], np.full((len(self.depth), 1), sample.size)])
+        for k in range(turning_points.shape[1]):
+            start, stop = self.loading_starts[:, k], stops[:, k]
+            squares = []
+            for index in (stop - 1, start):
+                trial = self.turning_points.copy()
+                trial[:, k] = index
+                squares.append(replace(self, turning_points=trial).residuals(x)[0] ** 2)
+            gain = np.cumsum(squares[0] - squares[1], axis=1)
+            between = (sample >= start[:, None]) & (sample < stop[:, None])
+            turning_points[:, k] = np.argmin(np.where(between, gain, np.inf), axis=1)
+        return replace(self, turning_points=turning_points)
 
 
 @dataclass(frozen=True)
-class State:
-    """Samples on the model, arrays (R, N).
+class CurveState:
+    """States of the model at all samples, arrays (R, N).
 
-    `seen` is the depth with what the frame gives way, u = d + C F; `slope` is ∂F/∂u, `memory` that by the
-    largest u so far, where it is not the sample's `own`; `gradient` by the parameters in `_MATTER`.
+    `displacement` is u = d + C F with the frame's share (m), `loading` whether it is the largest so far,
+    `slope` ∂F/∂u, `memory_slope` ∂F/∂u_max where it is not, `gradient` ∂F by the parameters of `_OF_FORCE`.
     """
 
-    seen: np.ndarray
+    displacement: np.ndarray
     depth: np.ndarray
-    own: np.ndarray
+    loading: np.ndarray
     live_interval: LiveInterval
     force: np.ndarray
     slope: np.ndarray
-    memory: np.ndarray
+    memory_slope: np.ndarray
     gradient: np.ndarray
 
     @classmethod
-    def at(cls, curves, values, seen, turning):
-        deepest, own = curves.memory(seen, turning)
-        C = values["frame_compliance"]
-        if not C.any() and "frame_compliance" not in curves.free:
-            return cls(seen, seen, own, *_springs(curves.tip, values, seen, deepest, own))
-        # First how deep the turning point is, then the sample itself.
-        D = _without_frame(curves.tip, values, deepest, deepest, True)
-        d = np.where(own, D, _without_frame(curves.tip, values, seen, D, own))
-        front = cls(D, D, own, *_springs(curves.tip, values, D, D, True))
-        here = cls(d, d, own, *_springs(curves.tip, values, d, D, own))
-        give, back = 1 + C * here.slope, here.memory / (1 + C * front.slope)
-        gradient = (here.gradient - C * back * front.gradient) / give
-        frame = -(here.slope * here.force + back * front.force) / give
-        gradient = np.concatenate([gradient, frame[None]])
-        return cls(seen, d, own, here.live_interval, here.force, here.slope / give, back / give, gradient)
+    def at(cls, problem, values, displacement, turning_depth):
+        """States at displacements (m) from first contact, turning points likewise."""
+        profile, C = problem.profile, values["frame_compliance"]
+        largest, loading = problem.largest_so_far(displacement, turning_depth)
+        if not C.any() and "frame_compliance" not in problem.free:
+            return cls.on_rigid_frame(profile, values, displacement, largest, loading)
+        largest = _depth_in_frame(profile, values, largest, largest, True)
+        depth = _depth_in_frame(profile, values, displacement, largest, loading)
+        depth = np.where(loading, largest, depth)
+        turning_state = cls.on_rigid_frame(profile, values, largest, largest, True)
+        state = cls.on_rigid_frame(profile, values, depth, largest, loading)
+        # Derivatives of u = d + C F at both depths.
+        rate, memory_slope = 1 + C * state.slope, state.memory_slope / (1 + C * turning_state.slope)
+        springs = state.gradient - C * memory_slope * turning_state.gradient
+        frame = -(state.slope * state.force + memory_slope * turning_state.force)
+        return replace(
+            state, displacement=displacement, slope=state.slope / rate, memory_slope=memory_slope / rate,
+            gradient=np.concatenate([springs, frame[None]]) / rate,
+        )  # fmt: skip
 
-    def where(self, chosen, other):
-        """This state, and the `other` one where it is chosen."""
-
-        def mixed(one, two, names):
-            return (np.where(chosen, getattr(two, name), getattr(one, name)) for name in names)
-
-        interval = LiveInterval(
-            *mixed(self.live_interval, other.live_interval, ("lower", "upper", "length"))
+    @classmethod
+    def on_rigid_frame(cls, profile, values, depth, largest, loading):
+        """States at depths (m), the largest ones so far given; beyond the known depth those at its end."""
+        d_c, modulus = critical_depth(values), 2 * values["E_star"]
+        interval = interval_at(
+            np.minimum(largest, profile.known_depth), np.minimum(depth, profile.known_depth), d_c
         )
-        rest = mixed(self, other, ("force", "slope", "memory", "gradient"))
-        return State(*mixed(self, other, ("seen", "depth", "own")), interval, *rest)
+        contact = interval.length > 0
+        a = np.where(contact, profile._radius(interval.upper), 0.0)
+        c = np.where(contact & (interval.lower > 0), profile._radius(interval.lower), 0.0)
+        force, memory_slope = modulus * radius_integral(profile, interval), -modulus * c
+        yielded = np.where(c > 0, -memory_slope * d_c, 0.0)
+        slope = modulus * a + np.where(loading, memory_slope, 0.0)
+        memory_slope = np.where(loading, 0.0, memory_slope)
+        gradient = np.stack([force - yielded, yielded])
+        return cls(depth, depth, loading, interval, force, slope, memory_slope, gradient)
 
-    def derivatives(self, curves):
-        """−∂F/∂p of all parameters that are free, and of the turning depths (R, N, P)."""
-        columns = {"contact_point": self.slope + self.memory, "baseline": np.full_like(self.force, -1.0)}
-        columns |= dict(zip(_MATTER, -self.gradient, strict=False))
-        found = [columns[name] for name in curves.free]
-        behind, _ = curves.branches
-        found += [np.where(behind == k, -self.memory, 0.0) for k in range(curves.peaks)]
-        return np.stack(found, axis=-1) if found else np.zeros((*self.force.shape, 0))
+    def derivatives(self, problem):
+        """−∂F/∂p of the free parameters and turning depths (R, N, P)."""
+        columns = dict(zip(_OF_FORCE, -self.gradient, strict=False))
+        columns |= {
+            "contact_point": self.slope + self.memory_slope,
+            "baseline": np.full_like(self.force, -1.0),
+        }
+        last, _ = problem.branches
+        turning = [np.where(last == k, -self.memory_slope, 0.0) for k in range(problem.free_turning_points)]
+        free = [columns[name] for name in problem.free]
+        return np.stack([*free, *turning], axis=-1) if free or turning else self.force[..., None][..., :0]
 
 
 def critical_depth(values):
@@ -246,28 +254,14 @@ def critical_depth(values):
     return np.pi / 2 * values["q_c"] / values["E_star"]
 
 
-def _springs(tip, values, depth, deepest, own):
-    """Live interval, force, slope and derivative by the largest depth, and those by ln E* and ln q_c."""
-    d_c, modulus = critical_depth(values), 2 * values["E_star"]
-    depth, deepest = np.minimum(depth, tip.known_depth), np.minimum(deepest, tip.known_depth)
-    interval = interval_at(deepest, depth, d_c)
-    touching = interval.length > 0
-    a = np.where(touching, tip._radius(interval.upper), 0.0)
-    c = np.where(touching & (interval.lower > 0), tip._radius(interval.lower), 0.0)
-    force, back = modulus * radius_integral(tip, interval), modulus * c
-    yielded = np.where(c > 0, back * d_c, 0.0)
-    slope = modulus * a - np.where(own, back, 0.0)
-    return interval, force, slope, np.where(own, 0.0, -back), np.stack([force - yielded, yielded])
-
-
-def _without_frame(tip, values, seen, deepest, own):
-    """Depth d (m) with d + C F(d) = `seen`, by Newton's method from above."""
-    C, depth = values["frame_compliance"], seen
+def _depth_in_frame(profile, values, displacement, largest, loading):
+    """Depth d (m) with d + C F(d) = `displacement`, by Newton's method from above."""
+    C, depth = values["frame_compliance"], displacement
     for _ in range(40):
-        most = depth if own is True else np.where(own, depth, deepest)
-        _, force, slope, *_ = _springs(tip, values, depth, most, own)
-        step = (depth + C * force - seen) / (1 + C * slope)
+        so_far = np.where(loading, depth, largest)
+        state = CurveState.on_rigid_frame(profile, values, depth, so_far, loading)
+        step = (depth + C * state.force - displacement) / (1 + C * state.slope)
         depth = depth - step
-        if np.all(np.abs(step) <= 1e-15 * np.abs(seen).max()):
+        if np.all(np.abs(step) <= 1e-15 * np.abs(displacement).max()):
             break
     return depth

@@ -1,4 +1,4 @@
-"""The medium from hardness over contact radius."""
+"""The medium from hardness at several contact radii."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ from ..superposition import radius_integral
 from ..yielding import LiveInterval, elastic_interval
 from .least_squares import Fit
 
-#: Power of the contact radius that the hardness goes with in each class, and what is near to it.
+#: Power of the contact radius that hardness is proportional to in each class, and its tolerance.
 _POWERS = {"a": (0.0, 0.1), "b": (-1.0, 0.1), "c": (-2.0, 0.1)}
 
 
@@ -22,13 +22,13 @@ _POWERS = {"a": (0.0, 0.1), "b": (-1.0, 0.1), "c": (-2.0, 0.1)}
 def fit_hardness(
     profile: Profile, hardness: ArrayLike, radius: ArrayLike, *, E_star: float
 ) -> "HardnessFit":
-    """The yield constant from hardness at some contact radii, and the class of hardness that they tell.
+    """Fit the yield constant to hardness at several contact radii, and find the class of hardness.
 
     Hardness is the mean pressure F/(π a²) under load, `Indentation.mean_pressure` on a first loading. It is
-    less than q_c/a, for the outer ring of the contact is elastic still (a cone lacks 25 % at twice the
-    critical depth, 5 % at ten times): q_c of each measurement is the exact root of F(q_c) = π a² H at depth
-    g(a), and the result their mean, weighted by how well each tells it where all hardnesses have the same
-    relative error. The class is that of ln(q_c/a) over ln a, the hardness that a fully yielded contact has.
+    less than q_c/a, because the outer ring of the contact is elastic (for a cone by 25 % at twice the
+    critical depth, 5 % at ten times): q_c at each radius is the root of F(q_c) = π a² H at depth g(a), and
+    the result their weighted mean for hardnesses of one relative error. The class follows from the power of
+    a in q_c/a, the hardness of a fully yielded contact.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def fit_hardness(
     radius : array_like
         Contact radii a (m) at which they were measured, positive.
     E_star : float
-        Effective modulus E* (Pa), which hardness does not tell.
+        Effective modulus E* (Pa), which hardness does not determine.
 
     Returns
     -------
@@ -48,11 +48,11 @@ def fit_hardness(
     Raises
     ------
     ValueError
-        If no hardness is below the mean pressure of an elastic contact: then nothing tells of yield.
+        If no hardness is below the mean pressure of an elastic contact: then nothing has yielded.
 
     Notes
     -----
-    The standard error is that of the mean, from how the measurements scatter, and infinite for one.
+    The standard error is that of the mean, from the scatter of the values, and infinite for a single one.
 
     Examples
     --------
@@ -64,106 +64,99 @@ def fit_hardness(
     """
     E_star = _check.positive_number("effective modulus E_star", E_star, unit="Pa")
     check_pair(profile, Medium(E_star), "a fit")
-    H, a = _places(profile, hardness, radius)
+    H, a = _measured(profile, hardness, radius)
     depth, area = profile._reduced(a), np.pi * a**2 * H / (2 * E_star)
-    ell, told = _critical_depths(profile, depth, area)
-    if not told.any():
-        worst = engineering(H.max(), "Pa")
+    d_c, yielded = _critical_depths(profile, depth, area)
+    if not yielded.any():
+        largest = engineering(H.max(), "Pa")
         raise ValueError(
-            f"no hardness (the largest is {worst}) is below the mean pressure of an elastic contact with "
+            f"no hardness (the largest is {largest}) is below the mean pressure of an elastic contact with "
             f"E* = {engineering(E_star, 'Pa')}: nothing has yielded; check E_star, or press deeper"
         )
-    a, depth, area, ell = a[told], depth[told], area[told], ell[told]
-    each = 2 / np.pi * E_star * ell
+    a, depth, area, d_c = a[yielded], depth[yielded], area[yielded], d_c[yielded]
+    values = 2 / np.pi * E_star * d_c
     # ∂ ln F/∂ ln q_c = c d_c / ∫ a ds.
-    weight = (profile._radius(depth - ell) * ell / area) ** 2
-    logs = np.log(each)
-    mean = np.sum(weight * logs) / np.sum(weight)
-    scatter = np.sum(weight * (logs - mean) ** 2) / max(a.size - 1, 1)
-    share = float(np.sqrt(scatter / np.sum(weight))) if a.size > 1 else np.inf
-    q_c, measured = float(np.exp(mean)), _class(a, each)
-    covariance, residuals = np.array([[(q_c * share) ** 2]]), (logs - mean) * np.sqrt(weight)
+    weight = (profile._radius(depth - d_c) * d_c / area) ** 2
+    logarithms = np.log(values)
+    mean = np.sum(weight * logarithms) / np.sum(weight)
+    variance = np.sum(weight * (logarithms - mean) ** 2) / max(a.size - 1, 1)
+    error = float(np.sqrt(variance / np.sum(weight))) if a.size > 1 else np.inf
+    q_c, hardness_class = float(np.exp(mean)), _class(a, values)
+    covariance, residuals = np.array([[(q_c * error) ** 2]]), (logarithms - mean) * np.sqrt(weight)
     return HardnessFit(
-        profile, Medium(E_star, q_c), {"q_c": q_c * share}, _check.frozen(covariance),
-        _check.frozen(residuals), measured, _check.frozen(each), _remarks(told, measured, share),
+        profile=profile, medium=Medium(E_star, q_c), standard_errors={"q_c": q_c * error},
+        covariance=_check.frozen(covariance), residuals=_check.frozen(residuals), class_=hardness_class,
+        q_c_values=_check.frozen(values), remarks=tuple(_remarks(yielded, hardness_class, error)),
     )  # fmt: skip
 
 
-def _places(profile, hardness, radius):
-    """Hardness (Pa) and contact radius (m) of each place, within the shape."""
-    H, a = (
-        np.atleast_1d(_check.positive(name, value, unit=unit)).ravel()
-        for name, value, unit in (("hardness", hardness, "Pa"), ("radius", radius, "m"))
-    )
+def _measured(profile, hardness, radius):
+    """Hardness (Pa) and contact radius (m) as arrays, checked against the profile."""
+    H = np.atleast_1d(_check.positive("hardness", hardness, unit="Pa")).ravel()
+    a = np.atleast_1d(_check.positive("radius", radius, unit="m")).ravel()
     if H.shape != a.shape or not H.size:
         raise ValueError(
-            f"hardness {H.shape} and radius {a.shape} must be of one shape, one of each a place"
+            f"hardness {H.shape} and radius {a.shape} must be of one shape, one value a radius"
         )
-    bound = f"m is not between the flat face, {profile.face_radius:g} m, and where the shape ends"
+    bound = f"m is not between the flat face, {profile.face_radius:g} m, and the end of the profile"
     _check.refuse("radius", a, (a <= profile.face_radius) | (a > profile.known_radius), bound)
     _check.refuse("radius", a, a >= profile.wall, f"m is at the wall, {profile.wall:g} m, at any depth")
     return H, a
 
 
 def _critical_depths(profile, depth, area):
-    """Critical depth ℓ with ∫ a ds = `area` over [d − ℓ, d], and where there is one.
+    """Critical depth d_c (m) with ∫ a ds = `area` (m²) over [d − d_c, d], and whether there is one.
 
-    The integral grows with ℓ and bends downward: Newton's method from area/a comes from below, and never
-    too far.
+    The integral increases with d_c and is concave: Newton's method from area/a stays below the root.
     """
-    told = area < radius_integral(profile, elastic_interval(depth))
-    ell = np.minimum(area / profile._radius(depth), depth)
+    exists = area < radius_integral(profile, elastic_interval(depth))
+    d_c = np.minimum(area / profile._radius(depth), depth)
     for _ in range(200):
-        interval = LiveInterval(depth - ell, depth, ell)
-        step = (area - radius_integral(profile, interval)) / np.maximum(
-            profile._radius(interval.lower), 1e-300
-        )
-        new = np.minimum(ell + np.maximum(step, 0.0), depth)
-        if np.all((new - ell <= 1e-15 * new) | ~told):
+        interval = LiveInterval(depth - d_c, depth, d_c)
+        missing = np.maximum(area - radius_integral(profile, interval), 0.0)
+        before = d_c
+        d_c = np.minimum(d_c + missing / np.maximum(profile._radius(interval.lower), 1e-300), depth)
+        if np.all((d_c - before <= 1e-15 * d_c) | ~exists):
             break
-        ell = new
-    return ell, told
+    return d_c, exists
 
 
 def _class(a, q_c):
     if np.unique(a).size < 2:
-        return HardnessClass(None, np.nan, np.inf, {}, "insufficient: one radius tells no class")
+        return HardnessClass(None, np.nan, np.inf, {}, "insufficient: one radius determines no class")
     slope, error = straight_line(np.log(a), np.log(q_c / a))
-    found, reason = class_of(_POWERS, slope, error, "radii")
-    return HardnessClass(found, slope, error, {}, reason)
+    name, reason = class_of(_POWERS, slope, error, "radii")
+    return HardnessClass(name, slope, error, {}, reason)
 
 
-def _remarks(told, measured, share):
-    found = []
-    if not told.all():
-        found.append(
-            f"{np.count_nonzero(~told)} of {told.size} places are as hard as an elastic contact: they tell "
-            "of no yield and were left out"
-        )
-    if measured.hardness not in ("b", None) or measured.reason.startswith("none"):
-        found.append(f"not class (b), for which q_c is: {measured.reason}")
-    if share == np.inf:
-        found.append("one place leaves no error of q_c: give three or more")
-    return tuple(found)
+def _remarks(yielded, hardness_class, error):
+    if not yielded.all():
+        count = f"{np.count_nonzero(~yielded)} of {yielded.size} measurements"
+        yield f"{count} are as hard as an elastic contact: they do not determine q_c and were left out"
+    if hardness_class.hardness not in ("b", None) or hardness_class.reason.startswith("none"):
+        yield f"not class (b), which q_c is defined for: {hardness_class.reason}"
+    if error == np.inf:
+        yield "a single measurement determines no error of q_c: give three or more"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HardnessFit(Fit):
-    """A medium fitted to hardness over radius; made by `fit_hardness`.
+    """A medium fitted to hardness at several radii, returned by `fit_hardness`.
 
     Attributes
     ----------
     medium : Medium
-        With the E* that was given and the fitted q_c.
+        With the given E* and the fitted q_c.
     standard_errors : dict
-        Of q_c (N/m), by name; `covariance` is its square.
+        Standard error of q_c (N/m) by name; `covariance` is its square.
     residuals : ndarray
         Relative residuals of the hardness.
     class_ : HardnessClass
-        Power of the radius that hardness goes with, `slope` ± `slope_error`, and the class as `hardness`.
-    each : ndarray
-        q_c (N/m) of each place.
+        Power of the radius, `slope` ± `slope_error`, and the class as `hardness`.
+    q_c_values : ndarray
+        q_c (N/m) at each radius that has yielded.
     remarks : tuple of str
+        Measurements that were left out, and deviations from class (b).
     """
 
     profile: Profile
@@ -172,7 +165,7 @@ class HardnessFit(Fit):
     covariance: Array
     residuals: Array
     class_: HardnessClass
-    each: Array
+    q_c_values: Array
     remarks: tuple[str, ...]
 
     def _quality(self):

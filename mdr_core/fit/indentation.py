@@ -1,8 +1,6 @@
-"""The medium from curves of force over depth."""
+"""The medium from measured force–depth curves."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
-from importlib.util import find_spec
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Any
 
@@ -10,20 +8,20 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
-from ..indentation import Indentation, indent
+from ..indentation import Indentation
 from ..medium import Medium, check_pair
 from ..quantities import engineering
 from ..shapes.profile import Profile
 from ..shapes.tabulated import tabulated
 from ..yielding import LiveInterval
-from .curve import NAMES
-from .least_squares import Fit, covariances, in_units
-from .remarks import remarks_of
+from .curve import LOGARITHMIC, PARAMETERS
+from .least_squares import Fit
+from .remarks import Remark, remarks_of
 from .solution import grouped, solved
 
-#: So many curves that progress is shown.
-_LONG = 256
-#: Arrays of a result that say how good it is.
+_UNITS = dict(zip(PARAMETERS, ("Pa", "N/m", "m", "N", "m/N"), strict=True))
+#: Parameters besides those of the medium, and arrays that describe the quality of a fit.
+_FURTHER = ("contact_point", "baseline", "frame_compliance")
 _QUALITY = ("covariance", "residuals", "reduced_chi_square", "force_noise")
 
 
@@ -41,10 +39,10 @@ def fit_indentation(
     depth_noise: float = 0.0,
     force_noise: float | None = None,
 ) -> "IndentationFit":
-    """The medium whose curve is nearest to a measured one, by least squares: the inverse of `indent`.
+    """Fit a medium to a measured force–depth curve by least squares: the inverse of `indent`.
 
-    A parameter that is None is free, a number is held. The curve should have an unloading: it is what tells
-    E*, while the loading tells q_c.
+    Parameters that are None are free, numbers are held. The curve should have an unloading: it determines
+    E*, the loading q_c.
 
     Parameters
     ----------
@@ -52,22 +50,21 @@ def fit_indentation(
         The indenter, one for all curves.
     depth, force : array_like
         Measured depths (m) and forces (N) in the order of time, of one shape: one curve (N,), or many
-        (R, N) of one tip, each on a virgin medium. Depths count from anywhere (`contact_point`).
+        (R, N) with one indenter, each on a virgin medium. The origin of depth is free (`contact_point`).
     E_star, q_c : float, optional
         Effective modulus (Pa) and yield constant (N/m); `q_c=inf` holds the medium elastic.
     contact_point : float, optional
         Measured depth z₀ (m) at first contact.
     baseline : float, optional
-        Force F₀ (N) that is shown without contact; 0 by default.
+        Measured force F₀ (N) without contact; 0 by default.
     frame_compliance : float, optional
-        Compliance C (m/N) of what holds the indenter: the depth is z₀ + d + C (F − F₀). 0 by default.
+        Compliance C (m/N) of the frame: the measured depth is z₀ + d + C (F − F₀). 0 by default.
     depth_noise : float, optional
-        Standard deviation (m) of the measured depth. Give it where there is some: without it each jitter
-        counts as depth once reached, and E* comes out too small.
+        Standard deviation (m) of the measured depth. Without it noise counts as a new largest depth, and
+        E* is too small.
     force_noise : float, optional
-        Standard deviation (N) of the measured force. None estimates it: from the residuals, or with
-        `depth_noise` from third differences of the force, which then must be sampled more finely than it
-        bends.
+        Standard deviation (N) of the measured force. None estimates it from the residuals, or with
+        `depth_noise` from third differences of the force, which requires fine sampling.
 
     Returns
     -------
@@ -81,11 +78,11 @@ def fit_indentation(
 
     Notes
     -----
-    Standard errors come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)². In simulated
-    curves (400 samples, 0.4 % force noise, cone, paraboloid, sphere) deviations over errors have
-    standard deviations of 0.9 to 1.2, with depth noise up to 1/15 of the depth too as long as it is less
-    than the critical depth; where it is more, 1.5 to 3, and E* is off by a sixth. They are errors of the
-    noise alone: where `remarks` says that residuals are none, the model or the tip is off by more.
+    Standard errors come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)², S the slope.
+    In simulated curves (400 samples, 0.4 % force noise, cone, paraboloid, sphere) deviations over errors
+    have standard deviations of 0.9 to 1.2, also with depth noise up to 1/15 of the depth if that is less
+    than the critical depth; with more noise 1.5 to 3, and E* is wrong by a sixth. The errors are those of
+    the noise alone: where `remarks` names correlated residuals, model or profile cause larger ones.
 
     Examples
     --------
@@ -99,22 +96,19 @@ def fit_indentation(
     """
     check_pair(profile, Medium(1.0), "a fit")
     depth, force, single = _data(depth, force)
-    held = dict(zip(NAMES, (E_star, q_c, contact_point, baseline, frame_compliance), strict=True))
-    fixed = {name: _held(name, value, len(depth)) for name, value in held.items() if value is not None}
+    values = dict(zip(PARAMETERS, (E_star, q_c, contact_point, baseline, frame_compliance), strict=True))
+    fixed = {name: _fixed(name, value, len(depth)) for name, value in values.items() if value is not None}
     noise = _check.positive_number("depth_noise", depth_noise, unit="m") if depth_noise else 0.0
-    sigma = None
     if force_noise is not None:
-        sigma = _check.positive_number("force_noise", force_noise, unit="N")
+        force_noise = _check.positive_number("force_noise", force_noise, unit="N")
     _refuse_empty(depth, force, fixed)
-    tip = tabulated(profile, _reach(profile, depth, fixed))
-    jobs = grouped(depth, force, noise)
-    parts = [solved(tip, depth, force, fixed, noise, sigma, *job) for job in _progress(jobs, len(depth))]
-    fit = _collected(profile, parts, len(depth), noise)
+    data = tabulated(profile, _table_depth(profile, depth, fixed)), depth, force, fixed, noise, force_noise
+    fit = _collected(profile, [solved(*data, *group) for group in grouped(depth, force, noise)])
     return fit[0] if single else fit
 
 
 def _data(depth, force):
-    """Depth and force as rows of curves, and whether it is one."""
+    """Depth and force with one curve a row, and whether a single curve was given."""
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
     force = _check.finite_array("force", force, unit="N", most=_check.LARGEST)
     if depth.shape != force.shape or not 1 <= depth.ndim <= 2 or not depth.shape[-1]:
@@ -125,132 +119,106 @@ def _data(depth, force):
     return np.atleast_2d(depth), np.atleast_2d(force), depth.ndim == 1
 
 
-def _held(name, value, rows):
-    """A held parameter, one number a curve."""
-    unit = dict(zip(NAMES, ("Pa", "N/m", "m", "N", "m/N"), strict=True))[name]
-    if name in ("E_star", "q_c"):
-        value = _check.positive(name, value, unit=unit, infinite=name == "q_c")
-    elif name == "frame_compliance":
-        value = _check.positive(name, value, unit=unit, zero=True)
-    else:
+def _fixed(name, value, count):
+    """A fixed parameter, one number a curve."""
+    unit = _UNITS[name]
+    if name in ("contact_point", "baseline"):
         value = _check.finite_array(name, value, unit=unit)
-    _check.common_shape("fit_indentation", **{name: value, "curves": np.empty(rows)})
-    return np.broadcast_to(value, (rows,)).astype(float)
+    else:
+        allowed = {"infinite": name == "q_c", "zero": name == "frame_compliance"}
+        value = _check.positive(name, value, unit=unit, **allowed)
+    _check.common_shape("fit_indentation", **{name: value, "curves": np.empty(count)})
+    return np.broadcast_to(value, (count,)).astype(float)
 
 
 def _refuse_empty(depth, force, fixed):
-    free = [name for name in NAMES if name not in fixed]
+    free = [name for name in PARAMETERS if name not in fixed]
     if depth.shape[1] <= len(free):
-        raise ValueError(f"{depth.shape[1]} samples do not tell {', '.join(free)}: hold some or give more")
-    still = np.ptp(depth, axis=1)
-    _check.refuse("range of depth", still, still == 0, "m: the indenter does not move", remedy="check it")
+        count, names = depth.shape[1], ", ".join(free)
+        raise ValueError(f"{count} samples do not determine {names}: hold some of these, or give more")
+    width = np.ptp(depth, axis=1)
+    _check.refuse("range of depth", width, width == 0, "m: the indenter does not move", remedy="check it")
     rise = force.max(axis=1) - fixed.get("baseline", force.min(axis=1))
-    bound = "above the baseline: there is no contact in it"
-    remedy = "forces count positive in compression; or give baseline=None"
+    bound, remedy = "above the baseline: no contact", "forces are positive in compression; or free baseline"
     _check.refuse("largest force", rise, rise <= 0, bound, unit="N", remedy=remedy)
-    flat = np.ptp(force, axis=1)
-    _check.refuse("range of force", flat, flat == 0, "N: it tells nothing", remedy="check it")
+    height = np.ptp(force, axis=1)
+    _check.refuse("range of force", height, height == 0, "N: it is constant", remedy="check it")
 
 
-def _reach(profile, depth, fixed):
-    """Depth (m) to which the tip is tabulated: one whole range of the depth more than was measured."""
-    reach = 2 * float(np.ptp(depth, axis=1).max())
+def _table_depth(profile, depth, fixed):
+    """Depth (m) to which the profile is tabulated: twice the measured range, or the largest depth."""
+    limit = 2 * float(np.ptp(depth, axis=1).max())
     if "contact_point" in fixed:
-        reach = max(reach, 1.01 * float((depth.max(axis=1) - fixed["contact_point"]).max()))
-        deep = depth.max(axis=1) - fixed["contact_point"]
+        largest = depth.max(axis=1) - fixed["contact_point"]
+        limit = max(limit, 1.01 * float(largest.max()))
         if fixed.get("frame_compliance", np.ones(1)).max() == 0:
-            profile._known(deep)
-    return min(reach, profile.known_depth)
+            profile._known(largest)
+    return min(limit, profile.known_depth)
 
 
-def _progress(jobs, count) -> "Iterator[Any]":
-    """The jobs, with a bar if they are many and tqdm is there."""
-    if count < _LONG or find_spec("tqdm") is None:
-        yield from jobs
-        return
-    from tqdm import tqdm
-
-    with tqdm(total=count, desc="fit_indentation", unit="curve") as bar:
-        for job in jobs:
-            yield job
-            bar.update(len(job[0]))
-
-
-def _collected(profile, parts, count, noise):
-    """One result of all parts, in the order of the curves."""
-    order = np.argsort(np.concatenate([rows for rows, *_ in parts]))
-    pieces, remarks = zip(*(_piece(*part) for part in parts), strict=True)
-    joined = {name: np.concatenate([piece[name] for piece in pieces])[order] for name in pieces[0]}
-    said = list(chain.from_iterable(remarks))
-    said = tuple(said[i] for i in order)
-    free = parts[0][1].free
+def _collected(profile, fits):
+    """One result of all `SolvedCurves`, in the order of the curves."""
+    order = np.argsort(np.concatenate([fit.rows for fit in fits]))
+    arrays = [_arrays(fit) for fit in fits]
+    joined = {name: np.concatenate([group[name] for group in arrays])[order] for name in arrays[0]}
+    remarks = list(chain.from_iterable(map(remarks_of, fits)))
+    problem = fits[0].problem
     errors = np.sqrt(np.einsum("rpp->rp", joined["covariance"]))
-    medium = Medium(joined["E_star"], joined["q_c"])
     column = Medium(joined["E_star"][:, None], joined["q_c"][:, None])
-    if noise:
-        interval = LiveInterval(joined["lower"], joined["upper"], joined["length"])
-        path = Indentation(profile, column, joined["depth"], interval)
-    else:
-        path = indent(profile, column, joined["depth"])
+    interval = LiveInterval(*(joined[name] for name in ("lower", "upper", "length")))
+    path = Indentation(profile, column, joined["depth"], interval)
     return IndentationFit(
-        profile, medium, *(_check.frozen(joined[name]) for name in NAMES[2:]),
-        {name: _check.frozen(errors[:, i]) for i, name in enumerate(free)},
-        *(_check.frozen(joined[name]) for name in _QUALITY),
-        path, said,
+        profile=profile, medium=Medium(joined["E_star"], joined["q_c"]), path=path,
+        standard_errors={name: _check.frozen(errors[:, i]) for i, name in enumerate(problem.free)},
+        **{name: _check.frozen(joined[name]) for name in (*_FURTHER, *_QUALITY)},
+        _remarks=tuple(remarks[i] for i in order),
     )  # fmt: skip
 
 
-def _piece(rows, curves, solution, elastic, known):
-    """What results keep, by name, of curves solved together, and what is to be said of each."""
-    x, residual, jacobian = solution
-    values, _, state = curves.states(x)
-    values["q_c"] = np.where(elastic[:, None] == 2, np.inf, values["q_c"])
-    free, freedom = len(curves.free), max(residual.shape[1] - x.shape[1], 1)
-    chi = np.sum(residual**2, axis=1) / freedom
-    covariance = covariances(jacobian, np.ones_like(chi) if known else chi)[:, :free, :free]
-    scale = curves.scale[:, :free].copy()
-    for i, name in enumerate(curves.free):
-        if name in ("E_star", "q_c"):
-            scale[:, i] = np.where(np.isfinite(values[name][:, 0]), values[name][:, 0], 1.0)
-    said = remarks_of(curves, state, values, residual, jacobian, covariance, elastic, known)
-    sigma = curves.sigma[:, 0]
-    return {
-        **{name: np.broadcast_to(values[name], (len(x), 1))[:, 0] for name in NAMES},
-        "covariance": in_units(covariance, scale),
-        "residuals": residual * curves.noise(state.slope),
-        "reduced_chi_square": chi if known else np.ones_like(chi),
-        "force_noise": sigma if known else sigma * np.sqrt(chi),
+def _arrays(fit):
+    """Arrays of `SolvedCurves` by name, one row a curve."""
+    problem, (values, state) = fit.problem, fit.values_and_states
+    values = {name: np.broadcast_to(values[name], (len(fit.rows), 1))[:, 0] for name in PARAMETERS}
+    scale = problem.scale[:, : len(problem.free)].copy()
+    for i, name in enumerate(problem.free):
+        if name in LOGARITHMIC:
+            scale[:, i] = np.where(np.isfinite(values[name]), values[name], 1.0)
+    chi, sigma = fit.reduced_chi_square, problem.sigma[:, 0]
+    return values | {
+        "covariance": fit.covariance * (scale[:, :, None] * scale[:, None, :]),
+        "residuals": fit.residual * problem.noise(state.slope),
+        "reduced_chi_square": chi if fit.noise_known else np.ones_like(chi),
+        "force_noise": sigma if fit.noise_known else sigma * np.sqrt(chi),
         "depth": state.depth, "lower": state.live_interval.lower, "upper": state.live_interval.upper,
         "length": state.live_interval.length,
-    }, said  # fmt: skip
+    }  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class IndentationFit(Fit):
-    """A medium fitted to a curve, or many to many; made by `fit_indentation`. `fit[i]` picks a curve.
+    """Media fitted to one or many curves, returned by `fit_indentation`; `fit[i]` is the fit of one curve.
 
     Attributes
     ----------
     medium : Medium
-        With the fitted E* and q_c, arrays (R,) of many curves; q_c is infinite where nothing has yielded.
+        With the fitted E* and q_c, arrays (R,) for many curves; q_c is infinite where nothing has yielded.
     contact_point, baseline, frame_compliance : float or ndarray
-        Fitted or held (m, N, m/N).
+        Fitted or held values (m, N, m/N).
     standard_errors : dict
-        Of the free parameters by name, in their units; infinite where the data do not tell.
+        Standard errors of the free parameters by name, in their units; infinite where undetermined.
     covariance : ndarray
-        Of the free parameters in the order of `standard_errors` (P, P), or (R, P, P).
+        Covariance of the free parameters in the order of `standard_errors` (P, P), or (R, P, P).
     residuals : ndarray
-        Measured force less that of the model at the measured depth (N).
+        Measured force minus force of the model at the measured depth (N).
     reduced_chi_square : float or ndarray
         Sum of squares in units of the noise over the degrees of freedom; 1 where the noise was estimated
         from the residuals.
     force_noise : float or ndarray
         Standard deviation of the force (N), given or estimated.
-    indentation : Indentation
-        The fitted model's states at all samples, at the depths that are most probable where they have
-        noise.
+    path : Indentation
+        States of the fitted model at all samples, with depth noise at the most probable depths.
     remarks : tuple of str
-        What the data do not tell, and where they are not as the model has it.
+        Parameters that the data do not determine, and deviations from the model.
     """
 
     profile: Profile
@@ -263,32 +231,35 @@ class IndentationFit(Fit):
     residuals: Array
     reduced_chi_square: Array
     force_noise: Array
-    indentation: Indentation
-    _said: tuple[tuple[tuple[str, str], ...], ...] = field(default=(), repr=False)
+    path: Indentation
+    _remarks: tuple[tuple[Remark, ...], ...] = field(default=(), repr=False)
 
-    _parameters_of_fit = NAMES
+    _further_parameters = _FURTHER
     _dimensions = ("curve",)
 
     def __getitem__(self, index: Any) -> "IndentationFit":
-        said = self._said[index] if isinstance(index, slice) else (self._said[index],)
-        names = ("contact_point", "baseline", "frame_compliance")
-        return IndentationFit(
-            self.profile, self.medium.entries(index), *(getattr(self, name)[index] for name in names),
-            {name: error[index] for name, error in self.standard_errors.items()},
-            *(getattr(self, name)[index] for name in _QUALITY), self.indentation[index], said,
-        )  # fmt: skip
+        return replace(
+            self,
+            medium=self.medium.entries(index),
+            standard_errors={name: error[index] for name, error in self.standard_errors.items()},
+            path=self.path[index],
+            _remarks=self._remarks[index] if isinstance(index, slice) else (self._remarks[index],),
+            **{name: getattr(self, name)[index] for name in (*_FURTHER, *_QUALITY)},
+        )
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Remarks in words; of many curves each kind once, with how many it is about."""
+        """Remarks as sentences; of many curves one of each kind, with the number of such curves."""
         if not self.shape:
-            return tuple(text for _, text in self._said[0])
-        found: dict[str, list[tuple[int, str]]] = {}
-        for i, said in enumerate(self._said):
-            for kind, text in said:
-                found.setdefault(kind, []).append((i, text))
-        count = len(self._said)
-        return tuple(f"curve {x[0][0]} ({len(x)} of {count} curves): {x[0][1]}" for x in found.values())
+            return tuple(remark.text for remark in self._remarks[0])
+        kinds: dict[str, dict[int, str]] = {}
+        for i, remarks in enumerate(self._remarks):
+            for remark in remarks:
+                kinds.setdefault(remark.kind, {})[i] = remark.text
+        return tuple(
+            f"curve {min(texts)} ({len(texts)} of {len(self)} curves): {texts[min(texts)]}"
+            for texts in kinds.values()
+        )
 
     def _quality(self):
         yield "force noise σ_F", engineering(self.force_noise, "N")

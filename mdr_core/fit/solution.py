@@ -1,126 +1,157 @@
-"""Curves with as many turning points are solved together, and compared with an elastic medium."""
+"""Solution of curves with the same number of turning points, and its comparison with an elastic medium."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from .._numeric import chunks
-from .curve import Curves, critical_depth
-from .least_squares import least_squares, roughness
+from .curve import LOGARITHMIC, CurveProblem, critical_depth
+from .least_squares import covariances, least_squares, roughness
 from .start import first_guess, turning_points
 
-#: Curves that share their steps.
+#: Number of curves that are solved together.
 _TOGETHER = 64
-#: How often turning points are found anew.
+#: Most repetitions of the assignment of turning points.
 _ROUNDS = 5
-#: Stands for the logarithm of an infinite q_c.
+#: Represents the logarithm of an infinite q_c.
 _LOG_OF_INFINITE = 300.0
 
 
-def grouped(depth, force, noise):
-    """Curves that are solved together: rows, turning points, places to set out from.
+@dataclass(frozen=True)
+class SolvedCurves:
+    """Curves `rows` of a measurement, the solution of their problem, and whether they are elastic (R,)."""
 
-    Depth and force turn at once: they are added in units in which the quieter of them weighs more.
+    rows: np.ndarray
+    problem: CurveProblem
+    x: np.ndarray
+    residual: np.ndarray
+    jacobian: np.ndarray
+    elastic: np.ndarray
+    hardly_yields: np.ndarray
+    noise_known: bool
+
+    @cached_property
+    def values_and_states(self):
+        """Parameters by name (R, 1), with an infinite q_c where elastic, and the states at all samples."""
+        values, _, state = self.problem.states(self.x)
+        return values | {"q_c": np.where(self.elastic[:, None], np.inf, values["q_c"])}, state
+
+    @cached_property
+    def reduced_chi_square(self):
+        freedom = max(self.residual.shape[1] - self.x.shape[1], 1)
+        return np.sum(self.residual**2, axis=1) / freedom
+
+    @cached_property
+    def covariance(self):
+        """Covariance of the scaled free parameters (R, P, P)."""
+        free, chi = len(self.problem.free), self.reduced_chi_square
+        variance = np.ones_like(chi) if self.noise_known else chi
+        return covariances(self.jacobian, variance)[:, :free, :free]
+
+
+def grouped(depth, force, noise):
+    """Yields curves with the same number of turning points: rows, turning points, starts of loadings.
+
+    Depth and force turn at the same sample: both are added in units in which the quieter one weighs more.
     """
-    path, variance, least = 0.0, 0.0, 0.0
-    for values, sigma in ((depth, noise), (force, _rough(force))):
+    path, variance, threshold = 0.0, 0.0, 0.0
+    for values, sigma in ((depth, noise), (force, roughness(force))):
         size = np.ptp(values, axis=1, keepdims=True)
         weight = 1 / (0.005 + sigma / size)
-        path, least = path + weight * values / size, least + 0.02 * weight
+        path, threshold = path + weight * values / size, threshold + 0.02 * weight
         variance = variance + (weight * sigma / size) ** 2
-    least = np.maximum(least, 6 * np.sqrt(variance))[:, 0]
-    found = [turning_points(row.tolist(), limit) for row, limit in zip(path, least.tolist(), strict=True)]
-    kinds = [(len(turns), len(lows)) for turns, lows in found]
-    for kind in sorted(set(kinds)):
-        rows = np.array([i for i, each in enumerate(kinds) if each == kind])
-        for part in chunks(rows.size, _TOGETHER):
-            some = rows[part]
-            places = (np.array([found[i][j] for i in some], int) for j in (0, 1))
-            yield some, *(each.reshape(len(some), count) for each, count in zip(places, kind, strict=True))
+    thresholds = np.maximum(threshold, 6 * np.sqrt(variance))[:, 0].tolist()
+    indices = [turning_points(row.tolist(), size) for row, size in zip(path, thresholds, strict=True)]
+    counts = [(len(turns), len(starts)) for turns, starts in indices]
+    for count in sorted(set(counts)):
+        rows = np.array([i for i, other in enumerate(counts) if other == count])
+        for chunk in chunks(rows.size, _TOGETHER):
+            subset = rows[chunk]
+            turns, starts = zip(*(indices[i] for i in subset), strict=True)
+            yield subset, np.array(turns, int), np.array(starts, int)
 
 
-def _rough(values):
-    """Roughness of rows (R, 1), 0 of too few samples to tell."""
-    return roughness(values) if values.shape[1] > 7 else np.zeros((len(values), 1))
-
-
-def solved(tip, depth, force, fixed, noise, force_noise, rows, turns, lows):
-    """Curves with as many turning points: rows, `Curves`, solution, `_elastic`, whether noise is known."""
+def solved(profile, depth, force, fixed, noise, force_noise, rows, turns, starts):
+    """Solves curves with the same number of turning points."""
     depth, force = depth[rows], force[rows]
     fixed = {name: value[rows] for name, value in fixed.items()}
     sigma = _first_sigma(force, noise, force_noise)
-    curves = Curves(tip, depth, force, fixed, noise, sigma, turns, lows)
-    x, *_ = solution = _minimum(curves)
+    problem = CurveProblem(profile, depth, force, fixed, noise, sigma, turns, starts)
+    solution = _minimum(problem, first_guess(problem))
     for _ in range(_ROUNDS if noise and turns.size else 0):
-        before, curves = curves, curves.relabelled(x)
-        if np.array_equal(before.turns, curves.turns):
+        before, problem = problem, problem.with_best_turning_points(solution[0])
+        if np.array_equal(before.turning_points, problem.turning_points):
             break
-        x, *_ = solution = _minimum(curves, x)
-    known = force_noise is not None or noise > 0
-    solution, elastic = _elastic(curves, solution, known)
-    return rows, curves, solution, elastic, known
+        solution = _minimum(problem, solution[0])
+    noise_known = force_noise is not None or noise > 0
+    if "q_c" in fixed:
+        elastic, hardly_yields = np.isinf(fixed["q_c"]), np.zeros(len(rows), bool)
+    else:
+        solution, elastic, hardly_yields = _compared_with_elastic(problem, solution, noise_known)
+    return SolvedCurves(rows, problem, *solution, elastic, hardly_yields, noise_known)
 
 
 def _first_sigma(force, noise, force_noise):
-    """Standard deviation of the force (R, N): the one given, or the estimate; of unknown ones a unit."""
+    """Standard deviation of the force (R, N): given, estimated, or its range where it is not known."""
     size = np.ptp(force, axis=1, keepdims=True)
     if force_noise is not None:
         size = np.full_like(size, force_noise)
     elif noise:
-        size = np.maximum(_rough(force), 1e-6 * size)
+        size = np.maximum(roughness(force), 1e-6 * size)
     return np.repeat(size, force.shape[1], axis=1)
 
 
-def _minimum(curves, start=None):
-    start = first_guess(curves) if start is None else start
-    low, high = np.full_like(start, -np.inf), np.full_like(start, np.inf)
-    for i, name in enumerate(curves.free):
-        if name in ("E_star", "q_c"):
-            low[:, i], high[:, i] = start[:, i] - 16, start[:, i] + 16
+def _minimum(problem, start):
+    """Scaled parameters, residuals and derivatives at the minimum near `start`."""
+    lower, upper = np.full_like(start, -np.inf), np.full_like(start, np.inf)
+    for i, name in enumerate(problem.free):
+        if name in LOGARITHMIC:
+            lower[:, i], upper[:, i] = start[:, i] - 16, start[:, i] + 16
         elif name == "frame_compliance":
-            low[:, i] = 0.0
+            lower[:, i] = 0.0
         elif name == "contact_point":
-            # As far as the tip is known.
-            least = curves.depth.max(axis=1) - curves.tip.known_depth
-            low[:, i] = np.maximum((least - curves.offset[:, i]) / curves.scale[:, i], -1.0)
-            high[:, i] = 1.0
-    return least_squares(curves.residuals, start, low, high)
+            lowest = problem.depth.max(axis=1) - problem.profile.known_depth
+            lower[:, i] = np.maximum((lowest - problem.offset[:, i]) / problem.scale[:, i], -1.0)
+            upper[:, i] = 1.0
+    return least_squares(lambda x, rows: problem.rows(rows).residuals(x), start, lower, upper)
 
 
-def _elastic(curves, solution, known):
-    """The solution, and whether an elastic medium is further away (0), about as near (1), or nearer (2).
+def _compared_with_elastic(problem, solution, noise_known):
+    """The solution or the elastic one where that is nearer, and whether it is, or about as near.
 
-    Where it is nearer the solution becomes the elastic one. Within an elastic medium q_c has no derivative:
-    from there the search begins once more, below the largest depth.
+    In an elastic medium q_c has no derivative: a second search starts below the largest depth.
     """
-    elastic = np.zeros(len(curves.depth), int)
-    if "q_c" in curves.fixed:
-        return solution, elastic + 2 * np.isinf(curves.fixed["q_c"])
-    place, freedom = curves.free.index("q_c"), max(solution[1].shape[1] - solution[0].shape[1], 1)
-    share = _yield_share(curves, solution[0])
+    x, residual, _ = solution
+    elastic, hardly_yields = np.zeros((2, len(x)), bool)
+    column, freedom = problem.free.index("q_c"), max(residual.shape[1] - x.shape[1], 1)
+    share = _yield_share(problem, x)
     rows = np.flatnonzero(share > 0.5)
     if not rows.size:
-        return solution, elastic
-    some, start = curves.rows(rows), solution[0][rows]
-    start[:, place] += np.minimum(np.log(0.85 / share[rows]), 0.0)
-    trials = [_minimum(some, start)]
-    held = some.holding(q_c=np.full(rows.size, np.inf))
-    x, residual, jacobian = _minimum(held, np.delete(solution[0][rows], place, axis=1))
-    trials.append(
-        (np.insert(x, place, _LOG_OF_INFINITE, axis=1), residual, np.insert(jacobian, place, 0.0, axis=2))
+        return solution, elastic, hardly_yields
+    subset, start = problem.rows(rows), x[rows]
+    start[:, column] += np.minimum(np.log(0.85 / share[rows]), 0.0)
+    yielding = _minimum(subset, start)
+    held = replace(subset, fixed=subset.fixed | {"q_c": np.full(rows.size, np.inf)})
+    elastic_x, elastic_residual, jacobian = _minimum(held, np.delete(x[rows], column, axis=1))
+    unyielding = (
+        np.insert(elastic_x, column, _LOG_OF_INFINITE, axis=1),
+        elastic_residual,
+        np.insert(jacobian, column, 0.0, axis=2),
     )
-    costs = np.array([np.sum(part[1] ** 2, axis=1) for part in ((None, solution[1][rows]), *trials)])
-    noise = np.ones(rows.size) if known else costs.min(axis=0) / freedom
-    gain = (costs[2] - costs[:2].min(axis=0)) / np.maximum(noise, 1e-300)
-    small = costs[2] <= 1e-24 * solution[1].shape[1]
-    nearer = (gain <= 2) | small
-    chosen = np.where(nearer, 2, np.argmin(costs[:2], axis=0))
-    for k, trial in enumerate(trials, start=1):
-        for whole, part in zip(solution, trial, strict=True):
-            whole[rows[chosen == k]] = part[chosen == k]
-    elastic[rows] = np.where(nearer, 2, gain <= 9)
-    return solution, elastic
+    residuals = residual[rows], yielding[1], elastic_residual
+    squares = np.array([np.sum(values**2, axis=1) for values in residuals])
+    noise = np.ones(rows.size) if noise_known else squares.min(axis=0) / freedom
+    gain = (squares[2] - squares[:2].min(axis=0)) / np.maximum(noise, 1e-300)
+    nearer = (gain <= 2) | (squares[2] <= 1e-24 * residual.shape[1])
+    better = (squares[1] < squares[0]) & ~nearer
+    for whole, second, third in zip(solution, yielding, unyielding, strict=True):
+        whole[rows[better]], whole[rows[nearer]] = second[better], third[nearer]
+    elastic[rows], hardly_yields[rows] = nearer, (gain <= 9) & ~nearer
+    return solution, elastic, hardly_yields
 
 
-def _yield_share(curves, x):
+def _yield_share(problem, x):
     """Critical depth over the largest depth of each curve."""
-    values, _, state = curves.states(x)
+    values, _, state = problem.states(x)
     return critical_depth(values)[:, 0] / state.depth.max(axis=1)

@@ -103,7 +103,7 @@ def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
     # Ten standard errors of 0.4 % noise in 400 samples.
     assert explorer.E_star == pytest.approx(1.3 * before.E_star, rel=1e-2)
     assert explorer.q_c == pytest.approx(0.8 * before.q_c, rel=5e-3)
-    deepest = float(np.max(explorer.measured.fit.indentation.depth))
+    deepest = float(np.max(explorer.measured.fit.path.depth))
     assert explorer.scene().drive == mdr.DepthPath(deepest)
     assert measured.agrees(explorer)
     explorer.undo()
