@@ -179,6 +179,8 @@ class Indentation(Result):
     def force(self):
         """Normal force F = 2E* ∫ a(s) ds (N) with that of the dashpots; Popov (2015), Eqs. (20), (22)."""
         springs = 2 * self.medium.E_star * radius_integral(self.profile, self.live_interval)
+        if not np.any(self.dashpot_load):
+            return springs
         return springs + 2 * self.dashpot_load * self.contact_radius
 
     @_check.frozen_property
