@@ -1,6 +1,6 @@
-"""Plots of results as HoloViews elements: their rows and colours, and the columns that fill them, in SI.
+"""Plots of results as HoloViews elements: rows, their colours, and their columns in SI units.
 
-The explorer draws the same rows with the same columns. HoloViews is imported when something is plotted.
+The explorer draws the same rows from the same columns. HoloViews is imported when a result is plotted.
 """
 
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ import numpy as np
 from .quantities import QUANTITIES, prefixed
 from .report import imported
 
-#: Colours of the roles, on light and on dark ground: Okabe–Ito; they mean the same thing in every plot.
+#: Colours of the roles on light and on dark background (Okabe–Ito), the same in every plot.
 ROLES = {
     "free": ("#8a8f98", "#828a95"),
     "elastic": ("#0072b2", "#56b4e9"),
@@ -29,19 +29,19 @@ ROLES = {
     "chalk": ("#fefefe", "#fefefe"),
 }
 NOTHING = np.array([np.nan]), np.array([np.nan])
-#: Springs drawn; one from its base (0) to its top (1), and how far it bends sideways, then a gap.
+#: Number of springs; heights of the vertices of one from base (0) to top (1), and their offsets; a gap.
 SPRINGS = 60
 _ALONG = np.array([0, 0.14, 0.23, 0.41, 0.59, 0.77, 0.86, 1, np.nan])
 _BEND = np.array([0, 0, -0.72, 0.72, -0.72, 0.72, 0, 0, np.nan])
-#: Depth of the springs' base below the surface, over the height that is drawn above it.
+#: Depth of the base of the springs over the height of the plot above the surface.
 REST = 1.5
 
 
 @dataclass(frozen=True)
 class Row:
-    """One area, line, mark or label of a plot; `look` has its style, `legend` whether it is named there.
+    """One area, line, mark or label of a plot; `look` is its style, `legend` whether the legend names it.
 
-    A line with a `symbol` answers to the pointer, with its values on the axis `axis` (0 x, 1 y, 2 right).
+    A line with a `symbol` has a tooltip with its values on the axis `axis` (0 x, 1 y, 2 right).
     """
 
     kind: str
@@ -54,7 +54,7 @@ class Row:
 
     @property
     def group(self):
-        """What is drawn with it: rows of a kind, on the left or on the right axis."""
+        """Name of the glyph that draws it: one for each kind and for the left and the right axis."""
         return self.kind if self.axis == 1 else f"{self.kind} right"
 
 
@@ -76,7 +76,7 @@ def label(name):
 
 @dataclass(frozen=True)
 class Axis:
-    """An axis: its names, its unit and the size of that (SI), where it starts and ends (SI), its scale."""
+    """An axis: name, title, unit and its size in SI, start and end (SI), and whether it is logarithmic."""
 
     name: str
     title: str
@@ -88,13 +88,13 @@ class Axis:
 
     @classmethod
     def fitting(cls, name, title, unit, largest, **ends):
-        """An axis in the unit that fits its largest value (SI)."""
+        """An axis with the unit prefix that fits its largest value (SI)."""
         factor, unit = prefixed(largest, unit)
         return cls(name, title, unit, factor, **ends)
 
     @property
     def ends(self):
-        """Where it starts and ends, in its unit."""
+        """Start and end in its unit."""
         return tuple(end and float(f"{end / self.factor:.9g}") for end in (self.start, self.end))
 
     @property
@@ -104,7 +104,7 @@ class Axis:
 
 
 def parts(symbol):
-    """A curve in parts, by what happens to the contact."""
+    """Rows of a curve in three parts: unloading, elastic, yielding."""
     return (
         line("unloading", "elastic", 1.8, "dashed", symbol),
         line("elastic", "elastic", 2.2, symbol=symbol),
@@ -137,7 +137,7 @@ PRESSURE_ROWS = (
 
 
 def both(values, sign=1):
-    """Mirrored to both sides of the axis."""
+    """Values mirrored to negative coordinates, with a sign for these."""
     return np.concatenate([sign * values[::-1], values])
 
 
@@ -148,14 +148,14 @@ def split(x, y, depth, plastic_depth):
     for number, name in enumerate(("unloading", "elastic", "yielding")):
         steps = kind == number
         ends = np.flatnonzero(np.append(steps, False) | np.append(False, steps))
-        # A gap between two states that no step of this kind joins.
+        # A gap between two states that are not joined by a step of this kind.
         gaps = [k + 1 for k, (one, two) in enumerate(pairwise(ends)) if two > one + 1 or not steps[one]]
         rows[name] = tuple(np.insert(np.asarray(v, float)[ends], gaps, np.nan) for v in (x, y))
     return {name: row if row[0].size else NOTHING for name, row in rows.items()}
 
 
 def at_radii(a, c, half, bottom, top):
-    """Lines at ±a and ±c, and their names beside them: c on the inside where they are close."""
+    """Lines at ±a and ±c and their labels; that of c is on the inside where both are close."""
     a, c = a or np.nan, c or np.nan
     y = np.array([bottom, top, np.nan, bottom, top])
     beside = -0.08 if a - c < 0.11 * half else 0.03
@@ -168,12 +168,12 @@ def at_radii(a, c, half, bottom, top):
 
 
 def reduced(profile, x):
-    """Reduced profile, not a number where the shape is not known."""
+    """Reduced profile (m), NaN beyond the known radius."""
     return np.where(x <= profile.known_radius, profile.reduced(np.minimum(x, profile.known_radius)), np.nan)
 
 
 def _outline(profile, half):
-    """The profile g(x) to both sides, with its wall and its edges."""
+    """Coordinates of the profile g(x) on both sides, with its wall and its edges."""
     edges = [profile.face_radius, profile.wall, profile.wall * (1 + 1e-9)]
     x = np.unique(np.append(np.linspace(0, half, 60), [edge for edge in edges if edge < half]))
     g = reduced(profile, x)
@@ -182,11 +182,11 @@ def _outline(profile, half):
 
 
 def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
-    """The row of springs over ±`half`, below an indenter that is drawn up to a height.
+    """Springs for |x| < `half` (m) below an indenter that is drawn up to a height (m).
 
-    `relaxing` gives what is left of the elastic compression of elements that have let go. With friction,
-    `along` gives at some radii how far their elements lean (m), and whether they stick: drawn half as large
-    as depths are, because heights are drawn larger than lengths.
+    `relaxing` gives the elastic compression (m) of released elements at reduced heights. With friction,
+    `along` gives the tangential displacement (m) of elements at radii, and whether they stick; it is drawn
+    with half the scale of depths.
     """
     profile, interval, far, rest = state.profile, state.live_interval, 3 * height, -REST * height
     x = half * (2 * (np.arange(SPRINGS) + 0.5) / SPRINGS - 1)
@@ -208,7 +208,7 @@ def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
         np.concatenate([shape_x[:1], shape_x, shape_x[-1:]]),
         np.concatenate([edge, body, edge]),
     )
-    # Once more as a line, which ends where the body leaves the plot.
+    # The same as a line, which ends at the upper edge of the plot.
     rows["edge"] = rows["profile g(x)"]
     if interval.lower > 0:
         rows["residual imprint"] = shape_x, 0.0 - np.maximum(interval.lower - shape_g, 0)
@@ -225,14 +225,14 @@ def radii(state, half):
 
 
 def ceiling(state, half):
-    """The largest pressure to draw; where it is infinite four times the mean, or less."""
+    """Largest pressure (Pa) of a plot; where it is infinite, at most four times the mean."""
     p = state.pressure(radii(state, half))
     largest = float(np.max(p[np.isfinite(p)], initial=0.0))
     return largest if np.isfinite(p).all() else min(largest, 4 * float(state.mean_pressure))
 
 
 def pressure(state, r, p, half, top):
-    """Pressures p at radii r, to both sides, on axes that reach ±`half` and `top`."""
+    """Rows of the pressures p (Pa) at radii r (m), for axes that end at ±`half` and `top`."""
     a, c, mean = (float(v) for v in (state.contact_radius, state.plastic_radius, state.mean_pressure))
     curve = both(r, -1), both(np.minimum(p, 1e3 * top))
     return at_radii(a, c, half, 0.0, top) | {
@@ -247,7 +247,7 @@ DASHES = {"solid": "solid", "dashed": "6 4", "dotted": "2 3", "dotdash": "6 3 2 
 
 
 def _styled(row):
-    """How a row looks, in options of Bokeh."""
+    """Style of a row in options of Bokeh."""
     colour = ROLES[row.role][0]
     if row.kind == "lines":
         return {"color": colour, "line_width": row.look["width"], "line_dash": DASHES[row.look["dash"]]}
@@ -257,7 +257,7 @@ def _styled(row):
 
 
 def overlay(title, rows, columns, axes):
-    """A plot as a HoloViews overlay: one element for each of the rows that has something to show."""
+    """A plot as a HoloViews overlay, with one element for each row that has data."""
     hv = imported("holoviews", "a plot", "holoviews bokeh")
     if not hv.Store.loaded_backends():
         hv.extension("bokeh", logo=False)
