@@ -184,8 +184,6 @@ def test_limits_are_frozen():
 PARTS = {
     "state": (mdr.indent(mdr.Cone(0.3), SOFT, [1e-9, 2e-9]), {"depth": 3e-9}),
     "impact": (mdr.impact(mdr.Cone(0.3), SOFT, 1e-6, 0.1), {"speed": np.float64(3.0)}),
-    "chain": (CHAIN, {"mass": 2.0}),
-    "ramp": (mdr.indent_in_time(mdr.Cone(0.3), VISCOUS, [0.0, 1e-4], [0.0, 1e-4], tolerance=1e-2), {}),
 }
 
 
