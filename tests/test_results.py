@@ -163,7 +163,7 @@ def test_where_the_fast_limit_is_not_known_it_does_not_hold():
     r = 0.5 * (known.max_depth + known.fast_limit.max_depth) / (0.15 * np.pi)
     hit = mdr.impact(mdr.Sampled([0.0, r], [0.0, 0.3 * r]), medium, 1e-6, 30.0)
     assert limit(hit, "fast limit").value == np.inf
-    assert "deeper than the shape is known" in limit(hit, "fast limit").sentence
+    assert "deeper than the known depth" in limit(hit, "fast limit").sentence
 
 
 @pytest.mark.parametrize("hit", [mdr.impact(mdr.Cone(0.3), SOFT, 1e-6, [1.0, 200.0]), CHAIN])
