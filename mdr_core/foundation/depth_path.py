@@ -88,7 +88,7 @@ def indent_in_time(
 
     levels = 1 + max(0, int(np.log2(_MAX_ELEMENT_STEPS / (_ELEMENTS * depth.size))))
     # The contact radius, the last quantity, is not smooth in the step: it ends between elements.
-    record, errors = refine(run, tolerance, levels, controlled=4)
+    record, errors = refine(run, tolerance, levels, 4)
     return TimedIndentation(
         profile, medium, time, depth,
         plastic_depth=np.maximum.accumulate(np.maximum(depth - medium.critical_depth, 0.0)),
@@ -174,14 +174,12 @@ class TimedIndentation(Result):
     _shown = ("time", "depth", "force", "contact_radius", "plastic_radius", "plastic_depth")
     _dimensions = ("time",)
 
-    def __post_init__(self):
-        for name, values in self._states().items():
-            object.__setattr__(self, name, _check.frozen(np.array(values)))
+    #: Fields with one entry per state.
+    _state_fields = (*(set(_quantities) - {"plastic_radius"}), "_index")
 
-    def _states(self):
-        """Fields with one entry per state."""
-        names = {*self._quantities, "_index"} - {"plastic_radius"}
-        return {name: getattr(self, name) for name in names}
+    def __post_init__(self):
+        for name in self._state_fields:
+            object.__setattr__(self, name, _check.frozen(np.array(getattr(self, name))))
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
@@ -189,7 +187,7 @@ class TimedIndentation(Result):
         return contact_limits(self.profile, self.medium, self.contact_radius)
 
     def __getitem__(self, index: Any) -> "TimedIndentation":
-        return replace(self, **{name: values[index] for name, values in self._states().items()})
+        return replace(self, **{name: getattr(self, name)[index] for name in self._state_fields})
 
     @_check.frozen_property
     def plastic_radius(self):

@@ -70,14 +70,13 @@ class Ramp:
 class Exchange:
     """Impulse and energy that each element takes up along a ramp, per unit of E* and of width.
 
-    `touched` marks elements in contact during any part of the ramp. For these, `stroke` is the change of
-    compression (m) in contact, `mean` the mean elastic part (m) over it, `duration` the time (s) in
-    contact, and `spring_share` the fraction of the stroke before the yield cap. The elastic part (m) is
-    `initial` and `final` at the ends of the ramp, `first` and `last` at the ends of contact.
+    In contact, `stroke` is the change of compression (m), `mean` the mean elastic part (m) over it,
+    `duration` the time (s), and `spring_share` the fraction of the stroke before the yield cap. The elastic
+    part (m) is `initial` and `final` at the ends of the ramp, `first` and `last` at the ends of contact.
+    Without contact stroke and duration are zero, and `first` and `last` equal `final`.
     """
 
     ramp: Ramp
-    touched: np.ndarray
     stroke: np.ndarray
     mean: np.ndarray
     duration: np.ndarray
@@ -108,11 +107,9 @@ class Exchange:
     @property
     def viscous(self):
         """Energy (m²) dissipated by the dashpot: 4ηḋ along the stroke, and by relaxation out of contact."""
-        before = np.where(self.touched, self.first, self.final)
-        after = np.where(self.touched, self.last, self.final)
-        relaxed = (self.initial - before) * (self.initial + before)
-        relaxed += (after - self.final) * (after + self.final)
-        return self.ramp.lag * np.where(self.touched, self.stroke, 0.0) + relaxed / 2
+        before = (self.initial - self.first) * (self.initial + self.first)
+        after = (self.last - self.final) * (self.last + self.final)
+        return self.ramp.lag * self.stroke + (before + after) / 2
 
 
 def advance(elements, ramp):
@@ -135,15 +132,16 @@ def _press(elements, ramp, penetration):
     contact = (penetration > relaxed) | elements.contact
     first, duration = _pressed_contact(elements, ramp, penetration, contact & ~elements.contact)
     elastic = np.where(contact, np.minimum(penetration, ramp.critical_depth), relaxed)
-    stroke, excess = penetration - first, np.maximum(penetration - ramp.critical_depth, 0.0)
+    first = np.where(contact, first, elastic)
+    stroke = np.where(contact, penetration - first, 0.0)
+    excess = np.maximum(penetration - ramp.critical_depth, 0.0)
     # The elastic part is constant along the stroke at the yield cap.
     spring_share = 1 - excess / np.maximum(stroke, 1e-300)
     mean = elastic - spring_share * ((elastic - first) / 2)
     penetration = np.where(contact, elastic, penetration)
     plastic = elements.plastic + excess
     new = replace(elements, penetration=penetration, elastic=elastic, plastic=plastic, contact=contact)
-    ends = initial, first, elastic, elastic
-    return new, Exchange(ramp, contact, stroke, mean, duration, spring_share, *ends)
+    return new, Exchange(ramp, stroke, mean, duration, spring_share, initial, first, elastic, elastic)
 
 
 def _pressed_contact(elements, ramp, penetration, touching):
@@ -184,19 +182,18 @@ def _withdraw(elements, ramp, penetration):
         first, touched = np.where(returning, root, initial), touched | returning
     last = np.maximum(penetration, np.minimum(first, lag))
     contact = touched & (penetration > lag)
-    stroke = first - last
     # Without viscosity a released element is relaxed at once.
     with np.errstate(over="ignore"):
         decay = np.exp(np.minimum(penetration - last, 0.0) / lag) if lag > 0 else 0.0
     relaxed = np.where(touched, last * decay, initial * ramp.decay)
     elastic = np.where(contact, penetration, relaxed)
-    duration = np.zeros_like(stroke)
+    first, last = np.where(touched, first, elastic), np.where(touched, last, elastic)
+    stroke, mean, duration = last - first, (first + last) / 2, np.zeros_like(first)
     if ramp.duration < np.inf:
-        time = np.where(touched, stroke, 0.0) / -ramp.travel * ramp.duration
-        duration = np.where(elements.contact & contact, ramp.duration, time)
+        held = elements.contact & contact
+        duration = np.where(held, ramp.duration, stroke / ramp.travel * ramp.duration)
     new = replace(elements, penetration=penetration, elastic=elastic, contact=contact)
-    mean = (first + last) / 2
-    return new, Exchange(ramp, touched, -stroke, mean, duration, 1.0, initial, first, last, elastic)
+    return new, Exchange(ramp, stroke, mean, duration, 1.0, initial, first, last, elastic)
 
 
 def _withdrawn_contact(elements, ramp, penetration, candidates):

@@ -93,7 +93,7 @@ def creep(
         runs.append(_creep_run(profile, medium, depth, _ELEMENTS * 2**level, force, time, steps, precision))
         return runs[-1].record
 
-    record, errors = refine(run, tolerance, _RUNS, controlled=1, orders=_ORDERS)
+    record, errors = refine(run, tolerance, _RUNS, 1, orders=_ORDERS)
     depth, stored, plastic, viscous = record.T
     path_time, path_depth, index, radius = _consistent_path(runs, force)
     return TimedIndentation(
@@ -107,7 +107,7 @@ def creep(
 
 
 class CreepRun(NamedTuple):
-    """One run: the last foundation, times (s) and depths (m) of its path, index of the given times on it.
+    """One run: its last foundation, times (s) and depths (m) of its path, index of the given times on it.
 
     `record` holds depth (m), stored energy, plastic and viscous work (J) at the given times.
     """
@@ -130,7 +130,7 @@ def _creep_run(profile, medium, bound, n, force, time, steps, precision):
     fraction = (np.arange(steps + 1) / steps) ** 3
     if force[0] > 0:
         foundation = _step(foundation, np.inf, force[0], 0.0, bound, close)
-    path_time, path_depth, record = [time[0]], [foundation.depth], [_works(foundation)]
+    path_time, path_depth, record = [time[0]], [foundation.depth], [_recorded(foundation)]
     for (start, first), (stop, last) in pairwise(zip(time, force, strict=True)):
         for lower, upper in pairwise(fraction):
             dt, target = (stop - start) * (upper - lower), first + (last - first) * upper
@@ -138,12 +138,12 @@ def _creep_run(profile, medium, bound, n, force, time, steps, precision):
             rate = (foundation.depth - path_depth[-1]) / dt
             path_time.append(path_time[-1] + dt)
             path_depth.append(foundation.depth)
-        record.append(_works(foundation))
+        record.append(_recorded(foundation))
     index = steps * np.arange(len(time))
     return CreepRun(foundation, np.array(path_time), np.array(path_depth), index, np.array(record))
 
 
-def _works(foundation):
+def _recorded(foundation):
     return foundation.depth, foundation.stored_energy, foundation.plastic_work, foundation.viscous_work
 
 
@@ -172,13 +172,11 @@ def _consistent_path(runs, force):
     It is the extrapolated path, or that of the finest run where unloading is so steep that the extrapolated
     one does not carry the force. The rate at the end of each piece is adjusted to carry it exactly.
     """
-    finest = runs[-1]
-    profile, medium, n = finest.foundation.profile, finest.foundation.medium, finest.foundation.n
-    time, index = finest.time, finest.index
-    for depth in (_extrapolated_depth(runs), finest.depth):
-        half_width = float(profile.contact_radius(max(np.max(depth), 0.0)))
-        foundation = Foundation(profile, medium, n, max(finest.foundation.half_width, half_width))
-        record = follow(foundation, depth, time)[index]
+    finest, time, index = runs[-1].foundation, runs[-1].time, runs[-1].index
+    profile, medium = finest.profile, finest.medium
+    for depth in (_extrapolated_depth(runs), runs[-1].depth):
+        half_width = max(finest.half_width, float(profile.contact_radius(max(np.max(depth), 0.0))))
+        record = follow(Foundation(profile, medium, finest.n, half_width), depth, time)[index]
         carried, radius = record[:, 0], record[:, -1]
         if np.all(np.abs(carried - force) <= _MAX_DEVIATION * np.max(force)):
             break

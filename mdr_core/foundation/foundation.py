@@ -32,14 +32,13 @@ def element_count(n):
 
 @dataclass(frozen=True, eq=False)
 class FoundationState:
-    """State of a `Foundation`: its elements on one side of the axis, depth d (m), `lag` τḋ (m) and so on.
-
-    `edge_depth` is the depth (m) at which the contact reaches the half-width.
-    """
+    """State of a `Foundation` after the moves of its history."""
 
     elements: Elements
+    #: Depth (m) at which the contact reaches the half-width.
     edge_depth: float
     depth: float = 0.0
+    #: τḋ (m) at the present rate of the depth.
     lag: float = 0.0
     viscous_work: float = 0.0
     history: tuple[tuple[float, float], ...] = ()
@@ -51,8 +50,8 @@ class Foundation:
 
     Each of the n elements between −half_width and half_width is a spring Δk = E*Δx, which carries at most
     π q_c/2 per length, in parallel with a dashpot Δγ = 4ηΔx (Eqs. (1), (12)). A foundation is immutable:
-    `advance` returns a new one. It uses the reduced profile and the law of one element only, and
-    is independent of `indent` and `impact`.
+    `advance` returns a new one. A straight ramp of depth is exact in one step, with contact, yield, release
+    and relaxation of every element in closed form. Independent of `indent` and `impact`.
 
     Parameters
     ----------
@@ -63,20 +62,13 @@ class Foundation:
     half_width : float
         Length (m) of the row on either side of the axis, at least the largest contact radius.
     nodes : sequence of float, optional
-        Radii (m) of edges between elements, in addition to the flat face, the kinks and the wall of
-        the profile. With the contact radius and the plastic radius as nodes, sums over the elements are
-        of second order in 1/n.
+        Radii (m) of edges between elements, besides the flat face, kinks and wall of the profile. With the
+        contact radius and the plastic radius as nodes, sums are of second order in 1/n.
 
     Raises
     ------
     ValueError
-        If n is odd or too small for the kinks and nodes, or half_width exceeds the known radius of the
-        profile.
-
-    Notes
-    -----
-    A straight ramp is exact in a single step: contact, yield, release and relaxation of every element are
-    solved in closed form. The line load after a step includes the dashpots at the rate of the ramp.
+        If n is odd or too small for the kinks and nodes, or half_width exceeds the known radius.
 
     Examples
     --------
@@ -152,12 +144,12 @@ class Foundation:
         Returns
         -------
         Foundation
-            In the new state.
+            In the new state; its line load includes the dashpots at the rate of the ramp.
 
         Raises
         ------
         ValueError
-            If the contact radius exceeds half_width, or the depth the known depth of the profile.
+            If the contact radius exceeds half_width, or the depth the known depth.
 
         Examples
         --------
@@ -175,6 +167,7 @@ class Foundation:
         return self._after(ramp, *element.advance(self._elements, ramp))
 
     def _ramp(self, travel, dt, depth=None):
+        """`Ramp` from the present depth by a travel (m) in a time (s), to a rounded depth (m) if given."""
         medium, depth = self.medium, self.depth + travel if depth is None else depth
         return Ramp(depth, travel, dt, medium.relaxation_time, medium.critical_depth)
 
@@ -183,20 +176,17 @@ class Foundation:
         if ramp.depth > self.profile.known_depth:
             self.profile._known(np.asarray(ramp.depth))
         if ramp.depth > self._current.edge_depth:
+            radius = self.profile.contact_radius(ramp.depth)
             raise ValueError(
-                f"half_width = {self.half_width:g} m is less than the contact radius "
-                f"{self.profile.contact_radius(ramp.depth):g} m at depth = {ramp.depth:g} m; give at least "
-                "that"
+                f"half_width = {self.half_width:g} m is less than the contact radius {radius:g} m at "
+                f"depth = {ramp.depth:g} m; give at least that"
             )
-        current = replace(
-            self._current,
-            elements=elements,
-            depth=float(ramp.depth),
-            lag=ramp.lag if rate is None else ramp.tau * rate,
-            viscous_work=self.viscous_work + self._total(exchange.viscous),
-            history=(*self.history, (ramp.depth, ramp.duration)),
-        )
-        return replace(self, _current=current)
+        lag = ramp.lag if rate is None else ramp.tau * rate
+        work = self.viscous_work + self._total(exchange.viscous)
+        history = (*self.history, (ramp.depth, ramp.duration))
+        edge_depth = self._current.edge_depth
+        new = FoundationState(elements, edge_depth, float(ramp.depth), lag, work, history)
+        return replace(self, _current=new)
 
     def _total(self, values):
         """E* times the sum over both sides of a quantity of the elements times their width."""

@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import _check
 from .._numeric import root_in_bracket
 from ..medium import Medium
 from ..results import Motion
@@ -29,26 +28,17 @@ from .grid import depth_bound
 _MAX_STEPS = 20_000
 #: Largest depth over critical depth; at larger ones the live depth is lost in rounding.
 _MAX_DEPTH_RATIO = 1e11
-#: Quantities of a run that are refined: SI units, energies at the turning point and in total.
-QUANTITIES = (
-    "restitution", "max_depth", "max_force", "contact_time",
-    "stored_energy", "plastic_work", "viscous_work",
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
 class FreeBody:
-    """A body of some mass and speed, the foundation's profile and medium, and its earlier moves."""
+    """Mass (kg) and speed (m/s) of a body; profile, medium and earlier moves of the foundation."""
 
     profile: Profile
     medium: Medium
     mass: float
     speed: float
-    history: tuple[tuple[float, float], ...] = ()
-
-    def __post_init__(self):
-        object.__setattr__(self, "mass", _check.positive_number("mass", self.mass, unit="kg"))
-        object.__setattr__(self, "speed", _check.positive_number("speed", self.speed, unit="m/s"))
+    history: tuple[tuple[float, float], ...]
 
     @property
     def earlier_depth(self):
@@ -83,11 +73,11 @@ class FreeBody:
 
 
 class ImpactRun(NamedTuple):
-    """Result of one run: its motion, the foundation when contact ends, and the `QUANTITIES` as an array."""
+    """Result of one run: its motion, the foundation when contact ends, quantities of a `ChainImpact`."""
 
     motion: Motion
     foundation: Foundation
-    quantities: np.ndarray
+    quantities: dict[str, float]
 
 
 class BodyStep(NamedTuple):
@@ -121,7 +111,10 @@ class ImpactSolver:
         # Time scale of the rebound: of an oscillator of the stiffness 2E*a, or of its creep if overdamped.
         rate = 2 * self.body.medium.E_star * force_and_radius(self.foundation)[1] / self.body.mass
         self._advance_until(self._released, 1 / (np.sqrt(rate) + self.tau * rate))
-        motion = self._motion(max(self._release_time(), turning_time))
+        # Contact ended in the last step where d + τḋ was the surface at the axis; no force acts afterwards.
+        penetration = self.foundation._elements.penetration[0]
+        release_time = self.time - (penetration + self.tau * self.velocity) / self.velocity
+        motion = self._motion(max(release_time, turning_time))
         stored, viscous = motion.stored_energy, motion.viscous_work
         quantities = {
             "restitution": -self.velocity / self.body.speed,
@@ -133,15 +126,10 @@ class ImpactSolver:
             # The energy that relaxing elements store at the end is dissipated afterwards.
             "viscous_work": viscous[-1] - viscous[0] + stored[-1] - stored[0],
         }
-        return ImpactRun(motion, self.foundation, np.array([quantities[name] for name in QUANTITIES]))
+        return ImpactRun(motion, self.foundation, quantities)
 
     def _released(self):
         return self.velocity < 0 and not self.foundation._elements.contact.any()
-
-    def _release_time(self):
-        """Time (s) at which d + τḋ reaches the surface at the axis; no force acts afterwards."""
-        penetration = self.foundation._elements.penetration[0]
-        return self.time - (penetration + self.tau * self.velocity) / self.velocity
 
     def _approach(self):
         """Move freely up to the surface at the axis, within 1e-9 of the depth bound."""

@@ -15,15 +15,16 @@ from ..medium import Medium, check_pair
 from ..results import CHAIN, ImpactResult, Limit, Motion, contact_limits, instants
 from ..shapes.profile import Profile
 from .foundation import Foundation, element_count
-from .free_body import QUANTITIES, FreeBody, ImpactSolver
+from .free_body import FreeBody, ImpactSolver
 from .refinement import refine
 
 #: Elements, and steps per time scale, of the coarsest run; number of runs.
 _ELEMENTS, _STEPS, _RUNS = 150, 12, 8
-#: Smallest errors as a share of the correction by the extrapolation, in the order of `QUANTITIES`.
-_TRUST = np.array([0.1, 0.2, 2.0, 1.0, 0.0, 0.0, 0.0])
-#: Errors are relative to the quantity itself, for the restitution (rebound over impact speed) to 1.
-_FLOOR = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+#: Quantities that are refined, and their smallest errors as a share of the correction by extrapolation.
+_TRUST = {
+    "restitution": 0.1, "max_depth": 0.2, "max_force": 2.0, "contact_time": 1.0,
+    "stored_energy": 0.0, "plastic_work": 0.0, "viscous_work": 0.0,
+}  # fmt: skip
 
 
 def chain_impact(
@@ -76,6 +77,8 @@ def chain_impact(
     0.29844
     """
     check_pair(profile, medium, "an impact on the chain")
+    mass = _check.positive_number("mass", mass, unit="kg")
+    speed = _check.positive_number("speed", speed, unit="m/s")
     body = FreeBody(profile, medium, mass, speed, _history(profile, medium, start))
     tolerance = _check.positive_number("tolerance", tolerance)
     count, bound = None if n is None else element_count(n), body.depth_bound()
@@ -85,20 +88,21 @@ def chain_impact(
     def run(level):
         foundation = body.foundation(count or _ELEMENTS * 2**level, runs[-1].motion.depth.max())
         runs.append(ImpactSolver(body, foundation, _STEPS * 2**level, bound).run())
-        return runs[-1].quantities
+        return np.array([runs[-1].quantities[name] for name in _TRUST])
 
-    limit, errors = refine(
-        run, tolerance, _RUNS, controlled=2, orders=(2,), runs=3, trust=_TRUST, floor=_FLOOR
-    )
-    quantities = dict(zip(QUANTITIES, limit.tolist(), strict=True))
-    errors = dict(zip(QUANTITIES, errors.tolist(), strict=True))
+    trust = np.array([*_TRUST.values()])
+    # Errors are relative to the quantity itself, for the restitution (rebound over impact speed) to 1.
+    floor = np.array([1.0 if name == "restitution" else 0.0 for name in _TRUST])
+    limit, errors = refine(run, tolerance, _RUNS, 2, orders=(2,), runs=3, trust=trust, floor=floor)
+    quantities = dict(zip(_TRUST, limit.tolist(), strict=True))
+    errors = dict(zip(_TRUST, errors.tolist(), strict=True))
     error = max(errors["restitution"], errors["max_depth"])
     # Close to zero, the limit may be negative within its error.
     restitution = quantities["restitution"] = max(0.0, quantities["restitution"])
     errors["restitution"] = errors["restitution"] / restitution if restitution > 0 else np.inf
     errors = ChainErrors(**{name: errors[name] for name in ChainErrors._fields})
     return ChainImpact(
-        profile, medium, body.mass, body.speed, **quantities, error=error, errors=errors,
+        profile, medium, mass, speed, **quantities, error=error, errors=errors,
         foundation=runs[-1].foundation, _motion=runs[-1].motion,
     )  # fmt: skip
 

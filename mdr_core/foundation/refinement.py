@@ -27,12 +27,10 @@ def refine(run, tolerance, levels, controlled, *, orders=(), runs=2, trust=0.0, 
         Result of a level as an array, with one quantity per entry of its last axis.
     tolerance : float
         Refinement ends when the errors of the first `controlled` quantities are at most this.
-    levels : int
-        Largest number of runs.
+    levels, runs : int
+        Largest and smallest number of runs. A single change may be small by chance.
     orders : tuple of int
         Orders of the errors that are extrapolated away; by default none.
-    runs : int
-        Smallest number of runs. The changes of two runs may be small by chance; three runs are safer.
     trust : float or ndarray
         Smallest error as a share of the correction by the extrapolation.
     floor : float or ndarray
