@@ -22,6 +22,8 @@ from .refinement import refine
 _ELEMENTS, _MAX_ELEMENT_STEPS = 256, 10**8
 #: Depths of a path that have edges at their radii; of longer paths the deepest turning points.
 _MAX_EDGE_DEPTHS = 300
+#: Quantities that `follow` records.
+_RECORD = ("force", "stored_energy", "plastic_work", "viscous_work", "contact_radius")
 
 
 def check_times(time, path, quantity):
@@ -94,16 +96,12 @@ def indent_in_time(
         plastic_depth=np.maximum.accumulate(np.maximum(depth - medium.critical_depth, 0.0)),
         error=float(errors[:4].max()),
         _index=np.arange(depth.size), _path_time=np.array(time), _path_depth=np.array(depth),
-        **dict(zip(RECORD, record.T, strict=True)),
+        **dict(zip(_RECORD, record.T, strict=True)),
     )  # fmt: skip
 
 
-#: Quantities that `follow` records.
-RECORD = ("force", "stored_energy", "plastic_work", "viscous_work", "contact_radius")
-
-
 def follow(foundation, depth, time):
-    """The `RECORD` of a foundation at each time of a path, shape (N, 5)."""
+    """The `_RECORD` of a foundation at each time of a path, shape (N, 5)."""
     record = []
     for new_depth, dt in zip(depth, np.append(np.inf, np.diff(time)), strict=True):
         foundation = foundation.advance(new_depth, dt)

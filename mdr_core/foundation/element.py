@@ -173,7 +173,7 @@ def _pressed_contact(elements, ramp, penetration, touching):
 
 
 def _withdraw(elements, ramp, penetration):
-    """A ramp of decreasing depth: an element is released at most once, and contact does not return."""
+    """A ramp of decreasing depth: an element that is released remains free."""
     lag, initial = -ramp.lag, elements.elastic
     first, touched = initial, elements.contact
     returning = ~elements.contact & (initial > lag) & (penetration - ramp.travel > 0)

@@ -10,15 +10,12 @@
    Contact ends when the last element is released.
 """
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from .._numeric import root_in_bracket
-from ..medium import Medium
 from ..results import Motion
-from ..shapes.profile import Profile
 from . import element
 from .element import Elements, Exchange, Ramp
 from .foundation import Foundation
@@ -30,46 +27,36 @@ _MAX_STEPS = 20_000
 _MAX_DEPTH_RATIO = 1e11
 
 
-@dataclass(frozen=True)
-class FreeBody:
-    """Mass (kg) and speed (m/s) of a body; profile, medium and earlier moves of the foundation."""
+def earlier_depth(history):
+    """Largest depth (m) of the moves of a foundation, at least 0."""
+    return max([0.0, *(depth for depth, _ in history)])
 
-    profile: Profile
-    medium: Medium
-    mass: float
-    speed: float
-    history: tuple[tuple[float, float], ...]
 
-    @property
-    def earlier_depth(self):
-        """Largest depth (m) of the earlier moves, at least 0."""
-        return max([0.0, *(depth for depth, _ in self.history)])
-
-    def depth_bound(self):
-        """Depth (m) that the body does not exceed."""
-        momentum, start = self.mass * self.speed, self.earlier_depth
-        bound = min(
-            depth_bound(self.profile, self.medium, "work", momentum * self.speed / 2, start),
-            depth_bound(self.profile, self.medium, "momentum", momentum, start),
+def impact_depth_bound(profile, medium, mass, speed, history):
+    """Depth (m) that a body of a mass (kg) and speed (m/s) does not exceed after earlier moves."""
+    momentum, start = mass * speed, earlier_depth(history)
+    bound = min(
+        depth_bound(profile, medium, "work", momentum * speed / 2, start),
+        depth_bound(profile, medium, "momentum", momentum, start),
+    )
+    if bound > _MAX_DEPTH_RATIO * medium.critical_depth:
+        raise ValueError(
+            f"speed = {speed:g} m/s presses to {bound:g} m, over {_MAX_DEPTH_RATIO:g} critical depths, "
+            "where the live depth is lost in rounding; reduce the speed, or use impact"
         )
-        if bound > _MAX_DEPTH_RATIO * self.medium.critical_depth:
-            raise ValueError(
-                f"speed = {self.speed:g} m/s presses to {bound:g} m, over {_MAX_DEPTH_RATIO:g} critical "
-                "depths, where the live depth is lost in rounding; reduce the speed, or use impact"
-            )
-        return bound
+    return bound
 
-    def foundation(self, n, depth):
-        """Foundation before the impact, with edges at the radii of a depth (m) and of the earlier moves."""
-        level = np.array([self.earlier_depth, depth])
-        level = np.append(level, level - self.medium.critical_depth)
-        nodes = self.profile.contact_radius(level[level > 0]) if n >= 16 else ()
-        outer = min((1.02 + 2 / n) * level.max(), self.profile.known_depth)
-        half_width = self.profile.contact_radius(outer)
-        foundation = Foundation(self.profile, self.medium, n, half_width, nodes=tuple(nodes))
-        for earlier, dt in self.history:
-            foundation = foundation.advance(earlier, dt)
-        return foundation
+
+def foundation_before(profile, medium, history, n, depth):
+    """Foundation after earlier moves, with edges at the radii of these and of a depth (m) to come."""
+    level = np.array([earlier_depth(history), depth])
+    level = np.append(level, level - medium.critical_depth)
+    nodes = profile.contact_radius(level[level > 0]) if n >= 16 else ()
+    outer = min((1.02 + 2 / n) * level.max(), profile.known_depth)
+    foundation = Foundation(profile, medium, n, profile.contact_radius(outer), nodes=tuple(nodes))
+    for move, dt in history:
+        foundation = foundation.advance(move, dt)
+    return foundation
 
 
 class ImpactRun(NamedTuple):
@@ -92,24 +79,31 @@ class BodyStep(NamedTuple):
 class ImpactSolver:
     """Time integration of one impact, with a record of every step."""
 
-    def __init__(self, body, foundation, steps, bound):
-        self.body, self.foundation, self.steps, self.bound = body, foundation, steps, bound
-        self.time, self.velocity, self.acceleration, self.records = 0.0, body.speed, 0.0, []
-        self.yield_depth = max(body.earlier_depth, body.medium.critical_depth)
-        self.tau = body.medium.relaxation_time
+    def __init__(self, foundation, mass, speed, steps, bound):
+        self.foundation, self.mass, self.speed, self.steps, self.bound = (
+            foundation,
+            mass,
+            speed,
+            steps,
+            bound,
+        )
+        self.time, self.velocity, self.acceleration, self.records = 0.0, speed, 0.0, []
+        medium = foundation.medium
+        self.earlier_depth, self.tau = earlier_depth(foundation.history), medium.relaxation_time
+        self.yield_depth = max(self.earlier_depth, medium.critical_depth)
         # Velocities are computed to twelve digits of the velocity that damping leaves.
-        tau = max(self.tau, bound * 1e-9 / body.speed)
-        self.precision = 1e-12 * min(body.speed, min(bound, body.medium.critical_depth) / tau)
+        tau = max(self.tau, bound * 1e-9 / speed)
+        self.precision = 1e-12 * min(speed, min(bound, medium.critical_depth) / tau)
         self._record()
 
     def run(self):
         """`ImpactRun` from the start to the loss of contact."""
         self._approach()
         first, untouched = len(self.records), self.foundation
-        self._advance_until(lambda: self.velocity <= self.precision, self.bound / self.body.speed)
+        self._advance_until(lambda: self.velocity <= self.precision, self.bound / self.speed)
         turning_time, max_force = self.time, self._max_force(untouched, first)
         # Time scale of the rebound: of an oscillator of the stiffness 2E*a, or of its creep if overdamped.
-        rate = 2 * self.body.medium.E_star * force_and_radius(self.foundation)[1] / self.body.mass
+        rate = 2 * self.foundation.medium.E_star * force_and_radius(self.foundation)[1] / self.mass
         self._advance_until(self._released, 1 / (np.sqrt(rate) + self.tau * rate))
         # Contact ended in the last step where d + τḋ was the surface at the axis; no force acts afterwards.
         penetration = self.foundation._elements.penetration[0]
@@ -117,7 +111,7 @@ class ImpactSolver:
         motion = self._motion(max(release_time, turning_time))
         stored, viscous = motion.stored_energy, motion.viscous_work
         quantities = {
-            "restitution": -self.velocity / self.body.speed,
+            "restitution": -self.velocity / self.speed,
             "max_depth": motion.depth.max(),
             "max_force": max_force,
             "contact_time": motion.time[-1] - motion.time[first - 1],
@@ -166,7 +160,7 @@ class ImpactSolver:
 
     def _step(self, dt):
         """Step of duration dt (s) that satisfies Newton's equation."""
-        m, v = self.body.mass, self.velocity
+        m, v = self.mass, self.velocity
 
         def excess(rate):
             step, impulse = self._trial(rate, dt, v)
@@ -187,7 +181,7 @@ class ImpactSolver:
 
     def _turning_step(self, max_dt, velocity):
         """Step to velocity zero, J(v/2) = m v, within a step of duration max_dt (s) to a `velocity` < 0."""
-        m, v = self.body.mass, self.velocity
+        m, v = self.mass, self.velocity
 
         def excess(dt):
             step, impulse = self._trial(v / 2, dt, 0.0)
@@ -213,7 +207,7 @@ class ImpactSolver:
             "time": self.time, "depth": foundation.depth, "velocity": v,
             "force": force, "contact_radius": radius,
             "live_depth": live_depth if foundation._elements.contact[0] else 0.0,
-            "kinetic_energy": self.body.mass * v**2 / 2, "stored_energy": foundation.stored_energy,
+            "kinetic_energy": self.mass * v**2 / 2, "stored_energy": foundation.stored_energy,
             "plastic_work": foundation.plastic_work, "viscous_work": foundation.viscous_work,
         })  # fmt: skip
 
@@ -248,11 +242,11 @@ class ImpactSolver:
 
     def _motion(self, end):
         """`Motion` of the recorded steps, with the last one moved to the time (s) at which contact ends."""
-        columns, body = self._columns(), self.body
+        columns, foundation = self._columns(), self.foundation
         time, depth = columns["time"], columns["depth"]
         end = max(end, time[-2])
         time[-1], depth[-1] = end, depth[-1] + columns["velocity"][-1] * (end - time[-1])
-        largest_depth = np.maximum(np.maximum.accumulate(depth), body.earlier_depth)
-        plastic_depth = np.maximum(largest_depth - body.medium.critical_depth, 0.0)
-        plastic_radius = np.where(plastic_depth > 0, body.profile.contact_radius(plastic_depth), 0.0)
+        largest_depth = np.maximum(np.maximum.accumulate(depth), self.earlier_depth)
+        plastic_depth = np.maximum(largest_depth - foundation.medium.critical_depth, 0.0)
+        plastic_radius = np.where(plastic_depth > 0, foundation.profile.contact_radius(plastic_depth), 0.0)
         return Motion(**columns, plastic_depth=plastic_depth, plastic_radius=plastic_radius)

@@ -15,7 +15,7 @@ from ..medium import Medium, check_pair
 from ..results import CHAIN, ImpactResult, Limit, Motion, contact_limits, instants
 from ..shapes.profile import Profile
 from .foundation import Foundation, element_count
-from .free_body import FreeBody, ImpactSolver
+from .free_body import ImpactSolver, foundation_before, impact_depth_bound
 from .refinement import refine
 
 #: Elements, and steps per time scale, of the coarsest run; number of runs.
@@ -79,15 +79,19 @@ def chain_impact(
     check_pair(profile, medium, "an impact on the chain")
     mass = _check.positive_number("mass", mass, unit="kg")
     speed = _check.positive_number("speed", speed, unit="m/s")
-    body = FreeBody(profile, medium, mass, speed, _history(profile, medium, start))
     tolerance = _check.positive_number("tolerance", tolerance)
-    count, bound = None if n is None else element_count(n), body.depth_bound()
+    count, history = None if n is None else element_count(n), _history(profile, medium, start)
+    bound = impact_depth_bound(profile, medium, mass, speed, history)
+
+    def solve(elements, depth, steps):
+        foundation = foundation_before(profile, medium, history, count or elements, depth)
+        return ImpactSolver(foundation, mass, speed, steps, bound).run()
+
     # A first run determines the largest depth, at whose radius the next one has an edge.
-    runs = [ImpactSolver(body, body.foundation(count or _ELEMENTS, bound), _STEPS / 2, bound).run()]
+    runs = [solve(_ELEMENTS, bound, _STEPS / 2)]
 
     def run(level):
-        foundation = body.foundation(count or _ELEMENTS * 2**level, runs[-1].motion.depth.max())
-        runs.append(ImpactSolver(body, foundation, _STEPS * 2**level, bound).run())
+        runs.append(solve(_ELEMENTS * 2**level, runs[-1].motion.depth.max(), _STEPS * 2**level))
         return np.array([runs[-1].quantities[name] for name in _TRUST])
 
     trust = np.array([*_TRUST.values()])
