@@ -135,25 +135,8 @@ def oblique_impacts(
 ) -> "xarray.Dataset":
     """Oblique impacts (`mdr_core.oblique_impact`) over named dimensions.
 
-    Parameters
-    ----------
-    shape, E_star, q_c, eta, mass, speed, **shape_parameters
-        As in `impacts`.
-    poisson : float or DataArray
-        Poisson ratio ν of the `Medium`.
-    tangential_speed : float or DataArray
-        Speed (m/s) of the contact point along the surface.
-    friction : float or DataArray
-        Coefficient of friction.
-    tangential_mass : float or DataArray, optional
-        Mass (kg) at the contact point along the surface; by default `mass`.
-    quantities : sequence of str
-        Names of quantities of `ObliqueImpact`.
-
-    Returns
-    -------
-    xarray.Dataset
-        As in `impacts`.
+    Parameters and result as in `impacts`, with the Poisson ratio of the `Medium`, and the additional
+    arguments and quantities of `oblique_impact`.
 
     Examples
     --------
@@ -221,11 +204,6 @@ def cost(solve: Callable[..., "xarray.Dataset"], shape: "Shape", **arguments: An
     shape, **arguments
         Its arguments. The sample of dask arrays is taken from the first chunks.
 
-    Returns
-    -------
-    float
-        Time (s).
-
     Examples
     --------
     >>> import numpy as np
@@ -247,9 +225,7 @@ def cost(solve: Callable[..., "xarray.Dataset"], shape: "Shape", **arguments: An
         # The same number of samples along all dimensions.
         side = int(np.ceil(number ** (1 / max(len(sizes), 1))))
         index = {dim: np.linspace(0, size - 1, min(size, side)).astype(int) for dim, size in first.items()}
-        sample = {
-            name: array.isel(index, missing_dims="ignore").compute() for name, array in arrays.items()
-        }
+        sample = {name: x.isel(index, missing_dims="ignore").compute() for name, x in arrays.items()}
         # Twice, because the first run at a size may make tables.
         elapsed, count = min(_timed(solve, shape, arguments | sample) for _ in range(2))
         if count >= available or elapsed >= _MIN_TIME:
@@ -299,10 +275,7 @@ def _check_shape(shape, given):
     if not (isinstance(shape, Profile) or (isclass(shape) and issubclass(shape, Profile))):
         raise TypeError(f"shape must be a class of indenters, or one of them, got {_check.shown(shape)}")
     if not isclass(shape) and shape.shape:
-        raise ValueError(
-            f"the parameters of this {type(shape).__name__} are arrays without names of dimensions: "
-            "give its class, and the parameters as DataArrays"
-        )
+        raise ValueError("parameters of the shape are arrays without names of dimensions: give its class")
     if isclass(shape) and issubclass(shape, Sampled | Smooth):
         raise ValueError(f"parameters of {shape.__name__} cannot be swept: give an indenter, not the class")
     own = {field.name: field for field in fields(shape)} if isclass(shape) else {}
@@ -371,10 +344,5 @@ def _attributes(kind, shape, given):
     indenter = shape.__name__ if isclass(shape) else described(shape)
     varied = {name: "over " + " × ".join(value.dims) for name, value in given.items() if np.ndim(value)}
     fixed = {name: float(value) for name, value in given.items() if name not in varied}
-    return {
-        "result": kind.__name__,
-        "model": "MDR, V. L. Popov 2015",
-        "indenter": indenter,
-        **fixed,
-        **varied,
-    }
+    about = {"result": kind.__name__, "model": "MDR, V. L. Popov 2015", "indenter": indenter}
+    return about | fixed | varied
