@@ -15,8 +15,8 @@ from .fit.impacts import fit_impacts
 from .fit.indentation import fit_indentation
 from .foundation.depth_path import TimedIndentation, indent_in_time
 from .foundation.force_path import creep
+from .foundation.foundation import Foundation
 from .foundation.impact import chain_impact
-from .foundation.row import Foundation
 from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium
 from .onset import critical_force, yield_speed

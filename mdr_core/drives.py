@@ -1,4 +1,4 @@
-"""What drives the indenter of a scene, as values: paths of depth and force, and free bodies that hit."""
+"""Drives of the indenter of a scene: paths of depth and force, and impacts of free bodies."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
@@ -32,9 +32,9 @@ def _times(quantity, values, path):
 
 
 class _Path:
-    """A path of one quantity, the first field of a subclass, with or without `time`.
+    """Base class of a path of a quantity, the first field of a subclass, with or without `time`.
 
-    A subclass says its unit, and what follows it infinitely slowly and in time.
+    A subclass has the unit of the quantity, and the functions that solve slow paths and paths in time.
     """
 
     _unit: ClassVar[str]
@@ -51,7 +51,7 @@ class _Path:
     _path = property(lambda self: getattr(self, self._name))
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models that can solve it, the cheapest that is exact first."""
+        """Names of the models for this drive, the cheapest exact one first."""
         return (CHAIN,) if self.time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
 
     def solve(self, profile, medium, model):
@@ -60,7 +60,7 @@ class _Path:
             return type(self)._slowly(profile, medium, self._path)
         path, time = np.atleast_1d(self._path), self.time
         if time is None:
-            # Infinitely slow is without viscosity, at whatever times.
+            # An infinitely slow path is a path without viscosity at any times.
             time, medium = np.arange(float(path.size)), replace(medium, eta=0.0)
         result = type(self)._in_time(profile, medium, path, np.asarray(time))
         return result if np.ndim(self._path) else result[0]
@@ -73,9 +73,9 @@ class DepthPath(_Path):
     Parameters
     ----------
     depth : float or sequence of float
-        Indentation depth (m), one or a path.
+        Indentation depth (m), a number or a path.
     time : sequence of float, optional
-        Increasing times (s) of a path; without them it is followed infinitely slowly.
+        Increasing times (s) of a path; without them it is infinitely slow.
     """
 
     depth: Parameter
@@ -91,9 +91,9 @@ class ForcePath(_Path):
     Parameters
     ----------
     force : float or sequence of float
-        Normal force (N), one or a path; not negative.
+        Normal force (N), a number or a path; not negative.
     time : sequence of float, optional
-        Increasing times (s) of a path; without them it is followed infinitely slowly.
+        Increasing times (s) of a path; without them it is infinitely slow.
     """
 
     force: Parameter
@@ -104,7 +104,7 @@ class ForcePath(_Path):
 
 @dataclass(frozen=True)
 class FreeImpact:
-    """Let a free body hit the medium.
+    """Impact of a free body.
 
     Parameters
     ----------
@@ -113,8 +113,7 @@ class FreeImpact:
     speed : float
         Speed v₀ (m/s) at first contact, positive.
     plastic_depth : float
-        Plastic depth (m) that earlier impacts on the same spot have left; 0, the default, is a virgin
-        surface.
+        Plastic depth (m) after earlier impacts on the same spot; 0, the default, for a virgin surface.
     """
 
     mass: float
@@ -128,9 +127,10 @@ class FreeImpact:
             object.__setattr__(self, name, value)
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models that can solve it, the cheapest that is exact first.
+        """Names of the models for this drive, the cheapest exact one first.
 
-        The chain hits an imprint by `chain_impact(start=…)`: the depth alone does not set it up.
+        The chain is not available for an imprint, because its state is more than the plastic depth: use
+        `chain_impact(start=…)`.
         """
         models = (SCALAR_ODE, CHAIN) if medium.eta > 0 else (CLOSED_FORM, SCALAR_ODE, CHAIN)
         return models[:-1] if self.plastic_depth > 0 else models
@@ -145,7 +145,7 @@ class FreeImpact:
 
 @dataclass(frozen=True)
 class FreeObliqueImpact:
-    """Let a free body hit the medium with a speed along the surface as well, under friction.
+    """Oblique impact of a free body with friction.
 
     Parameters
     ----------
@@ -156,8 +156,8 @@ class FreeObliqueImpact:
     friction : float
         Coefficient of friction μ, not negative.
     tangential_mass : float, optional
-        Mass m_t (kg) that is felt at the contact point along the surface; by default m, that of a body that
-        cannot turn. `Ball.tangential_mass` is that of a ball.
+        Mass m_t (kg) at the contact point along the surface; by default m, for a body that cannot rotate.
+        For a ball see `Ball.tangential_mass`.
     """
 
     mass: float
@@ -178,7 +178,7 @@ class FreeObliqueImpact:
             object.__setattr__(self, name, float(value))
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models that can solve it: the normal motion on its own, friction on its chain."""
+        """Names of the models for this drive."""
         return (FRICTION,)
 
     def solve(self, profile, medium, model):

@@ -1,4 +1,4 @@
-"""A scene: what is to be modelled, as a value that can be saved, loaded and solved."""
+"""Scenes: an indenter, a medium and a drive, which can be saved, loaded and solved."""
 
 import json
 import os
@@ -36,14 +36,14 @@ _PROFILES = {
     )
 }
 _DRIVES = {drive.__name__: drive for drive in (DepthPath, ForcePath, FreeImpact, FreeObliqueImpact)}
-#: What a file may leave out.
+#: Values of entries that are optional in a file.
 _OPTIONAL = {"time": None, "poisson": 0.5, "plastic_depth": 0.0}
 _FORMAT, _VERSION = "mdr-scene", 1
 
 
 @dataclass(frozen=True)
 class Scene:
-    """An indenter, a medium, and what is done with them.
+    """An indenter, a medium, and a drive.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class Scene:
     medium : Medium
         The medium.
     drive : DepthPath, ForcePath, FreeImpact or FreeObliqueImpact
-        What drives the indenter.
+        Path of the indenter, or impact.
 
     Examples
     --------
@@ -76,18 +76,18 @@ class Scene:
 
     @property
     def models(self) -> tuple[Model, ...]:
-        """Models that can solve the scene, the cheapest that is exact for it first."""
+        """Models for the scene, the cheapest exact one first."""
         return self.drive.models(self.medium)
 
     def solve(
         self, model: str | None = None
     ) -> Indentation | TimedIndentation | Impact | ChainImpact | ObliqueImpact:
-        """Results of the scene; `result.model` says how they were found, `result.model.reason` why.
+        """Solve the scene. `result.model` is the model, `result.model.reason` the reason for its choice.
 
         Parameters
         ----------
         model : {"closed form", "scalar ODE", "chain", "chain with friction"}, optional
-            Another model than the cheapest that is exact, to compare: one of `models`.
+            One of `models`, for a comparison; by default the cheapest exact one.
 
         Returns
         -------
@@ -107,7 +107,7 @@ class Scene:
         return self.drive.solve(self.profile, self.medium, model)
 
     def to_json(self) -> str:
-        """The scene as JSON text, every number exact; an infinite yield constant as null."""
+        """The scene as JSON text with exact numbers; an infinite yield constant is null."""
         return json.dumps(
             {
                 "format": _FORMAT,
@@ -122,12 +122,12 @@ class Scene:
 
     @classmethod
     def from_json(cls, text: str | bytes) -> "Scene":
-        """The scene that `to_json` wrote.
+        """Read a scene from the text of `to_json`.
 
         Raises
         ------
         ValueError
-            If the text is not JSON, not a scene, or has a value out of its range.
+            If the text is not JSON, not a scene, or has a value outside its range.
         """
         if isinstance(text, os.PathLike) or (isinstance(text, str) and text.strip().endswith(".json")):
             raise ValueError(
@@ -174,7 +174,7 @@ def _tagged(value, kinds):
 
 def _untagged(what, data, kinds):
     if not isinstance(data, dict) or not isinstance(data.get("type"), str) or data["type"] not in kinds:
-        raise ValueError(f"scene: {what} needs a type out of {', '.join(kinds)}")
+        raise ValueError(f"scene: {what} needs a type, one of {', '.join(kinds)}")
     return _build(what, {k: v for k, v in data.items() if k != "type"}, kinds[data["type"]])
 
 
@@ -191,16 +191,16 @@ def _build(what, data, kind):
 
 def _keys(what, data, expected):
     if not isinstance(data, dict) or set(data) != expected:
-        found = ", ".join(sorted(map(str, data)))[:200] if isinstance(data, dict) else type(data).__name__
-        raise ValueError(f"{what} must have exactly {', '.join(sorted(expected))}; found {found}")
+        names = ", ".join(sorted(map(str, data)))[:200] if isinstance(data, dict) else type(data).__name__
+        raise ValueError(f"{what} must have exactly {', '.join(sorted(expected))}; got {names}")
 
 
 def _no_constant(name):
-    raise ValueError(f"{name} is not a number that can be used")
+    raise ValueError(f"{name} is not a finite number")
 
 
 def _no_duplicates(pairs):
     data = dict(pairs)
     if len(data) < len(pairs):
-        raise ValueError("the same key stands twice")
+        raise ValueError("a key is repeated")
     return data

@@ -1,10 +1,10 @@
 """Ensembles over named dimensions: impacts and indentations of xarray's arrays, in memory or by dask.
 
-Parameters are numbers or DataArrays, which broadcast by the names of their dimensions. What is in memory is
-solved at once, block by block. What is made of dask arrays comes back lazily: it is solved when it is asked
-for, chunk by chunk, on the cores of a machine or, with a ``dask.distributed.Client``, on a cluster.
+Parameters are numbers or DataArrays, which broadcast by the names of their dimensions. Arrays in memory are
+solved at once, in blocks. Results of dask arrays are lazy: `compute` solves them chunk by chunk, on the
+cores of a machine or, with a ``dask.distributed.Client``, on a cluster.
 
-A stream too long for memory, of which only the sum is kept:
+The sum over a stream that does not fit in memory:
 
     speed = xr.DataArray(0.1 * dask.array.random.weibull(2.0, 10**9, chunks=10**6), dims="particle")
     stream = sweep.impacts(Sphere, radius=1e-5, E_star=1e9, q_c=10.0, mass=1e-12, speed=speed,
@@ -12,18 +12,18 @@ A stream too long for memory, of which only the sum is kept:
     with dask.diagnostics.ProgressBar():
         total = stream.damaged_area.sum().compute()
 
-A long run to disk, which can be interrupted and taken up again: the store is laid out first, then filled
-region by region, and a region whose last number is missing has not been done yet.
+A long run to disk that can be interrupted and continued: the store is created first and then filled region
+by region; a region whose last number is missing has not been computed.
 
-    lay_out = {name: {"_FillValue": numpy.nan} for name in stream}
-    stream.to_zarr("stream.zarr", compute=False, encoding=lay_out)  # once
+    encoding = {name: {"_FillValue": numpy.nan} for name in stream}
+    stream.to_zarr("stream.zarr", compute=False, encoding=encoding)  # once
     for start in range(0, 10**9, 10**7):
-        part = {"particle": slice(start, start + 10**7)}
-        if xr.open_zarr("stream.zarr").restitution.isel(part)[-1].isnull():
-            stream.isel(part).to_zarr("stream.zarr", region=part)
+        region = {"particle": slice(start, start + 10**7)}
+        if xr.open_zarr("stream.zarr").restitution.isel(region)[-1].isnull():
+            stream.isel(region).to_zarr("stream.zarr", region=region)
 
-Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; what is on disk stays. `cost` says
-beforehand how long it is going to take.
+Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; the regions on disk remain. `cost`
+estimates the time beforehand.
 """
 
 import re
@@ -51,14 +51,20 @@ from .shapes.smooth import Smooth
 if TYPE_CHECKING:
     import xarray
 
-    #: What a parameter may be.
+    #: Type of a parameter.
     Given = float | np.floating[Any] | xarray.DataArray
     Shape = type[Profile] | Profile
 
-#: So many at a time, whatever the size: what a block needs beside its results is some tens of MB.
+__all__ = ["cost", "impacts", "indentations", "oblique_impacts"]
+
+#: Entries that are solved at a time; besides its results a block needs some tens of MB.
 _BLOCK = 2**17
-#: A sample runs at least so long (s).
-_LONG_ENOUGH = 0.2
+#: Shortest time (s) of a sample in `cost`.
+_MIN_TIME = 0.2
+
+
+def __dir__():
+    return __all__
 
 
 def impacts(
@@ -77,7 +83,7 @@ def impacts(
     Parameters
     ----------
     shape : type or Profile
-        Class of the indenters, whose parameters follow by name, or one indenter for all of them.
+        Class of the indenters, whose parameters follow by name, or a single indenter.
     E_star, q_c, eta : float or DataArray
         Effective modulus (Pa), yield constant (N/m), viscosity (Pa·s) of the `Medium`.
     mass, speed : float or DataArray
@@ -85,19 +91,19 @@ def impacts(
     quantities : sequence of str
         Names of quantities of `Impact`: "restitution", "max_depth", "damaged_area", "contact_time", …
     **shape_parameters : float or DataArray
-        Parameters of the shape, such as ``radius=`` of a `Sphere`.
+        Parameters of the class, such as ``radius=`` of a `Sphere`.
 
     Returns
     -------
     xarray.Dataset
-        The quantities with their units and long names, of all dimensions that parameters have. Lazy, if a
-        parameter is made of a dask array; what one chunk needs bounds the memory then.
+        The quantities with their units and long names, over all dimensions of the parameters. Lazy if a
+        parameter is a dask array; the memory is then bounded by that of a chunk.
 
     Raises
     ------
     ValueError
-        If a parameter or a quantity is not known or missing, an array has no names of dimensions,
-        coordinates differ, or `impact` refuses a number. What is lazy is refused when it is computed.
+        If a parameter or a quantity is unknown or missing, an array has no names of dimensions, coordinates
+        differ, or a value is outside the range of `impact`; for lazy arrays when they are computed.
 
     Examples
     --------
@@ -128,11 +134,14 @@ def oblique_impacts(
     quantities: str | Iterable[str] = ("friction_work", "plastic_work"),
     **shape_parameters: "Given",
 ) -> "xarray.Dataset":
-    """Oblique impacts (`mdr_core.oblique_impact`, quantities of `ObliqueImpact`) as in `impacts`.
+    """Oblique impacts (`mdr_core.oblique_impact`) over named dimensions.
+
+    Parameters and result as in `impacts`, with the Poisson ratio of the `Medium`, and the additional
+    arguments and quantities of `oblique_impact`.
 
     Examples
     --------
-    Energy that particles lose to friction, over their angle of attack:
+    Energy dissipated by friction as a function of the angle of attack:
 
     >>> import xarray as xr
     >>> from mdr_core import Paraboloid
@@ -140,7 +149,7 @@ def oblique_impacts(
     >>> normal, along = 10.0 * np.sin(attack), (10.0 * np.cos(attack)).round(9)
     >>> given = {"E_star": 1e9, "mass": 1e-9, "speed": normal, "tangential_speed": along}
     >>> table = oblique_impacts(Paraboloid, radius=1e-4, friction=0.1, **given)
-    >>> (table.friction_work * 1e9).round(3).values  # nJ; where all slips 2µmv(W − µv)
+    >>> (table.friction_work * 1e9).round(3).values  # nJ; in full slip 2µmv(W − µv)
     array([8.16, 7.16, 0.  ])
     """
     parameters = {"E_star": E_star, "q_c": q_c, "eta": eta, "poisson": poisson, "mass": mass}
@@ -165,7 +174,7 @@ def indentations(
     shape, E_star, q_c, **shape_parameters
         As in `impacts`.
     depth : float or DataArray
-        Indentation depth (m); negative means lifted off.
+        Indentation depth (m); negative above the surface.
     quantities : sequence of str
         Names of quantities of `Indentation`: "force", "contact_radius", "mean_pressure", …
 
@@ -187,14 +196,14 @@ def indentations(
 
 
 def cost(solve: Callable[..., "xarray.Dataset"], shape: "Shape", **arguments: Any) -> float:
-    """Time (s) that a sweep is going to take on one core, told by a sample of it.
+    """Estimated time (s) of a sweep on one core, from a sample of it.
 
     Parameters
     ----------
     solve : callable
-        `impacts` or `indentations`.
+        `impacts`, `oblique_impacts` or `indentations`.
     shape, **arguments
-        As they are going to be given to it. Of dask arrays the sample is in the first chunks.
+        Its arguments. The sample of dask arrays is taken from the first chunks.
 
     Examples
     --------
@@ -206,33 +215,34 @@ def cost(solve: Callable[..., "xarray.Dataset"], shape: "Shape", **arguments: An
     True
     """
     xarray = imported("xarray", "mdr_core.sweep")
-    arrays = {name: each for name, each in arguments.items() if isinstance(each, xarray.DataArray)}
-    sizes = {dim: size for each in arrays.values() for dim, size in each.sizes.items()}
+    arrays = {name: value for name, value in arguments.items() if isinstance(value, xarray.DataArray)}
+    sizes = {dim: size for array in arrays.values() for dim, size in array.sizes.items()}
     first = dict(sizes)
-    for each in arrays.values():
-        first |= {dim: min(first[dim], parts[0]) for dim, parts in each.chunksizes.items()}
-    total, within, number = (float(np.prod(list(part.values()))) for part in (sizes, first, {}))
+    for array in arrays.values():
+        first |= {dim: min(first[dim], chunk[0]) for dim, chunk in array.chunksizes.items()}
+    total, available = (float(np.prod(list(counts.values()))) for counts in (sizes, first))
+    number = 1
     while True:
-        # Evenly over all dimensions.
-        most = int(np.ceil(number ** (1 / max(len(sizes), 1))))
-        index = {dim: np.linspace(0, size - 1, min(size, most)).astype(int) for dim, size in first.items()}
-        part = {name: each.isel(index, missing_dims="ignore").compute() for name, each in arrays.items()}
-        # Twice, for the first run at a size may make tables.
-        elapsed, count = min(_timed(solve, shape, arguments | part) for _ in range(2))
-        if count >= within or elapsed >= _LONG_ENOUGH:
+        # The same number of samples along all dimensions.
+        side = int(np.ceil(number ** (1 / max(len(sizes), 1))))
+        index = {dim: np.linspace(0, size - 1, min(size, side)).astype(int) for dim, size in first.items()}
+        sample = {name: x.isel(index, missing_dims="ignore").compute() for name, x in arrays.items()}
+        # Twice, because the first run at a size may make tables.
+        elapsed, count = min(_timed(solve, shape, arguments | sample) for _ in range(2))
+        if count >= available or elapsed >= _MIN_TIME:
             return elapsed * total / count
         number *= 8
 
 
 def _timed(solve, shape, arguments):
-    """Time (s) that a sweep takes, and the number of its results."""
+    """Time (s) of a sweep, and the number of its results."""
     start = perf_counter()
     solved = solve(shape, **arguments)
     return perf_counter() - start, float(np.prod(list(solved.sizes.values())))
 
 
 def _sweep(kind, solve, shape, parameters, shape_parameters, quantities):
-    """The Dataset of some quantities of a kind of result, which `solve` makes of arrays."""
+    """Dataset of quantities of a class of results, which `solve` returns for arrays of parameters."""
     xarray = imported("xarray", "mdr_core.sweep")
     names = [quantities] if isinstance(quantities, str) else list(quantities)
     known = [name for name in kind._quantities if name not in parameters]
@@ -262,18 +272,18 @@ def _sweep(kind, solve, shape, parameters, shape_parameters, quantities):
 
 
 def _check_shape(shape, given):
-    """Refuse what is not a shape, and parameters of it that are missing or that it has not."""
+    """Refuse other types than profiles, and missing or unknown parameters of the class."""
     if not (isinstance(shape, Profile) or (isclass(shape) and issubclass(shape, Profile))):
         raise TypeError(f"shape must be a class of indenters, or one of them, got {_check.shown(shape)}")
     if not isclass(shape) and shape.shape:
-        raise ValueError("a shape with arrays of parameters has no names of dimensions: give its class")
+        raise ValueError("parameters of the shape are arrays without names of dimensions: give its class")
     if isclass(shape) and issubclass(shape, Sampled | Smooth):
-        raise ValueError(f"{shape.__name__} is not swept over by its parameters: give one tip of it")
+        raise ValueError(f"parameters of {shape.__name__} cannot be swept: give an indenter, not the class")
     own = {field.name: field for field in fields(shape)} if isclass(shape) else {}
     name = shape.__name__ if isclass(shape) else f"the {type(shape).__name__} given"
     for unknown in given.keys() - own.keys():
-        has = ", ".join(own) or "none that is free"
-        raise ValueError(f"{unknown} is not a parameter of the sweep or of {name}, which has {has}")
+        names = ", ".join(own) or "no free parameters"
+        raise ValueError(f"{unknown} is not a parameter of the sweep or of {name}, which has {names}")
     for missing in own.keys() - given.keys():
         if own[missing].default is MISSING:
             raise ValueError(f"{name} needs its {missing}")
@@ -285,30 +295,30 @@ def _labelled(xarray, name, value):
     if not isinstance(value, xarray.DataArray):
         value = _check.in_unit(name, value, unit)
         if np.ndim(value):
-            raise ValueError(f"{name} is an array without names of dimensions: make it an xarray.DataArray")
+            raise ValueError(f"{name} is an array without names of dimensions: give an xarray.DataArray")
         return xarray.DataArray(_check.number(name, value))
-    # What is computed of an array with a unit may carry it on, so that only its multiples are telling.
-    said = getattr(value.data, "units", value.attrs.get("units", unit))
-    parts, own = (re.split("[/·* ]", text.replace("kg", "g")) for text in (str(said), unit))
-    multiple = str(said) != unit and len(parts) == len(own) and all(map(str.endswith, parts, own))
+    # The attribute may be inherited from another array in a computation: only prefixed units are refused.
+    stated = getattr(value.data, "units", value.attrs.get("units", unit))
+    factors, own = (re.split("[/·* ]", text.replace("kg", "g")) for text in (str(stated), unit))
+    multiple = str(stated) != unit and len(factors) == len(own) and all(map(str.endswith, factors, own))
     if hasattr(value.data, "units") or (unit and multiple):
         raise ValueError(
-            f"{name} is given in {said}: give numbers in {unit or 'no unit'}, and say so in .attrs"
+            f"{name} is given in {stated}: give numbers in {unit or 'no unit'}, with these units in .attrs"
         )
     return value
 
 
 def _in_blocks(solve, shape, values, own, names):
-    """Some quantities of arrays of parameters, solved in blocks: one array each."""
+    """Arrays of the named quantities for arrays of parameters, solved in blocks."""
     size = np.broadcast_shapes(*(np.shape(value) for value in values.values()))
-    # What is one number stays one: nothing is repeated.
+    # Scalars are not repeated.
     varied = {k: np.broadcast_to(v, size).flat for k, v in values.items() if np.size(v) > 1}
     results = np.empty((len(names), *size))
     flat = results.reshape(len(names), -1)
     for rows in chunks(flat.shape[1], _BLOCK):
-        part = {k: varied[k][rows] if k in varied else np.ravel(v)[0] for k, v in values.items()}
-        parameters = {k: part.pop(k) for k in own}
-        result = solve(shape(**part) if isclass(shape) else shape, **parameters)
+        block = {k: varied[k][rows] if k in varied else np.ravel(v)[0] for k, v in values.items()}
+        parameters = {k: block.pop(k) for k in own}
+        result = solve(shape(**block) if isclass(shape) else shape, **parameters)
         for row, name in zip(flat, names, strict=True):
             row[rows] = getattr(result, name)
     return tuple(results) if len(names) > 1 else results[0]
@@ -331,14 +341,9 @@ def _press(profile, E_star, q_c, depth):
 
 
 def _attributes(kind, shape, given):
-    """What was asked for: numbers as such, of arrays the dimensions."""
+    """Attributes of the dataset: the parameters, for arrays their dimensions."""
     indenter = shape.__name__ if isclass(shape) else described(shape)
-    varied = {name: "over " + " × ".join(each.dims) for name, each in given.items() if np.ndim(each)}
-    fixed = {name: float(each) for name, each in given.items() if name not in varied}
-    return {
-        "result": kind.__name__,
-        "model": "MDR, V. L. Popov 2015",
-        "indenter": indenter,
-        **fixed,
-        **varied,
-    }
+    varied = {name: "over " + " × ".join(value.dims) for name, value in given.items() if np.ndim(value)}
+    fixed = {name: float(value) for name, value in given.items() if name not in varied}
+    about = {"result": kind.__name__, "model": "MDR, V. L. Popov 2015", "indenter": indenter}
+    return about | fixed | varied

@@ -62,7 +62,7 @@ def test_arrays_stay_what_they_are():
             lambda: mdr.Medium.from_bodies([1e9, 2e9], [0.3, 0.3, 0.3]),
             r"E1 \(2,\), nu1 \(3,\) do not broadcast",
         ),
-        (lambda: mdr.hardness_class([], [], 1.0), "two energies or more"),
+        (lambda: mdr.hardness_class([], [], 1.0), "at least two different energies"),
         (lambda: mdr.Foundation(mdr.Cone([0.1, 0.2]), MEDIUM, 10, 1e-6), "one indenter on one"),
         (lambda: mdr.chain_impact(mdr.Cone(0.1), mdr.Medium([1e9, 2e9]), 1.0, 1.0), "one indenter on one"),
         (lambda: mdr.chain_impact(3, MEDIUM, 1.0, 1.0), "profile must be an mdr_core shape"),
@@ -71,10 +71,6 @@ def test_arrays_stay_what_they_are():
         (
             lambda: mdr.indent(nested(2000), MEDIUM, 1.0),
             r"an mdr_core shape such as .*, got \[\[\[\[\[\[\[",
-        ),
-        (
-            lambda: mdr.abel.stress_from_line_load([0, 1], [1, 0], 0, np.array(["auto"] * 2)),
-            "must be one of",
         ),
         (lambda: mdr.Medium(np.longdouble("1e4000")), "E_star = inf Pa must be finite"),
         (

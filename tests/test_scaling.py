@@ -91,9 +91,9 @@ def test_imprints_tell_the_class(hardness, n):
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (([1.0, 1.0], [1.0, 2.0], 1.0), "two energies or more that differ"),
-        (([1e60, np.nextafter(1e60, 0)], [1.0, 2.0], 1.0), "two energies or more that differ"),
-        (([1.0, 2.0], [1.0], 1.0), "must be of one shape"),
+        (([1.0, 1.0], [1.0, 2.0], 1.0), "at least two different energies"),
+        (([1e60, np.nextafter(1e60, 0)], [1.0, 2.0], 1.0), "at least two different energies"),
+        (([1.0, 2.0], [1.0], 1.0), "must be of the same shape"),
         (([1.0, -2.0], [1.0, 2.0], 1.0), r"energy\[1\] = -2 J"),
         (([1.0, 2.0], [1.0, 2.0], 0.0), "exponent = 0"),
     ],

@@ -111,7 +111,7 @@ def test_shapes_are_classes_with_their_parameters_or_one_indenter():
     rest = {"E_star": 1e9, "mass": 1e-12, "speed": SPEED}
     with pytest.raises(ValueError, match="Hyperboloid needs its tip_radius"):
         sweep.impacts(mdr.Hyperboloid, slope=0.3, **rest)
-    with pytest.raises(ValueError, match="give one tip of it"):
+    with pytest.raises(ValueError, match="cannot be swept: give an indenter"):
         sweep.impacts(mdr.Sampled, **rest)
     with pytest.raises(ValueError, match="give its class"):
         sweep.impacts(mdr.Sphere([1.0, 2.0]), **rest)

@@ -1,17 +1,17 @@
-"""The law of one element: spring, yield cap and dashpot, moved along a straight ramp of depth.
+"""Law of one element: spring, yield cap and dashpot, along a straight ramp of depth.
 
-An element at x is met by the indenter at the compression u = d − g(x). While in contact
+The element at x is compressed by u = d − g(x) while it is in contact with the indenter:
 
-    u_p ← max(u_p, u − d_c),   u_e = u − u_p,   q = E* u_e + 4η ḋ   (Popov 2015, Eqs. (1), (11)-(18)),
+    u_p ← max(u_p, u − d_c),   u_e = u − u_p,   q = E* u_e + 4η ḋ   (Popov 2015, Eqs. (1), (11)-(18)).
 
-it lets go where q falls to zero, that is at u_e = −τḋ, relaxes as u_e ∝ exp(−t/τ), and is met
-again where the indenter reaches its u. Along a ramp of constant ḋ each of these events is the root
-of a line against a line or an exponential, so that a step is exact however long it is.
+It is released where q reaches zero, at u_e = −τḋ, and relaxes as u_e ∝ exp(−t/τ). Contact returns where
+the indenter reaches the surface of the relaxing element. Along a ramp of constant ḋ each of these events is
+the intersection of a line with a line or an exponential; a step is therefore exact, whatever its length.
 
-Nothing here knows a shape; all quantities are lengths, and everything is vectorised over elements.
+All quantities are lengths and times; the profile does not enter. Operations are vectorised over elements.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -19,78 +19,72 @@ import scipy
 
 @dataclass(frozen=True, eq=False)
 class Elements:
-    """State of a row of elements, one entry each.
+    """State of a row of elements: arrays with one entry per element.
 
-    `above` is d − g(x) − u_p (m): how far the indenter has come beyond the element's relaxed
-    place. In contact it is the elastic part u_e itself. It is carried from step to step, never
-    recovered as a difference of depths, once the element has yielded.
+    Lengths (m): coordinate, width, reduced height g(x), penetration d − g(x) − u_p into the relaxed surface
+    of the element, elastic part u_e and plastic part u_p of the compression. In contact the penetration
+    equals u_e; after yield it is updated step by step, because the difference of depths would cancel.
     """
 
+    x: np.ndarray
+    width: np.ndarray
     reduced: np.ndarray
-    above: np.ndarray
+    penetration: np.ndarray
     elastic: np.ndarray
     plastic: np.ndarray
     contact: np.ndarray
 
     @classmethod
-    def virgin(cls, reduced):
-        """Elements under an indenter of reduced heights g(x) (m) that rests on their surface."""
-        zero = np.zeros_like(reduced)
-        return cls(reduced, -reduced, zero, zero, np.zeros(reduced.shape, bool))
+    def virgin(cls, profile, x, width):
+        """Undeformed elements at coordinates x (m), with the indenter at depth 0."""
+        reduced, zero = np.asarray(profile.reduced(x)), np.zeros_like(x)
+        return cls(x, width, reduced, -reduced, zero, zero, np.zeros(x.shape, bool))
 
 
 @dataclass(frozen=True)
 class Ramp:
-    """A straight piece of a depth–time path.
+    """A straight piece of a path of depth in time, and the medium's τ (s) and d_c (m).
 
-    Parameters
-    ----------
-    depth : float
-        Depth (m) at its end.
-    rise : float
-        Change of depth (m) along it: where next to nothing, no difference of depths.
-    time : float
-        Its duration (s), positive; infinite for an infinitely slow one.
-    tau : float
-        Relaxation time τ (s) of the elements.
-    critical_depth : float
-        d_c (m), at which they yield.
+    `depth` (m) is that at its end, `travel` its change (m), given separately because the difference of two
+    depths may cancel. The `duration` (s) may be infinite.
     """
 
     depth: float
-    rise: float
-    time: float
+    travel: float
+    duration: float
     tau: float
     critical_depth: float
 
     @property
     def lag(self):
-        """τḋ (m): the elastic part whose force equals that of the dashpot, of the sign of the rise."""
-        return self.rise * (self.tau / self.time)
+        """τḋ (m): compression at which the spring carries as much as the dashpot, with the sign of ḋ."""
+        return self.travel * (self.tau / self.duration)
 
     @property
-    def keep(self):
-        """Fraction of its elastic part that a free element keeps."""
-        return np.exp(-self.time / self.tau) if self.tau > 0 else 0.0
+    def decay(self):
+        """Factor exp(−t/τ) by which the elastic part of a released element relaxes."""
+        return np.exp(-self.duration / self.tau) if self.tau > 0 else 0.0
 
 
 @dataclass(frozen=True, eq=False)
 class Exchange:
-    """What each element did along a ramp; forces and energies are per unit of E* and of width.
+    """Impulse and energy that each element takes up along a ramp, per unit of E* and of width.
 
-    `touched` tells whether it was in contact. If so, `stroke` is the path (m) along which it was
-    pushed or let out, `mean` its mean elastic part (m), `duration` the time (s), 0 if not, `springy`
-    the share of it in which the spring followed the indenter. `elastic` are its elastic parts (m) at
-    the beginning and end of the ramp, with those at the beginning and end of contact in between.
+    In contact, `stroke` is the change of compression (m), `mean` the mean elastic part (m) over it,
+    `duration` the time (s), and `spring_share` the fraction of the stroke before the yield cap. The elastic
+    part (m) is `initial` and `final` at the ends of the ramp, `first` and `last` at the ends of contact.
+    Without contact stroke and duration are zero, and `first` and `last` equal `final`.
     """
 
     ramp: Ramp
-    touched: np.ndarray
     stroke: np.ndarray
     mean: np.ndarray
     duration: np.ndarray
-    springy: np.ndarray | float
-    elastic: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+    spring_share: np.ndarray | float
+    initial: np.ndarray
+    first: np.ndarray
+    last: np.ndarray
+    final: np.ndarray
 
     @property
     def impulse(self):
@@ -98,131 +92,128 @@ class Exchange:
         return (self.mean + self.ramp.lag) * self.duration
 
     @property
-    def response(self):
-        """Change of the impulse with the ramp's rate, ∂(∫ q dt)/∂ḋ/E* (s²).
+    def impulse_slope(self):
+        """Derivative of ∫ q dt/E* by the rate of the ramp (s²); approximate where contact returns.
 
-        At a time t of the ramp the spring is compressed more by t, and what is met, is met sooner. Of
-        relaxing elements that are met it is an estimate.
+        A larger rate compresses the spring by t more at time t, and begins contact earlier.
         """
-        ramp, springy = self.ramp, self.springy * self.duration
-        if ramp.rise < 0:
+        ramp, spring_time = self.ramp, self.spring_share * self.duration
+        if ramp.travel < 0:
             return self.duration * (self.duration / 2 + ramp.tau)
-        before = ramp.time - self.duration
-        return springy * (before + springy / 2) + ramp.tau * ramp.time * (self.duration > 0)
+        free_time = ramp.duration - self.duration
+        dashpot = ramp.tau * ramp.duration * (self.duration > 0)
+        return spring_time * (free_time + spring_time / 2) + dashpot
 
     @property
     def viscous(self):
-        """Energy (m²) dissipated by the dashpot: 4ηḋ along the stroke, and all that is lost while free."""
-        before, first, last, after = self.elastic
-        # What is not met relaxes from beginning to end.
-        begun = np.where(self.touched, first, after)
-        relaxed = (before - begun) * (before + begun)
-        if last is not after:
-            relaxed += np.where(self.touched, (last - after) * (last + after), 0.0)
-        return self.ramp.lag * np.where(self.touched, self.stroke, 0.0) + relaxed / 2
+        """Energy (m²) dissipated by the dashpot: 4ηḋ along the stroke, and by relaxation out of contact."""
+        before = (self.initial - self.first) * (self.initial + self.first)
+        after = (self.last - self.final) * (self.last + self.final)
+        return self.ramp.lag * self.stroke + (before + after) / 2
 
 
 def advance(elements, ramp):
-    """Elements after a ramp, and what they did along it.
+    """`Elements` at the end of a ramp, and the `Exchange` along it.
 
-    1. Move the indenter: `above` += rise.
-    2. Find the compression at which a free element is met.
-    3. Follow it in contact to the end of the ramp, to the yield cap, or to where it lets go.
-    4. Let it relax for the rest of the time.
+    1. Move the indenter: penetration += travel.
+    2. Find the elastic part at which contact of a free element begins.
+    3. Follow contact to the end of the ramp, to the yield cap, or to release.
+    4. Relax for the remaining time.
     """
     virgin = elements.plastic == 0
-    above = np.where(virgin, ramp.depth - elements.reduced, elements.above + ramp.rise)
-    return (_press if ramp.rise >= 0 else _withdraw)(elements, ramp, above)
+    penetration = np.where(virgin, ramp.depth - elements.reduced, elements.penetration + ramp.travel)
+    return (_press if ramp.travel >= 0 else _withdraw)(elements, ramp, penetration)
 
 
-def _press(elements, ramp, above):
-    """A ramp that goes deeper, or holds: what is met stays met."""
-    before, held = elements.elastic, elements.contact
-    relaxed = before * ramp.keep
-    contact = (above > relaxed) | held
-    first, duration = _meeting_pressed(elements, ramp, above, contact & ~held)
-    elastic = np.where(contact, np.minimum(above, ramp.critical_depth), relaxed)
-    stroke, excess = above - first, np.maximum(above - ramp.critical_depth, 0.0)
-    # On the capped part of the stroke the elastic part stays what it is.
-    springy = 1 - excess / np.maximum(stroke, 1e-300)
-    mean = elastic - springy * ((elastic - first) / 2)
-    still = np.where(contact, elastic, above)
-    new = Elements(elements.reduced, still, elastic, elements.plastic + excess, contact)
-    return new, Exchange(ramp, contact, stroke, mean, duration, springy, (before, first, elastic, elastic))
+def _press(elements, ramp, penetration):
+    """A ramp of increasing or constant depth: no element is released."""
+    initial = elements.elastic
+    relaxed = initial * ramp.decay
+    contact = (penetration > relaxed) | elements.contact
+    first, duration = _pressed_contact(elements, ramp, penetration, contact & ~elements.contact)
+    elastic = np.where(contact, np.minimum(penetration, ramp.critical_depth), relaxed)
+    first = np.where(contact, first, elastic)
+    stroke = np.where(contact, penetration - first, 0.0)
+    excess = np.maximum(penetration - ramp.critical_depth, 0.0)
+    # The elastic part is constant along the stroke at the yield cap.
+    spring_share = 1 - excess / np.maximum(stroke, 1e-300)
+    mean = elastic - spring_share * ((elastic - first) / 2)
+    penetration = np.where(contact, elastic, penetration)
+    plastic = elements.plastic + excess
+    new = replace(elements, penetration=penetration, elastic=elastic, plastic=plastic, contact=contact)
+    return new, Exchange(ramp, stroke, mean, duration, spring_share, initial, first, elastic, elastic)
 
 
-def _meeting_pressed(elements, ramp, above, met):
-    """Elastic parts (m) at which elements begin to be pressed, and the times (s) for which they are.
+def _pressed_contact(elements, ramp, penetration, touching):
+    """Elastic parts (m) at the start of contact on a pressing ramp, and the times (s) in contact.
 
-    What is in contact begins with what it has, a relaxed element with none; a relaxing one is met at
-    w − w₀ = lag ln(u₀/w).
+    Elements in contact start from their elastic part, relaxed ones from zero. A relaxing element of
+    elastic part u₀ is reached at w from the penetration w₀ with w − w₀ = lag ln(u₀/w).
     """
-    held, before = elements.contact, elements.elastic
-    met_relaxing = met & (before > 0)
-    start = above - ramp.rise
-    low = np.where(held, before, np.maximum(start, 0.0))
-    if ramp.time == np.inf:
-        return low, np.zeros_like(low)
-    pace = ramp.rise / ramp.time
-    since = np.where(met, above - low, 0.0) / pace if pace > 0 else 0.0
-    duration = np.where(held, ramp.time, since)
-    if not met_relaxing.any():
-        return low, duration
+    initial = elements.elastic
+    relaxing = touching & (initial > 0)
+    start = penetration - ramp.travel
+    first = np.where(elements.contact, initial, np.maximum(start, 0.0))
+    if ramp.duration == np.inf:
+        return first, np.zeros_like(first)
+    rate = ramp.travel / ramp.duration
+    time = np.where(touching, penetration - first, 0.0) / rate if rate > 0 else 0.0
+    duration = np.where(elements.contact, ramp.duration, time)
+    if not relaxing.any():
+        return first, duration
     with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):
-        first = low
         if ramp.lag > 0:
             # w/lag + ln(w/lag) = w₀/lag + ln(u₀/lag).
-            scaled = np.where(met, start, 0.0) / ramp.lag + np.log(before / ramp.lag)
+            scaled = np.where(touching, start, 0.0) / ramp.lag + np.log(initial / ramp.lag)
             root = ramp.lag * scipy.special.wrightomega(scaled)
-            root = np.clip(np.where(scaled < np.inf, root, low), low, np.maximum(above, low))
-            first = np.where(met_relaxing, root, low)
-        since = ramp.time - ramp.tau * (np.log(before) - np.log(first))
-    duration = np.where(met_relaxing, np.clip(since, 0.0, ramp.time), duration)
-    return first, duration
+            root = np.clip(np.where(scaled < np.inf, root, first), first, np.maximum(penetration, first))
+            first = np.where(relaxing, root, first)
+        time = ramp.duration - ramp.tau * (np.log(initial) - np.log(first))
+    return first, np.where(relaxing, np.clip(time, 0.0, ramp.duration), duration)
 
 
-def _withdraw(elements, ramp, above):
-    """A ramp that goes back: what is in contact may let go, once, and is not met again."""
-    lag, before = -ramp.lag, elements.elastic
-    first, touched = before, elements.contact
-    met = ~elements.contact & (before > lag) & (above - ramp.rise > 0)
-    if met.any():
-        meeting, met = _meeting_withdrawn(elements, ramp, above, met)
-        first, touched = np.where(met, meeting, before), touched | met
-    last = np.maximum(above, np.minimum(first, lag))
-    contact = touched & (above > lag)
-    stroke = first - last
-    # Without a lag what has let go is relaxed at once.
+def _withdraw(elements, ramp, penetration):
+    """A ramp of decreasing depth: an element that is released remains free."""
+    lag, initial = -ramp.lag, elements.elastic
+    first, touched = initial, elements.contact
+    returning = ~elements.contact & (initial > lag) & (penetration - ramp.travel > 0)
+    if returning.any():
+        root, returning = _withdrawn_contact(elements, ramp, penetration, returning)
+        first, touched = np.where(returning, root, initial), touched | returning
+    last = np.maximum(penetration, np.minimum(first, lag))
+    contact = touched & (penetration > lag)
+    # Without viscosity a released element is relaxed at once.
     with np.errstate(over="ignore"):
-        since = np.exp(np.minimum(above - last, 0.0) / lag) if lag > 0 else 0.0
-    elastic = np.where(contact, above, np.where(touched, last * since, before * ramp.keep))
-    duration = np.zeros_like(stroke)
-    if ramp.time < np.inf:
-        partly = np.where(touched, stroke, 0.0) / -ramp.rise * ramp.time
-        duration = np.where(elements.contact & contact, ramp.time, partly)
-    new = Elements(elements.reduced, above, elastic, elements.plastic, contact)
-    parts = before, first, last, elastic
-    return new, Exchange(ramp, touched, -stroke, (first + last) / 2, duration, 1.0, parts)
+        decay = np.exp(np.minimum(penetration - last, 0.0) / lag) if lag > 0 else 0.0
+    relaxed = np.where(touched, last * decay, initial * ramp.decay)
+    elastic = np.where(contact, penetration, relaxed)
+    first, last = np.where(touched, first, elastic), np.where(touched, last, elastic)
+    stroke, mean, duration = last - first, (first + last) / 2, np.zeros_like(first)
+    if ramp.duration < np.inf:
+        held = elements.contact & contact
+        duration = np.where(held, ramp.duration, stroke / ramp.travel * ramp.duration)
+    new = replace(elements, penetration=penetration, elastic=elastic, contact=contact)
+    return new, Exchange(ramp, stroke, mean, duration, 1.0, initial, first, last, elastic)
 
 
-def _meeting_withdrawn(elements, ramp, above, able):
-    """Elastic part w (m) at which a relaxing element springs back to a slower indenter, and where it does.
+def _withdrawn_contact(elements, ramp, penetration, candidates):
+    """Elastic part w (m) at which a relaxing element reaches a slower indenter, and where this happens.
 
-    Y − ln Y = w₀/lag − ln(u₀/lag) with w = lag Y, Y ≥ 1: later it would no longer be faster.
+    Y − ln Y = w₀/lag − ln(u₀/lag) with w = lag Y; only for Y ≥ 1 is the element faster than the indenter.
     """
-    start, lag = above - ramp.rise, -ramp.lag
+    start, lag = penetration - ramp.travel, -ramp.lag
     if lag == 0:
-        return start, able
+        return start, candidates
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        # As u − ln(1 + u) with u = Y − 1, which is often small.
-        goal = np.where(able, start / lag - np.log(elements.elastic / lag) - 1, 0.0)
-    able = able & (goal >= 0)
-    goal = np.where(able, np.minimum(goal, 1e17), 0.0)
-    root = goal + np.sqrt(2 * goal)
+        # Solved as u − ln(1 + u) with u = Y − 1, because u is often small.
+        target = np.where(candidates, start / lag - np.log(elements.elastic / lag) - 1, 0.0)
+    candidates = candidates & (target >= 0)
+    target = np.where(candidates, np.minimum(target, 1e17), 0.0)
+    root = target + np.sqrt(2 * target)
     for _ in range(6):
-        # The upper bound above is close enough for Newton's method to settle.
-        change = (root - np.log1p(root) - goal) * (1 + root)
+        # From this upper bound Newton's method converges in six steps.
+        change = (root - np.log1p(root) - target) * (1 + root)
         root = root - np.divide(change, root, out=np.zeros_like(root), where=root > 0)
-    # Beyond 16 digits the lag makes no difference.
-    meeting = np.where(goal < 1e17, np.minimum(lag * (1 + root), start), start)
-    return meeting, able & (meeting > above)
+    # Above 1e17 the lag is below the rounding of w₀.
+    elastic = np.where(target < 1e17, np.minimum(lag * (1 + root), start), start)
+    return elastic, candidates & (elastic > penetration)

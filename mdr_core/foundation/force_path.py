@@ -1,6 +1,7 @@
-"""Viscous indentation under a prescribed force in time: creep, on the chain."""
+"""Viscous indentation under a prescribed force in time: creep, by the chain."""
 
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 import scipy
@@ -8,21 +9,22 @@ import scipy
 from .. import _check
 from .._check import ArrayLike
 from .._numeric import root_in_bracket
-from ..medium import Medium, check_pair
+from ..medium import Medium, check_pair, plastic_depth
 from ..shapes.profile import Profile
-from .depth_path import TimedIndentation, check_times
+from .depth_path import TimedIndentation, check_times, follow
+from .foundation import Foundation
 from .fronts import force_and_radius
-from .reach import reach
-from .row import Foundation
+from .grid import depth_bound
+from .refinement import extrapolate, refine
 
-#: Steps in each piece of the path, and elements, of the first run; both are doubled up to so often.
-_STEPS, _ELEMENTS, _REFINEMENTS = 8, 200, 6
-#: Share of the largest force that still presses where none is prescribed, so that contact is kept.
-_TOUCH = 1e-10
-#: Share of the last step of a piece in which the rate is the one at its end, not the mean one of the step.
-_ARRIVAL = 1 / 16
-#: Share of the largest force by which that of the mean rates may differ from it where a path is followed.
-_OFF = 1 / 16
+#: Steps per piece of the path and elements of the coarsest run; number of runs; orders of their errors.
+_STEPS, _ELEMENTS, _RUNS, _ORDERS = 8, 200, 6, (1, 2)
+#: Smallest force relative to the largest: it maintains contact where none is prescribed.
+_CONTACT_FORCE = 1e-10
+#: Fraction of the last step of a piece that has the rate at its end instead of the mean rate of the step.
+_END_FRACTION = 1 / 16
+#: Largest difference between the force on the extrapolated path and the prescribed one, over the largest.
+_MAX_DEVIATION = 1 / 16
 
 
 @_check.keywords_explained
@@ -31,37 +33,37 @@ def creep(
 ) -> TimedIndentation:
     """Press an indenter into a viscous medium along a path of force in time, under which it creeps.
 
-    By the chain, in steps of constant ḋ that end under the prescribed force, finer at the beginning of each
-    piece, where the dashpots give way; what is of first and second order in them is extrapolated away.
+    Solved by the chain in steps of constant ḋ, each of which ends at the prescribed force. Steps are finer
+    at the start of each piece of the path; errors of first and second order are extrapolated away.
 
     Parameters
     ----------
     profile, medium
         The indenter and the medium.
     force : array_like, shape (N,)
-        Forces (N), not negative, straight in between; the first one is reached infinitely slowly.
+        Forces (N), not negative, linear in between; the first one is applied infinitely slowly.
     time : array_like, shape (N,)
         Increasing times (s).
     tolerance : float, optional
-        Error allowed in the depth, relative to the largest one.
+        Largest error of the depth, relative to the largest depth.
 
     Returns
     -------
     TimedIndentation
-        Quantities of the shape of `time`, with the estimate reached as `error`. Contact radius and fields
-        are those of a row of elements that follows the extrapolated depths and carries the force.
+        Quantities of the shape of `time`, with the estimated `error`. Contact radius and fields are those
+        of a foundation that follows the extrapolated depths and carries the force.
 
     Raises
     ------
     ValueError
-        If a force is negative or not finite, the first one is more than a flat face carries at rest,
-        π q_c b (Popov 2015, Eq. (11)), any is where there is no viscosity, or one presses deeper than the
-        shape is known, or times do not increase.
+        If a force is negative or not finite, or needs more than the known depth of the profile; if the
+        first one, or without viscosity any, is as large as the π q_c b at which a whole flat face yields
+        (Popov 2015, Eq. (11)); or if times do not increase.
 
     Examples
     --------
-    A flat punch under a force that grows for a time τ and is held as long again, d = F/(2E*b) times
-    1 − (e − 1)/e²:
+    A flat punch under a force that increases for a time τ and is then constant for as long,
+    d = F/(2E*b) (1 − (e − 1)/e²):
 
     >>> from mdr_core import FlatPunch, Medium
     >>> medium = Medium(E_star=1.0, eta=0.25)
@@ -73,129 +75,126 @@ def creep(
     force = _check.force("force", force)
     time = check_times(time, force, "force")
     tolerance = _check.positive_number("tolerance", tolerance)
-    most = 2 * medium.yield_line_load * profile.wall
-    at_rest = (np.arange(force.size) == 0) | (medium.eta == 0)
-    bound = f"must be less than the {most:g} N at which the whole flat face yields"
-    _check.refuse("force", force, (force >= most) & at_rest, bound, unit="N", remedy="begin with less")
-    # What springs, or dashpots from the first force on, alone allow.
-    first = reach(profile, medium, "force", force[0])
-    most = reach(profile, medium, "force", np.max(force))
-    bound = min(most, reach(profile, medium, "momentum", scipy.integrate.trapezoid(force, time), first))
-    rows, paths, limit, error = [], [], None, np.inf
-    for level in range(_REFINEMENTS):
-        steps = _STEPS * 2**level
-        run = _Run(profile, medium, bound, _ELEMENTS * 2**level, 1e-2 * tolerance / (steps * len(time)))
-        run.follow(force, time, steps)
-        bound = 1.1 * max(depth for _, depth in run.path)
-        rows.append(np.array(run.record))
-        paths.append(np.array(run.path))
-        last, limit = limit, _extrapolated(rows[-3:])
-        if last is not None:
-            error = float(np.max(np.abs(limit - last)[:, 0]) / (np.max(np.abs(limit[:, 0])) or 1.0))
-        if error <= tolerance:
-            break
-    depth, *energies = limit.T
-    # Contact comes and goes: its radius, and the rate that a force needs, are those of a row on the limit,
-    # or on the last path where unloading is so steep that the force is not that of the limit.
-    places = np.array(run.places)
-    for path in (_limit_of_paths(paths[-3:]), paths[-1].T):
-        half_width = max(run.row.half_width, float(profile.contact_radius(max(np.max(path[1]), 0.0))))
-        found, radius = _replay(Foundation(profile, medium, run.row.n, half_width), *path, places)
-        if np.all(np.abs(found - force) <= _OFF * np.max(force)):
+    capacity = 2 * medium.yield_line_load * profile.wall
+    static = (np.arange(force.size) == 0) | (medium.eta == 0)
+    bound = f"must be less than the {capacity:g} N at which the whole flat face yields"
+    _check.refuse("force", force, (force >= capacity) & static, bound, unit="N", remedy="begin with less")
+    # Bounds by the springs alone, and by the dashpots alone after the first force.
+    first = depth_bound(profile, medium, "force", force[0])
+    impulse = scipy.integrate.trapezoid(force, time)
+    bound = min(
+        depth_bound(profile, medium, "force", np.max(force)),
+        depth_bound(profile, medium, "momentum", impulse, first),
+    )
+    runs = []
+
+    def run(level):
+        steps, depth = _STEPS * 2**level, 1.1 * runs[-1].depth.max() if runs else bound
+        precision = 1e-2 * tolerance / (steps * len(time))
+        runs.append(_creep_run(profile, medium, depth, _ELEMENTS * 2**level, force, time, steps, precision))
+        return runs[-1].record
+
+    record, errors = refine(run, tolerance, _RUNS, 1, orders=_ORDERS)
+    depth, stored, plastic, viscous = record.T
+    path_time, path_depth, index, radius = _consistent_path(runs, force)
+    return TimedIndentation(
+        profile, medium, time, depth, force, radius,
+        stored_energy=np.maximum(stored, 0.0),
+        plastic_work=np.maximum(plastic, 0.0),
+        viscous_work=np.maximum(viscous, 0.0),
+        plastic_depth=plastic_depth(np.maximum.accumulate(depth), medium.critical_depth),
+        error=float(errors[0]), _index=index, _path_time=path_time, _path_depth=path_depth,
+    )  # fmt: skip
+
+
+class CreepRun(NamedTuple):
+    """One run: its last foundation, times (s) and depths (m) of its path, index of the given times on it.
+
+    `record` holds depth (m), stored energy, plastic and viscous work (J) at the given times.
+    """
+
+    foundation: Foundation
+    time: np.ndarray
+    depth: np.ndarray
+    index: np.ndarray
+    record: np.ndarray
+
+
+def _creep_run(profile, medium, bound, n, force, time, steps, precision):
+    """`CreepRun` up to a depth bound (m), with `steps` per piece, to a relative precision of the depth."""
+    bound = min(bound, profile.known_depth)
+    # A path without contact has no width of its own.
+    half_width = float(profile.contact_radius(bound)) or min(1.0, profile.known_radius)
+    foundation = Foundation(profile, medium, n, half_width)
+    close, smallest, rate = precision * bound, _CONTACT_FORCE * np.max(force), 0.0
+    # Times after the start of a piece increase as the cube of the step.
+    fraction = (np.arange(steps + 1) / steps) ** 3
+    if force[0] > 0:
+        foundation = _step(foundation, np.inf, force[0], 0.0, bound, close)
+    path_time, path_depth, record = [time[0]], [foundation.depth], [_recorded(foundation)]
+    for (start, first), (stop, last) in pairwise(zip(time, force, strict=True)):
+        for lower, upper in pairwise(fraction):
+            dt, target = (stop - start) * (upper - lower), first + (last - first) * upper
+            foundation = _step(foundation, dt, max(target, smallest), rate * dt, bound, close)
+            rate = (foundation.depth - path_depth[-1]) / dt
+            path_time.append(path_time[-1] + dt)
+            path_depth.append(foundation.depth)
+        record.append(_recorded(foundation))
+    index = steps * np.arange(len(time))
+    return CreepRun(foundation, np.array(path_time), np.array(path_depth), index, np.array(record))
+
+
+def _recorded(foundation):
+    return foundation.depth, foundation.stored_energy, foundation.plastic_work, foundation.viscous_work
+
+
+def _step(foundation, dt, force, guess, bound, close):
+    """Foundation after a time dt (s) under a force (N) at its end, from a guess of the travel (m)."""
+    medium, room = foundation.medium, bound - foundation.depth
+
+    def excess(travel):
+        moved = foundation.advance(foundation.depth + travel, dt)
+        elements, lag = moved._elements, moved._current.lag
+        spring = (elements.elastic < medium.critical_depth) + medium.relaxation_time / dt
+        total, radius = force_and_radius(moved)
+        stiffness = max(moved._total(elements.contact * spring), 1e-300)
+        slope = foundation.profile.reduced_slope(radius)
+        if lag > 0 and slope > 0:
+            # Dashpots that come into contact as the radius increases.
+            stiffness += 2 * medium.E_star * lag / slope
+        return total - force, stiffness, moved
+
+    return root_in_bracket(excess, min(guess, room), -foundation.depth, room, close)
+
+
+def _consistent_path(runs, force):
+    """Times (s) and depths (m) of a path that carries the force; index of the given times, radii (m) there.
+
+    It is the extrapolated path, or that of the finest run where unloading is so steep that the extrapolated
+    one does not carry the force. The rate at the end of each piece is adjusted to carry it exactly.
+    """
+    finest, time, index = runs[-1].foundation, runs[-1].time, runs[-1].index
+    profile, medium = finest.profile, finest.medium
+    for depth in (_extrapolated_depth(runs), runs[-1].depth):
+        half_width = max(finest.half_width, float(profile.contact_radius(max(np.max(depth), 0.0))))
+        record = follow(Foundation(profile, medium, finest.n, half_width), depth, time)[index]
+        carried, radius = record[:, 0], record[:, -1]
+        if np.all(np.abs(carried - force) <= _MAX_DEVIATION * np.max(force)):
             break
     dashpots = 8 * medium.eta * radius
-    missing = np.divide(force - found, dashpots, out=np.zeros(force.shape), where=dashpots > 0)
-    path, places = _arriving(*path, places, missing)
-    plastic_depth = np.maximum(np.maximum.accumulate(depth) - medium.critical_depth, 0.0)
-    states = force, radius, *np.maximum(energies, 0.0), plastic_depth
-    return TimedIndentation(profile, medium, time, depth, *states, error, places, path)
+    rate = np.divide(force - carried, dashpots, out=np.zeros(force.shape), where=dashpots > 0)[1:]
+    end = index[1:]
+    step = time[end] - time[end - 1]
+    rate += (depth[end] - depth[end - 1]) / step
+    time = np.insert(time, end, time[end] - _END_FRACTION * step)
+    depth = np.insert(depth, end, depth[end] - _END_FRACTION * step * rate)
+    return time, depth, index + np.arange(len(index)), radius
 
 
-def _extrapolated(rows):
-    """The limit of results with errors of first and second order, each run with half the step."""
-    for power in range(1, len(rows)):
-        rows = [fine + (fine - coarse) / (2**power - 1) for coarse, fine in pairwise(rows)]
-    return rows[-1]
-
-
-def _limit_of_paths(paths):
-    """Times (s) and depths (m) of the last path, corrected by those with half the steps each."""
-    (time, depth), levels = paths[-1].T, range(len(paths))
-    common = [path[:: 2**level, 1] for level, path in zip(levels, paths, strict=True)]
-    return time, depth + np.interp(time, time[:: 2 ** levels[-1]], _extrapolated(common) - common[-1])
-
-
-def _replay(row, time, depth, places):
-    """Force (N) and contact radius (m) at some places of a path that a row follows."""
-    found, steps = [], np.append(np.inf, np.diff(time))
-    for to, dt in zip(depth, steps, strict=True):
-        row = row.advance(to, dt)
-        found.append(force_and_radius(row))
-    return np.array(found)[places].T
-
-
-def _arriving(time, depth, places, surplus):
-    """The path with rates (m/s) added to those at which it comes to its places, and the places there."""
-    ends = np.array(places[1:])
-    step = time[ends] - time[ends - 1]
-    rate = (depth[ends] - depth[ends - 1]) / step + surplus[1:]
-    path = [
-        np.insert(values, ends, values[ends] - _ARRIVAL * step * change)
-        for values, change in ((time, 1.0), (depth, rate))
-    ]
-    return tuple(path), places + np.arange(len(places))
-
-
-class _Run:
-    """One run: the chain, its path, and what has been recorded at the given times."""
-
-    def __init__(self, profile, medium, bound, n, precision):
-        self.bound = min(bound, profile.known_depth)
-        self.close = precision * self.bound
-        # A path that never presses has no width of its own.
-        half_width = float(profile.contact_radius(self.bound)) or min(1.0, profile.known_radius)
-        self.row = Foundation(profile, medium, n, half_width)
-        self.rate = 0.0
-        self.path, self.places, self.record = [], [], []
-
-    def follow(self, force, time, steps):
-        """Follow a force path in so many steps for each of its pieces."""
-        least = _TOUCH * np.max(force)
-        # The pieces' beginnings resolved as the cube of the step.
-        share = (np.arange(steps + 1) / steps) ** 3
-        if force[0] > 0:
-            self.go(np.inf, force[0], 0.0)
-        self.path.append((time[0], self.row.depth))
-        self.note()
-        for (start, first), (stop, last) in pairwise(zip(time, force, strict=True)):
-            for begin, end in pairwise(share):
-                dt, before = (stop - start) * (end - begin), self.row.depth
-                self.go(dt, max(first + (last - first) * end, least), self.rate * dt)
-                self.rate = (self.row.depth - before) / dt
-                self.path.append((self.path[-1][0] + dt, self.row.depth))
-            self.note()
-
-    def note(self):
-        """Record the present state as one of those at the given times."""
-        row = self.row
-        self.places.append(len(self.path) - 1)
-        energies = row.stored_energy, row.plastic_work, row.viscous_work
-        self.record.append((row.depth, *energies))
-
-    def go(self, dt, force, guess):
-        """The move in a time dt (s) that ends under a force (N), by its rise (m) from a first guess."""
-        row, medium, room = self.row, self.row.medium, self.bound - self.row.depth
-
-        def excess(rise):
-            moved = row.advance(row.depth + rise, dt)
-            state = moved._elements
-            spring = (state.elastic < medium.critical_depth) + medium.relaxation_time / dt
-            total, radius = force_and_radius(moved)
-            stiffness = max(moved._total(state.contact * spring), 1e-300)
-            slope = row.profile.reduced_slope(radius)
-            if moved._lag > 0 and slope > 0:
-                # The dashpots that the growing contact meets.
-                stiffness += 2 * medium.E_star * moved._lag / slope
-            return total - force, stiffness, moved
-
-        self.row = root_in_bracket(excess, min(guess, room), -row.depth, room, self.close)
+def _extrapolated_depth(runs):
+    """Depths (m) of the finest path, corrected at the times that it has in common with coarser ones."""
+    runs = runs[-len(_ORDERS) - 1 :]
+    time, depth = runs[-1].time, runs[-1].depth
+    common = [run.depth[:: 2**level] for level, run in enumerate(runs)]
+    correction = extrapolate(common, _ORDERS) - common[-1]
+    return depth + np.interp(time, time[:: 2 ** (len(runs) - 1)], correction)

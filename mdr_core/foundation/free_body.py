@@ -1,245 +1,253 @@
 """A free body on the chain: Newton's equation in steps that are exact for the elements.
 
-1. The chain is as wide as the contact that springs, or dashpots alone, allow at most.
-2. A step of constant ḋ = V is exact for every element, and so is the impulse J(V) of their force.
-   The velocity of the body changes from v to v₁ with m (v₁ − v) = −J(V), V = (v + v₁)/2, found by Newton's
-   method. Its kinetic energy changes by the work of that very force: the ledger closes whatever the step.
-3. The largest depth is what the elements remember: one step is split where the body turns round.
-4. Steps are equal in ln(T₀ + t), with t the time since first contact, then since the turning point.
-   Contact ends when the last element lets go.
+1. The foundation is as wide as the largest contact that springs alone, or dashpots alone, allow.
+2. A step of constant ḋ = V is exact for every element, and so is the impulse J(V) of their force. The
+   velocity of the body changes from v to v₁ with m (v₁ − v) = −J(V), V = (v + v₁)/2, solved by Newton's
+   method. The kinetic energy changes by the work of this force: energy is conserved for every step size.
+3. One step ends at the turning point, because the elements remember the largest depth, and one where yield
+   begins, because the force has a kink there.
+4. Steps are equal in ln(T₀ + t), with the time t since first contact, then since the turning point.
+   Contact ends when the last element is released.
 """
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from .. import _check
 from .._numeric import root_in_bracket
-from ..medium import Medium
+from ..medium import plastic_depth
 from ..results import Motion
-from ..shapes.profile import Profile
 from . import element
+from .element import Elements, Exchange, Ramp
+from .foundation import Foundation
 from .fronts import force_and_radius
-from .reach import reach
-from .row import Foundation
+from .grid import depth_bound
 
-_MOST_STEPS = 20_000
-#: The deepest that the chain can tell the critical depth from rounding, in critical depths.
-_DEEPEST = 1e11
+_MAX_STEPS = 20_000
+#: Largest depth over critical depth; at larger ones the live depth is lost in rounding.
+_MAX_DEPTH_RATIO = 1e11
 
 
-@dataclass(frozen=True)
-class Body:
-    """What flies, against what, and from where."""
+def earlier_depth(history):
+    """Largest depth (m) of the moves of a foundation, at least 0."""
+    return max([0.0, *(depth for depth, _ in history)])
 
-    profile: Profile
-    medium: Medium
-    mass: float
-    speed: float
-    history: tuple[tuple[float, float], ...] = ()
 
-    def __post_init__(self):
-        object.__setattr__(self, "mass", _check.positive_number("mass", self.mass, unit="kg"))
-        object.__setattr__(self, "speed", _check.positive_number("speed", self.speed, unit="m/s"))
-
-    @property
-    def met_before(self):
-        """Largest depth (m) of the history, at least 0."""
-        return max([0.0, *(depth for depth, _ in self.history)])
-
-    def room(self):
-        """A depth (m) that the body does not exceed, beyond what was met before."""
-        profile, medium, momentum, past = self.profile, self.medium, self.mass * self.speed, self.met_before
-        bound = min(
-            reach(profile, medium, "work", momentum * self.speed / 2, past),
-            reach(profile, medium, "momentum", momentum, past),
+def impact_depth_bound(profile, medium, mass, speed, history):
+    """Depth (m) that a body of a mass (kg) and speed (m/s) does not exceed after earlier moves."""
+    momentum, start = mass * speed, earlier_depth(history)
+    bound = min(
+        depth_bound(profile, medium, "work", momentum * speed / 2, start),
+        depth_bound(profile, medium, "momentum", momentum, start),
+    )
+    if bound > _MAX_DEPTH_RATIO * medium.critical_depth:
+        raise ValueError(
+            f"speed = {speed:g} m/s presses to {bound:g} m, over {_MAX_DEPTH_RATIO:g} critical depths, "
+            "where the live depth is lost in rounding; reduce the speed, or use impact"
         )
-        if bound > _DEEPEST * medium.critical_depth:
-            raise ValueError(
-                f"speed = {self.speed:g} m/s presses to {bound:g} m, over {_DEEPEST:g} critical depths, "
-                "so that what springs back is lost in rounding; hit less hard, or use impact"
-            )
-        return bound
-
-    def row(self, n, deepest):
-        """The chain on which the body starts, with edges at the radii of a depth (m) and of the past."""
-        level = np.array([self.met_before, deepest])
-        level = np.append(level, level - self.medium.critical_depth)
-        nodes = self.profile.contact_radius(level[level > 0]) if n >= 16 else ()
-        widest = min((1.02 + 2 / n) * level.max(), self.profile.known_depth)
-        half_width = self.profile.contact_radius(widest)
-        row = Foundation(self.profile, self.medium, n, half_width, nodes=tuple(nodes))
-        for depth, dt in self.history:
-            row = row.advance(depth, dt)
-        return row
+    return bound
 
 
-class Run(NamedTuple):
-    """One run: its motion, the chain when contact ends, and its `quantities`.
+def foundation_before(profile, medium, history, n, depth):
+    """Foundation after earlier moves, with edges at the radii of these and of a depth (m) to come."""
+    level = np.array([earlier_depth(history), depth])
+    level = np.append(level, level - medium.critical_depth)
+    nodes = profile.contact_radius(level[level > 0]) if n >= 16 else ()
+    outer = min((1.02 + 2 / n) * level.max(), profile.known_depth)
+    foundation = Foundation(profile, medium, n, profile.contact_radius(outer), nodes=tuple(nodes))
+    for move, dt in history:
+        foundation = foundation.advance(move, dt)
+    return foundation
 
-    These are the coefficient of restitution, largest depth (m) and force (N), contact time (s), and the
-    energies (J) stored at the turning point, and dissipated by yielding and by the dashpots.
-    """
+
+class ImpactRun(NamedTuple):
+    """Result of one run: its motion, the foundation when contact ends, quantities of a `ChainImpact`."""
 
     motion: Motion
     foundation: Foundation
-    quantities: np.ndarray
+    quantities: dict[str, float]
 
 
-class Flight:
-    """A body on its way: the chain, the velocity, and what has been recorded so far."""
+class BodyStep(NamedTuple):
+    """One step: its ramp, the elements at its end, their exchange, and the velocity (m/s) of the body."""
 
-    def __init__(self, body, row, steps, room):
-        self.body, self.row, self.velocity, self.steps, self.room = body, row, body.speed, steps, room
-        self.time, self.acceleration, self.records = 0.0, 0.0, []
-        self.first_yield = max(body.met_before, body.medium.critical_depth)
-        # Velocities are found to twelve digits of what damping leaves of them.
-        tau = max(body.medium.relaxation_time, room * 1e-9 / body.speed)
-        self.still = 1e-12 * min(body.speed, min(room, body.medium.critical_depth) / tau)
+    ramp: Ramp
+    elements: Elements
+    exchange: Exchange
+    velocity: float
+
+
+class ImpactSolver:
+    """Time integration of one impact, with a record of every step."""
+
+    def __init__(self, foundation, mass, speed, steps, bound):
+        self.foundation, self.mass, self.speed, self.steps, self.bound = (
+            foundation,
+            mass,
+            speed,
+            steps,
+            bound,
+        )
+        self.time, self.velocity, self.acceleration, self.records = 0.0, speed, 0.0, []
+        medium = foundation.medium
+        self.earlier_depth, self.tau = earlier_depth(foundation.history), medium.relaxation_time
+        self.yield_depth = max(self.earlier_depth, medium.critical_depth)
+        # Velocities are computed to twelve digits of the velocity that damping leaves.
+        tau = max(self.tau, bound * 1e-9 / speed)
+        self.precision = 1e-12 * min(speed, min(bound, medium.critical_depth) / tau)
         self._record()
 
     def run(self):
-        """The flight from the start to the loss of contact."""
+        """`ImpactRun` from the start to the loss of contact."""
         self._approach()
-        first, unit = len(self.records), self.room / self.body.speed
-        before = self.row
-        self._leg(unit, lambda: self.velocity <= self.still)
-        turn, (medium, mass) = self.time, (self.body.medium, self.body.mass)
-        rate = 2 * medium.E_star * force_and_radius(self.row)[1] / mass
-        peak = self._largest_force(before, first)
-        self._leg(1 / (np.sqrt(rate) + medium.relaxation_time * rate), self._free)
-        motion = self._motion(max(self._left(), turn))
-        lasts = motion.time[-1] - motion.time[first - 1]
-        stored, plastic, viscous = motion.stored_energy, motion.plastic_work, motion.viscous_work
-        # What relaxing elements still store at the end is lost, too.
-        lost = viscous[-1] - viscous[0] + stored[-1] - stored[0]
-        energies = stored[motion.turning_index], plastic[-1] - plastic[0], lost
-        restitution = -self.velocity / self.body.speed
-        return Run(motion, self.row, np.array([restitution, motion.depth.max(), peak, lasts, *energies]))
+        first, untouched = len(self.records), self.foundation
+        self._advance_until(lambda: self.velocity <= self.precision, self.bound / self.speed)
+        turning_time, max_force = self.time, self._max_force(untouched, first)
+        # Time scale of the rebound: of an oscillator of the stiffness 2E*a, or of its creep if overdamped.
+        rate = 2 * self.foundation.medium.E_star * force_and_radius(self.foundation)[1] / self.mass
+        self._advance_until(self._released, 1 / (np.sqrt(rate) + self.tau * rate))
+        # Contact ended in the last step where d + τḋ was the surface at the axis; no force acts afterwards.
+        penetration = self.foundation._elements.penetration[0]
+        release_time = self.time - (penetration + self.tau * self.velocity) / self.velocity
+        motion = self._motion(max(release_time, turning_time))
+        stored, viscous = motion.stored_energy, motion.viscous_work
+        quantities = {
+            "restitution": -self.velocity / self.speed,
+            "max_depth": motion.depth.max(),
+            "max_force": max_force,
+            "contact_time": motion.time[-1] - motion.time[first - 1],
+            "stored_energy": stored[motion.turning_index],
+            "plastic_work": motion.plastic_work[-1] - motion.plastic_work[0],
+            # The energy that relaxing elements store at the end is dissipated afterwards.
+            "viscous_work": viscous[-1] - viscous[0] + stored[-1] - stored[0],
+        }
+        return ImpactRun(motion, self.foundation, quantities)
 
-    def _free(self):
-        return self.velocity < 0 and not self.row._elements.contact.any()
-
-    def _left(self):
-        """Time (s) at which contact is lost, where d + τḋ is down at the axis; after that no force acts."""
-        row, v = self.row, self.velocity
-        return self.time - (row._elements.above[0] + row.medium.relaxation_time * v) / v
+    def _released(self):
+        return self.velocity < 0 and not self.foundation._elements.contact.any()
 
     def _approach(self):
-        """Fly freely to where the axis is met, but for a billionth of the way to come."""
+        """Move freely up to the surface at the axis, within 1e-9 of the depth bound."""
         for _ in range(1000):
-            state = self.row._elements
-            gap = float(state.reduced[0] + state.plastic[0] + state.elastic[0]) - self.row.depth
-            if gap <= 1e-9 * self.room or state.contact.any():
+            elements = self.foundation._elements
+            surface = float(elements.reduced[0] + elements.plastic[0] + elements.elastic[0])
+            gap = surface - self.foundation.depth
+            if gap <= 1e-9 * self.bound or elements.contact.any():
                 return
-            dt = (gap - 1e-10 * self.room) / self.velocity
-            self._accept(*self._trial(self.velocity, dt)[:3], self.velocity)
+            step, _ = self._trial(self.velocity, (gap - 1e-10 * self.bound) / self.velocity, self.velocity)
+            self._accept(step)
 
-    def _leg(self, unit, over):
-        """Steps until it is over, from a share of a time `unit` (s) on, in proportion to the time gone."""
-        begin = self.time
-        for _ in range(_MOST_STEPS):
-            dt = (unit + self.time - begin) / self.steps
-            taken = self._until_yield(self._step(dt))
-            if self.velocity > self.still and taken[-1] < -self.still:
-                taken = self._turn(dt, taken[-1])
-            self._accept(*taken)
-            if over():
+    def _advance_until(self, done, unit):
+        """Take steps until `done()`, each a constant fraction of the time so far plus a unit (s)."""
+        start = self.time
+        for _ in range(_MAX_STEPS):
+            dt = (unit + self.time - start) / self.steps
+            step = self._step_to_yield(self._step(dt))
+            if self.velocity > self.precision and step.velocity < -self.precision:
+                step = self._turning_step(dt, step.velocity)
+            self._accept(step)
+            if done():
                 return
         raise ValueError(
-            f"the impact takes more than {_MOST_STEPS} steps: the relaxation time tau = "
-            f"{self.row.medium.relaxation_time:g} s is out of proportion to the time of contact; "
-            "check the units, or leave out eta"
+            f"the impact needs more than {_MAX_STEPS} steps: the relaxation time tau = {self.tau:g} s is "
+            "far from the contact time; check the units, or set eta = 0"
         )
 
-    def _until_yield(self, taken):
-        """A step, or one that ends where yield begins, if it would pass there: the force has a kink."""
-        way = self.first_yield - self.row.depth
-        for _ in range(4):
-            if not 1e-9 * self.first_yield < way < taken[0].rise:
-                break
-            taken = self._step(taken[0].time * way / taken[0].rise)
-        return taken
-
-    def _largest_force(self, row, first):
-        """The largest force (N) so far: at the end of a step, or between three that nothing happens at.
-
-        Blunt bodies are met with most of the force of the dashpots: within the `first` step it is asked for
-        at times of every order.
-        """
-        met, time, depth, force = (np.array([record[k] for record in self.records]) for k in (2, 0, 1, 3))
-        v, dt = met[first - 1], time[first] - time[first - 1]
-        within = dt * np.geomspace(1e-9, 1.0, 40)[:-1]
-        early = []
-        for t in within:
-            slower = v + (met[first] - v) * t / dt
-            ramp = row._ramp((v + slower) / 2 * t, t)
-            moved = row._after(ramp, *element.advance(row._elements, ramp), slower)
-            early.append((moved.depth, force_and_radius(moved)[0]))
-        time = np.append(time[first - 1] + within, time[first:])
-        depth, force = np.append(np.transpose(early), [depth[first:], force[first:]], axis=1)
-        # Before first touch, and after the turning point, the force is another function of time.
-        i = min(max(int(np.argmax(force)), 1), len(force) - 2)
-        if depth[i - 1] < self.first_yield * (1 - 1e-3) and depth[i + 1] > self.first_yield * (1 + 1e-3):
-            return float(force.max())
-        x, y = (time[i - 1 : i + 2] - time[i]) / (time[i + 1] - time[i]), force[i - 1 : i + 2] - force[i]
-        bend, slope, _ = np.polyfit(x, y, 2)
-        top = -slope / (2 * bend) if bend < 0 else np.inf
-        return float(force[i] + slope * top / 2 if x[0] < top < 1 else force.max())
-
-    def _trial(self, rate, dt):
-        """Ramp, new elements and exchange of a step, and its impulse (N·s)."""
-        ramp = self.row._ramp(rate * dt, dt)
-        state, exchange = element.advance(self.row._elements, ramp)
-        return ramp, state, exchange, self.row._total(exchange.impulse)
+    def _trial(self, rate, dt, velocity):
+        """Step at a constant rate (m/s) that ends with a velocity, and its impulse (N·s)."""
+        ramp = self.foundation._ramp(rate * dt, dt)
+        elements, exchange = element.advance(self.foundation._elements, ramp)
+        return BodyStep(ramp, elements, exchange, velocity), self.foundation._total(exchange.impulse)
 
     def _step(self, dt):
-        """One step of the given time, with the new velocity."""
-        m, v = self.body.mass, self.velocity
+        """Step of duration dt (s) that satisfies Newton's equation."""
+        m, v = self.mass, self.velocity
 
         def excess(rate):
-            *taken, impulse = self._trial(rate, dt)
-            slope = 2 * m + self.row._total(taken[2].response)
-            return 2 * m * (rate - v) + impulse, slope, (*taken, v - impulse / m)
+            step, impulse = self._trial(rate, dt, v)
+            slope = 2 * m + self.foundation._total(step.exchange.impulse_slope)
+            return 2 * m * (rate - v) + impulse, slope, step._replace(velocity=v - impulse / m)
 
-        close = max(self.still, 1e-12 * abs(v))
+        close = max(self.precision, 1e-12 * abs(v))
         return root_in_bracket(excess, v + self.acceleration * dt / 2, -np.inf, np.inf, close)
 
-    def _turn(self, longest, after):
-        """The step that ends where the velocity is zero, J(v/2) = m v; less than one that ends beyond."""
-        m, v = self.body.mass, self.velocity
+    def _step_to_yield(self, step):
+        """The step, shortened to end where yield begins if it crosses that depth."""
+        travel = self.yield_depth - self.foundation.depth
+        for _ in range(4):
+            if not 1e-9 * self.yield_depth < travel < step.ramp.travel:
+                break
+            step = self._step(step.ramp.duration * travel / step.ramp.travel)
+        return step
+
+    def _turning_step(self, max_dt, velocity):
+        """Step to velocity zero, J(v/2) = m v, within a step of duration max_dt (s) to a `velocity` < 0."""
+        m, v = self.mass, self.velocity
 
         def excess(dt):
-            *taken, impulse = self._trial(v / 2, dt)
-            ramp, state, _ = taken
-            force = self.row._total(np.where(state.contact, state.elastic + ramp.lag, 0.0))
-            return impulse - m * v, force or m * v / longest, (*taken, 0.0)
+            step, impulse = self._trial(v / 2, dt, 0.0)
+            load = np.where(step.elements.contact, step.elements.elastic + step.ramp.lag, 0.0)
+            return impulse - m * v, self.foundation._total(load) or m * v / max_dt, step
 
-        guess = v / (v - after) * longest
-        return root_in_bracket(excess, guess, 0.0, longest, max(self.still / v * guess, 1e-12 * longest))
+        guess = v / (v - velocity) * max_dt
+        close = max(self.precision / v * guess, 1e-12 * max_dt)
+        return root_in_bracket(excess, guess, 0.0, max_dt, close)
 
-    def _accept(self, ramp, state, exchange, velocity):
-        self.acceleration = (velocity - self.velocity) / ramp.time
-        # With the dashpots at the present velocity, not at the mean one of the step.
-        self.row, self.velocity = self.row._after(ramp, state, exchange, velocity), velocity
-        self.time += ramp.time
+    def _accept(self, step):
+        self.acceleration = (step.velocity - self.velocity) / step.ramp.duration
+        # The dashpots carry load at the velocity at the end, not at the mean rate of the step.
+        self.foundation = self.foundation._after(step.ramp, step.elements, step.exchange, step.velocity)
+        self.velocity, self.time = step.velocity, self.time + step.ramp.duration
         self._record()
 
     def _record(self):
-        row, v = self.row, self.velocity
-        axis = row._elements.elastic[0] + min(row.medium.relaxation_time * v, 0.0)
-        interval = max(axis, 0.0) if row._elements.contact[0] else 0.0
-        ledger = (self.body.mass * v**2 / 2, row.stored_energy, row.plastic_work, row.viscous_work)
-        self.records.append((self.time, row.depth, v, *force_and_radius(row), interval, *ledger))
+        foundation, v = self.foundation, self.velocity
+        force, radius = force_and_radius(foundation)
+        live_depth = max(foundation._elements.elastic[0] + min(self.tau * v, 0.0), 0.0)
+        self.records.append({
+            "time": self.time, "depth": foundation.depth, "velocity": v,
+            "force": force, "contact_radius": radius,
+            "live_depth": live_depth if foundation._elements.contact[0] else 0.0,
+            "kinetic_energy": self.mass * v**2 / 2, "stored_energy": foundation.stored_energy,
+            "plastic_work": foundation.plastic_work, "viscous_work": foundation.viscous_work,
+        })  # fmt: skip
+
+    def _columns(self):
+        return {name: np.array([record[name] for record in self.records]) for name in self.records[0]}
+
+    def _max_force(self, foundation, first):
+        """Largest force (N) up to the turning point: of the steps, and of a parabola through three of them.
+
+        Blunt indenters have most of the dashpots' force at once: the `first` step, from the `foundation`
+        before it, is sampled at times of every order of magnitude.
+        """
+        columns = self._columns()
+        time, depth, force = columns["time"], columns["depth"], columns["force"]
+        (v, slower), dt = columns["velocity"][first - 1 : first + 1], time[first] - time[first - 1]
+        early_time, early = dt * np.geomspace(1e-9, 1.0, 40)[:-1], []
+        for t in early_time:
+            velocity = v + (slower - v) * t / dt
+            ramp = foundation._ramp((v + velocity) / 2 * t, t)
+            moved = foundation._after(ramp, *element.advance(foundation._elements, ramp), velocity)
+            early.append((moved.depth, force_and_radius(moved)[0]))
+        time = np.append(time[first - 1] + early_time, time[first:])
+        depth, force = np.append(np.transpose(early), [depth[first:], force[first:]], axis=1)
+        # The parabola stays between first contact and turning point, and does not cross the kink at yield.
+        i = min(max(int(np.argmax(force)), 1), len(force) - 2)
+        if depth[i - 1] < self.yield_depth * (1 - 1e-3) and depth[i + 1] > self.yield_depth * (1 + 1e-3):
+            return float(force.max())
+        x, y = (time[i - 1 : i + 2] - time[i]) / (time[i + 1] - time[i]), force[i - 1 : i + 2] - force[i]
+        curvature, slope, _ = np.polyfit(x, y, 2)
+        top = -slope / (2 * curvature) if curvature < 0 else np.inf
+        return float(force[i] + slope * top / 2 if x[0] < top < 1 else force.max())
 
     def _motion(self, end):
-        """What was recorded, with the end where contact is lost."""
-        columns = [np.array(column) for column in zip(*self.records, strict=True)]
-        time, depth, velocity, force, radius, interval, *ledger = columns
+        """`Motion` of the recorded steps, with the last one moved to the time (s) at which contact ends."""
+        columns, foundation = self._columns(), self.foundation
+        time, depth = columns["time"], columns["depth"]
         end = max(end, time[-2])
-        time[-1], depth[-1] = end, depth[-1] + velocity[-1] * (end - time[-1])
-        past = np.maximum(np.maximum.accumulate(depth), self.body.met_before)
-        plastic = np.maximum(past - self.body.medium.critical_depth, 0.0)
-        zone = np.where(plastic > 0, self.body.profile.contact_radius(plastic), 0.0)
-        return Motion(time, depth, velocity, force, radius, zone, plastic, interval, *ledger)
+        time[-1], depth[-1] = end, depth[-1] + columns["velocity"][-1] * (end - time[-1])
+        largest_depth = np.maximum(np.maximum.accumulate(depth), self.earlier_depth)
+        d_p = plastic_depth(largest_depth, foundation.medium.critical_depth)
+        radius = np.where(d_p > 0, foundation.profile.contact_radius(d_p), 0.0)
+        return Motion(**columns, plastic_depth=d_p, plastic_radius=radius)

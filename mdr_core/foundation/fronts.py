@@ -1,95 +1,96 @@
-"""Where contact or yield ends inside an element of a chain: what the sum over whole elements leaves out.
+"""Fronts of contact and of yield inside an element: corrections to the sum over whole elements.
 
-A front of contact is a jump of the line load by 4ηḋ. Between two elements of which one is in
-contact, it stands where the indenter just touches: on a virgin surface at the contact radius
-itself, on a relaxing one where the gap, taken straight from the elements not yet met, closes. A
-front of yield is a kink.
+A front is a radius at which contact or yield ends. At a contact front the line load jumps by 4ηḋ, at a
+yield front it has a kink. On a virgin surface the contact front is the contact radius; on a relaxing one it
+is where the gap between indenter and surface closes, extrapolated from the gaps of the free elements.
 """
 
 import numpy as np
 
 
-def force_and_radius(row):
-    """Force (N) of a chain with what its fronts add, and outermost radius (m) in contact, 0 without any."""
-    contact, load = row._elements.contact, row._load
-    total, radius = float(load @ row._width) + _beyond_kink(row, load), 0.0
-    for inner in np.flatnonzero(contact[1:] != contact[:-1]).tolist():
-        met, step = (inner, 1) if contact[inner] else (inner + 1, -1)
-        radius = _front(row, load, met, step)
-        ring = _thin_ring(row, load, met, radius) if step > 0 else None
-        total += _beyond_edge(row, load, met, step, radius) if ring is None else ring
+def force_and_radius(foundation):
+    """Force (N) including the fronts, and outer radius (m) of the contact, 0 without contact."""
+    contact, load = foundation._elements.contact, foundation._load
+    total = float(load @ foundation._elements.width) + _yield_correction(foundation, load)
+    radius = 0.0
+    for i in np.flatnonzero(contact[1:] != contact[:-1]).tolist():
+        # The element in contact next to the front, and the direction of the free one.
+        last, step = (i, 1) if contact[i] else (i + 1, -1)
+        radius = _contact_front(foundation, load, last, step)
+        ring = _narrow_ring(foundation, load, last, radius) if step > 0 else None
+        total += _contact_correction(foundation, load, last, step, radius) if ring is None else ring
     if contact[-1]:
-        radius = min(row.half_width, _touched(row))
+        radius = min(foundation.half_width, _virgin_radius(foundation, foundation.depth))
     return 2 * total, radius
 
 
-def _touched(row):
-    """Contact radius (m) at the present depth on a virgin surface."""
-    return float(row.profile._radius(np.asarray(max(row.depth, 0.0))))
+def _virgin_radius(foundation, depth):
+    """Contact radius (m) at a depth on a virgin surface."""
+    return float(foundation.profile._radius(np.asarray(max(depth, 0.0))))
 
 
-def _beyond_kink(row, load):
-    """What the load of the element in which yield ends lacks (N), because it is not straight there."""
-    state, x = row._elements, row._middle
-    last = int(np.count_nonzero(state.plastic)) - 1
-    if not 0 < last < len(x) - 3 or not state.contact[last + 3]:
+def _yield_correction(foundation, load):
+    """Load (N) of the element with the yield front, minus that of its midpoint."""
+    elements, x, width = foundation._elements, foundation._elements.x, foundation._elements.width
+    last = int(np.count_nonzero(elements.plastic)) - 1
+    if not 0 < last < len(x) - 3 or not elements.contact[last + 3]:
         return 0.0
-    yielded = load[last]
-    one, two = yielded - load[last + 1], yielded - load[last + 2]
-    if not 0 < one < two:
+    near, far = load[last] - load[last + 1], load[last] - load[last + 2]
+    if not 0 < near < far:
         return 0.0
-    slope = (two - one) / (x[last + 2] - x[last + 1])
-    kink = x[last + 1] - one / slope
-    inside = last + int(kink > x[last] + row._width[last] / 2)
-    short = row._width[inside] / 2 - abs(kink - x[inside])
-    return -slope * max(short, 0.0) ** 2 / 2
+    slope = (far - near) / (x[last + 2] - x[last + 1])
+    kink = x[last + 1] - near / slope
+    i = last + int(kink > x[last] + width[last] / 2)
+    length = width[i] / 2 - abs(kink - x[i])
+    return -slope * max(length, 0.0) ** 2 / 2
 
 
-def _thin_ring(row, load, met, front):
-    """What elements lack (N) while yield follows the front on a virgin surface within three of them."""
-    state, x, width = row._elements, row._middle, row._width
-    last, critical = int(np.count_nonzero(state.plastic)) - 1, row.medium.critical_depth
-    virgin = state.elastic[met + 1] == 0 == state.plastic[met + 1]
-    if not (0 < last <= met < last + 3 and row._lag >= 0 and state.elastic[last] == critical and virgin):
+def _narrow_ring(foundation, load, last, front):
+    """Correction (N) where yield ends within three elements of a virgin contact front, else None."""
+    elements, x, width = foundation._elements, foundation._elements.x, foundation._elements.width
+    yielded, critical = int(np.count_nonzero(elements.plastic)) - 1, foundation.medium.critical_depth
+    virgin = elements.elastic[last + 1] == 0 == elements.plastic[last + 1]
+    lag = foundation._current.lag
+    capped = lag >= 0 and elements.elastic[yielded] == critical
+    if not (0 < yielded <= last < yielded + 3 and capped and virgin):
         return None
-    edge = float(x[last] - width[last] / 2)
-    kink = float(row.profile._radius(np.asarray(row.depth - critical)))
+    edge = float(x[yielded] - width[yielded] / 2)
+    kink = _virgin_radius(foundation, foundation.depth - critical)
     if not edge <= kink <= front:
         return None
-    rim = row.medium.E_star * row._lag
-    exact = load[last] * (kink - edge) + (load[last] + rim) / 2 * (front - kink)
-    return exact - float(load[last : met + 1] @ width[last : met + 1])
+    rim = foundation.medium.E_star * lag
+    exact = load[yielded] * (kink - edge) + (load[yielded] + rim) / 2 * (front - kink)
+    return exact - float(load[yielded : last + 1] @ width[yielded : last + 1])
 
 
-def _beyond_edge(row, load, met, step, front):
-    """Load (N) between the outer edge of the element `met` and the front."""
-    back, x = met - step, row._middle
-    edge = float(x[met] + step * row._width[met] / 2)
+def _contact_correction(foundation, load, last, step, front):
+    """Load (N) between the edge of the last element in contact and the front, on a straight line load."""
+    inner, x = last - step, foundation._elements.x
+    edge = float(x[last] + step * foundation._elements.width[last] / 2)
     slope = 0.0
-    if 0 <= back < len(load) and row._elements.contact[back]:
-        slope = (load[met] - load[back]) / (x[met] - x[back])
-    elif back < 0 and front > 0:
-        # Only the axis is met: down to what the dashpots carry at the front.
-        slope = (row.medium.E_star * max(row._lag, 0.0) - load[met]) / front
-    # The load is straight from the last element in contact to the front: beyond it the line goes on.
-    middle = float(load[met] + slope * ((front + edge) / 2 - x[met]))
+    if 0 <= inner < len(load) and foundation._elements.contact[inner]:
+        slope = (load[last] - load[inner]) / (x[last] - x[inner])
+    elif inner < 0 and front > 0:
+        # Only the axis is in contact: the load falls to that of the dashpots at the front.
+        slope = (foundation.medium.E_star * max(foundation._current.lag, 0.0) - load[last]) / front
+    middle = float(load[last] + slope * ((front + edge) / 2 - x[last]))
     return step * (front - edge) * middle
 
 
-def _front(row, load, met, step):
-    """Place (m) where contact ends between the element `met` and its neighbour on one side."""
-    state, x = row._elements, row._middle
-    free, back = met + step, met - step
-    low, high = sorted((float(x[met]), float(x[free])))
-    if step > 0 and state.elastic[free] == 0 and state.plastic[free] == 0:
-        return min(max(_touched(row), low), high)
-    if row._lag < 0 and 0 <= back < len(x) and load[back] > load[met]:
-        # Letting go: the load falls to zero there.
-        front = x[met] + load[met] * (x[met] - x[back]) / (load[back] - load[met])
-        if low <= front <= high:
+def _contact_front(foundation, load, last, step):
+    """Radius (m) of the front between the element `last` in contact and its free neighbour."""
+    elements, x = foundation._elements, foundation._elements.x
+    free, inner, outer = last + step, last - step, last + 2 * step
+    lower, upper = sorted((float(x[last]), float(x[free])))
+    if step > 0 and elements.elastic[free] == 0 and elements.plastic[free] == 0:
+        return min(max(_virgin_radius(foundation, foundation.depth), lower), upper)
+    if foundation._current.lag < 0 and 0 <= inner < len(x) and load[inner] > load[last]:
+        # At release the load is zero.
+        front = x[last] + load[last] * (x[last] - x[inner]) / (load[inner] - load[last])
+        if lower <= front <= upper:
             return float(front)
-    gap, further = state.elastic - state.above, free + step
-    front = (low + high) / 2
-    if 0 <= further < len(x) and gap[further] > gap[free] and np.isfinite(gap[further]):
-        front = float(x[free] - gap[free] * (x[further] - x[free]) / (gap[further] - gap[free]))
-    return min(max(front, low), high)
+    gap = elements.elastic - elements.penetration
+    front = (lower + upper) / 2
+    if 0 <= outer < len(x) and gap[outer] > gap[free] and np.isfinite(gap[outer]):
+        front = float(x[free] - gap[free] * (x[outer] - x[free]) / (gap[outer] - gap[free]))
+    return min(max(front, lower), upper)

@@ -1,28 +1,31 @@
-"""Impact of a free rigid body on the chain: also with viscosity, and on what an earlier one has left.
+"""Impact of a free rigid body on the chain: also with viscosity, and on the imprint of earlier impacts.
 
-Three runs or more of `free_body`, each with twice the elements and half the steps of the one before. Both
-errors are of second order: limits are f + (f − c)/3, and the last change of a limit is what it is said to
-err by.
+Runs of `free_body` are refined: each has twice the elements and half the steps of the one before, and both
+errors are of second order.
 """
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from .. import _check
 from ..limits import Limit, contact_limits
 from ..medium import Medium, check_pair
-from ..results import CHAIN, ImpactResult, Motion, instants, sealed
+from ..results import CHAIN, ImpactResult, Motion, instants
 from ..shapes.profile import Profile
-from .free_body import Body, Flight
-from .row import Foundation, element_count
+from .foundation import Foundation, element_count
+from .free_body import ImpactSolver, foundation_before, impact_depth_bound
+from .refinement import refine
 
-#: Elements, and steps in the time T₀, of the first run; each later one has twice as many, up to so often.
+#: Elements, and steps per time scale, of the coarsest run; number of runs.
 _ELEMENTS, _STEPS, _RUNS = 150, 12, 8
-#: The part of what a limit has gained on its last run that it errs by at least, in the order of `Errors`.
-_TRUST = np.array([0.1, 0.2, 2.0, 1.0])
+#: Quantities that are refined, and their smallest errors as a share of the correction by extrapolation.
+_TRUST = {
+    "restitution": 0.1, "max_depth": 0.2, "max_force": 2.0, "contact_time": 1.0,
+    "stored_energy": 0.0, "plastic_work": 0.0, "viscous_work": 0.0,
+}  # fmt: skip
 
 
 @_check.keywords_explained
@@ -36,40 +39,39 @@ def chain_impact(
     n: int | None = None,
     tolerance: float = 1e-6,
 ) -> "ChainImpact":
-    """Let a body hit the chain of springs, dashpots and yield caps, with no other force acting.
+    """Solve the impact of a free body on the chain of springs with yield cap and dashpots.
 
     Parameters
     ----------
     profile, medium
-        The indenter, and the medium, viscous or not.
+        The indenter, and the medium, with or without viscosity.
     mass, speed : float
         Mass m (kg), and speed v₀ (m/s) at the start, positive.
     start : Foundation, optional
-        What the body meets, and where it starts from; by default it touches the virgin surface.
-        It is set up anew, through the same moves, on the grids of the solver.
+        The foundation before the impact, at the depth where the body starts; by default undeformed at first
+        contact. Its moves are repeated on the grids of the solver.
     n : int, optional
-        A fixed number of elements; by default as many as the tolerance needs. What a fixed number
-        errs by is not in the estimates.
+        A fixed number of elements, whose error is not estimated; by default it is refined.
     tolerance : float, optional
-        Error allowed in the restitution coefficient, and in the largest depth relative to itself;
-        positive. Elements and time steps are refined until the estimate is less, or eight times.
+        Largest error of the rebound speed relative to `speed`, and of the largest depth relative to itself;
+        positive. Elements and steps are refined until it is reached, at most seven times.
 
     Returns
     -------
     ChainImpact
-        With the estimate reached as `error`, and those of largest force and contact time as well in
-        `errors`; they cover relaxation times up to 10³ contact times.
+        With the estimated `error`, and estimates for each quantity in `errors`. They hold for relaxation
+        times up to 10³ contact times.
 
     Raises
     ------
     ValueError
-        If mass or speed is not positive, `start` is of another profile or medium, or the body goes
-        deeper than the shape is known.
+        If mass or speed is not positive, `start` has another profile or medium, or the largest depth
+        exceeds the known depth of the profile.
 
     Examples
     --------
-    A flat punch on a medium that does not yield is a damped oscillator until its force is zero. At
-    half of the critical damping, e = exp(−ζφ/√(1 − ζ²)) with tan φ = 2ζ√(1 − ζ²)/(2ζ² − 1):
+    A flat punch on a medium that does not yield is a damped oscillator until its force is zero. At half of
+    the critical damping, e = exp(−ζφ/√(1 − ζ²)) with tan φ = 2ζ√(1 − ζ²)/(2ζ² − 1):
 
     >>> from mdr_core import FlatPunch, Medium
     >>> hit = chain_impact(FlatPunch(radius=0.5), Medium(E_star=1.0, eta=0.25), 1.0, 1.0)
@@ -77,51 +79,56 @@ def chain_impact(
     0.29844
     """
     check_pair(profile, medium, "an impact on the chain")
-    body = Body(profile, medium, mass, speed, _history(profile, medium, start))
+    mass = _check.positive_number("mass", mass, unit="kg")
+    speed = _check.positive_number("speed", speed, unit="m/s")
     tolerance = _check.positive_number("tolerance", tolerance)
-    count = None if n is None else element_count(n)
-    room = body.room()
-    # How deep the body comes, for the edges of the first run.
-    depth = Flight(body, body.row(count or _ELEMENTS, room), _STEPS / 2, room).run().quantities[1]
-    runs, limits = [], []
-    for level in range(_RUNS):
-        row = body.row(count or _ELEMENTS * 2**level, depth)
-        runs.append(Flight(body, row, _STEPS * 2**level, room).run())
-        fine, coarse = runs[-1].quantities, runs[max(level - 1, 0)].quantities
-        depth = fine[1]
-        limits.append(fine + (fine - coarse) / 3)
-        if level > 1:
-            # Errors of steps and elements may cancel by chance.
-            before, last = (limit[:4] for limit in limits[-2:])
-            changes = np.maximum(np.abs(last - before), np.abs(last - fine[:4]) * _TRUST)
-            scale = np.append(1.0, np.abs(last[1:]))
-            errors = Errors(*np.maximum(changes / scale, tolerance / 2).tolist())
-            if max(errors.restitution, errors.max_depth) <= tolerance:
-                break
-    # Where next to nothing comes back, the limit may miss zero by its error.
-    restitution, *others = limits[-1].tolist()
-    values = max(0.0, restitution), *others
+    count, history = None if n is None else element_count(n), _history(profile, medium, start)
+    bound = impact_depth_bound(profile, medium, mass, speed, history)
+
+    def solve(elements, depth, steps):
+        foundation = foundation_before(profile, medium, history, count or elements, depth)
+        return ImpactSolver(foundation, mass, speed, steps, bound).run()
+
+    # A first run determines the largest depth, at whose radius the next one has an edge.
+    runs = [solve(_ELEMENTS, bound, _STEPS / 2)]
+
+    def run(level):
+        runs.append(solve(_ELEMENTS * 2**level, runs[-1].motion.depth.max(), _STEPS * 2**level))
+        return np.array([runs[-1].quantities[name] for name in _TRUST])
+
+    trust = np.array([*_TRUST.values()])
+    # Errors are relative to the quantity itself, for the restitution (rebound over impact speed) to 1.
+    floor = np.array([1.0 if name == "restitution" else 0.0 for name in _TRUST])
+    limit, errors = refine(run, tolerance, _RUNS, 2, orders=(2,), runs=3, trust=trust, floor=floor)
+    quantities = dict(zip(_TRUST, limit.tolist(), strict=True))
+    errors = dict(zip(_TRUST, errors.tolist(), strict=True))
+    error = max(errors["restitution"], errors["max_depth"])
+    # Close to zero, the limit may be negative within its error.
+    restitution = quantities["restitution"] = max(0.0, quantities["restitution"])
+    errors["restitution"] = errors["restitution"] / restitution if restitution > 0 else np.inf
+    errors = ChainErrors(**{name: errors[name] for name in ChainErrors._fields})
     return ChainImpact(
-        profile, medium, body.mass, body.speed, *values, errors, runs[-1].foundation, runs[-1].motion
-    )
+        profile, medium, mass, speed, **quantities, error=error, errors=errors,
+        foundation=runs[-1].foundation, _motion=runs[-1].motion,
+    )  # fmt: skip
 
 
 def _history(profile, medium, start):
-    """The moves that led to the foundation `start`, if it is one under this indenter on this medium."""
+    """Moves of the foundation `start`, if it has this profile and medium."""
     if start is None:
         return ()
     if not isinstance(start, Foundation):
         raise TypeError(f"start must be a Foundation, as made by advance, got {type(start).__name__}")
     if start.profile != profile or start.medium != medium:
         raise ValueError(
-            f"start is a foundation under {start.profile!r} on {start.medium!r}, which are not the profile "
-            "and medium of this impact; give the same"
+            f"start is a foundation under {start.profile!r} on {start.medium!r}, which differ from the "
+            "profile and medium of this impact; give the same"
         )
     return start.history
 
 
-class Errors(NamedTuple):
-    """Estimated errors: of the coefficient of restitution, and of others relative to themselves."""
+class ChainErrors(NamedTuple):
+    """Estimated errors of a `ChainImpact`, each relative to the quantity; infinite where that is zero."""
 
     restitution: float
     max_depth: float
@@ -133,60 +140,52 @@ class Errors(NamedTuple):
 class ChainImpact(ImpactResult):
     """One impact on the chain; made by `chain_impact`.
 
-    Numbers are limits for vanishing steps and elements, from the last two runs, with estimates of
-    their `errors`; if the number of elements is fixed, limits and errors of the steps alone.
+    Quantities are limits for vanishing steps and elements. For a fixed number of elements, limits and
+    errors are those of the steps alone.
     """
 
     profile: Profile
     medium: Medium
     mass: float
     speed: float
-    #: Coefficient of restitution, the speed of leaving over the speed of coming.
+    #: Coefficient of restitution, rebound speed over impact speed.
     restitution: float
-    #: Largest indentation depth d_max (m), largest force (N), time (s) from first contact to the last one.
+    #: Largest indentation depth d_max (m), largest force (N), time (s) from first contact to its end.
     max_depth: float
     max_force: float
     contact_time: float
     #: Elastic energy (J) at the turning point.
     stored_energy: float
-    #: Energy (J) dissipated by yielding, and by the dashpots with what relaxing elements store at the end.
+    #: Energies (J) dissipated by yielding, and by the dashpots including the final relaxation.
     plastic_work: float
     viscous_work: float
-    #: Estimated errors of the first four of these numbers.
-    errors: Errors
-    #: The chain when contact ends: what a next body meets.
+    #: Estimated error that the tolerance bounds: the larger one of rebound speed (over `speed`) and depth.
+    error: float
+    #: Estimated relative errors of four quantities.
+    errors: ChainErrors
+    #: The foundation when contact ends, from which another impact may start.
     foundation: Foundation = field(repr=False)
     _motion: Motion = field(repr=False)
-    _made_of: tuple[Any, ...] = ()
 
-    #: How it was found.
+    #: Model that was solved.
     model = CHAIN
-
-    def __post_init__(self):
-        sealed(self, "profile", "medium", "mass", "speed", "_motion")
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """Where the model's assumptions end for this impact, as data."""
+        """Limits of the model's assumptions for this impact."""
         return contact_limits(self.profile, self.medium, self.contact_radius)
 
-    @property
-    def error(self) -> float:
-        """The error that the tolerance is for: of the restitution coefficient, and of the largest depth."""
-        return max(self.errors.restitution, self.errors.max_depth)
-
     def motion(self, n: int | None = None) -> Motion:
-        """The `Motion` of the finest run step by step, or at n equally spaced instants in between.
+        """The `Motion` of the finest run at every step, or interpolated at n equally spaced instants.
 
-        Its ledger closes whatever the steps.
+        Its energies sum to the initial energy for every step size.
         """
         steps = replace(self._motion, impact=self)
         if n is None:
             return steps
         time = instants(n, steps.time[steps.turning_index], steps.time[-1], steps.time[0])
-        columns = {name: values for name, values in steps.to_dict().items() if name != "time"}
-        values = {name: np.interp(time, steps.time, column) for name, column in columns.items()}
-        return Motion(time, **values, impact=self)
+        values = {name: np.interp(time, steps.time, column) for name, column in steps.to_dict().items()}
+        return Motion(**(values | {"time": time}), impact=self)
 
     @property
     def contact_radius(self) -> float:
@@ -195,12 +194,12 @@ class ChainImpact(ImpactResult):
 
     @property
     def plastic_depth(self) -> float:
-        """Plastic depth d_p (m) that remains."""
+        """Plastic depth d_p (m) after the impact."""
         return max(0.0, self.max_depth - self.medium.critical_depth)
 
     @property
     def plastic_radius(self) -> float:
-        """Radius c (m) of the plastic zone that remains."""
+        """Plastic radius c (m) after the impact."""
         return self.profile.contact_radius(self.plastic_depth) if self.plastic_depth > 0 else 0.0
 
     @property
@@ -210,5 +209,5 @@ class ChainImpact(ImpactResult):
 
     @property
     def rebound_speed(self) -> float:
-        """Speed e v₀ (m/s) at which the body leaves."""
+        """Rebound speed e v₀ (m/s)."""
         return self.restitution * self.speed

@@ -1,4 +1,4 @@
-"""References for the chain by other routes: the law in small steps, one impact as a scalar equation."""
+"""References for the chain by other methods: small steps of the law, and a scalar equation of motion."""
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -7,9 +7,9 @@ import mdr_core as mdr
 
 
 class SmallSteps:
-    """Elements that follow their law as it stands, in steps of first order.
+    """Elements that follow their law in steps of first order.
 
-    u_p ← max(u_p, u − d_c), u_e = u − u_p in contact, let go at u_e + τḋ < 0, u_e ∝ exp(−t/τ) after.
+    u_p ← max(u_p, u − d_c), u_e = u − u_p in contact, released at u_e + τḋ < 0, then u_e ∝ exp(−t/τ).
     """
 
     def __init__(self, medium, reduced):
@@ -22,14 +22,14 @@ class SmallSteps:
         """Move to a depth (m) at a rate (m/s) in a time (s)."""
         tau = self.medium.relaxation_time
         relaxed = self.elastic * np.exp(-dt / tau)
-        above = depth - self.reduced - self.plastic
-        self.contact = (self.contact | (above > relaxed)) & (above + tau * rate > 0)
-        over = np.where(self.contact, np.maximum(above - self.medium.critical_depth, 0.0), 0.0)
-        self.plastic = self.plastic + over
-        self.elastic = np.where(self.contact, above - over, relaxed)
+        penetration = depth - self.reduced - self.plastic
+        self.contact = (self.contact | (penetration > relaxed)) & (penetration + tau * rate > 0)
+        excess = np.where(self.contact, np.maximum(penetration - self.medium.critical_depth, 0.0), 0.0)
+        self.plastic = self.plastic + excess
+        self.elastic = np.where(self.contact, penetration - excess, relaxed)
 
     def follow(self, time, depth, steps):
-        """Follow a path in so many steps from one time to the next."""
+        """Follow a path in this number of steps between successive times."""
         for t0, t1, d0, d1 in zip(time, time[1:], depth, depth[1:], strict=False):
             for k in range(1, steps + 1):
                 self.step(d0 + (d1 - d0) * k / steps, (d1 - d0) / (t1 - t0), (t1 - t0) / steps)
@@ -41,7 +41,7 @@ class SmallSteps:
         return self.medium.E_star * np.where(self.contact, np.maximum(self.elastic + lag, 0.0), 0.0)
 
     def fly(self, width, mass, depth, velocity, dt):
-        """Let a body of some mass (kg) hit elements of some widths (m); returns depth, velocity, time."""
+        """Impact of a body of a mass (kg) on elements of given widths (m): final depth, velocity, time."""
         time, touched = 0.0, False
         while velocity > 0 or self.contact.any() or not touched:
             velocity -= 2 * self.load(velocity) @ width / mass * dt
@@ -53,9 +53,9 @@ class SmallSteps:
 
 
 def scalar_impact(shape, medium, mass, speed):
-    """Restitution, largest depth, contact time of an impact on a virgin medium.
+    """Restitution, maximum depth and contact time of an impact on a virgin medium.
 
-    While ḋ ≥ 0: m d̈ = −φ(d) + φ(d_p) − 8ηa ḋ. Then elements let go where g = d + τḋ, outside first:
+    While ḋ ≥ 0: m d̈ = −φ(d) + φ(d_p) − 8ηa ḋ. Then elements are released at g = d + τḋ, outside first:
     m d̈ = −φ(d + τḋ) + φ(d_p), until d + τḋ = d_p.
     """
     tau, d_c = medium.relaxation_time, medium.critical_depth
@@ -67,22 +67,22 @@ def scalar_impact(shape, medium, mass, speed):
         return [y[1], -force / mass]
 
     down = _until(lambda _, y: y[1], loading, 0.0, [0.0, speed], 1e-9 * d_c / speed)
-    deepest = down.y[0, -1]
-    plastic = max(0.0, deepest - d_c)
+    max_depth = down.y[0, -1]
+    plastic = max(0.0, max_depth - d_c)
     base = mdr.indent(shape, elastic, plastic).force
 
     def unloading(_, y):
-        reach = max(y[0] + tau * y[1], plastic)
-        return [y[1], -(mdr.indent(shape, elastic, reach).force - base) / mass]
+        edge_depth = max(y[0] + tau * y[1], plastic)
+        return [y[1], -(mdr.indent(shape, elastic, edge_depth).force - base) / mass]
 
     turn = down.t[-1]
-    up = _until(lambda _, y: y[0] + tau * y[1] - plastic, unloading, turn, [deepest, 0.0], 1e-6 * turn)
-    return -up.y[1, -1] / speed, deepest, up.t[-1]
+    up = _until(lambda _, y: y[0] + tau * y[1] - plastic, unloading, turn, [max_depth, 0.0], 1e-6 * turn)
+    return -up.y[1, -1] / speed, max_depth, up.t[-1]
 
 
 def _until(event, slope, start, state, first):
     event.terminal, event.direction = True, -1
-    # Absolute tolerance out of the way: depths are of the order of nanometres.
+    # The absolute tolerance must not matter: depths are of the order of nanometres.
     return solve_ivp(
         slope, (start, 1e9), state, "DOP853", events=event, rtol=1e-11, atol=1e-24, first_step=first
     )

@@ -16,7 +16,7 @@ MEDIUM = mdr.Medium(E_star=1e9, q_c=1.0, eta=0.25)
 DRY = mdr.Medium(E_star=1e9, q_c=1.0)
 ELASTIC = mdr.Medium(E_star=1e9)
 D_C, TAU = MEDIUM.critical_depth, MEDIUM.relaxation_time
-# Pressed, held, drawn back and returned, before the elements have relaxed or after.
+# Pressed, held, withdrawn and pressed again.
 CYCLE = np.array([0, 3, 3, 2.2, 2.7, 2.0, 2.9, 3.5, 3.5]) * D_C
 
 
@@ -27,17 +27,17 @@ def elastic_force(shape, depth):
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 class TestScalarEquations:
-    """Where no element is met again the force is known from the depth and its rate alone."""
+    """Without returning contact the force follows from the depth and its rate."""
 
     def test_loading_and_hold(self, shape):
-        """F = φ(d) − φ(d_p) + 8ηa ḋ; at rest the dashpots' share is gone at once."""
+        """F = φ(d) − φ(d_p) + 8ηa ḋ; at constant depth the dashpots carry nothing."""
         depth = np.array([0, 0.5, 1.5, 4.0, 4.0]) * D_C
         time = np.array([0, 1.0, 1.5, 4.0, 4.1]) * TAU
         result = mdr.indent_in_time(shape, MEDIUM, depth, time)
         rate = np.append(0.0, np.diff(depth) / np.diff(time))
         dry = mdr.indent(shape, DRY, depth)
         expected = dry.force + 8 * MEDIUM.eta * dry.contact_radius * rate
-        # The default tolerance, which the estimate keeps to.
+        # The default tolerance.
         np.testing.assert_allclose(result.force, expected, rtol=0, atol=1e-6 * np.max(expected))
         assert result.error <= 1e-6
         np.testing.assert_allclose(result.contact_radius, dry.contact_radius, rtol=1e-9)
@@ -50,19 +50,19 @@ class TestScalarEquations:
             )
 
     def test_unloading(self, shape):
-        """F = φ(d + τḋ) − φ(d_p): outside of g = d + τḋ the elements have let go."""
+        """F = φ(d + τḋ) − φ(d_p): outside of g = d + τḋ the elements are released."""
         depth = np.append(0.0, np.array([4.0, 3.9, 3.6, 3.4, 3.2, 2.8]) * D_C)
         time = np.append(0.0, 1.0 + np.array([0, 1, 4, 6, 8, 12]) / 4) * TAU
         result = mdr.indent_in_time(shape, MEDIUM, depth, time)
-        reach = depth - 0.4 * D_C
+        edge_depth = depth - 0.4 * D_C
         plastic = 3.0 * D_C
         expected = np.where(
-            reach > plastic,
-            elastic_force(shape, reach) - elastic_force(shape, np.array(plastic)),
+            edge_depth > plastic,
+            elastic_force(shape, edge_depth) - elastic_force(shape, np.array(plastic)),
             0.0,
         )[2:]
         np.testing.assert_allclose(result.force[2:], expected, rtol=0, atol=1e-6 * np.max(result.force))
-        radius = np.where(reach > plastic, shape.contact_radius(np.maximum(reach, 0.0)), 0.0)[2:]
+        radius = np.where(edge_depth > plastic, shape.contact_radius(np.maximum(edge_depth, 0.0)), 0.0)[2:]
         np.testing.assert_allclose(result.contact_radius[2:], radius, rtol=1e-6)
 
     def test_slow_paths_are_rate_independent(self, shape):
@@ -77,17 +77,17 @@ class TestScalarEquations:
         time = np.arange(9) * pace * TAU
         result = mdr.indent_in_time(shape, MEDIUM, CYCLE, time)
         assert result.error <= 1e-6
-        row = mdr.Foundation(shape, MEDIUM, 20000, shape.contact_radius(CYCLE.max()))
+        foundation = mdr.Foundation(shape, MEDIUM, 20000, shape.contact_radius(CYCLE.max()))
         force = [0.0]
         for depth in CYCLE[1:]:
-            row = row.advance(depth, pace * TAU)
-            force.append(row.force)
-        # Whole elements err by half of one, 1/20000 of the width, times the jump of the load at the front.
+            foundation = foundation.advance(depth, pace * TAU)
+            force.append(foundation.force)
+        # Error of whole elements: half an element, 1/20000 of the width, times the jump of the load.
         np.testing.assert_allclose(result.force, force, rtol=0, atol=1e-4 * np.max(force))
 
 
-def test_a_return_that_comes_too_soon_finds_no_contact():
-    """Before τ the elements have not sprung back to where the indenter returns, later they have."""
+def test_an_early_return_has_no_contact():
+    """The elements recover to the depth of the returning indenter only after a time of the order of τ."""
     shape, depth = mdr.Paraboloid(1e-5), np.array([0, 4, 4, 3.1, 3.3]) * D_C
     x = np.linspace(0, 1.1, 23) * shape.contact_radius(4 * D_C)
     forces = []
@@ -96,12 +96,12 @@ def test_a_return_that_comes_too_soon_finds_no_contact():
         state = mdr.indent_in_time(shape, MEDIUM, depth, time)[-1]
         steps = SmallSteps(MEDIUM, shape.reduced(x)).follow(time, depth, 3000)
         load = steps.load(0.2 * D_C / (wait * TAU))
-        # The small steps miss an event by one, of at most 4 d_c/3000; next to a front by the whole jump.
+        # The small steps delay an event by one, at most 4 d_c/3000; next to a front by the whole jump.
         far = np.abs(state.line_load(x) - load) > 3e-3 * MEDIUM.yield_line_load
         assert np.count_nonzero(far) <= 1
         forces.append(state.force)
     assert forces[0] == 0.0
-    # Met with the springs at 0.3 d_c; the dashpots' part falls with the rate.
+    # Contact returns with the springs at 0.3 d_c; the dashpots' force decreases with the rate.
     assert forces[1] > forces[2] > 0
 
 
@@ -111,10 +111,10 @@ def test_work_of_the_force_is_the_ledger():
     result = mdr.indent_in_time(
         mdr.Cone(0.3), MEDIUM, depth, np.arange(len(depth)) * TAU / 80, tolerance=1e-5
     )
-    kept = result.stored_energy + result.plastic_work + result.viscous_work
+    energy = result.stored_energy + result.plastic_work + result.viscous_work
     work = cumulative_trapezoid(result.force, depth, initial=0.0)
-    # At a turn the force given is the one before it: half a step's jump, eight times.
-    np.testing.assert_allclose(work, kept, rtol=0, atol=3e-2 * kept[-1])
+    # At a turning point the force is that before it: half the jump times a step, eight times.
+    np.testing.assert_allclose(work, energy, rtol=0, atol=3e-2 * energy[-1])
 
 
 def test_without_viscosity_times_do_not_matter():
@@ -141,14 +141,14 @@ def test_states_and_fields():
     r = np.linspace(0, 0.95, 20) * dry.contact_radius
     # 4000 straight pieces of a smooth line load.
     np.testing.assert_allclose(held.pressure(r), dry.pressure(r), rtol=2e-4)
-    # r = a sin θ takes out the root at the rim; 2000 places resolve the rest to their square.
+    # r = a sin θ removes the root at the rim; 2000 midpoints are of second order.
     angle = (np.arange(2000) + 0.5) * math.pi / 4000
     r = state.contact_radius * np.sin(angle)
     ring = 2 * math.pi * r * state.contact_radius * np.cos(angle) * math.pi / 4000
     assert state.pressure(r) @ ring == pytest.approx(state.force, rel=1e-4)
 
 
-def test_far_beyond_the_critical_depth_and_lifted_off():
+def test_depths_of_a_million_critical_depths_and_negative_ones():
     cone = mdr.Cone(0.3)
     depth = np.array([-1.0, 1e6, 1e6 - 0.5, -1.0, 1e6]) * D_C
     result = mdr.indent_in_time(cone, MEDIUM, depth, np.arange(5) * 1e9 * TAU)
@@ -162,7 +162,7 @@ def test_bad_arguments_are_refused():
     cone = mdr.Cone(0.3)
     with pytest.raises(ValueError, match=r"time\[2\] = 1 s does not increase; drop repeated times"):
         mdr.indent_in_time(cone, MEDIUM, [0, 1e-9, 2e-9], [0, 1, 1])
-    with pytest.raises(ValueError, match=r"time of shape \(2,\) must go with a depth path"):
+    with pytest.raises(ValueError, match=r"time of shape \(2,\) and depth of shape \(3,\) must be"):
         mdr.indent_in_time(cone, MEDIUM, [0, 1e-9, 2e-9], [0, 1])
     with pytest.raises(ValueError, match=r"time\[1\] = nan s must be finite"):
         mdr.indent_in_time(cone, MEDIUM, [0, 1e-9], [0, math.nan])
@@ -173,7 +173,7 @@ def test_bad_arguments_are_refused():
 
 
 def test_elements_of_all_states_sum_to_force_and_energy():
-    """F = 2 ∫ q dx and U = E* ∫ u² dx of every state, along a path that lets go and comes back."""
+    """F = 2 ∫ q dx and U = E* ∫ u² dx of every state, along a path with release and returning contact."""
     shape = mdr.Paraboloid(radius=1e-3)
     time = np.arange(len(CYCLE)) * 0.7 * TAU
     result = mdr.indent_in_time(shape, MEDIUM, CYCLE, time, tolerance=1e-5)
@@ -184,5 +184,5 @@ def test_elements_of_all_states_sum_to_force_and_energy():
     force, energy = 2 * trapezoid(load, x), MEDIUM.E_star * trapezoid(elastic**2, x)
     np.testing.assert_allclose(force, result.force, rtol=0, atol=1e-4 * result.force.max())
     np.testing.assert_allclose(energy, result.stored_energy, rtol=0, atol=1e-4 * result.stored_energy.max())
-    one = result[4].elements(x[7])
-    np.testing.assert_allclose([float(part) for part in one], [load[4, 7], elastic[4, 7]], rtol=1e-12)
+    single = [float(value) for value in result[4].elements(x[7])]
+    np.testing.assert_allclose(single, [load[4, 7], elastic[4, 7]], rtol=1e-12)

@@ -1,4 +1,4 @@
-"""Creep under a force in time: a Kelvin–Voigt foundation, against its own equations."""
+"""Creep under a force in time, against the equations of a Kelvin–Voigt foundation."""
 
 import math
 
@@ -26,14 +26,14 @@ def test_flat_punch_creeps_exponentially():
     np.testing.assert_array_equal(result.force, force)
 
 
-def test_beyond_yield_a_flat_punch_flows_at_a_constant_rate():
-    """The springs carry π q_c b at most; the dashpots the rest: 8ηb ḋ."""
-    radius, most = 1e-6, math.pi * MEDIUM.q_c * 1e-6
-    force = np.array([0, 1.5, 1.5, 1.5]) * most
+def test_after_yield_a_flat_punch_flows_at_a_constant_rate():
+    """The springs carry at most π q_c b, the dashpots the remainder: 8ηb ḋ."""
+    radius, capacity = 1e-6, math.pi * MEDIUM.q_c * 1e-6
+    force = np.array([0, 1.5, 1.5, 1.5]) * capacity
     time = np.array([0, 0.1, 20.0, 22.0]) * TAU
     result = mdr.creep(mdr.FlatPunch(radius), MEDIUM, force, time)
     rate = (result.depth[3] - result.depth[2]) / (time[3] - time[2])
-    assert rate == pytest.approx(0.5 * most / (8 * MEDIUM.eta * radius), rel=1e-3)
+    assert rate == pytest.approx(0.5 * capacity / (8 * MEDIUM.eta * radius), rel=1e-3)
 
 
 @pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.Sphere(1e-5)])
@@ -44,18 +44,18 @@ def test_creep_ends_at_the_depth_of_the_slow_path_and_recovery_at_the_imprint(sh
     result = mdr.creep(shape, MEDIUM, force, time, tolerance=1e-3)
     assert np.all(np.diff(result.depth[:3]) > 0)
     assert result.depth[1] < 0.9 * 3 * D_C
-    # All dashpots against the springs of the ring: e^(−100(a − c)/a), less than e^(−18), is left.
+    # The springs of the ring relax all dashpots: e^(−100(a − c)/a), less than e^(−18), remains.
     assert result.depth[2] == pytest.approx(3 * D_C, rel=1e-3)
     assert result.depth[4] == pytest.approx(slow.plastic_depth, rel=2e-3)
     assert result.plastic_depth[4] == pytest.approx(slow.plastic_depth, rel=2e-3)
     x = np.linspace(0, 1.1, 20) * slow.contact_radius
-    # Springs with the error of the depth, 10⁻³ of 3 d_c, and dashpots that make up for it.
+    # Springs have the error of the depth, 10⁻³ of 3 d_c, and dashpots compensate for it.
     atol = 6e-3 * MEDIUM.yield_line_load
     np.testing.assert_allclose(result[2].line_load(x), slow.line_load(x), rtol=0, atol=atol)
 
 
 def test_states_of_creep_agree_in_themselves():
-    """Contact ends where the indenter touches while it sinks, and the line load carries the force."""
+    """At increasing depth the contact ends at the contact radius, and the line load carries the force."""
     cone, soft = mdr.Cone(0.3), mdr.Medium(1e6, 1.0, eta=2.5e5)
     path = mdr.creep(cone, soft, [0.0, 0.1, 0.1, 0.01, 0.01], [0.0, 0.1, 5.0, 5.5, 9.0])
     sinking = slice(1, 5)
@@ -69,25 +69,25 @@ def test_states_of_creep_agree_in_themselves():
         assert 2 * trapezoid(path[i].line_load(x), x) == pytest.approx(path.force[i], rel=1e-5)
 
 
-def test_where_nothing_presses_nothing_happens():
+def test_no_force_makes_no_contact():
     path = mdr.creep(mdr.Sphere(1e-3), MEDIUM, [0.0, 0.0], [0.0, 1.0])
     assert path.depth.tolist() == path.contact_radius.tolist() == [0.0, 0.0]
 
 
-def test_a_force_is_carried_by_a_contact_also_where_unloading_is_steep():
-    """Millions of critical depths deep the tolerance of the depth is more than all that springs recover."""
+def test_a_force_has_a_contact_also_where_unloading_is_steep():
+    """At millions of critical depths the tolerance of the depth exceeds the recovery of the springs."""
     shape, medium = mdr.TruncatedParaboloid(1e-6, 1e-5), mdr.Medium(3.5e9, 3.2)
     force = [3.1e-3, 0.0, 5.4e-3, 4.8e-3, 6.2e-3]
     path = mdr.creep(shape, medium, force, [0.1, 0.3, 0.4, 1.0, 2.2])
     assert np.all(path.depth > 1e6 * medium.critical_depth)
-    # Without dashpots it is the slow path, whose contact hardly shrinks before the load is gone.
+    # Without dashpots the slow path is exact; its contact is nearly constant until the load is zero.
     slow = mdr.indent_to_force(shape, medium, force)
     pressed = np.array(force) > 0
     np.testing.assert_allclose(path.contact_radius[pressed], slow.contact_radius[pressed], rtol=1e-4)
 
 
-def test_depths_lead_back_to_the_forces():
-    """Indented along the depths found, the chain carries on the average what was prescribed."""
+def test_depths_of_creep_reproduce_the_forces():
+    """Along the computed depths the chain carries the prescribed force in the mean."""
     slow = mdr.indent(mdr.Paraboloid(1e-5), DRY, 3 * D_C)
     time = np.linspace(0, 2, 21) * TAU
     force = slow.force * np.linspace(0, 1, 21)

@@ -1,4 +1,4 @@
-"""The chain as itself: against the closed forms, in small steps, and in its own energy balance."""
+"""`Foundation` against the closed forms."""
 
 import math
 
@@ -29,10 +29,10 @@ def pressed(shape, history, n, medium=MEDIUM):
     closed = mdr.indent(shape, medium, history)
     state = closed[-1]
     nodes = (state.contact_radius, state.plastic_radius)
-    row = mdr.Foundation(shape, medium, n, np.max(closed.contact_radius), nodes=nodes)
+    foundation = mdr.Foundation(shape, medium, n, np.max(closed.contact_radius), nodes=nodes)
     for depth in history:
-        row = row.advance(depth)
-    return row, state
+        foundation = foundation.advance(depth)
+    return foundation, state
 
 
 @pytest.mark.parametrize("history", HISTORIES)
@@ -41,21 +41,23 @@ class TestClosedForm:
     """Infinitely slowly, the chain is the rate-independent solution element by element."""
 
     def test_line_load_and_states(self, shape, history):
-        row, state = pressed(shape, history, 400)
+        foundation, state = pressed(shape, history, 400)
         # d − g(x) loses the digits by which the depth exceeds d_c.
         scale = MEDIUM.E_star * max(history)
-        np.testing.assert_allclose(row.line_load, state.line_load(row.x), rtol=0, atol=4e-15 * scale)
-        contact, plastic = (np.abs(row.x) < r for r in (state.contact_radius, state.plastic_radius))
+        np.testing.assert_allclose(
+            foundation.line_load, state.line_load(foundation.x), rtol=0, atol=4e-15 * scale
+        )
+        contact, plastic = (np.abs(foundation.x) < r for r in (state.contact_radius, state.plastic_radius))
         expected = np.where(plastic, "yielded", np.where(contact, "elastic", "free"))
-        np.testing.assert_array_equal(row.state, expected)
-        imprint = np.maximum(state.plastic_depth - shape.reduced(row.x), 0.0)
-        np.testing.assert_allclose(row.plastic, imprint, rtol=0, atol=4e-15 * max(history))
+        np.testing.assert_array_equal(foundation.state, expected)
+        imprint = np.maximum(state.plastic_depth - shape.reduced(foundation.x), 0.0)
+        np.testing.assert_allclose(foundation.plastic, imprint, rtol=0, atol=4e-15 * max(history))
 
     def test_sums_converge_in_second_order(self, shape, history):
         errors = []
         for n in (200, 400):
-            row, state = pressed(shape, history, n)
-            sums = np.array([row.force, row.stored_energy, row.plastic_work])
+            foundation, state = pressed(shape, history, n)
+            sums = np.array([foundation.force, foundation.stored_energy, foundation.plastic_work])
             exact = np.array([state.force, state.stored_energy, state.plastic_work])
             errors.append(np.abs(sums - exact) / np.where(exact > 0, exact, 1.0))
         # Halved elements quarter the error; 3.4 allows for a whole number of them in every stretch.
@@ -67,19 +69,19 @@ class TestClosedForm:
 @pytest.mark.parametrize("history", HISTORIES)
 @pytest.mark.parametrize("shape", POWER_LAWS, ids=name)
 def test_a_thousand_elements_give_the_force_to_a_millionth(shape, history):
-    row, state = pressed(shape, history, 1000)
-    assert len(row.x) == 1000
+    foundation, state = pressed(shape, history, 1000)
+    assert len(foundation.x) == 1000
     # h²/24 g″ summed, with h = a/500: 0.5e-6 for the paraboloid, 1.0e-6 for n = 1/2.
-    assert row.force == pytest.approx(state.force, rel=1e-6)
+    assert foundation.force == pytest.approx(state.force, rel=1e-6)
 
 
 @pytest.mark.parametrize(("medium", "dt"), [(MEDIUM, np.inf), (VISCOUS, TAU)], ids=["slow", "viscous"])
-def test_force_with_its_fronts_grows_from_first_touch_on(medium, dt):
-    """Of a cone it is exact before the first element is met, and while contact ends within any other."""
+def test_force_with_fronts_from_first_contact_on(medium, dt):
+    """For a cone it is exact wherever contact ends: before the first element, and inside each one."""
     cone, d = mdr.Cone(0.3), 0.5 * D_C
-    row = mdr.Foundation(cone, medium, 40, cone.contact_radius(1.1 * d))
+    foundation = mdr.Foundation(cone, medium, 40, cone.contact_radius(1.1 * d))
     for depth in np.linspace(0.003, 1.0, 400) * d:
-        force, radius = force_and_radius(row.advance(depth, dt))
+        force, radius = force_and_radius(foundation.advance(depth, dt))
         rate = depth / dt
         expected = (medium.E_star * depth + 8 * medium.eta * rate) * cone.contact_radius(depth)
         # Straight line loads, summed over twenty elements.
@@ -87,60 +89,60 @@ def test_force_with_its_fronts_grows_from_first_touch_on(medium, dt):
         assert radius == pytest.approx(cone.contact_radius(depth), rel=1e-14, abs=0)
 
 
-def test_force_is_the_sum_over_the_picture():
-    row, state = pressed(mdr.Cone(0.3), (3 * D_C,), 100)
-    assert np.all(np.diff(row.x) > 0)
-    np.testing.assert_array_equal(row.x, -row.x[::-1])
-    assert np.sum(row.width) == pytest.approx(2 * row.half_width, rel=1e-14)
+def test_force_is_the_sum_over_the_elements():
+    foundation, state = pressed(mdr.Cone(0.3), (3 * D_C,), 100)
+    assert np.all(np.diff(foundation.x) > 0)
+    np.testing.assert_array_equal(foundation.x, -foundation.x[::-1])
+    assert np.sum(foundation.width) == pytest.approx(2 * foundation.half_width, rel=1e-14)
     # A straight line load, with its kinks on edges: exact.
-    assert np.sum(row.line_load * row.width) == pytest.approx(state.force, rel=1e-14)
-    assert row.force == pytest.approx(state.force, rel=1e-14)
+    assert np.sum(foundation.line_load * foundation.width) == pytest.approx(state.force, rel=1e-14)
+    assert foundation.force == pytest.approx(state.force, rel=1e-14)
 
 
 @pytest.mark.parametrize("shape", [mdr.FlatPunch(1e-6), mdr.ParabolicPunch(1e-5, 1e-6)], ids=name)
-def test_elements_beyond_a_wall_stay_free(shape):
-    row = mdr.Foundation(shape, VISCOUS, 40, 2e-6).advance(5 * D_C, TAU).advance(2 * D_C, TAU)
-    beyond = np.abs(row.x) > 1e-6
-    assert np.any(beyond)
-    assert not np.any(row.contact[beyond] | (row.elastic + row.plastic > 0)[beyond])
-    assert np.isfinite(row.force)
+def test_elements_outside_a_wall_stay_free(shape):
+    foundation = mdr.Foundation(shape, VISCOUS, 40, 2e-6).advance(5 * D_C, TAU).advance(2 * D_C, TAU)
+    outside = np.abs(foundation.x) > 1e-6
+    assert np.any(outside)
+    assert not np.any(foundation.contact[outside] | (foundation.elastic + foundation.plastic > 0)[outside])
+    assert np.isfinite(foundation.force)
 
 
 def test_a_foundation_does_not_change():
-    row = mdr.Foundation(mdr.Cone(0.3), MEDIUM, 10, 1e-6)
-    before = row.force, row.line_load.copy()
-    deeper = row.advance(D_C)
-    assert row.depth == 0.0
+    foundation = mdr.Foundation(mdr.Cone(0.3), MEDIUM, 10, 1e-6)
+    before = foundation.force, foundation.line_load.copy()
+    deeper = foundation.advance(D_C)
+    assert foundation.depth == 0.0
     assert deeper.depth == D_C
-    np.testing.assert_array_equal(row.line_load, before[1])
+    np.testing.assert_array_equal(foundation.line_load, before[1])
     with pytest.raises(ValueError, match="read-only"):
-        row.line_load[0] = 1.0
+        foundation.line_load[0] = 1.0
 
 
-def test_unloaded_far_beyond_the_critical_depth():
-    """At 10⁹ d_c the elements carry their live depth, not the difference of two depths."""
+def test_unloading_from_a_billion_critical_depths():
+    """The elements carry the live depth to rounding; a difference of two depths would lose it."""
     punch, deep = mdr.FlatPunch(1e-6), 1e9 * D_C
-    row = mdr.Foundation(punch, MEDIUM, 10, 1e-6).advance(deep)
+    foundation = mdr.Foundation(punch, MEDIUM, 10, 1e-6).advance(deep)
     live = (deep - 0.25 * D_C) - deep + D_C
-    back = row.advance(deep - 0.25 * D_C)
+    back = foundation.advance(deep - 0.25 * D_C)
     assert back.elastic[0] == pytest.approx(live, rel=1e-15)
     assert back.line_load[0] == pytest.approx(MEDIUM.E_star * live, rel=1e-15)
 
 
-def test_without_yield_nothing_remains():
-    row = (
+def test_without_yield_there_is_no_imprint():
+    foundation = (
         mdr.Foundation(mdr.Cone(0.3), mdr.Medium(1e9, eta=1.0), 100, 1e-6).advance(1e-7, 1e-9).advance(0.0)
     )
-    assert row.plastic_work == 0.0
-    assert not np.any(row.plastic)
-    assert row.stored_energy == 0.0
+    assert foundation.plastic_work == 0.0
+    assert not np.any(foundation.plastic)
+    assert foundation.stored_energy == 0.0
 
 
 def test_a_million_elements():
     """Many elements in a call: the force of a sphere to the rounding of the sum."""
     shape = mdr.Sphere(1e-5)
-    row, state = pressed(shape, (3 * D_C,), 10**6)
-    assert row.force == pytest.approx(state.force, rel=1e-11)
+    foundation, state = pressed(shape, (3 * D_C,), 10**6)
+    assert foundation.force == pytest.approx(state.force, rel=1e-11)
 
 
 def test_bad_arguments_are_refused():
@@ -154,16 +156,16 @@ def test_bad_arguments_are_refused():
             mdr.Foundation(cone, MEDIUM, n, 1e-6)
     with pytest.raises(ValueError, match=r"half_width = -1 m must be finite and positive"):
         mdr.Foundation(cone, MEDIUM, 10, -1.0)
-    with pytest.raises(ValueError, match=r"half_width = 3 m is beyond .* 2 m"):
+    with pytest.raises(ValueError, match=r"half_width = 3 m exceeds the known radius .* 2 m"):
         mdr.Foundation(mdr.Sampled([0, 1, 2], [0, 1, 3]), MEDIUM, 10, 3.0)
-    with pytest.raises(ValueError, match=r"n = 2 elements cannot stand on the 3 stretches"):
+    with pytest.raises(ValueError, match=r"n = 2 elements are too few for the 3 intervals"):
         mdr.Foundation(mdr.TruncatedCone(1e-6, 0.3), MEDIUM, 2, 3e-6, nodes=[2e-6])
-    row = mdr.Foundation(cone, MEDIUM, 10, 1e-6)
+    foundation = mdr.Foundation(cone, MEDIUM, 10, 1e-6)
     with pytest.raises(ValueError, match=r"half_width = 1e-06 m is less than the contact radius"):
-        row.advance(1e-6)
+        foundation.advance(1e-6)
     with pytest.raises(ValueError, match=r"dt = 0 s must be positive"):
-        row.advance(1e-9, 0.0)
+        foundation.advance(1e-9, 0.0)
     with pytest.raises(ValueError, match="depth = nan m must be finite"):
-        row.advance(math.nan)
+        foundation.advance(math.nan)
     with pytest.raises(TypeError, match="profile must be"):
         mdr.Foundation(0.3, MEDIUM, 10, 1e-6)
