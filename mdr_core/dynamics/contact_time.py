@@ -211,12 +211,11 @@ def _flow(profile, lower, length):
     quick = isinstance(profile, OneLength | Tabulated)
     if not quick or not np.all(profile.table.covers([lower.min(), upper.min(), upper.max()])):
         return radius_integral(profile, LiveInterval(*np.broadcast_arrays(lower, upper, length)))
-    (flow,), (low,) = (profile.table.integrals(part, 1) for part in (upper, lower))
-    flow -= low
+    flow = profile.table.area(upper) - profile.table.area(lower)
     short = length < _SHORT * upper
     if short.any():
         # At a kink the difference has to do.
-        short &= profile.table.foot(lower) == profile.table.foot(upper)
+        short &= profile._kink_above(lower) == profile._kink_above(upper)
         lower, length = (np.broadcast_to(part, short.shape)[short] for part in (lower, length))
         node, weight = gauss_legendre(2)
         flow[short] = length * np.einsum(

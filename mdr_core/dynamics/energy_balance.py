@@ -112,11 +112,11 @@ def _about(profile, target, d_c, before):
     if profile.unit is None:
         return np.where(np.isinf(d_c), 1.0, d_c)
     table, met = profile.table, before.any()
-    elastic, _ = table.depth_about(2, target)
-    # As if the force were that in the middle of the live interval, and what bends it a power of the depth.
-    spent = table.integrals(before, 1)[0] if met else 0.0
-    middle, power = table.depth_about(1, target / d_c + spent)
-    yielding = middle - (power - 1) * d_c * d_c / (24 * middle) + d_c / 2 - before
+    elastic = table.depth_of_volume(target)
+    # As if the force were that in the middle of the live interval, and went as the depth to the power 3/2.
+    spent = table.area(before) if met else 0.0
+    middle = table.depth_of_area(target / d_c + spent)
+    yielding = middle - d_c * d_c / (48 * middle) + d_c / 2 - before
     if met:
         # No deeper than a flat punch of what the imprint is wide.
         punch = np.sqrt(2 * target / table.radius(before))
