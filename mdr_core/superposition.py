@@ -219,32 +219,38 @@ def _table_integrals(profile, lower, upper, length, moments):
     In short intervals, where they have not, a few nodes in depth do, if no kink is near; otherwise
     `_integrate` resolves them.
     """
-    table, integrals = profile.table, (profile.table.area, profile.table.volume)[:moments]
-    covered = table.covers(lower) & table.covers(upper)
-    if not lower.any() and covered.all():
-        return np.array([integral(upper) for integral in integrals])
-    result = np.empty((moments, length.size))
+    covered = profile.table.covers(lower) & profile.table.covers(upper)
     far = covered & (length >= _FAR * upper)
-    rows = np.flatnonzero(far)
-    low, high = ([integral(depth[rows]) for integral in integrals] for depth in (lower, upper))
-    result[:, rows] = np.subtract(high, low)
-    if moments > 1:
-        result[1, rows] -= length[rows] * low[0]
+    if far.all():
+        return _differences(profile.table, lower, upper, length, moments)
+    result = np.empty((moments, length.size))
+    if far.any():
+        result[:, far] = _differences(profile.table, lower[far], upper[far], length[far], moments)
     kink, near = profile._kink_above(lower), covered & ~far
     free = np.where(kink == profile._kink_above(upper), upper - kink, 0.0)
     for share, count in _NEAR:
         rows = np.flatnonzero(near & (length < share * free))
-        node, weight = gauss_legendre(count)
-        values = table.radius(lower[rows, None] + length[rows, None] * node)
-        for k in range(moments):
-            result[k, rows] = np.einsum("ij,j", values, weight * (1 - node) ** k) * length[rows] ** (k + 1)
-        near[rows] = False
+        if rows.size:
+            node, weight = gauss_legendre(count)
+            values = profile.table.covered_radius(lower[rows, None] + length[rows, None] * node)
+            for k in range(moments):
+                mean = np.einsum("ij,j", values, weight * (1 - node) ** k)
+                result[k, rows] = mean * length[rows] ** (k + 1)
+            near[rows] = False
     rows = np.flatnonzero(near | ~covered)
     if rows.size:
         state = LiveInterval(lower[rows], upper[rows], length[rows])
         for k in range(moments):
             result[k, rows] = _integrate(profile, state, _radius, moment=k)
     return result
+
+
+def _differences(table, lower, upper, length, moments):
+    """`_table_integrals` over live intervals that are long enough for differences of integrals."""
+    low, high = table.area(lower), table.area(upper)
+    if moments == 1:
+        return (high - low)[None]
+    return np.array([high - low, table.volume(upper) - table.volume(lower) - length * low])
 
 
 @radius_integral.register

@@ -219,6 +219,6 @@ def _flow(profile, lower, length):
         lower, length = (np.broadcast_to(part, short.shape)[short] for part in (lower, length))
         node, weight = gauss_legendre(2)
         flow[short] = length * np.einsum(
-            "i,ij", weight, profile.table.radius(lower + length * node[:, None])
+            "i,ij", weight, profile.table.covered_radius(lower + length * node[:, None])
         )
     return flow

@@ -119,7 +119,10 @@ class Profile(_check.Parameters, ABC):
 
     def _kink_above(self, depth):
         """The last kink (m) above each depth, or the tip."""
-        return np.max([np.where(foot <= depth, foot, 0.0) for foot in (0.0, *self.kinks)], axis=0)
+        above = np.zeros_like(depth)
+        for kink in self.kinks:
+            above = np.where(kink <= depth, kink, above)
+        return above
 
     def flat_entries(self, rows, shape):
         """The indenters in some rows of an ensemble of a `shape`, counted flat."""

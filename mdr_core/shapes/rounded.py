@@ -167,3 +167,7 @@ class ParabolicPunch(OneLength):
     @staticmethod
     def _G_slope(u):
         return np.where(u <= 1, 2 * u, np.inf)
+
+    def _radius(self, depth):
+        # At the wall the radius is exactly that of the cylinder.
+        return np.minimum(np.sqrt(self.radius * depth), self.cylinder_radius)

@@ -1,16 +1,16 @@
 """The contact radius of a profile and its integrals over the depth, as piecewise polynomials.
 
-Ensembles of impacts need a(s), ∫ a ds and ∫∫ a ds ds. For profiles with one length and one depth of their own
-(`OneLength`) these are functions of one variable, tabulated once for the class; `Tabulated` has the table of
-one profile.
+Ensembles of impacts need a(s), ∫ a ds and ∫∫ a ds ds. For profiles with one length and one depth of their
+own (`OneLength`) these are functions of one variable, tabulated once for the class; `Tabulated` has the
+table of one profile.
 """
 
 from abc import abstractmethod
 from dataclasses import dataclass, fields
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 
 import numpy as np
-from scipy.interpolate import PPoly
+import scipy
 
 from .. import _check
 from .._numeric import increasing_root
@@ -23,7 +23,7 @@ _COUNT = 10
 _NODE = (1 + np.cos(np.pi * (np.arange(_COUNT) + 0.5) / _COUNT)) / 2
 _TO_LAST = np.linalg.inv(np.polynomial.chebyshev.chebvander(2 * _NODE - 1, _COUNT - 1))[-2:]
 #: A panel resolves a(s) where its last Chebyshev coefficients are smaller than this share of a(s).
-_RESOLVED = 3e-15
+_RESOLVED = 1e-15
 #: Octaves of a table on each side of the unit of depth of a class, and below the first kink of one profile.
 _OCTAVES, _OCTAVES_OF_ONE = 100, 64
 
@@ -33,8 +33,8 @@ class RadiusTable:
 
     1. Panels between the given edges are halved until a polynomial of degree 9 is a(s) to rounding: next to
        a kink, behind which a(s) may begin as a root, until rounding of the depth ends this.
-    2. Below the first edge a(s) counts as a power of s. The panel there is the straight line that has the
-       integrals of this power.
+    2. Below the first edge a(s) counts as its value at the tip and a power of s. The panel there is the
+       parabola that has the integrals of this power.
 
     Parameters
     ----------
@@ -48,19 +48,37 @@ class RadiusTable:
 
     def __init__(self, radius, edges, unit=1.0):
         edges = np.asarray(edges) / unit
-        self.unit, (self.start, self.end) = unit, edges[[0, -1]]
+        self.unit, (self.start, self.end), self._function = unit, edges[[0, -1]], radius
         low, powers = _panels(lambda depth: radius(depth * unit), edges)
-        a, half = radius(edges[0] * unit * np.array([1.0, 0.5]))
-        p = np.log2(a / half)
-        line = np.array([6 * p / edges[0], 2 - 2 * p]) * a / ((1 + p) * (2 + p))
-        powers = np.column_stack([np.append(np.zeros(_COUNT - 2), line), powers])
-        self._radius = PPoly(powers, np.concatenate([[0.0], low, edges[-1:]]))
+        tip, half, a = radius(edges[0] * unit * np.array([0.0, 0.5, 1.0]))
+        p = np.log2((a - tip) / (half - tip)) if half > tip else 1.0
+        first = np.array([1 - 3 / (2 + p), 2 / (2 + p) - 0.5, 0.0]) * 12 / (1 + p) * (a - tip)
+        first[2] = tip
+        first = np.append(np.zeros(_COUNT - 3), first / edges[0] ** np.array([2, 1, 0]))
+        self._radius = scipy.interpolate.PPoly(
+            np.column_stack([first, powers]), np.concatenate([[0.0], low, edges[-1:]])
+        )
         # These continue from panel to panel, from 0 at depth 0.
         self._area = self._radius.antiderivative()
         self._volume = self._area.antiderivative()
 
+    def covers(self, depth):
+        """Whether the table has depths (m): it ends near the tip, but for depth 0 itself."""
+        depth = np.asarray(depth) / self.unit
+        return ((depth >= self.start) | (depth == 0)) & (depth <= self.end)
+
     def radius(self, depth):
-        """a(s) (m) at depths (m)."""
+        """a(s) (m) at any depths (m)."""
+        covered = self.covers(depth)
+        if covered.all():
+            return self.covered_radius(depth)
+        result, depth = np.empty(covered.shape), np.asarray(depth)
+        result[covered] = self.covered_radius(depth[covered])
+        result[~covered] = self._function(depth[~covered])
+        return result
+
+    def covered_radius(self, depth):
+        """a(s) (m) at depths (m) that the table covers."""
         return self._radius(depth / self.unit)
 
     def area(self, depth):
@@ -85,11 +103,6 @@ class RadiusTable:
         edges = self._radius.x[1:] * self.unit
         depth = np.append(np.linspace(edges[:-1], edges[1:], 4, endpoint=False).T, edges[-1])
         return [(np.log(integral(depth)), np.log(depth)) for integral in (self.area, self.volume)]
-
-    def covers(self, depth):
-        """Whether the table goes to depths (m): near a tip it ends, but for depth 0 itself."""
-        depth = np.asarray(depth) / self.unit
-        return ((depth >= self.start) | (depth == 0)) & (depth <= self.end)
 
 
 def _panels(radius, edges):
@@ -168,19 +181,9 @@ class OneLength(Profile):
         return self._depth / self._length * self._G_slope(u)
 
     def _radius(self, depth):
-        depth = depth / self._depth
-        u, covered = self.table.radius(depth), self.table.covers(depth)
-        with np.errstate(all="ignore"):
-            # To rounding, by a step of Newton's method.
-            step = (self._G(u) - depth) / self._G_slope(u)
-            u = np.where((depth > 0) & np.isfinite(step), u - step, np.where(depth > 0, u, 0.0))
-            u = np.clip(u, self._edge, self._end)
-            # Just above a flat face the radius is that of the face, to rounding.
-            far = ~covered & (depth > self._edge)
-            if np.any(far):
-                u = np.array(u)
-                u[far] = _unit_radius(type(self), np.asarray(depth)[far])
-        return self._length * np.where(covered | far, u, self._edge)
+        # Rounding must not lead off the profile.
+        u = np.minimum(np.maximum(self.table.radius(depth / self._depth), self._edge), self._end)
+        return self._length * u
 
 
 def _unit_radius(kind, depth):
@@ -203,7 +206,7 @@ def _unit_table(kind):
     edges = np.ldexp(1.0, np.arange(-_OCTAVES, _OCTAVES + 1))
     end = min(_unit(kind).known_depth, edges[-1])
     with np.errstate(all="ignore"):
-        return RadiusTable(lambda s: _unit_radius(kind, s), np.append(edges[edges < end], end))
+        return RadiusTable(partial(_unit_radius, kind), np.append(edges[edges < end], end))
 
 
 @dataclass(frozen=True, eq=False)
@@ -237,8 +240,7 @@ class Tabulated(Profile):
         return kinks[np.searchsorted(kinks, depth, side="right") - 1]
 
     def _radius(self, depth):
-        radius, covered = self.table.radius(depth), self.table.covers(depth)
-        return radius if np.all(covered) else np.where(covered, radius, self.profile._radius(depth))
+        return self.table.radius(depth)
 
 
 def tabulated(profile, known_depth):
