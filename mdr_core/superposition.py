@@ -17,7 +17,7 @@ from functools import lru_cache, singledispatch
 import numpy as np
 import scipy
 
-from ._numeric import LONG, broadcast_flat, chunks, gauss_legendre, increasing_root
+from ._numeric import LONG, chunks, gauss_legendre, increasing_root
 from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
 from .shapes.tabulated import OneLength, Tabulated
 from .yielding import LiveInterval, first_loading
@@ -200,16 +200,18 @@ def radius_and_energy(profile, interval):
 def _from_table(profile, interval, moments):
     """∫ (d − s)^k a(s) ds for k below `moments` (1 or 2), from the table of the unit profile."""
     unit, *scales = profile.unit
-    shape, arrays = broadcast_flat(interval.lower, interval.upper, interval.length, *scales)
-    result = np.empty((moments, arrays[0].size))
+    shape = np.shape(interval.length)
+    ends = [np.ravel(end) for end in (interval.lower, interval.upper, interval.length)]
+    if profile.shape:
+        scales = [np.broadcast_to(scale, shape).ravel() for scale in scales]
+    result = np.empty((moments, ends[0].size))
     for rows in chunks(result.shape[1], LONG):
-        *ends, length, depth = (array[rows] for array in arrays)
+        length, depth = (scale[rows] for scale in scales) if profile.shape else scales
+        lower, upper, live_depth = (end[rows] / depth for end in ends)
         # In ascending order: a search in the table is several times as fast next to the last one.
-        order = np.argsort(ends[1] / depth)
-        integrals = _table_integrals(unit, *((end / depth)[order] for end in ends), moments)
-        result[:, rows.start + order] = (
-            integrals * (length * depth ** np.arange(1, moments + 1)[:, None])[:, order]
-        )
+        order, block = np.argsort(upper), result[:, rows]
+        block[:, order] = _table_integrals(unit, lower[order], upper[order], live_depth[order], moments)
+        block *= length * depth ** np.arange(1, moments + 1)[:, None]
     return result.reshape(moments, *shape)
 
 
