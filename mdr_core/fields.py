@@ -6,13 +6,11 @@
 Each increment of depth is a flat punch of radius a(s); see `superposition`.
 """
 
-from functools import singledispatch
-
 import numpy as np
 
 from ._numeric import chunks, root, tanh_sinh
-from .shapes.power import Cone, Paraboloid
-from .superposition import nodes, pieces, radius_drop
+from .closed_forms import closed_forms, log1p_ratio
+from .superposition import nodes, pieces
 from .yielding import elastic_interval
 
 
@@ -24,13 +22,16 @@ def _punches(profile, interval):
     return begin, profile._radius(interval.lower + beyond), weight
 
 
-@singledispatch
 def pressure_integral(profile, interval, r):
     """∫ ds/√(a(s)² − r²) over a(s) > r in the live interval (dimensionless), for one state and many r ≥ 0.
 
     Infinite where the contact pressure is: at the rim of a flat face, and under a sharp tip as
     long as nothing has yielded there.
     """
+    forms = closed_forms(profile)
+    result = forms and forms.pressure_integral(interval, r)
+    if result is not None:
+        return result
     result = np.zeros_like(r)
     if interval.length == 0:
         return result
@@ -73,47 +74,13 @@ def _pressure_from(profile, r, end):
     In λ nothing is singular, however close r comes to a kink below it, to `end` or to 0.
     """
     node, weight = tanh_sinh()
-    width = _log_beyond(end - r + root(end, r), r)[:, None]
+    width = log1p_ratio(end - r + root(end, r), r)[:, None]
     way = width * node
     x = np.exp(way + np.log(r / 2)[:, None]) * (1 + np.exp(-2 * way))
     # Neither below r nor on a kink at the end itself, where g′ is that of its other side.
     x = np.clip(x, r[:, None], np.nextafter(end, 0.0)[:, None])
     integral = (width * weight * profile._reduced_slope(x)).sum(axis=1)
     return np.where(np.isinf(profile._reduced_slope(r)) | (r == 0), np.inf, integral)
-
-
-@pressure_integral.register
-def _(profile: Cone, interval, r):
-    a, c = (profile._radius(part) for part in (interval.upper, interval.lower))
-    inside, result = (r < a) & (interval.length > 0), np.zeros_like(r)
-    r = r[inside]
-    root_a = root(a, r)
-    if c == 0:
-        # Nothing has yielded: arccosh(a/r).
-        logarithm = _log_beyond((a - r) + root_a, r)
-    else:
-        # arccosh(a/r) − arccosh(c/r), with the difference of the logarithms' arguments written out.
-        low = np.maximum(c, r)
-        drop = np.where(r < c, radius_drop(profile, interval), a - r)
-        root_low = root(low, r)
-        logarithm = _log_beyond(drop + drop * ((a + low) / (root_a + root_low)), low + root_low)
-    result[inside] = np.pi / 2 * profile.slope * logarithm
-    return result
-
-
-def _log_beyond(above, below):
-    """ln(1 + above/below), also where the quotient leaves double precision; infinite over 0."""
-    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        ratio = above / below
-        return np.where(ratio < np.inf, np.log1p(ratio), np.log(above) - np.log(below))
-
-
-@pressure_integral.register
-def _(profile: Paraboloid, interval, r):
-    a, c = (profile._radius(part) for part in (interval.upper, interval.lower))
-    root_a, root_c = root(a, r), root(c, r)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        return np.where(r < c, 2 * interval.length / (root_a + root_c), 2 / profile.radius * root_a)
 
 
 def displacement_integral(profile, interval, r):

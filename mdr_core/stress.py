@@ -18,7 +18,7 @@ import numpy as np
 from . import _check
 from ._check import Array
 from ._numeric import chunks, crowded, gauss_legendre, largest_value
-from .shapes.power import Cone, FlatPunch, Paraboloid
+from .closed_forms import closed_forms
 from .superposition import nodes, pieces, radius_drop
 
 #: What can be largest somewhere.
@@ -220,7 +220,8 @@ def _integrals(state, unit, r, z):
 
 def _pieces(profile, interval):
     """Begin and end (m) beyond d_p of each piece of the load, and its begin behind a kink or the tip."""
-    if isinstance(profile, FlatPunch | Cone | Paraboloid):
+    forms = closed_forms(profile)
+    if forms and forms.polynomial:
         # Polynomials of what the nodes are even in.
         return np.array([[0.0, interval.length, interval.lower]])
     return np.transpose(

@@ -12,33 +12,76 @@ depths *beyond d_p*, and closed forms are the interval's length times a positive
 difference of two elastic curves.
 """
 
-from functools import lru_cache, singledispatch
+from functools import lru_cache
 
 import numpy as np
-import scipy
 
 from ._numeric import LONG, chunks, gauss_legendre, increasing_root
-from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
-from .shapes.tabulated import OneLength, Tabulated
+from .closed_forms import closed_forms
+from .shapes.tabulated import Tabulated
 from .yielding import LiveInterval, first_loading
 
-_TINY = np.finfo(float).tiny
 #: Integrals over live intervals that are longer, as a share of the depth, are differences of integrals from
-#: the tip, of which the energy loses up to two digits. Of shorter ones: shares of the way behind the last
-#: kink, and the Gauss nodes that they need.
-_FAR, _NEAR = 0.15, ((0.03, 4), (0.15, 6), (0.5, 10))
+#: the tip, of which the energy loses up to two digits.
+_FAR = 0.15
+#: Of shorter ones: lengths over the distance from the last kink, and the Gauss nodes that they need.
+_NEAR = ((0.03, 4), (0.15, 6), (0.5, 10))
 
 
-@singledispatch
 def radius_integral(profile, interval):
     """∫ a(s) ds over the live interval (m²), elementwise."""
+    if forms := closed_forms(profile):
+        return forms.radius_integral(interval)
+    if profile.unit:
+        return _from_table(profile, interval, 1)[0]
     return _integrate(profile, interval, _radius, moment=0)
 
 
-@singledispatch
 def energy_integral(profile, interval):
     """∫ (d − s) a(s) ds over the live interval (m³), elementwise."""
+    if forms := closed_forms(profile):
+        return forms.energy_integral(interval)
+    if profile.unit:
+        return _from_table(profile, interval, 2)[1]
     return _integrate(profile, interval, _radius, moment=1)
+
+
+def radius_and_energy(profile, interval):
+    """`radius_integral` and `energy_integral`, at the cost of one where a table has both."""
+    if profile.unit and not closed_forms(profile):
+        return _from_table(profile, interval, 2)
+    return radius_integral(profile, interval), energy_integral(profile, interval)
+
+
+def radius_drop(profile, interval):
+    """a(d) − a(d_p) (m), elementwise: where the medium has yielded, the width of the elastic ring."""
+    if forms := closed_forms(profile):
+        return forms.radius_drop(interval)
+    if profile.shape and profile.unit:
+        unit, length, depth = profile.unit
+        return length * radius_drop(unit, interval.in_units_of(depth))
+    a, c = profile._radius(interval.upper), profile._radius(interval.lower)
+    narrow = interval.length < 1e-2 * interval.upper
+    if not np.any(narrow):
+        return a - c
+    # ∫ da: the difference of the radii has few digits in a short interval. At the very tip, where it has
+    # all of them, the rate may be infinite.
+    with np.errstate(invalid="ignore"):
+        return np.where(narrow, _integrate(profile, interval, _radius_rate, moment=0), a - c)
+
+
+def tabulated(profile, known_depth):
+    """A profile that gives its contact radius and integrals quickly, down to a depth (m) or to its own end.
+
+    Ensembles, and profiles that have closed forms or a table, are returned as they are.
+    """
+    if profile.shape or profile.unit or closed_forms(profile):
+        return profile
+    known_depth = min(2.0 ** np.ceil(np.log2(np.max(known_depth))), np.min(profile.known_depth))
+    return _tabulated(profile, float(known_depth))
+
+
+_tabulated = lru_cache(maxsize=16)(Tabulated)
 
 
 def _radius(profile, depth):
@@ -162,41 +205,6 @@ def _cuts(profile):
     return cuts, feet[np.searchsorted(kinks, np.append(0.0, cuts), side="right")]
 
 
-@singledispatch
-def radius_drop(profile, interval):
-    """a(d) − a(d_p) (m), elementwise: where something has yielded, the width of the elastic ring."""
-    if profile.shape and profile.unit:
-        unit, length, depth = profile.unit
-        return length * radius_drop(unit, interval.in_units_of(depth))
-    a, c = profile._radius(interval.upper), profile._radius(interval.lower)
-    narrow = interval.length < 1e-2 * interval.upper
-    if not np.any(narrow):
-        return a - c
-    # ∫ da: the difference of the radii has few digits in a short interval. At the very tip, where it has
-    # all of them, the rate may be infinite.
-    with np.errstate(invalid="ignore"):
-        return np.where(narrow, _integrate(profile, interval, _radius_rate, moment=0), a - c)
-
-
-@radius_integral.register(OneLength)
-@radius_integral.register(Tabulated)
-def _(profile, interval):
-    return _from_table(profile, interval, 1)[0]
-
-
-@energy_integral.register(OneLength)
-@energy_integral.register(Tabulated)
-def _(profile, interval):
-    return _from_table(profile, interval, 2)[1]
-
-
-def radius_and_energy(profile, interval):
-    """`radius_integral` and `energy_integral`, at the cost of one where a table gives them."""
-    if isinstance(profile, OneLength | Tabulated):
-        return _from_table(profile, interval, 2)
-    return radius_integral(profile, interval), energy_integral(profile, interval)
-
-
 def _from_table(profile, interval, moments):
     """∫ (d − s)^k a(s) ds for k below `moments` (1 or 2), from the table of the unit profile."""
     unit, *scales = profile.unit
@@ -253,94 +261,6 @@ def _differences(table, lower, upper, length, moments):
     if moments == 1:
         return (high - low)[None]
     return np.array([high - low, table.volume(upper) - table.volume(lower) - length * low])
-
-
-@radius_integral.register
-def _(profile: FlatPunch, interval):
-    return profile.radius * interval.length
-
-
-@energy_integral.register
-def _(profile: FlatPunch, interval):
-    return profile.radius / 2 * interval.length**2
-
-
-@radius_drop.register
-def _(profile: FlatPunch, interval):
-    return np.zeros_like(interval.length)
-
-
-@radius_integral.register
-def _(profile: Cone, interval):
-    return (interval.upper + interval.lower) * interval.length / (np.pi * profile.slope)
-
-
-@energy_integral.register
-def _(profile: Cone, interval):
-    return interval.length**2 * (interval.upper + 2 * interval.lower) / (3 * np.pi * profile.slope)
-
-
-@radius_drop.register
-def _(profile: Cone, interval):
-    return interval.length / (np.pi / 2 * profile.slope)
-
-
-@radius_integral.register
-def _(profile: Paraboloid, interval):
-    # A³ − C³ with A² − C² = length.
-    A, C = np.sqrt(interval.upper), np.sqrt(interval.lower)
-    mean = (interval.upper + A * C + interval.lower) / np.maximum(A + C, _TINY)
-    return (2 / 3 * np.sqrt(profile.radius)) * mean * interval.length
-
-
-@energy_integral.register
-def _(profile: Paraboloid, interval):
-    # ∫ 2x²(A² − x²) dx from C to A = C + e, as a polynomial with positive terms in e.
-    C = np.sqrt(interval.lower)
-    e = interval.length / np.maximum(np.sqrt(interval.upper) + C, _TINY)
-    polynomial = ((4 / 15 * e + 4 / 3 * C) * e + 8 / 3 * C**2) * e + 2 * C**3
-    return np.sqrt(profile.radius) * e**2 * polynomial
-
-
-@radius_drop.register
-def _(profile: Paraboloid, interval):
-    both = np.sqrt(interval.upper) + np.sqrt(interval.lower)
-    return np.sqrt(profile.radius) * interval.length / np.maximum(both, _TINY)
-
-
-@radius_integral.register
-def _(profile: PowerLaw, interval):
-    q = 1 + 1 / profile.exponent
-    # 1 − (1 − fraction)^q without cancellation.
-    with np.errstate(divide="ignore"):
-        drop = -np.expm1(q * np.log1p(-_fraction(interval)))
-    return profile._radius(interval.upper) * interval.upper / q * drop
-
-
-@energy_integral.register
-def _(profile: PowerLaw, interval):
-    q = 1 + 1 / profile.exponent
-    a = profile._radius(interval.upper)
-    return a * interval.upper**2 * scipy.special.betainc(2, q, _fraction(interval)) / (q * (q + 1))
-
-
-@radius_drop.register
-def _(profile: PowerLaw, interval):
-    return -profile._radius(interval.upper) * np.expm1(_log_ratio(interval) / profile.exponent)
-
-
-def _fraction(interval):
-    """Length of the live interval as a fraction of the depth, 0 where both vanish."""
-    return np.divide(
-        interval.length, interval.upper, out=np.zeros_like(interval.upper), where=interval.upper > 0
-    )
-
-
-def _log_ratio(interval):
-    """ln(d_p/d) without cancellation: from the length where that is short, else from the ends."""
-    fraction = _fraction(interval)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(fraction < 0.5, np.log1p(-fraction), np.log(interval.lower / interval.upper))
 
 
 def loading_depth(profile, critical_depth, area):

@@ -17,7 +17,7 @@ ORDER = (
     "report", "results",
     "foundation.element", "foundation.fronts", "foundation.reach", "foundation.row",
     "foundation.depth_path", "foundation.force_path", "foundation.free_body", "foundation.impact",
-    "yielding", "superposition", "fields", "stress", "indentation",
+    "yielding", "closed_forms", "superposition", "fields", "stress", "indentation",
     "dynamics.energy_balance", "dynamics.contact_time", "scaling", "dynamics.equation_of_motion",
     "dynamics.motion", "dynamics.impact", "dynamics.levels", "dynamics.friction",
     "dynamics.oblique_motion", "dynamics.ball",
@@ -27,7 +27,7 @@ ORDER = (
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {
-    "yielding", "superposition", "fields", "indentation", "dynamics.impact",
+    "yielding", "closed_forms", "superposition", "fields", "indentation", "dynamics.impact",
     "dynamics.energy_balance", "dynamics.contact_time", "dynamics.equation_of_motion", "dynamics.motion",
     "scaling", "shapes.tabulated", "stress",
 }  # fmt: skip

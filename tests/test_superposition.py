@@ -9,7 +9,7 @@ from mpmath import mp, mpf
 
 import mdr_core as mdr
 from mdr_core import superposition
-from mdr_core.shapes.tabulated import tabulated
+from mdr_core.superposition import tabulated
 from mdr_core.yielding import LiveInterval, elastic_interval
 
 from .hard_cases import EXTREMES, MEDIA, REGIMES, bounds, errors

@@ -7,9 +7,8 @@ import scipy
 from numpy.polynomial import chebyshev
 
 from .._numeric import chunks, cube_rise, cube_way, gauss_integrals, gauss_legendre
-from ..shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
-from ..shapes.tabulated import OneLength, Tabulated, tabulated
-from ..superposition import energy_integral, radius_integral
+from ..closed_forms import closed_forms
+from ..superposition import energy_integral, radius_integral, tabulated
 from ..yielding import LiveInterval, elastic_interval
 
 #: Nodes for pieces that come near the turning point, and for others.
@@ -32,18 +31,17 @@ def contact_time(profile, inertia, speed, interval, increase):
     increase = np.ravel(increase)
     lower, upper, length = (np.ravel(part) for part in (interval.lower, interval.upper, interval.length))
     passage = np.broadcast_to(upper.reshape(shape) / speed, shape).ravel()
-    # Of a power law, the contact time over d_max/v₀ depends on d_p/d_c alone.
-    fresh = increase == lower
-    known = fresh & (lower == 0) & (power(profile) is not None)
-    by_ratio = fresh & (lower > 0) & isinstance(profile, Cone | Paraboloid)
+    virgin, forms = increase == lower, closed_forms(profile)
+    exponent, similar = (forms.elastic_exponent, forms.similar) if forms else (None, None)
+    elastic = virgin & (lower == 0) & (exponent is not None)
+    by_ratio = virgin & (lower > 0) & (similar is not None)
     time = np.empty(upper.shape)
-    if known.any():
-        ratio = np.broadcast_to(elastic_time(power(profile)), shape).ravel()
-        time[known] = ratio[known] * passage[known]
+    if elastic.any():
+        ratio = np.broadcast_to(elastic_time(exponent), shape).ravel()
+        time[elastic] = ratio[elastic] * passage[elastic]
     if by_ratio.any():
-        grown = lower[by_ratio] / length[by_ratio]
-        time[by_ratio] = _tabulated(type(profile), grown) * passage[by_ratio]
-    rest = np.flatnonzero(~(known | by_ratio))
+        time[by_ratio] = _similar_time(similar, lower[by_ratio] / length[by_ratio]) * passage[by_ratio]
+    rest = np.flatnonzero(~(elastic | by_ratio))
     if rest.size:
         profile = tabulated(profile, upper[rest].max())
     unit, radius, depth = profile.unit or (profile, 1.0, 1.0)
@@ -55,13 +53,6 @@ def contact_time(profile, inertia, speed, interval, increase):
         ratio = time_over_root(unit.flat_entries(rows, shape), state, increase[rows] / depth[rows])
         time[rows] = ratio / root[rows] * factor[rows]
     return time.reshape(shape)[()]
-
-
-def power(profile):
-    """Exponent p of the elastic force F ∝ dᵖ, None if it is not a power."""
-    if isinstance(profile, PowerLaw):
-        return 1 + 1 / profile.exponent
-    return {FlatPunch: 1.0, Cone: 2.0, Paraboloid: 1.5}.get(type(profile))
 
 
 def elastic_time(p):
@@ -77,24 +68,24 @@ def elastic_time(p):
     return 2 * np.sqrt(np.pi) * gamma(1 + q) / gamma(0.5 + q)
 
 
-def _tabulated(kind, grown):
-    """Contact time over d_max/v₀ of a cone or paraboloid, as a function of d_p/d_c > 0."""
-    result = np.empty_like(grown)
-    for rows in chunks(grown.size):
+def _similar_time(profile, ratio):
+    """Contact time over d_max/v₀ of profiles similar to this one, as a function of d_p/d_c > 0."""
+    result = np.empty_like(ratio)
+    for rows in chunks(ratio.size):
         # Powers of √(d_p/d_c) at the onset of yield, of its inverse far beyond.
-        root = np.sqrt(grown[rows])
-        result[rows] = chebyshev.chebval(2 * (root / (1 + root)) - 1, _table(kind))
+        root = np.sqrt(ratio[rows])
+        result[rows] = chebyshev.chebval(2 * (root / (1 + root)) - 1, _table(profile))
     return result
 
 
 @lru_cache
-def _table(kind):
-    """Chebyshev coefficients of `_tabulated` in 2v − 1, with v = √X/(1 + √X) and X = d_p/d_c."""
+def _table(profile):
+    """Chebyshev coefficients of `_similar_time` in 2v − 1, with v = √X/(1 + √X) and X = d_p/d_c."""
 
     def time(place):
         X = ((1 + place) / (1 - place)) ** 2
         one = np.ones_like(X)
-        profile, interval = kind(1.0), LiveInterval(X, X + one, one)
+        interval = LiveInterval(X, X + one, one)
         energy = energy_integral(profile, interval) + radius_integral(profile, elastic_interval(X))
         return time_over_root(profile, interval, X) * np.sqrt(energy) / interval.upper
 
@@ -208,8 +199,7 @@ def _rule(count):
 def _flow(profile, lower, length):
     """∫ a ds over live intervals (m²) to the digits that times need, from a table where there is one."""
     upper = lower + length
-    quick = isinstance(profile, OneLength | Tabulated)
-    if not quick or not np.all(profile.table.covers([lower.min(), upper.min(), upper.max()])):
+    if not profile.unit or not np.all(profile.table.covers([lower.min(), upper.min(), upper.max()])):
         return radius_integral(profile, LiveInterval(*np.broadcast_arrays(lower, upper, length)))
     flow = profile.table.area(upper) - profile.table.area(lower)
     short = length < _SHORT * upper

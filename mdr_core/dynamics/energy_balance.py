@@ -5,14 +5,11 @@ live interval is [p₀ + Δ, p₀ + Δ + ℓ], ℓ = min(y, d_c) and Δ = max(0,
 2E* [∫(d − s) a ds over it + d_c ∫a ds over [p₀, p₀ + Δ]]: stored, and dissipated by yielding.
 """
 
-from functools import singledispatch
-
 import numpy as np
 
 from .._numeric import LONG, broadcast_flat, chunks, increasing_root
-from ..shapes.power import Cone, Paraboloid
-from ..shapes.tabulated import tabulated
-from ..superposition import energy_integral, radius_and_energy, radius_integral
+from ..closed_forms import closed_forms
+from ..superposition import energy_integral, radius_and_energy, radius_integral, tabulated
 from ..yielding import LiveInterval
 
 #: So many impacts on one tip are worth a table of it.
@@ -28,10 +25,11 @@ def turning_interval(profile, target, d_c, before):
     plastic depths p₀ (m) `before` the impact broadcast. The interval is infinite where the shape is not
     known as deep; Δ is carried, because p₀ may be much larger.
     """
-    if not np.any(before):
-        first = first_turning_interval(profile, target, d_c)
-        if first is not None:
-            return first, first.lower
+    forms = closed_forms(profile)
+    if forms and not np.any(before):
+        interval = forms.turning_interval(target, d_c)
+        if interval is not None:
+            return interval, interval.lower
     profile, shape = quick(profile, target.size), target.shape
     unit, *scales = profile.unit or (profile, 1.0, 1.0)
     # Beside the results there is no more than a block of anything.
@@ -122,51 +120,3 @@ def _about(profile, target, d_c, before):
         punch = np.sqrt(2 * target / table.radius(before))
         elastic = np.where(before > 0, np.minimum(elastic, punch), elastic)
     return np.where(elastic > d_c, np.maximum(yielding, d_c), elastic)
-
-
-@singledispatch
-def first_turning_interval(profile, target, d_c):
-    """Closed form of `turning_interval` on a virgin medium, for work over 2E* (m³); else None."""
-    return None
-
-
-@first_turning_interval.register
-def _(profile: Cone, target, d_c):
-    # d³/3 = πs·target; yielding, with X = d_p/d_c: X² + X = (λ³ − 1)/3.
-    elastic = np.cbrt(3 * np.pi * profile.slope * target)
-    ratio = elastic / d_c
-    surplus = np.maximum((ratio * ratio * ratio - 1) / 3, 0.0)
-    return _from_ratio(elastic, 2 * surplus / (1 + np.sqrt(1 + 4 * surplus)), d_c)
-
-
-@first_turning_interval.register
-def _(profile: Paraboloid, target, d_c):
-    # (4/15) √R d^(5/2) = target; yielding, with A² = d/d_c = C² + 1: A⁵ − C⁵ = λ^(5/2).
-    elastic = (target * 3.75 / np.sqrt(profile.radius)) ** 0.4
-    ratio = elastic / d_c
-    work = np.maximum(ratio * ratio * np.sqrt(ratio), 1.0).ravel()
-    X = np.empty_like(work)
-    for rows in chunks(work.size):
-        X[rows] = _paraboloid_growth(work[rows])
-    return _from_ratio(elastic, X.reshape(elastic.shape), d_c)
-
-
-def _paraboloid_growth(work):
-    """X with (X + 1)^(5/2) − X^(5/2) = `work` ≥ 1."""
-    # In h = A + C it is (5h³ + 10/h + 1/h⁵)/16, nearly a cube.
-    h = np.cbrt(3.2 * work - 2.2)
-    X = ((h - 1 / h) / 2) ** 2
-    for _ in range(4):
-        A, C = np.sqrt(X + 1), np.sqrt(X)
-        cubes = (X + 1 + A * C + X) / (A + C)
-        fifths = ((X + 1) ** 2 + X * X + X * (X + 1) + A * C * (2 * X + 1)) / (A + C)
-        X = np.maximum(X - (fifths - work) / (2.5 * cubes), 0.0)
-    return X
-
-
-def _from_ratio(elastic, X, d_c):
-    yields = elastic > d_c
-    with np.errstate(invalid="ignore"):
-        lower = np.where(yields, X * d_c, 0.0)
-    length = np.minimum(elastic, d_c)
-    return LiveInterval(lower, lower + length, length)

@@ -14,7 +14,7 @@ from ..indentation import Indentation, indent
 from ..medium import Medium, check_pair
 from ..report import engineering
 from ..shapes.profile import Profile
-from ..shapes.tabulated import tabulated
+from ..superposition import tabulated
 from ..yielding import LiveInterval
 from .curve import NAMES
 from .least_squares import Fit, covariances, in_units

@@ -14,7 +14,6 @@ import scipy
 
 from .. import _check
 from .._numeric import increasing_root
-from .power import Cone, FlatPunch, Paraboloid, PowerLaw
 from .profile import Profile
 
 #: Chebyshev points on [0, 1] in which a(s) is interpolated, and the matrix that takes values there to the
@@ -241,18 +240,3 @@ class Tabulated(Profile):
 
     def _radius(self, depth):
         return self.table.radius(depth)
-
-
-def tabulated(profile, known_depth):
-    """A shape that gives the contact radius of `profile` quickly, down to a depth (m) or its own end.
-
-    Pure powers and shapes of one length, which are quick, come back as they are, and so do many shapes.
-    """
-    powers = FlatPunch | Cone | Paraboloid | PowerLaw
-    if profile.shape or isinstance(profile, powers | OneLength | Tabulated):
-        return profile
-    known_depth = min(2.0 ** np.ceil(np.log2(np.max(known_depth))), np.min(profile.known_depth))
-    return _tabulated(profile, float(known_depth))
-
-
-_tabulated = lru_cache(maxsize=16)(Tabulated)
