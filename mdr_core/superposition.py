@@ -4,12 +4,13 @@
     energy_integral   ∫ (d − s) a(s) ds                          stored energy
     radius_drop       a(d) − a(d_p)                              stiffness while yielding
 
-for arrays of states; `fields` has those that depend on the radius r. Moduli are the caller's business, here
-is geometry only, and of a shape no more is used than its contact radius a(s), g′(x) and its kinks.
+for arrays of states; `fields` has the integrals that depend on the radius r. They are geometry only: the
+caller multiplies by the modulus. A profile enters by its closed forms, by a table of a(s), or by a(s),
+g′(x) and its kinks.
 
-Far beyond the critical depth the interval is much shorter than the depths at its ends. Nodes are therefore
-depths *beyond d_p*, and closed forms are the interval's length times a positive mean; nothing here is a
-difference of two elastic curves.
+At depths much larger than the critical depth the interval is much shorter than the depths at its ends.
+Nodes are therefore counted from d_p, so that no integral over a short interval is a difference of two
+elastic curves.
 """
 
 from functools import lru_cache
@@ -21,11 +22,11 @@ from .closed_forms import closed_forms
 from .shapes.tabulated import Tabulated
 from .yielding import LiveInterval, first_loading
 
-#: Integrals over live intervals that are longer, as a share of the depth, are differences of integrals from
-#: the tip, of which the energy loses up to two digits.
-_FAR = 0.15
-#: Of shorter ones: lengths over the distance from the last kink, and the Gauss nodes that they need.
-_NEAR = ((0.03, 4), (0.15, 6), (0.5, 10))
+#: Live intervals longer than this share of the depth are integrated as a difference of two integrals from
+#: the tip; the energy loses up to two digits by it.
+_LONG = 0.15
+#: Numbers of Gauss nodes for shorter ones, by their length over the distance from the last kink.
+_SHORT = ((0.03, 4), (0.15, 6), (0.5, 10))
 
 
 def radius_integral(profile, interval):
@@ -95,114 +96,116 @@ def _radius_rate(profile, depth):
 
 
 def _integrate(profile, interval, function, moment):
-    """∫ (d − s)^moment function(s) ds over the live interval, elementwise."""
+    """∫ (d − s)^moment function(s) ds over the live interval by quadrature, elementwise."""
     if profile.shape and profile.unit:
         unit, length, depth = profile.unit
         return (
             length * depth ** (moment + 1) * _integrate(unit, interval.in_units_of(depth), function, moment)
         )
     shape = np.shape(interval.length)
-    lower, upper, length = (np.ravel(part) for part in (interval.lower, interval.upper, interval.length))
+    lower, upper, length = (np.ravel(end) for end in (interval.lower, interval.upper, interval.length))
     result = np.zeros_like(length)
-    # Shapes that are cut at depths of their own, one by one.
-    alone = profile.shape and _is_cut_by_shape(profile)
-    for rows in chunks(length.size, 1 if alone else max(16, 2**16 // (1 + len(profile.kinks)))):
-        some = profile.flat_entries(rows.start if alone else rows, shape)
-        result[rows] = _sums(some, lower[rows], upper[rows], length[rows], function, moment)
+    # In an ensemble of profiles with kinks every one has cuts of its own.
+    single = profile.shape and _has_cuts(profile)
+    for rows in chunks(length.size, 1 if single else max(16, 2**16 // (1 + len(profile.kinks)))):
+        entries = profile.flat_entries(rows.start if single else rows, shape)
+        result[rows] = _sums(entries, lower[rows], upper[rows], length[rows], function, moment)
     return result.reshape(shape)
 
 
 def _sums(profile, lower, upper, length, function, moment):
-    row, piece, begin, end, start = pieces(profile, lower, upper, length)
-    above = length[row] - end
-    # What lies between two cuts of one state is the same for all states.
+    """`_integrate` over flat arrays, piece by piece."""
+    row, zone, start, stop, offset = pieces(profile, lower, upper, length)
+    remainder = length[row] - stop
+    # A piece between two cuts of one state is the same for all states.
     inner, total = np.zeros(row.size, bool), np.empty(row.size)
-    inner[1:-1] = (row[2:] == row[:-2]) & _is_cut_by_shape(profile)
+    inner[1:-1] = (row[2:] == row[:-2]) & _has_cuts(profile)
     if inner.any():
-        zeroth, first = (zone[piece[inner]] for zone in _whole_zones(profile, function))
-        total[inner] = first + above[inner] * zeroth if moment else zeroth
-    cut = ~inner
-    beyond, weight = nodes(begin[cut], end[cut], start[cut], gauss_legendre(24))
-    values = weight * function(profile.entries((row[cut], None)), lower[row[cut], None] + beyond)
+        zeroth, first = (integral[zone[inner]] for integral in _zone_integrals(profile, function))
+        total[inner] = first + remainder[inner] * zeroth if moment else zeroth
+    outer = ~inner
+    node, weight = nodes(start[outer], stop[outer], offset[outer], gauss_legendre(24))
+    values = weight * function(profile.entries((row[outer], None)), lower[row[outer], None] + node)
     if moment:
-        values *= length[row[cut], None] - beyond
-    total[cut] = values.sum(axis=1)
+        values *= length[row[outer], None] - node
+    total[outer] = values.sum(axis=1)
     return np.bincount(row, total, minlength=length.size)
 
 
 @lru_cache(maxsize=64)
-def _whole_zones(profile, function):
-    """∫ function(s) ds and ∫ (top − s) function(s) ds over every stretch between two cuts, by number."""
-    cuts, feet = _cuts(profile)
-    zeroth, first = np.zeros((2, len(feet)))
-    low, end = cuts[:-1], np.diff(cuts)
-    beyond, weight = nodes(np.zeros_like(end), end, low - feet[1:-1], gauss_legendre(24))
-    values = weight * function(profile, low[:, None] + beyond)
+def _zone_integrals(profile, function):
+    """∫ function(s) ds and ∫ (s₁ − s) function(s) ds over each zone between two cuts, s₁ its upper cut."""
+    cuts, origins = _cuts(profile)
+    zeroth, first = np.zeros((2, len(origins)))
+    lower, width = cuts[:-1], np.diff(cuts)
+    node, weight = nodes(np.zeros_like(width), width, lower - origins[1:-1], gauss_legendre(24))
+    values = weight * function(profile, lower[:, None] + node)
     zeroth[1:-1] = values.sum(axis=1)
-    first[1:-1] = (values * (end[:, None] - beyond)).sum(axis=1)
+    first[1:-1] = (values * (width[:, None] - node)).sum(axis=1)
     return zeroth, first
 
 
 def pieces(profile, lower, upper, length):
-    """Live intervals cut where a(s) is not smooth.
+    """Cut live intervals where a(s) is not smooth.
 
     Returns
     -------
-    row, piece : ndarray, shape (P,)
-        State that each piece belongs to, and the number of the stretch between cuts that it lies in.
-    begin, end : ndarray, shape (P,)
-        Its ends as depths beyond d_p (m), which do not feel the rounding of the depths.
-    start : ndarray, shape (P,)
-        Depth (m) of its beginning beyond the kink that it lies behind, or beyond the tip.
+    row, zone : ndarray, shape (P,)
+        Number of the state that each piece belongs to, and number of the zone between cuts that it lies in.
+    start, stop : ndarray, shape (P,)
+        Ends of the piece as depths above d_p (m), which are free of the rounding of the depths.
+    offset : ndarray, shape (P,)
+        Depth (m) of its start, counted from the kink above it or from the tip.
     """
-    cuts, feet = _cuts(profile)
-    unit = np.ones_like(upper) if _is_cut_by_shape(profile) else np.where(upper > 0, upper, 1.0)
+    cuts, origins = _cuts(profile)
+    unit = np.ones_like(upper) if _has_cuts(profile) else np.where(upper > 0, upper, 1.0)
     first = np.searchsorted(cuts, lower / unit, side="right")
     count = np.maximum(np.searchsorted(cuts, upper / unit) - first, 0) + 1
-    row, behind = np.repeat(np.arange(len(count)), count), np.cumsum(count)
-    piece = first[row] + np.arange(len(row)) - (behind - count)[row]
-    ends = np.concatenate([[0.0], cuts])[piece] * unit[row] - lower[row]
-    begin = np.clip(ends, 0.0, length[row])
-    begin[behind - count] = 0.0
-    end = np.append(begin[1:], 0.0)
-    end[behind - 1] = length
-    kept = end > begin
-    row, piece, begin, end = row[kept], piece[kept], begin[kept], end[kept]
-    return row, piece, begin, end, np.maximum(lower[row] + begin - feet[piece] * unit[row], 0.0)
+    row, total = np.repeat(np.arange(len(count)), count), np.cumsum(count)
+    zone = first[row] + np.arange(len(row)) - (total - count)[row]
+    start = np.clip(np.concatenate([[0.0], cuts])[zone] * unit[row] - lower[row], 0.0, length[row])
+    start[total - count] = 0.0
+    stop = np.append(start[1:], 0.0)
+    stop[total - 1] = length
+    rows = stop > start
+    row, zone, start, stop = row[rows], zone[rows], start[rows], stop[rows]
+    return row, zone, start, stop, np.maximum(lower[row] + start - origins[zone] * unit[row], 0.0)
 
 
-def nodes(begin, end, start, rule):
-    """Nodes in pieces as depths beyond d_p (m), and their weights (m).
+def nodes(start, stop, offset, rule):
+    """Nodes of a rule on [0, 1] in pieces, as depths above d_p (m), and their weights (m).
 
-    Behind a kink at the depth f the contact radius is smooth in σ = (s − f)^(1/4), whether it begins as a
-    root, as a third of a power, or straight: there the nodes of a rule on [0, 1] stand.
+    From a kink at the depth f on, the contact radius is smooth in σ = (s − f)^(1/4), whether it grows as a
+    root, as a power with thirds, or linearly: the nodes are even in σ.
     """
-    low, high = (np.sqrt(np.sqrt(part)) for part in (start, start + (end - begin)))
-    rise = (end - begin) / ((high * high + low * low) * (high + low))
-    low, rise, (node, share) = low[:, None], rise[:, None], rule
-    way = rise * node
-    beyond = begin[:, None] + way * (4 * low**3 + way * (6 * low**2 + way * (4 * low + way)))
-    return beyond, 4 * rise * share * (low + way) ** 3
+    low, high = (np.sqrt(np.sqrt(depth)) for depth in (offset, offset + (stop - start)))
+    # high − low without cancellation.
+    width = (stop - start) / ((high * high + low * low) * (high + low))
+    low, width, (node, weight) = low[:, None], width[:, None], rule
+    step = width * node
+    depth = start[:, None] + step * (4 * low**3 + step * (6 * low**2 + step * (4 * low + step)))
+    return depth, 4 * width * weight * (low + step) ** 3
 
 
-def _is_cut_by_shape(profile):
-    return profile.scale is not None or len(profile.kinks) > 0
+def _has_cuts(profile):
+    """Whether the depths at which a(s) is not smooth are known."""
+    return profile.transition_depth is not None or len(profile.kinks) > 0
 
 
 def _cuts(profile):
-    """Depths (m) at which live intervals are cut, and the kinks (or tip) behind which the pieces lie.
+    """Depths (m) at which live intervals are cut, and that of the kink or tip above each zone between them.
 
-    Where it is not known at which depths the shape changes, shares of the largest depth.
+    Where the depths at which the profile changes are not known, both are shares of the largest depth.
     """
-    if not _is_cut_by_shape(profile):
+    if not _has_cuts(profile):
         return 1e-2 ** np.arange(4, 0, -1.0), np.zeros(5)
     kinks = np.array(profile.kinks, dtype=float)
-    feet = np.append(0.0, kinks)
-    # Beyond a kink by as much as the depth there, a(s) goes over to another power.
-    over = feet + np.maximum(feet, profile.scale or 0.0)
-    over = over[(over > 0) & (over < np.append(kinks, np.inf))]
-    cuts = np.unique(np.concatenate([kinks, over]))
-    return cuts, feet[np.searchsorted(kinks, np.append(0.0, cuts), side="right")]
+    origins = np.append(0.0, kinks)
+    # As far below a kink as the kink is deep, a(s) goes over to another power.
+    transitions = origins + np.maximum(origins, profile.transition_depth or 0.0)
+    transitions = transitions[(transitions > 0) & (transitions < np.append(kinks, np.inf))]
+    cuts = np.unique(np.concatenate([kinks, transitions]))
+    return cuts, origins[np.searchsorted(kinks, np.append(0.0, cuts), side="right")]
 
 
 def _from_table(profile, interval, moments):
@@ -224,22 +227,21 @@ def _from_table(profile, interval, moments):
 
 
 def _table_integrals(profile, lower, upper, length, moments):
-    """∫ (d − s)^k a(s) ds of one profile, k below `moments`: differences, where these have digits.
+    """∫ (d − s)^k a(s) ds of one profile for k below `moments`, from its table and flat arrays.
 
-    In short intervals, where they have not, a few nodes in depth do, if no kink is near; otherwise
-    `_integrate` resolves them.
+    Long intervals as differences, short ones with a few nodes if no kink is near, others by `_integrate`.
     """
     covered = profile.table.covers(lower) & profile.table.covers(upper)
-    far = covered & (length >= _FAR * upper)
+    far = covered & (length >= _LONG * upper)
     if far.all():
         return _differences(profile.table, lower, upper, length, moments)
     result = np.empty((moments, length.size))
     if far.any():
         result[:, far] = _differences(profile.table, lower[far], upper[far], length[far], moments)
     kink, near = profile._kink_above(lower), covered & ~far
-    free = np.where(kink == profile._kink_above(upper), upper - kink, 0.0)
-    for share, count in _NEAR:
-        rows = np.flatnonzero(near & (length < share * free))
+    distance = np.where(kink == profile._kink_above(upper), upper - kink, 0.0)
+    for share, count in _SHORT:
+        rows = np.flatnonzero(near & (length < share * distance))
         if rows.size:
             node, weight = gauss_legendre(count)
             values = profile.table.covered_radius(lower[rows, None] + length[rows, None] * node)
@@ -249,14 +251,14 @@ def _table_integrals(profile, lower, upper, length, moments):
             near[rows] = False
     rows = np.flatnonzero(near | ~covered)
     if rows.size:
-        state = LiveInterval(lower[rows], upper[rows], length[rows])
+        interval = LiveInterval(lower[rows], upper[rows], length[rows])
         for k in range(moments):
-            result[k, rows] = _integrate(profile, state, _radius, moment=k)
+            result[k, rows] = _integrate(profile, interval, _radius, moment=k)
     return result
 
 
 def _differences(table, lower, upper, length, moments):
-    """`_table_integrals` over live intervals that are long enough for differences of integrals."""
+    """`_table_integrals` over long intervals."""
     low, high = table.area(lower), table.area(upper)
     if moments == 1:
         return (high - low)[None]
@@ -268,20 +270,20 @@ def loading_depth(profile, critical_depth, area):
 
     def loading(depth):
         interval = first_loading(depth, critical_depth)
-        ring = np.where(interval.lower > 0, radius_drop(profile, interval), profile._radius(depth))
-        return radius_integral(profile, interval), ring
+        slope = np.where(interval.lower > 0, radius_drop(profile, interval), profile._radius(depth))
+        return radius_integral(profile, interval), slope
 
     start = critical_depth if critical_depth < np.inf else 1.0
     return increasing_root(loading, area, start, profile.known_depth)
 
 
-def live_length(profile, front, area):
-    """Live depth (m) with ∫ a ds = `area` (m²) after unloading from the live interval `front`."""
+def live_length(profile, largest, area):
+    """Live depth (m) at which unloading from the live interval `largest` has ∫ a ds = `area` (m²)."""
 
     def unloading(length):
-        length = np.minimum(length, front.length)
-        interval = LiveInterval(front.lower, front.lower + length, length)
+        length = np.minimum(length, largest.length)
+        interval = LiveInterval(largest.lower, largest.lower + length, length)
         return radius_integral(profile, interval), profile._radius(interval.upper)
 
-    longest = np.where(front.length > 0, front.length, 1.0)
-    return np.minimum(increasing_root(unloading, area, longest, longest), front.length)
+    limit = np.where(largest.length > 0, largest.length, 1.0)
+    return np.minimum(increasing_root(unloading, area, limit, limit), largest.length)

@@ -61,7 +61,7 @@ class Profile(_check.Parameters, ABC):
     kinks = ()
 
     #: Depth (m) at which the tip goes over from one power of the radius to another, if that is known.
-    scale = None
+    transition_depth = None
 
     #: For shapes with one length of their own: the shape with parameters of 1, and its units of length
     #: and depth (m), so that g(x) is the unit of depth times the unit shape's g(x/length).

@@ -212,7 +212,7 @@ class Sampled(Profile):
         return tuple(g for g in self._g[1:-1].tolist() if g > 0)
 
     @cached_property
-    def scale(self):
+    def transition_depth(self):
         """Depth (m): a face's radius times the slope behind it; of a sharp tip that of the first kink."""
         if self._g[1] > 0:
             return self.kinks[0] if self.kinks else None

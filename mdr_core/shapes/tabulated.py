@@ -156,7 +156,7 @@ class OneLength(Profile):
     def _G_slope(u): ...
 
     face_radius = property(lambda self: self._edge * self._length)
-    scale = property(lambda self: self._depth)
+    transition_depth = property(lambda self: self._depth)
 
     @cached_property
     def unit(self):
@@ -217,7 +217,7 @@ class Tabulated(Profile):
 
     unit = property(lambda self: (self, 1.0, 1.0))
     kinks = property(lambda self: self.profile.kinks)
-    scale = property(lambda self: self.profile.scale)
+    transition_depth = property(lambda self: self.profile.transition_depth)
     wall = property(lambda self: self.profile.wall)
     face_radius = property(lambda self: self.profile.face_radius)
     known_radius = property(lambda self: self.profile.known_radius)
