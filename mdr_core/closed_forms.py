@@ -30,8 +30,7 @@ _TINY = np.finfo(float).tiny
 class ClosedForms(ABC):
     """Integrals over the live interval of one profile or an ensemble, elementwise.
 
-    The first three are needed. Of the others each may be left as it is here, which means that there is no
-    closed form.
+    The integrals and `radius_drop` are required. Everything else says here that there is no closed form.
     """
 
     profile: Any
@@ -39,8 +38,7 @@ class ClosedForms(ABC):
     #: Whether a(s) is a polynomial of √s from the tip on, for which quadrature needs no cuts.
     polynomial = False
 
-    #: Profile of the same family to which all others are similar in such a way that the contact time over
-    #: d_max/v₀ of an impact depends on d_p/d_c alone.
+    #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/d_c for all.
     similar = None
 
     #: Exponent p of the elastic force F ∝ dᵖ.

@@ -83,8 +83,7 @@ def _table(profile):
 
     def time(place):
         X = ((1 + place) / (1 - place)) ** 2
-        one = np.ones_like(X)
-        interval = LiveInterval(X, X + one, one)
+        interval = LiveInterval(X, X + 1, np.ones_like(X))
         energy = energy_integral(profile, interval) + radius_integral(profile, elastic_interval(X))
         return time_over_root(profile, interval, X) * np.sqrt(energy) / interval.upper
 
@@ -185,7 +184,7 @@ def _stretch(profile, interval_at, upper, length, distance, kinks, breaks, work)
 
 
 def _edges(profile, upper, length, kinks, breaks):
-    """Depths between pieces of stretches, ascending, and depths where a(s) starts as a root, one a piece."""
+    """Depths between pieces of stretches, ascending, and for each piece where a(s) starts as a root."""
     cuts = np.hstack([kinks, np.broadcast_to(breaks, (len(length), breaks.shape[1]))])
     cuts = np.clip(cuts, 0.0, length)
     order = np.argsort(cuts, axis=1)

@@ -31,16 +31,16 @@ class RadiusTable:
     """Contact radius a(s) (m) of one profile, ∫ a ds (m²) and ∫∫ a ds ds (m³) from depth 0 on.
 
     1. Panels between the given edges are halved until a polynomial of degree 9 is a(s) to rounding: next to
-       a kink, behind which a(s) may begin as a root, until rounding of the depth ends this.
-    2. Below the first edge a(s) counts as its value at the tip and a power of s. The panel there is the
-       parabola that has the integrals of this power.
+       a kink, below which a(s) may start as a root, down to the rounding of the depth.
+    2. From depth 0 to the first edge a(s) is taken as the radius of the face plus a power of s. The panel
+       there is the parabola that has the integrals of this power.
 
     Parameters
     ----------
     radius : callable
         a(s) (m) at arrays of depths (m).
     edges : array_like
-        Depths (m) to begin with, ascending: the ends of the table, and all kinks between them.
+        Depths (m), ascending: the first and the last one of the table, and all kinks between them.
     unit : float
         Unit of depth (m) of the polynomials: powers of depths over it must stay within double precision.
     """
@@ -49,10 +49,10 @@ class RadiusTable:
         edges = np.asarray(edges) / unit
         self.unit, (self.start, self.end), self._function = unit, edges[[0, -1]], radius
         low, powers = _panels(lambda depth: radius(depth * unit), edges)
-        tip, half, a = radius(edges[0] * unit * np.array([0.0, 0.5, 1.0]))
-        p = np.log2((a - tip) / (half - tip)) if half > tip else 1.0
-        first = np.array([1 - 3 / (2 + p), 2 / (2 + p) - 0.5, 0.0]) * 12 / (1 + p) * (a - tip)
-        first[2] = tip
+        face, half, a = radius(edges[0] * unit * np.array([0.0, 0.5, 1.0]))
+        p = np.log2((a - face) / (half - face)) if half > face else 1.0
+        first = np.array([1 - 3 / (2 + p), 2 / (2 + p) - 0.5, 0.0]) * 12 / (1 + p) * (a - face)
+        first[2] = face
         first = np.append(np.zeros(_COUNT - 3), first / edges[0] ** np.array([2, 1, 0]))
         self._radius = scipy.interpolate.PPoly(
             np.column_stack([first, powers]), np.concatenate([[0.0], low, edges[-1:]])
@@ -62,7 +62,7 @@ class RadiusTable:
         self._volume = self._area.antiderivative()
 
     def covers(self, depth):
-        """Whether the table has depths (m): it ends near the tip, but for depth 0 itself."""
+        """Whether depths (m) are in the table: 0, and those from its first edge to its last one."""
         depth = np.asarray(depth) / self.unit
         return ((depth >= self.start) | (depth == 0)) & (depth <= self.end)
 
@@ -112,30 +112,30 @@ def _panels(radius, edges):
         width = high - low
         values = radius(low[:, None] + width[:, None] * _NODE)
         rough = np.abs(values @ _TO_LAST.T).max(axis=1) > _RESOLVED * values.min(axis=1)
-        # Where a(s) is rounded, or its depth, no halving helps.
+        # Halving helps no more where rounding of a(s), or of the depth, is what is left.
         below = low - edges[np.searchsorted(edges, low, side="right") - 1]
         rough &= width > np.maximum(below / 8, 2.0**-44 * high)
         powers = np.linalg.solve(np.vander(_NODE), values.T) / width ** np.arange(_COUNT)[::-1, None]
         panels.append((low, powers.T))
-        panels[-1] = tuple(part[~rough] for part in panels[-1])
+        panels[-1] = tuple(array[~rough] for array in panels[-1])
         low, high = low[rough], high[rough]
         low, high = np.append(low, (low + high) / 2), np.append((low + high) / 2, high)
-    low, powers = (np.concatenate(part) for part in zip(*panels, strict=True))
+    low, powers = (np.concatenate(arrays) for arrays in zip(*panels, strict=True))
     order = np.argsort(low)
     return low[order], powers[order].T
 
 
 class OneLength(Profile):
-    """A shape with one length L of its own: z = H Z(r/L), g = H G(x/L), one function for all of them.
+    """Base class of profiles with one length L and one depth H: z = H Z(r/L), g = H G(x/L).
 
-    A subclass gives `_length` and `_depth` (L and H, m), and Z, G and G′ as functions of u = r/L, for
-    arrays. The inverse of G comes from a table, made once for the class.
+    A subclass gives `_length` and `_depth` (L and H, m), and Z, G and G′ as functions of arrays u = r/L.
+    The inverse of G comes from a table, made once for the class.
     """
 
     _length: float
     _depth: float
 
-    #: Where G begins to grow, 0, or 1 behind a flat face; and where it ends.
+    #: u at which G starts to grow, 0, or 1 at the edge of a flat face; and the largest u.
     _edge, _end = 0.0, np.inf
 
     def __post_init__(self):
@@ -164,7 +164,7 @@ class OneLength(Profile):
 
     @property
     def table(self):
-        """The `RadiusTable` of the unit shape."""
+        """The `RadiusTable` of the unit profile."""
         return _unit_table(type(self))
 
     def _height(self, r):
@@ -175,27 +175,27 @@ class OneLength(Profile):
 
     def _reduced_slope(self, x):
         u = x / self._length
-        # What is beyond an edge is so after rounding, too.
+        # Radii outside an edge must stay outside after rounding.
         u = np.where(x > self._length, np.maximum(u, np.nextafter(1.0, 2.0)), u)
         return self._depth / self._length * self._G_slope(u)
 
     def _radius(self, depth):
-        # Rounding must not lead off the profile.
+        # Rounding must not lead out of the range of u.
         u = np.minimum(np.maximum(self.table.radius(depth / self._depth), self._edge), self._end)
         return self._length * u
 
 
 def _unit_radius(kind, depth):
-    """u with G(u) = depth of a class of shapes, elementwise."""
-    # The largest of depths over the smallest of lengths.
-    most = _check.LARGEST**3
-    u = increasing_root(lambda u: (kind._G(u), kind._G_slope(u)), depth, 1.0, kind._end, most)
+    """u with G(u) = `depth` of a class of profiles, elementwise."""
+    # The largest depth over the smallest length.
+    limit = _check.LARGEST**3
+    u = increasing_root(lambda u: (kind._G(u), kind._G_slope(u)), depth, 1.0, kind._end, limit)
     return np.maximum(np.where(u < np.inf, u, kind._end), kind._edge)
 
 
 @lru_cache
 def _unit(kind):
-    """The shape of a class with parameters of 1."""
+    """The profile of a class with parameters of 1."""
     return kind(*(1.0 for _ in fields(kind)))
 
 
@@ -210,7 +210,7 @@ def _unit_table(kind):
 
 @dataclass(frozen=True, eq=False)
 class Tabulated(Profile):
-    """A shape with the contact radius of another one as a table, down to a depth (m)."""
+    """A profile with the contact radius of another one from a table, down to a depth (m)."""
 
     profile: Profile
     known_depth: float
