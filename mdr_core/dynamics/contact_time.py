@@ -1,6 +1,6 @@
 """Contact time of a dry impact: quadrature of dd/v, without time stepping."""
 
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 import scipy
@@ -102,54 +102,35 @@ def time_over_root(profile, interval, increase):
        cancels.
     """
     lower, length, increase = interval.lower[:, None], interval.length[:, None], increase[:, None]
-    before, nothing = lower - increase, np.zeros(interval.length.shape)
+    before, stretch = lower - increase, partial(_stretch, profile)
     kinks = np.column_stack(profile.kinks) if profile.kinks else np.empty((1, 0))
-    transitions = np.empty((1, 0))
+    breaks = np.empty((1, 0))
     if profile.transition_depth is not None:
-        transitions = np.atleast_2d(np.multiply.outer(profile.transition_depth, _TRANSITIONS))
-    unloading, _ = _stretch(
-        profile,
-        lambda s, rows: (lower[rows], s),
-        lower,
-        length,
-        0.0,
-        kinks - lower,
-        transitions - lower,
-        nothing,
-    )
+        breaks = np.atleast_2d(np.multiply.outer(profile.transition_depth, _TRANSITIONS))
+
+    def unloading(s, rows):
+        return lower[rows], s
+
+    def yielding(s, rows):
+        return before[rows] + s, length[rows]
+
+    def elastic(s, rows):
+        return before[rows], s
+
+    time, _ = stretch(unloading, lower, length, kinks - lower, breaks - lower)
     # Loading below the critical depth.
-    cuts = np.hstack([kinks - before, kinks - before - length])
-    breaks = np.hstack([transitions - before, _LENGTHS * length])
-    yielding, work = _stretch(
-        profile,
-        lambda s, rows: (before[rows] + s, length[rows]),
-        before,
-        increase,
-        0.0,
-        cuts,
-        breaks,
-        nothing,
-    )
+    both = np.hstack([kinks - before, kinks - before - length])
+    all_breaks = np.hstack([breaks - before, _LENGTHS * length])
+    time_below, work = stretch(yielding, before, increase, both, all_breaks)
     # Loading down to it, and about the distance after which it would turn if the interval went on to grow.
-    force, a = (
-        _flow(profile, before[:, 0], interval.length),
-        profile._radius(before[:, 0] + interval.length),
-    )
+    force = _flow(profile, before[:, 0], interval.length)
+    a = profile._radius(before[:, 0] + interval.length)
     distance = (2 * work / (force + np.sqrt(force**2 + 2 * a * work)))[:, None]
-    elastic, _ = _stretch(
-        profile,
-        lambda s, rows: (before[rows], s),
-        before,
-        length,
-        distance,
-        kinks - before,
-        transitions - before,
-        work,
-    )
-    return unloading + yielding + elastic
+    time_above, _ = stretch(elastic, before, length, kinks - before, breaks - before, distance, work)
+    return time + time_below + time_above
 
 
-def _stretch(profile, interval_at, upper, length, distance, kinks, breaks, work):
+def _stretch(profile, interval_at, upper, length, kinks, breaks, distance=0.0, work=0.0):
     """∫ ds/√W over a stretch of depth, and the work W from its start to the turning point.
 
     The stretch starts at the depth `upper` (m). At its end `work` remains, and `distance` (m) to the
@@ -175,7 +156,7 @@ def _stretch(profile, interval_at, upper, length, distance, kinks, breaks, work)
             works[row[:, 0], k[subset]] = np.einsum("ij,j", flow, weight)
             pieces.append((row[:, 0], k[subset], rate, np.einsum("ij,kj", flow, tail), weight))
     # The work from the start of each piece on.
-    works = work[:, None] + np.cumsum(works[:, ::-1], axis=1)[:, ::-1]
+    works = np.reshape(work, (-1, 1)) + np.cumsum(works[:, ::-1], axis=1)[:, ::-1]
     time = np.zeros(len(length))
     for row, k, rate, within, weight in pieces:
         passage = np.einsum("ij,j", rate / np.sqrt(works[row, k + 1, None] + within), weight)
