@@ -18,7 +18,7 @@ import numpy as np
 from . import _check
 from ._check import Array
 from ._numeric import chunks, crowded, gauss_legendre, largest_value
-from .shapes.power import Cone, FlatPunch, Paraboloid
+from .closed_forms import closed_forms
 from .superposition import nodes, pieces, radius_drop
 
 #: Quantities of which the largest value can be found.
@@ -220,7 +220,8 @@ def _integrals(state, unit, r, z):
 
 def _pieces(profile, interval):
     """Start and end (m) of each piece of the load above d_p, and its start above the kink below it."""
-    if isinstance(profile, FlatPunch | Cone | Paraboloid):
+    forms = closed_forms(profile)
+    if forms and forms.polynomial:
         # One piece, since a(s) is a power from the tip.
         return np.array([[0.0, interval.length, interval.lower]])
     ends = map(np.atleast_1d, (interval.lower, interval.upper, interval.length))

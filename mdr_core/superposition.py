@@ -4,167 +4,60 @@
     energy_integral   ∫ (d − s) a(s) ds                          stored energy
     radius_drop       a(d) − a(d_p)                              stiffness while yielding
 
-for arrays of states; `fields` has those that depend on the radius r. Moduli are the caller's business, here
-is geometry only, and of a shape no more is used than its contact radius a(s), g′(x) and its kinks.
+for arrays of states; `fields` has the integrals that depend on the radius r. They are geometry only: the
+caller multiplies by the modulus. A profile enters by its closed forms, by a table of a(s), or by a(s),
+g′(x) and its kinks.
 
-Far beyond the critical depth the interval is much shorter than the depths at its ends. Nodes are therefore
-depths *beyond d_p*, and closed forms are the interval's length times a positive mean; nothing here is a
-difference of two elastic curves.
+At depths much larger than the critical depth the interval is much shorter than the depths at its ends.
+Nodes are therefore counted from d_p, so that no integral over a short interval is a difference of two
+elastic curves.
 """
 
-from functools import lru_cache, singledispatch
+from functools import lru_cache
 
 import numpy as np
-import scipy
 
-from ._numeric import LONG, broadcast_flat, chunks, gauss_legendre, increasing_root
-from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
-from .shapes.tabulated import OneLength, Tabulated
+from ._numeric import LONG, chunks, gauss_legendre, increasing_root
+from .closed_forms import closed_forms
+from .shapes.tabulated import Tabulated
 from .yielding import LiveInterval, first_loading
 
-_TINY = np.finfo(float).tiny
-#: Integrals over live intervals that are longer, as a share of the depth, are differences of integrals from
-#: the tip, of which the energy loses up to two digits. Of shorter ones: shares of the way behind the last
-#: kink, and the Gauss nodes that they need.
-_FAR, _NEAR = 0.15, ((0.03, 4), (0.15, 6), (0.5, 10))
+#: Live intervals longer than this share of the depth are integrated as a difference of two integrals from
+#: the tip; the energy loses up to two digits by it.
+_LONG = 0.15
+#: Numbers of Gauss nodes for shorter ones, by their length over the distance from the last kink.
+_SHORT = ((0.03, 4), (0.15, 6), (0.5, 10))
 
 
-@singledispatch
 def radius_integral(profile, interval):
     """∫ a(s) ds over the live interval (m²), elementwise."""
+    if forms := closed_forms(profile):
+        return forms.radius_integral(interval)
+    if profile.unit:
+        return _from_table(profile, interval, 1)[0]
     return _integrate(profile, interval, _radius, moment=0)
 
 
-@singledispatch
 def energy_integral(profile, interval):
     """∫ (d − s) a(s) ds over the live interval (m³), elementwise."""
+    if forms := closed_forms(profile):
+        return forms.energy_integral(interval)
+    if profile.unit:
+        return _from_table(profile, interval, 2)[1]
     return _integrate(profile, interval, _radius, moment=1)
 
 
-def _radius(profile, depth):
-    return profile._radius(depth)
+def radius_and_energy(profile, interval):
+    """`radius_integral` and `energy_integral`, at the cost of one where a table has both."""
+    if profile.unit and not closed_forms(profile):
+        return _from_table(profile, interval, 2)
+    return radius_integral(profile, interval), energy_integral(profile, interval)
 
 
-def _radius_rate(profile, depth):
-    """da/ds (dimensionless); 0 at a wall."""
-    with np.errstate(divide="ignore"):
-        return 1 / profile._reduced_slope(profile._radius(depth))
-
-
-def _integrate(profile, interval, function, moment):
-    """∫ (d − s)^moment function(s) ds over the live interval, elementwise."""
-    if profile.shape and profile.unit:
-        unit, length, depth = profile.unit
-        return (
-            length * depth ** (moment + 1) * _integrate(unit, interval.in_units_of(depth), function, moment)
-        )
-    shape = np.shape(interval.length)
-    lower, upper, length = (np.ravel(part) for part in (interval.lower, interval.upper, interval.length))
-    result = np.zeros_like(length)
-    # Shapes that are cut at depths of their own, one by one.
-    alone = profile.shape and _is_cut_by_shape(profile)
-    for rows in chunks(length.size, 1 if alone else max(16, 2**16 // (1 + len(profile.kinks)))):
-        some = profile.flat_entries(rows.start if alone else rows, shape)
-        result[rows] = _sums(some, lower[rows], upper[rows], length[rows], function, moment)
-    return result.reshape(shape)
-
-
-def _sums(profile, lower, upper, length, function, moment):
-    row, piece, begin, end, start = pieces(profile, lower, upper, length)
-    above = length[row] - end
-    # What lies between two cuts of one state is the same for all states.
-    inner, total = np.zeros(row.size, bool), np.empty(row.size)
-    inner[1:-1] = (row[2:] == row[:-2]) & _is_cut_by_shape(profile)
-    if inner.any():
-        zeroth, first = (zone[piece[inner]] for zone in _whole_zones(profile, function))
-        total[inner] = first + above[inner] * zeroth if moment else zeroth
-    cut = ~inner
-    beyond, weight = nodes(begin[cut], end[cut], start[cut], gauss_legendre(24))
-    values = weight * function(profile.entries((row[cut], None)), lower[row[cut], None] + beyond)
-    if moment:
-        values *= length[row[cut], None] - beyond
-    total[cut] = values.sum(axis=1)
-    return np.bincount(row, total, minlength=length.size)
-
-
-@lru_cache(maxsize=64)
-def _whole_zones(profile, function):
-    """∫ function(s) ds and ∫ (top − s) function(s) ds over every stretch between two cuts, by number."""
-    cuts, feet = _cuts(profile)
-    zeroth, first = np.zeros((2, len(feet)))
-    low, end = cuts[:-1], np.diff(cuts)
-    beyond, weight = nodes(np.zeros_like(end), end, low - feet[1:-1], gauss_legendre(24))
-    values = weight * function(profile, low[:, None] + beyond)
-    zeroth[1:-1] = values.sum(axis=1)
-    first[1:-1] = (values * (end[:, None] - beyond)).sum(axis=1)
-    return zeroth, first
-
-
-def pieces(profile, lower, upper, length):
-    """Live intervals cut where a(s) is not smooth.
-
-    Returns
-    -------
-    row, piece : ndarray, shape (P,)
-        State that each piece belongs to, and the number of the stretch between cuts that it lies in.
-    begin, end : ndarray, shape (P,)
-        Its ends as depths beyond d_p (m), which do not feel the rounding of the depths.
-    start : ndarray, shape (P,)
-        Depth (m) of its beginning beyond the kink that it lies behind, or beyond the tip.
-    """
-    cuts, feet = _cuts(profile)
-    unit = np.ones_like(upper) if _is_cut_by_shape(profile) else np.where(upper > 0, upper, 1.0)
-    first = np.searchsorted(cuts, lower / unit, side="right")
-    count = np.maximum(np.searchsorted(cuts, upper / unit) - first, 0) + 1
-    row, behind = np.repeat(np.arange(len(count)), count), np.cumsum(count)
-    piece = first[row] + np.arange(len(row)) - (behind - count)[row]
-    ends = np.concatenate([[0.0], cuts])[piece] * unit[row] - lower[row]
-    begin = np.clip(ends, 0.0, length[row])
-    begin[behind - count] = 0.0
-    end = np.append(begin[1:], 0.0)
-    end[behind - 1] = length
-    kept = end > begin
-    row, piece, begin, end = row[kept], piece[kept], begin[kept], end[kept]
-    return row, piece, begin, end, np.maximum(lower[row] + begin - feet[piece] * unit[row], 0.0)
-
-
-def nodes(begin, end, start, rule):
-    """Nodes in pieces as depths beyond d_p (m), and their weights (m).
-
-    Behind a kink at the depth f the contact radius is smooth in σ = (s − f)^(1/4), whether it begins as a
-    root, as a third of a power, or straight: there the nodes of a rule on [0, 1] stand.
-    """
-    low, high = (np.sqrt(np.sqrt(part)) for part in (start, start + (end - begin)))
-    rise = (end - begin) / ((high * high + low * low) * (high + low))
-    low, rise, (node, share) = low[:, None], rise[:, None], rule
-    way = rise * node
-    beyond = begin[:, None] + way * (4 * low**3 + way * (6 * low**2 + way * (4 * low + way)))
-    return beyond, 4 * rise * share * (low + way) ** 3
-
-
-def _is_cut_by_shape(profile):
-    return profile.scale is not None or len(profile.kinks) > 0
-
-
-def _cuts(profile):
-    """Depths (m) at which live intervals are cut, and the kinks (or tip) behind which the pieces lie.
-
-    Where it is not known at which depths the shape changes, shares of the largest depth.
-    """
-    if not _is_cut_by_shape(profile):
-        return 1e-2 ** np.arange(4, 0, -1.0), np.zeros(5)
-    kinks = np.array(profile.kinks, dtype=float)
-    feet = np.append(0.0, kinks)
-    # Beyond a kink by as much as the depth there, a(s) goes over to another power.
-    over = feet + np.maximum(feet, profile.scale or 0.0)
-    over = over[(over > 0) & (over < np.append(kinks, np.inf))]
-    cuts = np.unique(np.concatenate([kinks, over]))
-    return cuts, feet[np.searchsorted(kinks, np.append(0.0, cuts), side="right")]
-
-
-@singledispatch
 def radius_drop(profile, interval):
-    """a(d) − a(d_p) (m), elementwise: where something has yielded, the width of the elastic ring."""
+    """a(d) − a(d_p) (m), elementwise: where the medium has yielded, the width of the elastic ring."""
+    if forms := closed_forms(profile):
+        return forms.radius_drop(interval)
     if profile.shape and profile.unit:
         unit, length, depth = profile.unit
         return length * radius_drop(unit, interval.in_units_of(depth))
@@ -178,156 +71,198 @@ def radius_drop(profile, interval):
         return np.where(narrow, _integrate(profile, interval, _radius_rate, moment=0), a - c)
 
 
-@radius_integral.register(OneLength)
-@radius_integral.register(Tabulated)
-def _(profile, interval):
-    return _from_table(profile, interval, 1)[0]
+def tabulated(profile, known_depth):
+    """A profile that gives its contact radius and integrals quickly, down to a depth (m) or to its own end.
+
+    Ensembles, and profiles that have closed forms or a table, are returned as they are.
+    """
+    if profile.shape or profile.unit or closed_forms(profile):
+        return profile
+    known_depth = min(2.0 ** np.ceil(np.log2(np.max(known_depth))), np.min(profile.known_depth))
+    return _tabulated(profile, float(known_depth))
 
 
-@energy_integral.register(OneLength)
-@energy_integral.register(Tabulated)
-def _(profile, interval):
-    return _from_table(profile, interval, 2)[1]
+_tabulated = lru_cache(maxsize=16)(Tabulated)
 
 
-def radius_and_energy(profile, interval):
-    """`radius_integral` and `energy_integral`, at the cost of one where a table gives them."""
-    if isinstance(profile, OneLength | Tabulated):
-        return _from_table(profile, interval, 2)
-    return radius_integral(profile, interval), energy_integral(profile, interval)
+def _radius(profile, depth):
+    return profile._radius(depth)
+
+
+def _radius_rate(profile, depth):
+    """da/ds (dimensionless); 0 at a wall."""
+    with np.errstate(divide="ignore"):
+        return 1 / profile._reduced_slope(profile._radius(depth))
+
+
+def _integrate(profile, interval, function, moment):
+    """∫ (d − s)^moment function(s) ds over the live interval by quadrature, elementwise."""
+    if profile.shape and profile.unit:
+        unit, length, depth = profile.unit
+        return (
+            length * depth ** (moment + 1) * _integrate(unit, interval.in_units_of(depth), function, moment)
+        )
+    shape = np.shape(interval.length)
+    lower, upper, length = (np.ravel(end) for end in (interval.lower, interval.upper, interval.length))
+    result = np.zeros_like(length)
+    # In an ensemble of profiles with kinks every one has cuts of its own.
+    single = profile.shape and _has_cuts(profile)
+    for rows in chunks(length.size, 1 if single else max(16, 2**16 // (1 + len(profile.kinks)))):
+        entries = profile.flat_entries(rows.start if single else rows, shape)
+        result[rows] = _sums(entries, lower[rows], upper[rows], length[rows], function, moment)
+    return result.reshape(shape)
+
+
+def _sums(profile, lower, upper, length, function, moment):
+    """`_integrate` over flat arrays, piece by piece."""
+    row, zone, start, stop, offset = pieces(profile, lower, upper, length)
+    remainder = length[row] - stop
+    # A piece between two cuts of one state is the same for all states.
+    inner, total = np.zeros(row.size, bool), np.empty(row.size)
+    inner[1:-1] = (row[2:] == row[:-2]) & _has_cuts(profile)
+    if inner.any():
+        zeroth, first = (integral[zone[inner]] for integral in _zone_integrals(profile, function))
+        total[inner] = first + remainder[inner] * zeroth if moment else zeroth
+    outer = ~inner
+    node, weight = nodes(start[outer], stop[outer], offset[outer], gauss_legendre(24))
+    values = weight * function(profile.entries((row[outer], None)), lower[row[outer], None] + node)
+    if moment:
+        values *= length[row[outer], None] - node
+    total[outer] = values.sum(axis=1)
+    return np.bincount(row, total, minlength=length.size)
+
+
+@lru_cache(maxsize=64)
+def _zone_integrals(profile, function):
+    """∫ function(s) ds and ∫ (s₁ − s) function(s) ds over each zone between two cuts, s₁ its upper cut."""
+    cuts, origins = _cuts(profile)
+    zeroth, first = np.zeros((2, len(origins)))
+    lower, width = cuts[:-1], np.diff(cuts)
+    node, weight = nodes(np.zeros_like(width), width, lower - origins[1:-1], gauss_legendre(24))
+    values = weight * function(profile, lower[:, None] + node)
+    zeroth[1:-1] = values.sum(axis=1)
+    first[1:-1] = (values * (width[:, None] - node)).sum(axis=1)
+    return zeroth, first
+
+
+def pieces(profile, lower, upper, length):
+    """Cut live intervals where a(s) is not smooth.
+
+    Returns
+    -------
+    row, zone : ndarray, shape (P,)
+        Number of the state that each piece belongs to, and number of the zone between cuts that it lies in.
+    start, stop : ndarray, shape (P,)
+        Ends of the piece as depths above d_p (m), which are free of the rounding of the depths.
+    offset : ndarray, shape (P,)
+        Depth (m) of its start, counted from the kink above it or from the tip.
+    """
+    cuts, origins = _cuts(profile)
+    unit = np.ones_like(upper) if _has_cuts(profile) else np.where(upper > 0, upper, 1.0)
+    first = np.searchsorted(cuts, lower / unit, side="right")
+    count = np.maximum(np.searchsorted(cuts, upper / unit) - first, 0) + 1
+    row, total = np.repeat(np.arange(len(count)), count), np.cumsum(count)
+    zone = first[row] + np.arange(len(row)) - (total - count)[row]
+    start = np.clip(np.concatenate([[0.0], cuts])[zone] * unit[row] - lower[row], 0.0, length[row])
+    start[total - count] = 0.0
+    stop = np.append(start[1:], 0.0)
+    stop[total - 1] = length
+    rows = stop > start
+    row, zone, start, stop = row[rows], zone[rows], start[rows], stop[rows]
+    return row, zone, start, stop, np.maximum(lower[row] + start - origins[zone] * unit[row], 0.0)
+
+
+def nodes(start, stop, offset, rule):
+    """Nodes of a rule on [0, 1] in pieces, as depths above d_p (m), and their weights (m).
+
+    From a kink at the depth f on, the contact radius is smooth in σ = (s − f)^(1/4), whether it grows as a
+    root, as a power with thirds, or linearly: the nodes are even in σ.
+    """
+    low, high = (np.sqrt(np.sqrt(depth)) for depth in (offset, offset + (stop - start)))
+    # high − low without cancellation.
+    width = (stop - start) / ((high * high + low * low) * (high + low))
+    low, width, (node, weight) = low[:, None], width[:, None], rule
+    step = width * node
+    depth = start[:, None] + step * (4 * low**3 + step * (6 * low**2 + step * (4 * low + step)))
+    return depth, 4 * width * weight * (low + step) ** 3
+
+
+def _has_cuts(profile):
+    """Whether the depths at which a(s) is not smooth are known."""
+    return profile.transition_depth is not None or len(profile.kinks) > 0
+
+
+def _cuts(profile):
+    """Depths (m) at which live intervals are cut, and that of the kink or tip above each zone between them.
+
+    Where the depths at which the profile changes are not known, both are shares of the largest depth.
+    """
+    if not _has_cuts(profile):
+        return 1e-2 ** np.arange(4, 0, -1.0), np.zeros(5)
+    kinks = np.array(profile.kinks, dtype=float)
+    origins = np.append(0.0, kinks)
+    # As far below a kink as the kink is deep, a(s) goes over to another power.
+    transitions = origins + np.maximum(origins, profile.transition_depth or 0.0)
+    transitions = transitions[(transitions > 0) & (transitions < np.append(kinks, np.inf))]
+    cuts = np.unique(np.concatenate([kinks, transitions]))
+    return cuts, origins[np.searchsorted(kinks, np.append(0.0, cuts), side="right")]
 
 
 def _from_table(profile, interval, moments):
-    """The first or both integrals, from the table of the shape with parameters of 1."""
+    """∫ (d − s)^k a(s) ds for k below `moments` (1 or 2), from the table of the unit profile."""
     unit, *scales = profile.unit
-    shape, parts = broadcast_flat(interval.lower, interval.upper, interval.length, *scales)
-    result = np.empty((moments, np.prod(shape, dtype=int)))
+    shape = np.shape(interval.length)
+    ends = [np.ravel(end) for end in (interval.lower, interval.upper, interval.length)]
+    if profile.shape:
+        scales = [np.broadcast_to(scale, shape).ravel() for scale in scales]
+    result = np.empty((moments, ends[0].size))
     for rows in chunks(result.shape[1], LONG):
-        *ends, length, depth = (part[rows] for part in parts)
-        _fill(result[:, rows], unit, *(part / depth for part in ends))
-        result[:, rows] *= length * depth ** np.arange(1, moments + 1)[:, None]
+        length, depth = (scale[rows] for scale in scales) if profile.shape else scales
+        lower, upper, live_depth = (end[rows] / depth for end in ends)
+        # In ascending order: a search in the table is several times as fast next to the last one.
+        order, block = np.argsort(upper), result[:, rows]
+        block[:, order] = _table_integrals(unit, lower[order], upper[order], live_depth[order], moments)
+        block *= length * depth ** np.arange(1, moments + 1)[:, None]
     return result.reshape(moments, *shape)
 
 
-def _fill(result, profile, lower, upper, length):
-    """∫ (d − s)^k a(s) ds of one shape, k = 0 and perhaps 1: as differences, where these have digits.
+def _table_integrals(profile, lower, upper, length, moments):
+    """∫ (d − s)^k a(s) ds of one profile for k below `moments`, from its table and flat arrays.
 
-    In short intervals, where they have not, a few nodes in depth do, if no kink is near; else it is
-    `_integrate` that resolves them.
+    Long intervals as differences, short ones with a few nodes if no kink is near, others by `_integrate`.
     """
-    table = profile.table
-    known = table.covers(lower) & table.covers(upper)
-    if not lower.any() and known.all():
-        result[:] = table.integrals(upper, len(result))
-        return
-    far = known & (length >= _FAR * upper)
-    rows = np.flatnonzero(far)
-    low, high = (table.integrals(part[rows], len(result)) for part in (lower, upper))
-    result[0, rows] = high[0] - low[0]
-    if len(result) > 1:
-        result[1, rows] = high[1] - low[1] - length[rows] * low[0]
-    foot, rest = table.foot(lower), known & ~far
-    free = np.where(foot == table.foot(upper), upper - foot, 0.0)
-    for share, count in _NEAR:
-        rows = np.flatnonzero(rest & (length < share * free))
-        node, weight = gauss_legendre(count)
-        values = table.radius(lower[rows] + length[rows] * node[:, None])
-        for k, part in enumerate(result):
-            part[rows] = np.einsum("i,ij", weight * (1 - node) ** k, values) * length[rows] ** (k + 1)
-        rest[rows] = False
-    rows = np.flatnonzero(rest | ~known)
+    covered = profile.table.covers(lower) & profile.table.covers(upper)
+    far = covered & (length >= _LONG * upper)
+    if far.all():
+        return _differences(profile.table, lower, upper, length, moments)
+    result = np.empty((moments, length.size))
+    if far.any():
+        result[:, far] = _differences(profile.table, lower[far], upper[far], length[far], moments)
+    kink, near = profile._kink_above(lower), covered & ~far
+    distance = np.where(kink == profile._kink_above(upper), upper - kink, 0.0)
+    for share, count in _SHORT:
+        rows = np.flatnonzero(near & (length < share * distance))
+        if rows.size:
+            node, weight = gauss_legendre(count)
+            values = profile.table.covered_radius(lower[rows, None] + length[rows, None] * node)
+            for k in range(moments):
+                mean = np.einsum("ij,j", values, weight * (1 - node) ** k)
+                result[k, rows] = mean * length[rows] ** (k + 1)
+            near[rows] = False
+    rows = np.flatnonzero(near | ~covered)
     if rows.size:
-        state = LiveInterval(lower[rows], upper[rows], length[rows])
-        for k, part in enumerate(result):
-            part[rows] = _integrate(profile, state, _radius, moment=k)
+        interval = LiveInterval(lower[rows], upper[rows], length[rows])
+        for k in range(moments):
+            result[k, rows] = _integrate(profile, interval, _radius, moment=k)
+    return result
 
 
-@radius_integral.register
-def _(profile: FlatPunch, interval):
-    return profile.radius * interval.length
-
-
-@energy_integral.register
-def _(profile: FlatPunch, interval):
-    return profile.radius / 2 * interval.length**2
-
-
-@radius_drop.register
-def _(profile: FlatPunch, interval):
-    return np.zeros_like(interval.length)
-
-
-@radius_integral.register
-def _(profile: Cone, interval):
-    return (interval.upper + interval.lower) * interval.length / (np.pi * profile.slope)
-
-
-@energy_integral.register
-def _(profile: Cone, interval):
-    return interval.length**2 * (interval.upper + 2 * interval.lower) / (3 * np.pi * profile.slope)
-
-
-@radius_drop.register
-def _(profile: Cone, interval):
-    return interval.length / (np.pi / 2 * profile.slope)
-
-
-@radius_integral.register
-def _(profile: Paraboloid, interval):
-    # A³ − C³ with A² − C² = length.
-    A, C = np.sqrt(interval.upper), np.sqrt(interval.lower)
-    mean = (interval.upper + A * C + interval.lower) / np.maximum(A + C, _TINY)
-    return (2 / 3 * np.sqrt(profile.radius)) * mean * interval.length
-
-
-@energy_integral.register
-def _(profile: Paraboloid, interval):
-    # ∫ 2x²(A² − x²) dx from C to A = C + e, as a polynomial with positive terms in e.
-    C = np.sqrt(interval.lower)
-    e = interval.length / np.maximum(np.sqrt(interval.upper) + C, _TINY)
-    polynomial = ((4 / 15 * e + 4 / 3 * C) * e + 8 / 3 * C**2) * e + 2 * C**3
-    return np.sqrt(profile.radius) * e**2 * polynomial
-
-
-@radius_drop.register
-def _(profile: Paraboloid, interval):
-    both = np.sqrt(interval.upper) + np.sqrt(interval.lower)
-    return np.sqrt(profile.radius) * interval.length / np.maximum(both, _TINY)
-
-
-@radius_integral.register
-def _(profile: PowerLaw, interval):
-    q = 1 + 1 / profile.exponent
-    # 1 − (1 − fraction)^q without cancellation.
-    with np.errstate(divide="ignore"):
-        drop = -np.expm1(q * np.log1p(-_fraction(interval)))
-    return profile._radius(interval.upper) * interval.upper / q * drop
-
-
-@energy_integral.register
-def _(profile: PowerLaw, interval):
-    q = 1 + 1 / profile.exponent
-    a = profile._radius(interval.upper)
-    return a * interval.upper**2 * scipy.special.betainc(2, q, _fraction(interval)) / (q * (q + 1))
-
-
-@radius_drop.register
-def _(profile: PowerLaw, interval):
-    return -profile._radius(interval.upper) * np.expm1(_log_ratio(interval) / profile.exponent)
-
-
-def _fraction(interval):
-    """Length of the live interval as a fraction of the depth, 0 where both vanish."""
-    return np.divide(
-        interval.length, interval.upper, out=np.zeros_like(interval.upper), where=interval.upper > 0
-    )
-
-
-def _log_ratio(interval):
-    """ln(d_p/d) without cancellation: from the length where that is short, else from the ends."""
-    fraction = _fraction(interval)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(fraction < 0.5, np.log1p(-fraction), np.log(interval.lower / interval.upper))
+def _differences(table, lower, upper, length, moments):
+    """`_table_integrals` over long intervals."""
+    low, high = table.area(lower), table.area(upper)
+    if moments == 1:
+        return (high - low)[None]
+    return np.array([high - low, table.volume(upper) - table.volume(lower) - length * low])
 
 
 def loading_depth(profile, critical_depth, area):
@@ -335,20 +270,20 @@ def loading_depth(profile, critical_depth, area):
 
     def loading(depth):
         interval = first_loading(depth, critical_depth)
-        ring = np.where(interval.lower > 0, radius_drop(profile, interval), profile._radius(depth))
-        return radius_integral(profile, interval), ring
+        slope = np.where(interval.lower > 0, radius_drop(profile, interval), profile._radius(depth))
+        return radius_integral(profile, interval), slope
 
     start = critical_depth if critical_depth < np.inf else 1.0
     return increasing_root(loading, area, start, profile.known_depth)
 
 
-def live_length(profile, front, area):
-    """Live depth (m) with ∫ a ds = `area` (m²) after unloading from the live interval `front`."""
+def live_length(profile, largest, area):
+    """Live depth (m) at which unloading from the live interval `largest` has ∫ a ds = `area` (m²)."""
 
     def unloading(length):
-        length = np.minimum(length, front.length)
-        interval = LiveInterval(front.lower, front.lower + length, length)
+        length = np.minimum(length, largest.length)
+        interval = LiveInterval(largest.lower, largest.lower + length, length)
         return radius_integral(profile, interval), profile._radius(interval.upper)
 
-    longest = np.where(front.length > 0, front.length, 1.0)
-    return np.minimum(increasing_root(unloading, area, longest, longest), front.length)
+    limit = np.where(largest.length > 0, largest.length, 1.0)
+    return np.minimum(increasing_root(unloading, area, limit, limit), largest.length)

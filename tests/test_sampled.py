@@ -15,7 +15,22 @@ HISTORIES = ((0.4,), (3.0,), (100.0,), (1000.0, 999.5))
 # What is left of a tip of 10 µm curvature with a noise of 2 nm.
 _R = np.linspace(0.0, 1e-5, 2000)
 _NOISE = 2e-9 * np.random.default_rng(11).standard_normal(_R.size) * (_R > 0)
-HULL = mdr.Sampled.convex_envelope(_R, _R**2 / 2e-5 + np.abs(_NOISE))
+
+
+def lower_hull(r, z):
+    """Radii and heights of the convex polygon below samples."""
+    hull = []
+    for point in np.column_stack([r, z]):
+        while len(hull) > 1:
+            (r1, z1), (r2, z2) = hull[-1] - hull[-2], point - hull[-1]
+            if r1 * z2 >= z1 * r2:
+                break
+            hull.pop()
+        hull.append(point)
+    return np.transpose(hull)
+
+
+HULL = mdr.Sampled(*lower_hull(_R, _R**2 / 2e-5 + np.abs(_NOISE)))
 
 
 def states(first, second, history):
@@ -122,15 +137,10 @@ def test_deeper_than_measured_is_refused():
         mdr.impact(tip, MEDIUM, 1.0, 1.0)
 
 
-def test_convex_envelope():
-    tip = mdr.Sampled.convex_envelope([0, 1, 2, 3], [0, 2, 2.5, 6])
-    assert (tip.r, tip.z) == ((0.0, 2.0, 3.0), (0.0, 2.5, 6.0))
-
-
 @pytest.mark.parametrize(("r", "z"), [(1, 2), ([], []), ([0, 1], [0, 1, 2])])
-def test_bad_samples_have_no_envelope(r, z):
+def test_bad_samples_have_no_fit(r, z):
     with pytest.raises(ValueError, match="two lists of one length"):
-        mdr.Sampled.convex_envelope(r, z)
+        mdr.Sampled.fit(r, z)
 
 
 def test_impact_of_the_polygon_of_a_paraboloid():

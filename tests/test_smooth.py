@@ -132,3 +132,13 @@ class TestImpact:
         assert shape.known_depth == pytest.approx(deepest, rel=0.1)
         with pytest.raises(ValueError, match="presses deeper than the Smooth shape is known"):
             mdr.impact(shape, mdr.Medium(1e9), 1e-9, 10.0)
+
+
+def test_tables_reach_down_to_shallow_impacts():
+    """Many impacts are solved with a table that ends at 10⁶ m, single ones with the profile itself."""
+    tip, medium = mdr.Smooth(lambda r: 0.3 * np.tanh(r / 1e-6)), mdr.Medium(1e9, 1.0)
+    depth = np.geomspace(3e-12, 1e-6, 20)
+    states = mdr.indent(tip, medium, depth[:, None])
+    energy = (states.stored_energy + states.plastic_work)[:, 0]
+    hits = mdr.impact(tip, medium, 1e-9, np.sqrt(2 * energy / 1e-9))
+    np.testing.assert_allclose(hits.max_depth, depth, rtol=1e-12)

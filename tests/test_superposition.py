@@ -9,7 +9,7 @@ from mpmath import mp, mpf
 
 import mdr_core as mdr
 from mdr_core import superposition
-from mdr_core.shapes.tabulated import tabulated
+from mdr_core.superposition import tabulated
 from mdr_core.yielding import LiveInterval, elastic_interval
 
 from .hard_cases import EXTREMES, MEDIA, REGIMES, bounds, errors
@@ -60,7 +60,7 @@ TABLES = (
 @pytest.mark.parametrize("shape", TABLES, ids=name)
 def test_integrals_from_tables_are_those_of_quadrature(shape):
     """Of live intervals of all lengths: in one zone, across kinks, and next to them on both sides."""
-    random, scale = np.random.default_rng(4), shape.scale
+    random, scale = np.random.default_rng(4), shape.transition_depth
     depth = scale * 10.0 ** random.uniform(-6, 1.5, 3000)
     depth[:500] = scale * (1 + random.choice([-1, 1], 500) * 10.0 ** random.uniform(-9, 0, 500))
     length = depth * 10.0 ** random.uniform(-8, 0, 3000)

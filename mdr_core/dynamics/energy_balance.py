@@ -1,68 +1,66 @@
-"""The energy balance of an impact without viscosity: how deep it comes, and what it gives back.
+"""The energy balance of an impact without viscosity: its maximum depth and its restitution.
 
-The indenter meets a medium with an imprint of plastic depth p₀ (0 if virgin). With y = d − p₀ the
-live interval is [p₀ + Δ, p₀ + Δ + ℓ], ℓ = min(y, d_c) and Δ = max(0, y − d_c), and the work is
-2E* [∫(d − s) a ds over it + d_c ∫a ds over [p₀, p₀ + Δ]]: stored, and dissipated by yielding.
+The indenter meets a medium with an imprint of plastic depth p₀ (0 if virgin). With the penetration
+y = d − p₀ the live interval is [p₀ + Δ, p₀ + Δ + ℓ], ℓ = min(y, d_c) and Δ = max(0, y − d_c), and the work
+is 2E* [∫(d − s) a ds over it + d_c ∫a ds over [p₀, p₀ + Δ]]: stored, and dissipated by yielding.
 """
-
-from functools import singledispatch
 
 import numpy as np
 
 from .._numeric import LONG, broadcast_flat, chunks, increasing_root
-from ..shapes.power import Cone, Paraboloid
-from ..shapes.tabulated import tabulated
-from ..superposition import energy_integral, radius_and_energy, radius_integral
+from ..closed_forms import closed_forms
+from ..superposition import energy_integral, radius_and_energy, radius_integral, tabulated
 from ..yielding import LiveInterval
 
-#: So many impacts on one tip are worth a table of it.
+#: More impacts of one profile than this are worth a table of it.
 _FEW = 16
-#: Relative length of the last step: the square of it is rounding.
+#: Relative length of the last step of Newton's method: the next one would be its square, which is rounding.
 _LAST_STEP = 1e-7
 
 
 def turning_interval(profile, target, d_c, before):
-    """Live interval at which a dry impact has spent its energy, and Δ (m), the growth of the plastic depth.
+    """Live interval at the turning point of a dry impact, and the increase Δ (m) of the plastic depth.
 
-    Elementwise for energies `target` over 2E* (m³), to whose shape indenters, critical depths d_c (m) and
-    plastic depths p₀ (m) `before` the impact broadcast. The interval is infinite where the shape is not
-    known as deep; Δ is carried, because p₀ may be much larger.
+    Elementwise for kinetic energies `target` over 2E* (m³), to whose shape profiles, critical depths d_c
+    (m) and plastic depths p₀ (m) `before` the impact broadcast. The interval is infinite where the profile
+    ends above the turning point. Δ is returned, because p₀ may be much larger.
     """
-    if not np.any(before):
-        first = first_turning_interval(profile, target, d_c)
-        if first is not None:
-            return first, first.lower
-    profile, shape = quick(profile, target.size), target.shape
+    forms = closed_forms(profile)
+    if forms and not np.any(before):
+        interval = forms.turning_interval(target, d_c)
+        if interval is not None:
+            return interval, interval.lower
+    profile, shape = tabulated_for(profile, target.size), target.shape
     unit, *scales = profile.unit or (profile, 1.0, 1.0)
-    # Beside the results there is no more than a block of anything.
+    # Apart from the results, arrays are no longer than a block.
     _, arrays = broadcast_flat(target, d_c, before, *scales)
-    found = np.empty((4, target.size))
+    result = np.empty((4, target.size))
     for rows in chunks(target.size, LONG):
-        target, d_c, before, radius, depth = (part[rows] for part in arrays)
+        target, d_c, before, radius, depth = (array[rows] for array in arrays)
         target, d_c, before = target / (radius * depth**2), d_c / depth, before / depth
         y = _penetration(unit.flat_entries(rows, shape), target, d_c, before)
         interval, increase = loading_interval(np.where(np.isinf(y), 0.0, y), d_c, before)
         upper = np.where(np.isinf(y), np.inf, interval.upper)
-        found[:, rows] = depth * np.array([interval.lower, upper, interval.length, increase])
-    *interval, increase = found.reshape(4, *shape)
+        result[:, rows] = depth * np.array([interval.lower, upper, interval.length, increase])
+    *interval, increase = result.reshape(4, *shape)
     return LiveInterval(*interval), increase
 
 
-def quick(profile, count):
-    """The shape to solve so many impacts with: that of a tip which ends somewhere as a table of it."""
+def tabulated_for(profile, count):
+    """The profile to solve `count` impacts with: a table if they are many and the known depth is finite."""
     many = count > _FEW and np.all(profile.known_depth < np.inf)
     return tabulated(profile, profile.known_depth) if many else profile
 
 
 def loading_interval(y, d_c, before):
-    """Live interval and growth of the plastic depth after pressing by y ≥ 0 (m) into an imprint."""
+    """Live interval and increase of the plastic depth (m) at a penetration y ≥ 0 (m) into an imprint."""
     increase = np.maximum(y - d_c, 0.0)
     lower, length = before + increase, np.minimum(y, d_c)
     return LiveInterval(lower, np.maximum(before + y, lower), length), increase
 
 
 def plastic_integral(profile, interval, d_c, increase):
-    """d_c ∫ a ds over the depths by which the imprint has grown: plastic work over 2E* (m³)."""
+    """Plastic work over 2E* (m³): d_c ∫ a ds over the increase of the plastic depth."""
     integral = radius_integral(profile, LiveInterval(interval.lower - increase, interval.lower, increase))
     with np.errstate(invalid="ignore"):
         return np.where(increase > 0, d_c * integral, 0.0)
@@ -70,103 +68,53 @@ def plastic_integral(profile, interval, d_c, increase):
 
 def dry_restitution(profile, interval, d_c, increase):
     """Coefficient of restitution e = √(U/(U + W_p)) of an impact without viscosity."""
-    profile = quick(profile, np.size(interval.length))
+    profile = tabulated_for(profile, np.size(interval.length))
     stored = energy_integral(profile, interval)
     # U over the sum instead of U over the kinetic energy: never above 1.
     return np.sqrt(stored / (stored + plastic_integral(profile, interval, d_c, increase)))
 
 
 def _penetration(profile, target, d_c, before):
-    """y = d − p₀ (m) at which the work over 2E* is `target`; infinite beyond the known shape.
+    """y = d − p₀ (m) at which the work over 2E* is `target` (m³); infinite below the known depth.
 
-    The work grows about as a power of y: Newton's method on their logarithms, until a step says that the
-    next one would be less than rounding.
+    The work grows about as a power of y: Newton's method on their logarithms.
     """
 
     def work(y, rows):
         interval, increase = loading_interval(y, d_c[rows], before[rows])
-        indenters = profile.entries(rows, target.shape)
-        force, stored = radius_and_energy(indenters, interval)
-        return stored + plastic_integral(indenters, interval, d_c[rows], increase), force
+        entries = profile.entries(rows, target.shape)
+        force, stored = radius_and_energy(entries, interval)
+        return stored + plastic_integral(entries, interval, d_c[rows], increase), force
 
     highest = np.broadcast_to(profile.known_depth - before, target.shape)
     with np.errstate(all="ignore"):
-        y = np.minimum(_about(profile, target, d_c, before), highest)
+        y = np.minimum(_first_guess(profile, target, d_c, before), highest)
         rows = np.arange(y.size)
         for _ in range(12):
             value, slope = work(y[rows], rows)
             step = np.log(target[rows] / value) * value / (slope * y[rows])
             new = np.minimum(y[rows] * np.exp(step), highest[rows])
-            # Short of its energy at the end of the shape.
+            # At the known depth the work is still less than the energy.
             y[rows] = np.where((y[rows] == highest[rows]) & (step > 1e-13), np.inf, new)
             rows = rows[~(np.abs(step) < _LAST_STEP) & (y[rows] < np.inf)]
             if not rows.size:
                 return y
-        # From far away, or out of double precision: in a bracket.
+        # The first guess was poor, or left double precision: in a bracket.
         y[rows] = increasing_root(lambda y: work(y, rows), target[rows], 1.0, highest[rows])
     return y
 
 
-def _about(profile, target, d_c, before):
-    """What `_penetration` begins with."""
+def _first_guess(profile, target, d_c, before):
+    """Penetration (m) to about 10⁻⁴ from the table of a profile, else d_c."""
     if profile.unit is None:
         return np.where(np.isinf(d_c), 1.0, d_c)
-    table, met = profile.table, before.any()
-    elastic, _ = table.depth_about(2, target)
-    # As if the force were that in the middle of the live interval, and what bends it a power of the depth.
-    spent = table.integrals(before, 1)[0] if met else 0.0
-    middle, power = table.depth_about(1, target / d_c + spent)
-    yielding = middle - (power - 1) * d_c * d_c / (24 * middle) + d_c / 2 - before
-    if met:
-        # No deeper than a flat punch of what the imprint is wide.
+    table, imprint = profile.table, before.any()
+    elastic = table.depth_of_volume(target)
+    # The mean of a force that goes as the power 3/2 of the depth is nearly that in the middle.
+    middle = table.depth_of_area(target / d_c + (table.area(before) if imprint else 0.0))
+    yielding = middle - d_c * d_c / (48 * middle) + d_c / 2 - before
+    if imprint:
+        # Not deeper than a flat punch of the plastic radius.
         punch = np.sqrt(2 * target / table.radius(before))
         elastic = np.where(before > 0, np.minimum(elastic, punch), elastic)
     return np.where(elastic > d_c, np.maximum(yielding, d_c), elastic)
-
-
-@singledispatch
-def first_turning_interval(profile, target, d_c):
-    """Closed form of `turning_interval` on a virgin medium, for work over 2E* (m³); else None."""
-    return None
-
-
-@first_turning_interval.register
-def _(profile: Cone, target, d_c):
-    # d³/3 = πs·target; yielding, with X = d_p/d_c: X² + X = (λ³ − 1)/3.
-    elastic = np.cbrt(3 * np.pi * profile.slope * target)
-    ratio = elastic / d_c
-    surplus = np.maximum((ratio * ratio * ratio - 1) / 3, 0.0)
-    return _from_ratio(elastic, 2 * surplus / (1 + np.sqrt(1 + 4 * surplus)), d_c)
-
-
-@first_turning_interval.register
-def _(profile: Paraboloid, target, d_c):
-    # (4/15) √R d^(5/2) = target; yielding, with A² = d/d_c = C² + 1: A⁵ − C⁵ = λ^(5/2).
-    elastic = (target * 3.75 / np.sqrt(profile.radius)) ** 0.4
-    ratio = elastic / d_c
-    work = np.maximum(ratio * ratio * np.sqrt(ratio), 1.0).ravel()
-    X = np.empty_like(work)
-    for rows in chunks(work.size):
-        X[rows] = _paraboloid_growth(work[rows])
-    return _from_ratio(elastic, X.reshape(elastic.shape), d_c)
-
-
-def _paraboloid_growth(work):
-    """X with (X + 1)^(5/2) − X^(5/2) = `work` ≥ 1."""
-    # In h = A + C it is (5h³ + 10/h + 1/h⁵)/16, nearly a cube.
-    h = np.cbrt(3.2 * work - 2.2)
-    X = ((h - 1 / h) / 2) ** 2
-    for _ in range(4):
-        A, C = np.sqrt(X + 1), np.sqrt(X)
-        cubes = (X + 1 + A * C + X) / (A + C)
-        fifths = ((X + 1) ** 2 + X * X + X * (X + 1) + A * C * (2 * X + 1)) / (A + C)
-        X = np.maximum(X - (fifths - work) / (2.5 * cubes), 0.0)
-    return X
-
-
-def _from_ratio(elastic, X, d_c):
-    yields = elastic > d_c
-    with np.errstate(invalid="ignore"):
-        lower = np.where(yields, X * d_c, 0.0)
-    length = np.minimum(elastic, d_c)
-    return LiveInterval(lower, lower + length, length)

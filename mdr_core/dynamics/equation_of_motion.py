@@ -30,8 +30,7 @@ import numpy as np
 from .. import _numeric
 from .._numeric import cube_rise, cube_way
 from ..shapes.profile import Profile
-from ..shapes.tabulated import tabulated
-from ..superposition import radius_integral
+from ..superposition import radius_integral, tabulated
 from ..yielding import LiveInterval
 from .energy_balance import loading_interval
 

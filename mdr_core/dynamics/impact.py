@@ -21,7 +21,13 @@ from ..scaling import FastLimit, fast_limit, how_fast
 from ..shapes.profile import Profile
 from ..superposition import radius_integral
 from .contact_time import contact_time
-from .energy_balance import dry_restitution, loading_interval, plastic_integral, quick, turning_interval
+from .energy_balance import (
+    dry_restitution,
+    loading_interval,
+    plastic_integral,
+    tabulated_for,
+    turning_interval,
+)
 from .equation_of_motion import Bodies, solve
 from .motion import motion
 
@@ -242,7 +248,7 @@ class Impact(ImpactResult):
     def plastic_work(self):
         """Energy (J) dissipated by yielding in this impact."""
         interval, increase = self.turning_point.live_interval, self.plastic_depth_increase
-        profile, d_c = quick(self.profile, increase.size), self.medium.critical_depth
+        profile, d_c = tabulated_for(self.profile, increase.size), self.medium.critical_depth
         return 2 * self.medium.E_star * plastic_integral(profile, interval, d_c, increase)
 
     @property

@@ -12,7 +12,7 @@ from ..indentation import Indentation
 from ..medium import Medium, check_pair
 from ..quantities import engineering
 from ..shapes.profile import Profile
-from ..shapes.tabulated import tabulated
+from ..superposition import tabulated
 from ..yielding import LiveInterval
 from .curve import LOGARITHMIC, PARAMETERS
 from .least_squares import Fit

@@ -1,4 +1,4 @@
-"""Indenters that are a single power of r: flat punch, cone, paraboloid, any power law."""
+"""Profiles that are a single power of r: flat punch, cone, paraboloid, power law."""
 
 import math
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from .profile import Profile
 
 @dataclass(frozen=True, eq=False)
 class FlatPunch(Profile):
-    """Flat-ended cylinder: z = 0 for r ≤ b, a wall beyond.
+    """Flat-ended cylinder: z = 0 for r ≤ b, and a wall at b.
 
     Parameters
     ----------
@@ -66,11 +66,11 @@ class Cone(Profile):
 
     @classmethod
     def from_half_angle(cls, degrees: ArrayLike) -> "Cone":
-        """The cone with a half-angle between its axis and its generator, in degrees between 0 and 90.
+        """Cone with a half-angle between axis and generator, in degrees between 0 and 90.
 
         Examples
         --------
-        >>> print(round(Cone.from_half_angle(45.0).slope, 12))  # the slope is cot of it
+        >>> print(round(Cone.from_half_angle(45.0).slope, 12))  # its cotangent
         1.0
         """
         angle = _check.finite_array("half-angle", degrees, unit="deg")
@@ -80,7 +80,7 @@ class Cone(Profile):
 
     @classmethod
     def berkovich(cls) -> "Cone":
-        """The cone of half-angle 70.3° that has the area of a Berkovich pyramid at each height.
+        """Cone of half-angle 70.3° with the cross-section of a Berkovich pyramid at each height.
 
         Examples
         --------
@@ -184,7 +184,7 @@ class PowerLaw(Profile):
 
     def _radius(self, depth):
         c, p = self._reduced_coefficient, 1 / self.exponent
-        # Where the shape is nearly flat d/c may underflow, and the radius is still a radius.
+        # For large exponents d/c may underflow while its power does not.
         if np.all(p < 0.25):
             return depth**p / c**p
         joint = (depth / c) ** p

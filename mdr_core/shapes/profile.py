@@ -1,4 +1,4 @@
-"""What a shape is: its height z(r), its reduced height g(x), the slope g′(x), and where g has kinks."""
+"""Base class of profiles: height z(r), reduced height g(x), its slope g′(x) and its kinks."""
 
 from abc import ABC, abstractmethod
 
@@ -10,17 +10,18 @@ from .._numeric import increasing_root
 
 
 class Profile(_check.Parameters, ABC):
-    """A rigid axisymmetric indenter with its tip at the origin, growing outward.
+    """Profile of a rigid axisymmetric indenter, with its tip at the origin and its height growing outward.
 
-    Lengths are in m, slopes dimensionless. A shape of your own is a frozen dataclass that gives `_height`,
-    `_reduced` and `_reduced_slope` for arrays of radii that are not negative, and what it has of
-    `face_radius`, `wall` and `kinks`; everything else follows. Parameters may be arrays that broadcast with
-    each other, with radii and depths: many indenters at once, for `impact`.
+    Lengths are in m, slopes dimensionless. A profile of your own is a frozen dataclass with the methods
+    `_height`, `_reduced` and `_reduced_slope` for arrays of radii r ≥ 0. Where it has a flat face, a wall,
+    kinks or an end it also gives `face_radius`, `wall`, `kinks`, `known_depth` and `known_radius`.
+    Parameters may be arrays that broadcast with each other, with radii and with depths: an ensemble of
+    indenters for `impact`.
 
     Examples
     --------
-    A cone on top of a paraboloid, z = s r + r²/(2R), which is not in the library. The transform to g
-    (Popov 2015, Eq. (3)) is linear, so that their reduced heights add up:
+    The sum of a cone and a paraboloid, z = s r + r²/(2R). The transform to g (Popov 2015, Eq. (3)) is
+    linear, so that their reduced heights add up:
 
     >>> from dataclasses import dataclass
     >>> import numpy as np
@@ -49,22 +50,22 @@ class Profile(_check.Parameters, ABC):
     #: Radius (m) of a flat face at the tip: the contact radius at depth 0.
     face_radius = 0.0
 
-    #: Depth and radius (m) beyond which the shape is not known.
+    #: Largest depth and radius (m) for which the profile is known.
     known_depth = np.inf
-    _end_of_depth = "the shape is known"
     known_radius = np.inf
+    _end_of_depth = "the shape is known"
 
-    #: Radius (m) of the body that the tip belongs to, which a contact is small against.
+    #: Radius (m) of the body that ends in the tip; the half-space needs a contact that is small against it.
     body_radius = np.inf
 
     #: Depths (m), ascending, at which the edge of the contact passes a kink of g, or reaches the wall.
     kinks = ()
 
-    #: Depth (m) at which the tip goes over from one power of the radius to another, if that is known.
-    scale = None
+    #: Depth (m) at which g changes from one power of x to another, None if it is not known.
+    transition_depth = None
 
-    #: For shapes with one length of their own: the shape with parameters of 1, and its units of length
-    #: and depth (m), so that g(x) is the unit of depth times the unit shape's g(x/length).
+    #: Of profiles with a table (`tabulated`): the unit profile, a length L and a depth H (m), with which
+    #: g(x) is H times g(x/L) of the unit profile.
     unit = None
 
     @abstractmethod
@@ -77,7 +78,7 @@ class Profile(_check.Parameters, ABC):
     def _reduced_slope(self, x): ...
 
     def height(self, r: ArrayLike) -> Array:
-        """Height z(r) (m) above the tip at radius r (m), of the shape of `r`; even in r."""
+        """Height z(r) (m) above the tip at radii r (m); even in r."""
         return self._of_radius("radius r", r, self._height)
 
     def reduced(self, x: ArrayLike) -> Array:
@@ -85,9 +86,9 @@ class Profile(_check.Parameters, ABC):
         return self._of_radius("coordinate x", x, self._reduced)
 
     def reduced_slope(self, x: ArrayLike) -> Array:
-        """Slope g′(x) (dimensionless) of the equivalent 1D profile, on the outer side where x is on a kink.
+        """Slope g′(x) (dimensionless) of the equivalent 1D profile; on a kink, that of its outer side.
 
-        Odd in x; infinite at the edge of a flat face with a sharp edge, and from a wall on.
+        Odd in x; infinite at the sharp edge of a flat face, and at the radius of a wall and outside.
 
         Examples
         --------
@@ -110,7 +111,7 @@ class Profile(_check.Parameters, ABC):
         return radius[()]
 
     def _radius(self, depth):
-        """Contact radius (m) at depths that are not negative and not beyond what is known."""
+        """Contact radius (m) at depths (m) from 0 to the known depth."""
 
         def height(x):
             return self._reduced(x), self._reduced_slope(x)
@@ -118,11 +119,14 @@ class Profile(_check.Parameters, ABC):
         return np.maximum(increasing_root(height, depth, 1.0, self.known_radius), self.face_radius)
 
     def _kink_above(self, depth):
-        """The last kink (m) above each depth, or the tip."""
-        return np.max([np.where(foot <= depth, foot, 0.0) for foot in (0.0, *self.kinks)], axis=0)
+        """Depth (m) of the last kink above each depth (m), 0 for the tip."""
+        above = np.zeros_like(depth)
+        for kink in self.kinks:
+            above = np.where(kink <= depth, kink, above)
+        return above
 
     def flat_entries(self, rows, shape):
-        """The indenters in some rows of an ensemble of a `shape`, counted flat."""
+        """Profiles at rows of the flattened `shape` of an ensemble."""
         if not self.shape:
             return self
         if isinstance(rows, slice):
@@ -130,6 +134,7 @@ class Profile(_check.Parameters, ABC):
         return self.entries(np.unravel_index(rows, shape), shape)
 
     def _of_radius(self, quantity, r, function):
+        """`function` at checked radii |r| (m)."""
         r, known = np.abs(self._places(quantity, r)), np.min(self.known_radius, initial=np.inf)
         bound = f"m is beyond the radius up to which the shape is known, {known:g} m"
         _check.refuse("radius", r, r > self.known_radius, bound)
@@ -137,7 +142,7 @@ class Profile(_check.Parameters, ABC):
             return function(r)[()]
 
     def _places(self, quantity, values, most=_check.FARTHEST):
-        """Radii or depths (m), checked and broadcast to the indenters."""
+        """Radii or depths (m), checked and broadcast to the ensemble."""
         values = _check.finite_array(quantity, values, unit="m", most=most)
         shape = _check.common_shape(
             type(self).__name__, **{quantity: values}, indenters=np.empty(self.shape)
@@ -145,7 +150,7 @@ class Profile(_check.Parameters, ABC):
         return np.broadcast_to(values, shape)
 
     def _known(self, depth):
-        """`depth`, if the shape is known so far."""
+        """`depth` (m), if the profile is known to it."""
         if np.all(self.known_depth == np.inf):
             return depth
         bound = f"is {self._too_deep()}"
@@ -154,5 +159,5 @@ class Profile(_check.Parameters, ABC):
         )
 
     def _too_deep(self):
-        """What is wrong with a depth beyond `known_depth`, for a refusal."""
+        """Text for a refusal of depths below `known_depth`."""
         return f"deeper than {self._end_of_depth}, {np.min(self.known_depth, initial=_check.LARGEST):g} m"

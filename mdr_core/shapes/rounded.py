@@ -1,4 +1,4 @@
-"""Indenters with a rounded tip: sphere, hyperboloid, rounded cone, parabolic punch."""
+"""Profiles with a rounded tip: sphere, hyperboloid, rounded cone, parabolic punch."""
 
 from dataclasses import dataclass
 
@@ -17,7 +17,7 @@ class Sphere(OneLength):
     Parameters
     ----------
     radius : float
-        Radius R (m), positive. Above the equator r > R the height counts as infinite.
+        Radius R (m), positive. Outside the equator, r > R, the height is infinite.
 
     Examples
     --------
@@ -29,9 +29,9 @@ class Sphere(OneLength):
 
     _length = _depth = body_radius = property(lambda self: self.radius)
 
-    # There a is R to any precision.
+    # At this depth a is R to rounding.
     known_depth = property(lambda self: 100 * self.radius)
-    _end_of_depth = "the equator, which the contact has come to at d = 100 R"
+    _end_of_depth = "the equator, which the contact has reached at d = 100 R"
     _end = np.nextafter(1.0, 0.0)
 
     @staticmethod
@@ -132,7 +132,7 @@ class RoundedCone(OneLength):
 
 @dataclass(frozen=True, eq=False)
 class ParabolicPunch(OneLength):
-    """Cylinder with a parabolic cap: z = r²/(2R) for r ≤ b, a wall beyond; g = x²/R.
+    """Cylinder with a parabolic cap: z = r²/(2R) for r ≤ b, and a wall at b; g = x²/R.
 
     Parameters
     ----------
@@ -167,3 +167,7 @@ class ParabolicPunch(OneLength):
     @staticmethod
     def _G_slope(u):
         return np.where(u <= 1, 2 * u, np.inf)
+
+    def _radius(self, depth):
+        # At the wall the radius is exactly that of the cylinder.
+        return np.minimum(np.sqrt(self.radius * depth), self.cylinder_radius)

@@ -1,4 +1,4 @@
-"""An indenter of any smooth shape, given by its slope."""
+"""A smooth profile given by its slope."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,18 +12,19 @@ from .. import _check, abel
 from .._numeric import increasing_root
 from .profile import Profile
 
-#: The mean slope g/x is interpolated in ln x, in stretches of half an octave between 10⁻¹⁸ and 10⁶ m. Over
-#: one of them a function that has no structure smaller than x is a polynomial of this degree, to rounding.
-_PLACES = np.log(2.0) * np.arange(-60, 20.5, 0.5)
+#: Values of ln x between which the mean slope g/x is interpolated: half an octave each, between 10⁻¹⁸ and
+#: 10⁶ m. In such a panel a function without structure smaller than x is a polynomial of this degree to
+#: rounding; its last coefficients must be smaller than this share of the largest.
+_EDGES = np.log(2.0) * np.arange(-60, 20.5, 0.5)
 _DEGREE, _RESOLVED = 11, 1e-12
 
 
 @dataclass(frozen=True)
 class Smooth(Profile):
-    """Any smooth shape, given by its slope dz/dr.
+    """A smooth profile given by its slope dz/dr.
 
-    The reduced height comes from Popov (2015), Eq. (3), with spectral accuracy; the contact radius and
-    the slope g′ from piecewise polynomials through it, which reach to 10⁶ m, or to where the slope ends.
+    The reduced height is Eq. (3) of Popov (2015) with spectral accuracy. The contact radius and the slope
+    g′ come from piecewise polynomials through it, up to 10⁶ m or to the end of the slope.
 
     Parameters
     ----------
@@ -57,7 +58,7 @@ class Smooth(Profile):
 
     @cached_property
     def known_depth(self):
-        """Depth (m) up to which the shape is known, within 10⁻³ of it."""
+        """Depth (m) up to which the profile is known, to 10⁻³ of it."""
         end = self._mean_slope.x[-1]
         return float(np.exp(end) * self._mean_slope(end))
 
@@ -70,34 +71,34 @@ class Smooth(Profile):
 
     @cached_property
     def _mean_slope(self):
-        """g/x as a piecewise polynomial of ln x, from the tip outward as far as it can be had."""
-        last = min(np.log(self.radius), _PLACES[-1])
-        edges, pieces = [_PLACES[0]], []
-        for end in np.append(_PLACES[1:][_PLACES[1:] < last], last):
-            # Where the shape ends within a stretch, ever closer to there.
+        """g/x as a piecewise polynomial of ln x, from the tip outward to the end of a valid slope."""
+        last = min(np.log(self.radius), _EDGES[-1])
+        edges, panels = [_EDGES[0]], []
+        for end in np.append(_EDGES[1:][_EDGES[1:] < last], last):
+            # Panels are halved towards the end of the profile.
             while edges[-1] < end:
-                low, high, piece = edges[-1], end, None
-                while piece is None and high - low > 1e-3:
-                    piece = self._piece(low, high)
-                    high = high if piece is not None else (low + high) / 2
-                if piece is None:
+                low, high, panel = edges[-1], end, None
+                while panel is None and high - low > 1e-3:
+                    panel = self._panel(low, high)
+                    high = high if panel is not None else (low + high) / 2
+                if panel is None:
                     break
                 edges.append(high)
-                pieces.append(piece)
+                panels.append(panel)
             if edges[-1] < end:
                 break
-        if not pieces:
+        if not panels:
             raise ValueError(
                 "Smooth slope_function is not finite, not smooth or not positive next to the axis; a "
                 "fractional power of r belongs to PowerLaw, kinks to Sampled"
             )
-        return scipy.interpolate.PPoly(np.transpose(pieces), np.array(edges))
+        return scipy.interpolate.PPoly(np.transpose(panels), np.array(edges))
 
-    def _piece(self, low, high):
-        """Coefficients of g/x between two values of ln x; None where g is not known or does not grow."""
+    def _panel(self, low, high):
+        """Coefficients of g/x between two values of ln x; None if g is not smooth or does not grow."""
 
-        def mean_slope(place):
-            x = np.exp(place)
+        def mean_slope(logarithm):
+            x = np.exp(logarithm)
             return self._reduced(x) / x
 
         try:
@@ -105,8 +106,8 @@ class Smooth(Profile):
         except ValueError:
             return None
         rough = np.abs(series.coef[-2:]).max() > _RESOLVED * np.abs(series.coef).max()
-        along = np.linspace(low, high, 2 * _DEGREE)
-        if rough or np.any(series(along) + series.deriv()(along) <= 0):
+        grid = np.linspace(low, high, 2 * _DEGREE)
+        if rough or np.any(series(grid) + series.deriv()(grid) <= 0):
             return None
         power = series.convert(kind=Polynomial, domain=[low, high], window=[0, high - low]).coef
         return np.pad(power, (0, _DEGREE + 1 - power.size))[::-1]
@@ -121,14 +122,14 @@ class Smooth(Profile):
         return self._height_and_slope(x)[1]
 
     def _height_and_slope(self, x):
-        """g and g′, from the piecewise polynomial."""
+        """g (m) and g′ from the piecewise polynomial."""
         mean = self._mean_slope
-        place = np.log(np.maximum(x, 1e-300))
-        inside = np.maximum(place, mean.x[0])
+        logarithm = np.log(np.maximum(x, 1e-300))
+        inside = np.maximum(logarithm, mean.x[0])
         value, rate = mean(inside), mean(inside, 1)
-        # Closer to the tip g goes on as a power.
+        # Between the tip and the first panel g is a power of x.
         power = 1 + rate / value
-        value = value * np.exp((place - inside) * (power - 1))
+        value = value * np.exp((logarithm - inside) * (power - 1))
         return x * value, value * power
 
     def _radius(self, depth):

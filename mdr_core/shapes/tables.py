@@ -1,4 +1,4 @@
-"""Samples of a tip: from text files, from noisy measurements, from an area function."""
+"""Samples of a profile from text files, from noisy measurements and from an area function."""
 
 import os
 import re
@@ -14,27 +14,27 @@ _UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9
 _SLASHED = re.compile(r"/\s*(mm|um|µm|μm|nm|m)\b")
 _COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?|[+-]?\d+,([eE][+-]?\d+)?")
 
-#: Kinks that a fitted tip may have.
+#: Largest number of kinks of a fitted profile.
 _VERTICES = 200
 
-#: Characters of a line: one that is longer is no sample.
+#: Largest number of characters of a line.
 _LONGEST_LINE = 10_000
 
 
-def read_samples(path, unit, most):
-    """Radii and heights (m) in a CSV file, at most so many; `unit` if its header names none."""
-    # A whole number would be taken for a file that is open already, and closed in the end.
+def read_samples(path, unit, limit):
+    """Radii and heights (m) in a CSV file, at most `limit` of them; `unit` if its header names none."""
+    # An integer would be taken for the descriptor of an open file.
     path = os.fspath(path)
     name = str(path)
     with open(path, encoding="utf-8-sig", newline="") as file:
         try:
-            return _read(_lines(file, name), unit, most, name)
+            return _read(_lines(file, name), unit, limit, name)
         except UnicodeDecodeError as error:
             raise ValueError(f"{name} is not UTF-8 text ({error.reason}); save it as such") from None
 
 
 def _lines(file, name):
-    """The lines of a file, none of which may be endless."""
+    """Lines of a file of limited length."""
     while line := file.readline(_LONGEST_LINE + 1):
         if len(line) > _LONGEST_LINE:
             raise ValueError(
@@ -43,7 +43,7 @@ def _lines(file, name):
         yield line
 
 
-def _read(lines, unit, most, name):
+def _read(lines, unit, limit, name):
     """Radii and heights (m) in a CSV file."""
     if unit is not None:
         _check.one_of("unit", unit, _UNITS)
@@ -51,7 +51,7 @@ def _read(lines, unit, most, name):
     def width(header, cells):
         return max(len(_named(header)) or (2 if unit is None else cells), 2)
 
-    header, rows = _rows(lines, most, name, width)
+    header, rows = _rows(lines, limit, name, width)
     named = _named(header)
     units = [unit, unit] if unit else named[:2]
     if len(units) != 2 or not set(units) <= set(_UNITS):
@@ -68,20 +68,20 @@ def _read(lines, unit, most, name):
 
 
 def _named(header):
-    """Units that the last line of a header has in brackets, or behind a slash, if any line has."""
+    """Units in brackets, or after a slash, in the last line of a header with units."""
     for line in reversed(header):
-        # A bracket in brackets begins anew: otherwise a line of brackets takes their number squared.
+        # An opening bracket ends the one before it: a line of brackets would take quadratic time otherwise.
         if named := re.findall(r"[(\[]\s*([^(\[)\]\s]+)\s*[)\]]", line) or _SLASHED.findall(line):
             return named
     return []
 
 
-def read_columns(file, most, name):
-    """Names of the columns of an open text file, and their numbers (rows, columns), at most `most` rows.
+def read_columns(file, limit, name):
+    """Names of the columns of an open text file, and their numbers (rows, columns), at most `limit` rows.
 
-    A name has the words of the last two lines of the header with as many cells; without such it is empty.
+    A name joins the words of the last two lines of the header with as many cells; it is empty without such.
     """
-    header, rows = _rows(_lines(file, name), most, name, lambda header, cells: cells, "")
+    header, rows = _rows(_lines(file, name), limit, name, lambda header, cells: cells, "")
     if not rows:
         raise ValueError(f"{name}: no rows of numbers")
     width, units = len(rows[0]), _named(header)
@@ -99,13 +99,13 @@ def read_columns(file, most, name):
 
 
 def _heads(line):
-    """Cells of a line of a header, which may have spaces."""
+    """Cells of a line of a header, which may contain spaces."""
     line = line.strip().lstrip("#").replace('"', "")
     return [cell.strip() for cell in re.split(next((s for s in ";\t," if s in line), r"\s{2,}"), line)]
 
 
-def _rows(lines, most, name, width_of, what=", r and z first"):
-    """Lines of the header, and rows of as many numbers as `width_of` says from it and the first row."""
+def _rows(lines, limit, name, width_of, what=", r and z first"):
+    """Lines of the header, and rows of numbers; `width_of` gives their count from header and first row."""
     header, rows, width = [], [], 0
     for number, line in enumerate(lines, start=1):
         cells = _cells(line)
@@ -121,22 +121,22 @@ def _rows(lines, most, name, width_of, what=", r and z first"):
                 expected = "two numbers r, z" if width == 2 and what else f"{width} numbers{what}"
                 raise ValueError(f"{name}, line {number}: expected {expected}, found {line.strip()!r:.60}")
             rows.append(values)
-            if len(rows) > most:
-                raise ValueError(f"{name}: more than {most} samples; thin them out")
+            if len(rows) > limit:
+                raise ValueError(f"{name}: more than {limit} samples; thin them out")
     return header, rows
 
 
 def _cells(line):
-    """Cells of a line; where they are separated by something else, a comma is a decimal one."""
+    """Cells of a line; a comma is a decimal sign where the cells are separated otherwise."""
     line = line.strip().replace('"', "")
-    parts = re.split(r"\s*[;\t]\s*", line) if ";" in line or "\t" in line else line.split()
-    if any(map(_COMMA.fullmatch, parts)) and len(parts) > 1:
-        parts = [part.replace(",", ".") for part in parts]
+    cells = re.split(r"\s*[;\t]\s*", line) if ";" in line or "\t" in line else line.split()
+    if any(map(_COMMA.fullmatch, cells)) and len(cells) > 1:
+        cells = [cell.replace(",", ".") for cell in cells]
     else:
-        parts = re.split(r"[;,\s]+", line)
-    while parts and not parts[-1]:
-        parts.pop()
-    return parts
+        cells = re.split(r"[;,\s]+", line)
+    while cells and not cells[-1]:
+        cells.pop()
+    return cells
 
 
 def convex_fit(r, z):
@@ -144,31 +144,31 @@ def convex_fit(r, z):
 
     z₀ + Σ bₖ (r − ρₖ)₊ with bends bₖ ≥ 0 at kinks ρₖ from the axis out, by non-negative least squares.
     """
-    places = np.unique(r)
-    # Behind the last kink a bend would be that of few samples.
-    kinks = np.unique(np.append(0.0, places[:-1][:: max(1, -(-places.size // _VERTICES))]))
-    ramps = np.maximum(r[:, None] - kinks, 0.0) / places[-1]
-    # The height at the axis has either sign.
+    radii = np.unique(r)
+    # A kink at the last radius would have no samples outside it.
+    kinks = np.unique(np.append(0.0, radii[:-1][:: max(1, -(-radii.size // _VERTICES))]))
+    ramps = np.maximum(r[:, None] - kinks, 0.0) / radii[-1]
+    # Two columns for the height at the axis, which has either sign.
     columns = np.column_stack([np.ones_like(r), -np.ones_like(r), ramps])
     size = np.ptp(z) or 1.0
     _, _, *bends = scipy.optimize.nnls(columns, (z - z.mean()) / size)[0]
-    bends = np.array(bends) * size / places[-1]
+    bends = np.array(bends) * size / radii[-1]
     if not np.any(bends > 0):
         raise ValueError(
             "Sampled.fit z does not rise from the axis outward: use FlatPunch, or turn its sign"
         )
     kinks, bends = kinks[(bends > 0) | (kinks == 0)], bends[(bends > 0) | (kinks == 0)]
-    vertices = np.append(kinks, places[-1])
+    vertices = np.append(kinks, radii[-1])
     return vertices, np.maximum(vertices[:, None] - kinks, 0.0) @ bends
 
 
-def area_samples(coefficients, height, samples, most):
-    """Radii and heights (m) of a tip with the cross-section A(h) = Σ Cᵢ h^(2/2ⁱ)."""
+def area_samples(coefficients, height, samples, limit):
+    """Radii and heights (m) of a profile with the cross-section A(h) = Σ Cᵢ h^(2/2ⁱ)."""
     coefficients = _check.finite_array("area coefficients", coefficients).ravel()
     height = _check.positive_number("height", height, unit="m")
     samples = _check.positive_number("samples", samples)
-    if not 2 <= samples <= most or samples % 1:
-        raise ValueError(f"samples = {samples:g} must be a whole number from 2 to {most}")
+    if not 2 <= samples <= limit or samples % 1:
+        raise ValueError(f"samples = {samples:g} must be a whole number from 2 to {limit}")
     h = height * np.geomspace(1e-4, 1.0, int(samples) - 1)
     area = sum(c * h ** (2 / 2**i) for i, c in enumerate(coefficients.tolist()))
     back = np.diff(area, prepend=0.0) <= 0

@@ -1,179 +1,141 @@
-"""The contact radius of a shape and its integrals over the depth, as piecewise polynomials.
+"""The contact radius of a profile and its integrals over the depth, as piecewise polynomials.
 
-What a million impacts ask for is a(s), ∫ a ds and ∫∫ a ds ds: functions of one variable for all shapes that
-have one length of their own, made once for the class (`OneLength`), or for one tip (`tabulated`).
+Ensembles of impacts need a(s), ∫ a ds and ∫∫ a ds ds. For profiles with one length and one depth of their
+own (`OneLength`) these are functions of one variable, tabulated once for the class; `Tabulated` has the
+table of one profile.
 """
 
 from abc import abstractmethod
 from dataclasses import dataclass, fields
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 
 import numpy as np
+import scipy
 
 from .. import _check
 from .._numeric import increasing_root
-from .power import Cone, FlatPunch, Paraboloid, PowerLaw
 from .profile import Profile
 
-#: Panels in an octave and coefficients of a panel: of tables made once for a class, and of single tips,
-#: whose making counts.
-_FINE, _CHEAP = (16, 8), (1, 18)
-#: A panel resolves a(s) whose last coefficients are so much smaller than a(s).
-_RESOLVED = 1e-14
-#: Tables for a class reach so many octaves to both sides of the unit of depth.
-_OCTAVES = 100
+#: Chebyshev points on [0, 1] in which a(s) is interpolated, and the matrix that takes values there to the
+#: last two Chebyshev coefficients.
+_COUNT = 10
+_NODE = (1 + np.cos(np.pi * (np.arange(_COUNT) + 0.5) / _COUNT)) / 2
+_TO_LAST = np.linalg.inv(np.polynomial.chebyshev.chebvander(2 * _NODE - 1, _COUNT - 1))[-2:]
+#: A panel resolves a(s) where its last Chebyshev coefficients are smaller than this share of a(s).
+_RESOLVED = 1e-15
+#: Octaves of a table on each side of the unit of depth of a class, and below the first kink of one profile.
+_OCTAVES, _OCTAVES_OF_ONE = 100, 64
 
 
 class RadiusTable:
-    """Contact radius a(s) (m) of one indenter, ∫ a ds (m²) and ∫∫ a ds ds (m³) from the tip on.
+    """Contact radius a(s) (m) of one profile, ∫ a ds (m²) and ∫∫ a ds ds (m³) from depth 0 on.
 
-    1. Kinks cut the depths into zones. The way into a zone is counted as a share of its width, and each
-       octave of this share is cut into equal panels: so a fractional power of it is resolved everywhere.
-    2. There are as many octaves as it takes for a(s) to be smooth down to the beginning of the zone; one
-       panel is left there.
-    3. In each panel a(s) is the polynomial through Chebyshev points; its integrals are polynomials too,
-       that begin with what has been gathered before.
+    1. Panels between the given edges are halved until a polynomial of degree 9 is a(s) to rounding: next to
+       a kink, below which a(s) may start as a root, down to the rounding of the depth.
+    2. From depth 0 to the first edge a(s) is taken as the radius of the face plus a power of s. The panel
+       there is the parabola that has the integrals of this power.
+
+    Parameters
+    ----------
+    radius : callable
+        a(s) (m) at arrays of depths (m).
+    edges : array_like
+        Depths (m), ascending: the first and the last one of the table, and all kinks between them.
+    unit : float
+        Unit of depth (m) of the polynomials: powers of depths over it must stay within double precision.
     """
 
-    def __init__(self, radius, feet, end, rule=_CHEAP, octaves=None):
-        """From a function a(s) of arrays, the depths of tip and kinks, and the last depth (m)."""
-        self._per, count = rule
-        self._feet = np.array(feet, dtype=float)
-        self._width = np.append(self._feet[1:], end) - self._feet
-        places = np.cos(np.pi * (np.arange(count) + 0.5) / count)
-
-        def values(zone, low, high):
-            share = low + (high - low) * (1 + places) / 2
-            return radius(self._feet[zone, None] + self._width[zone, None] * share)
-
-        self._octaves, rough = (
-            (np.array(octaves), [0]) if octaves else _octaves(values, self._feet.size, count)
+    def __init__(self, radius, edges, unit=1.0):
+        edges = np.asarray(edges) / unit
+        self.unit, (self.start, self.end), self._function = unit, edges[[0, -1]], radius
+        low, powers = _panels(lambda depth: radius(depth * unit), edges)
+        face, half, a = radius(edges[0] * unit * np.array([0.0, 0.5, 1.0]))
+        p = np.log2((a - face) / (half - face)) if half > face else 1.0
+        first = np.array([1 - 3 / (2 + p), 2 / (2 + p) - 0.5, 0.0]) * 12 / (1 + p) * (a - face)
+        first[2] = face
+        first = np.append(np.zeros(_COUNT - 3), first / edges[0] ** np.array([2, 1, 0]))
+        self._radius = scipy.interpolate.PPoly(
+            np.column_stack([first, powers]), np.concatenate([[0.0], low, edges[-1:]])
         )
-        # Panels below the first octave, of all that doubles have.
-        self._below = (1023 - self._octaves) * self._per - 1
-        self._shift, self._end = 53 - self._per.bit_length(), end
-        self._least = self._width[0] * 0.5 ** self._octaves[0] if 0 in rough else 0.0
-        edges = [_edges(each, self._per) for each in self._octaves]
-        low, high = (np.concatenate([each[part] for each in edges]) for part in (np.s_[:-1], np.s_[1:]))
-        zone = np.repeat(np.arange(len(edges)), [each.size - 1 for each in edges])
-        self._begin = np.searchsorted(zone, np.arange(len(edges)))
-        self._count = np.bincount(zone)
-        # Powers of what lies between −1/2 and 1/2, so that large coefficients do not cancel.
-        powers = np.linalg.solve(np.vander(places / 2), values(zone, low[:, None], high[:, None]).T)
-        self._middle, self._per_share = (low + high) / 2, 1 / (high - low)
-        area = _integral(powers, (high - low) * self._width[zone])
-        self._polynomials = powers, area, _integral(area, (high - low) * self._width[zone])
+        # These continue from panel to panel, from 0 at depth 0.
+        self._area = self._radius.antiderivative()
+        self._volume = self._area.antiderivative()
+
+    def covers(self, depth):
+        """Whether depths (m) are in the table: 0, and those from its first edge to its last one."""
+        depth = np.asarray(depth) / self.unit
+        return ((depth >= self.start) | (depth == 0)) & (depth <= self.end)
 
     def radius(self, depth):
-        """a(s) (m) at depths (m)."""
-        return self._values(depth, 0)[0]
+        """a(s) (m) at any depths (m)."""
+        covered = self.covers(depth)
+        if covered.all():
+            return self.covered_radius(depth)
+        result, depth = np.empty(covered.shape), np.asarray(depth)
+        result[covered] = self.covered_radius(depth[covered])
+        result[~covered] = self._function(depth[~covered])
+        return result
 
-    def integrals(self, depth, count=2):
-        """∫ a ds (m²), and ∫∫ a ds ds (m³) if two are asked for, from the tip to depths (m)."""
-        return self._values(depth, *range(1, count + 1))
+    def covered_radius(self, depth):
+        """a(s) (m) at depths (m) that the table covers."""
+        return self._radius(depth / self.unit)
 
-    def depth_about(self, integral, value):
-        """Depth (m) at which ∫ a ds (`integral` 1) or ∫∫ a ds ds (2) has a value, to some 10⁻⁴.
+    def area(self, depth):
+        """∫ a ds (m²) from the tip to depths (m)."""
+        return self._area(depth / self.unit) * self.unit
 
-        With the power of the depth that the integral goes as there.
-        """
-        start, step, places = self._inverses[integral - 1]
-        place = np.clip((np.log(value) - start) / step, 0, len(places) - 1.001)
-        cell = place.astype(np.intp)
-        low = places.take(cell)
-        rise = places.take(cell + 1) - low
-        return np.exp(low + (place - cell) * rise), step / rise
+    def volume(self, depth):
+        """∫∫ a ds ds (m³) from the tip to depths (m)."""
+        return self._volume(depth / self.unit) * self.unit**2
+
+    def depth_of_area(self, area):
+        """Depth (m) at which ∫ a ds has a value (m²), to about 10⁻⁴ of it."""
+        return np.exp(np.interp(np.log(area), *self._inverses[0]))
+
+    def depth_of_volume(self, volume):
+        """Depth (m) at which ∫∫ a ds ds has a value (m³), to about 10⁻⁴ of it."""
+        return np.exp(np.interp(np.log(volume), *self._inverses[1]))
 
     @cached_property
     def _inverses(self):
-        """ln s at even steps of the logarithm of each integral: where they begin, the step, values."""
-        share = self._middle + np.linspace(-0.375, 0.375, 4)[:, None] / self._per_share
-        zone = np.repeat(np.arange(self._feet.size), self._count)
-        depth = np.sort((self._feet[zone] + self._width[zone] * share).ravel())
-        depth = depth[depth >= self._least]
-        inverses = []
-        for values in self.integrals(depth):
-            even = np.linspace(*np.log(values[[0, -1]]), 2**14)
-            inverses.append((even[0], even[1] - even[0], np.interp(even, np.log(values), np.log(depth))))
-        return inverses
-
-    def covers(self, depth):
-        """Whether the table goes to depths (m): above a tip that is a fractional power octaves end."""
-        depth = np.asarray(depth)
-        return ((depth >= self._least) | (depth == 0)) & (depth <= self._end)
-
-    def foot(self, depth):
-        """The last kink (m) above each depth, or the tip."""
-        return self._feet.take(self._zone(depth))
-
-    def _zone(self, depth):
-        # One or two zones are what nearly all shapes have.
-        if self._feet.size < 3:
-            return np.asarray(depth >= self._feet[-1], dtype=int) * (self._feet.size - 1)
-        return np.searchsorted(self._feet, depth, side="right") - 1
-
-    def _values(self, depth, *which):
-        zone = self._zone(depth) if self._feet.size > 1 else 0
-        share = (depth - self._feet[zone]) / self._width[zone]
-        # The exponent of a double and the first bits of its mantissa are the number of the panel.
-        panel = (share.view(np.int64) >> self._shift) - self._below[zone]
-        panel = np.minimum(np.maximum(panel, 0), self._count[zone] - 1) + self._begin[zone]
-        x = (share - self._middle.take(panel)) * self._per_share.take(panel)
-        return [_horner(self._polynomials[each], panel, x) for each in which]
+        """Logarithms of ∫ a ds (m²) and of depths (m), and of ∫∫ a ds ds (m³) and of depths."""
+        edges = self._radius.x[1:] * self.unit
+        depth = np.append(np.linspace(edges[:-1], edges[1:], 4, endpoint=False).T, edges[-1])
+        return [(np.log(integral(depth)), np.log(depth)) for integral in (self.area, self.volume)]
 
 
-def _octaves(values, zones, count):
-    """Octaves of each zone, by halving the first panel until it is resolved."""
-    to_series = np.linalg.inv(
-        np.polynomial.chebyshev.chebvander(np.cos(np.pi * (np.arange(count) + 0.5) / count), count - 1)
-    )
-    octaves, rough = np.zeros(zones, int), np.arange(zones)
-    for tried in (0, 4, 8, 10, 12, 14, 16, 20, 24, 32, 64):
-        octaves[rough] = tried
-        first = values(rough, 0.0, 0.5**tried)
-        last = np.abs(first @ to_series[-2:].T).max(axis=1)
-        # At a sharp tip a(s) is as small as it is, elsewhere rounding is that of the largest.
-        size = first.min(axis=1) + np.where(rough > 0, first.max(axis=1) / 10, 0.0)
-        rough = rough[last > _RESOLVED * size]
-        if not rough.size:
-            break
-    return octaves, rough
-
-
-def _edges(octaves, per):
-    """Edges of the panels of a zone, as shares of its width."""
-    inner = np.ldexp(1 + np.arange(per) / per, np.arange(-octaves, 0)[:, None]).ravel()
-    return np.array([0.0, *inner, 1.0])
-
-
-def _integral(powers, width):
-    """Polynomials that are integrals of others from the first panel on: coefficients by panel."""
-    count = len(powers)
-    rise = np.vstack([powers * (width / np.arange(count, 0, -1.0)[:, None]), np.zeros_like(width)])
-    low, high = (np.polyval(rise, x) for x in (-0.5, 0.5))
-    rise[-1] = np.append(0.0, np.cumsum(high - low)[:-1]) - low
-    return rise
-
-
-def _horner(coefficients, panel, x):
-    value = coefficients[0].take(panel)
-    for row in coefficients[1:]:
-        value *= x
-        value += row.take(panel)
-    return value
+def _panels(radius, edges):
+    """Lower edges of panels, ascending, and coefficients of their polynomials, highest power first."""
+    low, high = edges[:-1], edges[1:]
+    panels = []
+    while low.size:
+        width = high - low
+        values = radius(low[:, None] + width[:, None] * _NODE)
+        rough = np.abs(values @ _TO_LAST.T).max(axis=1) > _RESOLVED * values.min(axis=1)
+        # Halving helps no more where rounding of a(s), or of the depth, is what is left.
+        below = low - edges[np.searchsorted(edges, low, side="right") - 1]
+        rough &= width > np.maximum(below / 8, 2.0**-44 * high)
+        powers = np.linalg.solve(np.vander(_NODE), values.T) / width ** np.arange(_COUNT)[::-1, None]
+        panels.append((low, powers.T))
+        panels[-1] = tuple(array[~rough] for array in panels[-1])
+        low, high = low[rough], high[rough]
+        low, high = np.append(low, (low + high) / 2), np.append((low + high) / 2, high)
+    low, powers = (np.concatenate(arrays) for arrays in zip(*panels, strict=True))
+    order = np.argsort(low)
+    return low[order], powers[order].T
 
 
 class OneLength(Profile):
-    """A shape with one length L of its own: z = H Z(r/L), g = H G(x/L), one function for all of them.
+    """Base class of profiles with one length L and one depth H: z = H Z(r/L), g = H G(x/L).
 
-    A subclass gives `_length` and `_depth` (L and H, m), and Z, G and G′ as functions of u = r/L, for
-    arrays. The inverse of G comes from a table, made once for the class.
+    A subclass gives `_length` and `_depth` (L and H, m), and Z, G and G′ as functions of arrays u = r/L.
+    The inverse of G comes from a table, made once for the class.
     """
 
     _length: float
     _depth: float
 
-    #: Where G begins to grow, 0, or 1 behind a flat face; and where it ends.
+    #: u at which G starts to grow, 0, or 1 at the edge of a flat face; and the largest u.
     _edge, _end = 0.0, np.inf
 
     def __post_init__(self):
@@ -194,7 +156,7 @@ class OneLength(Profile):
     def _G_slope(u): ...
 
     face_radius = property(lambda self: self._edge * self._length)
-    scale = property(lambda self: self._depth)
+    transition_depth = property(lambda self: self._depth)
 
     @cached_property
     def unit(self):
@@ -202,7 +164,7 @@ class OneLength(Profile):
 
     @property
     def table(self):
-        """The `RadiusTable` of the unit shape."""
+        """The `RadiusTable` of the unit profile."""
         return _unit_table(type(self))
 
     def _height(self, r):
@@ -213,66 +175,49 @@ class OneLength(Profile):
 
     def _reduced_slope(self, x):
         u = x / self._length
-        # What is beyond an edge is so after rounding, too.
+        # Radii outside an edge must stay outside after rounding.
         u = np.where(x > self._length, np.maximum(u, np.nextafter(1.0, 2.0)), u)
         return self._depth / self._length * self._G_slope(u)
 
     def _radius(self, depth):
-        depth = depth / self._depth
-        u, covered = self.table.radius(depth), self.table.covers(depth)
-        with np.errstate(all="ignore"):
-            # To rounding, by a step of Newton's method.
-            step = (self._G(u) - depth) / self._G_slope(u)
-            u = np.where((depth > 0) & np.isfinite(step), u - step, np.where(depth > 0, u, 0.0))
-            u = np.clip(u, self._edge, self._end)
-            # Just above a flat face the radius is that of the face, to rounding.
-            far = ~covered & (depth > self._edge)
-            if np.any(far):
-                u = np.array(u)
-                u[far] = _unit_radius(type(self), np.asarray(depth)[far], 1.0)
-        return self._length * np.where(covered | far, u, self._edge)
+        # Rounding must not lead out of the range of u.
+        u = np.minimum(np.maximum(self.table.radius(depth / self._depth), self._edge), self._end)
+        return self._length * u
 
 
-def _unit_radius(kind, depth, start):
-    """u with G(u) = depth of a class of shapes, elementwise, from places u to begin with."""
-    # The largest of depths over the smallest of lengths.
-    most = _check.LARGEST**3
-    u = increasing_root(lambda u: (kind._G(u), kind._G_slope(u)), depth, start, kind._end, largest=most)
+def _unit_radius(kind, depth):
+    """u with G(u) = `depth` of a class of profiles, elementwise."""
+    # The largest depth over the smallest length.
+    limit = _check.LARGEST**3
+    u = increasing_root(lambda u: (kind._G(u), kind._G_slope(u)), depth, 1.0, kind._end, largest=limit)
     return np.maximum(np.where(u < np.inf, u, kind._end), kind._edge)
 
 
 @lru_cache
 def _unit(kind):
-    """The shape of a class with parameters of 1."""
+    """The profile of a class with parameters of 1."""
     return kind(*(1.0 for _ in fields(kind)))
 
 
 @lru_cache
 def _unit_table(kind):
-    unit = _unit(kind)
-    end = min(unit.known_depth, 2.0**_OCTAVES)
-    octaves = [_OCTAVES + int(np.log2(end)) for end in (*unit.kinks[:1], end)]
-    coarse = np.ldexp(1.0, np.arange(-_OCTAVES, _OCTAVES))
-
-    def radius(depth):
-        start = np.exp(np.interp(np.log(depth), np.log(coarse), np.log(about)))
-        return _unit_radius(kind, depth, start)
-
+    """The `RadiusTable` of the unit profile of a class; the kinks of these are at the unit of depth."""
+    edges = np.ldexp(1.0, np.arange(-_OCTAVES, _OCTAVES + 1))
+    end = min(_unit(kind).known_depth, edges[-1])
     with np.errstate(all="ignore"):
-        about = _unit_radius(kind, coarse, 1.0)
-        return RadiusTable(radius, (0.0, *unit.kinks), end, _FINE, octaves[: 1 + len(unit.kinks)])
+        return RadiusTable(partial(_unit_radius, kind), np.append(edges[edges < end], end))
 
 
 @dataclass(frozen=True, eq=False)
 class Tabulated(Profile):
-    """A shape with the contact radius of another one as a table, down to a depth (m)."""
+    """A profile with the contact radius of another one from a table, down to a depth (m)."""
 
     profile: Profile
     known_depth: float
 
     unit = property(lambda self: (self, 1.0, 1.0))
     kinks = property(lambda self: self.profile.kinks)
-    scale = property(lambda self: self.profile.scale)
+    transition_depth = property(lambda self: self.profile.transition_depth)
     wall = property(lambda self: self.profile.wall)
     face_radius = property(lambda self: self.profile.face_radius)
     known_radius = property(lambda self: self.profile.known_radius)
@@ -282,27 +227,16 @@ class Tabulated(Profile):
 
     @cached_property
     def table(self):
-        feet = (0.0, *(kink for kink in self.kinks if kink < self.known_depth))
+        kinks = [kink for kink in self.kinks if kink < self.known_depth] + [self.known_depth]
+        edges = np.append(np.ldexp(kinks[0], np.arange(-_OCTAVES_OF_ONE, 0)), kinks)
         with np.errstate(all="ignore"):
             return RadiusTable(
-                lambda s: self.profile._radius(np.minimum(s, self.known_depth)), feet, self.known_depth
+                lambda s: self.profile._radius(np.minimum(s, self.known_depth)), edges, self.known_depth
             )
 
+    def _kink_above(self, depth):
+        kinks = np.array([0.0, *self.kinks])
+        return kinks[np.searchsorted(kinks, depth, side="right") - 1]
+
     def _radius(self, depth):
-        radius, covered = self.table.radius(depth), self.table.covers(depth)
-        return radius if np.all(covered) else np.where(covered, radius, self.profile._radius(depth))
-
-
-def tabulated(profile, known_depth):
-    """A shape that gives the contact radius of `profile` quickly, down to a depth (m) or its own end.
-
-    Pure powers and shapes of one length, which are quick, come back as they are, and so do many shapes.
-    """
-    powers = FlatPunch | Cone | Paraboloid | PowerLaw
-    if profile.shape or isinstance(profile, powers | OneLength | Tabulated):
-        return profile
-    known_depth = min(2.0 ** np.ceil(np.log2(np.max(known_depth))), np.min(profile.known_depth))
-    return _tabulated(profile, float(known_depth))
-
-
-_tabulated = lru_cache(maxsize=16)(Tabulated)
+        return self.table.radius(depth)

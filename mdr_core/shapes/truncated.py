@@ -1,4 +1,4 @@
-"""Indenters with a flat face: truncated cone and paraboloid, punch with a rounded edge."""
+"""Profiles with a flat face: truncated cone and paraboloid, punch with a rounded edge."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from .tabulated import OneLength
 
 
 class _FlatFaced(OneLength):
-    """A shape with a flat face of radius `flat_radius`, the length that G is written in.
+    """Base class of profiles with a flat face, whose radius `flat_radius` is the unit of length of G.
 
     With τ = √(u² − 1), arccos(1/u) = arctan τ.
     """
@@ -134,10 +134,11 @@ class RoundedPunch(_FlatFaced):
 
 
 def _tau(u):
+    """√(u² − 1) without cancellation, 0 for u < 1."""
     return np.sqrt(np.maximum(u - 1, 0.0) * (u + 1))
 
 
-# 1/3, −1/5, 1/7, …: enough for τ ≤ 1/2.
+#: Coefficients 1/3, −1/5, 1/7, … of the series of (τ − arctan τ)/τ³ in τ², highest first, for τ ≤ 1/2.
 _GAP = (1 / np.arange(3, 55, 2) * (-1.0) ** np.arange(26))[::-1]
 
 

@@ -1,0 +1,240 @@
+"""Closed forms of profiles, a class for each family: powers of the radius.
+
+A profile with an entry here is solved by its formulas, every other one by quadrature or from a table. To
+add a family, write a subclass of `ClosedForms` and register it for the class of its profiles:
+
+    @closed_forms.register(Wedge)
+    class WedgeForms(ClosedForms): ...
+
+The live interval is [d_p, d], and a(s) the contact radius at the depth s. No formula is a difference of
+two elastic curves, which loses its digits where the interval is short: each is its length times a positive
+mean.
+"""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from functools import singledispatch
+from typing import Any
+
+import numpy as np
+import scipy
+
+from ._numeric import chunks, root
+from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
+from .yielding import LiveInterval
+
+_TINY = np.finfo(float).tiny
+
+
+@dataclass(frozen=True)
+class ClosedForms(ABC):
+    """Integrals over the live interval of one profile or an ensemble, elementwise.
+
+    The integrals and `radius_drop` are required. Everything else says here that there is no closed form.
+    """
+
+    profile: Any
+
+    #: Whether a(s) is a polynomial of √s from the tip on, for which quadrature needs no cuts.
+    polynomial = False
+
+    #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/d_c for all.
+    similar = None
+
+    #: Exponent p of the elastic force F ∝ dᵖ.
+    elastic_exponent = None
+
+    @abstractmethod
+    def radius_integral(self, interval):
+        """∫ a(s) ds (m²)."""
+
+    @abstractmethod
+    def energy_integral(self, interval):
+        """∫ (d − s) a(s) ds (m³)."""
+
+    @abstractmethod
+    def radius_drop(self, interval):
+        """a(d) − a(d_p) (m)."""
+
+    def pressure_integral(self, interval, r):
+        """∫ ds/√(a(s)² − r²) over a(s) > r, for one state and radii r ≥ 0 (m)."""
+        return None
+
+    def turning_interval(self, target, d_c):
+        """Live interval at the turning point of an impact on a virgin medium of critical depth d_c (m).
+
+        `target` is the kinetic energy over 2E* (m³).
+        """
+        return None
+
+
+@singledispatch
+def closed_forms(profile):
+    """The `ClosedForms` of a profile, None if it has none."""
+    return None
+
+
+@closed_forms.register(FlatPunch)
+class FlatPunchForms(ClosedForms):
+    """a = b."""
+
+    polynomial = True
+    elastic_exponent = 1.0
+
+    def radius_integral(self, interval):
+        return self.profile.radius * interval.length
+
+    def energy_integral(self, interval):
+        return self.profile.radius / 2 * interval.length**2
+
+    def radius_drop(self, interval):
+        return np.zeros_like(interval.length)
+
+
+@closed_forms.register(Cone)
+class ConeForms(ClosedForms):
+    """a = 2 s/(π slope)."""
+
+    polynomial = True
+    similar = Cone(1.0)
+    elastic_exponent = 2.0
+
+    def radius_integral(self, interval):
+        return (interval.upper + interval.lower) * interval.length / (np.pi * self.profile.slope)
+
+    def energy_integral(self, interval):
+        return interval.length**2 * (interval.upper + 2 * interval.lower) / (3 * np.pi * self.profile.slope)
+
+    def radius_drop(self, interval):
+        return interval.length / (np.pi / 2 * self.profile.slope)
+
+    def pressure_integral(self, interval, r):
+        a, c = (self.profile._radius(depth) for depth in (interval.upper, interval.lower))
+        inside, result = (r < a) & (interval.length > 0), np.zeros_like(r)
+        r = r[inside]
+        root_a = root(a, r)
+        if c == 0:
+            # Nothing has yielded: arccosh(a/r).
+            logarithm = log1p_ratio((a - r) + root_a, r)
+        else:
+            # arccosh(a/r) − arccosh(c/r), with the difference of the logarithms' arguments written out.
+            low = np.maximum(c, r)
+            drop = np.where(r < c, self.radius_drop(interval), a - r)
+            root_low = root(low, r)
+            logarithm = log1p_ratio(drop + drop * ((a + low) / (root_a + root_low)), low + root_low)
+        result[inside] = np.pi / 2 * self.profile.slope * logarithm
+        return result
+
+    def turning_interval(self, target, d_c):
+        # d³/3 = πs·target; yielding, with X = d_p/d_c: X² + X = (λ³ − 1)/3.
+        elastic = np.cbrt(3 * np.pi * self.profile.slope * target)
+        ratio = elastic / d_c
+        surplus = np.maximum((ratio * ratio * ratio - 1) / 3, 0.0)
+        return _turning_interval(elastic, 2 * surplus / (1 + np.sqrt(1 + 4 * surplus)), d_c)
+
+
+@closed_forms.register(Paraboloid)
+class ParaboloidForms(ClosedForms):
+    """a = √(R s)."""
+
+    polynomial = True
+    similar = Paraboloid(1.0)
+    elastic_exponent = 1.5
+
+    def radius_integral(self, interval):
+        # A³ − C³ with A² = d and C² = d_p.
+        A, C = np.sqrt(interval.upper), np.sqrt(interval.lower)
+        mean = (interval.upper + A * C + interval.lower) / np.maximum(A + C, _TINY)
+        return (2 / 3 * np.sqrt(self.profile.radius)) * mean * interval.length
+
+    def energy_integral(self, interval):
+        # ∫ 2x²(A² − x²) dx from C to A = C + e, as a polynomial with positive terms in e.
+        C = np.sqrt(interval.lower)
+        e = interval.length / np.maximum(np.sqrt(interval.upper) + C, _TINY)
+        polynomial = ((4 / 15 * e + 4 / 3 * C) * e + 8 / 3 * C**2) * e + 2 * C**3
+        return np.sqrt(self.profile.radius) * e**2 * polynomial
+
+    def radius_drop(self, interval):
+        A, C = np.sqrt(interval.upper), np.sqrt(interval.lower)
+        return np.sqrt(self.profile.radius) * interval.length / np.maximum(A + C, _TINY)
+
+    def pressure_integral(self, interval, r):
+        a, c = (self.profile._radius(depth) for depth in (interval.upper, interval.lower))
+        root_a, root_c = root(a, r), root(c, r)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.where(
+                r < c, 2 * interval.length / (root_a + root_c), 2 / self.profile.radius * root_a
+            )
+
+    def turning_interval(self, target, d_c):
+        # (4/15) √R d^(5/2) = target; yielding, with X = d_p/d_c: (X + 1)^(5/2) − X^(5/2) = λ^(5/2).
+        elastic = (target * 3.75 / np.sqrt(self.profile.radius)) ** 0.4
+        ratio = elastic / d_c
+        work = np.maximum(ratio * ratio * np.sqrt(ratio), 1.0).ravel()
+        X = np.empty_like(work)
+        for rows in chunks(work.size):
+            X[rows] = _plastic_ratio(work[rows])
+        return _turning_interval(elastic, X.reshape(elastic.shape), d_c)
+
+
+@closed_forms.register(PowerLaw)
+class PowerLawForms(ClosedForms):
+    """a = (s/(κₙ c))^(1/n)."""
+
+    elastic_exponent = property(lambda self: 1 + 1 / self.profile.exponent)
+
+    def radius_integral(self, interval):
+        q = 1 + 1 / self.profile.exponent
+        # 1 − (1 − fraction)^q without cancellation.
+        with np.errstate(divide="ignore"):
+            drop = -np.expm1(q * np.log1p(-_fraction(interval)))
+        return self.profile._radius(interval.upper) * interval.upper / q * drop
+
+    def energy_integral(self, interval):
+        q = 1 + 1 / self.profile.exponent
+        a = self.profile._radius(interval.upper)
+        return a * interval.upper**2 * scipy.special.betainc(2, q, _fraction(interval)) / (q * (q + 1))
+
+    def radius_drop(self, interval):
+        fraction = _fraction(interval)
+        # ln(d_p/d) without cancellation: from the length where that is short, else from the ends.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            logarithm = np.where(
+                fraction < 0.5, np.log1p(-fraction), np.log(interval.lower / interval.upper)
+            )
+        return -self.profile._radius(interval.upper) * np.expm1(logarithm / self.profile.exponent)
+
+
+def log1p_ratio(above, below):
+    """ln(1 + above/below), also where the quotient leaves double precision; infinite over 0."""
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        ratio = above / below
+        return np.where(ratio < np.inf, np.log1p(ratio), np.log(above) - np.log(below))
+
+
+def _fraction(interval):
+    """Length of the live interval as a fraction of the depth, 0 where both vanish."""
+    return np.divide(
+        interval.length, interval.upper, out=np.zeros_like(interval.upper), where=interval.upper > 0
+    )
+
+
+def _plastic_ratio(work):
+    """X with (X + 1)^(5/2) − X^(5/2) = `work` ≥ 1."""
+    # With A² = X + 1 and C² = X it is (5h³ + 10/h + 1/h⁵)/16 in h = A + C, nearly a cube.
+    h = np.cbrt(3.2 * work - 2.2)
+    X = ((h - 1 / h) / 2) ** 2
+    for _ in range(4):
+        A, C = np.sqrt(X + 1), np.sqrt(X)
+        cubes = (X + 1 + A * C + X) / (A + C)
+        fifths = ((X + 1) ** 2 + X * X + X * (X + 1) + A * C * (2 * X + 1)) / (A + C)
+        X = np.maximum(X - (fifths - work) / (2.5 * cubes), 0.0)
+    return X
+
+
+def _turning_interval(elastic, plastic_ratio, d_c):
+    """Live interval from the depth (m) without yield, and from d_p/d_c where the medium yields."""
+    with np.errstate(invalid="ignore"):
+        lower = np.where(elastic > d_c, plastic_ratio * d_c, 0.0)
+    length = np.minimum(elastic, d_c)
+    return LiveInterval(lower, lower + length, length)
