@@ -53,6 +53,15 @@ class TestIndentation:
         assert values == pytest.approx((E, Q, C, F0), rel=1e-8)
         assert len(fit.standard_errors) == len(fit.covariance) == 5
 
+    @pytest.mark.parametrize("profile", PROFILES, ids=name)
+    def test_soft_frame(self, profile):
+        """Half of the measured depth is the frame's: a flat face that touches or yields is no obstacle."""
+        F = curve(profile)
+        C = 0.5 * np.ptp(OUT) / F.max()
+        fit = mdr.fit_indentation(profile, OUT + C * F + 3e-9, F, frame_compliance=C)
+        assert (fit.medium.E_star, fit.medium.q_c) == pytest.approx((E, Q), rel=1e-9)
+        assert fit.path.force == pytest.approx(F - fit.residuals, rel=1e-12, abs=1e-12 * F.max())
+
     @pytest.mark.parametrize("depth_noise", [0.0, 0.4e-9])
     def test_errors_are_those_of_repeated_measurements(self, depth_noise):
         """The standard deviation of the pulls of 100 curves is known to 7 %: four of these around 1."""

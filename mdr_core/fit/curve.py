@@ -255,13 +255,17 @@ def critical_depth(values):
 
 
 def _depth_in_frame(profile, values, displacement, largest, loading):
-    """Depth d (m) with d + C F(d) = `displacement`, by Newton's method from above."""
+    """Depth d (m) with d + C F(d) = `displacement`, by Newton's method from above within a bracket."""
     C, depth = values["frame_compliance"], displacement
-    for _ in range(40):
+    low, high = np.minimum(displacement, 0.0), displacement
+    for _ in range(60):
         so_far = np.where(loading, depth, largest)
         state = CurveState.on_rigid_frame(profile, values, depth, so_far, loading)
-        step = (depth + C * state.force - displacement) / (1 + C * state.slope)
-        depth = depth - step
-        if np.all(np.abs(step) <= 1e-15 * np.abs(displacement).max()):
+        excess = depth + C * state.force - displacement
+        low, high = np.where(excess < 0, depth, low), np.where(excess > 0, depth, high)
+        before, depth = depth, depth - excess / (1 + C * state.slope)
+        # The slope jumps where a flat face touches or yields: without bisection the steps may cycle.
+        depth = np.where((depth >= low) & (depth <= high), depth, (low + high) / 2)
+        if np.all(np.abs(depth - before) <= 1e-15 * np.abs(displacement).max()):
             break
     return depth
