@@ -193,6 +193,15 @@ class TestImpacts:
             assert fit.medium.eta == pytest.approx(eta, rel=1e-7)
             assert not fit.remarks
 
+    @pytest.mark.parametrize(
+        "profile", [mdr.TruncatedCone(1e-6, 0.3), mdr.RoundedPunch(1e-6, 1e-5)], ids=name
+    )
+    def test_flat_face(self, profile):
+        """Impacts too light to press far outside the flat face."""
+        hit = mdr.impact(profile, mdr.Medium(1e10, 2e4), 1e-10, 0.1 * self.SPEED)
+        fit = mdr.fit_impacts(profile, 1e-10, hit.speed, hit.restitution, contact_time=hit.contact_time)
+        assert fit.medium.E_star == pytest.approx(1e10, rel=1e-7)
+
     def test_errors_are_those_of_repeated_measurements(self):
         """The standard deviation of 30 pulls is known to 13 %: three of these around 1."""
         hit, random, deviations = self.hit(), np.random.default_rng(7), []

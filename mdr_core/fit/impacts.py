@@ -120,8 +120,7 @@ class ImpactData:
         mass = _check.positive("mass", mass, unit="kg")
         speed = _check.positive("speed", speed, unit="m/s")
         e = np.asarray(_check.positive("restitution", restitution, zero=True))
-        remedy = "it is the speed after over the speed before"
-        _check.refuse("restitution", e, e > 1.5, "must lie between 0 and 1", remedy=remedy)
+        _check.refuse("restitution", e, e > 1.5, "must lie between 0 and 1", remedy="check the speeds")
         given = {"mass": mass, "speed": speed, "restitution": e}
         if time is not None:
             given["contact_time"] = _check.positive("contact_time", time, unit="s")
@@ -273,7 +272,8 @@ def _power_law(profile, depth):
     if a >= profile.wall or not 0 < slope < np.inf or g <= 0:
         return FlatPunch(a)
     n = float(np.clip(a * slope / g, 0.05, 100.0))
-    return PowerLaw(depth / kappa(n) / a**n, n)
+    # Just outside a flat face a^n may underflow.
+    return PowerLaw(depth / kappa(n) / a**n, n) if a**n > 1e-300 else FlatPunch(a)
 
 
 def _moduli(subset, energy, speed):
