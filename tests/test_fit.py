@@ -1,5 +1,8 @@
 """Fits return the medium that the measurements were made with."""
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -12,6 +15,25 @@ MEDIUM = mdr.Medium(E, Q)  # d_c = 20 nm
 OUT = np.append(np.linspace(-5e-9, 60e-9, 100), np.linspace(60e-9, 35e-9, 100))
 SAMPLES = np.linspace(0.0, 2e-6, 40)
 PROFILES = (*SHAPES, mdr.Sampled(SAMPLES, SAMPLES**2 / 2e-6))
+
+
+DATA = Path(__file__).parent / "data"
+REFERENCE = json.loads((DATA / "reference.json").read_text())
+AFM = ("spot3-0", "map2x2-2", "qi-noisy-2")
+HERTZ = {"hertz_para": mdr.Paraboloid(1e-5), "hertz_cone": mdr.Cone.from_half_angle(25.0)}
+
+
+def measured(name, segment):
+    """Depth (m) and force (N) of the approach or retract of an AFM curve."""
+    data = np.genfromtxt(DATA / f"{name}.csv", delimiter=",", names=True)
+    rows = data["retract"] == (segment == "retract")
+    return 1e-9 * data["depth_nm"][rows], 1e-9 * data["force_nN"][rows]
+
+
+def silica():
+    """Depth (m) and force (N) of loading, hold and unloading, and the index of the largest depth."""
+    data = np.genfromtxt(DATA / "silica.csv", delimiter=",", names=True)[:1154]
+    return 1e-9 * data["depth_nm"], 1e-3 * data["force_mN"], int(np.argmax(data["depth_nm"]))
 
 
 def curve(profile, medium=MEDIUM, depth=OUT):
@@ -162,6 +184,45 @@ class TestIndentation:
         given = {"depth": OUT, "force": curve(mdr.Cone(0.3))} | change
         with pytest.raises(ValueError, match=message):
             mdr.fit_indentation(mdr.Cone(0.3), **given)
+
+
+class TestRealCurves:
+    @pytest.mark.parametrize("order", ["time", "reversed", "random"])
+    @pytest.mark.parametrize("segment", ["approach", "retract"])
+    @pytest.mark.parametrize("name", AFM)
+    def test_reference_fits(self, name, segment, order):
+        """E* within 10⁻⁴ and sums of squares within 10⁻³ of established fits, in any order of samples."""
+        depth, force = measured(name, segment)
+        rows = {"time": slice(None), "reversed": slice(None, None, -1)}.get(
+            order, np.random.default_rng(9).permutation(depth.size)
+        )
+        for model, reference in REFERENCE[name][segment].items():
+            fit = mdr.fit_indentation(HERTZ[model], depth[rows], force[rows], q_c=np.inf, baseline=None)
+            # Loading, unloading and the largest depth so far mean nothing to an elastic medium.
+            assert not any(word in " ".join(fit.remarks) for word in ("loading", "back and forth", "class"))
+            assert fit.medium.E_star == pytest.approx(reference["E_star"], rel=1e-4)
+            squares = np.sum((1e9 * fit.residuals) ** 2)
+            assert squares == pytest.approx(reference["sum_of_squares"], rel=1e-3)
+
+    def test_unloading_alone(self):
+        """The sum of squares is not larger than with any held contact point; E* is that of the best."""
+        depth, force, top = silica()
+        depth, force, profile = depth[top:], force[top:], mdr.Cone.berkovich()
+        fit = mdr.fit_indentation(profile, depth, force)
+        points = np.linspace(-2e-6, 1e-6, 61)
+        scan = mdr.fit_indentation(
+            profile, np.tile(depth, (61, 1)), np.tile(force, (61, 1)), contact_point=points
+        )
+        squares = np.sum(scan.residuals**2, axis=1)
+        assert np.sum(fit.residuals**2) <= squares.min()
+        assert fit.medium.E_star == pytest.approx(scan.medium.E_star[squares.argmin()], rel=0.02)
+        assert abs(fit.contact_point - points[squares.argmin()]) < 5e-8
+
+    @pytest.mark.parametrize("q_c", [Q, np.inf])
+    def test_made_unloading_alone(self, q_c):
+        medium, depth = mdr.Medium(E, q_c), np.linspace(60e-9, 45e-9, 50)
+        fit = mdr.fit_indentation(mdr.Cone(0.3), depth, curve(mdr.Cone(0.3), medium, depth))
+        assert (fit.medium.E_star, fit.medium.q_c) == pytest.approx((E, q_c), rel=1e-9)
 
 
 def test_paths_of_many_media():

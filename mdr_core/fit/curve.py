@@ -22,6 +22,8 @@ from ..yielding import LiveInterval, interval_at
 PARAMETERS = ("E_star", "q_c", "contact_point", "baseline", "frame_compliance")
 LOGARITHMIC = ("E_star", "q_c")
 _OF_FORCE = ("E_star", "q_c", "frame_compliance")
+#: The contact point is searched down to so many ranges of depth below the record.
+REACH = 30.0
 #: Steps of the search for the nearest point of a branch.
 _PROJECTIONS = 6
 
@@ -60,6 +62,11 @@ class CurveProblem:
     @cached_property
     def free(self):
         return tuple(name for name in PARAMETERS if name not in self.fixed)
+
+    @property
+    def memoryless(self):
+        """Whether the medium is held elastic: the order of the samples does not matter."""
+        return bool(np.all(np.isinf(self.fixed.get("q_c", 0.0))))
 
     @property
     def free_turning_points(self):
@@ -111,6 +118,8 @@ class CurveProblem:
 
     def largest_so_far(self, depth, turning_depth):
         """Largest depth so far (m), and whether it is the depth of the sample itself."""
+        if self.memoryless:
+            return depth, np.ones(depth.shape, bool)
         if not self.depth_noise:
             largest = np.maximum.accumulate(depth, axis=1)
             return largest, depth >= largest

@@ -14,7 +14,7 @@ from ..report import engineering
 from ..shapes.profile import Profile
 from ..shapes.tabulated import tabulated
 from ..yielding import LiveInterval
-from .curve import LOGARITHMIC, PARAMETERS
+from .curve import LOGARITHMIC, PARAMETERS, REACH
 from .least_squares import Fit
 from .remarks import Remark, remarks_of
 from .solution import grouped, solved
@@ -102,7 +102,7 @@ def fit_indentation(
         force_noise = _check.positive_number("force_noise", force_noise, unit="N")
     _refuse_empty(depth, force, fixed)
     data = tabulated(profile, _table_depth(profile, depth, fixed)), depth, force, fixed, noise, force_noise
-    fit = _collected(profile, [solved(*data, *group) for group in grouped(depth, force, noise)])
+    fit = _collected(profile, [solved(*data, *group) for group in grouped(depth, force, fixed, noise)])
     return fit[0] if single else fit
 
 
@@ -145,8 +145,8 @@ def _refuse_empty(depth, force, fixed):
 
 
 def _table_depth(profile, depth, fixed):
-    """Depth (m) to which the profile is tabulated: twice the measured range, or the largest depth."""
-    limit = 2 * float(np.ptp(depth, axis=1).max())
+    """Depth (m) to which the profile is tabulated: that of the farthest contact point."""
+    limit = (1 + REACH) * float(np.ptp(depth, axis=1).max())
     if "contact_point" in fixed:
         largest = depth.max(axis=1) - fixed["contact_point"]
         limit = max(limit, 1.01 * float(largest.max()))

@@ -49,7 +49,10 @@ def _undetermined(solved, i):
         )
     unloading = np.count_nonzero((state.live_interval.length[i] > 0) & ~state.loading[i])
     error = errors.get("E_star", 0.0)
-    if unloading < 2 and "E_star" in errors:
+    if solved.problem.memoryless:
+        if _VAGUE < error < np.inf:
+            yield Remark("vague", f"the data hardly determine E* (to {100 * error:.2g} %): hold E_star")
+    elif unloading < 2 and "E_star" in errors:
         yield Remark(
             "loading",
             f"loading alone hardly determines E* (here to {100 * error:.2g} %): record the unloading, or "
@@ -71,11 +74,12 @@ def _undetermined(solved, i):
 
 
 def _jitter(solved, i):
-    """Depths that go back and forth although they are taken as exact."""
+    """Depths that go back and forth although they are taken as exact: without memory they may."""
     depth = solved.problem.depth[[i]]
     steps = np.diff(depth[0])
     reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
-    if not solved.problem.depth_noise and reversals > max(4, 0.05 * steps.size):
+    exact = not (solved.problem.depth_noise or solved.problem.memoryless)
+    if exact and reversals > max(4, 0.05 * steps.size):
         noise = engineering(roughness(depth)[0, 0], "m")
         yield Remark(
             "jitter",
@@ -125,7 +129,11 @@ def _misfit(solved, i):
     """Residuals that are not noise."""
     problem, residual = solved.problem, solved.residual[i]
     freedom, chi = max(residual.size - solved.x.shape[1], 1), solved.reduced_chi_square[i]
-    correlation = autocorrelation(residual)
+    correlation, cause = autocorrelation(residual), "not class (b)"
+    if problem.memoryless:
+        # Samples are in any order: that of depth is as good as that of time.
+        correlation = max(correlation, autocorrelation(residual[np.argsort(problem.depth[i])]))
+        cause = "not an elastic medium"
     size = np.sqrt(chi) * np.median(problem.sigma[i]) / problem.load[i, 0]
     if size < 1e-7:
         return
@@ -133,7 +141,7 @@ def _misfit(solved, i):
         yield Remark(
             "misfit",
             f"the residuals ({100 * size:.2g} % of the force) are not noise but correlated with their "
-            f"neighbours ({correlation:.2f}): not class (b), or another profile; errors are underestimated",
+            f"neighbours ({correlation:.2f}): {cause}, or another profile; errors are underestimated",
         )
     elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom):
         yield Remark("noisy", f"χ² per degree of freedom is {chi:.3g}: the noise is larger than given")

@@ -6,9 +6,9 @@ from functools import cached_property
 import numpy as np
 
 from .._numeric import chunks
-from .curve import LOGARITHMIC, CurveProblem, critical_depth
+from .curve import LOGARITHMIC, REACH, CurveProblem, critical_depth
 from .least_squares import covariances, least_squares, roughness
-from .start import first_guess, turning_points
+from .start import first_guesses, turning_points
 
 #: Number of curves that are solved together.
 _TOGETHER = 64
@@ -50,8 +50,10 @@ class SolvedCurves:
         return covariances(self.jacobian, variance)[:, :free, :free]
 
 
-def grouped(depth, force, noise):
+def grouped(depth, force, fixed, noise):
     """Yields curves with the same number of turning points: rows, turning points, starts of loadings.
+
+    A medium that is held elastic has no memory and neither of these.
 
     Depth and force turn at the same sample: both are added in units in which the quieter one weighs more.
     """
@@ -63,6 +65,8 @@ def grouped(depth, force, noise):
         variance = variance + (weight * sigma / size) ** 2
     thresholds = np.maximum(threshold, 6 * np.sqrt(variance))[:, 0].tolist()
     indices = [turning_points(row.tolist(), size) for row, size in zip(path, thresholds, strict=True)]
+    elastic = np.isinf(fixed.get("q_c", np.zeros(len(depth))))
+    indices = [((), ()) if known else pair for known, pair in zip(elastic, indices, strict=True)]
     counts = [(len(turns), len(starts)) for turns, starts in indices]
     for count in sorted(set(counts)):
         rows = np.array([i for i, other in enumerate(counts) if other == count])
@@ -76,9 +80,10 @@ def solved(profile, depth, force, fixed, noise, force_noise, rows, turns, starts
     """Solves curves with the same number of turning points."""
     depth, force = depth[rows], force[rows]
     fixed = {name: value[rows] for name, value in fixed.items()}
-    sigma = _first_sigma(force, noise, force_noise)
+    order = np.argsort(depth, axis=1) if not starts.size else np.arange(depth.shape[1])[None]
+    sigma = _first_sigma(np.take_along_axis(force, order, axis=1), noise, force_noise)
     problem = CurveProblem(profile, depth, force, fixed, noise, sigma, turns, starts)
-    solution = _minimum(problem, first_guess(problem))
+    solution = _best_minimum(problem)
     for _ in range(_ROUNDS if noise and turns.size else 0):
         before, problem = problem, problem.with_best_turning_points(solution[0])
         if np.array_equal(before.turning_points, problem.turning_points):
@@ -112,9 +117,22 @@ def _minimum(problem, start):
             lower[:, i] = 0.0
         elif name == "contact_point":
             lowest = problem.depth.max(axis=1) - problem.profile.known_depth
-            lower[:, i] = np.maximum((lowest - problem.offset[:, i]) / problem.scale[:, i], -1.0)
+            lower[:, i] = np.maximum((lowest - problem.offset[:, i]) / problem.scale[:, i], -REACH)
             upper[:, i] = 1.0
     return least_squares(lambda x, rows: problem.rows(rows).residuals(x), start, lower, upper)
+
+
+def _best_minimum(problem):
+    """The best of the minima that the starts lead to."""
+    (_, start), *others = first_guesses(problem)
+    solution = _minimum(problem, start)
+    for rows, start in others:
+        trial = _minimum(problem.rows(rows), start)
+        squares, trial_squares = (np.sum(part**2, axis=1) for part in (solution[1][rows], trial[1]))
+        better = trial_squares < squares
+        for whole, part in zip(solution, trial, strict=True):
+            whole[rows[better]] = part[better]
+    return solution
 
 
 def _compared_with_elastic(problem, solution, noise_known):
