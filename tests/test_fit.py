@@ -218,6 +218,23 @@ class TestRealCurves:
         assert fit.medium.E_star == pytest.approx(scan.medium.E_star[squares.argmin()], rel=0.02)
         assert abs(fit.contact_point - points[squares.argmin()]) < 5e-8
 
+    def test_two_minima(self):
+        """In 10 % of noise two contact points 30 nm apart fit alike, with moduli of 16 and 1.9 kPa."""
+        depth, force = measured("qi-noisy-2", "retract")
+        fit = mdr.fit_indentation(HERTZ["hertz_para"], depth, force, q_c=np.inf, baseline=None)
+        assert any("1.878 kPa" in remark and "fits about as well" in remark for remark in fit.remarks)
+        fit = mdr.fit_indentation(HERTZ["hertz_para"], *measured("spot3-0", "retract"), q_c=np.inf)
+        assert not any("fits about as well" in remark for remark in fit.remarks)
+
+    def test_frame_of_silica(self):
+        """Frame compliance and modulus are nearly one parameter, and this frame is stiff."""
+        depth, force, _ = silica()
+        fit = mdr.fit_indentation(mdr.Cone.berkovich(), depth, force, frame_compliance=None)
+        assert fit.frame_compliance == 0
+        assert fit.correlations["E_star", "frame_compliance"] > 0.97
+        assert "frame_compliance is at the bound" in fit.remarks[0]
+        assert "E* and frame_compliance are nearly one parameter" in fit.remarks[1]
+
     @pytest.mark.parametrize("q_c", [Q, np.inf])
     def test_made_unloading_alone(self, q_c):
         medium, depth = mdr.Medium(E, q_c), np.linspace(60e-9, 45e-9, 50)

@@ -1,6 +1,7 @@
 """Remarks on a fitted curve: parameters that the data do not determine, and deviations from the model."""
 
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
@@ -10,6 +11,8 @@ from .least_squares import autocorrelation, roughness
 
 #: Relative error of E* above which it counts as not determined.
 _VAGUE = 0.1
+#: Correlation with the frame compliance above which a remark is made.
+_CORRELATED = 0.9
 #: Number of standard errors above which a trend is significant.
 _SIGNIFICANT = 4.0
 
@@ -24,10 +27,38 @@ class Remark:
 
 def remarks_of(solved):
     """Remarks on each curve of `SolvedCurves`, one tuple a curve."""
+    kinds = _ambiguous, _undetermined, _jitter, _class_b, _misfit
     return [
-        (*_undetermined(solved, i), *_jitter(solved, i), *_class_b(solved, i), *_misfit(solved, i))
-        for i in range(len(solved.rows))
+        tuple(chain.from_iterable(remarks(solved, i) for remarks in kinds)) for i in range(len(solved.rows))
     ]
+
+
+def _ambiguous(solved, i):
+    """Parameters at a bound, a second minimum that is about as good, a frame that stands for the medium."""
+    problem, squares = solved.problem, np.sum(solved.residual[i] ** 2)
+    for name, at_bound in zip(problem.free, solved.at_bound[i], strict=False):
+        if at_bound:
+            yield Remark(
+                f"bound {name}", f"{name} is at the bound of its search: hold it, or check the data"
+            )
+    noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
+    if solved.rival_squares[i] - squares <= _SIGNIFICANT**2 * noise:
+        rival, _ = problem.rows([i]).parameters(solved.rival[[i]])
+        E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
+        yield Remark(
+            "second minimum",
+            f"E* = {E} with contact at {point} fits about as well: hold contact_point or E_star",
+        )
+    if {"E_star", "frame_compliance"} <= set(problem.free):
+        pair = [problem.free.index(name) for name in ("E_star", "frame_compliance")]
+        block = solved.covariance[i][np.ix_(pair, pair)]
+        correlation = block[0, 1] / max(np.sqrt(block[0, 0] * block[1, 1]), 1e-300)
+        if abs(correlation) > _CORRELATED:
+            yield Remark(
+                "frame",
+                f"E* and frame_compliance are nearly one parameter (correlation {correlation:.3f}): hold "
+                "frame_compliance",
+            )
 
 
 def _undetermined(solved, i):
