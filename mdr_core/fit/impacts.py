@@ -89,10 +89,9 @@ def fit_impacts(
     if errors.get("q_c") == np.inf and not np.any(jacobian[:, free.index("q_c")]):
         values["q_c"] = np.inf
         remarks[0] = "nothing has yielded: q_c = ∞ stands for more than these impacts determine; hit harder"
-    chi = float(residual @ residual) / max(residual.size - len(free), 1)
     covariance = _check.frozen(covariance * np.outer(scale, scale))
     residual = _check.frozen(residual * data.per_measurement(noise))
-    return ImpactFit(profile, Medium(**values), errors, covariance, residual, chi, tuple(remarks))
+    return ImpactFit(profile, Medium(**values), errors, covariance, residual, tuple(remarks))
 
 
 def _fixed(values):
@@ -330,8 +329,6 @@ class ImpactFit(Fit):
         Covariance of the free parameters, in that order.
     residuals : ndarray
         Measured minus fitted restitution, followed by relative contact times (ln T) where given.
-    reduced_chi_square : float
-        Sum of squares in units of the estimated noise over the degrees of freedom, about 1.
     remarks : tuple of str
         Parameters that the data do not determine.
     """
@@ -341,10 +338,6 @@ class ImpactFit(Fit):
     standard_errors: dict[str, float]
     covariance: Array
     residuals: Array
-    reduced_chi_square: float
     remarks: tuple[str, ...]
 
     _medium_parameters = tuple(_UNITS)
-
-    def _quality(self):
-        yield "reduced χ²", f"{self.reduced_chi_square:.4g}"

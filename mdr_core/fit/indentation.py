@@ -108,9 +108,14 @@ def fit_indentation(
 
 def _data(depth, force):
     """Depth and force with one curve a row, and whether a single curve was given."""
+    for name, values in (("depth", depth), ("force", force)):
+        if np.ma.is_masked(values):
+            raise ValueError(f"{name} has masked samples: leave them out of depth and force")
+        if not np.size(values):
+            raise ValueError(f"{name} is empty: a curve needs more samples than free parameters")
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
     force = _check.finite_array("force", force, unit="N", most=_check.LARGEST)
-    if depth.shape != force.shape or not 1 <= depth.ndim <= 2 or not depth.shape[-1]:
+    if depth.shape != force.shape or not 1 <= depth.ndim <= 2:
         raise ValueError(
             f"depth {depth.shape} and force {force.shape} must be of one shape, (N,) for a curve or (R, N) "
             "for many"
@@ -121,6 +126,10 @@ def _data(depth, force):
 def _fixed(name, value, count):
     """A fixed parameter, one number a curve."""
     unit = _UNITS[name]
+    if isinstance(value, str):
+        raise ValueError(
+            f"{name} = {value!r} must be a number, which holds it, or None, which makes it free"
+        )
     if name in ("contact_point", "baseline"):
         value = _check.finite_array(name, value, unit=unit)
     else:
@@ -186,7 +195,7 @@ def _arrays(fit):
     return values | {
         "covariance": fit.covariance * (scale[:, :, None] * scale[:, None, :]),
         "residuals": fit.residual * problem.noise(state.slope),
-        "reduced_chi_square": chi if fit.noise_known else np.ones_like(chi),
+        "reduced_chi_square": chi if fit.noise_known else np.full_like(chi, np.nan),
         "force_noise": sigma if fit.noise_known else sigma * np.sqrt(chi),
         "depth": state.depth, "lower": state.live_interval.lower, "upper": state.live_interval.upper,
         "length": state.live_interval.length,
@@ -210,7 +219,7 @@ class IndentationFit(Fit):
     residuals : ndarray
         Measured force minus force of the model at the measured depth (N).
     reduced_chi_square : float or ndarray
-        Sum of squares in units of the noise over the degrees of freedom; 1 where the noise was estimated
+        Sum of squares in units of the noise over the degrees of freedom, NaN where the noise was estimated
         from the residuals.
     force_noise : float or ndarray
         Standard deviation of the force (N), given or estimated.
@@ -237,6 +246,8 @@ class IndentationFit(Fit):
     _dimensions = ("curve",)
 
     def __getitem__(self, index: Any) -> "IndentationFit":
+        if not self.shape:
+            return super().__getitem__(index)
         return replace(
             self,
             medium=self.medium.entries(index),
@@ -262,4 +273,5 @@ class IndentationFit(Fit):
 
     def _quality(self):
         yield "force noise σ_F", engineering(self.force_noise, "N")
-        yield "reduced χ²", engineering(self.reduced_chi_square, "")
+        if np.isfinite(self.reduced_chi_square).all():
+            yield "reduced χ²", engineering(self.reduced_chi_square, "")

@@ -9,8 +9,10 @@ from ..report import engineering
 from .curve import critical_depth
 from .least_squares import autocorrelation, roughness
 
-#: Relative error of E* above which it counts as not determined.
-_VAGUE = 0.1
+#: Relative error of E* above which it counts as not determined, in general and from loading alone.
+_VAGUE, _VAGUE_LOADING = 0.1, 0.01
+#: Moduli (Pa) outside of which the units of the data are probably wrong.
+_SOFTEST, _STIFFEST = 1.0, 1e13
 #: Correlation with the frame compliance above which a remark is made.
 _CORRELATED = 0.9
 #: Number of standard errors above which a trend is significant.
@@ -27,10 +29,20 @@ class Remark:
 
 def remarks_of(solved):
     """Remarks on each curve of `SolvedCurves`, one tuple a curve."""
-    kinds = _ambiguous, _undetermined, _jitter, _class_b, _misfit
+    kinds = _units, _ambiguous, _undetermined, _jitter, _class_b, _misfit
     return [
         tuple(chain.from_iterable(remarks(solved, i) for remarks in kinds)) for i in range(len(solved.rows))
     ]
+
+
+def _units(solved, i):
+    """A modulus that no material has."""
+    values, _ = solved.values_and_states
+    E = values["E_star"][i, 0]
+    if not _SOFTEST <= E <= _STIFFEST and "E_star" in solved.problem.free:
+        yield Remark(
+            "units", f"E* = {engineering(E, 'Pa')} is that of no material: give depth in m and force in N"
+        )
 
 
 def _ambiguous(solved, i):
@@ -83,7 +95,7 @@ def _undetermined(solved, i):
     if solved.problem.memoryless:
         if _VAGUE < error < np.inf:
             yield Remark("vague", f"the data hardly determine E* (to {100 * error:.2g} %): hold E_star")
-    elif unloading < 2 and "E_star" in errors:
+    elif unloading < 2 and error > _VAGUE_LOADING:
         yield Remark(
             "loading",
             f"loading alone hardly determines E* (here to {100 * error:.2g} %): record the unloading, or "
@@ -165,7 +177,8 @@ def _misfit(solved, i):
         # Samples are in any order: that of depth is as good as that of time.
         correlation = max(correlation, autocorrelation(residual[np.argsort(problem.depth[i])]))
         cause = "not an elastic medium"
-    size = np.sqrt(chi) * np.median(problem.sigma[i]) / problem.load[i, 0]
+    _, state = solved.values_and_states
+    size = np.sqrt(np.mean((residual * problem.noise(state.slope)[i]) ** 2)) / problem.load[i, 0]
     if size < 1e-7:
         return
     if correlation > max(0.3, _SIGNIFICANT / np.sqrt(freedom)):
