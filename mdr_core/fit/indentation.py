@@ -14,7 +14,7 @@ from ..report import engineering
 from ..shapes.profile import Profile
 from ..shapes.tabulated import tabulated
 from ..yielding import LiveInterval
-from .curve import LOGARITHMIC, PARAMETERS, REACH
+from .curve import PARAMETERS, REACH
 from .least_squares import Fit
 from .remarks import Remark, remarks_of
 from .solution import grouped, solved
@@ -186,14 +186,11 @@ def _collected(profile, fits):
 def _arrays(fit):
     """Arrays of `SolvedCurves` by name, one row a curve."""
     problem, (values, state) = fit.problem, fit.values_and_states
+    units = problem.units(values)
     values = {name: np.broadcast_to(values[name], (len(fit.rows), 1))[:, 0] for name in PARAMETERS}
-    scale = problem.scale[:, : len(problem.free)].copy()
-    for i, name in enumerate(problem.free):
-        if name in LOGARITHMIC:
-            scale[:, i] = np.where(np.isfinite(values[name]), values[name], 1.0)
     chi, sigma = fit.reduced_chi_square, problem.sigma[:, 0]
     return values | {
-        "covariance": fit.covariance * (scale[:, :, None] * scale[:, None, :]),
+        "covariance": fit.covariance * (units[:, :, None] * units[:, None, :]),
         "residuals": fit.residual * problem.noise(state.slope),
         "reduced_chi_square": chi if fit.noise_known else np.full_like(chi, np.nan),
         "force_noise": sigma if fit.noise_known else sigma * np.sqrt(chi),

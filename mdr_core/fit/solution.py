@@ -117,15 +117,14 @@ def _first_sigma(force, noise, force_noise):
 def _minimum(problem, start):
     """Scaled parameters, residuals, derivatives, and which parameters are at a bound, near `start`."""
     lower, upper = np.full_like(start, -np.inf), np.full_like(start, np.inf)
+    longest = np.minimum((1 + REACH) * problem.length[:, 0], problem.profile.known_depth)
     for i, name in enumerate(problem.free):
-        if name in LOGARITHMIC:
+        if name == "contact_point":
+            lower[:, i], upper[:, i] = np.log(1e-4 * problem.length[:, 0]), np.log(longest)
+        elif name in LOGARITHMIC:
             lower[:, i], upper[:, i] = start[:, i] - 16, start[:, i] + 16
         elif name == "frame_compliance":
             lower[:, i] = 0.0
-        elif name == "contact_point":
-            lowest = problem.depth.max(axis=1) - problem.profile.known_depth
-            lower[:, i] = np.maximum((lowest - problem.offset[:, i]) / problem.scale[:, i], -REACH)
-            upper[:, i] = 1.0
     solution = least_squares(lambda x, rows: problem.rows(rows).residuals(x), start, lower, upper)
     return *solution, (solution[0] <= lower) | (solution[0] >= upper)
 

@@ -13,7 +13,7 @@ _DEPTHS = np.geomspace(3e-3, 1 + REACH, 48)
 #: Trial critical depths, as shares of the largest depth.
 _SHARES = np.concatenate([np.geomspace(2e-3, 0.5, 13), [0.65, 0.8, 0.92, 3.0]])
 #: Largest number of starts, and largest sum of squares of a start in units of the smallest one.
-_STARTS, _CLOSE = 3, 2.0
+_STARTS, _CLOSE = 4, 20.0
 
 
 def turning_points(depth, threshold):
