@@ -191,7 +191,7 @@ class TestIndentation:
             ({"depth_noise": -1e-9}, "depth_noise"),
             ({"E_star": -1.0}, "E_star"),
             ({"E_star": "free"}, "None, which makes it free"),
-            ({"depth": [], "force": []}, "depth is empty"),
+            ({"depth": [], "force": []}, "are empty"),
             ({"force": np.ma.masked_less(OUT, 0.0)}, "force has masked samples"),
             ({"depth": OUT[:3], "force": OUT[:3]}, "hold some"),
         ],

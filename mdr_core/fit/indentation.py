@@ -49,11 +49,11 @@ def fit_indentation(
         The indenter, one for all curves.
     depth, force : array_like
         Measured depths (m) and forces (N) in the order of time, of one shape: one curve (N,), or many
-        (R, N) with one indenter, each on a virgin medium. The origin of depth is free (`contact_point`).
+        (R, N) with one indenter, each on a virgin medium. With `q_c=inf` the order does not matter.
     E_star, q_c : float, optional
         Effective modulus (Pa) and yield constant (N/m); `q_c=inf` holds the medium elastic.
     contact_point : float, optional
-        Measured depth z₀ (m) at first contact.
+        Measured depth z₀ (m) at first contact, searched over the record and 30 of its ranges below.
     baseline : float, optional
         Measured force F₀ (N) without contact; 0 by default.
     frame_compliance : float, optional
@@ -111,8 +111,6 @@ def _data(depth, force):
     for name, values in (("depth", depth), ("force", force)):
         if np.ma.is_masked(values):
             raise ValueError(f"{name} has masked samples: leave them out of depth and force")
-        if not np.size(values):
-            raise ValueError(f"{name} is empty: a curve needs more samples than free parameters")
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
     force = _check.finite_array("force", force, unit="N", most=_check.LARGEST)
     if depth.shape != force.shape or not 1 <= depth.ndim <= 2:
@@ -120,6 +118,8 @@ def _data(depth, force):
             f"depth {depth.shape} and force {force.shape} must be of one shape, (N,) for a curve or (R, N) "
             "for many"
         )
+    if not depth.size:
+        raise ValueError("depth and force are empty: a curve needs more samples than free parameters")
     return np.atleast_2d(depth), np.atleast_2d(force), depth.ndim == 1
 
 
