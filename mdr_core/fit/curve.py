@@ -20,8 +20,10 @@ from ..yielding import LiveInterval, interval_at
 
 #: All parameters in the order of a fit, those fitted as logarithms, and those of springs and frame.
 PARAMETERS = ("E_star", "q_c", "contact_point", "baseline", "frame_compliance")
-LOGARITHMIC = ("E_star", "q_c")
+LOGARITHMIC = ("E_star", "q_c", "contact_point")
 _OF_FORCE = ("E_star", "q_c", "frame_compliance")
+#: The contact point is searched down to so many ranges of depth below the record.
+REACH = 30.0
 #: Steps of the search for the nearest point of a branch.
 _PROJECTIONS = 6
 
@@ -32,7 +34,7 @@ class CurveProblem:
 
     `fixed` holds the fixed parameters by name (R,); `depth_noise` and `sigma` (R, N) are the standard
     deviations of depth (m) and force (N); `turning_points` (R, K) and `loading_starts` are indices. Scaled
-    parameters x are logarithms of E* and q_c, otherwise shares of the ranges `length` (m) and `load` (N).
+    parameters x are logarithms of E*, q_c and `top` − z₀, otherwise shares of `length` (m) and `load` (N).
     """
 
     profile: object
@@ -50,6 +52,10 @@ class CurveProblem:
         return replace(self, fixed=fixed, **{name: getattr(self, name)[rows] for name in names})
 
     @cached_property
+    def top(self):
+        return self.depth.max(axis=1, keepdims=True)
+
+    @cached_property
     def length(self):
         return np.ptp(self.depth, axis=1, keepdims=True)
 
@@ -60,6 +66,11 @@ class CurveProblem:
     @cached_property
     def free(self):
         return tuple(name for name in PARAMETERS if name not in self.fixed)
+
+    @property
+    def memoryless(self):
+        """Whether the medium is held elastic: the order of the samples does not matter."""
+        return bool(np.all(np.isinf(self.fixed.get("q_c", 0.0))))
 
     @property
     def free_turning_points(self):
@@ -75,15 +86,15 @@ class CurveProblem:
     def scale(self):
         """Unit of each scaled parameter, 1 for a logarithm (R, P)."""
         length, load, logarithm = self.length, self.load, np.ones_like(self.length)
-        units = dict(zip(PARAMETERS, (logarithm, logarithm, length, load, length / load), strict=True))
+        units = (logarithm, logarithm, logarithm, load, length / load)
+        units = dict(zip(PARAMETERS, units, strict=True))
         return self._columns(units, np.repeat(length, self.turning_points.shape[1], axis=1))
 
     @cached_property
     def offset(self):
-        """Origin of each scaled parameter (R, P): lengths count from the lowest measured depth."""
-        low = self.depth.min(axis=1, keepdims=True)
-        origins = dict.fromkeys(PARAMETERS, np.zeros_like(low)) | {"contact_point": low}
-        return self._columns(origins, np.repeat(low, self.turning_points.shape[1], axis=1))
+        """Origin of each scaled parameter (R, P): turning depths count from the largest depth."""
+        origins = dict.fromkeys(PARAMETERS, np.zeros_like(self.top))
+        return self._columns(origins, np.repeat(self.top, self.turning_points.shape[1], axis=1))
 
     def parameters(self, x):
         """Parameters by name (R, 1) and turning depths (R, K) of scaled parameters."""
@@ -91,12 +102,24 @@ class CurveProblem:
         values = {name: value[:, None] for name, value in self.fixed.items()}
         for name, column in zip(self.free, plain.T, strict=False):
             values[name] = (np.exp(column) if name in LOGARITHMIC else column)[:, None]
+        if "contact_point" in self.free:
+            values["contact_point"] = self.top - values["contact_point"]
         return values, plain[:, len(self.free) :]
 
     def scaled(self, values, turning_depth):
         """Scaled parameters: the inverse of `parameters`."""
-        logarithms = {name: np.log(values[name]) for name in LOGARITHMIC}
-        return (self._columns(values | logarithms, turning_depth) - self.offset) / self.scale
+        values = values | {"contact_point": self.top - values["contact_point"]}
+        values |= {name: np.log(values[name]) for name in LOGARITHMIC if name in self.free}
+        return (self._columns(values, turning_depth) - self.offset) / self.scale
+
+    def units(self, values):
+        """Derivatives of the free parameters by the scaled ones (R, P)."""
+        units = self.scale[:, : len(self.free)].copy()
+        values = values | {"contact_point": values["contact_point"] - self.top}
+        for i, name in enumerate(self.free):
+            if name in LOGARITHMIC:
+                units[:, i] = np.where(np.isfinite(values[name]), values[name], 1.0)[:, 0]
+        return units
 
     @cached_property
     def branches(self):
@@ -111,6 +134,8 @@ class CurveProblem:
 
     def largest_so_far(self, depth, turning_depth):
         """Largest depth so far (m), and whether it is the depth of the sample itself."""
+        if self.memoryless:
+            return depth, np.ones(depth.shape, bool)
         if not self.depth_noise:
             largest = np.maximum.accumulate(depth, axis=1)
             return largest, depth >= largest
@@ -158,7 +183,7 @@ class CurveProblem:
         values, distance, state = self.states(x)
         noise = self.noise(state.slope)
         residual = self.force - values["baseline"] - state.force - state.slope * distance
-        return residual / noise, state.derivatives(self) / noise[..., None] * self.scale[:, None, :]
+        return residual / noise, state.derivatives(self, values) / noise[..., None] * self.scale[:, None, :]
 
     def noise(self, slope):
         """Standard deviation (N) of the residuals from both noises, at slopes of the curve (N/m)."""
@@ -236,11 +261,11 @@ class CurveState:
         gradient = np.stack([force - yielded, yielded])
         return cls(depth, depth, loading, interval, force, slope, memory_slope, gradient)
 
-    def derivatives(self, problem):
-        """−∂F/∂p of the free parameters and turning depths (R, N, P)."""
+    def derivatives(self, problem, values):
+        """−∂F by the free parameters, in logarithms, and by turning depths (R, N, P)."""
         columns = dict(zip(_OF_FORCE, -self.gradient, strict=False))
         columns |= {
-            "contact_point": self.slope + self.memory_slope,
+            "contact_point": (values["contact_point"] - problem.top) * (self.slope + self.memory_slope),
             "baseline": np.full_like(self.force, -1.0),
         }
         last, _ = problem.branches
@@ -255,13 +280,17 @@ def critical_depth(values):
 
 
 def _depth_in_frame(profile, values, displacement, largest, loading):
-    """Depth d (m) with d + C F(d) = `displacement`, by Newton's method from above."""
+    """Depth d (m) with d + C F(d) = `displacement`, by Newton's method from above within a bracket."""
     C, depth = values["frame_compliance"], displacement
-    for _ in range(40):
+    low, high = np.minimum(displacement, 0.0), displacement
+    for _ in range(60):
         so_far = np.where(loading, depth, largest)
         state = CurveState.on_rigid_frame(profile, values, depth, so_far, loading)
-        step = (depth + C * state.force - displacement) / (1 + C * state.slope)
-        depth = depth - step
-        if np.all(np.abs(step) <= 1e-15 * np.abs(displacement).max()):
+        excess = depth + C * state.force - displacement
+        low, high = np.where(excess < 0, depth, low), np.where(excess > 0, depth, high)
+        before, depth = depth, depth - excess / (1 + C * state.slope)
+        # The slope jumps where a flat face touches or yields: without bisection the steps may cycle.
+        depth = np.where((depth >= low) & (depth <= high), depth, (low + high) / 2)
+        if np.all(np.abs(depth - before) <= 1e-15 * np.abs(displacement).max()):
             break
     return depth

@@ -90,10 +90,9 @@ def fit_impacts(
     if errors.get("q_c") == np.inf and not np.any(jacobian[:, free.index("q_c")]):
         values["q_c"] = np.inf
         remarks[0] = "nothing has yielded: q_c = ∞ stands for more than these impacts determine; hit harder"
-    chi = float(residual @ residual) / max(residual.size - len(free), 1)
     covariance = _check.frozen(covariance * np.outer(scale, scale))
     residual = _check.frozen(residual * data.per_measurement(noise))
-    return ImpactFit(profile, Medium(**values), errors, covariance, residual, chi, tuple(remarks))
+    return ImpactFit(profile, Medium(**values), errors, covariance, residual, tuple(remarks))
 
 
 def _fixed(values):
@@ -121,8 +120,7 @@ class ImpactData:
         mass = _check.positive("mass", mass, unit="kg")
         speed = _check.positive("speed", speed, unit="m/s")
         e = np.asarray(_check.positive("restitution", restitution, zero=True))
-        remedy = "it is the speed after over the speed before"
-        _check.refuse("restitution", e, e > 1.5, "must lie between 0 and 1", remedy=remedy)
+        _check.refuse("restitution", e, e > 1.5, "must lie between 0 and 1", remedy="check the speeds")
         given = {"mass": mass, "speed": speed, "restitution": e}
         if time is not None:
             given["contact_time"] = _check.positive("contact_time", time, unit="s")
@@ -274,7 +272,8 @@ def _power_law(profile, depth):
     if a >= profile.wall or not 0 < slope < np.inf or g <= 0:
         return FlatPunch(a)
     n = float(np.clip(a * slope / g, 0.05, 100.0))
-    return PowerLaw(depth / kappa(n) / a**n, n)
+    # Just outside a flat face a^n may underflow.
+    return PowerLaw(depth / kappa(n) / a**n, n) if a**n > 1e-300 else FlatPunch(a)
 
 
 def _moduli(subset, energy, speed):
@@ -331,8 +330,6 @@ class ImpactFit(Fit):
         Covariance of the free parameters, in that order.
     residuals : ndarray
         Measured minus fitted restitution, followed by relative contact times (ln T) where given.
-    reduced_chi_square : float
-        Sum of squares in units of the estimated noise over the degrees of freedom, about 1.
     remarks : tuple of str
         Parameters that the data do not determine.
     """
@@ -342,10 +339,6 @@ class ImpactFit(Fit):
     standard_errors: dict[str, float]
     covariance: Array
     residuals: Array
-    reduced_chi_square: float
     remarks: tuple[str, ...]
 
     _medium_parameters = tuple(_UNITS)
-
-    def _quality(self):
-        yield "reduced χ²", f"{self.reduced_chi_square:.4g}"

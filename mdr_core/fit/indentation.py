@@ -14,7 +14,7 @@ from ..quantities import engineering
 from ..shapes.profile import Profile
 from ..superposition import tabulated
 from ..yielding import LiveInterval
-from .curve import LOGARITHMIC, PARAMETERS
+from .curve import PARAMETERS, REACH
 from .least_squares import Fit
 from .remarks import Remark, remarks_of
 from .solution import grouped, solved
@@ -50,11 +50,11 @@ def fit_indentation(
         The indenter, one for all curves.
     depth, force : array_like
         Measured depths (m) and forces (N) in the order of time, of one shape: one curve (N,), or many
-        (R, N) with one indenter, each on a virgin medium. The origin of depth is free (`contact_point`).
+        (R, N) with one indenter, each on a virgin medium. With `q_c=inf` the order does not matter.
     E_star, q_c : float, optional
         Effective modulus (Pa) and yield constant (N/m); `q_c=inf` holds the medium elastic.
     contact_point : float, optional
-        Measured depth z₀ (m) at first contact.
+        Measured depth z₀ (m) at first contact, searched over the record and 30 of its ranges below.
     baseline : float, optional
         Measured force F₀ (N) without contact; 0 by default.
     frame_compliance : float, optional
@@ -103,25 +103,34 @@ def fit_indentation(
         force_noise = _check.positive_number("force_noise", force_noise, unit="N")
     _refuse_empty(depth, force, fixed)
     data = tabulated(profile, _table_depth(profile, depth, fixed)), depth, force, fixed, noise, force_noise
-    fit = _collected(profile, [solved(*data, *group) for group in grouped(depth, force, noise)])
+    fit = _collected(profile, [solved(*data, *group) for group in grouped(depth, force, fixed, noise)])
     return fit[0] if single else fit
 
 
 def _data(depth, force):
     """Depth and force with one curve a row, and whether a single curve was given."""
+    for name, values in (("depth", depth), ("force", force)):
+        if np.ma.is_masked(values):
+            raise ValueError(f"{name} has masked samples: leave them out of depth and force")
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
     force = _check.finite_array("force", force, unit="N", most=_check.LARGEST)
-    if depth.shape != force.shape or not 1 <= depth.ndim <= 2 or not depth.shape[-1]:
+    if depth.shape != force.shape or not 1 <= depth.ndim <= 2:
         raise ValueError(
             f"depth {depth.shape} and force {force.shape} must be of one shape, (N,) for a curve or (R, N) "
             "for many"
         )
+    if not depth.size:
+        raise ValueError("depth and force are empty: a curve needs more samples than free parameters")
     return np.atleast_2d(depth), np.atleast_2d(force), depth.ndim == 1
 
 
 def _fixed(name, value, count):
     """A fixed parameter, one number a curve."""
     unit = _UNITS[name]
+    if isinstance(value, str):
+        raise ValueError(
+            f"{name} = {value!r} must be a number, which holds it, or None, which makes it free"
+        )
     if name in ("contact_point", "baseline"):
         value = _check.finite_array(name, value, unit=unit)
     else:
@@ -146,8 +155,8 @@ def _refuse_empty(depth, force, fixed):
 
 
 def _table_depth(profile, depth, fixed):
-    """Depth (m) to which the profile is tabulated: twice the measured range, or the largest depth."""
-    limit = 2 * float(np.ptp(depth, axis=1).max())
+    """Depth (m) to which the profile is tabulated: that of the farthest contact point."""
+    limit = (1 + REACH) * float(np.ptp(depth, axis=1).max())
     if "contact_point" in fixed:
         largest = depth.max(axis=1) - fixed["contact_point"]
         limit = max(limit, 1.01 * float(largest.max()))
@@ -178,16 +187,13 @@ def _collected(profile, fits):
 def _arrays(fit):
     """Arrays of `SolvedCurves` by name, one row a curve."""
     problem, (values, state) = fit.problem, fit.values_and_states
+    units = problem.units(values)
     values = {name: np.broadcast_to(values[name], (len(fit.rows), 1))[:, 0] for name in PARAMETERS}
-    scale = problem.scale[:, : len(problem.free)].copy()
-    for i, name in enumerate(problem.free):
-        if name in LOGARITHMIC:
-            scale[:, i] = np.where(np.isfinite(values[name]), values[name], 1.0)
     chi, sigma = fit.reduced_chi_square, problem.sigma[:, 0]
     return values | {
-        "covariance": fit.covariance * (scale[:, :, None] * scale[:, None, :]),
+        "covariance": fit.covariance * (units[:, :, None] * units[:, None, :]),
         "residuals": fit.residual * problem.noise(state.slope),
-        "reduced_chi_square": chi if fit.noise_known else np.ones_like(chi),
+        "reduced_chi_square": chi if fit.noise_known else np.full_like(chi, np.nan),
         "force_noise": sigma if fit.noise_known else sigma * np.sqrt(chi),
         "depth": state.depth, "lower": state.live_interval.lower, "upper": state.live_interval.upper,
         "length": state.live_interval.length,
@@ -211,7 +217,7 @@ class IndentationFit(Fit):
     residuals : ndarray
         Measured force minus force of the model at the measured depth (N).
     reduced_chi_square : float or ndarray
-        Sum of squares in units of the noise over the degrees of freedom; 1 where the noise was estimated
+        Sum of squares in units of the noise over the degrees of freedom, NaN where the noise was estimated
         from the residuals.
     force_noise : float or ndarray
         Standard deviation of the force (N), given or estimated.
@@ -238,6 +244,8 @@ class IndentationFit(Fit):
     _dimensions = ("curve",)
 
     def __getitem__(self, index: Any) -> "IndentationFit":
+        if not self.shape:
+            return super().__getitem__(index)
         return replace(
             self,
             medium=self.medium.entries(index),
@@ -263,4 +271,5 @@ class IndentationFit(Fit):
 
     def _quality(self):
         yield "force noise σ_F", engineering(self.force_noise, "N")
-        yield "reduced χ²", engineering(self.reduced_chi_square, "")
+        if np.isfinite(self.reduced_chi_square).all():
+            yield "reduced χ²", engineering(self.reduced_chi_square, "")

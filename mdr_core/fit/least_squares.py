@@ -31,7 +31,7 @@ _FURTHER_QUANTITIES = {
 }
 
 
-def least_squares(function, start, lower, upper, *, steps=80, tolerance=1e-11):
+def least_squares(function, start, lower, upper, *, steps=200, tolerance=1e-11):
     """Least squares by the Levenberg–Marquardt method, one problem a row: x, residual, jacobian.
 
     `function(x, rows)` returns residuals (R, N) and derivatives (R, N, P) at scaled parameters x (R, P),

@@ -1,6 +1,7 @@
 """Remarks on a fitted curve: parameters that the data do not determine, and deviations from the model."""
 
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
@@ -8,8 +9,12 @@ from ..quantities import engineering
 from .curve import critical_depth
 from .least_squares import autocorrelation, roughness
 
-#: Relative error of E* above which it counts as not determined.
-_VAGUE = 0.1
+#: Relative error of E* above which it counts as not determined, in general and from loading alone.
+_VAGUE, _VAGUE_LOADING = 0.1, 0.01
+#: Moduli (Pa) outside of which the units of the data are probably wrong.
+_SOFTEST, _STIFFEST = 1.0, 1e13
+#: Correlation with the frame compliance above which a remark is made.
+_CORRELATED = 0.9
 #: Number of standard errors above which a trend is significant.
 _SIGNIFICANT = 4.0
 
@@ -24,10 +29,48 @@ class Remark:
 
 def remarks_of(solved):
     """Remarks on each curve of `SolvedCurves`, one tuple a curve."""
+    kinds = _units, _ambiguous, _undetermined, _jitter, _class_b, _misfit
     return [
-        (*_undetermined(solved, i), *_jitter(solved, i), *_class_b(solved, i), *_misfit(solved, i))
-        for i in range(len(solved.rows))
+        tuple(chain.from_iterable(remarks(solved, i) for remarks in kinds)) for i in range(len(solved.rows))
     ]
+
+
+def _units(solved, i):
+    """A modulus that no material has."""
+    values, _ = solved.values_and_states
+    E = values["E_star"][i, 0]
+    if not _SOFTEST <= E <= _STIFFEST and "E_star" in solved.problem.free:
+        yield Remark(
+            "units", f"E* = {engineering(E, 'Pa')} is that of no material: give depth in m and force in N"
+        )
+
+
+def _ambiguous(solved, i):
+    """Parameters at a bound, a second minimum that is about as good, a frame that stands for the medium."""
+    problem, squares = solved.problem, np.sum(solved.residual[i] ** 2)
+    for name, at_bound in zip(problem.free, solved.at_bound[i], strict=False):
+        if at_bound:
+            yield Remark(
+                f"bound {name}", f"{name} is at the bound of its search: hold it, or check the data"
+            )
+    noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
+    if solved.rival_squares[i] - squares <= _SIGNIFICANT**2 * noise:
+        rival, _ = problem.rows([i]).parameters(solved.rival[[i]])
+        E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
+        yield Remark(
+            "second minimum",
+            f"E* = {E} with contact at {point} fits about as well: hold contact_point or E_star",
+        )
+    if {"E_star", "frame_compliance"} <= set(problem.free):
+        pair = [problem.free.index(name) for name in ("E_star", "frame_compliance")]
+        block = solved.covariance[i][np.ix_(pair, pair)]
+        correlation = block[0, 1] / max(np.sqrt(block[0, 0] * block[1, 1]), 1e-300)
+        if abs(correlation) > _CORRELATED:
+            yield Remark(
+                "frame",
+                f"E* and frame_compliance are nearly one parameter (correlation {correlation:.3f}): hold "
+                "frame_compliance",
+            )
 
 
 def _undetermined(solved, i):
@@ -49,7 +92,10 @@ def _undetermined(solved, i):
         )
     unloading = np.count_nonzero((state.live_interval.length[i] > 0) & ~state.loading[i])
     error = errors.get("E_star", 0.0)
-    if unloading < 2 and "E_star" in errors:
+    if solved.problem.memoryless:
+        if _VAGUE < error < np.inf:
+            yield Remark("vague", f"the data hardly determine E* (to {100 * error:.2g} %): hold E_star")
+    elif unloading < 2 and error > _VAGUE_LOADING:
         yield Remark(
             "loading",
             f"loading alone hardly determines E* (here to {100 * error:.2g} %): record the unloading, or "
@@ -71,11 +117,12 @@ def _undetermined(solved, i):
 
 
 def _jitter(solved, i):
-    """Depths that go back and forth although they are taken as exact."""
+    """Depths that go back and forth although they are taken as exact: without memory they may."""
     depth = solved.problem.depth[[i]]
     steps = np.diff(depth[0])
     reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
-    if not solved.problem.depth_noise and reversals > max(4, 0.05 * steps.size):
+    exact = not (solved.problem.depth_noise or solved.problem.memoryless)
+    if exact and reversals > max(4, 0.05 * steps.size):
         noise = engineering(roughness(depth)[0, 0], "m")
         yield Remark(
             "jitter",
@@ -125,15 +172,20 @@ def _misfit(solved, i):
     """Residuals that are not noise."""
     problem, residual = solved.problem, solved.residual[i]
     freedom, chi = max(residual.size - solved.x.shape[1], 1), solved.reduced_chi_square[i]
-    correlation = autocorrelation(residual)
-    size = np.sqrt(chi) * np.median(problem.sigma[i]) / problem.load[i, 0]
+    correlation, cause = autocorrelation(residual), "not class (b)"
+    if problem.memoryless:
+        # Samples are in any order: that of depth is as good as that of time.
+        correlation = max(correlation, autocorrelation(residual[np.argsort(problem.depth[i])]))
+        cause = "not an elastic medium"
+    _, state = solved.values_and_states
+    size = np.sqrt(np.mean((residual * problem.noise(state.slope)[i]) ** 2)) / problem.load[i, 0]
     if size < 1e-7:
         return
     if correlation > max(0.3, _SIGNIFICANT / np.sqrt(freedom)):
         yield Remark(
             "misfit",
             f"the residuals ({100 * size:.2g} % of the force) are not noise but correlated with their "
-            f"neighbours ({correlation:.2f}): not class (b), or another profile; errors are underestimated",
+            f"neighbours ({correlation:.2f}): {cause}, or another profile; errors are underestimated",
         )
     elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom):
         yield Remark("noisy", f"χ² per degree of freedom is {chi:.3g}: the noise is larger than given")

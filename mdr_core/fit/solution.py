@@ -6,9 +6,9 @@ from functools import cached_property
 import numpy as np
 
 from .._numeric import chunks
-from .curve import LOGARITHMIC, CurveProblem, critical_depth
+from .curve import LOGARITHMIC, REACH, CurveProblem, critical_depth
 from .least_squares import covariances, least_squares, roughness
-from .start import first_guess, turning_points
+from .start import first_guesses, turning_points
 
 #: Number of curves that are solved together.
 _TOGETHER = 64
@@ -20,13 +20,20 @@ _LOG_OF_INFINITE = 300.0
 
 @dataclass(frozen=True)
 class SolvedCurves:
-    """Curves `rows` of a measurement, the solution of their problem, and whether they are elastic (R,)."""
+    """Curves `rows` of a measurement, the solution of their problem, and whether they are elastic (R,).
+
+    `at_bound` (R, P) says which parameters stopped at a bound. `rival` is the second-best minimum in scaled
+    parameters (R, P), `rival_squares` its sum of squares, infinite where there is none.
+    """
 
     rows: np.ndarray
     problem: CurveProblem
     x: np.ndarray
     residual: np.ndarray
     jacobian: np.ndarray
+    at_bound: np.ndarray
+    rival: np.ndarray
+    rival_squares: np.ndarray
     elastic: np.ndarray
     hardly_yields: np.ndarray
     noise_known: bool
@@ -50,8 +57,10 @@ class SolvedCurves:
         return covariances(self.jacobian, variance)[:, :free, :free]
 
 
-def grouped(depth, force, noise):
+def grouped(depth, force, fixed, noise):
     """Yields curves with the same number of turning points: rows, turning points, starts of loadings.
+
+    A medium that is held elastic has no memory and neither of these.
 
     Depth and force turn at the same sample: both are added in units in which the quieter one weighs more.
     """
@@ -63,6 +72,8 @@ def grouped(depth, force, noise):
         variance = variance + (weight * sigma / size) ** 2
     thresholds = np.maximum(threshold, 6 * np.sqrt(variance))[:, 0].tolist()
     indices = [turning_points(row.tolist(), size) for row, size in zip(path, thresholds, strict=True)]
+    elastic = np.isinf(fixed.get("q_c", np.zeros(len(depth))))
+    indices = [((), ()) if known else pair for known, pair in zip(elastic, indices, strict=True)]
     counts = [(len(turns), len(starts)) for turns, starts in indices]
     for count in sorted(set(counts)):
         rows = np.array([i for i, other in enumerate(counts) if other == count])
@@ -76,9 +87,10 @@ def solved(profile, depth, force, fixed, noise, force_noise, rows, turns, starts
     """Solves curves with the same number of turning points."""
     depth, force = depth[rows], force[rows]
     fixed = {name: value[rows] for name, value in fixed.items()}
-    sigma = _first_sigma(force, noise, force_noise)
+    order = np.argsort(depth, axis=1) if not starts.size else np.arange(depth.shape[1])[None]
+    sigma = _first_sigma(np.take_along_axis(force, order, axis=1), noise, force_noise)
     problem = CurveProblem(profile, depth, force, fixed, noise, sigma, turns, starts)
-    solution = _minimum(problem, first_guess(problem))
+    solution, rival = _best_minimum(problem)
     for _ in range(_ROUNDS if noise and turns.size else 0):
         before, problem = problem, problem.with_best_turning_points(solution[0])
         if np.array_equal(before.turning_points, problem.turning_points):
@@ -89,7 +101,7 @@ def solved(profile, depth, force, fixed, noise, force_noise, rows, turns, starts
         elastic, hardly_yields = np.isinf(fixed["q_c"]), np.zeros(len(rows), bool)
     else:
         solution, elastic, hardly_yields = _compared_with_elastic(problem, solution, noise_known)
-    return SolvedCurves(rows, problem, *solution, elastic, hardly_yields, noise_known)
+    return SolvedCurves(rows, problem, *solution, *rival, elastic, hardly_yields, noise_known)
 
 
 def _first_sigma(force, noise, force_noise):
@@ -103,18 +115,41 @@ def _first_sigma(force, noise, force_noise):
 
 
 def _minimum(problem, start):
-    """Scaled parameters, residuals and derivatives at the minimum near `start`."""
+    """Scaled parameters, residuals, derivatives, and which parameters are at a bound, near `start`."""
     lower, upper = np.full_like(start, -np.inf), np.full_like(start, np.inf)
+    longest = np.minimum((1 + REACH) * problem.length[:, 0], problem.profile.known_depth)
     for i, name in enumerate(problem.free):
-        if name in LOGARITHMIC:
+        if name == "contact_point":
+            lower[:, i], upper[:, i] = np.log(1e-4 * problem.length[:, 0]), np.log(longest)
+        elif name in LOGARITHMIC:
             lower[:, i], upper[:, i] = start[:, i] - 16, start[:, i] + 16
         elif name == "frame_compliance":
             lower[:, i] = 0.0
-        elif name == "contact_point":
-            lowest = problem.depth.max(axis=1) - problem.profile.known_depth
-            lower[:, i] = np.maximum((lowest - problem.offset[:, i]) / problem.scale[:, i], -1.0)
-            upper[:, i] = 1.0
-    return least_squares(lambda x, rows: problem.rows(rows).residuals(x), start, lower, upper)
+    solution = least_squares(lambda x, rows: problem.rows(rows).residuals(x), start, lower, upper)
+    return *solution, (solution[0] <= lower) | (solution[0] >= upper)
+
+
+def _best_minimum(problem):
+    """The best minimum, and the second-best one that differs in E* or contact point, with its squares."""
+    (_, start), *others = first_guesses(problem)
+    solution = _minimum(problem, start)
+    rival, rival_squares = solution[0].copy(), np.full(len(start), np.inf)
+    columns = [i for i, name in enumerate(problem.free) if name in ("E_star", "contact_point")]
+    for rows, start in others:
+        trial = _minimum(problem.rows(rows), start)
+        x, squares, trial_squares = (
+            solution[0][rows],
+            np.sum(solution[1][rows] ** 2, axis=1),
+            np.sum(trial[1] ** 2, axis=1),
+        )
+        differs = np.any(np.abs(trial[0] - x)[:, columns] > 0.05, axis=1)
+        better, worse = trial_squares < squares, np.maximum(squares, trial_squares)
+        second = differs & (worse < rival_squares[rows])
+        rival[rows[second]] = np.where(better[:, None], x, trial[0])[second]
+        rival_squares[rows[second]] = worse[second]
+        for whole, part in zip(solution, trial, strict=True):
+            whole[rows[better]] = part[better]
+    return solution, (rival, rival_squares)
 
 
 def _compared_with_elastic(problem, solution, noise_known):
@@ -122,7 +157,7 @@ def _compared_with_elastic(problem, solution, noise_known):
 
     In an elastic medium q_c has no derivative: a second search starts below the largest depth.
     """
-    x, residual, _ = solution
+    x, residual, *_ = solution
     elastic, hardly_yields = np.zeros((2, len(x)), bool)
     column, freedom = problem.free.index("q_c"), max(residual.shape[1] - x.shape[1], 1)
     share = _yield_share(problem, x)
@@ -133,11 +168,13 @@ def _compared_with_elastic(problem, solution, noise_known):
     start[:, column] += np.minimum(np.log(0.85 / share[rows]), 0.0)
     yielding = _minimum(subset, start)
     held = replace(subset, fixed=subset.fixed | {"q_c": np.full(rows.size, np.inf)})
-    elastic_x, elastic_residual, jacobian = _minimum(held, np.delete(x[rows], column, axis=1))
+    start = np.delete(x[rows], column, axis=1)
+    elastic_x, elastic_residual, jacobian, at_bound = _minimum(held, start)
     unyielding = (
         np.insert(elastic_x, column, _LOG_OF_INFINITE, axis=1),
         elastic_residual,
         np.insert(jacobian, column, 0.0, axis=2),
+        np.insert(at_bound, column, False, axis=1),
     )
     residuals = residual[rows], yielding[1], elastic_residual
     squares = np.array([np.sum(values**2, axis=1) for values in residuals])

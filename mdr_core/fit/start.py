@@ -4,12 +4,16 @@ import numpy as np
 
 from ..superposition import radius_integral
 from ..yielding import elastic_interval, interval_at
-from .curve import PARAMETERS
+from .curve import PARAMETERS, REACH
 
 #: Trial frame compliances, in units of the range of depth over the range of force.
 _COMPLIANCES = np.array([0.0, 0.05, 0.15, 0.3, 0.5])
+#: Trial depths of contact at the largest depth, in units of the range of depth.
+_DEPTHS = np.geomspace(3e-3, 1 + REACH, 48)
 #: Trial critical depths, as shares of the largest depth.
 _SHARES = np.concatenate([np.geomspace(2e-3, 0.5, 13), [0.65, 0.8, 0.92, 3.0]])
+#: Largest number of starts, and largest sum of squares of a start in units of the smallest one.
+_STARTS, _CLOSE = 4, 20.0
 
 
 def turning_points(depth, threshold):
@@ -34,27 +38,23 @@ def turning_points(depth, threshold):
     return turns, starts
 
 
-def first_guess(problem):
-    """Scaled parameters at the start: the best of a grid of contact points and critical depths.
+def first_guesses(problem):
+    """Starts of a search, the best first, each with its rows and their scaled parameters.
 
-    The force is 2E* times a function of these two; E* and the baseline follow by linear regression.
+    They are the minima over a grid of contact points, with the best of grids of critical depths and frame
+    compliances. The force is E* times a function of these: E* and baseline follow by linear regression.
     """
-    count = problem.depth.shape[1]
-    subset = np.unique(np.linspace(0, count - 1, min(count, 64)).astype(int))
-    limit = min(2 * float(problem.length.max()), problem.profile.known_depth)
-    depths = limit * np.append(0.0, np.geomspace(1e-5, 1, 300))
+    largest = min((1 + REACH) * float(problem.length.max()), problem.profile.known_depth)
+    depths = largest * np.append(0.0, np.geomspace(1e-7, 1, 600))
     table = depths, radius_integral(problem.profile, elastic_interval(depths))
     turning_depth = _turning_depth(problem)
-    guesses = []
-    for row in range(len(problem.depth)):
-        curve = problem.rows([row])
-        fixed = {name: float(value[0]) for name, value in curve.fixed.items()}
-        unit = float((curve.length / curve.load)[0, 0])
-        compliances = [fixed["frame_compliance"]] if "frame_compliance" in fixed else _COMPLIANCES * unit
-        trials = [_guess(curve, fixed, turning_depth[[row]], subset, table, C) for C in compliances]
-        guesses.append(min(trials, key=lambda trial: trial["squares"]))
-    values = {name: np.array([[guess[name]] for guess in guesses]) for name in PARAMETERS}
-    return problem.scaled(values, turning_depth)
+    guesses = [
+        _guesses(problem.rows([row]), turning_depth[[row]], table) for row in range(len(problem.depth))
+    ]
+    for k in range(max(map(len, guesses))):
+        rows = np.array([i for i, minima in enumerate(guesses) if len(minima) > k])
+        values = {name: np.array([[guesses[i][k][name]] for i in rows]) for name in PARAMETERS}
+        yield rows, problem.rows(rows).scaled(values, turning_depth[rows])
 
 
 def _turning_depth(problem):
@@ -66,51 +66,62 @@ def _turning_depth(problem):
     return np.take_along_axis(problem.depth[:, None], neighbours, axis=2).mean(axis=2)
 
 
-def _guess(curve, fixed, turning_depth, subset, table, compliance):
-    """Parameters of one curve by name, and the sum of squares of its residuals."""
+def _guesses(curve, turning_depth, table):
+    """Parameters of one curve by name at the minima over its contact points, the best first."""
+    fixed = {name: float(value[0]) for name, value in curve.fixed.items()}
+    unit = float((curve.length / curve.load)[0, 0])
+    compliances = [fixed["frame_compliance"]] if "frame_compliance" in fixed else _COMPLIANCES * unit
+    grids = [_grid(curve, fixed, turning_depth, table, C) for C in compliances]
+    trials = [min(column, key=lambda trial: trial["squares"]) for column in zip(*grids, strict=True)]
+    squares = np.array([np.inf, *(trial["squares"] for trial in trials), np.inf])
+    minima = (squares[1:-1] <= squares[:-2]) & (squares[1:-1] < squares[2:])
+    minima &= squares[1:-1] <= _CLOSE * squares.min()
+    return sorted((trials[i] for i in np.flatnonzero(minima)), key=lambda trial: trial["squares"])[:_STARTS]
+
+
+def _grid(curve, fixed, turning_depth, table, compliance):
+    """Parameters by name and sum of squares of the best critical depth for each contact point."""
     force, depth = curve.force[0], curve.depth[0]
-    top, bottom = force.max(), fixed.get("baseline", float(np.quantile(force, 0.05)))
-    depth = depth - compliance * (force - bottom)
-    touch = float(depth[np.argmax(force - bottom > 0.05 * (top - bottom))])
-    width = max(float(depth.max()) - touch, 1e-3 * float(curve.length[0, 0]))
-    point = np.array([fixed["contact_point"]]) if "contact_point" in fixed else None
-    point = touch - width * np.linspace(0, 1, 16) ** 1.5 if point is None else point
-    memoryless = {"E_star", "q_c"} <= set(fixed) or fixed.get("q_c") == np.inf
-    shares = np.ones(1) if memoryless else _SHARES
-    point, shares = (values.ravel()[:, None] for values in np.meshgrid(point, shares))
-    d_c = shares * np.maximum(depth.max() - point, 1e-3 * width)
-    if memoryless:
-        d_c[:] = np.pi / 2 * fixed["q_c"] / fixed.get("E_star", 1.0)
+    count = min(depth.size, 512 if curve.memoryless else 64)
+    subset = np.union1d(np.linspace(0, depth.size - 1, count).astype(int), np.argmax(depth))
+    depth = depth - compliance * (force - fixed.get("baseline", float(np.quantile(force, 0.05))))
     largest, _ = curve.largest_so_far(depth[None], turning_depth)
-    interval = interval_at(largest[:, subset] - point, depth[subset] - point, d_c)
+    top, length = float(depth.max()), float(curve.length[0, 0])
+    points = top - np.minimum(length * _DEPTHS, curve.profile.known_depth)
+    points = np.array([fixed["contact_point"]]) if "contact_point" in fixed else points
+    known = curve.memoryless or {"E_star", "q_c"} <= set(fixed)
+    points, shares = points[:, None, None], np.ones(1) if known else _SHARES
+    d_c = shares[:, None] * np.maximum(top - points, 1e-3 * length)
+    if known:
+        d_c[:] = np.pi / 2 * fixed["q_c"] / fixed.get("E_star", 1.0)
+    interval = interval_at(largest[:, subset] - points, depth[subset] - points, d_c)
     unit_force = 2 * (np.interp(interval.upper, *table) - np.interp(interval.lower, *table))
     modulus, baseline = _regression(unit_force, force[subset], fixed, d_c)
-    squares = np.sum((force[subset] - baseline - modulus * unit_force) ** 2, axis=1)
-    best = int(np.argmin(np.where(np.isfinite(squares), squares, np.inf)))
-    E, d_c = float(modulus[best, 0]), float(d_c[best, 0])
-    guess = {"E_star": E, "q_c": 2 / np.pi * E * d_c, "contact_point": float(point[best, 0])}
-    guess |= {
-        "baseline": float(baseline[best, 0]),
-        "frame_compliance": compliance,
-        "squares": squares[best],
-    }
-    return guess | fixed
+    squares = np.sum((force[subset] - baseline - modulus * unit_force) ** 2, axis=-1)
+    squares = np.where(np.isfinite(squares), squares, np.finfo(float).max)
+    for i, j in enumerate(squares.argmin(axis=1)):
+        E = float(modulus[i, j, 0])
+        yield {
+            "E_star": E, "q_c": 2 / np.pi * E * float(d_c[i, j, 0]), "baseline": float(baseline[i, j, 0]),
+            "contact_point": float(points[i, 0, 0]), "frame_compliance": compliance,
+            "squares": squares[i, j], **fixed,
+        }  # fmt: skip
 
 
 def _regression(unit_force, force, fixed, d_c):
-    """E* and baseline (G, 1) of the line E* × unit force + baseline that is nearest to the force."""
+    """E* and baseline of the line E* × unit force + baseline that is nearest to the force."""
     if "baseline" in fixed:
         mean, centre = 0.0, fixed["baseline"]
     else:
-        mean, centre = unit_force.mean(axis=1, keepdims=True), force.mean()
+        mean, centre = unit_force.mean(axis=-1, keepdims=True), force.mean()
     if "E_star" in fixed:
         modulus = np.full_like(d_c, fixed["E_star"])
     elif fixed.get("q_c", np.inf) < np.inf:
         modulus = np.pi / 2 * fixed["q_c"] / d_c
     else:
         deviation = unit_force - mean
-        power = np.sum(deviation**2, axis=1, keepdims=True)
-        product = np.sum(deviation * (force - centre), axis=1, keepdims=True)
+        power = np.sum(deviation**2, axis=-1, keepdims=True)
+        product = np.sum(deviation * (force - centre), axis=-1, keepdims=True)
         smallest = 1e-6 * np.ptp(force) / np.maximum(np.ptp(unit_force), 1e-300)
         modulus = np.maximum(product / np.maximum(power, 1e-300), smallest)
     return modulus, centre - modulus * mean
