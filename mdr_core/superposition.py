@@ -259,10 +259,15 @@ def _table_integrals(profile, lower, upper, length, moments):
 
 def _differences(table, lower, upper, length, moments):
     """`_table_integrals` over long intervals."""
-    low, high = table.area(lower), table.area(upper)
-    if moments == 1:
-        return (high - low)[None]
-    return np.array([high - low, table.volume(upper) - table.volume(lower) - length * low])
+    result = np.array([integral(upper) for integral in (table.area, table.volume)[:moments]])
+    # Both are 0 at the tip, where elastic intervals start.
+    if lower.any():
+        area = table.area(lower)
+        result[0] -= area
+        if moments > 1:
+            result[1] -= table.volume(lower)
+            result[1] -= length * area
+    return result
 
 
 def loading_depth(profile, critical_depth, area):

@@ -3,6 +3,7 @@
 import itertools
 import math
 
+import numpy as np
 from scipy.integrate import quad
 
 import mdr_core as mdr
@@ -44,3 +45,16 @@ def integrate(function, breaks):
 
         total += quad(unfolded, -math.pi / 2, math.pi / 2, limit=200, epsabs=0, epsrel=1e-9)[0]
     return total
+
+
+def lower_hull(r, z):
+    """Radii and heights of the convex polygon below samples."""
+    hull = []
+    for point in np.column_stack([r, z]):
+        while len(hull) > 1:
+            (r1, z1), (r2, z2) = hull[-1] - hull[-2], point - hull[-1]
+            if r1 * z2 >= z1 * r2:
+                break
+            hull.pop()
+        hull.append(point)
+    return np.transpose(hull)

@@ -146,3 +146,13 @@ def test_bad_entries_are_named(arguments, says):
 def test_bad_arrays_of_parameters_are_refused(make, says):
     with pytest.raises(ValueError, match=says):
         make()
+
+
+def test_many_shallow_impacts_of_a_flat_face():
+    """Many impacts are solved with a table; on a face it has to hold a fractional power of a tiny depth."""
+    tip = mdr.Sampled([0.0, 1e-6, 2e-6, 9e-6], [0.0, 0.0, 3e-7, 3e-6])
+    medium, depth = mdr.Medium(1e12, 2000.0), np.geomspace(1e-16, 1e-6, 60)
+    states = mdr.indent(tip, medium, depth[:, None])
+    energy = (states.stored_energy + states.plastic_work)[:, 0]
+    hits = mdr.impact(tip, medium, 1e-9, np.sqrt(2 * energy / 1e-9))
+    np.testing.assert_allclose(hits.max_depth, depth, rtol=1e-14)

@@ -7,7 +7,7 @@ import pytest
 
 import mdr_core as mdr
 
-from .shapes import integrate
+from .shapes import integrate, lower_hull
 
 MEDIUM = mdr.Medium(1e9, 1.0)
 D_C = MEDIUM.critical_depth
@@ -15,21 +15,6 @@ HISTORIES = ((0.4,), (3.0,), (100.0,), (1000.0, 999.5))
 # What is left of a tip of 10 µm curvature with a noise of 2 nm.
 _R = np.linspace(0.0, 1e-5, 2000)
 _NOISE = 2e-9 * np.random.default_rng(11).standard_normal(_R.size) * (_R > 0)
-
-
-def lower_hull(r, z):
-    """Radii and heights of the convex polygon below samples."""
-    hull = []
-    for point in np.column_stack([r, z]):
-        while len(hull) > 1:
-            (r1, z1), (r2, z2) = hull[-1] - hull[-2], point - hull[-1]
-            if r1 * z2 >= z1 * r2:
-                break
-            hull.pop()
-        hull.append(point)
-    return np.transpose(hull)
-
-
 HULL = mdr.Sampled(*lower_hull(_R, _R**2 / 2e-5 + np.abs(_NOISE)))
 
 
