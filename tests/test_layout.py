@@ -19,8 +19,8 @@ ORDER = (
     "foundation.depth_path", "foundation.force_path", "foundation.free_body", "foundation.impact",
     "yielding", "superposition", "fields", "stress", "indentation",
     "dynamics.energy_balance", "dynamics.contact_time", "scaling", "dynamics.equation_of_motion",
-    "dynamics.motion", "dynamics.impact", "dynamics.levels", "dynamics.friction",
-    "dynamics.oblique_motion", "dynamics.ball",
+    "dynamics.steps", "dynamics.legs", "dynamics.course", "dynamics.motion", "dynamics.impact",
+    "dynamics.levels", "dynamics.friction", "dynamics.oblique_motion", "dynamics.ball",
     "dynamics.oblique", "sweep",
     "fit.least_squares", "fit.curve", "fit.start", "fit.solution", "fit.remarks", "fit.indentation",
     "fit.hardness", "fit.impacts", "drives", "scene", "figures", "__init__",
@@ -28,8 +28,8 @@ ORDER = (
 # What the chain bears witness of.
 CHECKED = {
     "yielding", "superposition", "fields", "indentation", "dynamics.impact",
-    "dynamics.energy_balance", "dynamics.contact_time", "dynamics.equation_of_motion", "dynamics.motion",
-    "scaling", "shapes.tabulated", "stress",
+    "dynamics.energy_balance", "dynamics.contact_time", "dynamics.equation_of_motion", "dynamics.steps",
+    "dynamics.legs", "dynamics.course", "dynamics.motion", "scaling", "shapes.tabulated", "stress",
 }  # fmt: skip
 
 

@@ -5,7 +5,7 @@ import pytest
 
 import mdr_core as mdr
 from mdr_core.dynamics.friction import changes, slide
-from mdr_core.dynamics.levels import NormalMotion
+from mdr_core.dynamics.levels import levels
 
 from .shapes import SHAPES, name
 
@@ -162,17 +162,15 @@ def test_against_superposition(psi):
 
 def _run(hit, halvings, instants=()):
     stiffness = 2 * KAPPA * hit.medium.E_star
-    motion = NormalMotion(hit.normal)
-    levels = motion.levels(stiffness / hit.tangential_mass, halvings, instants)
-    return slide(
-        motion, levels, stiffness / hit.tangential_mass, hit.friction / KAPPA / hit.tangential_speed
-    )
+    grid = levels(hit.normal, stiffness / hit.tangential_mass, halvings, instants)
+    hold = hit.friction / KAPPA / hit.tangential_speed
+    return slide(hit.normal, grid, stiffness / hit.tangential_mass, hold)
 
 
 def test_errors_of_second_order():
     """With levels where stick begins, a quarter of the error is left by twice the levels."""
     hit = hit_at(1.8)
-    instants = changes(NormalMotion(hit.normal), _run(hit, 4), MU / KAPPA / hit.tangential_speed)
+    instants = changes(hit.normal, _run(hit, 4), MU / KAPPA / hit.tangential_speed)
     values = np.array([_run(hit, halvings, instants).quantities[[0, 2]] for halvings in range(4)])
     differences = np.abs(np.diff(values, axis=0))
     np.testing.assert_allclose(differences[:-1] / differences[1:], 4.0, rtol=0.1)

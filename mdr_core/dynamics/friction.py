@@ -116,13 +116,17 @@ def _largest(time, values):
     return values[i] if kink or bend[1] >= 0 else values[i] - top**2 / (4 * bend[1])
 
 
-def slide(motion, levels, inertia, hold, instants=()):
+def slide(hit, levels, inertia, hold, instants=()):
     """One `Run` of a body that comes with tangential speed 1, C = `inertia`, and B = `hold` × load."""
-    row = Row.of(motion.profile, levels.depth)
-    lower = np.maximum(levels.depth - motion.critical_depth, 0.0)
-    interval = np.minimum(levels.depth, motion.critical_depth) + motion.tau * levels.velocity
-    number, part = _partly_yielded(motion.profile, row, levels, lower)
-    state = _State(row, inertia, motion.tau, np.append(levels.down, levels.up[1:]), instants)
+    tau, d_c, row = (
+        float(hit.medium.relaxation_time),
+        hit.medium.critical_depth,
+        Row.of(hit.profile, levels.depth),
+    )
+    lower = np.maximum(levels.depth - d_c, 0.0)
+    interval = np.minimum(levels.depth, d_c) + tau * levels.velocity
+    number, part = _partly_yielded(hit.profile, row, levels, lower)
+    state = _State(row, inertia, tau, np.append(levels.loading_time, levels.unloading_time[1:]), instants)
     total = row.mean.size
     for i in range(levels.depth.size):
         count, old = min(i + 1, total), min(i, total)
@@ -130,9 +134,9 @@ def slide(motion, levels, inertia, hold, instants=()):
         if lower[i] > 0 and number[i] < count:
             rise[number[i]] = part[i]
         # What is met at a speed begins with the load of its dashpot.
-        state.meet(old, count, hold * motion.tau * levels.velocity[max(i - 1, 0)])
+        state.meet(old, count, hold * tau * levels.velocity[max(i - 1, 0)])
         state.step(i, np.maximum(hold * (interval[i] - rise), 0.0), slice(old, count))
-    rise = np.maximum(row.mean - motion.lower, 0.0)
+    rise = np.maximum(row.mean - hit.plastic_depth, 0.0)
     for k in range(1, levels.live_depth.size):
         count = min(levels.depth.size - k, total)
         bound = np.zeros(state.count)
@@ -142,13 +146,12 @@ def slide(motion, levels, inertia, hold, instants=()):
     return state.run()
 
 
-def changes(motion, run, hold):
+def changes(hit, run, hold):
     """Instants (s) at which all elements that slip begin to stick, as they do together.
 
     Slip ends where the surface is no faster than the bound grows, W = ±(μ/κ) v, or W = 0 where it yields.
     """
-    time, turn = run.time, motion.turn
-    velocity = np.where(time < turn, motion.loading.velocity(time), motion.unloading.velocity(time))
+    time, velocity = run.time, hit._course.at(run.time).velocity
     found = []
     for excess in (run.velocity - hold * velocity, run.velocity + hold * velocity, run.velocity):
         i = np.flatnonzero(excess[:-1] * excess[1:] < 0)

@@ -20,8 +20,10 @@ from ..scaling import FastLimit, fast_limit, how_fast
 from ..shapes.profile import Profile
 from ..superposition import radius_integral
 from .contact_time import contact_time
+from .course import Course
 from .energy_balance import dry_restitution, loading_interval, plastic_integral, quick, turning_interval
-from .equation_of_motion import Bodies, solve
+from .equation_of_motion import Bodies
+from .legs import solve
 from .motion import motion
 
 
@@ -140,13 +142,13 @@ def _in_time(profile, medium, mass, speed, before, dry_too):
     interval, increase = _dry(profile, medium, mass, speed, before)
     y = np.where(interval.upper < np.inf, interval.length + increase, np.inf)
     bodies = Bodies.of(profile, medium, mass, speed, before, y)
-    wet = (bodies.tau[:, 0] > 0) | dry_too
+    wet = (bodies.relaxation_time[:, 0] > 0) | dry_too
     ends = np.zeros((4, y.size))
     for part in chunks(np.count_nonzero(wet), 256):
         rows = np.flatnonzero(wet)[part]
-        course = solve(bodies.rows(rows))
-        y.reshape(-1)[rows] = course.deepest
-        ends[:, rows] = course.velocity, course.time, course.work, course.peak
+        solution = solve(bodies.rows(rows))
+        y.reshape(-1)[rows] = solution.penetration
+        ends[:, rows] = solution.velocity, solution.time, solution.work, solution.max_deceleration
     velocity, time, work, peak = ends.reshape(4, *shape)
     restitution, force, still = np.minimum(-velocity / speed, 1.0), peak * mass, ~wet.reshape(shape)
     interval, increase = loading_interval(y, d_c, before)
@@ -190,6 +192,10 @@ class Impact(ImpactResult):
         """
         limits = contact_limits(self.profile, self.medium, self.contact_radius)
         return (*limits, *how_fast(self))
+
+    @cached_property
+    def _course(self):
+        return Course.of(self)
 
     def __getitem__(self, index: Any) -> "Impact":
         state, increase = self.turning_point[index], self.plastic_depth_increase[index]

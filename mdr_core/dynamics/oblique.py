@@ -19,7 +19,7 @@ from ..results import Limit, Model, friction_limits
 from ..shapes.profile import Profile
 from .friction import changes, grip, slide
 from .impact import Impact, impact
-from .levels import MOST_LEVELS, NormalMotion
+from .levels import MOST_LEVELS, levels
 from .oblique_motion import ObliqueMotion, oblique_motion
 
 FRICTION = Model(
@@ -150,13 +150,12 @@ def _solve(hit, speed, friction, mass, tolerance):
 
 def _limits(hit, inertia, hold, tolerance):
     """Limits of the quantities of ever finer runs, their estimated errors, and the number of halvings."""
-    motion = NormalMotion(hit)
-    levels = motion.levels(inertia, 0)
-    run, before, limit = slide(motion, levels, inertia, hold), None, None
+    grid = levels(hit, inertia, 0)
+    run, before, limit = slide(hit, grid, inertia, hold), None, None
     for count in range(1, _MOST_RUNS):
         # The first run tells at which instants stick begins.
-        levels = motion.levels(inertia, count, changes(motion, run, hold))
-        coarse, run = run.quantities, slide(motion, levels, inertia, hold)
+        grid = levels(hit, inertia, count, changes(hit, run, hold))
+        coarse, run = run.quantities, slide(hit, grid, inertia, hold)
         if count == 1:
             continue
         before, limit = limit, run.quantities + (run.quantities - coarse) / 3
@@ -167,7 +166,7 @@ def _limits(hit, inertia, hold, tolerance):
         errors = np.maximum(
             least if before is None else np.maximum(least, np.abs(limit - before)), tolerance / 2 * scale
         )
-        if np.all(errors <= tolerance * scale) or 2 * levels.depth.size > MOST_LEVELS:
+        if np.all(errors <= tolerance * scale) or 2 * grid.depth.size > MOST_LEVELS:
             break
     return np.append(limit[0], np.maximum(limit[1:], 0.0)), errors, count
 

@@ -8,7 +8,7 @@ import numpy as np
 from .._check import Array
 from ..results import Motion, MotionResult
 from .friction import grip, slide
-from .levels import NormalMotion
+from .levels import levels
 
 if TYPE_CHECKING:
     from .oblique import ObliqueImpact
@@ -88,9 +88,8 @@ def along_surface(hit, speed, friction, mass, n, halvings, impact=None):
     """The `ObliqueMotion` under a normal `Impact`, of one run; its errors are known of an `impact` only."""
     normal = hit.motion(n)
     stiffness = 2 * float(hit.medium.tangential_ratio) * float(hit.medium.E_star)
-    motion = NormalMotion(hit)
-    levels = motion.levels(stiffness / mass, halvings, normal.time)
-    run = slide(motion, levels, stiffness / mass, grip(hit, speed, friction), normal.time)
+    grid = levels(hit, stiffness / mass, halvings, normal.time)
+    run = slide(hit, grid, stiffness / mass, grip(hit, speed, friction), normal.time)
     at, edges = run.instants, np.append(0.0, run.row.edge[: run.row.width.size])
     load, sticks = np.zeros((n, edges.size - 1)), np.zeros((n, edges.size - 1), bool)
     for k, i in enumerate(at):

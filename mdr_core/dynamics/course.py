@@ -1,0 +1,157 @@
+"""Course of one impact: the solution of its equation of motion, at any time."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from .._numeric import gauss_integrals
+from ..yielding import LiveInterval
+from .energy_balance import loading_interval
+from .equation_of_motion import Bodies, MotionState
+from .legs import solve
+
+#: Relative error of the steps; between their nodes the polynomials are as exact as that.
+_TOLERANCE = 1e-10
+#: Parts of a step in which Newton's method starts.
+_CELLS = 64
+_SHARES = np.linspace(0.0, 1.0, _CELLS + 1)
+
+
+class Branch:
+    """Loading or unloading of one impact, as polynomials: penetration y or live depth ℓ, and velocity."""
+
+    def __init__(self, steps):
+        self._steps = [step for _, step in steps]
+        self._slopes = np.concatenate([step.slopes for step in self._steps], axis=1)
+        self.start = MotionState(*(float(values[0, 0]) for values in self._steps[0].start))
+        self.end = MotionState(*(float(values[0, 0]) for values in self._steps[-1].end()))
+        self._places = np.add.outer(np.arange(len(self._steps)), _SHARES).ravel()
+        self._table = self._states(self._places)
+
+    def at(self, time):
+        """The `MotionState` at times (s)."""
+        return self._where("time", time)
+
+    def when(self, depth):
+        """Times (s) at depths (m): of y on loading, of ℓ on unloading."""
+        return self._where("depth", depth).time
+
+    def nodes(self, count):
+        """The `MotionState` at `count` equal shares of every step."""
+        return self._states(np.linspace(0, len(self._steps), len(self._steps) * (count - 1) + 1))
+
+    def _states(self, place):
+        """The `MotionState` at places: the number of a step, and a share of it."""
+        number = np.minimum(place.astype(int), len(self._steps) - 1)
+        share, states = place - number, MotionState(*np.empty((4, place.size)))
+        matrix = gauss_integrals(self._slopes.shape[2], share)
+        integrals = np.einsum("kj,skj->sk", matrix, self._slopes[:, number])
+        for i, step in enumerate(self._steps):
+            rows = number == i
+            state = step.state(share[None, rows], integrals[:, None, rows])
+            states.store(rows, (values[0] for values in state))
+        return states
+
+    def _where(self, name, values):
+        """The `MotionState` where depth or time, which are monotonic, have given values."""
+        start, end = getattr(self.start, name), getattr(self.end, name)
+        sign = np.sign(end - start)
+        table = np.maximum.accumulate(sign * getattr(self._table, name))
+        place = np.interp(sign * values, table, self._places)
+        low = np.floor(place * _CELLS) / _CELLS
+        # Newton's method, with a difference for the derivative.
+        shift = np.where(place - np.floor(place) < 0.5, 1e-6, -1e-6)
+        for _ in range(8):
+            states = self._states(np.concatenate([place, place + shift]))
+            present, beside = np.split(getattr(states, name), 2)
+            rate = sign * np.maximum(sign * (beside - present) / shift, 1e-300)
+            new = np.clip(place + (values - present) / rate, low, low + 1 / _CELLS)
+            change, place = np.abs(new - place), new
+            if np.all(change < 1e-7):
+                break
+        states = self._states(place)
+        # The ends are known better than from the polynomials.
+        states.store(sign * values <= sign * start, self.start)
+        states.store(sign * values >= sign * end, self.end)
+        return states
+
+
+class CourseState(NamedTuple):
+    """States of one impact: depth (m), velocity (m/s), live interval, increase of the plastic depth (m).
+
+    Viscous work is over 2E* (m³), with the energy that released elements are still to lose.
+    """
+
+    depth: np.ndarray
+    velocity: np.ndarray
+    interval: LiveInterval
+    increase: np.ndarray
+    viscous_work: np.ndarray
+
+
+@dataclass(frozen=True)
+class Course:
+    """Motion of one impact from first contact to the loss of contact.
+
+    `turning_interval` is the live interval at the turning point, `imprint_depth` the plastic depth before,
+    `increase` what the impact adds to it (m); critical depth (m) and relaxation time (s).
+    """
+
+    loading: Branch
+    unloading: Branch
+    turning_interval: LiveInterval
+    increase: float
+    imprint_depth: float
+    critical_depth: float
+    relaxation_time: float
+
+    @classmethod
+    def of(cls, hit):
+        """The course of one `Impact`, from its equation of motion also where the medium is not viscous."""
+        interval, increase = hit.turning_point.live_interval, hit.plastic_depth_increase
+        imprint_depth = np.asarray(hit.plastic_depth - increase)
+        penetration = interval.length + increase
+        bodies = Bodies.of(hit.profile, hit.medium, hit.mass, hit.speed, imprint_depth, penetration)
+        solution = solve(bodies, _TOLERANCE)
+        return cls(
+            loading=Branch(solution.loading),
+            unloading=Branch(solution.unloading),
+            turning_interval=interval,
+            increase=increase,
+            imprint_depth=imprint_depth,
+            critical_depth=hit.medium.critical_depth,
+            relaxation_time=hit.medium.relaxation_time,
+        )
+
+    @property
+    def turning_time(self):
+        """Time (s) of the turning point."""
+        return self.loading.end.time
+
+    @property
+    def end_time(self):
+        """Time (s) at which contact is lost."""
+        return self.unloading.end.time
+
+    def at(self, time):
+        """The `CourseState` at an array of times (s) since first contact."""
+        pressed = time <= self.turning_time
+        state = MotionState(*np.empty((4, time.size)))
+        for branch, rows in ((self.loading, pressed), (self.unloading, ~pressed)):
+            state.store(rows, branch.at(time[rows]))
+        # The penetration at the turning point is that of the impact, to the last digit.
+        largest = self.turning_interval.length + self.increase
+        y = np.where(time < self.turning_time, np.minimum(state.depth, largest), largest)
+        interval, increase = loading_interval(y, self.critical_depth, self.imprint_depth)
+        lower = np.where(pressed, interval.lower, self.turning_interval.lower)
+        length = np.where(pressed, interval.length, state.depth)
+        upper = np.where(pressed, interval.upper, lower + length)
+        lag = self.relaxation_time * np.minimum(state.velocity, 0.0)
+        return CourseState(
+            depth=np.where(pressed, self.imprint_depth + y, upper - lag),
+            velocity=state.velocity,
+            interval=LiveInterval(lower, upper, length),
+            increase=np.where(pressed, increase, self.increase),
+            viscous_work=state.work,
+        )
