@@ -20,8 +20,8 @@ ORDER = (
     "yielding", "superposition", "fields", "stress", "indentation",
     "dynamics.energy_balance", "dynamics.contact_time", "scaling", "dynamics.equation_of_motion",
     "dynamics.steps", "dynamics.legs", "dynamics.course", "dynamics.motion", "dynamics.impact",
-    "dynamics.levels", "dynamics.friction", "dynamics.oblique_motion", "dynamics.ball",
-    "dynamics.oblique", "sweep",
+    "dynamics.levels", "dynamics.friction", "dynamics.oblique_motion", "dynamics.surface",
+    "dynamics.ball", "dynamics.oblique", "sweep",
     "fit.least_squares", "fit.curve", "fit.start", "fit.solution", "fit.remarks", "fit.indentation",
     "fit.hardness", "fit.impacts", "drives", "scene", "figures", "__init__",
 )  # fmt: skip
