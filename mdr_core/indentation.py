@@ -1,6 +1,6 @@
 """Indentation along a prescribed path of depth or force, followed infinitely slowly."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -10,7 +10,7 @@ from . import _check, fields, stress
 from ._check import Array, ArrayLike
 from ._numeric import root
 from .medium import Medium, check_pair, paths_on
-from .results import CLOSED_FORM, Limit, Result, contact_limits, sealed
+from .results import CLOSED_FORM, Limit, Result, contact_limits
 from .shapes.profile import Profile
 from .stress import Stress, StressPeak
 from .superposition import energy_integral, live_length, loading_depth, radius_drop, radius_integral
@@ -129,7 +129,6 @@ class Indentation(Result):
     live_interval: LiveInterval
     dashpot_load: np.ndarray | float = 0.0
     in_time: bool = False
-    _made_of: tuple[Any, ...] = field(default=(), repr=False)
 
     #: How it was found.
     model = CLOSED_FORM
@@ -143,10 +142,8 @@ class Indentation(Result):
     _dimensions = ("path", "state")
 
     def __post_init__(self):
-        if not self._made_of:
-            # A copy: what the caller does with the path later must not change the result.
-            object.__setattr__(self, "depth", _check.frozen(np.array(self.depth)))
-        sealed(self, "profile", "medium", "depth", "live_interval")
+        # A copy: the caller may change the path later.
+        object.__setattr__(self, "depth", _check.frozen(np.array(self.depth)))
 
     def __getitem__(self, index: Any) -> "Indentation":
         shape = np.shape(self.depth)

@@ -8,6 +8,7 @@ import numpy as np
 from . import _check
 from ._check import Array, shown
 from .report import Report, engineering
+from .shapes.power import Cone
 
 if TYPE_CHECKING:
     from .indentation import Indentation
@@ -115,7 +116,7 @@ def _slope_limit(profile, radius):
     # A difference has nine digits.
     value = float(f"{np.max(slope, initial=0.0):.9g}")
     text = f"Slopes reach {value:.3g} within the contact"
-    if value > _NEEDLE and hasattr(profile, "slope"):
+    if value > _NEEDLE and isinstance(profile, Cone):
         text += (
             ": a needle, far from a half-space. A slope is the tangent of the angle to the surface; for a "
             "cone by its half-angle in degrees take Cone.from_half_angle(degrees)."
@@ -167,21 +168,6 @@ def friction_limits(medium):
     yield Limit("slip direction", value, 0.2, value > 0.2, text, severe=False)
 
 
-def sealed(result, *names):
-    """Keeps what a result was made of, and refuses one that is made of another's parts.
-
-    `dataclasses.replace` would pair the old force with a new medium.
-    """
-    parts = tuple(getattr(result, name) for name in names)
-    if result._made_of and any(one is not other for one, other in zip(parts, result._made_of, strict=True)):
-        name = type(result).__name__
-        raise ValueError(
-            f"the {', '.join(names)} of an existing {name} cannot be replaced: its results belong to them; "
-            "call the function that made it anew, as in mdr.indent(profile, medium, depth)"
-        )
-    object.__setattr__(result, "_made_of", parts)
-
-
 class Result(Report):
     """Base class of results along a path, over time, or of several impacts: what they can plot."""
 
@@ -222,6 +208,18 @@ class ImpactResult(Result):
 
     medium: "Medium"
     speed: Any
+    restitution: Any
+    plastic_radius: Any
+
+    @property
+    def rebound_speed(self) -> Array:
+        """Speed e v₀ (m/s) at which the body leaves."""
+        return self.restitution * self.speed
+
+    @property
+    def damaged_area(self) -> Array:
+        """Area π c² (m²) of the plastic zone; in the fast limit that of the contact, π a²."""
+        return np.pi * self.plastic_radius**2
 
     def speed_limit(self, density: float) -> Limit:
         """The speed over the wave speed √(E*/ρ) of a medium of some density ρ (kg/m³)."""

@@ -9,7 +9,7 @@ import numpy as np
 from .. import _check, abel
 from .._check import Array, ArrayLike
 from ..medium import Medium, check_pair
-from ..results import CHAIN, Limit, Result, contact_limits, sealed
+from ..results import CHAIN, Limit, Result, contact_limits
 from ..shapes.profile import Profile
 from . import element
 from .element import Elements, Ramp
@@ -167,7 +167,6 @@ class TimedIndentation(Result):
     error: float
     _place: Array
     _path: tuple[np.ndarray, np.ndarray] = ()
-    _made_of: tuple[Any, ...] = ()
 
     #: How it was found.
     model = CHAIN
@@ -179,7 +178,6 @@ class TimedIndentation(Result):
     _dimensions = ("time",)
 
     def __post_init__(self):
-        sealed(self, "profile", "medium")
         if not self._path:
             object.__setattr__(self, "_path", (np.array(self.time), np.array(self.depth)))
         for name in _ARRAYS:

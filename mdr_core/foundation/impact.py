@@ -7,13 +7,13 @@ err by.
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from .. import _check
 from ..medium import Medium, check_pair
-from ..results import CHAIN, ImpactResult, Limit, Motion, contact_limits, instants, sealed
+from ..results import CHAIN, ImpactResult, Limit, Motion, contact_limits, instants
 from ..shapes.profile import Profile
 from .free_body import Body, Flight
 from .row import Foundation, element_count
@@ -155,13 +155,9 @@ class ChainImpact(ImpactResult):
     #: The chain when contact ends: what a next body meets.
     foundation: Foundation = field(repr=False)
     _motion: Motion = field(repr=False)
-    _made_of: tuple[Any, ...] = ()
 
     #: How it was found.
     model = CHAIN
-
-    def __post_init__(self):
-        sealed(self, "profile", "medium", "mass", "speed", "_motion")
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
@@ -200,13 +196,3 @@ class ChainImpact(ImpactResult):
     def plastic_radius(self) -> float:
         """Radius c (m) of the plastic zone that remains."""
         return self.profile.contact_radius(self.plastic_depth) if self.plastic_depth > 0 else 0.0
-
-    @property
-    def damaged_area(self) -> float:
-        """Area π c² (m²) of the plastic zone."""
-        return np.pi * self.plastic_radius**2
-
-    @property
-    def rebound_speed(self) -> float:
-        """Speed e v₀ (m/s) at which the body leaves."""
-        return self.restitution * self.speed
