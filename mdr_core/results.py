@@ -1,6 +1,6 @@
-"""What results share: the model that was solved and why that one, where it ends, and the motion in time."""
+"""Base classes of results: the model that was solved, the limits of its validity, the motion in time."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -168,8 +168,15 @@ def friction_limits(medium):
     yield Limit("slip direction", value, 0.2, value > 0.2, text, severe=False)
 
 
+class Entries:
+    """Base class of dataclasses whose fields all have one entry, or one row, for each impact."""
+
+    def __getitem__(self, index):
+        return type(self)(**{field.name: getattr(self, field.name)[index] for field in fields(self)})
+
+
 class Result(Report):
-    """Base class of results along a path, over time, or of several impacts: what they can plot."""
+    """Base class of results along a path, over time, or of several impacts."""
 
     def plot(self, quantity: str = "force", over: str = "depth") -> Any:
         """One quantity over another as HoloViews elements, by default the force–depth curve.
@@ -193,7 +200,7 @@ class Result(Report):
 
 
 class ImpactResult(Result):
-    """What impacts along the normal share, solved in whatever way."""
+    """Base class of impacts along the normal."""
 
     _quantities = (
         "mass", "speed", "restitution", "rebound_speed", "contact_time", "max_depth", "max_force",
@@ -231,7 +238,7 @@ class ImpactResult(Result):
 
 
 class MotionResult(Result):
-    """What motions of one impact share, along the normal alone or along the surface, too."""
+    """Base class of motions of one impact, normal or oblique."""
 
     _dimensions = ("time",)
 
@@ -243,39 +250,40 @@ class MotionResult(Result):
 
     @property
     def limits(self) -> tuple[Limit, ...]:
-        """Where the model's assumptions end, for the impact whose motion it is."""
+        """Limits of the model's validity, as those of the impact."""
         return () if self.impact is None else self.impact.limits
 
     @property
     def turning_index(self) -> int:
-        """Number of the instant at which the body turns round."""
+        """Index of the instant of the turning point."""
         return int(np.argmax(self.depth))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Motion(MotionResult):
-    """One impact from first contact to its loss, as arrays of one length, its turning point among them.
+    """One impact from first contact to the loss of contact, as arrays of one length.
 
-    On a virgin medium elements of the foundation under the contact radius are in contact. On
-    unloading of a viscous one its edge is where g = d_p + ℓ, ahead of the depth d itself; elements
-    outside have let go and relax. The energies sum to the same, at every instant.
+    The turning point is one of the instants. On a virgin medium elements of the foundation within the
+    contact radius are in contact. While a viscous medium is unloaded, the edge of the contact is where
+    g = d_p + ℓ, below the depth d; elements outside are released and relax. The sum of all energies is
+    constant.
 
     Attributes
     ----------
     time : ndarray
-        Time (s) since first contact; of a chain that is not virgin, since the start.
+        Time (s) since first contact; for a chain that is not virgin, since the start.
     depth, velocity, force : ndarray
         Indentation depth d (m), its rate (m/s), force (N).
     contact_radius, plastic_radius : ndarray
         Radii a and c (m).
     plastic_depth, live_depth : ndarray
-        Plastic depth d_p and length ℓ of the live interval [d_p, d_p + ℓ] (m): what the load has
-        compressed the spring at the axis by.
+        Plastic depth d_p and length ℓ of the live interval [d_p, d_p + ℓ] (m): the compression under
+        load of the spring at the axis.
     kinetic_energy, stored_energy, plastic_work, viscous_work : ndarray
-        The ledger (J). Stored is the energy of all springs, of those too that have let go.
+        The ledger (J). The stored energy is that of all springs, also of released elements.
     states : Indentation or None
-        The states of contact: load, pressure and surface at each instant; None for the chain, whose
-        elements each have a state of their own.
+        The states of contact: load, pressure and surface at each instant; None for the chain, where
+        every element has a state of its own.
     impact : Impact, ChainImpact or None
         The impact whose motion it is.
     """
@@ -299,18 +307,18 @@ class Motion(MotionResult):
         "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "plastic_depth",
         "live_depth", "kinetic_energy", "stored_energy", "plastic_work", "viscous_work",
     )  # fmt: skip
-    _shown = _quantities[:6]
+    _shown = ("time", "depth", "velocity", "force", "contact_radius", "plastic_radius")
 
     def __getitem__(self, index: Any) -> "Motion":
-        parts = {name: getattr(self, name)[index] for name in self._quantities}
-        return replace(self, **parts, states=self.states and self.states[index])
+        values = {name: getattr(self, name)[index] for name in self._quantities}
+        return replace(self, **values, states=self.states and self.states[index])
 
 
-def instants(n, turn, end, begin=0.0):
-    """n times (s) at equal steps from `begin` to `turn`, and about the same ones from there to `end`."""
+def instants(n, turn, end, start=0.0):
+    """n times (s): equally spaced from `start` to `turn`, and again from there to `end`."""
     if isinstance(n, bool) or not isinstance(n, int | np.integer) or not 2 <= n <= 10**7:
         raise ValueError(f"number of instants n = {shown(n)} must be a whole number from 2 to 10⁷")
-    down = min(max(round((n - 1) * (turn - begin) / (end - begin)), 1), n - 2)
     if n == 2:
-        return np.array([begin, end])
-    return np.append(np.linspace(begin, turn, down + 1), np.linspace(turn, end, n - down)[1:])
+        return np.array([start, end])
+    count = min(max(round((n - 1) * (turn - start) / (end - start)), 1), n - 2)
+    return np.append(np.linspace(start, turn, count + 1), np.linspace(turn, end, n - count)[1:])

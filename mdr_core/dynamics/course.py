@@ -1,6 +1,5 @@
 """Course of one impact: the solution of its equation of motion, at any time."""
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -23,9 +22,8 @@ class Branch:
 
     def __init__(self, steps):
         self._steps = [step for _, step in steps]
-        self._slopes = np.concatenate([step.slopes for step in self._steps], axis=1)
-        self.start = MotionState(*(float(values[0, 0]) for values in self._steps[0].start))
-        self.end = MotionState(*(float(values[0, 0]) for values in self._steps[-1].end()))
+        self._slopes = np.concatenate([step.slopes for step in self._steps])
+        self.start, self.end = self._steps[0].start[0, 0], self._steps[-1].end()[0, 0]
         self._places = np.add.outer(np.arange(len(self._steps)), _SHARES).ravel()
         self._table = self._states(self._places)
 
@@ -46,11 +44,10 @@ class Branch:
         number = np.minimum(place.astype(int), len(self._steps) - 1)
         share, states = place - number, MotionState(*np.empty((4, place.size)))
         matrix = gauss_integrals(self._slopes.shape[2], share)
-        integrals = np.einsum("kj,skj->sk", matrix, self._slopes[:, number])
+        integrals = np.einsum("kj,ksj->sk", matrix, self._slopes[number])
         for i, step in enumerate(self._steps):
             rows = number == i
-            state = step.state(share[None, rows], integrals[:, None, rows])
-            states.store(rows, (values[0] for values in state))
+            states.store(rows, step.state(share[None, rows], integrals[:, None, rows])[0])
         return states
 
     def _where(self, name, values):
@@ -90,49 +87,21 @@ class CourseState(NamedTuple):
     viscous_work: np.ndarray
 
 
-@dataclass(frozen=True)
 class Course:
-    """Motion of one impact from first contact to the loss of contact.
+    """Motion of one `Impact`, viscous or not, from first contact to the loss of contact.
 
-    `turning_interval` is the live interval at the turning point, `imprint_depth` the plastic depth before,
-    `increase` what the impact adds to it (m); critical depth (m) and relaxation time (s).
+    `loading` and `unloading` are its branches; times (s) of the turning point and of the end.
     """
 
-    loading: Branch
-    unloading: Branch
-    turning_interval: LiveInterval
-    increase: float
-    imprint_depth: float
-    critical_depth: float
-    relaxation_time: float
-
-    @classmethod
-    def of(cls, hit):
-        """The course of one `Impact`, from its equation of motion also where the medium is not viscous."""
-        interval, increase = hit.turning_point.live_interval, hit.plastic_depth_increase
-        imprint_depth = np.asarray(hit.plastic_depth - increase)
-        penetration = interval.length + increase
-        bodies = Bodies.of(hit.profile, hit.medium, hit.mass, hit.speed, imprint_depth, penetration)
-        solution = solve(bodies, _TOLERANCE)
-        return cls(
-            loading=Branch(solution.loading),
-            unloading=Branch(solution.unloading),
-            turning_interval=interval,
-            increase=increase,
-            imprint_depth=imprint_depth,
-            critical_depth=hit.medium.critical_depth,
-            relaxation_time=hit.medium.relaxation_time,
-        )
-
-    @property
-    def turning_time(self):
-        """Time (s) of the turning point."""
-        return self.loading.end.time
-
-    @property
-    def end_time(self):
-        """Time (s) at which contact is lost."""
-        return self.unloading.end.time
+    def __init__(self, hit):
+        self._interval, self._increase = hit.turning_point.live_interval, hit.plastic_depth_increase
+        self._imprint_depth = np.asarray(hit.plastic_depth - self._increase)
+        self._penetration = self._interval.length + self._increase
+        self._critical_depth, self._tau = hit.medium.critical_depth, hit.medium.relaxation_time
+        arguments = hit.mass, hit.speed, self._imprint_depth, self._penetration
+        solution = solve(Bodies.of(hit.profile, hit.medium, *arguments), _TOLERANCE)
+        self.loading, self.unloading = Branch(solution.loading), Branch(solution.unloading)
+        self.turning_time, self.end_time = self.loading.end.time, self.unloading.end.time
 
     def at(self, time):
         """The `CourseState` at an array of times (s) since first contact."""
@@ -141,17 +110,17 @@ class Course:
         for branch, rows in ((self.loading, pressed), (self.unloading, ~pressed)):
             state.store(rows, branch.at(time[rows]))
         # The penetration at the turning point is that of the impact, to the last digit.
-        largest = self.turning_interval.length + self.increase
+        largest = self._penetration
         y = np.where(time < self.turning_time, np.minimum(state.depth, largest), largest)
-        interval, increase = loading_interval(y, self.critical_depth, self.imprint_depth)
-        lower = np.where(pressed, interval.lower, self.turning_interval.lower)
+        interval, increase = loading_interval(y, self._critical_depth, self._imprint_depth)
+        lower = np.where(pressed, interval.lower, self._interval.lower)
         length = np.where(pressed, interval.length, state.depth)
         upper = np.where(pressed, interval.upper, lower + length)
-        lag = self.relaxation_time * np.minimum(state.velocity, 0.0)
+        unloading_depth = upper - self._tau * np.minimum(state.velocity, 0.0)
         return CourseState(
-            depth=np.where(pressed, self.imprint_depth + y, upper - lag),
+            depth=np.where(pressed, self._imprint_depth + y, unloading_depth),
             velocity=state.velocity,
             interval=LiveInterval(lower, upper, length),
-            increase=np.where(pressed, increase, self.increase),
+            increase=np.where(pressed, increase, self._increase),
             viscous_work=state.work,
         )

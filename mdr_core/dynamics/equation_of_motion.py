@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..results import Entries
 from ..shapes.profile import Profile
 from ..shapes.tabulated import tabulated
 from ..superposition import radius_integral
@@ -25,7 +26,8 @@ from ..yielding import LiveInterval
 from .energy_balance import loading_interval
 
 
-class MotionState(NamedTuple):
+@dataclass(frozen=True)
+class MotionState(Entries):
     """Depth q (m), velocity (m/s), time (s) and viscous work over 2E* (m³), as arrays of one shape."""
 
     depth: np.ndarray
@@ -33,14 +35,10 @@ class MotionState(NamedTuple):
     time: np.ndarray
     work: np.ndarray
 
-    def rows(self, index):
-        """States of some impacts, as copies."""
-        return MotionState(*(values[index] for values in self))
-
     def store(self, index, states):
-        """Replaces the states of some impacts."""
-        for values, new in zip(self, states, strict=True):
-            values[index] = new
+        """Replaces the states at an index."""
+        self.depth[index], self.velocity[index] = states.depth, states.velocity
+        self.time[index], self.work[index] = states.time, states.work
 
 
 class Rates(NamedTuple):
@@ -89,8 +87,7 @@ class Bodies:
             dry_penetration=dry_penetration,
         )
 
-    def rows(self, index):
-        """Some of the impacts, by their numbers."""
+    def __getitem__(self, index):
         size = self.speed.size
         if index.size == size:
             return self
@@ -100,14 +97,10 @@ class Bodies:
 
 
 @dataclass(frozen=True)
-class Loading:
+class Loading(Entries):
     """Equation of motion from first contact to the turning point, in the penetration y."""
 
     bodies: Bodies
-
-    def rows(self, index):
-        """The equations of some impacts, by their numbers."""
-        return Loading(self.bodies.rows(index))
 
     def load(self, depth):
         """Φ (m²) and contact radius a (m) at penetrations (m)."""
@@ -137,15 +130,11 @@ class Loading:
 
 
 @dataclass(frozen=True)
-class Unloading:
+class Unloading(Entries):
     """Equation of motion from the turning point to the loss of contact, in the live depth ℓ."""
 
     bodies: Bodies
     plastic_depth: np.ndarray
-
-    def rows(self, index):
-        """The equations of some impacts, by their numbers."""
-        return Unloading(self.bodies.rows(index), self.plastic_depth[index])
 
     def load(self, depth):
         """Φ (m²) and contact radius a (m) at live depths (m)."""

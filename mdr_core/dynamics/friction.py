@@ -18,7 +18,6 @@ depth ℓ and the plastic depth p:
 5. The next run has twice the levels; the quantities converge with the square of the step.
 """
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -85,36 +84,6 @@ class RunQuantities(NamedTuple):
     viscous: float
 
 
-@dataclass(frozen=True)
-class FrictionRun:
-    """One run in units of the initial tangential speed: quantities at every instant, elements at some.
-
-    Time (s), tangential velocity; force over 2κE* (m s); stored, viscous and friction energy over 2κE*
-    (m s²); numbers of the requested `instants`, and by them the loads Q (s) of the elements, and whether
-    they stick.
-    """
-
-    elements: SurfaceElements
-    time: np.ndarray
-    velocity: np.ndarray
-    force: np.ndarray
-    stored: np.ndarray
-    viscous: np.ndarray
-    friction: np.ndarray
-    instants: list
-    element_states: dict
-
-    @property
-    def quantities(self):
-        """The `RunQuantities`, after all elements have relaxed."""
-        return RunQuantities(
-            change=self.velocity[-1] - 1.0,
-            force=_largest(self.time, np.abs(self.force)),
-            friction=self.friction[-1],
-            viscous=self.viscous[-1] + self.stored[-1],
-        )
-
-
 def _largest(time, values):
     """Largest value, from the parabola through three instants."""
     i = int(np.argmax(values))
@@ -140,7 +109,7 @@ def slide(hit, levels, inertia, ratio, instants=()):
     load = np.minimum(levels.depth, d_c) + tau * levels.velocity
     number, partial = _partly_yielded(hit.profile, elements, levels, plastic_depth)
     time = np.append(levels.loading_time, levels.unloading_time[1:])
-    state = _FrictionState(elements, inertia, tau, time, instants)
+    run = FrictionRun(elements, inertia, tau, time, instants)
     total = elements.width.size
     for i in range(levels.depth.size):
         count, old = min(i + 1, total), min(i, total)
@@ -148,16 +117,16 @@ def slide(hit, levels, inertia, ratio, instants=()):
         if plastic_depth[i] > 0 and number[i] < count:
             rise[number[i]] = partial[i]
         # An element covered at a speed begins with the load of its dashpot.
-        state.cover(old, count, ratio * tau * levels.velocity[max(i - 1, 0)])
-        state.step(i, np.maximum(ratio * (load[i] - rise), 0.0), slice(old, count))
+        run.cover(old, count, ratio * tau * levels.velocity[max(i - 1, 0)])
+        run.step(i, np.maximum(ratio * (load[i] - rise), 0.0), slice(old, count))
     rise = np.maximum(elements.mean_depth - hit.plastic_depth, 0.0)
     for k in range(1, levels.live_depth.size):
         count = min(levels.depth.size - k, total)
-        bound = np.zeros(state.count)
+        bound = np.zeros(run.count)
         bound[:count] = np.maximum(ratio * (levels.live_depth[k] - rise[:count]), 0.0)
-        state.step(levels.depth.size - 1 + k, bound, slice(count, state.count))
-        state.release(count)
-    return state.run()
+        run.step(levels.depth.size - 1 + k, bound, slice(count, run.count))
+        run.release(count)
+    return run
 
 
 def stick_instants(hit, run, ratio):
@@ -166,23 +135,37 @@ def stick_instants(hit, run, ratio):
     Slip ends where the velocity equals the rate of the bound, W = ±(μ/κ) v, or W = 0 while yielding.
     """
     time, velocity, instants = run.time, hit._course.at(run.time).velocity, []
-    for excess in (run.velocity - ratio * velocity, run.velocity + ratio * velocity, run.velocity):
+    for excess in (run.velocities - ratio * velocity, run.velocities + ratio * velocity, run.velocities):
         i = np.flatnonzero(excess[:-1] * excess[1:] < 0)
         instants.append(time[i] + (time[i + 1] - time[i]) * excess[i] / (excess[i] - excess[i + 1]))
     return np.concatenate(instants)
 
 
-class _FrictionState:
-    """The elements during a run: load Q and displacement s of each one in contact, and the records."""
+class FrictionRun:
+    """One run in units of the initial tangential speed: the elements during it, and its records.
+
+    Each element in contact has a load Q and a displacement s (s). Records at every instant are time (s),
+    velocity, force over 2κE* (m s), stored, viscous and friction energy over 2κE* (m s²); `element_states`
+    are loads of elements, and whether they stick, by the numbers of the requested `instants`.
+    """
 
     def __init__(self, elements, inertia, tau, time, instants):
         self.elements, self.inertia, self.tau, self.time = elements, inertia, tau, time
         self.load, self.s, self.bound = np.zeros((3, elements.width.size))
         self.count, self.velocity, self.rate, self.stored, self.released = 0, 1.0, 0.0, 0.0, 0.0
-        self.velocities, self.forces, self.energies = np.zeros((3, time.size))
-        self.viscous, self.friction = np.zeros((2, time.size))
+        self.velocities, self.forces, self.energies, self.viscous, self.friction = np.zeros((5, time.size))
         middle = (time[1:] + time[:-1]) / 2
         self.instants, self.element_states = np.searchsorted(middle, instants).tolist(), {}
+
+    @property
+    def quantities(self):
+        """The `RunQuantities`, after all elements have relaxed."""
+        return RunQuantities(
+            change=self.velocities[-1] - 1.0,
+            force=_largest(self.time, np.abs(self.forces)),
+            friction=self.friction[-1],
+            viscous=self.viscous[-1] + self.energies[-1],
+        )
 
     def cover(self, old, count, bound):
         """Covers elements at a speed at which they carry at most `bound`."""
@@ -271,17 +254,3 @@ class _FrictionState:
         rows = slice(count, self.count)
         energy = self.elements.width[rows] @ self.s[rows] ** 2 / 2
         self.stored, self.released, self.count = self.stored - energy, self.released + energy, count
-
-    def run(self):
-        """The `FrictionRun` at its end."""
-        return FrictionRun(
-            elements=self.elements,
-            time=self.time,
-            velocity=self.velocities,
-            force=self.forces,
-            stored=self.energies,
-            viscous=self.viscous,
-            friction=self.friction,
-            instants=self.instants,
-            element_states=self.element_states,
-        )

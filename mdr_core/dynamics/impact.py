@@ -1,7 +1,7 @@
 """Impact of a free rigid body.
 
-A dry one is solved by the balance of energy and quadrature, without time stepping; a viscous one by its
-equation of motion.
+On a medium without viscosity it is solved by the energy balance and quadrature, without time stepping, on a
+viscous one by the equation of motion.
 """
 
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from .._check import Array, ArrayLike
 from .._numeric import chunks
 from ..indentation import Indentation
 from ..medium import Medium, check_pair, shape_with
-from ..results import CLOSED_FORM, SCALAR_ODE, ImpactResult, Limit, Model, Motion, contact_limits
+from ..results import CLOSED_FORM, SCALAR_ODE, Entries, ImpactResult, Limit, Model, Motion, contact_limits
 from ..scaling import FastLimit, fast_limit, how_fast
 from ..shapes.profile import Profile
 from .contact_time import contact_time
@@ -36,8 +36,8 @@ def impact(
 ) -> "Impact":
     """Let a body of given mass hit the medium at given speed, with no other force acting.
 
-    Contact begins at the bottom of the imprint that is there, on a virgin medium at depth 0, and
-    ends when the force returns to zero.
+    Contact starts at the bottom of the imprint, on a virgin medium at depth 0, and ends when the force
+    returns to zero.
 
     Parameters
     ----------
@@ -50,8 +50,8 @@ def impact(
     speed : float or array_like
         Speed v₀ (m/s) at first contact, positive.
     plastic_depth : float or array_like, optional
-        Plastic depth (m) of an imprint of the same indenter that is there already and has relaxed:
-        for repeated impacts, the `plastic_depth` of the one before. 0 (the default) is a virgin medium.
+        Plastic depth (m) of a relaxed imprint of the same indenter: for repeated impacts, the
+        `plastic_depth` of the previous one. 0 (the default) is a virgin medium.
 
     Returns
     -------
@@ -63,7 +63,7 @@ def impact(
     ------
     ValueError
         If a mass or a speed is not finite and positive, shapes do not broadcast, or the indenter
-        goes deeper than its shape is known.
+        would go deeper than its profile is known.
 
     Examples
     --------
@@ -115,7 +115,7 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
 
 
 @dataclass(frozen=True)
-class IntegratedQuantities:
+class IntegratedQuantities(Entries):
     """Quantities of impacts from the equation of motion, where it was `solved`, as arrays of their shape.
 
     Coefficient of restitution, contact time (s), viscous work (J), largest force (N).
@@ -126,15 +126,6 @@ class IntegratedQuantities:
     contact_time: Array
     viscous_work: Array
     max_force: Array
-
-    def __getitem__(self, index):
-        return IntegratedQuantities(
-            solved=self.solved[index],
-            restitution=self.restitution[index],
-            contact_time=self.contact_time[index],
-            viscous_work=self.viscous_work[index],
-            max_force=self.max_force[index],
-        )
 
 
 def _integrate(bodies, penetration, mass, E_star, in_time):
@@ -148,13 +139,10 @@ def _integrate(bodies, penetration, mass, E_star, in_time):
     numbers = np.flatnonzero(solved)
     for block in chunks(numbers.size, 256):
         rows = numbers[block]
-        solution = solve(bodies.rows(rows))
-        penetration[rows], velocity[rows], time[rows] = (
-            solution.penetration,
-            solution.velocity,
-            solution.time,
-        )
-        work[rows], deceleration[rows] = solution.work, solution.max_deceleration
+        solution = solve(bodies[rows])
+        penetration[rows], end = solution.turning_point.depth[:, 0], solution.end[:, 0]
+        velocity[rows], time[rows], work[rows] = end.velocity, end.time, end.work
+        deceleration[rows] = solution.max_deceleration
     restitution = np.minimum(-velocity / bodies.speed[:, 0], 1.0)
     return penetration.reshape(shape), IntegratedQuantities(
         solved=solved.reshape(shape)[()],
@@ -169,8 +157,8 @@ def _integrate(bodies, penetration, mass, E_star, in_time):
 class Impact(ImpactResult):
     """One impact or many; made by `impact`. Every quantity has the shape of the ensemble.
 
-    `turning_point` is the state of largest depth, `plastic_depth_increase` (m) that by this impact.
-    `result[i]` picks one impact.
+    `turning_point` is the state of largest depth, `plastic_depth_increase` (m) the increase of the plastic
+    depth by this impact. `result[i]` picks one impact.
     """
 
     profile: Profile
@@ -197,7 +185,7 @@ class Impact(ImpactResult):
 
     @cached_property
     def _course(self):
-        return Course.of(self)
+        return Course(self)
 
     def __getitem__(self, index: Any) -> "Impact":
         state = self.turning_point[index]
@@ -250,7 +238,7 @@ class Impact(ImpactResult):
 
     @property
     def stored_energy(self) -> Array:
-        """Elastic energy (J) at the turning point; a dry impact returns all of it."""
+        """Elastic energy (J) at the turning point; without viscosity all of it is returned."""
         return self.turning_point.stored_energy
 
     @_check.frozen_property
@@ -262,7 +250,7 @@ class Impact(ImpactResult):
 
     @property
     def viscous_work(self) -> Array:
-        """Energy (J) dissipated by viscosity, with what the foundation relaxes after the contact."""
+        """Energy (J) dissipated by viscosity, during the contact and by relaxation after it."""
         return np.zeros(self.mass.shape)[()] if self._integrated is None else self._integrated.viscous_work
 
     @_check.frozen_property
@@ -296,9 +284,9 @@ class Impact(ImpactResult):
         return fast_limit(self)
 
     def motion(self, n: int = 200) -> Motion:
-        """The motion of one impact at n instants, from first contact to its loss.
+        """The motion of one impact at n instants, from first contact to the loss of contact.
 
-        At equal steps up to the turning point, and from there on, about the same ones.
+        Instants are equally spaced before the turning point, and again after it.
 
         Parameters
         ----------

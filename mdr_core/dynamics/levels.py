@@ -25,24 +25,24 @@ def levels(hit, inertia, halvings, instants=()):
     As dense as loading and unloading need, then halved in the time of loading; the depths that the impact
     passes at `instants` (s) are levels as well.
     """
-    course, deepest, lower = hit._course, hit.max_depth, hit.plastic_depth
+    course, max_depth, lower = hit._course, hit.max_depth, hit.plastic_depth
     loading, unloading, turn = course.loading, course.unloading, course.turning_time
     instants = np.asarray(instants, dtype=float)
     early = np.append(_even_times(hit, loading, 0.0, inertia), instants[instants < turn])
     late = np.append(_even_times(hit, unloading, lower, inertia), instants[instants > turn])
-    inner = np.append(lower + unloading.at(late).depth, [lower, min(course.critical_depth, deepest)])
-    inner = inner[(inner > 0) & (inner < deepest)]
-    depth = np.concatenate([[0.0, deepest], loading.at(early).depth, inner])
-    coarse, first = np.unique(np.clip(depth, 0.0, deepest), return_index=True)
+    inner = np.append(lower + unloading.at(late).depth, [lower, min(hit.medium.critical_depth, max_depth)])
+    inner = inner[(inner > 0) & (inner < max_depth)]
+    depth = np.concatenate([[0.0, max_depth], loading.at(early).depth, inner])
+    coarse, first = np.unique(np.clip(depth, 0.0, max_depth), return_index=True)
     time = np.concatenate([[0.0, turn], early, loading.when(inner)])[first]
     time = np.maximum.accumulate(np.minimum(time, turn))
     # Each step of loading in equal parts.
     count = 2**halvings
     time = np.append(time[:-1, None] + np.diff(time)[:, None] * (np.arange(count) / count), time[-1])
     state = loading.at(time)
-    depth = np.clip(state.depth, np.append(np.repeat(coarse[:-1], count), coarse[-1]), deepest)
-    depth = np.minimum(depth, np.append(np.repeat(coarse[1:], count), deepest))
-    depth[::count] = coarse
+    depth = np.clip(state.depth[:-1], np.repeat(coarse[:-1], count), np.repeat(coarse[1:], count))
+    depth[::count] = coarse[:-1]
+    depth = np.append(depth, coarse[-1])
     live_depth = np.append(depth[depth > lower][::-1] - lower, 0.0)
     unloading_time = np.maximum.accumulate(np.append(turn, unloading.when(live_depth[1:])))
     return Levels(depth, time, np.maximum(state.velocity, 0.0), live_depth, unloading_time)

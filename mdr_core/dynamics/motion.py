@@ -54,7 +54,7 @@ def _released_energy(hit, course, time):
     finer = np.unique(np.concatenate([time, even, course.unloading.nodes(33).time]))
     finer = finer[(finer >= course.turning_time) & (finer <= course.end_time)]
     state = course.unloading.at(finer)
-    radius = hit.profile._radius(course.turning_interval.lower + state.depth)
+    radius = hit.profile._radius(hit.plastic_depth + state.depth)
     density = (tau * state.velocity) ** 2 / 2
     decay = 2 * np.diff(finer) / tau
     remaining = np.exp(-decay)

@@ -10,7 +10,7 @@ from .. import _check
 from .._check import Array, ArrayLike
 from ..medium import Medium, check_pair, shape_with
 from ..report import Report
-from ..results import Limit, Model, friction_limits
+from ..results import Entries, Limit, Model, friction_limits
 from ..shapes.profile import Profile
 from .impact import Impact, impact
 from .oblique_motion import ObliqueMotion, oblique_motion
@@ -36,24 +36,24 @@ def oblique_impact(
 ) -> "ObliqueImpact":
     """Let a body hit the medium with a speed along the surface as well, under Coulomb's friction.
 
-    Popov's outlook (2015): beside every element of the foundation stands one along the surface, κ =
-    2(1 − ν)/(2 − ν) as stiff and as viscous (Mindlin). It sticks as long as its load is no more than the
-    friction coefficient times the normal load, and slips else. Yield caps the normal springs only; friction
-    feels the load that there is.
+    Popov's outlook (2015): every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν)
+    times as stiff and as viscous (Mindlin). It sticks while its load is at most the friction coefficient
+    times the normal load, and slips otherwise. Yield limits the normal springs only; friction acts under
+    the normal load of springs and dashpots.
 
     Parameters
     ----------
     profile, medium
-        The indenter, and the medium: elastic, yielding, viscous; its `poisson` is ν.
+        The indenter, and the medium: elastic, yielding or viscous; its `poisson` is ν.
     mass, speed : float or array_like
         Mass m (kg) and normal speed v₀ (m/s) at first contact, positive.
     tangential_speed : float or array_like
-        Speed W₀ (m/s) of the contact point along the surface, of any sign; that of the body if it does not
-        spin, else `Ball.contact_speed`. `at_angle` makes both speeds from one and an angle.
+        Speed W₀ (m/s) of the contact point along the surface, of any sign: that of a body that does not
+        spin, otherwise `Ball.contact_speed`. `at_angle` gives both speeds from a speed and an angle.
     friction : float or array_like
         Coefficient of friction μ, the same for stick and slip; 0 and infinity are allowed.
     tangential_mass : float or array_like, optional
-        Mass m_t (kg) that is felt at the contact point along the surface, 1/m_t = 1/m + R²/I; by default m,
+        Effective mass m_t (kg) at the contact point along the surface, 1/m_t = 1/m + R²/I; by default m,
         that of a body that cannot turn. `Ball.tangential_mass` is that of a ball.
     tolerance : float, optional
         Error allowed in the tangential velocity relative to the tangential speed, and in work and largest
@@ -67,7 +67,7 @@ def oblique_impact(
     Raises
     ------
     ValueError
-        If an argument is out of its range, or the indenter goes deeper than its shape is known.
+        If an argument is out of its range, or the indenter would go deeper than its profile is known.
 
     Examples
     --------
@@ -130,7 +130,7 @@ class ObliqueErrors(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ObliqueImpact(Report):
+class ObliqueImpact(Entries, Report):
     """Oblique impacts, one or many; made by `oblique_impact`. `result[i]` picks one of many.
 
     `normal` is the `Impact` along the normal, with all of its quantities.
@@ -153,15 +153,6 @@ class ObliqueImpact(Report):
     )  # fmt: skip
     _dimensions = ("impact",)
 
-    def __getitem__(self, index: Any) -> "ObliqueImpact":
-        return ObliqueImpact(
-            normal=self.normal[index],
-            tangential_speed=self.tangential_speed[index],
-            friction=self.friction[index],
-            tangential_mass=self.tangential_mass[index],
-            _surface=self._surface[index],
-        )
-
     @property
     def profile(self) -> Profile:
         """The indenter."""
@@ -174,7 +165,7 @@ class ObliqueImpact(Report):
 
     @property
     def model(self) -> Model:
-        """How the tangential motion was found."""
+        """How the tangential motion was solved."""
         return FRICTION
 
     @cached_property
@@ -210,7 +201,7 @@ class ObliqueImpact(Report):
 
     @property
     def contact_time(self) -> Array:
-        """Time (s) from first contact to its loss."""
+        """Time (s) from first contact to the loss of contact."""
         return self.normal.contact_time
 
     @property
@@ -255,7 +246,7 @@ class ObliqueImpact(Report):
 
     @property
     def tangential_restitution(self) -> Array:
-        """Tangential restitution e_t = −W′/W₀: −1 without friction; of W₀ = 0, that of a slow one."""
+        """Tangential restitution e_t = −W′/W₀: −1 without friction; for W₀ = 0 that of slow impacts."""
         return (-1 - self._surface.relative_change)[()]
 
     @property
@@ -265,7 +256,7 @@ class ObliqueImpact(Report):
 
     @property
     def viscous_work(self) -> Array:
-        """Energy (J) dissipated by dashpots, normal and tangential, with what relaxes after the contact."""
+        """Energy (J) dissipated by all dashpots, normal and tangential, during the contact and after it."""
         return (self.normal.viscous_work + self._surface.viscous_work)[()]
 
     @property
@@ -288,8 +279,8 @@ class ObliqueImpact(Report):
     def motion(self, n: int = 200) -> ObliqueMotion:
         """The motion of one impact at n instants, normal and tangential, with stick and slip.
 
-        At equal steps up to the turning point, and from there on, about the same ones; on elements as fine
-        as the tolerance needed, whose own ledger closes at every instant.
+        Instants are equally spaced before the turning point, and again after it. The elements are those of
+        the finest run; the energies sum to the same at every instant.
 
         Examples
         --------

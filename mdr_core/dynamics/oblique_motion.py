@@ -30,9 +30,9 @@ class ObliqueMotion(MotionResult):
     stick_radius, slip_radius : ndarray
         Outer and inner radius (m) of the region that sticks, to within an element; both 0 if all slips.
     kinetic_energy, stored_energy, plastic_work, viscous_work, friction_work : ndarray
-        The ledger (J): ½mv² + ½m_t W², the energy of all springs, normal and tangential, and what is lost.
+        The ledger (J): ½mv² + ½m_t W², the energy of all springs, normal and tangential, and three losses.
     x : ndarray, shape (N,)
-        Places (m) of the elements along the foundation.
+        Coordinates (m) of the elements of the foundation.
     tangential_line_load : ndarray, shape (n, N)
         Load q_x(x) (N/m) of every element along the surface at every instant.
     sticks : ndarray of bool, shape (n, N)
@@ -99,7 +99,7 @@ def along_surface(hit, speed, friction, mass, n, halvings, impact=None):
     sticks &= run.elements.width > 0
     stuck = sticks.any(axis=1)
     first, last = sticks.argmax(axis=1), sticks.shape[1] - sticks[:, ::-1].argmax(axis=1)
-    velocity, energy = run.velocity[at] * speed, stiffness * speed**2
+    velocity, energy = run.velocities[at] * speed, stiffness * speed**2
     return ObliqueMotion(
         time=normal.time,
         depth=normal.depth,
@@ -108,11 +108,11 @@ def along_surface(hit, speed, friction, mass, n, halvings, impact=None):
         contact_radius=normal.contact_radius,
         plastic_radius=normal.plastic_radius,
         tangential_velocity=velocity,
-        tangential_force=stiffness * speed * run.force[at],
+        tangential_force=stiffness * speed * run.forces[at],
         stick_radius=np.where(stuck, edges[last], 0.0),
         slip_radius=np.where(stuck, edges[first], 0.0),
         kinetic_energy=normal.kinetic_energy + mass * velocity**2 / 2,
-        stored_energy=normal.stored_energy + energy * run.stored[at],
+        stored_energy=normal.stored_energy + energy * run.energies[at],
         plastic_work=normal.plastic_work,
         viscous_work=normal.viscous_work + energy * run.viscous[at],
         friction_work=energy * run.friction[at],

@@ -12,13 +12,14 @@ import numpy as np
 
 from .. import _numeric
 from .._numeric import cube_rise, cube_way
+from ..results import Entries
 from .equation_of_motion import Loading, MotionState, Unloading
 
 _NODES, _WEIGHTS = _numeric.gauss_legendre(24)
 
 
 @dataclass(frozen=True)
-class DepthCoordinate:
+class DepthCoordinate(Entries):
     """Coordinate δ of depths q = base + (root + δ)³ − root³ (m), one impact a row of (N, 1).
 
     Behind a kink, or the vertex of the indenter, a(s) is a fractional power of the distance; root³ is the
@@ -27,10 +28,6 @@ class DepthCoordinate:
 
     base: np.ndarray
     root: np.ndarray
-
-    def rows(self, index):
-        """Coordinates of some impacts."""
-        return DepthCoordinate(self.base[index], self.root[index])
 
     def depth(self, delta):
         """Depths (m) at coordinates."""
@@ -46,10 +43,10 @@ class DepthCoordinate:
 
 
 @dataclass(frozen=True)
-class Steps:
+class Steps(Entries):
     """Steps of impacts, one a row, from states `start`: base class of steps in depth and in velocity.
 
-    The variable of a step goes from `origin` on by `length`, of shape (N, 1). `slopes` (3, N, 24) are the
+    The variable of a step goes from `origin` on by `length`, of shape (N, 1). `slopes` (N, 3, 24) are the
     derivatives of the unknown, of time and of work at the nodes.
     """
 
@@ -60,25 +57,14 @@ class Steps:
     length: np.ndarray
     slopes: np.ndarray | None = None
 
-    def rows(self, index):
-        """Some of the steps, by their numbers."""
-        return type(self)(
-            equation=self.equation.rows(index),
-            coordinate=self.coordinate.rows(index),
-            start=self.start.rows(index),
-            origin=self.origin[index],
-            length=self.length[index],
-            slopes=self.slopes[:, index],
-        )
-
     def at(self, share):
         """The `MotionState` at shares of the steps, of shape (N, K)."""
         matrix = _numeric.gauss_integrals(_NODES.size, share.ravel()).reshape(*share.shape, -1)
-        return self.state(share, np.einsum("nkj,snj->snk", matrix, self.slopes))
+        return self.state(share, np.einsum("nkj,nsj->snk", matrix, self.slopes))
 
     def end(self):
         """The `MotionState` at the ends (N, 1): more exact than between the nodes."""
-        return self.state(1.0, (self.slopes @ _WEIGHTS)[..., None])
+        return self.state(1.0, (self.slopes @ _WEIGHTS).T[..., None])
 
     def state(self, share, integrals):
         """The `MotionState` at shares of the steps, from the integrals of `slopes` up to there."""
@@ -95,12 +81,12 @@ class Steps:
             return slope, jacobian
 
         unknown, settled = _numeric.collocate(slope_and_jacobian, self._first_unknown(), self.length)
-        step = replace(self, slopes=np.stack(slopes(unknown)[0]))
+        step = replace(self, slopes=np.stack(slopes(unknown)[0], axis=1))
         end, bodies = step.end(), self.equation.bodies
         # Near zero the work counts against a part of the kinetic energy.
         work = np.abs(end.work) + 1e-3 * bodies.inertia * bodies.speed**2
-        size = np.hstack([self._size(end), np.abs(end.time), work]).T
-        error = np.max(_numeric.last_coefficient(step.slopes) * np.abs(self.length[:, 0]) / size, axis=0)
+        size = np.hstack([self._size(end), np.abs(end.time), work])
+        error = np.max(_numeric.last_coefficient(step.slopes) * np.abs(self.length) / size, axis=1)
         return step, np.where(settled & (error < np.inf), error, np.inf)
 
     def largest_deceleration(self):
@@ -142,8 +128,7 @@ class DepthSteps(Steps):
 
     def decelerations(self):
         """Decelerations (m/s²) at the nodes."""
-        velocity, time, _ = self.slopes
-        return -velocity / time
+        return -self.slopes[:, 0] / self.slopes[:, 1]
 
 
 class VelocitySteps(Steps):
@@ -171,5 +156,4 @@ class VelocitySteps(Steps):
 
     def decelerations(self):
         """Decelerations (m/s²) at the nodes."""
-        _, time, _ = self.slopes
-        return -1 / time
+        return -1 / self.slopes[:, 1]

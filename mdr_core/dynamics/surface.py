@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import _check
 from .._check import Array
+from ..results import Entries
 from .friction import RunQuantities, bound_ratio, slide, stick_instants
 from .levels import MOST_LEVELS, levels
 
@@ -20,7 +21,7 @@ EXACT = 1e-9
 
 
 @dataclass(frozen=True)
-class SurfaceSolution:
+class SurfaceSolution(Entries):
     """Motion along the surface of one impact, or of many as arrays, with estimated errors.
 
     Change of the velocity over W₀, largest force (N), friction and viscous work (J) along the surface.
@@ -46,51 +47,43 @@ class SurfaceSolution:
         columns = {name: np.array([getattr(solution, name) for solution in solutions]) for name in names}
         return cls(**{name: _check.frozen(column.reshape(shape)) for name, column in columns.items()})
 
-    def __getitem__(self, index):
-        return SurfaceSolution(**{field.name: getattr(self, field.name)[index] for field in fields(self)})
-
 
 def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
     """The `SurfaceSolution` of one impact, in closed form where all elements slip throughout."""
-    speed, stiffness = abs(tangential_speed), 2 * float(hit.medium.tangential_ratio * hit.medium.E_star)
-    change = -friction * float(hit.mass) / tangential_mass * (1 + float(hit.restitution)) * float(hit.speed)
-    slips = friction == 0 or (speed > 0 and _slips_throughout(hit, speed, friction, change))
-    energy, unit = tangential_mass * speed**2 / 2, stiffness * speed**2
+    speed, kappa = abs(tangential_speed), float(hit.medium.tangential_ratio)
+    stiffness, energy = 2 * kappa * float(hit.medium.E_star), tangential_mass * speed**2 / 2
     inertia, ratio = stiffness / tangential_mass, bound_ratio(hit, tangential_speed, friction)
     max_force = friction * float(hit.max_force)
-    if not slips:
+    change = -friction * float(hit.mass) / tangential_mass * (1 + float(hit.restitution)) * float(hit.speed)
+    slips = friction == 0 or (speed > 0 and _slips_throughout(hit, speed, friction, change))
+    limit = error = RunQuantities(0.0, 0.0, 0.0, 0.0)
+    halvings, viscous = 0, friction**2 / kappa * float(hit.viscous_work) if slips else 0.0
+    if not slips or (hit.medium.eta > 0 and hit.plastic_work > 0 and friction > 0):
         limit, error, halvings = _limits(hit, inertia, ratio, tolerance)
-        return SurfaceSolution(
-            relative_change=limit.change,
-            max_force=min(limit.force * stiffness * speed, max_force) if speed else 0.0,
-            friction_work=limit.friction * unit,
-            viscous_work=limit.viscous * unit,
-            change_error=error.change,
-            force_error=error.force / limit.force,
-            # The energy along the surface is 1/(2C) in the units of a run.
-            friction_error=error.friction * 2 * inertia,
-            viscous_error=error.viscous * 2 * inertia,
-            halvings=halvings,
-            slips_throughout=False,
-        )
-    change = change / (speed or 1.0)
-    viscous = friction**2 / float(hit.medium.tangential_ratio) * float(hit.viscous_work)
-    viscous_error, halvings = 0.0, 0
-    if hit.medium.eta > 0 and hit.plastic_work > 0 and friction > 0:
-        limit, error, halvings = _limits(hit, inertia, ratio, tolerance)
-        viscous, viscous_error = limit.viscous * unit, error.viscous * 2 * inertia
-    friction_work = abs(change) * (2 + change) * energy - viscous
+        viscous = limit.viscous * stiffness * speed**2
+    # The energy along the surface is 1/(2C) in the units of a run.
+    viscous_error = error.viscous * 2 * inertia
+    if slips:
+        change = change / (speed or 1.0)
+        friction_work = abs(change) * (2 + change) * energy - viscous
+        change_error, force_error = EXACT * abs(change), EXACT
+        friction_error = viscous_error = viscous_error + EXACT
+    else:
+        change, max_force = limit.change, min(limit.force * stiffness * speed, max_force) if speed else 0.0
+        friction_work = limit.friction * stiffness * speed**2
+        change_error, force_error = error.change, error.force / limit.force
+        friction_error = error.friction * 2 * inertia
     return SurfaceSolution(
         relative_change=change,
         max_force=max_force,
         friction_work=friction_work,
         viscous_work=viscous,
-        change_error=EXACT * abs(change),
-        force_error=EXACT,
-        friction_error=EXACT * friction_work / (energy or 1.0) + viscous_error,
-        viscous_error=EXACT * viscous / (energy or 1.0) + viscous_error,
+        change_error=change_error,
+        force_error=force_error,
+        friction_error=friction_error,
+        viscous_error=viscous_error,
         halvings=halvings,
-        slips_throughout=True,
+        slips_throughout=slips,
     )
 
 
@@ -104,7 +97,7 @@ def _limits(hit, inertia, ratio, tolerance):
     """Limits of `RunQuantities` for vanishing steps, their estimated errors, and the number of halvings."""
     run, last_limit = slide(hit, levels(hit, inertia, 0), inertia, ratio), None
     for halvings in range(1, _MOST_HALVINGS):
-        # The first run tells at which instants stick begins.
+        # The instants at which stick begins are known from the last run.
         grid = levels(hit, inertia, halvings, stick_instants(hit, run, ratio))
         coarse, run = run.quantities, slide(hit, grid, inertia, ratio)
         if halvings == 1:
