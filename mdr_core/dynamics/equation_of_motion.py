@@ -14,7 +14,6 @@ solve these equations, in the depth q = y or ℓ and the velocity v.
 """
 
 from dataclasses import dataclass, fields
-from typing import NamedTuple
 
 import numpy as np
 
@@ -39,14 +38,6 @@ class MotionState(Entries):
         """Replaces the states at an index."""
         self.depth[index], self.velocity[index] = states.depth, states.velocity
         self.time[index], self.work[index] = states.time, states.work
-
-
-class Rates(NamedTuple):
-    """Rates of depth q (m/s), velocity (m/s²) and viscous work over 2E* (m³/s)."""
-
-    depth: np.ndarray
-    velocity: np.ndarray
-    work: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -108,9 +99,9 @@ class Loading(Entries):
         return radius_integral(self.bodies.profile, interval), self.bodies.profile._radius(interval.upper)
 
     def rates(self, load, radius, velocity):
-        """`Rates` at loads Φ, contact radii and velocities."""
+        """Rates of y (m/s), velocity (m/s²), viscous work over 2E* (m³/s) at loads Φ, radii, velocities."""
         drag = self.bodies.relaxation_time * radius * velocity
-        return Rates(velocity, -(load + drag) / self.bodies.inertia, drag * velocity)
+        return velocity, -(load + drag) / self.bodies.inertia, drag * velocity
 
     def damping(self, radius):
         """−∂v̇/∂v (1/s)."""
@@ -143,10 +134,10 @@ class Unloading(Entries):
         return radius_integral(self.bodies.profile, interval), self.bodies.profile._radius(interval.upper)
 
     def rates(self, load, radius, velocity):
-        """`Rates` at loads Φ, contact radii and velocities."""
+        """Rates of ℓ (m/s), velocity (m/s²), viscous work over 2E* (m³/s) at loads Φ, radii, velocities."""
         acceleration = -load / self.bodies.inertia
         rate = velocity + self.bodies.relaxation_time * acceleration
-        return Rates(rate, acceleration, self.bodies.relaxation_time * radius * velocity * rate)
+        return rate, acceleration, self.bodies.relaxation_time * radius * velocity * rate
 
     def damping(self, radius):
         """−∂v̇/∂v (1/s): released elements do not brake."""

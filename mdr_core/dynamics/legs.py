@@ -102,7 +102,7 @@ class _Leg:
     """One leg of impacts, from a `state` to a depth `edge` (m) or to the turning point, one impact a row.
 
     A subclass gives the sign of its steps in depth, the kind of steps that run towards zero, the margin by
-    which a depth may pass the edge in rounding, and `_plan`.
+    which a depth may pass the edge in rounding, and `_room`: the distance to the end, and the longest step.
     """
 
     def __init__(self, equation, coordinate, edge, state):
@@ -135,10 +135,15 @@ class _Leg:
             rows = rows[~arrived]
         raise ValueError(f"no convergence in {_MOST_STEPS} steps of a motion; check mass, speed, viscosity")
 
-    def _rates(self, rows):
-        """Present depths and velocities of some impacts (m, m/s), and their `Rates`."""
+    def _plan(self, rows):
+        """Which impacts move in depth; distance to the end in their variable, and the longest step."""
         state, equation = self.state[rows], self.equation[rows]
-        return state.depth, state.velocity, equation.rates(*equation.load(state.depth), state.velocity)
+        rate, acceleration, _ = equation.rates(*equation.load(state.depth), state.velocity)
+        # In the depth while it changes faster, relative to itself, than the velocity.
+        in_depth = np.abs(rate * state.velocity) > np.abs(acceleration * state.depth)
+        in_depth |= self.to_edge[rows, None] | (self.delta[rows] == 0)
+        room, longest = self._room(rows, in_depth, state.depth, state.velocity, np.abs(acceleration))
+        return in_depth[:, 0], room, longest
 
     def _advance(self, kind, rows, room, tolerance):
         """Tries one step of each of some impacts: the steps, which are good, which end the leg."""
@@ -176,17 +181,11 @@ class _LoadingLeg(_Leg):
 
     depth_sign, vanishing, margin = 1, VelocitySteps, 1e-12
 
-    def _plan(self, rows):
-        """Which impacts move in depth; distance to the end in their variable, and the longest step."""
-        depth, velocity, rates = self._rates(rows)
-        to_edge, delta, coordinate = self.to_edge[rows, None], self.delta[rows], self.coordinate[rows]
-        # In the depth while it changes faster, relative to itself, than the velocity.
-        in_depth = np.abs(rates.depth * velocity) > np.abs(rates.velocity * depth)
-        in_depth |= to_edge | (delta == 0)
-        room = np.where(in_depth, self.edge_delta[rows] - delta, velocity)
+    def _room(self, rows, in_depth, depth, velocity, deceleration):
+        room = np.where(in_depth, self.edge_delta[rows] - self.delta[rows], velocity)
         # A part of the depth in which the present force would stop the body.
-        stop = coordinate.delta(depth + velocity**2 / (3 * np.abs(rates.velocity))) - delta
-        return in_depth[:, 0], room, np.where(in_depth & ~to_edge, stop, room)
+        stop = self.coordinate[rows].delta(depth + velocity**2 / (3 * deceleration)) - self.delta[rows]
+        return room, np.where(in_depth & ~self.to_edge[rows, None], stop, room)
 
 
 class _UnloadingLeg(_Leg):
@@ -194,13 +193,9 @@ class _UnloadingLeg(_Leg):
 
     depth_sign, vanishing, margin = -1, DepthSteps, 0.0
 
-    def _plan(self, rows):
-        """Which impacts move in depth; distance to the end in their variable, and the longest step."""
-        depth, velocity, rates = self._rates(rows)
-        in_depth = np.abs(rates.depth * velocity) > np.abs(rates.velocity * depth)
-        in_depth |= self.to_edge[rows, None]
+    def _room(self, rows, in_depth, depth, velocity, deceleration):
+        room = np.where(in_depth, self.delta[rows], np.inf)
         # A part of the velocity that springs alone, or dashpots alone, would return.
         relaxation_time = self.equation.bodies.relaxation_time[rows]
-        gain = 0.4 / (1 / np.sqrt(np.abs(depth * rates.velocity)) + relaxation_time / depth)
-        room = np.where(in_depth, self.delta[rows], np.inf)
-        return in_depth[:, 0], room, np.where(in_depth, room, gain)
+        gain = 0.4 / (1 / np.sqrt(depth * deceleration) + relaxation_time / depth)
+        return room, np.where(in_depth, room, gain)

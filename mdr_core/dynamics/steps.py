@@ -94,7 +94,8 @@ class Steps(Entries):
 
         def deceleration(share):
             state = self.at(share)
-            return -self.equation.rates(*self.equation.load(state.depth), state.velocity).velocity
+            _, acceleration, _ = self.equation.rates(*self.equation.load(state.depth), state.velocity)
+            return -acceleration
 
         best, edges = self.decelerations().argmax(axis=1), np.array([0.0, *_NODES, 1.0])
         return _numeric.largest_value(deceleration, edges[best, None], edges[best + 2, None])
@@ -119,10 +120,9 @@ class DepthSteps(Steps):
         damping, depth_rate = self.equation.damping(radius), self.coordinate.rate(delta)
 
         def slopes(velocity):
-            rates = self.equation.rates(load, radius, velocity)
-            time = depth_rate / rates.depth
-            jacobian = -(damping + rates.velocity / rates.depth) * time
-            return (rates.velocity * time, time, rates.work * time), jacobian
+            rate, acceleration, power = self.equation.rates(load, radius, velocity)
+            time = depth_rate / rate
+            return (acceleration * time, time, power * time), -(damping + acceleration / rate) * time
 
         return slopes
 
@@ -146,11 +146,10 @@ class VelocitySteps(Steps):
     def _slopes(self, velocity):
         def slopes(depth):
             load, radius = self.equation.load(depth)
-            rates = self.equation.rates(load, radius, velocity)
+            rate, acceleration, power = self.equation.rates(load, radius, velocity)
             stiffness = self.equation.stiffness(depth, radius, velocity)
-            jacobian = stiffness * velocity / self.equation.bodies.inertia / rates.velocity**2
-            time = 1 / rates.velocity
-            return (rates.depth * time, time, rates.work * time), jacobian
+            jacobian = stiffness * velocity / self.equation.bodies.inertia / acceleration**2
+            return (rate / acceleration, 1 / acceleration, power / acceleration), jacobian
 
         return slopes
 
