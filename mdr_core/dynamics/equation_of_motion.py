@@ -109,11 +109,13 @@ class Loading(Entries):
 
     def stiffness(self, depth, radius, velocity):
         """−μ ∂v̇/∂y (m): a (less c while yielding), and the drag on a contact that grows."""
-        interval, increase = self._interval(depth)
+        profile, (interval, increase) = self.bodies.profile, self._interval(depth)
         slope = radius
         if np.any(increase > 0):
-            slope = np.where(increase > 0, radius - self.bodies.profile._radius(interval.lower), radius)
-        return slope + self.bodies.relaxation_time * velocity / self.bodies.profile._reduced_slope(radius)
+            slope = np.where(increase > 0, radius - profile._radius(interval.lower), radius)
+        # At a wall the contact no longer grows.
+        growth = np.where(radius < profile.wall, 1 / profile._reduced_slope(radius), 0.0)
+        return slope + self.bodies.relaxation_time * velocity * growth
 
     def _interval(self, depth):
         depth = np.maximum(depth, 0.0)
