@@ -68,6 +68,5 @@ def _released_energy(hit, course, time):
         energy[i + 1] = factor * energy[i] + new
     # At the end all remaining elements are released at once.
     energy[-1] += radius[-1] * density[-1]
-    return np.where(
-        time < course.turning_time, 0.0, energy[np.searchsorted(finer, time).clip(0, finer.size - 1)]
-    )
+    # All times of unloading are among the finer ones; before them the energy is that of the first, 0.
+    return np.interp(time, finer, energy)
