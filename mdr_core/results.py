@@ -1,7 +1,7 @@
 """Base classes of results: the model that was solved, the limits of its validity, the motion in time."""
 
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -171,7 +171,7 @@ def friction_limits(medium):
 class Entries:
     """Base class of dataclasses whose fields all have one entry, or one row, for each impact."""
 
-    def __getitem__(self, index):
+    def __getitem__(self, index: Any) -> Self:
         return type(self)(**{field.name: getattr(self, field.name)[index] for field in fields(self)})
 
 
