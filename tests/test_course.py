@@ -54,3 +54,14 @@ def test_an_oblique_impact_and_its_motion_solve_the_normal_motion_once(monkeypat
     hit.motion(20)
     hit.normal.motion(20)
     assert len(calls) == 1
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+def test_instants_within_rounding_of_the_ends_of_steps(shape):
+    """The slope of the time by the share of a step may be zero there."""
+    path = mdr.impact(shape, medium(0.3, shape, 10.0), MASS, SPEED)._course
+    for branch in (path.loading, path.unloading):
+        ends = branch.nodes(2)
+        for shift in (-4e-16, -2e-16, 0.0, 2e-16, 4e-16):
+            state = branch.at(ends.time * (1 + shift))
+            np.testing.assert_allclose(state.velocity, ends.velocity, rtol=0, atol=1e-13 * SPEED)

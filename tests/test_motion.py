@@ -108,3 +108,22 @@ def test_the_turning_point_is_among_the_instants(shape, eta, n):
     assert np.all(motion.velocity[:turn] > 0)
     assert np.all(motion.velocity[turn + 1 :] < 0)
     assert (motion.time.size, motion.velocity[0]) == (n, SPEED)
+
+
+def test_a_flat_punch_is_a_damped_oscillator():
+    """m v̇ = −k (d + τ v) with the stiffness k = 2E*a, until d + τ v = 0, where ωt = π − 2 arcsin ζ.
+
+    There are many damping ratios ζ, because a wrong last velocity depends on how its instant is rounded.
+    """
+    punch = mdr.FlatPunch(radius=1e-6)
+    natural = math.sqrt(2 * E_STAR * punch.radius / MASS)
+    for damping in np.linspace(0.02, 0.9, 200):
+        material = mdr.Medium(E_STAR, eta=damping * E_STAR / (2 * natural))
+        motion = mdr.impact(punch, material, MASS, SPEED).motion(9)
+        damped = math.sqrt(1 - damping**2)
+        phase = natural * damped * motion.time
+        swing = np.cos(phase) - damping / damped * np.sin(phase)
+        velocity = SPEED * np.exp(-damping * natural * motion.time) * swing
+        # About ten steps, of each of which the polynomial may miss the velocity by 1e-10.
+        np.testing.assert_allclose(motion.velocity, velocity, rtol=0, atol=1e-9 * SPEED)
+        assert phase[-1] == pytest.approx(math.pi - 2 * math.asin(damping), rel=1e-9)

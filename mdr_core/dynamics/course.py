@@ -12,8 +12,8 @@ from .legs import solve
 
 #: Relative error of the steps; between their nodes the polynomials are as exact as that.
 _TOLERANCE = 1e-10
-#: Parts of a step in which Newton's method starts.
-_CELLS = 64
+#: Parts of a step in which Newton's method starts; its largest number of trials, and relative error.
+_CELLS, _MOST_TRIALS, _CLOSE = 64, 20, 1e-14
 _SHARES = np.linspace(0.0, 1.0, _CELLS + 1)
 
 
@@ -56,18 +56,20 @@ class Branch:
         sign = np.sign(end - start)
         table = np.maximum.accumulate(sign * getattr(self._table, name))
         place = np.interp(sign * values, table, self._places)
-        low = np.floor(place * _CELLS) / _CELLS
-        # Newton's method, with a difference for the derivative.
-        shift = np.where(place - np.floor(place) < 0.5, 1e-6, -1e-6)
-        for _ in range(8):
-            states = self._states(np.concatenate([place, place + shift]))
-            present, beside = np.split(getattr(states, name), 2)
-            rate = sign * np.maximum(sign * (beside - present) / shift, 1e-300)
-            new = np.clip(place + (values - present) / rate, low, low + 1 / _CELLS)
-            change, place = np.abs(new - place), new
-            if np.all(change < 1e-7):
+        low, states, rows = np.floor(place * _CELLS) / _CELLS, self._states(place), np.arange(values.size)
+        for _ in range(_MOST_TRIALS):
+            # Newton's method, with a difference for the derivative, which may vanish at an end of a step,
+            # where the depth is a cube of δ: a miss within rounding must not move the place there.
+            miss = values[rows] - getattr(states, name)[rows]
+            far = np.abs(miss) > _CLOSE * max(abs(start), abs(end))
+            rows, miss = rows[far], miss[far]
+            if not rows.size:
                 break
-        states = self._states(place)
+            shift = np.where(place[rows] - np.floor(place[rows]) < 0.5, 1e-6, -1e-6)
+            beside = getattr(self._states(place[rows] + shift), name)
+            rate = np.maximum(sign * (beside - getattr(states, name)[rows]) / shift, 1e-300)
+            place[rows] = np.clip(place[rows] + sign * miss / rate, low[rows], low[rows] + 1 / _CELLS)
+            states.store(rows, self._states(place[rows]))
         # The ends are known better than from the polynomials.
         states.store(sign * values <= sign * start, self.start)
         states.store(sign * values >= sign * end, self.end)
