@@ -1,6 +1,6 @@
 """Indentation along a prescribed path of depth or force, infinitely slowly: functions and states."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -11,7 +11,7 @@ from ._check import Array, ArrayLike
 from ._numeric import root
 from .limits import Limit, contact_limits
 from .medium import Medium, check_pair, paths_on
-from .results import CLOSED_FORM, Result, sealed
+from .results import CLOSED_FORM, Result
 from .shapes.profile import Profile
 from .stress import Stress, StressPeak
 from .superposition import energy_integral, live_length, loading_depth, radius_drop, radius_integral
@@ -138,7 +138,6 @@ class Indentation(Result):
     live_interval: LiveInterval
     dashpot_load: np.ndarray | float = 0.0
     in_time: bool = False
-    _made_of: tuple[Any, ...] = field(default=(), repr=False)
 
     #: Name of the model.
     model = CLOSED_FORM
@@ -152,10 +151,8 @@ class Indentation(Result):
     _dimensions = ("path", "state")
 
     def __post_init__(self):
-        if not self._made_of:
-            # A copy: what the caller does with the path later must not change the result.
-            object.__setattr__(self, "depth", _check.frozen(np.array(self.depth)))
-        sealed(self, "profile", "medium", "depth", "live_interval")
+        # A copy: the caller may change the path later.
+        object.__setattr__(self, "depth", _check.frozen(np.array(self.depth)))
 
     def __getitem__(self, index: Any) -> "Indentation":
         shape = np.shape(self.depth)

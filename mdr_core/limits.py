@@ -6,6 +6,7 @@ import numpy as np
 
 from . import _check
 from .quantities import engineering
+from .shapes.power import Cone
 
 #: Slope up to which results are good, above which they are estimates, and above which the slope is
 #: probably a mistake; contact radius over the radius of the body; share of the wave speed.
@@ -72,7 +73,7 @@ def _slope_limit(profile, radius):
     # The difference has nine digits.
     value = float(f"{np.max(slope, initial=0.0):.9g}")
     text = f"Slopes reach {value:.3g} within the contact"
-    if value > _NEEDLE and "slope" in profile.__dataclass_fields__:
+    if value > _NEEDLE and isinstance(profile, Cone):
         text += (
             ": a needle, for which a half-space is no approximation. A slope is the tangent of the angle "
             "to the surface; Cone.from_half_angle(degrees) takes the angle to the axis."

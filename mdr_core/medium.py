@@ -15,7 +15,7 @@ def check_pair(profile, medium, what=None):
         raise TypeError(f"profile must be an mdr_core shape such as Cone(slope=1), got {shown(profile)}")
     if type(profile).__hash__ is None:
         name = type(profile).__name__
-        raise TypeError(f"{name} must be immutable: declare it with @dataclass(frozen=True)")
+        raise TypeError(f"{name} must not change once it is made: declare it with @dataclass(frozen=True)")
     if not isinstance(medium, Medium):
         raise TypeError(f"medium must be a Medium, got {shown(medium)}")
     if what and (profile.shape or medium.shape):

@@ -1,7 +1,7 @@
 """Base classes of results along a path, of impacts and of motions; the names of the models."""
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -51,19 +51,11 @@ CHAIN = Model(
 )
 
 
-def sealed(result, *names):
-    """Keeps what a result was made of, and refuses one that is made of another's parts.
+class Entries:
+    """Base class of dataclasses whose fields all have one entry, or one row, for each impact."""
 
-    `dataclasses.replace` would pair the old force with a new medium.
-    """
-    parts = tuple(getattr(result, name) for name in names)
-    if result._made_of and any(one is not other for one, other in zip(parts, result._made_of, strict=True)):
-        name = type(result).__name__
-        raise ValueError(
-            f"the {', '.join(names)} of an existing {name} cannot be replaced: its results belong to them; "
-            "call the function that made it anew, as in mdr.indent(profile, medium, depth)"
-        )
-    object.__setattr__(result, "_made_of", parts)
+    def __getitem__(self, index: Any) -> Self:
+        return type(self)(**{field.name: getattr(self, field.name)[index] for field in fields(self)})
 
 
 class Result(Report):
@@ -112,6 +104,18 @@ class ImpactResult(Result):
 
     medium: "Medium"
     speed: Any
+    restitution: Any
+    plastic_radius: Any
+
+    @property
+    def rebound_speed(self) -> Array:
+        """Rebound speed e v₀ (m/s)."""
+        return self.restitution * self.speed
+
+    @property
+    def damaged_area(self) -> Array:
+        """Area π c² (m²) of the plastic zone; in the fast limit that of the contact, π a²."""
+        return np.pi * self.plastic_radius**2
 
     def speed_limit(self, density: float) -> Limit:
         """The speed over the wave speed √(E*/ρ) of a medium of density ρ (kg/m³), as a `Limit`."""
@@ -186,18 +190,18 @@ class Motion(MotionResult):
         "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "plastic_depth",
         "live_depth", "kinetic_energy", "stored_energy", "plastic_work", "viscous_work",
     )  # fmt: skip
-    _shown = _quantities[:6]
+    _shown = ("time", "depth", "velocity", "force", "contact_radius", "plastic_radius")
 
     def __getitem__(self, index: Any) -> "Motion":
-        parts = {name: getattr(self, name)[index] for name in self._quantities}
-        return replace(self, **parts, states=self.states and self.states[index])
+        values = {name: getattr(self, name)[index] for name in self._quantities}
+        return replace(self, **values, states=self.states and self.states[index])
 
 
-def instants(n, turn, end, begin=0.0):
-    """n times (s) from `begin` to `end`, at equal steps on either side of the turning point at `turn`."""
+def instants(n, turn, end, start=0.0):
+    """n times (s): equally spaced from `start` to the turning point at `turn`, and from there to `end`."""
     if isinstance(n, bool) or not isinstance(n, int | np.integer) or not 2 <= n <= 10**7:
         raise ValueError(f"number of instants n = {shown(n)} must be a whole number from 2 to 10⁷")
-    down = min(max(round((n - 1) * (turn - begin) / (end - begin)), 1), n - 2)
     if n == 2:
-        return np.array([begin, end])
-    return np.append(np.linspace(begin, turn, down + 1), np.linspace(turn, end, n - down)[1:])
+        return np.array([start, end])
+    count = min(max(round((n - 1) * (turn - start) / (end - start)), 1), n - 2)
+    return np.append(np.linspace(start, turn, count + 1), np.linspace(turn, end, n - count)[1:])

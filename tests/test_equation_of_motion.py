@@ -279,6 +279,21 @@ def test_turning_exactly_on_a_kink(shape, q_c):
     np.testing.assert_allclose(ledger, MASS * hit.speed**2 / 2, rtol=1e-9)
 
 
+def test_a_cylinder_that_has_yielded_up_to_its_wall():
+    """The spring force no longer grows: μ v̇ = −(b d_c + τ b v), an exponential up to the turning point."""
+    shape, b = mdr.ParabolicPunch(radius=3e-6, cylinder_radius=1.5e-8), 1.5e-8
+    medium = mdr.Medium(1e9, 10.0, eta=3.0)
+    mass, speed, tau, d_c = 8e-12, 1.8, medium.relaxation_time, medium.critical_depth
+    hit = mdr.impact(shape, medium, mass, speed)
+    inertia = mass / (2 * medium.E_star)
+    flat = d_c / tau
+    depth = inertia / (tau * b) * (speed - flat * math.log1p(speed / flat))
+    # Before full yield, over a depth of d_c, the force is smaller.
+    assert hit.max_depth == pytest.approx(depth, rel=2 * d_c / depth)
+    lost = hit.plastic_work + hit.viscous_work + mass * hit.rebound_speed**2 / 2
+    assert lost == pytest.approx(mass * speed**2 / 2, rel=1e-9)
+
+
 def test_an_imprint_that_ends_on_a_kink():
     """The force goes through the kink without a jump, even if both of its ends come there at once."""
     shape, medium = mdr.RoundedCone(1e-6, 0.1), mdr.Medium(1e9, 10.0, 3.0)

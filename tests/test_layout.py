@@ -20,17 +20,17 @@ ORDER = (
     "foundation.impact",
     "yielding", "closed_forms", "superposition", "onset", "fields", "stress", "indentation",
     "dynamics.energy_balance", "dynamics.contact_time", "scaling", "dynamics.equation_of_motion",
-    "dynamics.motion", "dynamics.impact", "dynamics.levels", "dynamics.friction",
-    "dynamics.oblique_motion", "dynamics.ball",
-    "dynamics.oblique", "sweep",
+    "dynamics.steps", "dynamics.legs", "dynamics.course", "dynamics.motion", "dynamics.impact",
+    "dynamics.levels", "dynamics.friction", "dynamics.oblique_motion", "dynamics.surface",
+    "dynamics.ball", "dynamics.oblique", "sweep",
     "fit.least_squares", "fit.curve", "fit.start", "fit.solution", "fit.remarks", "fit.indentation",
     "fit.hardness", "fit.impacts", "drives", "scene", "figures", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {
     "yielding", "closed_forms", "superposition", "fields", "indentation", "dynamics.impact",
-    "dynamics.energy_balance", "dynamics.contact_time", "dynamics.equation_of_motion", "dynamics.motion",
-    "scaling", "shapes.tabulated", "stress",
+    "dynamics.energy_balance", "dynamics.contact_time", "dynamics.equation_of_motion", "dynamics.steps",
+    "dynamics.legs", "dynamics.course", "dynamics.motion", "scaling", "shapes.tabulated", "stress",
 }  # fmt: skip
 
 
@@ -111,7 +111,7 @@ def test_both_impacts_answer_the_same_names():
     shape, medium = mdr.Cone(0.3), mdr.Medium(1e9, 10.0)
     hit, chain = mdr.impact(shape, medium, 1e-9, 0.1), mdr.chain_impact(shape, medium, 1e-9, 0.1)
     names, others = ({n for n in dir(each) if not n.startswith("_")} for each in (hit, chain))
-    assert names - others == {"turning_point", "plastic_depth_increase", "rebound", "fast_limit"}
+    assert names - others == {"turning_point", "plastic_depth_increase", "fast_limit"}
     assert others - names == {"error", "errors", "foundation"}
     assert hit.shape == chain.shape == ()
     for name in hit.to_dict():

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core.dynamics.friction import changes, slide
-from mdr_core.dynamics.levels import NormalMotion
+from mdr_core.dynamics.friction import slide, stick_instants
+from mdr_core.dynamics.levels import levels
 
 from .shapes import SHAPES, name
 
@@ -92,7 +92,9 @@ class TestMaw:
         """The same row where the closed form is known; its limit has the momentum of the normal motion."""
         hit = hit_at(4.5)
         run, coarse = (_run(hit, halvings).quantities for halvings in (3, 2))
-        assert (run + (run - coarse) / 3)[0] == pytest.approx(hit.velocity_change / speed_at(4.5), abs=1e-7)
+        assert run.change + (run.change - coarse.change) / 3 == pytest.approx(
+            hit.velocity_change / speed_at(4.5), abs=1e-7
+        )
 
     def test_small_angles_begin_with_stick_and_large_ones_with_slip(self):
         for psi, sticks in ((0.9, True), (1.5, False)):
@@ -162,28 +164,48 @@ def test_against_superposition(psi):
 
 def _run(hit, halvings, instants=()):
     stiffness = 2 * KAPPA * hit.medium.E_star
-    motion = NormalMotion(hit.normal)
-    levels = motion.levels(stiffness / hit.tangential_mass, halvings, instants)
-    return slide(
-        motion, levels, stiffness / hit.tangential_mass, hit.friction / KAPPA / hit.tangential_speed
-    )
+    grid = levels(hit.normal, stiffness / hit.tangential_mass, halvings, instants)
+    hold = hit.friction / KAPPA / hit.tangential_speed
+    return slide(hit.normal, grid, stiffness / hit.tangential_mass, hold)
 
 
 def test_errors_of_second_order():
     """With levels where stick begins, a quarter of the error is left by twice the levels."""
     hit = hit_at(1.8)
-    instants = changes(NormalMotion(hit.normal), _run(hit, 4), MU / KAPPA / hit.tangential_speed)
-    values = np.array([_run(hit, halvings, instants).quantities[[0, 2]] for halvings in range(4)])
+    instants = stick_instants(hit.normal, _run(hit, 4), MU / KAPPA / hit.tangential_speed)
+    runs = [_run(hit, halvings, instants).quantities for halvings in range(4)]
+    values = np.array([(run.change, run.friction) for run in runs])
     differences = np.abs(np.diff(values, axis=0))
     np.testing.assert_allclose(differences[:-1] / differences[1:], 4.0, rtol=0.1)
 
 
 @pytest.mark.parametrize("medium", [ELASTIC, DRY, VISCOUS], ids=["elastic", "yielding", "viscous"])
 def test_errors_cover_the_errors(medium):
+    """Errors are relative: to the tangential speed, the force itself, and kinetic energies."""
     rough, fine = (hit_at(1.6, medium=medium, tolerance=tolerance) for tolerance in (1e-3, 1e-5))
-    for quantity in ("tangential_velocity", "max_tangential_force", "friction_work", "viscous_work"):
-        miss = abs(getattr(rough, quantity) - getattr(fine, quantity))
-        assert miss <= getattr(rough.errors, quantity), quantity
+    energy = BALL * rough.tangential_speed**2 / 2
+    scales = {
+        "tangential_velocity": rough.tangential_speed,
+        "max_tangential_force": rough.max_tangential_force,
+        "friction_work": energy,
+        "viscous_work": energy + MASS * SPEED**2 / 2,
+    }
+    for quantity, scale in scales.items():
+        miss = abs(getattr(rough, quantity) - getattr(fine, quantity)) / scale
+        assert miss <= getattr(rough.errors, quantity) <= 1e-3, quantity
+
+
+def test_errors_of_a_family_of_impacts_are_relative():
+    """The same impact in other units of length, mass and time errs by the same share of each quantity."""
+    small, large = (
+        mdr.oblique_impact(
+            mdr.Paraboloid(1e-5 * size), ELASTIC, MASS * size**3, SPEED, speed_at(1.6), MU,
+            tangential_mass=BALL * size**3, tolerance=1e-3,
+        )
+        for size in (1.0, 100.0)
+    )  # fmt: skip
+    assert large.friction_work == pytest.approx(1e6 * small.friction_work, rel=1e-9)
+    assert large.errors == pytest.approx(small.errors, rel=1e-6)
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)

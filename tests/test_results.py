@@ -1,6 +1,6 @@
 """Where the model ends, as data; and results that cannot be pieced together from others."""
 
-from dataclasses import FrozenInstanceError, replace
+from dataclasses import FrozenInstanceError
 
 import numpy as np
 import pytest
@@ -179,25 +179,6 @@ def test_speed_against_wave_speed(hit):
 def test_limits_are_frozen():
     with pytest.raises(FrozenInstanceError):
         CHAIN.limits[0].value = 1.0
-
-
-PARTS = {
-    "state": (mdr.indent(mdr.Cone(0.3), SOFT, [1e-9, 2e-9]), {"depth": 3e-9}),
-    "impact": (mdr.impact(mdr.Cone(0.3), SOFT, 1e-6, 0.1), {"speed": np.float64(3.0)}),
-}
-
-
-@pytest.mark.parametrize("kind", PARTS)
-def test_old_results_are_not_paired_with_a_new_medium(kind):
-    """The force of `replace(state, medium=...)` would be that of neither."""
-    result, other = PARTS[kind]
-    for change in ({"medium": mdr.Medium(2e9)}, {"profile": mdr.Cone(0.1)}, other):
-        if change:
-            with pytest.raises(
-                ValueError, match=r"cannot be replaced: .* call the function that made it anew"
-            ):
-                replace(result, **change)
-    assert replace(result).medium is result.medium
 
 
 def test_motion_begins_exactly_at_first_contact():

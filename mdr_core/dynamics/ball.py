@@ -1,4 +1,4 @@
-"""What an oblique impact is made of, and comes to: angles of incidence, and balls that spin."""
+"""Angles of incidence, and balls that spin, for oblique impacts."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
     """Normal and tangential speed (m/s) of a body at some speed (m/s) and angle of incidence (rad).
 
-    The angle is that from the normal, between −π/2 and π/2; the angle of attack, from the surface, is the
-    rest to π/2. Hand both on as `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
+    The angle counts from the normal, between −π/2 and π/2; an angle of attack α, from the surface, is
+    π/2 − α here. Use as in `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
 
     Examples
     --------
@@ -35,10 +35,10 @@ def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
 
 @dataclass(frozen=True)
 class Ball:
-    """A ball that may roll: what its spin makes of the contact point, and the impact of its spin.
+    """A ball that may spin: the speed of its contact point, and the change of its spin by an impact.
 
-    Spin Ω (rad/s) counts so that the contact point has the speed W = V + RΩ, V that of the centre: backspin
-    is positive, and rolling is V = −RΩ.
+    With spin Ω (rad/s) and the speed V of the centre, the contact point has the speed W = V + RΩ: backspin
+    is positive, and the ball rolls if V = −RΩ.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ class Ball:
 
     @property
     def tangential_mass(self) -> Array:
-        """Mass m_t (kg) that is felt at the contact point, 1/m_t = 1/m + R²/I."""
+        """Effective mass m_t (kg) at the contact point along the surface, 1/m_t = 1/m + R²/I."""
         return 1 / (1 / self.mass + self.radius**2 / self.inertia)
 
     def contact_speed(self, tangential_speed: ArrayLike, spin: ArrayLike) -> Array:

@@ -1,10 +1,10 @@
 """Impact of a free rigid body.
 
-A dry one is solved by the balance of energy and quadrature, without time stepping; a viscous one by its
-equation of motion.
+On a medium without viscosity it is solved by the energy balance and quadrature, without time stepping, on a
+viscous one by the equation of motion.
 """
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -16,11 +16,11 @@ from .._numeric import chunks
 from ..indentation import Indentation
 from ..limits import Limit, contact_limits
 from ..medium import Medium, check_pair, shape_with
-from ..results import CLOSED_FORM, SCALAR_ODE, ImpactResult, Model, Motion, sealed
+from ..results import CLOSED_FORM, SCALAR_ODE, Entries, ImpactResult, Model, Motion
 from ..scaling import FastLimit, fast_limit, how_fast
 from ..shapes.profile import Profile
-from ..superposition import radius_integral
 from .contact_time import contact_time
+from .course import Course
 from .energy_balance import (
     dry_restitution,
     loading_interval,
@@ -28,7 +28,8 @@ from .energy_balance import (
     tabulated_for,
     turning_interval,
 )
-from .equation_of_motion import Bodies, solve
+from .equation_of_motion import Bodies
+from .legs import solve
 from .motion import motion
 
 
@@ -43,8 +44,8 @@ def impact(
 ) -> "Impact":
     """Let a body of given mass hit the medium at given speed, with no other force acting.
 
-    Contact begins at the bottom of the imprint that is there, on a virgin medium at depth 0, and
-    ends when the force returns to zero.
+    Contact starts at the bottom of the imprint, on a virgin medium at depth 0, and ends when the force
+    returns to zero.
 
     Parameters
     ----------
@@ -57,8 +58,8 @@ def impact(
     speed : float or array_like
         Speed v₀ (m/s) at first contact, positive.
     plastic_depth : float or array_like, optional
-        Plastic depth (m) of an imprint of the same indenter that is there already and has relaxed:
-        for repeated impacts, the `plastic_depth` of the one before. 0 (the default) is a virgin medium.
+        Plastic depth (m) of a relaxed imprint of the same indenter: for repeated impacts, the
+        `plastic_depth` of the previous one. 0 (the default) is a virgin medium.
 
     Returns
     -------
@@ -70,7 +71,7 @@ def impact(
     ------
     ValueError
         If a mass or a speed is not finite and positive, shapes do not broadcast, or the indenter
-        goes deeper than its shape is known.
+        would go deeper than its profile is known.
 
     Examples
     --------
@@ -98,79 +99,74 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
     check_pair(profile, medium)
     mass = _check.positive("mass", mass, unit="kg")
     speed = _check.positive("speed", speed, unit="m/s")
-    before = _check.positive("plastic_depth", plastic_depth, unit="m", zero=True)
-    shape = shape_with("impact", profile, medium, mass=mass, speed=speed, plastic_depth=before)
-    mass, speed, before = (np.broadcast_to(part, shape) for part in (mass, speed, before))
+    imprint_depth = _check.positive("plastic_depth", plastic_depth, unit="m", zero=True)
+    shape = shape_with("impact", profile, medium, mass=mass, speed=speed, plastic_depth=imprint_depth)
+    mass, speed, imprint_depth = (np.broadcast_to(values, shape) for values in (mass, speed, imprint_depth))
     too_deep = profile._too_deep()
-    _check.refuse("plastic_depth", before, before > profile.known_depth, f"is {too_deep}", unit="m")
-    # The search may begin far from the root, where powers leave double precision.
+    outside = imprint_depth > profile.known_depth
+    _check.refuse("plastic_depth", imprint_depth, outside, f"is {too_deep}", unit="m")
+    # The search may start far from the root, where powers leave double precision.
     with np.errstate(all="ignore"):
-        arguments = profile, medium, mass, speed, before
+        energy = np.broadcast_to(mass * speed**2 / (4 * medium.E_star), shape)
+        interval, increase = turning_interval(profile, energy, medium.critical_depth, imprint_depth)
+        integrated = None
         if in_time or np.any(np.asarray(medium.eta) > 0):
-            interval, increase, rebound = _in_time(*arguments, in_time)
-        else:
-            interval, increase, rebound = *_dry(*arguments), None
+            penetration = np.where(interval.upper < np.inf, interval.length + increase, np.inf)
+            bodies = Bodies.of(profile, medium, mass, speed, imprint_depth, penetration)
+            penetration, integrated = _integrate(bodies, penetration, mass, medium.E_star, in_time)
+            interval, increase = loading_interval(penetration, medium.critical_depth, imprint_depth)
     known = np.minimum(profile.known_depth, _check.LARGEST)
     bound = f"m/s presses {too_deep}"
     _check.refuse("speed", speed, ~(interval.upper <= known), bound, remedy="hit less hard")
     turning_point = Indentation(profile, medium, interval.upper, interval, in_time=True)
-    return Impact(profile, medium, mass[()], speed[()], turning_point, increase, rebound)
+    return Impact(profile, medium, mass[()], speed[()], turning_point, increase, integrated)
 
 
 @dataclass(frozen=True)
-class Rebound:
-    """What impacts solved in time end with: arrays of their shape.
+class IntegratedQuantities(Entries):
+    """Quantities of impacts from the equation of motion, where it was `solved`, as arrays of their shape.
 
     Coefficient of restitution, contact time (s), viscous work (J), largest force (N).
     """
 
-    restitution: np.ndarray
-    contact_time: np.ndarray
-    viscous_work: np.ndarray
-    max_force: np.ndarray
-
-    def __getitem__(self, index):
-        return Rebound(*(getattr(self, field.name)[index] for field in fields(self)))
+    solved: Array
+    restitution: Array
+    contact_time: Array
+    viscous_work: Array
+    max_force: Array
 
 
-def _dry(profile, medium, mass, speed, before):
-    """Live interval at the turning point without viscosity, and growth of the plastic depth."""
-    target = np.broadcast_to(mass * speed**2 / (4 * medium.E_star), np.shape(speed))
-    return turning_interval(profile, target, medium.critical_depth, before)
+def _integrate(bodies, penetration, mass, E_star, in_time):
+    """Penetrations (m), and `IntegratedQuantities`; where nothing is viscous only if `in_time`.
 
-
-def _in_time(profile, medium, mass, speed, before, dry_too):
-    """Live interval at the turning point, increase of the plastic depth, and `Rebound`, elementwise.
-
-    Where eta is 0 they are those of the energy balance, unless these too are to be solved in time.
+    The `penetration` is that without viscosity.
     """
-    shape, modulus, d_c = np.shape(speed), 2 * medium.E_star, medium.critical_depth
-    interval, increase = _dry(profile, medium, mass, speed, before)
-    y = np.where(interval.upper < np.inf, interval.length + increase, np.inf)
-    bodies = Bodies.of(profile, medium, mass, speed, before, y)
-    wet = (bodies.tau[:, 0] > 0) | dry_too
-    ends = np.zeros((4, y.size))
-    for part in chunks(np.count_nonzero(wet), 256):
-        rows = np.flatnonzero(wet)[part]
-        course = solve(bodies.rows(rows))
-        y.reshape(-1)[rows] = course.deepest
-        ends[:, rows] = course.velocity, course.time, course.work, course.peak
-    velocity, time, work, peak = ends.reshape(4, *shape)
-    restitution, force, still = np.minimum(-velocity / speed, 1.0), peak * mass, ~wet.reshape(shape)
-    interval, increase = loading_interval(y, d_c, before)
-    if still.any():
-        restitution = np.where(still, dry_restitution(profile, interval, d_c, increase), restitution)
-        time = np.where(still, contact_time(profile, mass / modulus, speed, interval, increase), time)
-        force = np.where(still, modulus * radius_integral(profile, interval), force)
-    return interval, increase, Rebound(*(part[()] for part in (restitution, time, modulus * work, force)))
+    shape, penetration = np.shape(penetration), penetration.ravel()
+    velocity, time, work, deceleration = np.zeros((4, penetration.size))
+    solved = (bodies.relaxation_time[:, 0] > 0) | in_time
+    numbers = np.flatnonzero(solved)
+    for block in chunks(numbers.size, 256):
+        rows = numbers[block]
+        solution = solve(bodies[rows])
+        penetration[rows], end = solution.turning_point.depth[:, 0], solution.end[:, 0]
+        velocity[rows], time[rows], work[rows] = end.velocity, end.time, end.work
+        deceleration[rows] = solution.max_deceleration
+    restitution = np.minimum(-velocity / bodies.speed[:, 0], 1.0)
+    return penetration.reshape(shape), IntegratedQuantities(
+        solved=solved.reshape(shape)[()],
+        restitution=restitution.reshape(shape)[()],
+        contact_time=time.reshape(shape)[()],
+        viscous_work=(2 * E_star * work.reshape(shape))[()],
+        max_force=(deceleration.reshape(shape) * mass)[()],
+    )
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Impact(ImpactResult):
     """One impact or many; made by `impact`. Every quantity has the shape of the ensemble.
 
-    `turning_point` is the state of largest depth, `plastic_depth_increase` (m) is that by this impact,
-    `rebound` what a viscous impact ends with, None for a dry one. `result[i]` picks one impact.
+    `turning_point` is the state of largest depth, `plastic_depth_increase` (m) the increase of the plastic
+    depth by this impact. `result[i]` picks one impact.
     """
 
     profile: Profile
@@ -179,11 +175,7 @@ class Impact(ImpactResult):
     speed: Array
     turning_point: Indentation
     plastic_depth_increase: np.ndarray
-    rebound: Rebound | None = None
-    _made_of: tuple[Any, ...] = field(default=(), repr=False)
-
-    def __post_init__(self):
-        sealed(self, "profile", "medium", "mass", "speed", "turning_point", "plastic_depth_increase")
+    _integrated: IntegratedQuantities | None = None
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
@@ -199,25 +191,43 @@ class Impact(ImpactResult):
         limits = contact_limits(self.profile, self.medium, self.contact_radius)
         return (*limits, *how_fast(self))
 
+    @cached_property
+    def _course(self):
+        return Course(self)
+
     def __getitem__(self, index: Any) -> "Impact":
-        state, increase = self.turning_point[index], self.plastic_depth_increase[index]
-        mass, speed, rebound = self.mass[index], self.speed[index], self.rebound and self.rebound[index]
-        return Impact(state.profile, state.medium, mass, speed, state, increase, rebound)
+        state = self.turning_point[index]
+        return Impact(
+            profile=state.profile,
+            medium=state.medium,
+            mass=self.mass[index],
+            speed=self.speed[index],
+            turning_point=state,
+            plastic_depth_increase=self.plastic_depth_increase[index],
+            _integrated=None if self._integrated is None else self._integrated[index],
+        )
 
     @property
     def model(self) -> Model:
-        """How it was found: energy balance in closed form, or the equation of motion."""
-        return CLOSED_FORM if self.rebound is None else SCALAR_ODE
+        """How it was solved: by the energy balance in closed form, or by the equation of motion."""
+        return CLOSED_FORM if self._integrated is None else SCALAR_ODE
 
     @property
     def max_depth(self) -> Array:
         """Largest indentation depth d_max (m), from the virgin surface."""
         return self.turning_point.depth
 
-    @property
-    def max_force(self) -> Array:
-        """Largest force (N); a viscous impact has it before the turning point."""
-        return self.turning_point.force if self.rebound is None else self.rebound.max_force
+    def _merged(self, name, dry):
+        """A quantity from the equation of motion where that was solved, else from a function without it."""
+        if self._integrated is None:
+            return dry()
+        solved, values = self._integrated.solved, getattr(self._integrated, name)
+        return values if np.all(solved) else np.where(solved, values, dry())
+
+    @_check.frozen_property
+    def max_force(self):
+        """Largest force (N); in a viscous impact it comes before the turning point."""
+        return self._merged("max_force", lambda: self.turning_point.force)
 
     @property
     def contact_radius(self) -> Array:
@@ -235,13 +245,8 @@ class Impact(ImpactResult):
         return self.turning_point.plastic_depth
 
     @property
-    def damaged_area(self) -> Array:
-        """Area π c² (m²) of the plastic zone; in the fast limit that of the contact, π a²."""
-        return np.pi * self.plastic_radius**2
-
-    @property
     def stored_energy(self) -> Array:
-        """Elastic energy (J) at the turning point; a dry impact returns all of it."""
+        """Elastic energy (J) at the turning point; without viscosity all of it is returned."""
         return self.turning_point.stored_energy
 
     @_check.frozen_property
@@ -253,30 +258,22 @@ class Impact(ImpactResult):
 
     @property
     def viscous_work(self) -> Array:
-        """Energy (J) dissipated by viscosity, with what the foundation relaxes after the contact."""
-        return np.zeros(self.mass.shape)[()] if self.rebound is None else self.rebound.viscous_work
+        """Energy (J) dissipated by viscosity, during the contact and by relaxation after it."""
+        return np.zeros(self.mass.shape)[()] if self._integrated is None else self._integrated.viscous_work
 
     @_check.frozen_property
     def restitution(self):
         """Coefficient of restitution e, speed after over speed before."""
-        if self.rebound is not None:
-            return self.rebound.restitution
-        interval, d_c = self.turning_point.live_interval, self.medium.critical_depth
-        return dry_restitution(self.profile, interval, d_c, self.plastic_depth_increase)
-
-    @property
-    def rebound_speed(self) -> Array:
-        """Speed e v₀ (m/s) at which the body leaves."""
-        return self.restitution * self.speed
+        interval, increase = self.turning_point.live_interval, self.plastic_depth_increase
+        d_c = self.medium.critical_depth
+        return self._merged("restitution", lambda: dry_restitution(self.profile, interval, d_c, increase))
 
     @_check.frozen_property
     def contact_time(self):
         """Time (s) from first contact to the loss of contact."""
-        if self.rebound is not None:
-            return self.rebound.contact_time
-        inertia = self.mass / (2 * self.medium.E_star)
         interval, increase = self.turning_point.live_interval, self.plastic_depth_increase
-        return contact_time(self.profile, inertia, self.speed, interval, increase)
+        arguments = self.profile, self.mass / (2 * self.medium.E_star), self.speed, interval, increase
+        return self._merged("contact_time", lambda: contact_time(*arguments))
 
     @property
     def fast_limit(self) -> FastLimit:
@@ -295,9 +292,9 @@ class Impact(ImpactResult):
         return fast_limit(self)
 
     def motion(self, n: int = 200) -> Motion:
-        """The motion of one impact at n instants, from first contact to its loss.
+        """The motion of one impact at n instants, from first contact to the loss of contact.
 
-        At equal steps up to the turning point, and from there on, about the same ones.
+        Instants are equally spaced before the turning point, and again after it.
 
         Parameters
         ----------

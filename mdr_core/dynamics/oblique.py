@@ -1,11 +1,6 @@
-"""Oblique impact: a body that comes with a speed along the surface too, on a medium with friction.
+"""Oblique impact of a free rigid body, on a medium with friction."""
 
-The normal motion is that of `impact`: it does not feel the tangential one, and is solved once. The
-tangential one is solved in closed form where all elements slip throughout, else on the row of `friction`,
-in runs with twice the elements and half the steps of the one before.
-"""
-
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -15,23 +10,17 @@ from .. import _check
 from .._check import Array, ArrayLike
 from ..limits import Limit, friction_limits
 from ..medium import Medium, check_pair, shape_with
-from ..results import Model, Result
+from ..results import Entries, Model, Result
 from ..shapes.profile import Profile
-from .friction import changes, grip, slide
 from .impact import Impact, impact
-from .levels import MOST_LEVELS, NormalMotion
 from .oblique_motion import ObliqueMotion, oblique_motion
+from .surface import EXACT, SurfaceSolution, solve_surface
 
 FRICTION = Model(
     "chain with friction",
     "the normal motion does not feel the tangential one and is solved on its own; along the surface every "
     "element sticks or slips for itself",
 )
-
-#: Most halvings of the first run's steps.
-_MOST_RUNS = 8
-#: Relative error of the normal motion, and of what follows from it in closed form.
-_EXACT = 1e-9
 
 
 @_check.keywords_explained
@@ -48,24 +37,24 @@ def oblique_impact(
 ) -> "ObliqueImpact":
     """Let a body hit the medium with a speed along the surface as well, under Coulomb's friction.
 
-    Popov's outlook (2015): beside every element of the foundation stands one along the surface, κ =
-    2(1 − ν)/(2 − ν) as stiff and as viscous (Mindlin). It sticks as long as its load is no more than the
-    friction coefficient times the normal load, and slips else. Yield caps the normal springs only; friction
-    feels the load that there is.
+    Popov's outlook (2015): every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν)
+    times as stiff and as viscous (Mindlin). It sticks while its load is at most the friction coefficient
+    times the normal load, and slips otherwise. Yield limits the normal springs only; friction acts under
+    the normal load of springs and dashpots.
 
     Parameters
     ----------
     profile, medium
-        The indenter, and the medium: elastic, yielding, viscous; its `poisson` is ν.
+        The indenter, and the medium: elastic, yielding or viscous; its `poisson` is ν.
     mass, speed : float or array_like
         Mass m (kg) and normal speed v₀ (m/s) at first contact, positive.
     tangential_speed : float or array_like
-        Speed W₀ (m/s) of the contact point along the surface, of any sign; that of the body if it does not
-        spin, else `Ball.contact_speed`. `at_angle` makes both speeds from one and an angle.
+        Speed W₀ (m/s) of the contact point along the surface, of any sign: that of a body that does not
+        spin, otherwise `Ball.contact_speed`. `at_angle` gives both speeds from a speed and an angle.
     friction : float or array_like
         Coefficient of friction μ, the same for stick and slip; 0 and infinity are allowed.
     tangential_mass : float or array_like, optional
-        Mass m_t (kg) that is felt at the contact point along the surface, 1/m_t = 1/m + R²/I; by default m,
+        Effective mass m_t (kg) at the contact point along the surface, 1/m_t = 1/m + R²/I; by default m,
         that of a body that cannot turn. `Ball.tangential_mass` is that of a ball.
     tolerance : float, optional
         Error allowed in the tangential velocity relative to the tangential speed, and in work and largest
@@ -79,7 +68,7 @@ def oblique_impact(
     Raises
     ------
     ValueError
-        If an argument is out of its range, or the indenter goes deeper than its shape is known.
+        If an argument is out of its range, or the indenter would go deeper than its profile is known.
 
     Examples
     --------
@@ -98,83 +87,38 @@ def oblique_impact(
     check_pair(profile, medium)
     mass = _check.positive("mass", mass, unit="kg")
     speed = _check.positive("speed", speed, unit="m/s")
-    tangential_speed = _signed(tangential_speed)
-    friction = _check.positive("friction", friction, infinite=True, zero=True)
-    own = mass if tangential_mass is None else tangential_mass
-    own = _check.positive("tangential_mass", own, unit="kg")
+    tangential_mass = mass if tangential_mass is None else tangential_mass
+    surface = {
+        "tangential_speed": _signed(tangential_speed),
+        "friction": _check.positive("friction", friction, infinite=True, zero=True),
+        "tangential_mass": _check.positive("tangential_mass", tangential_mass, unit="kg"),
+    }
     tolerance = _check.positive_number("tolerance", tolerance)
-    given = {"mass": mass, "speed": speed, "tangential_speed": tangential_speed, "friction": friction}
-    shape = shape_with("oblique_impact", profile, medium, **given, tangential_mass=own)
+    shape = shape_with("oblique_impact", profile, medium, mass=mass, speed=speed, **surface)
+    surface = {name: _check.frozen(np.broadcast_to(value, shape)) for name, value in surface.items()}
     hit = impact(profile, medium, np.broadcast_to(mass, shape)[()], np.broadcast_to(speed, shape)[()])
-    parts = [np.broadcast_to(part, shape) for part in (tangential_speed, friction, own)]
-    found = np.empty((10, *shape))
+    solutions = []
     for index in np.ndindex(shape):
-        one = hit[index] if shape else hit
-        found[(slice(None), *index)] = _solve(one, *(float(part[index]) for part in parts), tolerance)
-    return ObliqueImpact(hit, *map(_check.frozen, parts), *map(_check.frozen, found))
+        values = {name: float(value[index]) for name, value in surface.items()}
+        solutions.append(solve_surface(hit[index] if shape else hit, tolerance, **values))
+    return ObliqueImpact(normal=hit, **surface, _surface=SurfaceSolution.of(solutions, shape))
 
 
 def _signed(speed):
-    """A tangential speed (m/s) of any sign as a float array; 0, or of a size that squares bear."""
+    """A tangential speed (m/s) of any sign as a float array: 0, or of a size whose square is a number."""
     speed = _check.finite_array("tangential_speed", speed, unit="m/s", most=_check.LARGEST)
     tiny = (speed != 0) & (np.abs(speed) < _check.SMALLEST)
     bound = f"must be 0 or at least {_check.SMALLEST:g}"
     return _check.refuse("tangential_speed", speed, tiny, bound, unit="m/s")
 
 
-def _solve(hit, speed, friction, mass, tolerance):
-    """Of one impact: change of the velocity over W₀, largest force, friction and viscous work, and more.
-
-    That is: errors of these four, in the same units; how often steps were halved, −1 in closed form;
-    whether all slips throughout.
-    """
-    medium, v, e = hit.medium, float(hit.speed), float(hit.restitution)
-    ratio, size = float(medium.tangential_ratio), abs(speed) or 1.0
-    stiffness, loss = 2 * ratio * float(medium.E_star), friction * float(hit.mass) / mass
-    units = np.array([1.0, stiffness * abs(speed), stiffness * speed**2, stiffness * speed**2])
-    hold = grip(hit, speed, friction)
-    slips = size >= friction / ratio * v and size - loss * (1 + e) * v >= -friction / ratio * e * v
-    if friction == 0 or (speed and slips):
-        change = -loss * (1 + e) * v / size
-        lost = mass * abs(change) * (2 + change) / 2 * speed**2
-        viscous, error, count = friction**2 / ratio * hit.viscous_work, 0.0, -1
-        if medium.eta > 0 and hit.plastic_work > 0 and friction > 0:
-            values, errors, count = _limits(hit, stiffness / mass, hold, tolerance)
-            viscous, error = values[3] * units[3], errors[3] * units[3]
-        found = np.array([change, friction * hit.max_force, lost - viscous, viscous])
-        errors = _EXACT * np.abs(found) + [0.0, 0.0, error, error]
-        return (*found, *errors, count, True)
-    values, errors, count = _limits(hit, stiffness / mass, hold, tolerance)
-    values[1] = min(values[1], friction * float(hit.max_force) / units[1]) if speed else 0.0
-    return (*values * units, *errors * units, count, False)
-
-
-def _limits(hit, inertia, hold, tolerance):
-    """Limits of the quantities of ever finer runs, their estimated errors, and the number of halvings."""
-    motion = NormalMotion(hit)
-    levels = motion.levels(inertia, 0)
-    run, before, limit = slide(motion, levels, inertia, hold), None, None
-    for count in range(1, _MOST_RUNS):
-        # The first run tells at which instants stick begins.
-        levels = motion.levels(inertia, count, changes(motion, run, hold))
-        coarse, run = run.quantities, slide(motion, levels, inertia, hold)
-        if count == 1:
-            continue
-        before, limit = limit, run.quantities + (run.quantities - coarse) / 3
-        least = np.abs(limit - run.quantities) * (0.5 if before is None else 0.1)
-        # Work is counted against itself, or a hundredth of the energy that there was along the surface.
-        least_work = 0.005 / inertia
-        scale = np.array([1.0, limit[1], max(limit[2], least_work), max(limit[2] + limit[3], least_work)])
-        errors = np.maximum(
-            least if before is None else np.maximum(least, np.abs(limit - before)), tolerance / 2 * scale
-        )
-        if np.all(errors <= tolerance * scale) or 2 * levels.depth.size > MOST_LEVELS:
-            break
-    return np.append(limit[0], np.maximum(limit[1:], 0.0)), errors, count
-
-
 class ObliqueErrors(NamedTuple):
-    """Estimated errors of the quantities of an `ObliqueImpact`, each in the unit of its quantity."""
+    """Estimated relative errors of an `ObliqueImpact`.
+
+    Those of coefficients of restitution are relative to 1, that of the velocity to W₀, that of the friction
+    work to the energy ½ m_t W₀² along the surface, that of the viscous work to the whole kinetic energy;
+    all others relative to the quantity.
+    """
 
     restitution: Array
     tangential_velocity: Array
@@ -187,7 +131,7 @@ class ObliqueErrors(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ObliqueImpact(Result):
+class ObliqueImpact(Entries, Result):
     """Oblique impacts, one or many; made by `oblique_impact`. `result[i]` picks one of many.
 
     `normal` is the `Impact` along the normal, with all of its quantities.
@@ -198,19 +142,7 @@ class ObliqueImpact(Result):
     tangential_speed: Array
     friction: Array
     tangential_mass: Array
-    _change: Array
-    #: Largest tangential force (N), by its size.
-    max_tangential_force: Array
-    #: Energy (J) dissipated by slip.
-    friction_work: Array
-    _viscous: Array
-    _change_error: Array
-    _force_error: Array
-    _friction_error: Array
-    _viscous_error: Array
-    _halvings: Array
-    #: Whether all elements slip from first contact to its loss: then the velocity is known in closed form.
-    slips_throughout: Array
+    _surface: SurfaceSolution
     _quantities = (
         "mass", "speed", "tangential_speed", "friction", "tangential_mass", "restitution",
         "tangential_velocity", "tangential_restitution", "rebound_angle", "max_depth", "max_force",
@@ -221,9 +153,6 @@ class ObliqueImpact(Result):
         "friction_work", "plastic_work", "viscous_work",
     )  # fmt: skip
     _dimensions = ("impact",)
-
-    def __getitem__(self, index: Any) -> "ObliqueImpact":
-        return ObliqueImpact(*(getattr(self, part.name)[index] for part in fields(self)))
 
     @property
     def profile(self) -> Profile:
@@ -237,7 +166,7 @@ class ObliqueImpact(Result):
 
     @property
     def model(self) -> Model:
-        """How the tangential motion was found."""
+        """How the tangential motion was solved."""
         return FRICTION
 
     @cached_property
@@ -273,7 +202,7 @@ class ObliqueImpact(Result):
 
     @property
     def contact_time(self) -> Array:
-        """Time (s) from first contact to its loss."""
+        """Time (s) from first contact to the loss of contact."""
         return self.normal.contact_time
 
     @property
@@ -292,9 +221,24 @@ class ObliqueImpact(Result):
         return self.normal.plastic_work
 
     @property
+    def max_tangential_force(self) -> Array:
+        """Largest tangential force (N), without sign."""
+        return self._surface.max_force
+
+    @property
+    def friction_work(self) -> Array:
+        """Energy (J) dissipated by slip."""
+        return self._surface.friction_work
+
+    @property
+    def slips_throughout(self) -> Any:
+        """Whether all elements slip during the whole contact: then the velocity has a closed form."""
+        return self._surface.slips_throughout
+
+    @property
     def velocity_change(self) -> Array:
         """Change ΔW (m/s) of the contact point's velocity along the surface."""
-        return (self._change * self.tangential_speed)[()]
+        return (self._surface.relative_change * self.tangential_speed)[()]
 
     @property
     def tangential_velocity(self) -> Array:
@@ -303,8 +247,8 @@ class ObliqueImpact(Result):
 
     @property
     def tangential_restitution(self) -> Array:
-        """Tangential restitution e_t = −W′/W₀: −1 without friction; of W₀ = 0, that of a slow one."""
-        return (-1 - self._change)[()]
+        """Tangential restitution e_t = −W′/W₀: −1 without friction; for W₀ = 0 that of slow impacts."""
+        return (-1 - self._surface.relative_change)[()]
 
     @property
     def rebound_angle(self) -> Array:
@@ -313,24 +257,31 @@ class ObliqueImpact(Result):
 
     @property
     def viscous_work(self) -> Array:
-        """Energy (J) dissipated by dashpots, normal and tangential, with what relaxes after the contact."""
-        return (self.normal.viscous_work + self._viscous)[()]
+        """Energy (J) dissipated by all dashpots, normal and tangential, during the contact and after it."""
+        return (self.normal.viscous_work + self._surface.viscous_work)[()]
 
     @property
     def errors(self) -> ObliqueErrors:
-        """Estimated errors, each in the unit of its quantity: a few names, as `errors.friction_work`."""
-        normal = self.normal
-        restitution, time = _EXACT * normal.restitution, _EXACT * normal.contact_time
-        change = self._change_error * np.abs(self.tangential_speed)
-        viscous = self._viscous_error + _EXACT * normal.viscous_work
-        parts = restitution, change, self._change_error, self._force_error, time
-        return ObliqueErrors(*parts, self._friction_error, _EXACT * normal.plastic_work, viscous)
+        """Estimated relative errors by the name of the quantity, as in `errors.friction_work`."""
+        normal, surface, exact = self.normal, self._surface, np.full(self.shape, EXACT)[()]
+        energy = self.tangential_mass * self.tangential_speed**2 / 2
+        viscous = surface.viscous_error * energy + EXACT * normal.viscous_work
+        return ObliqueErrors(
+            restitution=EXACT * normal.restitution,
+            tangential_velocity=surface.change_error,
+            tangential_restitution=surface.change_error,
+            max_tangential_force=surface.force_error,
+            contact_time=exact,
+            friction_work=surface.friction_error,
+            plastic_work=exact,
+            viscous_work=viscous / (energy + self.mass * self.speed**2 / 2),
+        )
 
     def motion(self, n: int = 200) -> ObliqueMotion:
         """The motion of one impact at n instants, normal and tangential, with stick and slip.
 
-        At equal steps up to the turning point, and from there on, about the same ones; on elements as fine
-        as the tolerance needed, whose own ledger closes at every instant.
+        Instants are equally spaced before the turning point, and again after it. The elements are those of
+        the finest run; the energies sum to the same at every instant.
 
         Examples
         --------
@@ -341,4 +292,4 @@ class ObliqueImpact(Result):
         True True
         """
         self._one("motion")
-        return oblique_motion(self, n, max(int(self._halvings), 3))
+        return oblique_motion(self, n, max(int(self._surface.halvings), 3))

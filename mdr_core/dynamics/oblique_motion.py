@@ -1,14 +1,14 @@
-"""The motion of one oblique impact over time: the normal one, and the row of friction beside it."""
+"""The motion of one oblique impact over time: the normal motion, and one run along the surface."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .._check import Array
 from ..results import Motion, MotionResult
-from .friction import grip, slide
-from .levels import NormalMotion
+from .friction import bound_ratio, slide
+from .levels import levels
 
 if TYPE_CHECKING:
     from .oblique import ObliqueImpact
@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ObliqueMotion(MotionResult):
-    """One oblique impact from first contact to its loss, as arrays of one length.
+    """One oblique impact from first contact to the loss of contact, as arrays of one length.
 
-    Within `slip_radius` and from `stick_radius` to the contact radius the surface slips, between them it
-    sticks. The turning point is among the instants. The energies sum to the same at every instant.
+    The surface sticks between `slip_radius` and `stick_radius`, and slips in the remaining contact.
+    The turning point is one of the instants. The sum of all energies is constant.
 
     Attributes
     ----------
@@ -30,9 +30,9 @@ class ObliqueMotion(MotionResult):
     stick_radius, slip_radius : ndarray
         Outer and inner radius (m) of the region that sticks, to within an element; both 0 if all slips.
     kinetic_energy, stored_energy, plastic_work, viscous_work, friction_work : ndarray
-        The ledger (J): ½mv² + ½m_t W², the energy of all springs, normal and tangential, and what is lost.
+        The ledger (J): ½mv² + ½m_t W², the energy of all springs, normal and tangential, and three losses.
     x : ndarray, shape (N,)
-        Places (m) of the elements along the foundation.
+        Coordinates (m) of the elements of the foundation.
     tangential_line_load : ndarray, shape (n, N)
         Load q_x(x) (N/m) of every element along the surface at every instant.
     sticks : ndarray of bool, shape (n, N)
@@ -69,45 +69,50 @@ class ObliqueMotion(MotionResult):
         "tangential_force", "stick_radius", "slip_radius", "kinetic_energy", "stored_energy",
         "plastic_work", "viscous_work", "friction_work",
     )  # fmt: skip
-    _shown = ("time", "depth", "force", *_quantities[6:10], "friction_work")
+    _shown = (
+        "time", "depth", "force", "tangential_velocity", "tangential_force", "stick_radius", "slip_radius",
+        "friction_work",
+    )  # fmt: skip
 
     def __getitem__(self, index: Any) -> "ObliqueMotion":
-        whole = {"x": self.x, "impact": self.impact}
-        return ObliqueMotion(
-            *(whole[f.name] if f.name in whole else getattr(self, f.name)[index] for f in fields(self))
-        )
+        instants = {name: getattr(self, name)[index] for name in self._quantities}
+        load, sticks, normal = self.tangential_line_load[index], self.sticks[index], self.normal[index]
+        return replace(self, **instants, tangential_line_load=load, sticks=sticks, normal=normal)
 
 
 def oblique_motion(hit, n, halvings):
-    """The `ObliqueMotion` of one `ObliqueImpact` at n instants, on levels halved so often."""
-    parts = float(hit.tangential_speed), float(hit.friction), float(hit.tangential_mass)
-    return along_surface(hit.normal, *parts, n, halvings, hit)
+    """The `ObliqueMotion` of one `ObliqueImpact` at n instants, from a run with so many halvings."""
+    surface = float(hit.tangential_speed), float(hit.friction), float(hit.tangential_mass)
+    return along_surface(hit.normal, *surface, n, halvings, hit)
 
 
 def along_surface(hit, speed, friction, mass, n, halvings, impact=None):
-    """The `ObliqueMotion` under a normal `Impact`, of one run; its errors are known of an `impact` only."""
-    normal = hit.motion(n)
-    stiffness = 2 * float(hit.medium.tangential_ratio) * float(hit.medium.E_star)
-    motion = NormalMotion(hit)
-    levels = motion.levels(stiffness / mass, halvings, normal.time)
-    run = slide(motion, levels, stiffness / mass, grip(hit, speed, friction), normal.time)
-    at, edges = run.instants, np.append(0.0, run.row.edge[: run.row.width.size])
+    """The `ObliqueMotion` under a normal `Impact` from one run; errors are known of an `impact` only."""
+    normal, stiffness = hit.motion(n), 2 * float(hit.medium.tangential_ratio) * float(hit.medium.E_star)
+    grid = levels(hit, stiffness / mass, halvings, normal.time)
+    run = slide(hit, grid, stiffness / mass, bound_ratio(hit, speed, friction), normal.time)
+    at, edges = run.instants, np.append(0.0, run.elements.edge[: run.elements.width.size])
     load, sticks = np.zeros((n, edges.size - 1)), np.zeros((n, edges.size - 1), bool)
     for k, i in enumerate(at):
-        count = run.seen[i][0].size
-        load[k, :count], sticks[k, :count] = run.seen[i]
-    sticks &= run.row.width > 0
+        count = run.element_states[i][0].size
+        load[k, :count], sticks[k, :count] = run.element_states[i]
+    sticks &= run.elements.width > 0
     stuck = sticks.any(axis=1)
     first, last = sticks.argmax(axis=1), sticks.shape[1] - sticks[:, ::-1].argmax(axis=1)
-    velocity, energy = run.velocity[at] * speed, stiffness * speed**2
+    velocity, energy = run.velocities[at] * speed, stiffness * speed**2
     return ObliqueMotion(
-        *(getattr(normal, name) for name in ObliqueMotion._quantities[:6]),
+        time=normal.time,
+        depth=normal.depth,
+        velocity=normal.velocity,
+        force=normal.force,
+        contact_radius=normal.contact_radius,
+        plastic_radius=normal.plastic_radius,
         tangential_velocity=velocity,
-        tangential_force=stiffness * speed * run.force[at],
+        tangential_force=stiffness * speed * run.forces[at],
         stick_radius=np.where(stuck, edges[last], 0.0),
         slip_radius=np.where(stuck, edges[first], 0.0),
         kinetic_energy=normal.kinetic_energy + mass * velocity**2 / 2,
-        stored_energy=normal.stored_energy + energy * run.stored[at],
+        stored_energy=normal.stored_energy + energy * run.energies[at],
         plastic_work=normal.plastic_work,
         viscous_work=normal.viscous_work + energy * run.viscous[at],
         friction_work=energy * run.friction[at],

@@ -201,13 +201,3 @@ class ChainImpact(ImpactResult):
     def plastic_radius(self) -> float:
         """Plastic radius c (m) after the impact."""
         return self.profile.contact_radius(self.plastic_depth) if self.plastic_depth > 0 else 0.0
-
-    @property
-    def damaged_area(self) -> float:
-        """Area π c² (m²) of the plastic zone."""
-        return np.pi * self.plastic_radius**2
-
-    @property
-    def rebound_speed(self) -> float:
-        """Rebound speed e v₀ (m/s)."""
-        return self.restitution * self.speed

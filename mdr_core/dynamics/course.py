@@ -1,0 +1,128 @@
+"""Course of one impact: the solution of its equation of motion, at any time."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .._numeric import gauss_integrals
+from ..yielding import LiveInterval
+from .energy_balance import loading_interval
+from .equation_of_motion import Bodies, MotionState
+from .legs import solve
+
+#: Relative error of the steps; between their nodes the polynomials are as exact as that.
+_TOLERANCE = 1e-10
+#: Parts of a step in which Newton's method starts; its largest number of trials, and relative error.
+_CELLS, _MOST_TRIALS, _CLOSE = 64, 20, 1e-14
+_SHARES = np.linspace(0.0, 1.0, _CELLS + 1)
+
+
+class Branch:
+    """Loading or unloading of one impact, as polynomials: penetration y or live depth ℓ, and velocity."""
+
+    def __init__(self, steps):
+        self._steps = [step for _, step in steps]
+        self._slopes = np.concatenate([step.slopes for step in self._steps])
+        self.start, self.end = self._steps[0].start[0, 0], self._steps[-1].end()[0, 0]
+        self._places = np.add.outer(np.arange(len(self._steps)), _SHARES).ravel()
+        self._table = self._states(self._places)
+
+    def at(self, time):
+        """The `MotionState` at times (s)."""
+        return self._where("time", time)
+
+    def when(self, depth):
+        """Times (s) at depths (m): of y on loading, of ℓ on unloading."""
+        return self._where("depth", depth).time
+
+    def nodes(self, count):
+        """The `MotionState` at `count` equal shares of every step."""
+        return self._states(np.linspace(0, len(self._steps), len(self._steps) * (count - 1) + 1))
+
+    def _states(self, place):
+        """The `MotionState` at places: the number of a step, and a share of it."""
+        number = np.minimum(place.astype(int), len(self._steps) - 1)
+        share, states = place - number, MotionState(*np.empty((4, place.size)))
+        matrix = gauss_integrals(self._slopes.shape[2], share)
+        integrals = np.einsum("kj,ksj->sk", matrix, self._slopes[number])
+        for i, step in enumerate(self._steps):
+            rows = number == i
+            states.store(rows, step.state(share[None, rows], integrals[:, None, rows])[0])
+        return states
+
+    def _where(self, name, values):
+        """The `MotionState` where depth or time, which are monotonic, have given values."""
+        start, end = getattr(self.start, name), getattr(self.end, name)
+        sign = np.sign(end - start)
+        table = np.maximum.accumulate(sign * getattr(self._table, name))
+        place = np.interp(sign * values, table, self._places)
+        low, states, rows = np.floor(place * _CELLS) / _CELLS, self._states(place), np.arange(values.size)
+        for _ in range(_MOST_TRIALS):
+            # Newton's method, with a difference for the derivative, which may vanish at an end of a step,
+            # where the depth is a cube of δ: a miss within rounding must not move the place there.
+            miss = values[rows] - getattr(states, name)[rows]
+            far = np.abs(miss) > _CLOSE * max(abs(start), abs(end))
+            rows, miss = rows[far], miss[far]
+            if not rows.size:
+                break
+            shift = np.where(place[rows] - np.floor(place[rows]) < 0.5, 1e-6, -1e-6)
+            beside = getattr(self._states(place[rows] + shift), name)
+            rate = np.maximum(sign * (beside - getattr(states, name)[rows]) / shift, 1e-300)
+            place[rows] = np.clip(place[rows] + sign * miss / rate, low[rows], low[rows] + 1 / _CELLS)
+            states.store(rows, self._states(place[rows]))
+        # The ends are known better than from the polynomials.
+        states.store(sign * values <= sign * start, self.start)
+        states.store(sign * values >= sign * end, self.end)
+        return states
+
+
+class CourseState(NamedTuple):
+    """States of one impact: depth (m), velocity (m/s), live interval, increase of the plastic depth (m).
+
+    Viscous work is over 2E* (m³), with the energy that released elements are still to lose.
+    """
+
+    depth: np.ndarray
+    velocity: np.ndarray
+    interval: LiveInterval
+    increase: np.ndarray
+    viscous_work: np.ndarray
+
+
+class Course:
+    """Motion of one `Impact`, viscous or not, from first contact to the loss of contact.
+
+    `loading` and `unloading` are its branches; times (s) of the turning point and of the end.
+    """
+
+    def __init__(self, hit):
+        self._interval, self._increase = hit.turning_point.live_interval, hit.plastic_depth_increase
+        self._imprint_depth = np.asarray(hit.plastic_depth - self._increase)
+        self._penetration = self._interval.length + self._increase
+        self._critical_depth, self._tau = hit.medium.critical_depth, hit.medium.relaxation_time
+        arguments = hit.mass, hit.speed, self._imprint_depth, self._penetration
+        solution = solve(Bodies.of(hit.profile, hit.medium, *arguments), _TOLERANCE)
+        self.loading, self.unloading = Branch(solution.loading), Branch(solution.unloading)
+        self.turning_time, self.end_time = self.loading.end.time, self.unloading.end.time
+
+    def at(self, time):
+        """The `CourseState` at an array of times (s) since first contact."""
+        pressed = time <= self.turning_time
+        state = MotionState(*np.empty((4, time.size)))
+        for branch, rows in ((self.loading, pressed), (self.unloading, ~pressed)):
+            state.store(rows, branch.at(time[rows]))
+        # The penetration at the turning point is that of the impact, to the last digit.
+        largest = self._penetration
+        y = np.where(time < self.turning_time, np.minimum(state.depth, largest), largest)
+        interval, increase = loading_interval(y, self._critical_depth, self._imprint_depth)
+        lower = np.where(pressed, interval.lower, self._interval.lower)
+        length = np.where(pressed, interval.length, state.depth)
+        upper = np.where(pressed, interval.upper, lower + length)
+        unloading_depth = upper - self._tau * np.minimum(state.velocity, 0.0)
+        return CourseState(
+            depth=np.where(pressed, self._imprint_depth + y, unloading_depth),
+            velocity=state.velocity,
+            interval=LiveInterval(lower, upper, length),
+            increase=np.where(pressed, increase, self._increase),
+            viscous_work=state.work,
+        )
