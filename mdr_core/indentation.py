@@ -116,20 +116,11 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Inde
 class Indentation(Result):
     """States of an indentation, one for each point of its path; made by `indent` or `indent_to_force`.
 
-    Every quantity has the shape of `depth`; `result[i]` is one state. `pressure`, `line_load`, `surface`,
-    `imprint` and `stress` are fields of one state.
-
-    Attributes
-    ----------
-    depth : float or ndarray
-        Indentation depth d (m).
-    live_interval : LiveInterval
-        Depths [d_p, d_p + ℓ] over which the springs in contact are compressed. Its end is d, except on
-        unloading from a viscous medium, where elements are released before the springs are relaxed.
-    dashpot_load : float or ndarray
-        Line load 4ηḋ (N/m) of the dashpots in contact on loading; 0 on an infinitely slow path.
-    in_time : bool
-        Whether the states belong to a motion in time.
+    Every quantity has the shape of `depth` (m); `result[i]` is one state. Pressure, line load, surface,
+    imprint and stress are fields of one state. `live_interval` is [d_p, d_p + ℓ]; its end is d, except on
+    unloading from a viscous medium, where elements are released before their springs are relaxed.
+    `dashpot_load` is the line load 4ηḋ (N/m) of the dashpots in contact on loading, 0 on an infinitely slow
+    path; `in_time` says whether the states belong to a motion.
     """
 
     profile: Profile
@@ -145,9 +136,7 @@ class Indentation(Result):
         "depth", "force", "stiffness", "contact_radius", "contact_area", "plastic_radius", "plastic_depth",
         "mean_pressure", "stored_energy", "plastic_work",
     )  # fmt: skip
-    _shown = (
-        "depth", "force", "contact_radius", "plastic_radius", "plastic_depth", "mean_pressure",
-    )  # fmt: skip
+    _shown = ("depth", "force", "contact_radius", "plastic_radius", "plastic_depth", "mean_pressure")
     _dimensions = ("path", "state")
 
     def __post_init__(self):
@@ -164,8 +153,7 @@ class Indentation(Result):
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
         """Limits of the model for these states."""
-        slow = not self.in_time
-        return contact_limits(self.profile, self.medium, self.contact_radius, slow=slow)
+        return contact_limits(self.profile, self.medium, self.contact_radius, slow=not self.in_time)
 
     @property
     def _ahead(self):
@@ -189,9 +177,8 @@ class Indentation(Result):
     @_check.frozen_property
     def plastic_radius(self):
         """Radius c (m) of the plastic zone, Popov (2015), Eq. (21); 0 if nothing has yielded."""
-        return np.where(
-            self.live_interval.lower > 0, self.profile._radius(np.asarray(self.live_interval.lower)), 0.0
-        )
+        depth = np.asarray(self.plastic_depth)
+        return np.where(depth > 0, self.profile._radius(depth), 0.0)
 
     @_check.frozen_property
     def contact_area(self):
@@ -222,20 +209,18 @@ class Indentation(Result):
     @_check.frozen_property
     def plastic_work(self):
         """Work W_p = d_c φ(d_p) (J) dissipated by yielding so far; φ(d) is the elastic force."""
-        integral = radius_integral(self.profile, elastic_interval(np.asarray(self.live_interval.lower)))
+        depth = np.asarray(self.plastic_depth)
         # Every increment of d_p dissipates π q_c a; q_c may be infinite where nothing yields.
-        yield_load = np.where(self.live_interval.lower > 0, 2 * self.medium.yield_line_load, 0.0)
-        return yield_load * integral
+        yield_load = np.where(depth > 0, 2 * self.medium.yield_line_load, 0.0)
+        return yield_load * radius_integral(self.profile, elastic_interval(depth))
 
     @_check.frozen_property
     def stiffness(self):
         """Stiffness dF/dd (N/m): 2E* a, and 2E* (a − c) for loading beyond the largest depth so far."""
-        width = self.contact_radius
-        yielding = (self.live_interval.lower > 0) & (
-            self.live_interval.length == self.medium.critical_depth
-        )
+        width, interval = self.contact_radius, self.live_interval
+        yielding = (interval.lower > 0) & (interval.length == self.medium.critical_depth)
         if np.any(yielding):
-            width = np.where(yielding, radius_drop(self.profile, self.live_interval), width)[()]
+            width = np.where(yielding, radius_drop(self.profile, interval), width)[()]
         return 2 * self.medium.E_star * width
 
     def pressure(self, r: ArrayLike) -> Array:
@@ -302,11 +287,6 @@ class Indentation(Result):
         of the largest stress, to 10⁻⁶ for z < 10⁻³ a, and to 10⁻⁴ next to the axis of a profile of exponent
         n < 1/2 that has not yielded.
 
-        Parameters
-        ----------
-        r, z : float or array_like
-            Radius and depth (m). A depth 0 < z < 10⁻¹³ (a − c) is taken as 10⁻¹³ (a − c).
-
         Examples
         --------
         >>> from mdr_core import Medium, Paraboloid
@@ -316,8 +296,8 @@ class Indentation(Result):
         """
         self._one("stress")
         r, z = self._radii(r), stress.depths(z)
-        shape = _check.common_shape("stress", r=r, z=z)
-        return stress.stress(self, np.broadcast_to(r, shape), np.broadcast_to(z, shape))
+        _check.common_shape("stress", r=r, z=z)
+        return stress.stress(self, *np.broadcast_arrays(r, z))
 
     def stress_peak(self, quantity: str = "max_shear") -> StressPeak:
         """Largest shear stress of one state, or of `quantity="von_mises"`, and its position.
@@ -340,7 +320,7 @@ class Indentation(Result):
     def largest_stress(self, z: ArrayLike, quantity: str = "max_shear") -> Array:
         """Largest shear stress (Pa), or `quantity="von_mises"`, at each depth z ≥ 0 (m) below the surface.
 
-        Over all radii and all states of a path: of an impact that of `motion.states`.
+        Over all radii and all states of a path; for an impact take `motion.states`.
 
         Examples
         --------
