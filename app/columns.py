@@ -9,8 +9,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from mdr_core import figures
-from mdr_core.figures import both, split
+from mdr_core.results import figures
+from mdr_core.results.figures import both, split
 
 from . import friction, measured, references
 from .drives.chain import ChainStates

@@ -9,8 +9,8 @@ from time import perf_counter
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.figures import Axis
-from mdr_core.results import CHAIN
+from mdr_core.results.base import CHAIN
+from mdr_core.results.figures import Axis
 
 from .quantities import ASSETS
 from .resting import Found

@@ -5,7 +5,7 @@ from inspect import signature
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.quantities import QUANTITIES as RESULTS
+from mdr_core.results.quantities import QUANTITIES as RESULTS
 
 from . import friction
 from .drives import drive_of

@@ -8,7 +8,7 @@ import holoviews.plotting.bokeh
 import numpy as np
 from bokeh.document import Document
 
-from mdr_core.figures import DASHES, ROLES
+from mdr_core.results.figures import DASHES, ROLES
 
 from .plots import PLOTS
 

@@ -7,7 +7,7 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from mdr_core.figures import PRESSURE_ROWS, RADII, SPRING_ROWS, Row, area, label, line, mark, parts
+from mdr_core.results.figures import PRESSURE_ROWS, RADII, SPRING_ROWS, Row, area, label, line, mark, parts
 
 from . import columns, comparison, friction, measured, references, section, surface, sweep
 from .resting import Found

@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from mdr_core.limits import friction_limits
+from mdr_core.results.limits import friction_limits
 
 from .drives import DRIVES, drive_of
 from .parts import explained, linked, marked, plain, symbol

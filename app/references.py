@@ -8,7 +8,7 @@ radius a = g⁻¹(d) of (16). All of them have the hardness F/(πa²) of the dee
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.figures import line
+from mdr_core.results.figures import line
 
 _ELASTIC = "elastic throughout"
 _CLASSES = {"a": "class (a), F ∝ a²", "c": "class (c), F constant"}

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import panel as pn
 
-from mdr_core.figures import Axis
+from mdr_core.results.figures import Axis
 
 from .drives import drive_of
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from contourpy import contour_generator
 
-from mdr_core.figures import NOTHING
+from mdr_core.results.figures import NOTHING
 
 from .drives.chain import ChainStates
 from .resting import Found

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mdr_core.figures import NOTHING, at_radii, both
+from mdr_core.results.figures import NOTHING, at_radii, both
 
 #: Where points lie between edges, at which the surface is steep.
 _DENSE = (1 - np.cos(np.linspace(0, np.pi, 20))) / 2

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.figures import NOTHING
-from mdr_core.quantities import QUANTITIES as RESULTS
+from mdr_core.results.figures import NOTHING
+from mdr_core.results.quantities import QUANTITIES as RESULTS
 
 from .drives import DRIVES
 from .explorer import Explorer

@@ -6,7 +6,7 @@ from functools import cached_property, partial
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.figures import NOTHING, REST, Axis, ceiling, radii
+from mdr_core.results.figures import NOTHING, REST, Axis, ceiling, radii
 
 from . import friction
 from .dimensionless import over, scales

@@ -20,7 +20,7 @@ from .foundation.impact import chain_impact
 from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium
 from .onset import critical_force, yield_speed
-from .results import Motion
+from .results.base import Motion
 from .scaling import ScalingLaw, hardness_class
 from .scene import Scene
 from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw

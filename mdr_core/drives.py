@@ -15,7 +15,7 @@ from .foundation.force_path import creep
 from .foundation.impact import chain_impact
 from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium
-from .results import CHAIN, CLOSED_FORM, SCALAR_ODE, Model
+from .results.base import CHAIN, CLOSED_FORM, SCALAR_ODE, Model
 
 
 def _path(quantity, values, unit):

@@ -9,9 +9,9 @@ import numpy as np
 from . import _check, fields, stress
 from ._check import Array, ArrayLike
 from ._numeric import root
-from .limits import Limit, contact_limits
 from .medium import Medium, check_pair, paths_on
-from .results import CLOSED_FORM, Result
+from .results.base import CLOSED_FORM, Result
+from .results.limits import Limit, contact_limits
 from .shapes.profile import Profile
 from .stress import Stress, StressPeak
 from .superposition import energy_integral, live_length, loading_depth, radius_drop, radius_integral
@@ -337,13 +337,13 @@ class Indentation(Result):
 
     def plot_pressure(self) -> Any:
         """Contact pressure p(r) of one state with a, c and the mean pressure, as HoloViews elements."""
-        from .figures import plot_pressure
+        from .results.figures import plot_pressure
 
         return plot_pressure(self)
 
     def plot_springs(self) -> Any:
         """The 1D foundation in one state, springs below the profile g(x), as HoloViews elements."""
-        from .figures import plot_springs
+        from .results.figures import plot_springs
 
         return plot_springs(self)
 

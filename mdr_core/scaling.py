@@ -14,8 +14,8 @@ import numpy as np
 from . import _check
 from ._check import Array, ArrayLike
 from ._numeric import increasing_root
-from .limits import Limit
-from .report import Report
+from .results.limits import Limit
+from .results.report import Report
 from .superposition import radius_integral
 from .yielding import elastic_interval
 

@@ -14,7 +14,7 @@ from .foundation.depth_path import TimedIndentation
 from .foundation.impact import ChainImpact
 from .indentation import Indentation
 from .medium import Medium, check_pair
-from .results import Model
+from .results.base import Model
 from .shapes import power, rounded, sampled, truncated
 from .shapes.profile import Profile
 

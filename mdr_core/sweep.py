@@ -42,8 +42,8 @@ from .dynamics.impact import Impact, impact
 from .dynamics.oblique import ObliqueImpact, oblique_impact
 from .indentation import Indentation
 from .medium import Medium
-from .quantities import QUANTITIES, described
-from .report import imported
+from .results.quantities import QUANTITIES, described
+from .results.report import imported
 from .shapes.profile import Profile
 from .shapes.sampled import Sampled
 from .shapes.smooth import Smooth

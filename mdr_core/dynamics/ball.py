@@ -1,15 +1,13 @@
 """Angles of incidence, and balls that spin, for oblique impacts."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
-
-if TYPE_CHECKING:
-    from .oblique import ObliqueImpact
+from .oblique import ObliqueImpact
 
 
 def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
@@ -79,7 +77,7 @@ class Ball:
         return (speed + self.radius * _check.finite_array("spin", spin, unit="rad/s"))[()]
 
     def rebound(
-        self, hit: "ObliqueImpact", tangential_speed: ArrayLike, spin: ArrayLike = 0.0
+        self, hit: ObliqueImpact, tangential_speed: ArrayLike, spin: ArrayLike = 0.0
     ) -> "tuple[Array, Array]":
         """Tangential speed of the centre (m/s) and spin (rad/s) after an impact, from those before.
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..results import Entries
+from ..results.base import Entries
 from ..shapes.profile import Profile
 from ..superposition import radius_integral, tabulated
 from ..yielding import LiveInterval

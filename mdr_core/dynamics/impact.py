@@ -14,9 +14,9 @@ from .. import _check
 from .._check import Array, ArrayLike
 from .._numeric import chunks
 from ..indentation import Indentation
-from ..limits import Limit, contact_limits
 from ..medium import Medium, check_pair, shape_with
-from ..results import CLOSED_FORM, SCALAR_ODE, Entries, ImpactResult, Model, Motion
+from ..results.base import CLOSED_FORM, SCALAR_ODE, Entries, ImpactResult, Model, Motion
+from ..results.limits import Limit, contact_limits
 from ..scaling import FastLimit, fast_limit, how_fast
 from ..shapes.profile import Profile
 from .contact_time import contact_time

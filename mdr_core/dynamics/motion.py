@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..indentation import Indentation
-from ..results import Motion, instants
+from ..results.base import Motion, instants
 from .energy_balance import plastic_integral
 
 #: Instants of unloading at which the energy of released elements is summed.

@@ -8,9 +8,9 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
-from ..limits import Limit, friction_limits
 from ..medium import Medium, check_pair, shape_with
-from ..results import Entries, Model, Result
+from ..results.base import Entries, Model, Result
+from ..results.limits import Limit, friction_limits
 from ..shapes.profile import Profile
 from .impact import Impact, impact
 from .oblique_motion import ObliqueMotion, oblique_motion

@@ -1,17 +1,14 @@
 """The motion of one oblique impact over time: the normal motion, and one run along the surface."""
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .._check import Array
-from ..results import Motion, MotionResult
+from ..results.base import Motion, MotionResult
 from .friction import bound_ratio, slide
 from .levels import levels
-
-if TYPE_CHECKING:
-    from .oblique import ObliqueImpact
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -62,7 +59,7 @@ class ObliqueMotion(MotionResult):
     tangential_line_load: Array
     sticks: "np.ndarray[Any, np.dtype[np.bool_]]"
     normal: Motion
-    impact: "ObliqueImpact"
+    impact: Any
 
     _quantities = (
         "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "tangential_velocity",

@@ -12,7 +12,7 @@ import numpy as np
 
 from .. import _numeric
 from .._numeric import cube_rise, cube_way
-from ..results import Entries
+from ..results.base import Entries
 from .equation_of_motion import Loading, MotionState, Unloading
 
 _NODES, _WEIGHTS = _numeric.gauss_legendre(24)

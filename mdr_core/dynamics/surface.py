@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import _check
 from .._check import Array
-from ..results import Entries
+from ..results.base import Entries
 from .friction import RunQuantities, bound_ratio, slide, stick_instants
 from .levels import MOST_LEVELS, levels
 

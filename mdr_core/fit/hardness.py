@@ -7,7 +7,7 @@ import numpy as np
 from .. import _check
 from .._check import Array, ArrayLike
 from ..medium import Medium, check_pair
-from ..quantities import engineering
+from ..results.quantities import engineering
 from ..scaling import HardnessClass, class_of, straight_line
 from ..shapes.profile import Profile
 from ..superposition import radius_integral

@@ -10,7 +10,7 @@ from .. import _check
 from .._check import Array, ArrayLike
 from ..indentation import Indentation
 from ..medium import Medium, check_pair
-from ..quantities import engineering
+from ..results.quantities import engineering
 from ..shapes.profile import Profile
 from ..superposition import tabulated
 from ..yielding import LiveInterval

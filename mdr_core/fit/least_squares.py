@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ..quantities import QUANTITIES, Quantity, described, engineering, prefixed
-from ..report import Report
-from ..results import Model
+from ..results.base import Model
+from ..results.quantities import QUANTITIES, Quantity, described, engineering, prefixed
+from ..results.report import Report
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

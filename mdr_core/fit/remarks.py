@@ -5,7 +5,7 @@ from itertools import chain
 
 import numpy as np
 
-from ..quantities import engineering
+from ..results.quantities import engineering
 from .curve import critical_depth
 from .least_squares import autocorrelation, roughness
 

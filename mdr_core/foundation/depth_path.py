@@ -8,9 +8,9 @@ import numpy as np
 
 from .. import _check, abel
 from .._check import Array, ArrayLike
-from ..limits import Limit, contact_limits
 from ..medium import Medium, check_pair, plastic_depth
-from ..results import CHAIN, Result
+from ..results.base import CHAIN, Result
+from ..results.limits import Limit, contact_limits
 from ..shapes.profile import Profile
 from . import element
 from .element import Elements, Ramp

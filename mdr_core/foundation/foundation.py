@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import _check
 from ..medium import Medium, check_pair
-from ..quantities import described, engineering
+from ..results.quantities import described, engineering
 from ..shapes.profile import Profile
 from . import element
 from .element import Elements, Ramp

@@ -16,7 +16,7 @@ import numpy as np
 
 from .._numeric import root_in_bracket
 from ..medium import plastic_depth
-from ..results import Motion
+from ..results.base import Motion
 from . import element
 from .element import Elements, Exchange, Ramp
 from .foundation import Foundation

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import _check
-from ..limits import Limit, contact_limits
 from ..medium import Medium, check_pair
-from ..results import CHAIN, ImpactResult, Motion, instants
+from ..results.base import CHAIN, ImpactResult, Motion, instants
+from ..results.limits import Limit, contact_limits
 from ..shapes.profile import Profile
 from .foundation import Foundation, element_count
 from .free_body import ImpactSolver, foundation_before, impact_depth_bound

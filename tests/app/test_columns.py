@@ -19,7 +19,7 @@ from app.presets import PRESETS
 from app.quantities import SHAPES
 from app.units import written
 from app.view import View
-from mdr_core.figures import SPRINGS, line, mark
+from mdr_core.results.figures import SPRINGS, line, mark
 
 from .conftest import DROP, ELASTIC
 

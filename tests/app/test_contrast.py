@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import app
-from mdr_core.figures import ROLES
+from mdr_core.results.figures import ROLES
 
 CSS = (Path(app.__file__).parent / "static" / "style.css").read_text(encoding="utf-8")
 

@@ -14,7 +14,7 @@ from app.explorer import FROM_FILE, Explorer
 from app.page import Page
 from app.presets import PRESETS
 from app.view import View
-from mdr_core.figures import SPRINGS
+from mdr_core.results.figures import SPRINGS
 
 from .conftest import DROP, ELASTIC
 from .test_columns import assert_all_is_drawn

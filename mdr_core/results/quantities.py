@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import _check
+from .. import _check
 
 _PREFIXES = dict(zip(range(-15, 13, 3), "fpnµm kMGT", strict=True)) | {0: ""}
 

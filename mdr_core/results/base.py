@@ -1,17 +1,13 @@
 """Base classes of results along a path, of impacts and of motions; the names of the models."""
 
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 import numpy as np
 
-from ._check import Array, shown
+from .._check import Array, shown
 from .limits import Limit, speed_limit
 from .report import Report
-
-if TYPE_CHECKING:
-    from .indentation import Indentation
-    from .medium import Medium
 
 
 class Model(str):
@@ -102,7 +98,7 @@ class ImpactResult(Result):
     )  # fmt: skip
     _dimensions = ("impact",)
 
-    medium: "Medium"
+    medium: Any
     speed: Any
     restitution: Any
     plastic_radius: Any
@@ -183,7 +179,7 @@ class Motion(MotionResult):
     stored_energy: Array
     plastic_work: Array
     viscous_work: Array
-    states: "Indentation | None" = None
+    states: Any = None
     impact: Any = None
 
     _quantities = (

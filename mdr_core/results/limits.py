@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import _check
+from .. import _check
+from ..shapes.power import Cone
 from .quantities import engineering
-from .shapes.power import Cone
 
 #: Slope up to which results are good, above which they are estimates, and above which the slope is
 #: probably a mistake; contact radius over the radius of the body; share of the wave speed.

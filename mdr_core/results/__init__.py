@@ -1,0 +1,1 @@
+"""Results: their quantities, limits, reports and plots."""
