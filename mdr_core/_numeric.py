@@ -91,17 +91,17 @@ def largest_value(function, low, high):
     return np.where(np.abs(after - before) < 2 * bend, top, values.max(axis=1))
 
 
-def cube_rise(begin, way):
+def cube_rise(begin, step):
     """(b + δ)³ − b³ without cancellation."""
-    return way * (3 * begin * begin + way * (3 * begin + way))
+    return step * (3 * begin * begin + step * (3 * begin + step))
 
 
 def cube_way(begin, rise):
     """δ at (b + δ)³ − b³ = `rise`, the inverse of `cube_rise`."""
     end = np.cbrt(begin**3 + rise)
     squares = begin * begin + begin * end + end * end
-    way = np.divide(rise, squares, out=np.zeros_like(rise), where=rise > 0)
-    return np.where(rise < np.inf, way, np.inf)
+    step = np.divide(rise, squares, out=np.zeros_like(rise), where=rise > 0)
+    return np.where(rise < np.inf, step, np.inf)
 
 
 @lru_cache

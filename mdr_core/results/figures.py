@@ -188,7 +188,7 @@ def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
     `along` gives the tangential displacement (m) of elements at radii, and whether they stick; it is drawn
     with half the scale of depths.
     """
-    profile, interval, far, rest = state.profile, state.live_interval, 3 * height, -REST * height
+    profile, interval, far, base_height = state.profile, state.live_interval, 3 * height, -REST * height
     x = half * (2 * (np.arange(SPRINGS) + 0.5) / SPRINGS - 1)
     g = reduced(profile, np.abs(x))
     left = np.fmax(interval.lower - g, 0.0)
@@ -196,7 +196,7 @@ def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
     top = np.where(contact, g - state.depth, -left - np.where(contact, 0.0, relaxing(g)))
     lean, stick = (0.0 * x, None) if along is None else along(np.abs(x))
     lean = np.where(contact, lean, 0.0)[:, None] * (half / 2 / height) * _ALONG
-    path = x[:, None] + _BEND * half / SPRINGS + lean, rest + (top[:, None] - rest) * _ALONG
+    path = x[:, None] + _BEND * half / SPRINGS + lean, base_height + (top[:, None] - base_height) * _ALONG
     states = {"free": ~contact & (left == 0), "elastic": contact & (left == 0), "yielded": left > 0}
     if along is not None:
         states = {name: some & ~contact for name, some in states.items()}
@@ -212,7 +212,9 @@ def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
     rows["edge"] = rows["profile g(x)"]
     if interval.lower > 0:
         rows["residual imprint"] = shape_x, 0.0 - np.maximum(interval.lower - shape_g, 0)
-    return rows | at_radii(float(state.contact_radius), float(state.plastic_radius), half, rest, height)
+    return rows | at_radii(
+        float(state.contact_radius), float(state.plastic_radius), half, base_height, height
+    )
 
 
 def radii(state, half):
