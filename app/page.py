@@ -1,177 +1,299 @@
-"""The page of one session: one change is one solve and one array of columns; playing is the browser's."""
+"""The page of one session: a function of one state, which every change gives anew."""
 
 import logging
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from html import escape
-from urllib.parse import urlencode
+from typing import Any
 
 import panel as pn
-import param
 from bokeh.events import ConnectionLost, DocumentReady
-from bokeh.models import CustomJS, Div
+from bokeh.models import ColumnDataSource, CustomJS
 
-from . import link, readouts
-from .controls import Controls
-from .drives import follow
-from .explorer import Explorer
-from .figures import DARK, LIGHT
-from .grid import Grid
-from .held import Table, held, is_held, renamed, toggled
-from .measured import Curve
-from .measuring import Measuring
-from .parts import FULL, HERE, JS, STYLE, WIDE, brought, button, decoded, html, linked, plain, toggle, tools
-from .player import Player
-from .plots import PLOTS
-from .quantities import CHOICES, DATA
-from .resting import Resting, about, in_time
-from .takeaway import TakeAway
-from .tip import read_tip
-from .tour import Tour
-from .trajectory import Trajectory, nearest
-from .vertices import Vertices
-from .view import View
+from . import changes
+from .drives import Course
+from .panels import readouts
+from .panels.board import Board
+from .panels.controls import Choices, Controls
+from .panels.fitting import Fitting
+from .panels.guide import Guide
+from .panels.held import Held, Table, is_held, opened, toggled
+from .panels.share import Share
+from .plots import PLOTS, TILES
+from .plots.plot import Plot, View
+from .solve import DRIVES, Resting, follow, in_time, scene_of
+from .state import VIEW, State, link
+from .state import opened as preset_opened
+from .state.files import Curve, decoded, read_tip
+from .ui import FULL, HERE, JS, STYLE, WIDE, brought, button, html, plain, show, toggle, tools
 
 _LOG = logging.getLogger(__name__)
 #: Milliseconds without a change after which the address follows.
 SETTLED = 300
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
+_MOST_UNDO = 100
+#: Names of widgets that have none of their own, by their classes.
+_NAMED = {"slider": "State along the path", "tip": "CSV file of a measured tip: r, z", "curve": "CSV file of a measured curve: depth, force",
+          "tour": "Guided scene", "of-drive": "Drive", "called": "Name of a held scene"}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What a page shows: a state, its view, the plots that are seen, and what is held."""
+
+    state: State
+    view: View
+    held: list[Held]
+
+    @property
+    def plots(self) -> list[Plot]:
+        """The plots that are seen."""
+        tiles = [PLOTS[name] for name in self.state.tiles if name in PLOTS]
+        return [
+            *(plot for plot in PLOTS.values() if not plot.tab),
+            *(plot for plot in tiles if plot.there(self.view)),
+        ]
 
 
 class Page:
     """What one person sees and does."""
 
-    def __init__(self, arguments=None):
-        self.document, self.explorer, self.held = pn.state.curdoc, Explorer(), []
-        self.solved, self._waiting, self._ready = {}, None, False
-        self._widgets()
-        notice = self._open(arguments or {})
+    def __init__(self, arguments: dict[str, list[bytes]] | None = None):
+        self.document, self.past, self.future, self._mark = pn.state.curdoc, [], [], None
+        self.solved: dict[Any, Course] = {}
+        self._waiting, self._ready, self.shown = None, False, None
+        self.state, notice = self._opening(arguments or {})
         self.resting = Resting(self._show_found)
-        self.controls = Controls(self.explorer, self.attempt, self.tell)
-        self.controls.parts["vertices"] = Vertices(self.explorer, self.attempt)
-        self.away, self.tour = TakeAway(self), Tour(self)
-        self.measuring = Measuring(self)
-        self._connect()
-        self._solve()
+        self.choices = Choices(self.tell, lambda: self.state)
+        self.board = Board(self.choices, self._asked)
+        self.controls = Controls(self.choices, self.act, self.tell)
+        self.fitting = Fitting(self.choices, self.act, self.tell)
+        self.share, self.guide = Share(lambda: self.shown), Guide(self.tell, lambda: self.shown.view.course)
+        self.table = Table(self.tell)
         self._layout()
+        self._bound()
         self._watch()
-        self._around()
+        try:
+            self.draw(self.state)
+        except Exception as error:
+            notice = f"The link was not opened: {self._refusal(error)}"
+            self.draw(preset_opened())
         if notice:
             self.notify(notice)
 
-    def _open(self, arguments):
-        """The state of a link; what is said if it cannot be opened."""
+    def _opening(self, arguments):
+        """The state of a link, and what is said if it cannot be opened."""
         try:
-            if arguments:
-                link.restore(self.explorer, arguments)
-                follow(self.explorer.scene(), self.explorer.progress)
-                self._hold()
+            return (link.read(arguments) if arguments else preset_opened()), ""
         except Exception as error:
-            self.explorer, self.held = Explorer(), []
-            return f"The link was not opened: {self._refusal(error)}"
-        return ""
+            return preset_opened(), f"The link was not opened: {self._refusal(error)}"
 
     # What is on the page.
 
-    def _widgets(self):
-        self.undo, self.redo, self.reset = button("Undo", "z"), button("Redo", "y"), button("Reset", "r")
-        self.hold, self.dark = toggle("Hold", "h"), toggle("Dark", "d")
-        self.take, self.guide = toggle("Take with you", "t"), toggle("Guide", "g")
-        self.measure = toggle("Fit a measurement", "f")
-        self.asked = {name: toggle(*plot.button) for name, plot in PLOTS.items() if plot.button}
-        self.readout = Div(css_classes=["readouts"], stylesheets=STYLE, **WIDE)
-        self.player, self.address = Player(self.readout), Div(visible=False)
-        self.lights, self.table = html("", "lights"), Table(self._rename, self._remove)
-
     def _layout(self):
-        title = html("<h1>Indentation explorer</h1>non-local yield, solved by dimensionality reduction")
+        self.undo, self.redo = button("Undo", "z"), button("Redo", "y")
+        self.hold = toggle("Hold", "h")
+        self.open = {
+            "share": toggle("Share", "t"),
+            "guide": toggle("Guide", "g"),
+            "menu": toggle("Menu", "m"),
+        }
+        self.tabs = {
+            "explore": toggle("Explore", "x"),
+            "fit": toggle("Fit a measurement", "f"),
+            "held": toggle("Held", "j"),
+        }
+        self.reset, self.dark, self.all = (
+            button("Reset", "r"),
+            toggle("Dark", "d"),
+            toggle("All numbers", "b"),
+        )
+        self.numbers, self.warnings = html("", "all-numbers", visible=False), html("", "lights")
         about = html((HERE / "static" / "about.html").read_text(encoding="utf-8"))
-        look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 320}
-        side = pn.Column(title, self.controls.form, about, **look)
-        axes = self.controls.rows["axes"]
-        axes.param.update(sizing_mode=None, width=180)
-        buttons = (self.undo, self.redo, self.reset, self.hold, *self.asked.values())
-        buttons = (*buttons, self.dark, self.take, self.measure, self.guide, axes)
-        parts = (tools(*buttons, stylesheets=STYLE), self.table.view)
-        parts += (self.away.panel, self.measuring.panel, self.tour.panel, pn.pane.Bokeh(self.readout))
-        parts += (self.lights, self.player.view, self.grid.view, pn.pane.Bokeh(self.address))
+        self.menu = pn.Column(
+            tools(self.reset, self.dark), self.choices.row("axes"), about, visible=False, **WIDE
+        )
+        title = html("<h1>Indentation explorer</h1>", "name", width=190, sizing_mode=None)
+        buttons = (self.undo, self.redo, self.hold, *self.open.values())
+        preset = self.choices.row("preset")
+        header = pn.Row(
+            title,
+            preset,
+            pn.Row(*buttons, css_classes=["tools", "buttons"], margin=0, width=380),
+            css_classes=["header"],
+            stylesheets=STYLE,
+            **WIDE,
+        )
+        panels = (
+            self.guide.view,
+            self.share.view,
+            self.menu,
+            self.table.view,
+            self.fitting.view,
+            self.controls.view,
+        )
+        side_look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
+        side = pn.Column(
+            pn.Row(*self.tabs.values(), css_classes=["tools", "tabs"], **WIDE), *panels, **side_look
+        )
+        player = self.board.player
+        line = pn.Column(*map(pn.pane.Bokeh, (player.heads, player.readout)), css_classes=["line"], **WIDE)
+        top = pn.Row(line, self.all, css_classes=["head", "top"], stylesheets=STYLE, **WIDE)
+        parts = (top, self.numbers, player.view, self.warnings, self.board.grid, self.board.tab_row)
         results = pn.Column(*parts, css_classes=["results"], **FULL)
-        self.view = pn.Row(side, results, css_classes=["page"], **FULL)
+        self.address, self.theme = ColumnDataSource(name="address"), ColumnDataSource(name="theme")
+        self.view = pn.Column(
+            header, pn.Row(side, results, css_classes=["columns"], **FULL), css_classes=["page"], **FULL
+        )
+        self._side("explore", None)
 
-    def _connect(self):
-        """What happens in the browser alone."""
-        self.theme = CustomJS(args={"light": LIGHT, "dark": DARK, "figures": []}, code=JS["theme"])
-        self.grid = Grid(self.player.show, self.theme, self.player.drag, self.controls)
-        self.dark.jscallback(args={"theme": self.theme}, value="theme.execute(cb_obj)")
-        self.theme.js_on_change("args", CustomJS(args={"theme": self.theme}, code="theme.execute(theme)"))
-        self.address.js_on_change("text", CustomJS(code="history.replaceState(null, '', cb_obj.text)"))
-        parts = {"named": DATA["named"], "theme": self.theme}
-        parts |= {"show": self.player.show, "packet": self.player.packet}
-        if self.document is not None:
-            self.document.on_event(DocumentReady, self._begin)
-            self.document.js_on_event(DocumentReady, CustomJS(args=parts, code=JS["ready"]))
-            # What was shown is in the address; the session behind it may be gone.
-            self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
+    def _side(self, tab, panel):
+        """What the left column shows: a tab, with the guide above it, or a panel over it."""
+        self._tab = tab
+        for name, each in self.tabs.items():
+            show(each, value=name == tab and panel in (None, "guide"))
+        for name, each in self.open.items():
+            show(each, value=name == panel)
+        for name, view in (("share", self.share.view), ("menu", self.menu), ("guide", self.guide.view)):
+            show(view, visible=name == panel)
+        free = panel in (None, "guide")
+        for name, view in (
+            ("explore", self.controls.view),
+            ("fit", self.fitting.view),
+            ("held", self.table.view),
+        ):
+            show(view, visible=free and name == tab)
+        if panel == "share" and self.shown is not None:
+            self.share.show()
 
     def _watch(self):
-        explorer = self.explorer
-        names = [name for name in explorer.param if name not in (*explorer.VIEW, "name")]
-        seen = [name for name in explorer.VIEW if name in (*CHOICES, "hold", "plots")]
-        explorer.param.watch(self._hold, "hold")
-        explorer.param.watch(self._changed, names, precedence=1)
-        explorer.param.watch(self._viewed, seen, precedence=1)
-        acts = {self.undo: explorer.undo, self.redo: explorer.redo}
-        acts[self.reset] = lambda: explorer.load(explorer.preset)
-        acts[self.controls.parts["again"]] = lambda: explorer.hit_again(self.way.hit)
-        for pressed, act in acts.items():
-            pressed.on_click(lambda event, act=act: self.tell(act))
-        brought(self.controls.tip, self._bring_tip)
+        for pressed, act in ((self.undo, self._undo), (self.redo, self._redo)):
+            pressed.on_click(lambda event, act=act: self._anew(act))
+        self.reset.on_click(lambda event: self._anew(lambda: self.tell(changes.reset)))
+        self.controls.again.on_click(
+            lambda event: self.tell(lambda state: changes.hit_again(state, self.shown.view.course.hit))
+        )
+        brought(
+            self.controls.tip,
+            lambda data: self.tell(lambda state: changes.take_tip(state, *read_tip(decoded(data)))),
+        )
         self.hold.param.watch(self._held, "value")
-        for name, asked in self.asked.items():
-            asked.param.watch(lambda event, name=name: self._asked(name, event.new), "value")
-        self.dark.value = explorer.dark
-        self.dark.param.watch(self._darkened, "value")
-        self.player.state.on_change("value_throttled", self._stood)
+        self.dark.param.watch(lambda event: self._set("dark", event.new), "value")
+        self.board.keep.param.watch(lambda event: self._set("keep", event.new), "value")
+        self.all.param.watch(
+            lambda event: (show(self.numbers, visible=event.new), self._say_all()), "value"
+        )
+        for name, tab in self.tabs.items():
+            tab.param.watch(lambda event, name=name: self._tabbed(name, event.new), "value")
+        for name, each in self.open.items():
+            each.param.watch(lambda event, name=name: self._opened(name, event.new), "value")
+        player = self.board.player
+        player.state.on_change("value_throttled", self._stood)
+        player.state.on_change("value", lambda attr, old, new: self._moved(new))
+        player.play.on_change("active", lambda attr, old, new: new and self._send())
+        player.hand.on_change("tags", self._dragged)
+        self.theme.js_on_change("tags", CustomJS(args={}, code=JS["theme"]))
+        self.address.js_on_change("tags", CustomJS(args={}, code=JS["address"]))
+        if self.document is not None:
+            self._connect()
+
+    def _connect(self):
+        """What begins and ends with the browser."""
+        for source in (self.theme, self.address):
+            self.document.add_root(source)
+        self.document.on_event(DocumentReady, self._begin)
+        self.document.js_on_event(DocumentReady, CustomJS(args={"named": _NAMED}, code=JS["ready"]))
+        # What was shown is in the address; the session behind it may be gone.
+        self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
+        self.document.on_session_destroyed(lambda context: self.resting.end())
 
     # What a person does, and what is refused.
 
     @pn.io.hold()
-    def attempt(self, act):
-        """Make a change and show it, or leave everything as it was.
+    def act(self, change: Any, mark: str | None = None) -> None:
+        """Make a change and show it, or leave everything as it was; changes of one mark are one to undo.
 
-        Raises
-        ------
-        ValueError
-            With what the person is told, if it is refused.
+        Raises ValueError with what the person is told, if it is refused.
         """
+        before = self.state
         try:
-            return act()
+            after = change(before)
+            if after == before:
+                return
+            self.draw(after)
         except Exception as error:
             said = self._refusal(error)
-            self.explorer.refuse()
+            if self.shown is not None and self.state is not before:
+                self.draw(before)
             raise ValueError(said) from None
+        if after.scene_values != before.scene_values:
+            if mark is None or mark != self._mark:
+                self.past = [*self.past[1 - _MOST_UNDO :], before]
+            self.future, self._mark = [], mark
+            self._bound()
 
-    def tell(self, act):
-        """Make a change; a refusal is a notice."""
+    def tell(self, change: Any, refused: Any = None) -> None:
+        """Make a change; a refusal is a notice, or told where it was made."""
         try:
-            self.attempt(act)
-            for number in self.controls.numbers.values():
-                number.forget()
+            self.act(change)
         except ValueError as error:
-            self.notify(str(error))
-            self.controls.show(self.way)
+            (refused or self.notify)(str(error))
+            self._around()
 
-    def open(self, query):
-        """Show the scene of a link, as a change that can be undone; plots and theme stay."""
-        kept = {"plots": " ".join(self.explorer.plots), "dark": int(self.explorer.dark)}
+    def _undo(self):
+        self._step(self.past, self.future)
 
-        def act():
-            with param.parameterized.batch_call_watchers(self.explorer):
-                link.apply(self.explorer, link.arguments(f"{query}&{urlencode(kept)}"))
-            self._changed()
+    def _redo(self):
+        self._step(self.future, self.past)
+
+    def _step(self, source, target):
+        if not source:
+            return
+        now, there = self.state, source[-1]
+        self.draw(there.but(**{name: now[name] for name in VIEW}))
+        source.pop()
+        target.append(now)
+        self._mark = None
+        self._bound()
+
+    @pn.io.hold()
+    def _anew(self, act):
+        act()
+        self.controls.forget()
+        self.fitting.forget()
+
+    def _bound(self):
+        show(self.undo, disabled=not self.past)
+        show(self.redo, disabled=not self.future)
+
+    def _set(self, name, value):
+        self.tell(lambda state: state.but(**{name: value}))
+
+    def _asked(self, name, on):
+        def act(state):
+            if on == (name in state.tiles) or name not in TILES:
+                return state
+            kept = state.tiles if state.keep or not on else ()
+            return state.but(tiles=tuple(t for t in TILES if t in {*kept, name} and (on or t != name)))
 
         self.tell(act)
 
-    def notify(self, text):
+    def _held(self, event):
+        if event.new != is_held(self.state):
+            self.tell(toggled)
+        show(self.hold, value=is_held(self.state))
+
+    def _tabbed(self, name, on):
+        if on:
+            self._side(name, None)
+        elif self._tab == name and not any(each.value for each in self.open.values()):
+            show(self.tabs[name], value=True)
+
+    def _opened(self, name, on):
+        self._side(self._tab, name if on else None) if on or not any(
+            each.value for each in self.open.values()
+        ) else None
+
+    def notify(self, text: str) -> None:
         """Tell the person, who may have written some of it."""
         if pn.state.notifications is not None:
             pn.state.notifications.error(escape(text), duration=7000)
@@ -180,144 +302,133 @@ class Page:
         """What is said of an error; one that is not the person's is logged with what led to it."""
         if isinstance(error, ValueError):
             return plain(str(error))
-        _LOG.error("a change could not be shown, scene %s", self.explorer.described(), exc_info=error)
+        _LOG.error("a change could not be shown, scene %s", self._described(), exc_info=error)
         return _FAULT
 
-    @pn.io.hold()
-    def _changed(self, *events):
-        self._solve()
-        self._around()
+    def _described(self):
+        try:
+            return scene_of(self.state).to_json()
+        except Exception:
+            return dict(self.state)
 
-    def _bring_tip(self, data):
-        self.tell(lambda: self.explorer.take_tip(*read_tip(decoded(data))))
-
-    def _asked(self, name, shown):
-        plots = {*self.explorer.plots, name} if shown else {*self.explorer.plots} - {name}
-        if plots != {*self.explorer.plots}:
-            self.tell(lambda: self.explorer.param.update(plots=[n for n in self.asked if n in plots]))
+    # What is drawn.
 
     @pn.io.hold()
-    def _viewed(self, *events):
-        self._show()
+    def draw(self, state: State) -> None:
+        """Show a state: all is found before anything is changed."""
+        course = follow(state, self.solved)
+        held = self._of_held(state)
+        view = View(
+            course, state, [each.course for each in held], self._found(state, course), Curve.of(state)
+        )
+        columns = self.board.columns(view, state.tiles, state.dark)
+        self.state, self.shown = state, Shown(state, view, held)
+        self.readings = readouts.readings(course)
+        self.board.show(columns, view, state, readouts.summary(state))
+        self.board.player.stand(view, self.readings)
+        if self.board.player.play.active:
+            self._send()
         self._around()
 
-    def _darkened(self, event):
-        self.explorer.dark = event.new
+    def _of_held(self, state):
+        """The scenes that are held, solved once for each link."""
+        if self.shown is not None and self.shown.state.hold == state.hold and not self._again:
+            return self.shown.held
+        self._again = False
+        return [opened(query, self.solved) for query in state.hold]
+
+    _again = False
+
+    def _found(self, state, course):
+        """What is known of the plots that take longer than a move."""
+        found = {}
+        for name in state.tiles:
+            plot = PLOTS.get(name)
+            if plot is None or not plot.find:
+                continue
+            if name == "maw" and course.oblique is None:
+                continue
+            asked = plot.asked(state)
+            about = _about(plot, course, asked)
+            if plot.quick(asked):
+                found[name] = self.resting.keep(name, about, [*plot.find(course, asked)][-1])
+            else:
+                found[name] = self.resting.known(name, about)
+        return found
+
+    def _around(self):
+        """Everything beside the plots."""
+        state, course = self.state, self.shown.view.course
+        self.choices.show(state)
+        self.controls.show(state, course)
+        self.fitting.show(state)
+        self.table.show(course, self.shown.held)
+        self.guide.show(course)
+        show(self.warnings, object=readouts.warnings(course, state))
+        show(self.hold, value=bool(state.hold) and is_held(state))
+        show(self.tabs["held"], visible=bool(state.hold))
+        if self._tab == "held" and not state.hold:
+            self._side("explore", None)
+        show(self.dark, value=state.dark)
+        if self.theme.tags != [state.dark]:
+            self.theme.tags = [state.dark]
+        if self.share.view.visible:
+            self.share.show()
+        self._say_all()
         self._settle()
 
-    def _held(self, event):
-        if event.new != is_held(self.explorer):
-            self._keep(lambda: toggled(self.explorer))
-            self.hold.value = is_held(self.explorer)
+    def _say_all(self):
+        if self.numbers.visible:
+            course = self.shown.view.course
+            show(self.numbers, object=readouts.table(course, self.readings, course.now))
 
-    def _rename(self, k, name):
-        if name != self.held[k].name:
-            hold = self.explorer.hold
-            self._keep(lambda: [*hold[:k], renamed(hold[k], name), *hold[k + 1 :]])
+    # What the player and the hand do.
 
-    def _remove(self, k):
-        self._keep(lambda: [*self.explorer.hold[:k], *self.explorer.hold[k + 1 :]])
+    def _send(self):
+        self.board.player.send(self.shown.view, self.readings, self.board.pictures())
 
-    def _keep(self, queries):
-        self.tell(lambda: self.explorer.param.update(hold=queries()))
-
-    def _hold(self, *events):
-        """Solve the scenes that are held, from their queries."""
-        self.held = [held(query, self._follow) for query in self.explorer.hold]
-
-    # What changes what is drawn.
-
-    def _follow(self, explorer):
-        """The trajectory of what is set, in time if it has been solved so."""
-        scene = explorer.scene()
-        way = self.solved.get(scene) or follow(scene, explorer.progress)
-        return replace(way, now=nearest(way.progress, explorer.progress))
-
-    def _solve(self):
-        self.way = self._follow(self.explorer)
-        self.cells = readouts.cells(self.way)
-        self.player.stand(self.way)
-        self._show()
-
-    def _show(self, anew=True):
-        """Draw the present state: one array of all columns; `anew` if other states are to be played."""
-        found = {plot.title: self.resting.known(plot, self.way, values) for plot, values in self._asks()}
-        held, curve = [each.way for each in self.held], Curve.of(self.explorer)
-        self.drawn = View(self.way, held, found, self.explorer.choices, curve)
-        self.grid.show(self.drawn, self._shown())
-        self.readout.text = readouts.heads(self.cells)
-        self.player.send(self.drawn, self.grid.layers, self.cells, anew)
-
-    def _asks(self):
-        """The plots on request that find what they show, each with what it asks for."""
-        plots = [PLOTS[name] for name in self.explorer.plots if PLOTS[name].resting]
-        return [(plot, plot.values(self.explorer)) for plot in plots]
-
-    def _shown(self):
-        """The plots that are seen, in their order."""
-        pressed, known = self.way.motion is None, self.drawn.axes.keys()
-        for name, asked in self.asked.items():
-            asked.visible = known >= set(PLOTS[name].axes)
-        asked = [name for name in self.explorer.plots if self.asked[name].visible]
-        names = [n for n, plot in PLOTS.items() if not plot.button and known >= set(plot.axes)]
-        # Three in a row: the pressure stays below the springs, and radii or residual below the force.
-        first = [name for name in asked if not PLOTS[name].log][:1] or ["radii"] * ("residual" in names)
-        first *= pressed
-        return [*names[:2], *first, *(name for name in (*names[2:], *asked) if name not in first)]
-
-    @pn.io.hold()
-    def _show_found(self, title, found):
-        """Draw what was found while the input was at rest; if that fails, go on without it."""
-        solved = self.solved
-        try:
-            if isinstance(found, str):
-                self.notify(plain(found))
-            elif isinstance(found, Trajectory):
-                self.solved = dict([*solved.items(), (found.scene, found)][-4:])
-                self._hold()
-                self._changed()
-            else:
-                self._show(anew=False)
-        except Exception as error:
-            self.solved = solved
-            self.resting.give_up(title)
-            self.notify(self._refusal(error))
-            self._hold()
-            self._changed()
+    def _moved(self, new):
+        if int(new) != self.shown.view.course.now:
+            self._send()
 
     @pn.io.hold()
     def _stood(self, attr, old, new):
         """The page stands at another state; it has drawn that already."""
-        now = min(int(new), len(self.way) - 1)
-        self.drawn.way = self.way = replace(self.way, now=now)
-        self.player.stand(self.way)
-        self.explorer.progress = float(self.way.progress[now])
-        if any(plot.of_state for plot, _ in self._asks()):
-            self._show(anew=False)
+        view = self.shown.view
+        now = min(int(new), len(view.course) - 1)
+        if now == view.course.now:
+            return
+        view.course = course = replace(view.course, now=now)
+        self.state = self.state.but(progress=float(course.progress[now]))
+        self.shown = replace(self.shown, state=self.state)
+        for plot in self.shown.plots:
+            if plot.of_state:
+                view.found[plot.name] = self.resting.known(
+                    plot.name, _about(plot, course, plot.asked(self.state))
+                )
+                self.board.cards[plot.name].show(
+                    self.board.cards[plot.name].picture.columns(view, now, self.state.dark),
+                    view,
+                    self.state.dark,
+                )
         self._around()
 
-    def _around(self):
-        """Everything beside the plots."""
-        explorer, way = self.explorer, self.way
-        self.controls.show(way)
-        self.controls.notes["sketch"].object = readouts.sketch(way, explorer.shape)
-        said = readouts.lights(way, explorer)
-        self.lights.object = "".join(f'<span class="{level}">{linked(text)}</span>' for level, text in said)
-        self.hold.value = is_held(explorer)
-        for name, asked in self.asked.items():
-            asked.value = name in explorer.plots
-        self.table.show(way, self.held)
-        self.grid.tell(readouts.summary(explorer))
-        self.away.show()
-        self.measuring.show()
-        self.tour.show()
-        explorer.accept()
-        self.undo.disabled, self.redo.disabled = not explorer.past, not explorer.future
-        self._settle()
+    def _dragged(self, attr, old, new):
+        """The indenter is dragged to a depth, in the unit of the heights of its plot."""
+        if new and isinstance(new[0], int | float):
+            depth = new[0] * self.shown.view.axis("z").factor
+            try:
+                self.act(lambda state: changes.press_to(state, depth), "hand")
+            except ValueError as error:
+                self.notify(str(error))
+            self.board.player.hand.tags = []
+
+    # What comes when the input is at rest.
 
     def _begin(self, event):
         """The browser is there: what is found before that, for a link, would not be sent to it."""
         self._ready = True
+        self.theme.trigger("tags", [], self.theme.tags)
         self._settle()
 
     def _settle(self):
@@ -330,14 +441,41 @@ class Page:
 
     def _settled(self):
         self._waiting = None
-        query = link.query(self.explorer)
-        self.address.text = f"?{query}" if query else "?"
-        way = self.way
-        self.grid.describe(self.drawn)
-        for k, each in enumerate([way, *(each.way for each in self.held)]):
-            self.resting.follow(f"way {k}", each.scene if each.pending else None, in_time, each)
-        asked = {plot: values for plot, values in self._asks() if not plot.quick(*values)}
-        for plot in (plot for plot in PLOTS.values() if plot.resting):
-            values = asked.get(plot, ())
-            of = about(plot, way, values) if plot in asked else None
-            self.resting.follow(plot.title, of, plot.resting, way, *values)
+        try:
+            query = link.write(self.state, DRIVES[self.state.drive].form)
+        except ValueError:
+            query = ""
+        if self.address.tags != [f"?{query}"]:
+            self.address.tags = [f"?{query}"]
+        view = self.shown.view
+        self.board.describe(view)
+        for k, each in enumerate([view.course, *(each.course for each in self.shown.held)]):
+            self.resting.follow(f"course {k}", each.scene if each.pending else None, in_time, each)
+        for plot in (plot for plot in PLOTS.values() if plot.find):
+            seen = plot in self.shown.plots
+            asked = plot.asked(self.state) if seen else None
+            slow = seen and not plot.quick(asked)
+            about = _about(plot, view.course, asked) if slow else None
+            self.resting.follow(plot.name, about, plot.find, view.course, asked)
+
+    @pn.io.hold()
+    def _show_found(self, name, found):
+        """Draw what was found while the input was at rest; if that fails, go on without it."""
+        solved = self.solved
+        try:
+            if isinstance(found, str):
+                self.notify(plain(found))
+            else:
+                if isinstance(found, Course):
+                    self.solved, self._again = dict([*solved.items(), (found.scene, found)][-4:]), True
+                self.draw(self.state)
+        except Exception as error:
+            self.solved = solved
+            self.resting.give_up(name)
+            self.notify(self._refusal(error))
+            self.draw(self.state)
+
+
+def _about(plot: Plot, course: Course, asked: Any) -> tuple:
+    """What a search for a plot is about: the scene, what is asked for, and the state."""
+    return course.scene, asked, course.progress[course.now] if plot.of_state else None

@@ -1,0 +1,24 @@
+// Moves through the states of a scene: frames are what `source.data` becomes in each of them, sent once.
+const stand = (k) => {
+  const [{ sources, pictures, words, phases }] = frames.tags
+  sources.forEach((source, n) => { source.data = { ...source.data, ...pictures[k][n] } })
+  ;[readout.text, standing.text] = [words[k], phases[k]]
+}
+if (cb_obj !== play) return void (frames.tags.length && stand(state.value))
+play.label = play.active ? "❚❚ Pause" : "▶ Play"
+if (!play.active) return void (state.value_throttled = state.value)
+let [clock, last] = [null, performance.now()]
+const step = (now) => {
+  if (!play.active) return
+  requestAnimationFrame(step)
+  const passed = now - last
+  last = now
+  if (!frames.tags.length) return
+  const { times } = frames.tags[0]
+  clock ??= state.value >= times.length - 1 ? 0 : times[state.value]
+  // A moment of rest at the end of each round.
+  clock = (clock + passed / 3000) % 1.12
+  const next = times.findIndex((time) => time >= clock)
+  state.setv({ value: next < 0 ? times.length - 1 : next }, { sync: false })
+}
+requestAnimationFrame(step)

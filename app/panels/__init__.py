@@ -1,0 +1,1 @@
+"""What stands around the plots: controls, readouts, what is brought and what is taken away."""

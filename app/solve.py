@@ -1,0 +1,144 @@
+"""Scenes solved along their paths: the table of drives, and what takes longer than a move, in threads."""
+
+import logging
+import threading
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from typing import Any
+
+import panel as pn
+
+import mdr_core as mdr
+
+from .drives import Course, Drive, impact, nearest, oblique, path, press
+from .state import State, medium, profile, settled
+
+_LOG = logging.getLogger(__name__)
+
+#: Every drive of the page, by its option of the choice "drive".
+DRIVES: dict[str, Drive] = {
+    "depth": press.Depth(), "force": press.Force(), "path": path.Path(), "impact": impact.Impact(),
+    "oblique": oblique.Oblique(),
+}  # fmt: skip
+
+
+def scene_of(state: State) -> mdr.Scene:
+    """What is to be modelled."""
+    return mdr.Scene(profile(state), medium(state), DRIVES[state.drive].make(state))
+
+
+def follow(state: State, known: dict[mdr.Scene, Course] | None = None) -> Course:
+    """The states of a scene along its path, at the progress where the page stands.
+
+    `known` has courses that have been solved in full.
+    """
+    scene = scene_of(state)
+    course = (known or {}).get(scene) or DRIVES[state.drive].follow(scene, state.progress)
+    return replace(course, now=nearest(course.progress, state.progress))
+
+
+def deepest(state: State) -> mdr.Indentation:
+    """The deepest state of the present scene, without its path there."""
+    return DRIVES[state.drive].deepest(scene_of(settled(state)))
+
+
+@dataclass(frozen=True)
+class Found:
+    """Rows of a plot (SI), the axes that hold them, and what is said below it, as HTML."""
+
+    rows: dict[str, Any]
+    axes: list[Any]
+    note: str = ""
+
+
+#: What is shown before anything is found, and where nothing can be.
+COMPUTING = Found({}, [], "computing …")
+FAULT = Found({}, [], "This could not be found, because of a fault of the explorer.")
+
+
+class Resting:
+    """The searches of one session: the latest of each name only, in threads that all sessions share.
+
+    `show` is given the name and what was found.
+    """
+
+    def __init__(self, show: Callable[[str, Any], None]):
+        self._show, self._asked, self._found, self._document = show, {}, {}, pn.state.curdoc
+
+    def follow(self, name: str, about: Any, search: Callable[..., Iterator[Any]], *arguments: Any) -> None:
+        """Let a generator search, unless that is under way or done for what it is `about`.
+
+        None: it is no longer looked at.
+        """
+        last, stop = self._asked.get(name, (None, None))
+        if last == about:
+            return
+        if stop is not None:
+            stop.set()
+        stop = threading.Event()
+        self._asked[name] = about, stop
+        if about is not None:
+            thread = pn.state.as_cached("resting", ThreadPoolExecutor, max_workers=2)
+            thread.submit(self._run, name, stop, search, *arguments)
+
+    def known(self, name: str, about: Any) -> Found:
+        """What was found of a plot for what it is about."""
+        asked, last = self._found.get(name, (None, COMPUTING))
+        return last if asked == about else replace(COMPUTING, axes=last.axes)
+
+    def keep(self, name: str, about: Any, found: Found) -> Found:
+        """Keep what was found at once."""
+        self._found[name] = about, found
+        return found
+
+    def give_up(self, name: str) -> None:
+        """Of what was found last nothing is known."""
+        self._found[name] = self._asked[name][0], FAULT
+
+    def end(self) -> None:
+        """The session is over."""
+        for _, stop in self._asked.values():
+            stop.set()
+        self._asked, self._found = {}, {}
+
+    def _run(self, name, stop, search, *arguments):
+        def show(found):
+            self._inside(lambda: stop.is_set() or self._take(name, found))
+
+        if stop.is_set():
+            return
+        try:
+            for found in search(*arguments):
+                if stop.is_set():
+                    return
+                show(found)
+        except Exception:
+            _LOG.exception("%s could not be found, scene %s", name, arguments[0].scene.to_json())
+            show(FAULT)
+
+    def _take(self, name, found):
+        if isinstance(found, Found):
+            self._found[name] = self._asked[name][0], found
+        self._show(name, found)
+
+    def _inside(self, act):
+        """Call a function with the lock of the session; without a server, directly."""
+        if self._document is None or self._document.session_context is None:
+            act()
+        else:
+            self._document.add_next_tick_callback(act)
+
+
+def in_time(course: Course) -> Iterator[Any]:
+    """A course that is pending, in time, or why it cannot be so."""
+    drive = next(each for each in DRIVES.values() if each.owns(course.scene.drive))
+    try:
+        yield drive.in_time(course.scene)
+    except ValueError as error:
+        yield str(error)
+
+
+def drive_of(scene: mdr.Scene) -> Drive:
+    """The drive that shows a scene."""
+    return next(drive for drive in DRIVES.values() if drive.owns(scene.drive))
