@@ -324,7 +324,7 @@ class Page:
         columns = self.board.columns(view, state.tiles, state.dark)
         self.state, self.shown = state, Shown(state, view, held)
         self.readings = readouts.readings(course)
-        self.board.show(columns, view, state, readouts.summary(state))
+        self.board.show(columns, view, state)
         self.board.player.stand(view, self.readings)
         if self.board.player.play.active:
             self._send()
@@ -393,10 +393,13 @@ class Page:
 
     @pn.io.hold()
     def _stood(self, attr, old, new):
-        """The page stands at another state; it has drawn that already."""
+        """The page stands at another state; it has drawn that already, if it has the frames."""
         view = self.shown.view
         now = min(int(new), len(view.course) - 1)
         if now == view.course.now:
+            return
+        if not self.board.player.frames.tags:
+            self.draw(self.state.but(progress=float(view.course.progress[now])))
             return
         view.course = course = replace(view.course, now=now)
         self.state = self.state.but(progress=float(course.progress[now]))
@@ -448,7 +451,7 @@ class Page:
         if self.address.tags != [f"?{query}"]:
             self.address.tags = [f"?{query}"]
         view = self.shown.view
-        self.board.describe(view)
+        self.board.describe(view, readouts.summary(self.state))
         for k, each in enumerate([view.course, *(each.course for each in self.shown.held)]):
             self.resting.follow(f"course {k}", each.scene if each.pending else None, in_time, each)
         for plot in (plot for plot in PLOTS.values() if plot.find):

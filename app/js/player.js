@@ -1,7 +1,11 @@
 // Moves through the states of a scene: frames are what `source.data` becomes in each of them, sent once.
+const sent = () => {
+  if (frames.read !== frames.tags) [frames.read, frames.sent] = [frames.tags, JSON.parse(frames.tags[1])]
+  return frames.sent
+}
 const stand = (k) => {
-  const [{ sources, pictures, words, phases }] = frames.tags
-  sources.forEach((source, n) => { source.data = { ...source.data, ...pictures[k][n] } })
+  const { pictures, words, phases } = sent()
+  frames.tags[0].forEach((source, n) => { source.data = { ...source.data, ...pictures[k][n] } })
   ;[readout.text, standing.text] = [words[k], phases[k]]
 }
 if (cb_obj !== play) return void (frames.tags.length && stand(state.value))
@@ -14,7 +18,7 @@ const step = (now) => {
   const passed = now - last
   last = now
   if (!frames.tags.length) return
-  const { times } = frames.tags[0]
+  const { times } = sent()
   clock ??= state.value >= times.length - 1 ? 0 : times[state.value]
   // A moment of rest at the end of each round.
   clock = (clock + passed / 3000) % 1.12

@@ -1,5 +1,6 @@
 """The board on the right: plots in frames with title, formula, legend and controls, their tabs, the player."""
 
+import json
 from collections.abc import Callable
 from html import escape
 from typing import Any
@@ -116,15 +117,14 @@ class Player:
         times = np.linspace(0, 1, len(course))
         if course.motion is not None:
             times = (course.motion.time - course.motion.time[0]) / np.ptp(course.motion.time)
-        self.frames.tags = [
-            {
-                "sources": sources,
-                "pictures": [[columns for frame in each for columns in frame.values()] for each in frames],
-                "words": [escape(readouts.values(course, found, i)) for i in states],
-                "phases": [escape(readouts.phase(course, i)) for i in states],
-                "times": times.tolist(),
-            }
-        ]
+        sent = {
+            "pictures": [[columns for frame in each for columns in frame.values()] for each in frames],
+            "words": [escape(readouts.values(course, found, i)) for i in states],
+            "phases": [escape(readouts.phase(course, i)) for i in states],
+            "times": times.tolist(),
+        }
+        # As one text: Bokeh would look at every number of it.
+        self.frames.tags = [sources, json.dumps(sent).replace("NaN", "null")]
 
 
 def _rounded(values: Any) -> list[float]:
@@ -185,7 +185,7 @@ class Board:
                 self._make(name)
         return {name: self.cards[name].picture.columns(view, view.course.now, dark) for name in names}
 
-    def show(self, columns: dict[str, dict], view: View, state: Any, summary: str) -> None:
+    def show(self, columns: dict[str, dict], view: View, state: Any) -> None:
         """Draw columns made for a view, on the plots that they are of."""
         self.names = list(columns)
         for name, data in columns.items():
@@ -197,14 +197,13 @@ class Board:
         for name, tab in self.tabs.items():
             show(tab, visible=PLOTS[name].there(view), value=name in columns)
         show(self.keep, value=state.keep)
-        if self._scene.tags != [summary]:
-            self._scene.tags = [summary]
 
     def pictures(self) -> list[Picture]:
         """The pictures that are seen."""
         return [self.cards[name].picture for name in self.names]
 
-    def describe(self, view: View) -> None:
-        """Say what is seen in the plots."""
+    def describe(self, view: View, summary: str) -> None:
+        """Say what is seen in the plots, and below pictures that are saved what the scene is."""
+        self._scene.tags = [summary]
         for name in self.names:
             self.cards[name].describe(view)

@@ -1,5 +1,6 @@
 """Plots as Bokeh figures: one source for all rows of a kind, drawn by `source.data = …`; frames likewise."""
 
+from functools import lru_cache
 from typing import Any
 
 import bokeh.models as bk
@@ -84,10 +85,13 @@ class Layer:
 def _short(values: Any, axis: Axis) -> list[float]:
     """Values in the unit of an axis, as list, on a linear one to a fraction of a pixel."""
     values = np.atleast_1d(np.asarray(values, float)) / axis.factor
-    if not axis.log:
-        size = max(abs(end) for end in axis.ends) or 1.0
-        values = np.round(values, 4 - int(np.floor(np.log10(size))))
-    return values.tolist()
+    return (values if axis.log else np.round(values, _decimals(axis))).tolist()
+
+
+@lru_cache(1000)
+def _decimals(axis: Axis) -> int:
+    size = max(abs(end) for end in axis.ends) or 1.0
+    return 4 - int(np.floor(np.log10(size)))
 
 
 def _inside(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, Any]:

@@ -224,19 +224,24 @@ class View:
         return self._drawn[plot.name]
 
     def rows(self, plot: Plot, i: int) -> dict:
-        """All rows of a plot in state i, empty where there is none."""
+        """All rows of a plot in state i, empty where there is none; those of the present one are kept."""
+        if (plot.name, i) in self._drawn:
+            return self._drawn[plot.name, i]
         empty = {row.name: (*NOTHING, "") for row in plot.rows}
         if plot.image:
             empty["image"] = *[np.array([0.0, 1.0])] * 2, np.full(plot.image, np.nan)
-        return empty | self.still(plot) | plot.moving(self, i)
+        rows = empty | self.still(plot) | plot.moving(self, i)
+        if i == self.course.now:
+            self._drawn[plot.name, i] = rows
+        return rows
 
     def pressure(self, i: int) -> tuple[Any, Any]:
         """Radii and pressures (SI) of state i."""
-        if ("pressure", i) not in self._drawn:
+        if ("r, p", i) not in self._drawn:
             state = self.course.states[i]
             r = radii(state, self.end("x"))
-            self._drawn["pressure", i] = r, state.pressure(r)
-        return self._drawn["pressure", i]
+            self._drawn["r, p", i] = r, state.pressure(r)
+        return self._drawn["r, p", i]
 
     def exceeds(self, i: int) -> str:
         """What is said of a pressure that the axis does not reach; nothing if it does."""
