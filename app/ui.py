@@ -83,7 +83,7 @@ def html(text="", *classes, **options):
 
 def button(name, key="", kind=pn.widgets.Button, **options):
     """A button or toggle, which a key may press as well."""
-    return kind(name=name, css_classes=["button", *[f"key-{key}"] * bool(key)], **{"margin": 0} | options)
+    return kind(label=name, css_classes=["button", *[f"key-{key}"] * bool(key)], **{"margin": 0} | options)
 
 
 def toggle(name, key):

@@ -100,7 +100,7 @@ def _loading(course: Course):
     depth, a = course.states.depth[: course.peak + 1], course.states.contact_radius[: course.peak + 1]
     if course.hit is None:
         return depth, a
-    fine = course.before + (depth[-1] - course.before) * np.linspace(0, 1, 61) ** 2
+    fine = course.before + (depth[-1] - course.before) * np.linspace(0, 1, 81) ** 2
     return np.append(fine[:1], fine), np.append(a[:1], course.scene.profile.contact_radius(fine))
 
 
