@@ -8,40 +8,12 @@ from typing import Any
 import mdr_core as mdr
 
 from .drives import oblique, path
-from .solve import DRIVES, deepest, scene_of
-from .state import PRESETS, State, checked, medium, number, opened, quantity, settled, used
-from .state.quantities import CHOICES, QUANTITIES, SHAPES, Scale, shape_quantities
+from .solve import DRIVES, deepest, option, options, scene_of
+from .state import State, checked, medium, number, opened, quantity, settled
+from .state.quantities import QUANTITIES, Scale, shape_quantities
 from .state.units import fitting, read, written
 
 _BETWEEN = re.compile(r"\s*(?:;|\t|,\s|\bat\b)\s*")
-
-
-def options(state: State, name: str) -> list[str]:
-    """The options of a choice that apply to the scene, the one to begin with first."""
-    drive = DRIVES[state.drive]
-    if name == "preset":
-        return list(PRESETS)
-    if name == "shape":
-        return list(SHAPES)
-    if name == "against" and drive.solver:
-        return list(drive.results)
-    if name != "swept" or not drive.solver:
-        return list(CHOICES[name])
-    impact = "speed" in drive.solver
-    idle = {"density"} if impact else {"density", "eta", "tau"}
-    works = [each for each in numbers_of(state) if each not in idle]
-    return ["energy"] * impact + sorted(works, key=lambda each: each not in drive.solver)
-
-
-def numbers_of(state: State) -> list[str]:
-    """Names of the numbers that the scene is made of, and of those that its drive asks for."""
-    return used(state, DRIVES[state.drive].form)
-
-
-def option(state: State, name: str) -> str:
-    """The option of a choice; the first, where what was chosen does not apply."""
-    chosen, known = state[name], options(state, name)
-    return chosen if chosen in known else known[0]
 
 
 def choose(state: State, name: str, wanted: str) -> State:

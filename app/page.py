@@ -11,7 +11,7 @@ from bokeh.models import ColumnDataSource, CustomJS
 
 from . import changes
 from .drives import Course
-from .panels import readouts
+from .panels import Frame, readouts
 from .panels.board import Board
 from .panels.controls import Choices, Controls
 from .panels.fitting import Fitting
@@ -24,7 +24,7 @@ from .solve import DRIVES, Resting, follow, in_time, scene_of
 from .state import VIEW, State, link
 from .state import opened as preset_opened
 from .state.files import Curve, decoded, read_tip
-from .ui import FULL, HERE, JS, STYLE, WIDE, brought, button, html, plain, show, toggle, tools
+from .ui import JS, brought, plain, show
 
 _LOG = logging.getLogger(__name__)
 #: Milliseconds without a change after which the address follows.
@@ -87,105 +87,30 @@ class Page:
         except Exception as error:
             return preset_opened(), f"The link was not opened: {self._refusal(error)}"
 
-    # What is on the page.
-
     def _layout(self):
-        self.undo, self.redo = button("Undo", "z"), button("Redo", "y")
-        self.hold = toggle("Hold", "h")
-        self.open = {
-            "share": toggle("Share", "t"),
-            "guide": toggle("Guide", "g"),
-            "menu": toggle("Menu", "m"),
-        }
-        self.tabs = {
-            "explore": toggle("Explore", "x"),
-            "fit": toggle("Fit a measurement", "f"),
-            "held": toggle("Held", "j"),
-        }
-        self.reset, self.dark, self.all = (
-            button("Reset", "r"),
-            toggle("Dark", "d"),
-            toggle("All numbers", "b"),
+        """All that is on the page; what changes in the browser alone is connected here."""
+        panels = {"share": self.share.view, "guide": self.guide.view, "menu": None}
+        tabs = {"explore": self.controls.view, "fit": self.fitting.view, "held": self.table.view}
+        self.frame = Frame(
+            self.choices.row("preset"), self.choices.row("axes"), panels, tabs, self.share.show
         )
-        self.numbers, self.warnings = html("", "all-numbers", visible=False), html("", "lights")
-        about = html((HERE / "static" / "about.html").read_text(encoding="utf-8"))
-        self.menu = pn.Column(
-            tools(self.reset, self.dark), self.choices.row("axes"), about, visible=False, **WIDE
-        )
-        title = html("<h1>Indentation explorer</h1>", "name", width=190, sizing_mode=None)
-        buttons = (self.undo, self.redo, self.hold, *self.open.values())
-        preset = self.choices.row("preset")
-        header = pn.Row(
-            title,
-            preset,
-            pn.Row(*buttons, css_classes=["tools", "buttons"], margin=0, width=380),
-            css_classes=["header"],
-            stylesheets=STYLE,
-            **WIDE,
-        )
-        panels = (
-            self.guide.view,
-            self.share.view,
-            self.menu,
-            self.table.view,
-            self.fitting.view,
-            self.controls.view,
-        )
-        side_look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
-        side = pn.Column(
-            pn.Row(*self.tabs.values(), css_classes=["tools", "tabs"], **WIDE), *panels, **side_look
-        )
-        player = self.board.player
-        line = pn.Column(*map(pn.pane.Bokeh, (player.heads, player.readout)), css_classes=["line"], **WIDE)
-        top = pn.Row(line, self.all, css_classes=["head", "top"], stylesheets=STYLE, **WIDE)
-        parts = (top, self.numbers, player.view, self.warnings, self.board.grid, self.board.tab_row)
-        results = pn.Column(*parts, css_classes=["results"], **FULL)
         self.address, self.theme = ColumnDataSource(name="address"), ColumnDataSource(name="theme")
-        self.view = pn.Column(
-            header, pn.Row(side, results, css_classes=["columns"], **FULL), css_classes=["page"], **FULL
-        )
-        self._side("explore", None)
-
-    def _side(self, tab, panel):
-        """What the left column shows: a tab, with the guide above it, or a panel over it."""
-        self._tab = tab
-        for name, each in self.tabs.items():
-            show(each, value=name == tab and panel in (None, "guide"))
-        for name, each in self.open.items():
-            show(each, value=name == panel)
-        for name, view in (("share", self.share.view), ("menu", self.menu), ("guide", self.guide.view)):
-            show(view, visible=name == panel)
-        free = panel in (None, "guide")
-        for name, view in (
-            ("explore", self.controls.view),
-            ("fit", self.fitting.view),
-            ("held", self.table.view),
-        ):
-            show(view, visible=free and name == tab)
-        if panel == "share" and self.shown is not None:
-            self.share.show()
+        self.view = self.frame.framed(self.board)
 
     def _watch(self):
-        for pressed, act in ((self.undo, self._undo), (self.redo, self._redo)):
-            pressed.on_click(lambda event, act=act: self._anew(act))
-        self.reset.on_click(lambda event: self._anew(lambda: self.tell(changes.reset)))
-        self.controls.again.on_click(
-            lambda event: self.tell(lambda state: changes.hit_again(state, self.shown.view.course.hit))
-        )
-        brought(
-            self.controls.tip,
-            lambda data: self.tell(lambda state: changes.take_tip(state, *read_tip(decoded(data)))),
-        )
-        self.hold.param.watch(self._held, "value")
-        self.dark.param.watch(lambda event: self._set("dark", event.new), "value")
-        self.board.keep.param.watch(lambda event: self._set("keep", event.new), "value")
-        self.all.param.watch(
-            lambda event: (show(self.numbers, visible=event.new), self._say_all()), "value"
-        )
-        for name, tab in self.tabs.items():
-            tab.param.watch(lambda event, name=name: self._tabbed(name, event.new), "value")
-        for name, each in self.open.items():
-            each.param.watch(lambda event, name=name: self._opened(name, event.new), "value")
+        frame, tell = self.frame, self.tell
+        frame.undo.on_click(lambda event: self._step(self.past, self.future))
+        frame.redo.on_click(lambda event: self._step(self.future, self.past))
+        frame.reset.on_click(lambda event: tell(changes.reset))
+        again, tip = self.controls.again, self.controls.tip
+        again.on_click(lambda event: tell(lambda now: changes.hit_again(now, self.shown.view.course.hit)))
+        brought(tip, lambda data: tell(lambda now: changes.take_tip(now, *read_tip(decoded(data)))))
+        frame.hold.param.watch(self._held, "value")
+        frame.all.param.watch(lambda event: self._say_all(), "value")
+        for name, each in (("dark", frame.dark), ("keep", self.board.keep)):
+            each.param.watch(
+                lambda event, name=name: tell(lambda now: now.but(**{name: event.new})), "value"
+            )
         player = self.board.player
         player.state.on_change("value_throttled", self._stood)
         player.state.on_change("value", lambda attr, old, new: self._moved(new))
@@ -235,38 +160,26 @@ class Page:
         """Make a change; a refusal is a notice, or told where it was made."""
         try:
             self.act(change)
+            self.controls.forget()
+            self.fitting.forget()
         except ValueError as error:
             (refused or self.notify)(str(error))
             self._around()
 
-    def _undo(self):
-        self._step(self.past, self.future)
-
-    def _redo(self):
-        self._step(self.future, self.past)
-
     def _step(self, source, target):
-        if not source:
-            return
-        now, there = self.state, source[-1]
-        self.draw(there.but(**{name: now[name] for name in VIEW}))
-        source.pop()
-        target.append(now)
-        self._mark = None
-        self._bound()
-
-    @pn.io.hold()
-    def _anew(self, act):
-        act()
-        self.controls.forget()
-        self.fitting.forget()
+        """Undo, or do again: what the view is like stays."""
+        if source:
+            now, past, future = self.state, self.past, self.future
+            self.tell(lambda state: source[-1].but(**{name: now[name] for name in VIEW}))
+            if self.past is not past:
+                self.past, self.future, self._mark = past, future, None
+                source.pop()
+                target.append(now)
+                self._bound()
 
     def _bound(self):
-        show(self.undo, disabled=not self.past)
-        show(self.redo, disabled=not self.future)
-
-    def _set(self, name, value):
-        self.tell(lambda state: state.but(**{name: value}))
+        show(self.frame.undo, disabled=not self.past)
+        show(self.frame.redo, disabled=not self.future)
 
     def _asked(self, name, on):
         def act(state):
@@ -280,18 +193,7 @@ class Page:
     def _held(self, event):
         if event.new != is_held(self.state):
             self.tell(toggled)
-        show(self.hold, value=is_held(self.state))
-
-    def _tabbed(self, name, on):
-        if on:
-            self._side(name, None)
-        elif self._tab == name and not any(each.value for each in self.open.values()):
-            show(self.tabs[name], value=True)
-
-    def _opened(self, name, on):
-        self._side(self._tab, name if on else None) if on or not any(
-            each.value for each in self.open.values()
-        ) else None
+        show(self.frame.hold, value=is_held(self.state))
 
     def notify(self, text: str) -> None:
         """Tell the person, who may have written some of it."""
@@ -360,16 +262,17 @@ class Page:
         """Everything beside the plots."""
         state, course = self.state, self.shown.view.course
         self.choices.show(state)
+        self.board.show_tabs(self.shown.view, state)
         self.controls.show(state, course)
         self.fitting.show(state)
         self.table.show(course, self.shown.held)
         self.guide.show(course)
-        show(self.warnings, object=readouts.warnings(course, state))
-        show(self.hold, value=bool(state.hold) and is_held(state))
-        show(self.tabs["held"], visible=bool(state.hold))
-        if self._tab == "held" and not state.hold:
-            self._side("explore", None)
-        show(self.dark, value=state.dark)
+        show(self.frame.warnings, object=readouts.warnings(course, state))
+        show(self.frame.hold, value=bool(state.hold) and is_held(state))
+        show(self.frame.tabs["held"], visible=bool(state.hold))
+        if self.frame.tab == "held" and not state.hold:
+            self.frame.show("explore")
+        show(self.frame.dark, value=state.dark)
         if self.theme.tags != [state.dark]:
             self.theme.tags = [state.dark]
         if self.share.view.visible:
@@ -378,9 +281,9 @@ class Page:
         self._settle()
 
     def _say_all(self):
-        if self.numbers.visible:
+        if self.frame.all.value:
             course = self.shown.view.course
-            show(self.numbers, object=readouts.table(course, self.readings, course.now))
+            show(self.frame.numbers, object=readouts.table(course, self.readings, course.now))
 
     # What the player and the hand do.
 

@@ -12,7 +12,8 @@ import panel as pn
 import mdr_core as mdr
 
 from .drives import Course, Drive, impact, nearest, oblique, path, press
-from .state import State, medium, profile, settled
+from .state import PRESETS, State, medium, profile, settled, used
+from .state.quantities import CHOICES, SHAPES
 
 _LOG = logging.getLogger(__name__)
 
@@ -41,6 +42,34 @@ def follow(state: State, known: dict[mdr.Scene, Course] | None = None) -> Course
 def deepest(state: State) -> mdr.Indentation:
     """The deepest state of the present scene, without its path there."""
     return DRIVES[state.drive].deepest(scene_of(settled(state)))
+
+
+def options(state: State, name: str) -> list[str]:
+    """The options of a choice that apply to the scene, the one to begin with first."""
+    drive = DRIVES[state.drive]
+    if name == "preset":
+        return list(PRESETS)
+    if name == "shape":
+        return list(SHAPES)
+    if name == "against" and drive.solver:
+        return list(drive.results)
+    if name != "swept" or not drive.solver:
+        return list(CHOICES[name])
+    impact = "speed" in drive.solver
+    idle = {"density"} if impact else {"density", "eta", "tau"}
+    works = [each for each in numbers_of(state) if each not in idle]
+    return ["energy"] * impact + sorted(works, key=lambda each: each not in drive.solver)
+
+
+def numbers_of(state: State) -> list[str]:
+    """Names of the numbers that the scene is made of, and of those that its drive asks for."""
+    return used(state, DRIVES[state.drive].form)
+
+
+def option(state: State, name: str) -> str:
+    """The option of a choice; the first, where what was chosen does not apply."""
+    chosen, known = state[name], options(state, name)
+    return chosen if chosen in known else known[0]
 
 
 @dataclass(frozen=True)

@@ -194,8 +194,12 @@ class Board:
             show(card.view, visible=name in columns)
         count = len(columns) - len(NAMED)
         show(self.grid, css_classes=["plots", f"with-{min(count, 2)}"])
+
+    def show_tabs(self, view: View, state: Any) -> None:
+        """The tabs of plots that the scene has, of which some are asked for."""
         for name, tab in self.tabs.items():
-            show(tab, visible=PLOTS[name].there(view), value=name in columns)
+            there = PLOTS[name].there(view)
+            show(tab, visible=there, value=there and name in state.tiles)
         show(self.keep, value=state.keep)
 
     def pictures(self) -> list[Picture]:

@@ -10,7 +10,7 @@ import param
 
 from .. import changes
 from ..drives import Course
-from ..solve import DRIVES
+from ..solve import DRIVES, option, options
 from ..state import PRESETS, State, altered, began, number, quantity
 from ..state.quantities import ABOUT, CHOICES, LABELS, SHAPES, USED, Quantity, Scale, shape_quantities
 from ..state.units import UNITS, digits, entry, written
@@ -173,15 +173,15 @@ class Choices:
             return {preset.label: key for key, preset in PRESETS.items()}
         if name == "shape":
             return {shape.label: key for key, shape in SHAPES.items() if key != "sampled" or state.samples}
-        return {CHOICES[name][option]: option for option in changes.options(state, name)}
+        return {CHOICES[name][option]: option for option in options(state, name)}
 
     def _made(self, name, kind, *classes, **options):
         def choose(event):
-            if event.new != changes.option(self._state(), name):
+            if event.new != option(self._state(), name):
                 self._tell(lambda state: changes.choose(state, name, event.new))
-            show(widget, value=changes.option(self._state(), name))
+            show(widget, value=option(self._state(), name))
 
-        value = changes.option(self._state(), name)
+        value = option(self._state(), name)
         label = {"label": LABELS[name]} if kind is pn.widgets.Select else {}
         widget = self.widgets[name] = field(kind, *classes, value=value, **label, **options)
         widget.param.watch(choose, "value")
@@ -192,7 +192,7 @@ class Choices:
         for name, widget in self.widgets.items():
             if name in ("shape", "swept", "against"):
                 show(widget, options=self._texts(name))
-            show(widget, value=changes.option(state, name))
+            show(widget, value=option(state, name))
 
 
 class Controls:

@@ -10,9 +10,9 @@ from jinja2 import Template
 
 import mdr_core as mdr
 
-from ..changes import numbers_of
 from ..plots.draw import Picture, described, drawn
 from ..plots.plot import Plot, View
+from ..solve import numbers_of
 from ..state import PRESETS, State, altered
 from ..state.quantities import CHOICES, LABELS, QUANTITIES, SHAPES
 from ..state.units import written

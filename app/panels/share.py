@@ -11,10 +11,9 @@ import panel as pn
 import mdr_core as mdr
 from mdr_core.report import QUANTITIES as RESULTS
 
-from ..changes import numbers_of
 from ..drives import Course, arguments, named
 from ..plots.sweep import asked as asked_sweep
-from ..solve import DRIVES, drive_of
+from ..solve import DRIVES, drive_of, numbers_of
 from ..state import PRESETS, State, altered, link
 from ..state.files import Measured
 from ..ui import JS, WIDE, button, field, html, show

@@ -10,8 +10,7 @@ import mdr_core as mdr
 from mdr_core.figures import NOTHING, line, mark
 from mdr_core.report import QUANTITIES as RESULTS
 
-from ..changes import option
-from ..solve import DRIVES, Found
+from ..solve import DRIVES, Found, option
 from ..state import State, medium, number, profile
 from ..state.quantities import SWEPT, lowered
 from ..state.units import KINDS, digits, written

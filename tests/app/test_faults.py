@@ -1,9 +1,8 @@
 """What cannot be shown leaves the page as it was, and in use, wherever it fails. Without a browser."""
 
-from concurrent.futures import ThreadPoolExecutor
+import threading
 from dataclasses import replace
 
-import panel as pn
 import pytest
 
 from app import changes
@@ -39,7 +38,7 @@ def assert_in_use(page):
     assert "Everything is as it was before" in said
     put(page, "q_c", 1.5 * Q_C)
     assert page.shown.view.course.scene.medium.q_c == page.state.q_c == 1.5 * Q_C
-    page.undo.clicks += 1
+    page.frame.undo.clicks += 1
     assert page.shown.view.course.scene.medium.q_c == Q_C
     assert len(page.said) == 1
 
@@ -61,8 +60,8 @@ def test_a_plot_on_request(page, monkeypatch):
 
 def test_a_scene_that_is_held(page, monkeypatch):
     monkeypatch.setattr(page.table, "show", lambda course, held: failing() if held else None)
-    page.hold.value = True
-    assert (page.state.hold, page.shown.held, page.hold.value) == ((), [], False)
+    page.frame.hold.value = True
+    assert (page.state.hold, page.shown.held, page.frame.hold.value) == ((), [], False)
     assert_in_use(page)
 
 
@@ -75,7 +74,7 @@ def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
     put(page, "q_c", Q_C)
     page.choices.widgets["preset"].value = DROP
     assert page.state.preset == page.choices.widgets["preset"].value == GOLD
-    assert page.undo.disabled
+    assert page.frame.undo.disabled
     assert_in_use(page)
 
 
@@ -99,7 +98,7 @@ def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
     if act == "preset":
         page.choices.widgets["preset"].value = DROP
     else:
-        getattr(page, act).clicks += 1
+        getattr(page.frame, act).clicks += 1
     assert (q_c.refused, q_c.said) == (False, "")
 
 
@@ -112,10 +111,10 @@ def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
         number._asked(message)
     assert page.state.max_depth > start
     page.tell(lambda state: state.but(progress=0.5, axes="ratio"))
-    page.undo.clicks += 1
+    page.frame.undo.clicks += 1
     assert (page.state.max_depth, page.state.progress, page.state.axes) == (start, 0.5, "ratio")
-    assert page.undo.disabled
-    page.redo.clicks += 1
+    assert page.frame.undo.disabled
+    page.frame.redo.clicks += 1
     assert page.state.max_depth > start
 
 
@@ -124,7 +123,7 @@ def test_the_indenter_is_dragged_to_a_depth_and_no_further_than_it_is_known(page
     assert page.state.max_depth == pytest.approx(12e-9)
     page._dragged("tags", [], [13.0])
     assert page.board.player.hand.tags == []
-    page.undo.clicks += 1
+    page.frame.undo.clicks += 1
     assert page.state.max_depth == PRESETS[GOLD].values["max_depth"]
     page.tell(lambda state: changes.choose(state, "drive", "force"))
     page._dragged("tags", [], [5.0])
@@ -133,30 +132,31 @@ def test_the_indenter_is_dragged_to_a_depth_and_no_further_than_it_is_known(page
     assert page.said == []
 
 
-def found(page, name="section"):
-    """What is shown of the section once the input has been at rest and all threads are done."""
+def rested(page):
+    """Let the input be at rest, and wait until what was looked for then has come."""
+    came, show = threading.Event(), page._show_found
+
+    def shown(name, what):
+        show(name, what)
+        came.set()
+
+    page.resting._show = shown
     page._settled()
-    threads = pn.state.as_cached("resting", ThreadPoolExecutor, max_workers=2)
-    for each in [threads.submit(int) for _ in range(2)]:
-        each.result()
-    for _ in range(2000):
-        if page.shown.view.found[name] is not COMPUTING and page.shown.view.found[name].rows:
-            break
-        threads.submit(int).result()
-    return page.shown.view.found[name]
+    assert came.wait(60)
+    return page.shown.view.found["section"]
 
 
 def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
     page.board.tabs["section"].value = True
     assert page.shown.view.found["section"] == COMPUTING
-    first = found(page)
+    first = rested(page)
     put(page, "q_c", 1.2 * Q_C)
     assert page.shown.view.found["section"] == replace(COMPUTING, axes=first.axes)
-    page.undo.clicks += 1
+    page.frame.undo.clicks += 1
     assert page.shown.view.found["section"] is first
     page._stood("value_throttled", page.shown.view.course.now, 5)
     assert page.shown.view.found["section"].note == "computing …"
-    again = found(page)
+    again = rested(page)
     assert again.rows["contact radius a"][0][0] == page.shown.view.course.state.contact_radius
 
 
@@ -168,16 +168,7 @@ def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
         return failing() if view.found["section"].rows else show(columns, view, state)
 
     monkeypatch.setattr(page.board, "show", fails)
-    page._show_found(
-        "section", page.resting.keep("section", page.resting._asked.get("section"), replace(COMPUTING))
-    )
-    assert page.said == []
-    page._settled()
-    threads = pn.state.as_cached("resting", ThreadPoolExecutor, max_workers=2)
-    for _ in range(2000):
-        if page.shown.view.found.get("section") is FAULT or page.said:
-            break
-        threads.submit(int).result()
+    assert rested(page) is FAULT
     assert_in_use(page)
 
 

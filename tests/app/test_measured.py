@@ -117,12 +117,12 @@ def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
     assert scene_of(state).drive == mdr.DepthPath(deepest)
     assert agrees(state)
     assert "residual" in page.board.names
-    page.undo.clicks += 1
+    page.frame.undo.clicks += 1
     assert medium(page.state) == before
     assert page.state.curve.fit is None
-    page.undo.clicks += 1
+    page.frame.undo.clicks += 1
     assert page.state.curve is None
-    page.redo.clicks += 2
+    page.frame.redo.clicks += 2
     assert page.state.curve is not None
 
 

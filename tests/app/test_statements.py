@@ -205,6 +205,6 @@ def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept():
 def test_a_reset_stands_at_the_deepest_state():
     page = Page()
     page.tell(lambda state: state.but(progress=0.0))
-    page.reset.clicks += 1
+    page.frame.reset.clicks += 1
     assert page.state.progress == 1.0
     assert said(TOURS["First yield"][0], page.shown.view.course)

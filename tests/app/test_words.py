@@ -142,12 +142,12 @@ def test_a_guided_scene_is_stepped_through_and_undone():
     # What it says is gone while the page shows something else.
     page.tell(lambda state: changes.put(state, "speed", 2 * state.speed))
     assert "1 of 6. The page shows something else" in page.guide.words.object
-    page.undo.clicks += 1
+    page.frame.undo.clicks += 1
     assert "e = 1.00" in re.sub("<[^>]+>", "", page.guide.words.object)
     # Each step that sets something is one change.
-    page.undo.clicks += 4
+    page.frame.undo.clicks += 4
     while page.past:
-        page.undo.clicks += 1
+        page.frame.undo.clicks += 1
     assert page.state.scene_values == opening
 
 
