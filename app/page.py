@@ -32,8 +32,12 @@ SETTLED = 300
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
 _MOST_UNDO = 100
 #: Names of widgets that have none of their own, by their classes.
-_NAMED = {"slider": "State along the path", "tip": "CSV file of a measured tip: r, z", "curve": "CSV file of a measured curve: depth, force",
-          "tour": "Guided scene", "of-drive": "Drive", "called": "Name of a held scene"}  # fmt: skip
+_NAMED = {
+    "slider": "State along the path",
+    "tip": "CSV file of a measured tip: r, z",
+    "curve": "CSV file of a measured curve: depth, force",
+    "tour": "Guided scene",
+}
 
 
 @dataclass(frozen=True)
@@ -126,7 +130,9 @@ class Page:
         for source in (self.theme, self.address):
             self.document.add_root(source)
         self.document.on_event(DocumentReady, self._begin)
-        self.document.js_on_event(DocumentReady, CustomJS(args={"named": _NAMED}, code=JS["ready"]))
+        self.document.js_on_event(
+            DocumentReady, CustomJS(args={"named": _NAMED, "theme": self.theme}, code=JS["ready"])
+        )
         # What was shown is in the address; the session behind it may be gone.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
         self.document.on_session_destroyed(lambda context: self.resting.end())
@@ -334,7 +340,6 @@ class Page:
     def _begin(self, event):
         """The browser is there: what is found before that, for a link, would not be sent to it."""
         self._ready = True
-        self.theme.trigger("tags", [], self.theme.tags)
         self._settle()
 
     def _settle(self):

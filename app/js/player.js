@@ -6,7 +6,8 @@ const sent = () => {
 const stand = (k) => {
   const { pictures, words, phases } = sent()
   frames.tags[0].forEach((source, n) => { source.data = { ...source.data, ...pictures[k][n] } })
-  ;[readout.text, standing.text] = [words[k], phases[k]]
+  readout.setv({ text: words[k] }, { sync: false })
+  standing.setv({ text: phases[k] }, { sync: false })
 }
 if (cb_obj !== play) return void (frames.tags.length && stand(state.value))
 play.label = play.active ? "❚❚ Pause" : "▶ Play"

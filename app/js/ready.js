@@ -5,6 +5,7 @@ for (const [name, spoken] of Object.entries(named))
   for (const host of hosts(name))
     for (const each of host.shadowRoot.querySelectorAll("input, select, textarea, [role=slider]")) each.ariaLabel = spoken
 document.documentElement.lang = "en"
+document.documentElement.classList.toggle("dark", theme.tags[0])
 document.addEventListener("click", (event) => {
   const on = event.composedPath()[0]
   // A file of the same name is read again.

@@ -12,6 +12,7 @@ const style = getComputedStyle(document.documentElement), label_text_color = sty
 const legend = new Legend({ items, label_text_color, orientation: "horizontal", ncols: 5, location: "left", border_line_color: null, background_fill_color: null })
 const text = (text, size) => new Title({ text, text_font_size: size, text_font_style: "normal", text_color: label_text_color })
 figure.setv({ above: [...above, legend, text(title, "14px")], below: [...below, text(scene.tags[0], "11px")] }, { sync: false })
+await settled()
 figure.setv({ sizing_mode: "fixed", width: 840, height: 600, background_fill_color: style.getPropertyValue("--paper"), border_fill_color: style.getPropertyValue("--paper") }, { sync: false })
 await settled()
 const blob = await Bokeh.index.find_one(figure).export("png", true).to_blob()

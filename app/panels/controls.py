@@ -199,7 +199,7 @@ class Controls:
     """The form: the drive with its main number, the shape, E* and q_c; all else about the medium folds."""
 
     def __init__(self, choices: Choices, act: Callable[..., None], tell: Callable[..., None]):
-        self.choices, self._opened = choices, False
+        self.choices, self._opened, self._path = choices, False, ""
         drive, shape, first, more = (Numbers(act) for _ in range(4))
         self.numbers = {"drive": drive, "shape": shape, "first": first, "more": more}
         self.parts = {
@@ -274,9 +274,11 @@ class Controls:
 
     def _write(self, state):
         text = changes.write_path(state.path, state.prescribed)
-        if self.text.value != text:
-            self.said.object = ""
-            self.text.value = text
+        # What was refused stays in the table, to be mended.
+        if self._path != text:
+            self._path, self.said.object = text, ""
+        if not self.said.object:
+            show(self.text, value=text)
 
     def _say(self, state, course):
         preset, made = PRESETS[state.preset], course.scene.medium

@@ -136,7 +136,7 @@ class Table:
         )
 
     def _made(self, k: int) -> Any:
-        name = field(pn.widgets.TextInput, "called", f"held-{k + 1}")
+        name = field(pn.widgets.TextInput, "called", "beside", label=f"held {k + 1}")
         name.param.watch(lambda event: self._rename(k, event.new), "value")
         dash = html(
             f'<span class="held"><i class="lines {DASHES[k]}"></i></span>',

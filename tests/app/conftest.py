@@ -44,12 +44,13 @@ window.explorer = {
     return { x: [x_range.start, x_range.end], y: [y_range.start, y_range.end],
              labels: [below[0].axis_label, left[0].axis_label] }
   },
-  // A new scene comes with a new list of its states.
-  scene: () => explorer.model("state").tags[0],
+  // What is shown once the input is still.
+  scene: () => explorer.model("address").tags[0],
   played: () => explorer.model("frames").tags.length > 0,
   all: (root = document) => [...root.querySelectorAll("*")].flatMap(
     (each) => [each, ...(each.shadowRoot ? explorer.all(each.shadowRoot) : [])]),
-  idle: () => Boolean(explorer.model("state")?.tags.length) && Bokeh.documents.every((each) => each.is_idle) &&
+  phase: () => explorer.all().find((on) => on.classList.contains("standing")).shadowRoot.textContent,
+  idle: () => Boolean(explorer.model("address")?.tags.length) && Bokeh.documents.every((each) => each.is_idle) &&
     explorer.row("force", "now")?.[0].length === 1,
   listen: () => {
     explorer.sent = []
