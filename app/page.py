@@ -18,9 +18,9 @@ from .panels.fitting import Fitting
 from .panels.guide import Guide
 from .panels.held import Held, Table, is_held, opened, toggled
 from .panels.share import Share
-from .plots import PLOTS, TILES
+from .plots import NAMED, PLOTS, TILES
 from .plots.plot import Plot, View
-from .solve import DRIVES, Resting, follow, in_time, scene_of
+from .solve import DRIVES, Resting, described, follow, in_time
 from .state import VIEW, State, link
 from .state import opened as preset_opened
 from .state.files import Curve, decoded, read_tip
@@ -32,12 +32,8 @@ SETTLED = 300
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
 _MOST_UNDO = 100
 #: Names of widgets that have none of their own, by their classes.
-_NAMED = {
-    "slider": "State along the path",
-    "tip": "CSV file of a measured tip: r, z",
-    "curve": "CSV file of a measured curve: depth, force",
-    "tour": "Guided scene",
-}
+_NAMED = {"slider": "State along the path", "tour": "Guided scene"}
+_NAMED |= {"tip": "CSV file of a measured tip: r, z", "curve": "CSV file of a measured curve: depth, force"}
 
 
 @dataclass(frozen=True)
@@ -51,11 +47,8 @@ class Shown:
     @property
     def plots(self) -> list[Plot]:
         """The plots that are seen."""
-        tiles = [PLOTS[name] for name in self.state.tiles if name in PLOTS]
-        return [
-            *(plot for plot in PLOTS.values() if not plot.tab),
-            *(plot for plot in tiles if plot.there(self.view)),
-        ]
+        seen = (*NAMED, *self.state.tiles)
+        return [plot for name, plot in PLOTS.items() if name in seen and plot.there(self.view)]
 
 
 class Page:
@@ -64,7 +57,7 @@ class Page:
     def __init__(self, arguments: dict[str, list[bytes]] | None = None):
         self.document, self.past, self.future, self._mark = pn.state.curdoc, [], [], None
         self.solved: dict[Any, Course] = {}
-        self._waiting, self._ready, self.shown = None, False, None
+        self._waiting, self._ready, self.shown, self._again = None, False, None, False
         self.state, notice = self._opening(arguments or {})
         self.resting = Resting(self._show_found)
         self.choices = Choices(self.tell, lambda: self.state)
@@ -120,8 +113,8 @@ class Page:
         player.state.on_change("value", lambda attr, old, new: self._moved(new))
         player.play.on_change("active", lambda attr, old, new: new and self._send())
         player.hand.on_change("tags", self._dragged)
-        self.theme.js_on_change("tags", CustomJS(args={}, code=JS["theme"]))
-        self.address.js_on_change("tags", CustomJS(args={}, code=JS["address"]))
+        self.theme.js_on_change("tags", CustomJS(args={}, code=JS["tell"]))
+        self.address.js_on_change("tags", CustomJS(args={}, code=JS["tell"]))
         if self.document is not None:
             self._connect()
 
@@ -145,14 +138,14 @@ class Page:
 
         Raises ValueError with what the person is told, if it is refused.
         """
-        before = self.state
+        before = after = self.state
         try:
             after = change(before)
             if after == before:
                 return
             self.draw(after)
         except Exception as error:
-            said = self._refusal(error)
+            said = self._refusal(error, after)
             if self.shown is not None and self.state is not before:
                 self.draw(before)
             raise ValueError(said) from None
@@ -206,18 +199,12 @@ class Page:
         if pn.state.notifications is not None:
             pn.state.notifications.error(escape(text), duration=7000)
 
-    def _refusal(self, error):
+    def _refusal(self, error, state=None):
         """What is said of an error; one that is not the person's is logged with what led to it."""
         if isinstance(error, ValueError):
             return plain(str(error))
-        _LOG.error("a change could not be shown, scene %s", self._described(), exc_info=error)
+        _LOG.error("a change could not be shown, scene %s", described(state or self.state), exc_info=error)
         return _FAULT
-
-    def _described(self):
-        try:
-            return scene_of(self.state).to_json()
-        except Exception:
-            return dict(self.state)
 
     # What is drawn.
 
@@ -227,7 +214,11 @@ class Page:
         course = follow(state, self.solved)
         held = self._of_held(state)
         view = View(
-            course, state, [each.course for each in held], self._found(state, course), Curve.of(state)
+            course,
+            state,
+            [each.course for each in held],
+            self.resting.found(PLOTS, state, course),
+            Curve.of(state),
         )
         columns = self.board.columns(view, state.tiles, state.dark)
         self.state, self.shown = state, Shown(state, view, held)
@@ -244,25 +235,6 @@ class Page:
             return self.shown.held
         self._again = False
         return [opened(query, self.solved) for query in state.hold]
-
-    _again = False
-
-    def _found(self, state, course):
-        """What is known of the plots that take longer than a move."""
-        found = {}
-        for name in state.tiles:
-            plot = PLOTS.get(name)
-            if plot is None or not plot.find:
-                continue
-            if name == "maw" and course.oblique is None:
-                continue
-            asked = plot.asked(state)
-            about = _about(plot, course, asked)
-            if plot.quick(asked):
-                found[name] = self.resting.keep(name, about, [*plot.find(course, asked)][-1])
-            else:
-                found[name] = self.resting.known(name, about)
-        return found
 
     def _around(self):
         """Everything beside the plots."""
@@ -313,16 +285,9 @@ class Page:
         view.course = course = replace(view.course, now=now)
         self.state = self.state.but(progress=float(course.progress[now]))
         self.shown = replace(self.shown, state=self.state)
-        for plot in self.shown.plots:
-            if plot.of_state:
-                view.found[plot.name] = self.resting.known(
-                    plot.name, _about(plot, course, plot.asked(self.state))
-                )
-                self.board.cards[plot.name].show(
-                    self.board.cards[plot.name].picture.columns(view, now, self.state.dark),
-                    view,
-                    self.state.dark,
-                )
+        if any(plot.of_state for plot in self.shown.plots):
+            self.draw(self.state)
+            return
         self._around()
 
     def _dragged(self, attr, old, new):
@@ -362,12 +327,7 @@ class Page:
         self.board.describe(view, readouts.summary(self.state))
         for k, each in enumerate([view.course, *(each.course for each in self.shown.held)]):
             self.resting.follow(f"course {k}", each.scene if each.pending else None, in_time, each)
-        for plot in (plot for plot in PLOTS.values() if plot.find):
-            seen = plot in self.shown.plots
-            asked = plot.asked(self.state) if seen else None
-            slow = seen and not plot.quick(asked)
-            about = _about(plot, view.course, asked) if slow else None
-            self.resting.follow(plot.name, about, plot.find, view.course, asked)
+        self.resting.look(PLOTS, {plot.name for plot in self.shown.plots}, self.state, view.course)
 
     @pn.io.hold()
     def _show_found(self, name, found):
@@ -385,8 +345,3 @@ class Page:
             self.resting.give_up(name)
             self.notify(self._refusal(error))
             self.draw(self.state)
-
-
-def _about(plot: Plot, course: Course, asked: Any) -> tuple:
-    """What a search for a plot is about: the scene, what is asked for, and the state."""
-    return course.scene, asked, course.progress[course.now] if plot.of_state else None

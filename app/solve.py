@@ -5,23 +5,28 @@ import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from importlib import import_module
+from pkgutil import iter_modules
 from typing import Any
 
 import panel as pn
 
 import mdr_core as mdr
 
-from .drives import Course, Drive, impact, nearest, oblique, path, press
+from . import drives
+from .drives import Course, Drive, nearest
 from .state import PRESETS, State, medium, profile, settled, used
 from .state.quantities import CHOICES, SHAPES
 
 _LOG = logging.getLogger(__name__)
 
 #: Every drive of the page, by its option of the choice "drive".
-DRIVES: dict[str, Drive] = {
-    "depth": press.Depth(), "force": press.Force(), "path": path.Path(), "impact": impact.Impact(),
-    "oblique": oblique.Oblique(),
-}  # fmt: skip
+DRIVES: dict[str, Drive] = {}
+for _found in iter_modules(drives.__path__):
+    _module = import_module(f".drives.{_found.name}", __package__)
+    _kinds = [kind for kind in vars(_module).values() if isinstance(kind, type) and issubclass(kind, Drive)]
+    # One of which a method is missing cannot be made.
+    DRIVES |= {kind.key: kind() for kind in _kinds if kind.key}
 
 
 def scene_of(state: State) -> mdr.Scene:
@@ -37,6 +42,14 @@ def follow(state: State, known: dict[mdr.Scene, Course] | None = None) -> Course
     scene = scene_of(state)
     course = (known or {}).get(scene) or DRIVES[state.drive].follow(scene, state.progress)
     return replace(course, now=nearest(course.progress, state.progress))
+
+
+def described(state: State) -> Any:
+    """The scene of a state as JSON; if it cannot be made, what it would be made of."""
+    try:
+        return scene_of(state).to_json()
+    except Exception:
+        return dict(state)
 
 
 def deepest(state: State) -> mdr.Indentation:
@@ -116,10 +129,29 @@ class Resting:
         asked, last = self._found.get(name, (None, COMPUTING))
         return last if asked == about else replace(COMPUTING, axes=last.axes)
 
-    def keep(self, name: str, about: Any, found: Found) -> Found:
-        """Keep what was found at once."""
-        self._found[name] = about, found
-        return found
+    def found(self, plots: dict[str, Any], state: State, course: Course) -> dict[str, Found]:
+        """What is known of the plots that are asked for; what is quick is found."""
+        known = {}
+        for plot in (plots[name] for name in state.tiles if name in plots and plots[name].find):
+            asked = plot.asked(state)
+            about = self._about(plot, course, asked)
+            if plot.quick(asked):
+                self._found[plot.name] = about, [*plot.find(course, asked)][-1]
+            known[plot.name] = self.known(plot.name, about)
+        return known
+
+    def look(self, plots: dict[str, Any], seen: set[str], state: State, course: Course) -> None:
+        """Let what is seen be found, where that takes longer than a move."""
+        for plot in (plot for plot in plots.values() if plot.find):
+            asked = plot.asked(state) if plot.name in seen else None
+            slow = plot.name in seen and not plot.quick(asked)
+            about = self._about(plot, course, asked) if slow else None
+            self.follow(plot.name, about, plot.find, course, asked)
+
+    @staticmethod
+    def _about(plot, course, asked):
+        """What a search for a plot is about: the scene, what is asked for, and the state."""
+        return course.scene, asked, course.progress[course.now] if plot.of_state else None
 
     def give_up(self, name: str) -> None:
         """Of what was found last nothing is known."""

@@ -3,6 +3,7 @@
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, fields
 from functools import cached_property
+from types import SimpleNamespace
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -18,7 +19,7 @@ _RELEASE = np.linspace(1, 0, 25)
 
 @runtime_checkable
 class States(Protocol):
-    """States of contact along a path, one value (SI) for each; `states[i]` is one of them, with its fields."""
+    """States of contact along a path, one value (SI) for each; `states[i]` is one, with its fields."""
 
     profile: mdr.Profile
     medium: mdr.Medium
@@ -111,6 +112,16 @@ class Course:
         return self.states.plastic_work if self.motion is None else self.motion.plastic_work
 
     @property
+    def viscous_work(self) -> Array | None:
+        """Work (J) lost in the dashpots so far, where there are some."""
+        return self.ledger.viscous_work if self.dashpots else None
+
+    @property
+    def kinetic_energy(self) -> Array | None:
+        """Energy (J) of a free body, along the surface too."""
+        return None if self.hit is None else self.ledger.kinetic_energy
+
+    @property
     def stored_energy(self) -> Array:
         """Energy (J) of all springs, of those too that have let go of a viscous rebound."""
         return self.states.stored_energy if self.motion is None else self.ledger.stored_energy
@@ -136,6 +147,47 @@ class Course:
     def onset(self) -> States | None:
         """The state where yield starts; None if nothing yields or the shape is not known so deep."""
         return onset(self.scene, self.before)
+
+    @property
+    def first_onset(self) -> States | None:
+        """The state where yield starts on a virgin surface."""
+        return None if self.before else self.onset
+
+    @property
+    def next_onset(self) -> States | None:
+        """The state where yield goes on upon an imprint."""
+        return self.onset if self.before else None
+
+    @property
+    def critical_depth(self) -> float | None:
+        """Depth (m) at which yield begins on a virgin surface, if anything yields."""
+        critical = self.scene.medium.critical_depth
+        return None if self.before or critical == np.inf else critical
+
+    @property
+    def relative_depth(self) -> Array | None:
+        """Depth over the critical one, if anything yields."""
+        critical = self.scene.medium.critical_depth
+        return self.states.depth / critical if critical < np.inf else None
+
+    @cached_property
+    def rebound(self) -> SimpleNamespace | None:
+        """Numbers (SI) of the rebound of an oblique impact: of the contact point and of the body."""
+        if self.oblique is None:
+            return None
+        drive, hit, motion = self.scene.drive, self.oblique.impact, self.oblique
+        after = float(motion.tangential_velocity[-1] if hit is None else hit.tangential_velocity)
+        largest = np.max(np.abs(motion.tangential_force)) if hit is None else hit.max_tangential_force
+        # The impulse changes the speed of the body, and for the rest its spin.
+        impulse = drive.tangential_mass * (after - drive.tangential_speed)
+        body = drive.tangential_speed + impulse / drive.mass
+        found = {"contact_velocity": after, "body_speed": body, "max_tangential_force": float(largest)}
+        found["body_angle"] = float(np.arctan2(float(self.hit.rebound_speed), body))
+        found["tangential_restitution"] = -after / (drive.tangential_speed or np.nan)
+        if drive.tangential_mass < drive.mass:
+            radius, spin = float(self.scene.profile.body_radius), after - body
+            found |= {"spin_speed": spin} if radius == np.inf else {"spin": spin / radius}
+        return SimpleNamespace(**found)
 
     def released(self, index: int) -> tuple[Array, Array]:
         """Depths (m) and forces (N) of elastic unloading from one state: the area below is its energy.
@@ -182,11 +234,13 @@ def passed(along: Array, peak: int) -> Array:
 class Drive(ABC):
     """What drives the indenter, as a person sets it and as `mdr.Scene` has it.
 
-    `values` are the types of the values of a scene, `form` the choices and parts of the form that follow
-    its numbers, `line` the names of the readouts that are always seen. `solver` is the function of the
-    core for whole arrays, with the numbers that it takes, `results` what it gives.
+    `key` is its option of the choice "drive", `values` the types of its values of a scene, `form` the
+    choices and parts of the form that follow its numbers, `line` the names of the readouts that are always
+    seen. `solver` is the function of the core for whole arrays, with the numbers that it takes, `results`
+    what it gives.
     """
 
+    key: str = ""
     values: tuple[type, ...] = ()
     form: tuple[str, ...] = ()
     line: tuple[str, ...] = (

@@ -11,7 +11,7 @@ INSTANTS = 120
 class Impact(Drive):
     """A free body hits along the normal."""
 
-    values = (mdr.FreeImpact,)
+    key, values = "impact", (mdr.FreeImpact,)
     form = ("surface", "again", "inertia")
     line = (
         "force", "depth", "contact_radius", "plastic_radius", "restitution", "contact_time",

@@ -25,7 +25,7 @@ def _balls(mass):
 class Oblique(impact.Impact):
     """A free body hits with a speed along the surface."""
 
-    values = (mdr.FreeObliqueImpact,)
+    key, values = "oblique", (mdr.FreeObliqueImpact,)
     form = ("aim", "body", "inertia")
     line = (
         "force", "tangential_force", "depth", "contact_radius", "restitution", "body_angle",
@@ -102,24 +102,3 @@ def _aimed(normal, along):
     numbers = {"speed": normal, "tangential_speed": along, "incoming_speed": hypot(normal, along)}
     numbers["attack"] = float(np.arctan2(normal, along))
     return {name: QUANTITIES[name].bounded(value) for name, value in numbers.items()}
-
-
-def rebound(course):
-    """Numbers (SI) of the rebound of an oblique impact by their names; the body's, and the spin it takes."""
-    drive, hit, motion = course.scene.drive, course.oblique.impact, course.oblique
-    after = float(motion.tangential_velocity[-1] if hit is None else hit.tangential_velocity)
-    largest = np.max(np.abs(motion.tangential_force)) if hit is None else hit.max_tangential_force
-    # The impulse changes the speed of the body, and for the rest its spin.
-    impulse = drive.tangential_mass * (after - drive.tangential_speed)
-    body = drive.tangential_speed + impulse / drive.mass
-    found = {
-        "contact_velocity": after,
-        "body_speed": body,
-        "body_angle": float(np.arctan2(float(course.hit.rebound_speed), body)),
-        "tangential_restitution": -after / (drive.tangential_speed or np.nan),
-        "max_tangential_force": float(largest),
-    }
-    if drive.tangential_mass < drive.mass:
-        radius, spin = float(course.scene.profile.body_radius), after - body
-        found |= {"spin_speed": spin} if radius == np.inf else {"spin": spin / radius}
-    return found

@@ -129,7 +129,7 @@ def _refined(scene, chain):
 
 
 def _shares(count, chain, held):
-    """Places along a piece: dense at its ends, where radii begin as a root; a hold by powers of the time."""
+    """Places along a piece: dense at its ends, where radii begin as a root; of a hold by powers."""
     share = np.linspace(0, 1, count)
     if held:
         return (1e3**share - 1) / 999
@@ -246,8 +246,12 @@ class ChainStates:
 class Path(Drive):
     """Pressed along a path."""
 
-    values = (mdr.DepthPath, mdr.ForcePath)
+    key, values = "path", (mdr.DepthPath, mdr.ForcePath)
     form = ("pattern", "prescribed", "vertices")
+
+    def owns(self, value):
+        """Whether it has vertices; what is one value is pressed."""
+        return super().owns(value) and np.ndim(getattr(value, _parts(value)[0])) > 0
 
     def make(self, state):
         if not state.path:

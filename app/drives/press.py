@@ -64,7 +64,8 @@ class Press(Drive):
 class Depth(Press):
     """Pressed to a depth."""
 
-    kind, values, solver = "depth", (mdr.DepthPath,), ("indent", "max_depth")
+    key = kind = "depth"
+    values, solver = (mdr.DepthPath,), ("indent", "max_depth")
     results = ("force", *Press.results)
 
     def alike(self, state, deepest):
@@ -74,7 +75,8 @@ class Depth(Press):
 class Force(Press):
     """Pressed to a force."""
 
-    kind, values, solver = "force", (mdr.ForcePath,), ("indent_to_force", "max_force")
+    key = kind = "force"
+    values, solver = (mdr.ForcePath,), ("indent_to_force", "max_force")
     results = ("depth", *Press.results)
 
     def alike(self, state, deepest):

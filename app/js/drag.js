@@ -1,7 +1,6 @@
 // A drag takes the indenter along, or the mark on the curve: to another depth when pressing, else to the nearest state.
 const { name, x_range: x, y_range: y, inner_height } = figure
-const { d, F, unit, pressing } = state.tags[0]
-const wide = (range) => range.end - range.start
+const { d, F, unit, pressing } = state.tags[0], wide = (range) => range.end - range.start
 const [begin, depth, pixel] = cb_obj.event_name === "panstart" ? [cb_obj.sy, d[state.value] * unit, wide(y) / inner_height] : figure.tags
 figure.setv({ tags: [begin, depth, pixel] }, { sync: false })
 const wish = Math.max(depth + (cb_obj.sy - begin) * pixel, 1e-3 * wide(y))
@@ -11,7 +10,6 @@ if (name === "springs" && pressing) {
   if (end || !hand.tags.length) hand.tags = [wish]
 } else if (end) state.value_throttled = state.value
 else {
-  // Of two states at one place the one nearer to the present.
   const near = name === "springs" ? (k) => Math.abs(d[k] * unit - wish) / wide(y)
     : (k) => Math.hypot((d[k] - cb_obj.x) / wide(x), (F[k] - cb_obj.y) / wide(y))
   const away = d.map((_, k) => near(k) + 1e-4 * Math.abs(k - state.value))

@@ -21,7 +21,6 @@ const step = (now) => {
   if (!frames.tags.length) return
   const { times } = sent()
   clock ??= state.value >= times.length - 1 ? 0 : times[state.value]
-  // A moment of rest at the end of each round.
   clock = (clock + passed / 3000) % 1.12
   const next = times.findIndex((time) => time >= clock)
   state.setv({ value: next < 0 ? times.length - 1 : next }, { sync: false })

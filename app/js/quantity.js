@@ -26,8 +26,7 @@ export function render({ model, el }) {
   model.on("change:answered", () => {
     const next = wish
     ;[busy, wish] = [false, null]
-    if (next) ask(next)
-    show()
+    show(next && ask(next))
   })
   model.on(["text", "position", "refused", "said", "spoken", "steps"].map((what) => `change:${what}`), () => busy || show())
   range.addEventListener("input", () => {
@@ -37,13 +36,7 @@ export function render({ model, el }) {
   range.addEventListener("dblclick", () => ask({ reset: true }))
   text.addEventListener("change", () => ask({ text: text.value }))
   text.addEventListener("focus", () => text.select())
-  text.addEventListener("keydown", ({ key }) => {
-    if (key === "Escape") ask({ restore: true })
-    else if (key === "Enter") text.blur()
-  })
-  help.addEventListener("click", () => {
-    about.hidden = !about.hidden
-    help.ariaExpanded = String(!about.hidden)
-  })
+  text.addEventListener("keydown", ({ key }) => (key === "Escape" ? ask({ restore: true }) : key === "Enter" && text.blur()))
+  help.addEventListener("click", () => { help.ariaExpanded = String(!(about.hidden = !about.hidden)) })
   show()
 }

@@ -1,16 +1,11 @@
 // Once the page is there: names for widgets that have none of their own, keys, and the theme that the system has.
 const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
 const hosts = (name) => all(document).filter((each) => each.shadowRoot && each.classList.contains(name))
-for (const [name, spoken] of Object.entries(named))
-  for (const host of hosts(name))
-    for (const each of host.shadowRoot.querySelectorAll("input, select, textarea, [role=slider]")) each.ariaLabel = spoken
+for (const [name, spoken] of Object.entries(named)) for (const host of hosts(name))
+  for (const each of host.shadowRoot.querySelectorAll("input, select, textarea, [role=slider]")) each.ariaLabel = spoken
 document.documentElement.lang = "en"
 document.documentElement.classList.toggle("dark", theme.tags[0])
-document.addEventListener("click", (event) => {
-  const on = event.composedPath()[0]
-  // A file of the same name is read again.
-  if (on.matches?.("input[type=file]")) on.value = ""
-})
+document.addEventListener("click", (event) => event.composedPath()[0].matches?.("input[type=file]") && (event.composedPath()[0].value = ""))
 document.addEventListener("keydown", (event) => {
   const on = event.composedPath()[0]
   if (event.ctrlKey || event.altKey || event.metaKey || on.matches?.("input[type=text], textarea, select")) return

@@ -1,4 +1,4 @@
-"""What stands around the plots; and the frame of all: the header, the left column with its tabs, the right."""
+"""What stands around the plots, and the frame of all: header, left column with its tabs, right column."""
 
 from collections.abc import Callable
 from typing import Any
@@ -9,7 +9,7 @@ from ..ui import FULL, HERE, STYLE, WIDE, button, html, show, toggle, tools
 
 
 class Frame:
-    """The frame of a page: six buttons, tabs on the left, and panels that lie over them or, the guide, above.
+    """The frame of a page: six buttons, tabs on the left, panels that lie over them, the guide above.
 
     `panels` and `tabs` are what they show, by their names; `share` is called when that panel opens.
     """

@@ -1,4 +1,4 @@
-"""The board on the right: plots in frames with title, formula, legend and controls, their tabs, the player."""
+"""The board on the right: plots in frames with title, formula and legend; their tabs, and the player."""
 
 import json
 from collections.abc import Callable

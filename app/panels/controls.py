@@ -223,11 +223,10 @@ class Controls:
             html("or a measured tip, as CSV (r, z):"), self.tip, self.notes["tip"], **WIDE
         )
         self.more.param.watch(lambda event: show(self._more, visible=event.new), "value")
-        head = lambda text: html(f"<h2>{text}</h2>", "title")
         parts = (choices.row("drive"), drive, self.notes["drive"], self._forms)
-        parts += (head("Indenter"), choices.row("shape"), self.notes["shape"], shape)
-        parts += (head("Medium"), first, self.notes["medium"], self.more, self._more)
-        parts += (head("Tip and sources"), self._tip, self.notes["sources"])
+        parts += (_head("Indenter"), choices.row("shape"), self.notes["shape"], shape)
+        parts += (_head("Medium"), first, self.notes["medium"], self.more, self._more)
+        parts += (_head("Tip and sources"), self._tip, self.notes["sources"])
         self.view = pn.Column(*parts, css_classes=["form"], **WIDE)
 
     def _vertices(self, tell):
@@ -302,6 +301,10 @@ class Controls:
         """Say no more what was refused."""
         for numbers in self.numbers.values():
             numbers.forget()
+
+
+def _head(text: str) -> Any:
+    return html(f"<h2>{text}</h2>", "title")
 
 
 def _half_angle(state: State) -> str:

@@ -121,7 +121,7 @@ class Fitting:
             choices.row("noise"), self.noise, self.fit, self.said, visible=False, **WIDE,
         )  # fmt: skip
         note = html(
-            "Depth and force as CSV, drop or choose. It lies over the model then, and the medium can be fitted to it."
+            "Depth and force as CSV, drop or choose: it lies over the model, and a medium can be fitted."
         )
         buttons = pn.Row(self.made, self.remove, css_classes=["tools"], **WIDE)
         self.view = pn.Column(note, self.file, buttons, self.about, self._rest, visible=False, **WIDE)

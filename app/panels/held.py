@@ -127,7 +127,7 @@ class Table:
             for dash in DASHES[: len(held)]
         )
         rows = "".join(
-            f"<tr><th>{marked(symbol)}</th>{''.join(f'<td>{column[symbol]}</td>' for column in columns)}</tr>"
+            f"<tr><th>{marked(symbol)}</th>" + "".join(f"<td>{each[symbol]}</td>" for each in columns)
             for symbol in columns[0]
         )
         show(

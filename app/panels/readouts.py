@@ -1,6 +1,6 @@
-"""The table of readouts, how far the assumptions hold, the sketch of the indenter, and the scene in words."""
+"""The readouts, how far the assumptions hold, the sketch of the indenter, and the scene in words."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -12,24 +12,23 @@ from mdr_core.report import Quantity
 from mdr_core.results import friction_limits
 
 from ..drives import Course
-from ..drives.oblique import rebound
 from ..solve import DRIVES, drive_of
 from ..state import State, medium
-from ..state.quantities import QUANTITIES, SHAPES, USED, shape_quantities
+from ..state.quantities import DATA, QUANTITIES, SHAPES, USED, shape_quantities
 from ..state.units import KINDS, digits, fitting, written
 from ..ui import explained, linked, marked, plain, symbol
 
 
 @dataclass(frozen=True)
 class Readout:
-    """A number that is read: its name in the core's table of quantities, and what it is of a course.
+    """A number that is read: its name in the core's table of quantities, and where a course has it.
 
-    `of` gives one value, one for each state, or None where there is none. `help` and `equation` say what
-    it is; `own` is its symbol, unit and name where the core has none.
+    `of` names what has one value, or one for each state; where it is not there, there is no such number.
+    `help` and `equation` say what it is; `own` is its symbol, unit and name where the core has none.
     """
 
     name: str
-    of: Callable[[Course], Any]
+    of: str
     help: str
     equation: str = ""
     own: tuple[str, str, str] | None = None
@@ -39,82 +38,22 @@ class Readout:
         """Symbol, unit and name."""
         return Quantity(*self.own) if self.own else RESULTS[self.name]
 
-
-def _after(name: str) -> Callable[[Course], Any]:
-    """A number of the rebound of an oblique impact."""
-    return lambda course: None if course.oblique is None else rebound(course).get(name)
-
-
-def _hit(name: str) -> Callable[[Course], Any]:
-    """A number of an impact."""
-    return lambda course: None if course.hit is None else getattr(course.hit, name)
-
-
-def _motion(name: str) -> Callable[[Course], Any]:
-    """A number of what has times."""
-    return lambda course: None if course.motion is None else getattr(course.ledger, name)
-
-
-def _oblique(name: str) -> Callable[[Course], Any]:
-    """A number of the motion of an oblique impact."""
-    return lambda course: None if course.oblique is None else getattr(course.oblique, name)
-
-
-def _onset(name: str, again: bool) -> Callable[[Course], Any]:
-    """A number of the state where yield begins, or goes on upon an imprint."""
-
-    def of(course: Course) -> Any:
-        if (course.before > 0) != again or course.onset is None:
-            return None
-        return getattr(course.onset, name)
-
-    return of
-
-
-def _relative(course: Course) -> Any:
-    critical = course.scene.medium.critical_depth
-    return course.states.depth / critical if critical < np.inf else None
+    def values(self, course: Course) -> Any:
+        """Its values of a course, or None."""
+        for name in self.of.split("."):
+            course = getattr(course, name, None)
+        return course
 
 
 #: Every number that can be read, in the order in which all of them are listed.
-READOUTS = (
-    Readout("force", lambda c: c.force, "Normal force on the indenter, that of the dashpots included.", "(22)  F = 2E* ∫ a(s) ds  over d_p < s < d"),
-    Readout("depth", lambda c: c.states.depth, "Indentation depth below the virgin surface."),
-    Readout("relative_depth", _relative, "Depth over the critical depth. Nothing yields below 1; far above it almost all of the contact does.", "(19)  d_c = π q_c/(2E*)", ("d/d_c", "", "relative depth")),
-    Readout("contact_radius", lambda c: c.states.contact_radius, "Radius of the contact, where the equivalent profile g has risen to the depth.", "(16)  g(a) = d"),
-    Readout("plastic_radius", lambda c: c.states.plastic_radius, "Radius inside which the medium has yielded; 0 before. The ring between c and a is elastic.", "(21)  g(c) = d_p"),
-    Readout("plastic_depth", lambda c: c.states.plastic_depth, "Depth of the imprint in the 1D foundation: the largest depth so far less the critical depth.", "d_p = d_max − d_c,  § 4"),
-    Readout("mean_pressure", lambda c: c.states.mean_pressure, "Mean pressure of the contact, dashpots included. Without them it tends to q_c/a from below.", "p_m = F/(π a²),  § 4"),
-    Readout("stored_energy", lambda c: c.stored_energy, "Elastic energy in all springs, in those too that have let go and relax. Without dashpots unloading gives all of it back.", "U = 2E* ∫ (d − s) a(s) ds,  § 6"),
-    Readout("plastic_work", lambda c: c.plastic_work, "Work lost to plastic yield so far.", "W_p = d_c φ(d_p),  § 6"),
-    Readout("viscous_work", lambda c: c.ledger.viscous_work if c.dashpots else None, "Work lost in the dashpots so far.", "§ 12"),
-    Readout("friction_work", _oblique("friction_work"), "Work lost so far where the surface slips.", "W_f = ∫ 2 ∫ q_x (W − ds/dt) dx dt,  § 13"),
-    Readout("kinetic_energy", lambda c: None if c.hit is None else c.ledger.kinetic_energy, "Energy of the motion of the body, along the surface too.", "W_k = m v²/2"),
-    Readout("time", _motion("time"), "Time since first contact; along a path its own."),
-    Readout("velocity", _motion("velocity"), "Speed of the body, or of the indenter along a path, positive into the medium.", "m d²d/dt² = −F,  § 9"),
-    Readout("tangential_force", _oblique("tangential_force"), "Force of friction against the speed along the surface.", "m_t dW/dt = −F_x,  § 13"),
-    Readout("tangential_velocity", _oblique("tangential_velocity"), "Speed of the contact point along the surface, with that of the spin.", "m_t dW/dt = −F_x,  § 13"),
-    Readout("critical_depth", lambda c: None if c.before or c.scene.medium.critical_depth == np.inf else c.scene.medium.critical_depth, "Depth at which yield begins, of every shape alike.", "(19)  d_c = π q_c/(2E*)", ("d_c", "m", "depth at onset of yield")),
-    Readout("critical_force", _onset("force", False), "Force at which yield begins, infinitely slowly; of a cone (20).", "(22)  F_c = 2E* ∫ a(s) ds  over 0 < s < d_c", ("F_c", "N", "force at onset of yield")),
-    Readout("again_depth", _onset("depth", True), "Depth at which yield goes on, on the imprint that is there.", "d_y = d_0 + d_c,  § 5", ("d_y", "m", "depth where it yields again")),
-    Readout("again_force", _onset("force", True), "Force at which yield goes on, on the imprint that is there.", "§ 5", ("F_y", "N", "force where it yields again")),
-    Readout("restitution", _hit("restitution"), "Speed of the rebound over that of the impact. The share e² of the energy comes back.", "e = v_r/v_0,  § 9"),
-    Readout("contact_time", _hit("contact_time"), "Time from first contact to its loss.", "§ 9"),
-    Readout("damaged_area", _hit("damaged_area"), "Damaged area π c²: that of the plastic zone. Of a fast impact it tends to the area of the contact, and under a cone is proportional to the energy.", "(24)  A → 4W/(π q_c s)  of a cone"),
-    Readout("rebound_speed", _hit("rebound_speed"), "Speed with which the body leaves, along the normal.", "v_r = e v_0,  § 9"),
-    Readout("body_angle", _after("body_angle"), "Angle to the surface at which the body leaves; above 90° it goes back.", "tan α_r = v_r/V_x,  § 13", ("α_r", "rad", "rebound angle to the surface")),
-    Readout("tangential_restitution", _after("tangential_restitution"), "Tangential restitution of the contact point: −1 without friction, 0 if it rolls or stays, above 0 if it springs back.", "e_t = −W/W_0  after,  § 13"),
-    Readout("body_speed", _after("body_speed"), "Speed of the body along the surface after the impact.", "V_x = W_0 + m_t(W − W_0)/m,  § 13", ("V_x", "m/s", "rebound along the surface")),
-    Readout("max_tangential_force", _after("max_tangential_force"), "Largest force along the surface.", "|F_x| ≤ μ F,  § 13"),
-    Readout("spin", _after("spin"), "Spin of the ball after the impact, negative where it rolls on.", "Ω = (W − V_x)/R,  § 13", ("Ω", "rad/s", "spin after")),
-    Readout("spin_speed", _after("spin_speed"), "Spin of the ball after the impact times its radius, negative where it rolls on.", "RΩ = W − V_x,  § 13", ("RΩ", "m/s", "spin after, times R")),
-    Readout("chain_error", lambda c: c.states.error if c.chained else None, "Error that the chain of springs and dashpots estimates of itself: of force and energies along a depth, of the depth under a force, each relative to its largest.", "§ 14", ("ε", "", "error of the chain")),
-)  # fmt: skip
+READOUTS = tuple(
+    Readout(**row | {"own": tuple(row["own"])} if "own" in row else row) for row in DATA["readouts"]
+)
 
 
 def readings(course: Course) -> dict[Readout, Any]:
     """All that can be read of a course: one value, or one for each state."""
-    found = ((readout, readout.of(course)) for readout in READOUTS)
+    found = ((readout, readout.values(course)) for readout in READOUTS)
     return {readout: values for readout, values in found if values is not None}
 
 
@@ -151,7 +90,7 @@ def heads(course: Course, found: dict[Readout, Any]) -> str:
 def table(course: Course, found: dict[Readout, Any], i: int) -> str:
     """All numbers in state i, as HTML."""
     rows = (
-        f'<tr data-name="{each.name}"><th scope="row">{_head(each)}</th><td>{text(each, value, i)}</td></tr>'
+        f'<tr data-name="{each.name}"><th>{_head(each)}</th><td>{text(each, value, i)}</td></tr>'
         for each, value in found.items()
     )
     return f'<p class="phase">{phase(course, i)}</p><table>{"".join(rows)}</table>'
@@ -204,7 +143,7 @@ def _areas(hit: Any) -> str:
     texts = (
         f"{written(value, 'area')} ({name}, {_percent(limit / value - 1)})" for name, value in area.items()
     )
-    return f" Its area is {written(limit, 'area')}, beside that of the contact and the damaged one: {', '.join(texts)}."
+    return f" Its area is {written(limit, 'area')}; those of contact and damage: {', '.join(texts)}."
 
 
 def _percent(share: float) -> str:

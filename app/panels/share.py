@@ -16,7 +16,7 @@ from ..plots.sweep import asked as asked_sweep
 from ..solve import DRIVES, drive_of, numbers_of
 from ..state import PRESETS, State, altered, link
 from ..state.files import Measured
-from ..ui import JS, WIDE, button, field, html, show
+from ..ui import WIDE, field, html, show
 from .report import report
 
 #: Columns of the states along a path, by their names in the core's table; those of a motion.
@@ -217,15 +217,8 @@ class Share:
             field(pn.widgets.TextAreaInput, label="This state with mdr_core", rows=12),
         )
         self._note = html()
-        copies = []
-        for area in (self.link, self.python):
-            copy = button("Copy", width=70)
-            copy.js_on_click(args={"area": area}, code=JS["copy"])
-            copies.append(copy)
         buttons = pn.FlexBox(*self.files.values(), css_classes=["tools"], **WIDE)
-        self.view = pn.Column(
-            self.link, copies[0], self._note, buttons, self.python, copies[1], visible=False, **WIDE
-        )
+        self.view = pn.Column(self.link, self._note, buttons, self.python, visible=False, **WIDE)
 
     @staticmethod
     def _file(label, name, write):

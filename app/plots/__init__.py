@@ -1,16 +1,10 @@
-"""Every plot of the page, by its name, in the order of the tabs."""
+"""Every plot of the page, by its name: all that stand in the modules of their subjects, in their order."""
 
-from .below import SECTION, SURFACE
-from .contact import PRESSURE, RADII, RELIEF, SPRINGS
-from .force import FORCE, LOGLOG, RESIDUAL
-from .motion import ENERGY, FORCES, MAW, MOTION
+from . import below, contact, force, motion, sweep
 from .plot import Plot
-from .sweep import SWEEP
 
-_ALL = (
-    SPRINGS, PRESSURE, FORCE,
-    RADII, MOTION, ENERGY, FORCES, MAW, RESIDUAL, SURFACE, SECTION, RELIEF, LOGLOG, SWEEP,
-)  # fmt: skip
+_MODULES = (contact, motion, force, below, sweep)
+_ALL = [each for module in _MODULES for each in vars(module).values() if isinstance(each, Plot)]
 PLOTS: dict[str, Plot] = {plot.name: plot for plot in _ALL}
 #: Those that are always seen, and those that are asked for by tabs.
 NAMED = tuple(name for name, plot in PLOTS.items() if not plot.tab)

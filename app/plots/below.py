@@ -63,7 +63,8 @@ def surface(view: View, i: int) -> dict:
 
 
 SURFACE = Plot(
-    "surface", "Surface and imprint", "u(r) = ∫ (2/π) arcsin(a(s)/r) ds,  a(s) < r  § 7", ("far r", "far z"),
+    "surface", "Surface and imprint", "u(r) = ∫ (2/π) arcsin(a(s)/r) ds,  a(s) < r  § 7",
+    ("far r", "far z"),
     (
         area("tip z(r)", "body", 0.55),
         area("medium", "free", 0.16, legend=False),
@@ -122,7 +123,7 @@ def _contours(x, y, image, levels):
 
 
 SECTION = Plot(
-    "section", "Section under the tip", "σ(r, z): each increment of depth a flat punch of radius a(s)  § 7", (),
+    "section", "Section under the tip", "σ(r, z): each increment a flat punch of radius a(s)  § 7", (),
     (
         line("equal stress", "chalk", 0.6, legend=False),
         line("contact radius a", "chalk", 1.2, "dashed"),

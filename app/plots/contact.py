@@ -48,7 +48,7 @@ def springs(view: View, i: int) -> dict:
 
 
 def _feet(state, rows: dict, half: float, height: float) -> dict:
-    """Leaning springs in the colours of elastic and yielded ones, and lines below those that stick or slip."""
+    """Leaning springs as elastic and yielded ones, and lines below those that stick or slip."""
     found, width = {}, 0.8 * half / figures.SPRINGS
     paths = [np.reshape(part, (-1, 9)) for part in (np.hstack([rows["sticks"], rows["slips"]]))]
     yielded = figures.reduced(state.profile, np.abs(paths[0][:, 0])) < state.live.lower
@@ -191,6 +191,6 @@ def _cut_rows():
 
 
 RELIEF = Plot(
-    "relief", "Pressure over the plane, seen obliquely", "(10)  −σ_zz(√(x² + y²));  the plastic zone is orange",
+    "relief", "Pressure over the plane, seen obliquely", "(10)  −σ_zz(√(x² + y²));  zone: orange",
     ("across", "oblique"), tuple(_cut_rows()), moving=relief, tab=("Relief", "i"),
 )  # fmt: skip

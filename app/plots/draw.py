@@ -1,4 +1,4 @@
-"""Plots as Bokeh figures: one source for all rows of a kind, drawn by `source.data = …`; frames likewise."""
+"""Plots as Bokeh figures: one source for the rows of a kind, drawn by `source.data = …`; frames."""
 
 from functools import lru_cache
 from typing import Any
@@ -13,7 +13,7 @@ from ..state.units import digits
 from .plot import Plot, View
 
 FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
-#: Colours of the roles, light and dark; a cut through the pressure is tinted, so that it hides what is behind.
+#: Colours of the roles, light and dark; a cut through the pressure is tinted, to hide what is behind.
 COLOURS = ROLES | {"cut": ("#e3edf5", "#1f2f3c")}
 #: Rows that are drawn together, from the back to the front.
 _GROUPS = ("areas", "lines", "lines right", "marks", "marks right", "labels")
@@ -111,7 +111,7 @@ def _inside(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, Any]:
 
 
 class Picture:
-    """One plot as a figure; `level` is where its data are painted, and `size` that of one that is printed."""
+    """One plot as a figure; `level` is where its data are painted, `size` that of one that is printed."""
 
     def __init__(self, plot: Plot, level: str = "overlay", size: tuple[int, int] | None = None):
         self.plot, self.axes, self.drawn = plot, None, None

@@ -1,4 +1,4 @@
-"""Force over depth, linear and logarithmic, with curves to compare with and measured ones; and the residual."""
+"""Force over depth, linear and logarithmic, with reference curves and measured ones; and the residual."""
 
 import numpy as np
 
@@ -130,7 +130,8 @@ def _inside(view: View, d, F, *_):
 
 
 LOGLOG = Plot(
-    "loglog", "Force and depth, logarithmic", "z ∝ rⁿ:  F ∝ d^(1 + 1/n), then d^(1/n)  § 6", ("log d", "log F"),
+    "loglog", "Force and depth, logarithmic", "z ∝ rⁿ:  F ∝ d^(1 + 1/n), then d^(1/n)  § 6",
+    ("log d", "log F"),
     (
         *held_rows("F"),
         *REFERENCES,

@@ -1,4 +1,4 @@
-"""What has times: depth and force, energies, and of an oblique impact forces and speeds along the surface."""
+"""What has times: depth and force, energies, and of an oblique impact what is along the surface."""
 
 from functools import cache
 from itertools import pairwise

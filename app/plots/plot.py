@@ -23,8 +23,8 @@ def _titled(name: str) -> str:
     return f"{known.symbol}, {known.long_name}"
 
 
-#: Every axis: its title, the kind of its unit, the size (see `_sizes`) that it holds, and how far it reaches
-#: below zero, in shares of that.
+#: Every axis: its title, the kind of its unit, the size (see `_sizes`) that it holds, and how far it
+#: reaches below zero, in shares of that.
 AXES: dict[str, tuple[str, str, str, float]] = {
     "x": ("x, coordinate of the springs", "length", "r", 1.0),
     "r": ("r, radius", "length", "r", 1.0),
@@ -188,7 +188,7 @@ class View:
         return values * (ours / theirs) if symbol == same else values
 
     def of_held(self, what: str, columns: Callable[..., Any]) -> dict:
-        """Rows of all that is held, `what` after their names: `columns` has a course and how it is scaled."""
+        """Rows of all that is held, `what` after their names: `columns` gets a course and its scaling."""
         return {
             f"held {k + 1}{what}": columns(held, partial(self._beside, k))
             for k, held in enumerate(self.held)
@@ -276,7 +276,7 @@ def _sizes(course: Course) -> dict[str, float]:
     if course.motion is not None:
         size |= {"t": float(course.motion.time[-1]), "E": float(np.max(course.energy))}
     if course.oblique is not None:
-        psi, after, reach = maw_numbers(course)
+        _, after, reach = maw_numbers(course)
         size["force"] = max(size["F"], float(np.max(np.abs(course.on["force"]))))
         size |= {"ψ₁": reach, "ψ₂": max(reach - 4 * maw_chi(course), abs(after), 1.2)}
     return size
@@ -289,7 +289,7 @@ def maw_chi(course: Course) -> float:
 
 
 def maw_numbers(course: Course) -> tuple[float, float, float]:
-    """ψ₁ and ψ₂ of an oblique impact, speeds of the contact point over μv₀/κ; and how far Maw's curve goes."""
+    """ψ₁ and ψ₂ of an oblique impact, speeds over μv₀/κ, and how far Maw's curve goes."""
     drive, hit = course.scene.drive, course.oblique.impact
     unit = drive.friction * drive.speed / float(course.scene.medium.tangential_ratio)
     velocity = course.oblique.tangential_velocity[-1] if hit is None else hit.tangential_velocity

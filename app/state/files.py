@@ -1,4 +1,4 @@
-"""Files that are brought: tables of numbers, measured tips and measured curves, with what was made of them."""
+"""Files that are brought: tables of numbers, measured tips and curves, with what was made of them."""
 
 import re
 import tempfile
@@ -19,7 +19,7 @@ from .units import UNITS, named, written
 #: Most samples that are pressed without keeping everybody waiting, most that a tip is fitted to, and most
 #: rows of a file.
 MOST_SAMPLES, _FITTED, MOST_ROWS = 60, 2000, 20_000
-#: Parameters of a fit, in the order in which they can be fixed: those of the medium, and where the curve lies.
+#: Parameters of a fit: those of the medium, and where the curve lies.
 FITTED = ("E_star", "q_c", "contact_point", "baseline", "frame_compliance")
 #: Most samples of a curve that are taken.
 _MOST = 2000
@@ -119,12 +119,12 @@ def _heads(header: list[str], width: int) -> list[str]:
     for line in header:
         line = line.lstrip("# ").replace('"', "")
         between = next((s for s in ";\t," if s in line), r"\s{2,}")
-        for cells in (re.split(between, line), line.split()):
+        for cells in (re.split(between, line), *[line.split()] * (between not in ";\t,")):
             if len(cells) == width:
                 rows.append([cell.strip() for cell in cells])
                 break
     units = re.findall(r"[(\[]\s*([^(\[)\]\s]+)\s*[)\]]", header[-1]) if header else []
-    if not rows and len(units) > width:
+    if not rows and 1 < len(units) != width:
         raise ValueError(
             f"the header names {len(units)} units, the rows have {width} columns: where commas are decimal "
             "ones, separate columns by semicolons"

@@ -8,7 +8,7 @@ import pytest
 import mdr_core as mdr
 from app import changes
 from app.changes import read_path, write_path
-from app.drives import States, oblique
+from app.drives import States
 from app.panels import readouts, share
 from app.panels.readouts import phase, readings
 from app.plots.force import force, force_still
@@ -251,7 +251,7 @@ def test_a_move_is_right_to_three_digits(key):
         found = numbers(course)
         assert found["friction_work"][-1] == pytest.approx(float(hit.friction_work), rel=error)
         assert found["max_tangential_force"] == pytest.approx(float(hit.max_tangential_force), rel=error)
-        after = oblique.rebound(course)["contact_velocity"]
+        after = course.rebound.contact_velocity
         assert after == pytest.approx(float(hit.tangential_velocity), abs=error * size)
 
 

@@ -1,5 +1,7 @@
 """Someone who sees the page for the first time, and someone who holds it in the hand or uses keys only."""
 
+from itertools import pairwise
+
 from .conftest import Explorer
 from .test_report import plain
 
@@ -74,7 +76,7 @@ def test_small_screens(server, browser):
         tops = [place if isinstance(place, float | int) else place["y"] for place in places]
         assert tops == sorted(tops)
         assert tops[0] < 300
-        for one, other in zip(places[4:], places[5:], strict=False):
+        for one, other in pairwise(places[4:]):
             assert one["y"] + one["height"] <= other["y"]
         explorer.press("Fit a measurement")
         with explorer.change():
@@ -109,7 +111,8 @@ def test_everything_is_reached_by_keys_and_an_equation_leads_to_the_theory(explo
         assert outline != "none", name
     for name in (
         "Preset", "What is q_c, yield constant?", "q_c, yield constant", "q_c, yield constant, slider",
-        "Shape", "Share", "Guide", "Menu", "Hold", "F normal force", "▶ Play", "State along the path", "(22)",
+        "Shape", "Share", "Guide", "Menu", "Hold", "F normal force", "▶ Play", "State along the path",
+        "(22)",
         "Save", "Large", "Sweep", "All numbers",
     ):  # fmt: skip
         assert name in stops

@@ -46,14 +46,15 @@ def assert_draws(explorer, state: State):
 
 #: Boxes of what must be in view at once, and what can be pressed.
 FIRST = """() => {
-  const box = (on) => { const { top, bottom, left, right } = on.getBoundingClientRect(); return { top, bottom, left, right } }
+  const box = (on) => on.getBoundingClientRect().toJSON()
   const hosts = (name) => explorer.all().filter((on) => on.classList.contains(name) && on.shadowRoot)
   const seen = (on) => on.getBoundingClientRect().width > 0
   const cards = ["springs", "pressure", "force"].map((name) => box(hosts(name)[0]))
   const numbers = hosts("number").filter(seen).map(box)
-  const buttons = explorer.all().filter((on) => on.matches(".buttons button, button") && on.closest && seen(on))
-  return { cards, numbers, strip: box(hosts("line")[0]), readouts: explorer.all().filter((on) => on.matches("output")).length,
-           six: hosts("buttons").flatMap((on) => explorer.all(on.shadowRoot)).filter((on) => on.matches("button") && seen(on)).length }
+  const within = hosts("buttons").flatMap((on) => explorer.all(on.shadowRoot))
+  const six = within.filter((on) => on.matches("button") && seen(on)).length
+  const readouts = explorer.all().filter((on) => on.matches("output")).length
+  return { cards, numbers, strip: box(hosts("line")[0]), readouts, six }
 }"""
 
 

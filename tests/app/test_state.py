@@ -183,9 +183,11 @@ def test_a_link_of_version_0_3_is_read():
     label = PRESETS[DROP].label
     hold = urlencode({"preset": label, "shape": "cone", "cone_slope": 0.2, "at": 1}) + "&called=blunt"
     old = {
-        "preset": label, "shape": "paraboloid", "drive": "impact", "elasticity": "bodies", "plasticity": "q_c",
+        "preset": label, "shape": "paraboloid", "drive": "impact", "elasticity": "bodies",
+        "plasticity": "q_c",
         "damping": "none", "swept": "energy", "paraboloid_radius": "0.008", "E_1": "1e10", "speed": "2.0",
-        "energy_from": "0.1", "mass_to": "9.0", "at": "1.5", "plots": "map sweep", "dark": "1", "hold": hold,
+        "energy_from": "0.1", "mass_to": "9.0", "at": "1.5", "plots": "map sweep", "dark": "1",
+        "hold": hold,
     }  # fmt: skip
     state = link.read(link.arguments(urlencode(old)))
     assert (state.speed, state.progress, state.sweep_low) == (2.0, 1.5, 0.1)
