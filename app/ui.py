@@ -107,6 +107,8 @@ def brought(widget, act):
     def bring(*events):
         if widget.filename:
             act(widget.value or b"")
+            # The same file is read again when it is brought again.
+            widget.clear()
 
     widget.param.watch(bring, ["value", "filename"])
 

@@ -39,6 +39,9 @@ class States(Protocol):
     def pressure(self, r: Array) -> Array:
         """Contact pressure (Pa) of one state at radii r (m)."""
 
+    def line_load(self, x: Array) -> Array:
+        """Line load (N/m) of the foundation at x (m)."""
+
     def surface(self, r: Array) -> Array:
         """Elastic displacement (m) of the surface."""
 

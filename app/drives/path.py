@@ -209,6 +209,10 @@ class ChainStates:
         x = np.unique(np.concatenate([x, path.contact_radius, np.minimum(path.plastic_radius, half)]))
         return x, path.profile.reduced(x), *path.elements(x)
 
+    def line_load(self, x):
+        """Line load (N/m) of one state at x (m)."""
+        return self._path[self._at].line_load(x)
+
     def relaxing(self, g):
         """What is left (m) of the elastic compression of elements at heights g that have let go."""
         _, heights, load, elastic = self._whole._elements

@@ -5,7 +5,6 @@ for (const [name, spoken] of Object.entries(named)) for (const host of hosts(nam
   for (const each of host.shadowRoot.querySelectorAll("input, select, textarea, [role=slider]")) each.ariaLabel = spoken
 document.documentElement.lang = "en"
 document.documentElement.classList.toggle("dark", theme.tags[0])
-document.addEventListener("click", (event) => event.composedPath()[0].matches?.("input[type=file]") && (event.composedPath()[0].value = ""))
 document.addEventListener("keydown", (event) => {
   const on = event.composedPath()[0]
   if (event.ctrlKey || event.altKey || event.metaKey || on.matches?.("input[type=text], textarea, select")) return

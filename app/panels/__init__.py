@@ -31,9 +31,10 @@ class Frame:
         self.numbers, self.warnings = html("", "all-numbers", visible=False), html("", "lights")
         about = html((HERE / "static" / "about.html").read_text(encoding="utf-8"))
         menu = pn.Column(tools(self.reset, self.dark), axes, about, visible=False, **WIDE)
-        self._panels, self._tabs, self._share, self.tab = panels | {"menu": menu}, tabs, share, "explore"
+        self._panels, self._tabs = panels | {"menu": menu, "numbers": self.numbers}, tabs
+        self._share, self.tab = share, "explore"
         self._preset = preset
-        self.all.param.watch(lambda event: show(self.numbers, visible=event.new), "value")
+        self.open["numbers"] = self.all
         for name, tab in self.tabs.items():
             tab.param.watch(lambda event, name=name: self._tabbed(name, event.new), "value")
         for name, each in self.open.items():
@@ -43,7 +44,7 @@ class Frame:
     def framed(self, board: Any) -> pn.Column:
         """The whole page with a board of plots."""
         title = html("<h1>Indentation explorer</h1>", "name", width=190, sizing_mode=None)
-        six = (self.undo, self.redo, self.hold, *self.open.values())
+        six = (self.undo, self.redo, self.hold, *(self.open[name] for name in ("share", "guide", "menu")))
         buttons = pn.Row(*six, css_classes=["tools", "buttons"], margin=0, width=380)
         header = pn.Row(title, self._preset, buttons, css_classes=["header"], stylesheets=STYLE, **WIDE)
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
@@ -52,7 +53,7 @@ class Frame:
         texts = map(pn.pane.Bokeh, (board.player.heads, board.player.readout))
         line = pn.Column(*texts, css_classes=["line"], **WIDE)
         top = pn.Row(line, self.all, css_classes=["head", "top"], stylesheets=STYLE, **WIDE)
-        parts = (top, self.numbers, board.player.view, self.warnings, board.grid, board.tab_row)
+        parts = (top, board.player.view, self.warnings, board.grid, board.tab_row)
         columns = pn.Row(
             side, pn.Column(*parts, css_classes=["results"], **FULL), css_classes=["columns"], **FULL
         )

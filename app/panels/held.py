@@ -136,12 +136,14 @@ class Table:
         )
 
     def _made(self, k: int) -> Any:
-        name = field(pn.widgets.TextInput, "called", "beside", label=f"held {k + 1}")
+        name = field(
+            pn.widgets.TextInput, "called", "beside", label=f"held {k + 1}", width=164, sizing_mode=None
+        )
         name.param.watch(lambda event: self._rename(k, event.new), "value")
         dash = html(
             f'<span class="held"><i class="lines {DASHES[k]}"></i></span>',
             "key",
-            width=30,
+            width=44,
             sizing_mode=None,
         )
         remove = button(f"Remove {k + 1}", width=76)

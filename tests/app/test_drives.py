@@ -58,7 +58,7 @@ def test_every_drive_gives_the_same_interface(drive, damping):
     state = states[course.peak]
     assert isinstance(state, States)
     r = float(state.contact_radius) * np.array([0.1, 0.5, 1.2])
-    for field in (state.pressure, state.surface, state.imprint):
+    for field in (state.pressure, state.line_load, state.surface, state.imprint):
         assert np.shape(field(r)) == (3,)
     line = [each.name for each in readouts.line(course, readings(course))]
     assert 6 <= len(line) <= 8

@@ -186,8 +186,9 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
             with explorer.change():
                 explorer.press("Remove")
         # A file of the same name is read again.
-        with explorer.change(), page.expect_file_chooser() as chooser:
-            page.get_by_label("CSV file of a measured curve: depth, force").click()
+        with explorer.change():
+            with page.expect_file_chooser() as chooser:
+                page.get_by_label("CSV file of a measured curve: depth, force").click()
             chooser.value.set_files(path)
     explorer.choose("Unit of force", "nN")
     with explorer.change():

@@ -9,7 +9,7 @@ import pytest
 import mdr_core as mdr
 from app import changes
 from app.panels import share
-from app.solve import DRIVES, deepest, follow, scene_of
+from app.solve import DRIVES, deepest, follow, numbers_of, scene_of
 from app.state import OPENING, PRESETS, State, altered, link, medium, number, opened, profile
 from app.state.files import MOST_SAMPLES, read_tip
 from app.state.quantities import QUANTITIES, SHAPES, Scale
@@ -292,7 +292,7 @@ def test_numbers_of_other_drives_are_neither_reported_nor_taken_away_nor_swept(d
     }
     state = chosen(OPENING, drive, inertia="density")
     used = {"cone_slope", "E_1", "nu_1", "E_2", "nu_2", "q_c"}
-    assert set(changes.numbers_of(state)) == used | theirs[drive]
+    assert set(numbers_of(state)) == used | theirs[drive]
     taken = share.csv(follow(state), state) + link_of(state)
     for name in set().union(*theirs.values()) - theirs[drive]:
         assert f" {name} = " not in taken

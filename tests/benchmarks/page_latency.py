@@ -117,10 +117,8 @@ def smoothness(browser, url):
     for name, (query, symbol) in SCENES.items():
         page, _, _ = cold_load(browser, url + query)
         page.evaluate(HOOK, FIGURES)
-        print(
-            f"drag, {name}: {frames_per_second(page, lambda: drag(page, symbol)):.0f} pictures/s",
-            flush=True,
-        )
+        rate = frames_per_second(page, partial(drag, page, symbol))
+        print(f"drag, {name}: {rate:.0f} pictures/s", flush=True)
         if not query:
             play = page.locator(".key-space button")
             begin = time.perf_counter()
@@ -144,9 +142,8 @@ def left_in_the_tab(browser, url):
         page.get_by_label(drives[k % len(drives)], exact=True).first.check()
         page.wait_for_function("Bokeh.documents[0].is_idle", polling=50)
     nodes, models = zip(before, page.evaluate(count), strict=True)
-    print(
-        f"after {CHANGES} changes of drive: elements {nodes[0]} → {nodes[1]}, models {models[0]} → {models[1]}"
-    )
+    told = f"elements {nodes[0]} → {nodes[1]}, models {models[0]} → {models[1]}"
+    print(f"after {CHANGES} changes of drive: {told}")
     page.context.close()
 
 
