@@ -230,7 +230,9 @@ class Picture:
             source.data = data
 
     def _set_axes(self, axes: list[Axis], dark: bool):
-        f = self.figure
+        f, ground = self.figure, COLOURS["paper"][dark]
+        # Another ground paints the axes anew, too, which take their colours from the sheet.
+        f.update(background_fill_color=ground, border_fill_color=ground)
         ranges = (f.x_range, f.y_range, f.extra_y_ranges.get("right"))
         sides = (f.below[0], f.left[0], *f.right[:1])
         for bounds, side, axis in zip(ranges, sides, axes, strict=False):

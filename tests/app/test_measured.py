@@ -190,7 +190,9 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
             with page.expect_file_chooser() as chooser:
                 page.get_by_label("CSV file of a measured curve: depth, force").click()
             chooser.value.set_files(path)
-    explorer.choose("Unit of force", "nN")
+    before = explorer.axis("force")["labels"][1]
+    page.get_by_label("Unit of force", exact=True).select_option(label="nN")
+    explorer.wait("(label) => explorer.axis('force').labels[1] !== label", before)
     with explorer.change():
         explorer.press("Fit")
     # The file has three decimals, of 1.5 nm of unloading.

@@ -357,6 +357,10 @@ def test_another_theme_is_another_palette():
     picture = Picture(PLOTS["force"])
     light, dark = (list(picture.columns(view, 5, theme).values()) for theme in (False, True))
     assert all(one["color"] != other["color"] for one, other in zip(light, dark, strict=True))
+    for theme, ground in ((False, "#ffffff"), (True, "#181b20")):
+        picture.show(picture.columns(view, 5, theme), view, theme)
+        # Another ground paints the axes anew, too.
+        assert picture.figure.background_fill_color == ground
     bar = Picture(PLOTS["section"])
     (found,) = section(view.course, ("zz",))
     view.found["section"] = found
