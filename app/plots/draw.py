@@ -184,6 +184,8 @@ class Picture:
     def _dress(self, size):
         f = self.figure
         f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None, title=None)
+        # The outermost pixels of a canvas keep a trace of the colour before the last one.
+        f.styles = {"clip-path": "inset(1px)"}
         f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
         fixed = (
             {"sizing_mode": "fixed", "width": size[0], "height": size[1], "output_backend": "svg"}

@@ -267,6 +267,7 @@ def test_an_oblique_impact_a_path_and_a_section_are_found_at_rest(explorer):
     explorer.press("Friction")
     hit = scene_of(chosen(ELASTIC, "oblique")).solve()
     explorer.wait("explorer.model('forces') && !explorer.phase().includes('so far')")
+    explorer.link("tiles=forces")
     _, force = explorer.row("forces", "force along Fₓ")
     assert np.max(np.abs(force)) == pytest.approx(float(hit.max_tangential_force), rel=1e-3)
     page, table = explorer.page, explorer.page.get_by_label("Vertices: one a line, with times or without")
