@@ -8,7 +8,7 @@ from mdr_core.yielding import LiveInterval, live_interval
 from . import Course, Drive, nearest, printed, rounded
 
 #: From 0 to 1, denser towards both ends, where radii begin as a root of the depth.
-_SPREAD = (1 - np.cos(np.linspace(0, np.pi, 31))) / 2
+_SPREAD = (1 - np.cos(np.linspace(0, np.pi, 41))) / 2
 
 
 def most_force(deepest):
