@@ -58,7 +58,7 @@ class Page:
         self.document, self.past, self.future, self._mark = pn.state.curdoc, [], [], None
         self.solved: dict[Any, Course] = {}
         self._waiting, self._ready, self.shown, self._again = None, False, None, False
-        self.state, notice = self._opening(arguments or {})
+        self.state, notice = preset_opened(), ""
         self.resting = Resting(self._show_found)
         self.choices = Choices(self.tell, lambda: self.state)
         self.board = Board(self.choices, self._asked)
@@ -70,19 +70,12 @@ class Page:
         self._bound()
         self._watch()
         try:
-            self.draw(self.state)
+            self.draw(link.read(arguments) if arguments else self.state)
         except Exception as error:
             notice = f"The link was not opened: {self._refusal(error)}"
             self.draw(preset_opened())
         if notice:
             self.notify(notice)
-
-    def _opening(self, arguments):
-        """The state of a link, and what is said if it cannot be opened."""
-        try:
-            return (link.read(arguments) if arguments else preset_opened()), ""
-        except Exception as error:
-            return preset_opened(), f"The link was not opened: {self._refusal(error)}"
 
     def _layout(self):
         """All that is on the page; what changes in the browser alone is connected here."""
@@ -110,7 +103,7 @@ class Page:
             )
         player = self.board.player
         player.state.on_change("value_throttled", self._stood)
-        player.state.on_change("value", lambda attr, old, new: self._moved(new))
+        player.state.on_change("value", self._moved)
         player.play.on_change("active", lambda attr, old, new: new and self._send())
         player.hand.on_change("tags", self._dragged)
         self.theme.js_on_change("tags", CustomJS(args={}, code=JS["tell"]))
@@ -241,11 +234,13 @@ class Page:
         state, course = self.state, self.shown.view.course
         self.choices.show(state)
         self.board.show_tabs(self.shown.view, state)
-        self.controls.show(state, course)
+        self.controls.show(state)
         self.fitting.show(state)
         self.table.show(course, self.shown.held)
         self.guide.show(course)
-        show(self.frame.warnings, object=readouts.warnings(course, state))
+        # Texts that change lay the page out anew: while a slider moves they wait.
+        if not self._ready:
+            self._say()
         show(self.frame.hold, value=bool(state.hold) and is_held(state))
         show(self.frame.tabs["held"], visible=bool(state.hold))
         if self.frame.tab == "held" and not state.hold:
@@ -258,6 +253,11 @@ class Page:
         self._say_all()
         self._settle()
 
+    def _say(self):
+        state, course = self.state, self.shown.view.course
+        show(self.frame.warnings, object=readouts.warnings(course, state))
+        self.controls.say(state, course)
+
     def _say_all(self):
         if self.frame.all.value:
             course = self.shown.view.course
@@ -265,12 +265,12 @@ class Page:
 
     # What the player and the hand do.
 
-    def _send(self):
-        self.board.player.send(self.shown.view, self.readings, self.board.pictures())
-
-    def _moved(self, new):
+    def _moved(self, attr, old, new):
         if int(new) != self.shown.view.course.now:
             self._send()
+
+    def _send(self):
+        self.board.player.send(self.shown.view, self.readings, self.board.pictures())
 
     @pn.io.hold()
     def _stood(self, attr, old, new):
@@ -317,6 +317,7 @@ class Page:
 
     def _settled(self):
         self._waiting = None
+        self._say()
         try:
             query = link.write(self.state, DRIVES[self.state.drive].form)
         except ValueError:

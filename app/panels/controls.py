@@ -250,7 +250,7 @@ class Controls:
         self.text.param.watch(typed, "value")
         return pn.Column(self.text, self.said, **WIDE)
 
-    def show(self, state: State, course: Course) -> None:
+    def show(self, state: State) -> None:
         """Everything that is used, with its values."""
         form = DRIVES[state.drive].form
         for name, part in self.parts.items():
@@ -269,7 +269,6 @@ class Controls:
         self._opened = in_use
         if state.path and form == DRIVES["path"].form:
             self._write(state)
-        self._say(state, course)
 
     def _write(self, state):
         text = changes.write_path(state.path, state.prescribed)
@@ -279,7 +278,8 @@ class Controls:
         if not self.said.object:
             show(self.text, value=text)
 
-    def _say(self, state, course):
+    def say(self, state: State, course: Course) -> None:
+        """What follows from what is set, in words."""
         preset, made = PRESETS[state.preset], course.scene.medium
         rows = "".join(
             f"<dt>{marked(f'{what} = {value}')}</dt><dd>{escape(where)}</dd>"
