@@ -68,12 +68,14 @@ def assert_a_fault_is_told(explorer, server):
 
 def test_text_of_others_is_never_markup(explorer, tmp_path):
     told = explorer.page.locator(".notyf__message")
-    for text in ("", f"{MARKUP} (nm), z (nm)\n0, 0\n1, {MARKUP}\n"):
+    for text, said in (
+        ("", "the file is empty"),
+        (f"{MARKUP} (nm), z (nm)\n0, 0\n1, {MARKUP}\n", "line 3"),
+    ):
         path = tmp_path / f"brought {len(text)}"
         path.write_text(text, encoding="utf-8")
-        count = told.count()
         explorer.page.get_by_label("CSV file of a measured tip: r, z").set_input_files(path)
-        explorer.wait("(n) => document.querySelectorAll('.notyf__message').length > n", count)
+        told.filter(has_text=said).first.wait_for()
         assert explorer.page.locator("img[src=x]").count() == 0
     assert_draws(explorer, opened())
     for query in (f"preset={MARKUP}", f"fit_note={MARKUP}"):
