@@ -9,8 +9,8 @@ from bokeh.models import CustomJS
 from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-from .parts import STYLE
-from .quantities import ASSETS
+from .state.quantities import ASSETS
+from .ui import STYLE
 
 _SHOW = """
 const all = (root) => [...root.querySelectorAll("*")].flatMap(within)

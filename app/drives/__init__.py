@@ -1,19 +1,308 @@
-"""Drives: each is one value in a module of its own, and one entry here."""
+"""What a drive is, and the states along its path: the one interface that all of the page asks."""
 
-from . import impact, oblique, path, press
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, fields
+from functools import cached_property
+from types import SimpleNamespace
+from typing import Any, Protocol, runtime_checkable
 
-#: Every drive of the page, by its option of the choice "drive".
-DRIVES = {
-    "depth": press.Depth(), "force": press.Force(), "path": path.Path(), "impact": impact.Impact(),
-    "oblique": oblique.Oblique(),
-}  # fmt: skip
+import numpy as np
+
+import mdr_core as mdr
+from mdr_core.dynamics.oblique_motion import ObliqueMotion
+from mdr_core.yielding import LiveInterval
+
+Array = Any
+#: Points of an unloading curve from one state.
+_RELEASE = np.linspace(1, 0, 25)
 
 
-def drive_of(scene):
-    """The drive that shows a scene."""
-    return next(drive for drive in DRIVES.values() if drive.owns(scene.drive))
+@runtime_checkable
+class States(Protocol):
+    """States of contact along a path, one value (SI) for each; `states[i]` is one, with its fields."""
+
+    profile: mdr.Profile
+    medium: mdr.Medium
+    depth: Array
+    force: Array
+    contact_radius: Array
+    plastic_radius: Array
+    plastic_depth: Array
+    mean_pressure: Array
+    stored_energy: Array
+    plastic_work: Array
+    live_interval: LiveInterval
+    limits: tuple
+
+    def __getitem__(self, index: Any) -> "States": ...
+
+    def pressure(self, r: Array) -> Array:
+        """Contact pressure (Pa) of one state at radii r (m)."""
+
+    def line_load(self, x: Array) -> Array:
+        """Line load (N/m) of the foundation at x (m)."""
+
+    def surface(self, r: Array) -> Array:
+        """Elastic displacement (m) of the surface."""
+
+    def imprint(self, r: Array) -> Array:
+        """Depth (m) of what is left once the load is gone."""
 
 
-def follow(scene, progress):
-    """The trajectory of a scene, with a state at the progress where the page stands."""
-    return drive_of(scene).follow(scene, progress)
+@dataclass(frozen=True, eq=False)
+class Course:
+    """States of a scene along its path; every array has one value (SI) for each state.
+
+    `progress` is where a state stands: 0 first contact, 1 deepest, 2 loss of contact, and 2.2 the tip back
+    at the height of the undeformed surface. `now` is the number of the present state, `peak` that of the
+    deepest. What has times has them, with speeds and energies, in `motion`; an impact has a `hit`, an
+    `oblique` one its motion with friction, and how far elements `relax` that have let go. A path that may
+    turn round several times `turns`; `pending` says how roughly it is followed until it is solved in full.
+    """
+
+    scene: mdr.Scene
+    progress: Array
+    states: States
+    now: int
+    peak: int
+    hit: mdr.Impact | None = None
+    motion: mdr.Motion | None = None
+    turns: bool = False
+    pending: str = ""
+    oblique: ObliqueMotion | None = None
+
+    def __len__(self) -> int:
+        return len(self.progress)
+
+    @property
+    def force(self) -> Array:
+        """Normal force (N), with that of the dashpots."""
+        return self.states.force
+
+    @property
+    def state(self) -> States:
+        """The present state."""
+        return self.states[self.now]
+
+    @cached_property
+    def deepest(self) -> States:
+        """The deepest state."""
+        return self.states[self.peak]
+
+    @property
+    def before(self) -> float:
+        """Plastic depth (m) that was left on this spot before."""
+        return getattr(self.scene.drive, "plastic_depth", 0.0)
+
+    @property
+    def dashpots(self) -> bool:
+        """Whether dashpots carry a load along this path."""
+        return self.motion is not None and self.scene.medium.eta > 0
+
+    @property
+    def chained(self) -> bool:
+        """Whether every element has a memory of its own, so that no live interval tells all of it."""
+        return not isinstance(self.states, mdr.Indentation)
+
+    @property
+    def ledger(self) -> Any:
+        """The motion with all energies, those along the surface too; None of what has no times."""
+        return self.motion if self.oblique is None else self.oblique
+
+    @property
+    def plastic_work(self) -> Array:
+        """Work (J) lost to yield so far, of an impact its own only."""
+        return self.states.plastic_work if self.motion is None else self.motion.plastic_work
+
+    @property
+    def viscous_work(self) -> Array | None:
+        """Work (J) lost in the dashpots so far, where there are some."""
+        return self.ledger.viscous_work if self.dashpots else None
+
+    @property
+    def kinetic_energy(self) -> Array | None:
+        """Energy (J) of a free body, along the surface too."""
+        return None if self.hit is None else self.ledger.kinetic_energy
+
+    @property
+    def stored_energy(self) -> Array:
+        """Energy (J) of all springs, of those too that have let go of a viscous rebound."""
+        return self.states.stored_energy if self.motion is None else self.ledger.stored_energy
+
+    @property
+    def energy(self) -> Array:
+        """All that is there and has been lost so far (J), of what has times."""
+        m = self.ledger
+        energy = m.kinetic_energy + m.stored_energy + m.plastic_work + m.viscous_work
+        return energy if self.oblique is None else energy + m.friction_work
+
+    @cached_property
+    def on(self) -> dict[str, Array]:
+        """Values of all states by the names of the axes that they are on."""
+        values = {"d": self.states.depth, "F": self.force, "a": self.states.contact_radius}
+        if self.motion is not None:
+            values["t"] = self.motion.time
+        if self.oblique is not None:
+            values["force"] = self.oblique.tangential_force
+        return values
+
+    @cached_property
+    def onset(self) -> States | None:
+        """The state where yield starts; None if nothing yields or the shape is not known so deep."""
+        return onset(self.scene, self.before)
+
+    @property
+    def first_onset(self) -> States | None:
+        """The state where yield starts on a virgin surface."""
+        return None if self.before else self.onset
+
+    @property
+    def next_onset(self) -> States | None:
+        """The state where yield goes on upon an imprint."""
+        return self.onset if self.before else None
+
+    @property
+    def critical_depth(self) -> float | None:
+        """Depth (m) at which yield begins on a virgin surface, if anything yields."""
+        critical = self.scene.medium.critical_depth
+        return None if self.before or critical == np.inf else critical
+
+    @property
+    def relative_depth(self) -> Array | None:
+        """Depth over the critical one, if anything yields."""
+        critical = self.scene.medium.critical_depth
+        return self.states.depth / critical if critical < np.inf else None
+
+    @cached_property
+    def rebound(self) -> SimpleNamespace | None:
+        """Numbers (SI) of the rebound of an oblique impact: of the contact point and of the body."""
+        if self.oblique is None:
+            return None
+        drive, hit, motion = self.scene.drive, self.oblique.impact, self.oblique
+        after = float(motion.tangential_velocity[-1] if hit is None else hit.tangential_velocity)
+        largest = np.max(np.abs(motion.tangential_force)) if hit is None else hit.max_tangential_force
+        # The impulse changes the speed of the body, and for the rest its spin.
+        impulse = drive.tangential_mass * (after - drive.tangential_speed)
+        body = drive.tangential_speed + impulse / drive.mass
+        found = {"contact_velocity": after, "body_speed": body, "max_tangential_force": float(largest)}
+        found["body_angle"] = float(np.arctan2(float(self.hit.rebound_speed), body))
+        found["tangential_restitution"] = -after / (drive.tangential_speed or np.nan)
+        if drive.tangential_mass < drive.mass:
+            radius, spin = float(self.scene.profile.body_radius), after - body
+            found |= {"spin_speed": spin} if radius == np.inf else {"spin": spin / radius}
+        return SimpleNamespace(**found)
+
+    def released(self, index: int) -> tuple[Array, Array]:
+        """Depths (m) and forces (N) of elastic unloading from one state: the area below is its energy.
+
+        Elements that dashpots hold back are compressed further than their load tells.
+        """
+        live, depth = self.states.live_interval[index], float(self.states.depth[index])
+        length = live.length * _RELEASE
+        interval = LiveInterval(np.full_like(length, live.lower), live.lower + length, length)
+        states = mdr.Indentation(self.scene.profile, self.scene.medium, interval.upper, interval)
+        d, force = interval.upper, states.force
+        if live.length > 0 and depth > live.upper * (1 + 1e-9):
+            stiff = 2 * self.scene.medium.E_star * self.states.contact_radius[index]
+            d, force = np.append(depth, d), np.append(force[0] + stiff * (depth - d[0]), force)
+        return d, force
+
+
+def onset(scene: mdr.Scene, before: float = 0.0) -> mdr.Indentation | None:
+    """The state where yield starts above some plastic depth (m); None if there is no such state."""
+    depth = before + scene.medium.critical_depth
+    reached = depth <= min(scene.profile.known_depth, 1e300)
+    return mdr.indent(scene.profile, scene.medium, depth) if reached else None
+
+
+def nearest(progress: Array, at: float) -> int:
+    """Number of the state next to some progress."""
+    return int(np.argmin(np.abs(progress - at)))
+
+
+def rounded(progress: Array) -> Array:
+    """Six digits: what the page says about where it stands is read back as the same number."""
+    return np.array([float(f"{p:.6g}") for p in progress])
+
+
+def passed(along: Array, peak: int) -> Array:
+    """The progress at some places along a path, of which one is the deepest: 1 there, 2 at the end."""
+    share = (along - along[0]) / ((along[-1] - along[0]) or 1.0)
+    turn = share[peak]
+    progress = np.where(share <= turn, share / (turn or 1.0), 1 + (share - turn) / ((1 - turn) or 1.0))
+    progress[peak] = 1.0
+    return rounded(progress)
+
+
+class Drive(ABC):
+    """What drives the indenter, as a person sets it and as `mdr.Scene` has it.
+
+    `key` is its option of the choice "drive", `values` the types of its values of a scene, `form` the
+    choices and parts of the form that follow its numbers, `line` the names of the readouts that are always
+    seen. `solver` is the function of the core for whole arrays, with the numbers that it takes, `results`
+    what it gives.
+    """
+
+    key: str = ""
+    values: tuple[type, ...] = ()
+    form: tuple[str, ...] = ()
+    line: tuple[str, ...] = (
+        "force", "depth", "relative_depth", "contact_radius", "plastic_radius", "mean_pressure",
+        "stored_energy", "plastic_work",
+    )  # fmt: skip
+    solver: tuple[str, ...] = ()
+    results: tuple[str, ...] = ()
+
+    def owns(self, value: Any) -> bool:
+        """Whether this drive shows a value of a scene."""
+        return isinstance(value, self.values)
+
+    @abstractmethod
+    def make(self, state: Any) -> Any:
+        """The value of a scene, from what is set on the page."""
+
+    @abstractmethod
+    def follow(self, scene: mdr.Scene, progress: float) -> Course:
+        """The states of a scene, as far as a move has time for."""
+
+    def in_time(self, scene: mdr.Scene) -> Course:
+        """The same solved in full, where `follow` leaves something pending."""
+        return self.follow(scene, 1.0)
+
+    @abstractmethod
+    def deepest(self, scene: mdr.Scene) -> mdr.Indentation:
+        """The deepest state of a scene alone."""
+
+    @abstractmethod
+    def alike(self, state: Any, deepest: mdr.Indentation) -> dict[str, Any]:
+        """Numbers with which a state would be the deepest one."""
+
+    @abstractmethod
+    def snippet(self, course: Course, given: str, prefix: str) -> list[str]:
+        """Lines of Python that come to the present state, from arguments and a prefix of names."""
+
+    def words(self, state: Any) -> list[str]:
+        """More for the summary in a line."""
+        return []
+
+    def duration(self, state: Any, deepest: mdr.Indentation) -> float | None:
+        """How long it takes (s), where that counts."""
+        return None
+
+
+def arguments(value: Any, written: Any = repr) -> str:
+    """The fields of a value of the core as arguments in Python, without what it takes by default."""
+    own = {each.name: getattr(value, each.name) for each in fields(value)}
+    usual = {each.name: each.default for each in fields(value)}
+    return named({n: own[n] for n in own if not np.array_equal(own[n], usual[n])}, written)
+
+
+def named(numbers: dict[str, Any], written: Any = repr) -> str:
+    """Numbers by their names as arguments in Python."""
+    numbers = {n: v.item() if isinstance(v, np.generic) else v for n, v in numbers.items()}
+    return ", ".join(f"{name}={written(number)}" for name, number in numbers.items())
+
+
+def printed(name: str, values: tuple[str, ...], index: str = "") -> str:
+    """A line of Python that prints some values of a result."""
+    return f"print({', '.join(f'{name}.{value}{index}' for value in values)})"

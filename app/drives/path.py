@@ -1,18 +1,18 @@
 """A path of depth or of force through some vertices; in time also ramp and hold, and creep."""
 
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core import abel
+from mdr_core.yielding import LiveInterval
 
-from ..quantities import QUANTITIES
-from ..trajectory import Trajectory, nearest, onset, passed
-from ..units import written
-from .chain import ChainStates
-from .drive import Drive
-from .impact import printed
-from .press import Depth, Force, most_force
+from ..state.quantities import QUANTITIES
+from ..state.units import written
+from . import Course, Drive, nearest, onset, passed, printed
+from .press import most_force
 
 #: What is prescribed: its kind of quantity, its value of a scene, its unit, and what of the core follows
 #: it, infinitely slowly and in time.
@@ -23,7 +23,7 @@ _SLOWLY = {"depth": "indent", "force": "indent_to_force"}
 _IN_TIME = {"depth": "indent_in_time", "force": "creep"}
 #: Most vertices, and about how many states are drawn: of a path without dashpots, on the chain under
 #: prescribed depths, and under forces, where every one of them takes eight steps and more.
-MOST, _SLOW, _DEPTHS, _FORCES = 60, 200, 48, 16
+MOST, _SLOW, _DEPTHS, _FORCES = 60, 200, 48, 24
 #: Error allowed on the chain: less than is seen.
 _TOLERANCE = 3e-3
 
@@ -45,7 +45,7 @@ def checked(path, prescribed):
         bounds = " to ".join(written(bound, quantity.kind) for bound in quantity.bounds)
         raise ValueError(f"The largest {prescribed} of a path is out of bounds: {bounds}.")
     _drive(path, prescribed)
-    return [tuple(map(float, row)) for row in path]
+    return tuple(tuple(map(float, row)) for row in path)
 
 
 def _parts(drive):
@@ -54,11 +54,11 @@ def _parts(drive):
     return name, np.atleast_1d(getattr(drive, name)), drive.time and np.array(drive.time)
 
 
-def pattern(explorer, option):
+def pattern(state, deepest, option):
     """A path of some pattern whose deepest state is the present one, followed infinitely slowly."""
     if option == "own":
         return {}
-    deepest, medium = explorer.solved(), explorer.medium()
+    medium = deepest.medium
     depth, time = float(deepest.depth), float(f"{medium.relaxation_time or 1.0:.2g}")
 
     def back(depth):
@@ -67,25 +67,22 @@ def pattern(explorer, option):
 
     if option == "creep":
         force = most_force(deepest)
-        return {"prescribed": "force", "path": [(0.0, 0.0), (force, 0.1 * time), (force, 5 * time)]}
+        return {"prescribed": "force", "path": ((0.0, 0.0), (force, 0.1 * time), (force, 5 * time))}
     if option == "hold":
         path = [(0.0, 0.0), (depth, time), (depth, 5 * time)]
     elif option == "cycles":
         path = [(d,) for k in range(1, 6) for peak in (depth * k / 5,) for d in (peak, back(peak))]
     else:
         path = [(0.7 * depth,), (back(0.7 * depth),), (depth,), (back(depth),)]
-    return {"prescribed": "depth", "path": path}
+    return {"prescribed": "depth", "path": tuple(path)}
 
 
-def prescribed(explorer, option):
+def prescribed(state, scene, option):
     """The vertices by the other quantity, as they are infinitely slowly."""
-    if explorer.drive != "path" or not explorer.path:
-        return {}
-    scene = explorer.scene()
     _, values, _ = _parts(scene.drive)
     states = _slowly(scene, values)
     found = np.maximum(getattr(states, option), 0.0 if option == "force" else -np.inf).tolist()
-    path = [(value, *row[1:]) for value, row in zip(found, explorer.path, strict=True)]
+    path = [(value, *row[1:]) for value, row in zip(found, state.path, strict=True)]
     return {"path": checked(path, option), "pattern": "own"}
 
 
@@ -115,9 +112,7 @@ def _refined(scene, chain):
     critical, begun = scene.medium.critical_depth, onset(scene)
     start = critical if name == "depth" or begun is None else float(begun.force)
     for (begin, first), (end, last) in pairwise(zip(along, values, strict=True)):
-        share = np.linspace(0, 1, each + 1)
-        # Dashpots change most where a piece begins.
-        share = share**2 if chain else share
+        share = _shares(each + 1, chain, chain and first == last)
         if first != last and not (chain and name == "force"):
             # Just before yield begins or goes on, and on both sides of where the load is gone.
             gone, elastic = 0.0, most
@@ -133,6 +128,15 @@ def _refined(scene, chain):
     return np.interp(places, along, values), places
 
 
+def _shares(count, chain, held):
+    """Places along a piece: dense at its ends, where radii begin as a root; of a hold by powers."""
+    share = np.linspace(0, 1, count)
+    if held:
+        return (1e3**share - 1) / 999
+    # Dashpots change most where a piece begins.
+    return share**2 if chain else (1 - np.cos(np.pi * share)) / 2
+
+
 def _solved(scene, progress, chain, pending):
     name, _, time = _parts(scene.drive)
     values, along = _refined(scene, chain)
@@ -143,9 +147,9 @@ def _solved(scene, progress, chain, pending):
     else:
         states = _slowly(scene, values)
     peak = int(np.argmax(states.depth))
-    way = passed(along, peak)
+    places = passed(along, peak)
     motion = None if time is None else _motion(states, along)
-    return Trajectory(scene, way, states, nearest(way, progress), peak, None, motion, True, pending)
+    return Course(scene, places, states, nearest(places, progress), peak, None, motion, True, pending)
 
 
 def _motion(states, time):
@@ -159,24 +163,104 @@ def _motion(states, time):
     )  # fmt: skip
 
 
+#: Places at which the elements are followed, besides the radii a and c of all states.
+_PLACES = 300
+
+
+class ChainStates:
+    """A `TimedIndentation` whose elements are followed once for all states; `states[i]` is one of them."""
+
+    def __init__(self, path, at=slice(None), whole=None):
+        self._path, self._at, self._whole = path, at, whole or self
+        some = path[at]
+        self.profile, self.medium, self.limits, self.error = (
+            path.profile,
+            path.medium,
+            path.limits,
+            path.error,
+        )
+        self.depth, self.force, self.viscous_work = some.depth, some.force, some.viscous_work
+        self.contact_radius, self.plastic_radius = some.contact_radius, some.plastic_radius
+        self.plastic_depth, self.stored_energy = some.plastic_depth, some.stored_energy
+        self.plastic_work = some.plastic_work
+
+    def __getitem__(self, index):
+        return ChainStates(self._path, index, self._whole)
+
+    @property
+    def mean_pressure(self):
+        a = np.asarray(self.contact_radius)
+        return (self.force / np.where(a > 0, np.pi * a * a, np.inf))[()]
+
+    @property
+    def live_interval(self):
+        """What is pressed down further than the imprint, as far as one interval of depths tells."""
+        a, lower = np.asarray(self.contact_radius), np.asarray(self.plastic_depth)
+        upper = np.where(a > 0, np.maximum(self.profile.reduced(a), lower), lower)
+        length = np.where(a > 0, np.maximum(upper - lower, np.finfo(float).tiny), 0.0)
+        return LiveInterval(lower, upper, length)
+
+    @cached_property
+    def _elements(self):
+        """Places x, reduced heights there, line loads and elastic compressions, a row for each state."""
+        path = self._path
+        half = float(np.max(path.contact_radius)) or 1.0
+        x = np.linspace(0, half, _PLACES)
+        x = np.unique(np.concatenate([x, path.contact_radius, np.minimum(path.plastic_radius, half)]))
+        return x, path.profile.reduced(x), *path.elements(x)
+
+    def line_load(self, x):
+        """Line load (N/m) of one state at x (m)."""
+        return self._path[self._at].line_load(x)
+
+    def relaxing(self, g):
+        """What is left (m) of the elastic compression of elements at heights g that have let go."""
+        _, heights, load, elastic = self._whole._elements
+        return np.interp(g, heights, np.where(load[self._at] > 0, 0.0, elastic[self._at]), right=0.0)
+
+    def surface(self, r):
+        """Elastic displacement (m) of the surface, u = (2/π) ∫ u_e dx/√(r² − x²), also of what relaxes."""
+        x, _, _, elastic = self._whole._elements
+        u, r = elastic[self._at], np.asarray(r, float)[..., None]
+        inside, slope = np.minimum(x, r), np.diff(u) / np.diff(x)
+        with np.errstate(invalid="ignore"):
+            angle = np.diff(np.where(r > 0, np.arcsin(inside / np.where(r > 0, r, 1.0)), np.pi / 2))
+        rest = np.diff(np.sqrt((r - inside) * (r + inside)))
+        return 2 / np.pi * np.sum((u[:-1] - slope * x[:-1]) * angle - slope * rest, axis=-1)
+
+    def imprint(self, r):
+        """Depth (m) of the residual imprint, as at rest."""
+        return mdr.Indentation(self.profile, self.medium, self.depth, self.live_interval).imprint(r)
+
+    def pressure(self, r):
+        """Contact pressure (Pa) at radii r (m), from the elements followed for all states."""
+        x, g, load, _ = self._whole._elements
+        radius, r = float(self.contact_radius), np.asarray(r, float)
+        inside = x < radius
+        if not inside.any():
+            return np.zeros(r.shape)[()]
+        x, q = np.append(x[inside], radius), load[self._at][inside]
+        # Dashpots that are pressed down end with a jump.
+        rim = q[-1] - self.medium.E_star * float(self.profile.reduced(radius) - g[inside][-1])
+        pressed = self._at > 0 and self._path.depth[self._at] > self._path.depth[self._at - 1]
+        q = np.append(q, min(max(rim, 0.0), q[-1]) if pressed else 0.0)
+        return 0.0 - abel.stress_from_line_load(x, q, r)
+
+
 class Path(Drive):
     """Pressed along a path."""
 
-    values = (mdr.DepthPath, mdr.ForcePath)
+    key, values = "path", (mdr.DepthPath, mdr.ForcePath)
     form = ("pattern", "prescribed", "vertices")
 
-    def make(self, explorer):
-        if not explorer.path:
-            raise ValueError("Give the path some vertices.")
-        return _drive(checked(explorer.path, explorer.prescribed), explorer.prescribed)
+    def owns(self, value):
+        """Whether it has vertices; what is one value is pressed."""
+        return super().owns(value) and np.ndim(getattr(value, _parts(value)[0])) > 0
 
-    def opened(self, scene):
-        name, values, time = _parts(scene.drive)
-        if time is None and (values.size == 1 or (values.size == 2 and values[1] < values[0])):
-            return {"depth": Depth, "force": Force}[name]().opened(scene)
-        path = list(zip(values.tolist(), *(() if time is None else [time.tolist()]), strict=True))
-        choices = {"drive": "path", "pattern": "own", "prescribed": name, "surface": "virgin"}
-        return choices | {"path": checked(path, name)}, {}
+    def make(self, state):
+        if not state.path:
+            raise ValueError("Give the path some vertices.")
+        return _drive(checked(state.path, state.prescribed), state.prescribed)
 
     def follow(self, scene, progress):
         """All states; under a force in time that dashpots resist infinitely slowly at first."""
@@ -190,42 +274,36 @@ class Path(Drive):
     def deepest(self, scene):
         return _slowly(scene, float(np.max(_parts(scene.drive)[1])))
 
-    def alike(self, explorer, deepest):
+    def alike(self, state, deepest):
         """A path that was drawn by hand is kept."""
-        own = explorer.pattern == "own"
-        if own and explorer.path:
+        own = state.pattern == "own"
+        if own and state.path:
             return {}
-        option = "reload" if own else explorer.pattern
-        return {"pattern": option} | pattern(explorer, option)
+        option = "reload" if own else state.pattern
+        return {"pattern": option} | pattern(state, deepest, option)
 
-    def snippet(self, way, given, prefix):
+    def snippet(self, course, given, prefix):
         """The vertices that have been passed, and the present state."""
-        name, _, time = _parts(way.scene.drive)
-        values, along = _course(way.scene.drive)
-        places = _refined(way.scene, False)[1] if time is None else way.motion.time
-        here = way.force if name == "force" else way.states.depth
+        name, _, time = _parts(course.scene.drive)
+        values, along = _course(course.scene.drive)
+        places = _refined(course.scene, False)[1] if time is None else course.motion.time
+        here = course.force if name == "force" else course.states.depth
         # First contact is none of the vertices.
         passed = (along > 0) | (time is not None)
-        passed &= along < places[way.now] - 1e-12 * (places[-1] - places[0])
-        chain, state = time is not None and way.scene.medium.eta > 0, f"{prefix}state"
-        given += f", {[*values[passed].tolist(), float(here[way.now])]}"
-        given += f", {[*along[passed].tolist(), float(places[way.now])]}" * chain
+        passed &= along < places[course.now] - 1e-12 * (places[-1] - places[0])
+        chain, state = time is not None and course.scene.medium.eta > 0, f"{prefix}state"
+        given += f", {[*values[passed].tolist(), float(here[course.now])]}"
+        given += f", {[*along[passed].tolist(), float(places[course.now])]}" * chain
         solve, unit = (_IN_TIME if chain else _SLOWLY)[name], _UNIT[name] + ", s" * chain
         told = ("depth", "force", "contact_radius", "plastic_radius")
         return [f"{state} = mdr.{solve}({given})[-1]  # {unit}", printed(state, told)]
 
-    def cells(self, way):
-        if not isinstance(way.states, ChainStates):
-            return []
-        work = ("W_v", "viscous work", "energy", way.motion.viscous_work)
-        return [work, ("ε", "error of the chain", "number", way.states.error)]
-
-    def words(self, explorer):
-        sizes, time = [row[0] for row in explorer.path], self.duration(explorer)
-        most = written(max(sizes), KIND[explorer.prescribed], 3)
+    def words(self, state):
+        sizes, time = [row[0] for row in state.path], self.duration(state, None)
+        most = written(max(sizes), KIND[state.prescribed], 3)
         within = f" in {written(time, 'time', 3)}" if time else ""
         return [f"path of {len(sizes)} vertices to {most}{within}"]
 
-    def duration(self, explorer):
-        path = explorer.path
+    def duration(self, state, deepest):
+        path = state.path
         return path[-1][1] - path[0][1] if path and len(path[0]) == 2 else None

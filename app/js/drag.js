@@ -1,11 +1,19 @@
-// A drag in the plot of force against depth goes to the state next to the pointer; the server hears where it ends.
-const { x_range, y_range } = figure
-if (cb_obj.event_name === "panend") return void (slider.value_throttled = slider.value)
-const [d, F] = packet.tags[5]
-const [dx, dy] = [(each) => (each - cb_obj.x) / (x_range.end - x_range.start), (each) => (each - cb_obj.y) / (y_range.end - y_range.start)]
-// Of two states at one place the one nearer to the present.
-const away = d.map((each, k) => Math.hypot(dx(each), dy(F[k])) + 1e-4 * Math.abs(k - slider.value))
-play.active = false
-const value = away.indexOf(Math.min(...away))
-// The first move asks for the states that are to be shown.
-slider.setv({ value }, { sync: frames.tags[0] !== packet.tags[0] })
+// A drag takes the indenter along, or the mark on the curve: to another depth when pressing, else to the nearest state.
+const { name, x_range: x, y_range: y, inner_height } = figure
+const { d, F, unit, pressing } = state.tags[0], wide = (range) => range.end - range.start
+const [begin, depth, pixel] = cb_obj.event_name === "panstart" ? [cb_obj.sy, d[state.value] * unit, wide(y) / inner_height] : figure.tags
+figure.setv({ tags: [begin, depth, pixel] }, { sync: false })
+const wish = Math.max(depth + (cb_obj.sy - begin) * pixel, 1e-3 * wide(y))
+const end = cb_obj.event_name === "panend"
+if (name === "springs" && pressing) {
+  // One request at a time: the server empties the hand once it has drawn.
+  if (end || !hand.tags.length) hand.tags = [wish]
+} else if (end) state.value_throttled = state.value
+else {
+  const near = name === "springs" ? (k) => Math.abs(d[k] * unit - wish) / wide(y)
+    : (k) => Math.hypot((d[k] - cb_obj.x) / wide(x), (F[k] - cb_obj.y) / wide(y))
+  const away = d.map((_, k) => near(k) + 1e-4 * Math.abs(k - state.value))
+  play.active = false
+  // The first move asks for the states that are to be shown.
+  state.setv({ value: away.indexOf(Math.min(...away)) }, { sync: !frames.tags.length })
+}

@@ -1,23 +1,20 @@
 // A number: typed with its unit, or dragged. One request is under way; what is dragged meanwhile replaces what waits.
 export function render({ model, el }) {
-  el.innerHTML = `<div class="row"><label for="text">${model.label}</label>
-    <button class="help" aria-expanded="false" aria-label="What is ${model.spoken}?">?</button>
-    <input id="text" type="text" spellcheck="false" autocomplete="off" aria-describedby="said">
-    </div><input type="range" max="${model.steps}" title="Arrow keys step, double-click resets">
-    <p id="said" aria-live="polite"></p><div class="about" hidden>${model.about}</div>`
+  el.innerHTML = `<div class="row"><label for="text"></label><button class="help" aria-expanded="false">?</button>
+    <input id="text" type="text" spellcheck="false" autocomplete="off" aria-describedby="said"></div>
+    <input type="range" title="Arrow keys step, double-click resets"><p id="said" aria-live="polite"></p><div class="about" hidden></div>`
   const [text, range] = el.querySelectorAll("input")
-  const [said, about, help] = ["#said", ".about", ".help"].map((name) => el.querySelector(name))
-  text.ariaLabel = model.spoken
-  range.hidden = !model.steps
-  range.ariaLabel = `${model.spoken}, slider`
-  let busy = false
-  let wish = null
+  const [label, said, about, help] = ["label", "#said", ".about", ".help"].map((name) => el.querySelector(name))
+  let [busy, wish] = [false, null]
   const ask = (what) => {
     if (busy) wish = what
     else model.send_msg(what)
     busy = true
   }
   const show = () => {
+    if (label.innerHTML !== model.label) [label.innerHTML, about.innerHTML] = [model.label, model.about]
+    ;[text.ariaLabel, range.ariaLabel, help.ariaLabel] = [model.spoken, `${model.spoken}, slider`, `What is ${model.spoken}?`]
+    ;[range.max, range.hidden] = [model.steps, !model.steps]
     // What was refused stays in its field, to be mended.
     if (!model.refused) text.value = model.text
     text.setAttribute("aria-invalid", String(model.refused))
@@ -27,13 +24,11 @@ export function render({ model, el }) {
     range.setAttribute("aria-valuetext", model.text)
   }
   model.on("change:answered", () => {
-    busy = false
     const next = wish
-    wish = null
-    if (next) ask(next)
-    show()
+    ;[busy, wish] = [false, null]
+    show(next && ask(next))
   })
-  model.on(["text", "position", "refused", "said"].map((what) => `change:${what}`), () => busy || show())
+  model.on(["text", "position", "refused", "said", "spoken", "steps"].map((what) => `change:${what}`), () => busy || show())
   range.addEventListener("input", () => {
     range.style.setProperty("--share", range.value / range.max)
     ask({ position: range.valueAsNumber })
@@ -41,13 +36,7 @@ export function render({ model, el }) {
   range.addEventListener("dblclick", () => ask({ reset: true }))
   text.addEventListener("change", () => ask({ text: text.value }))
   text.addEventListener("focus", () => text.select())
-  text.addEventListener("keydown", ({ key }) => {
-    if (key === "Escape") ask({ restore: true })
-    else if (key === "Enter") text.blur()
-  })
-  help.addEventListener("click", () => {
-    about.hidden = !about.hidden
-    help.ariaExpanded = String(!about.hidden)
-  })
+  text.addEventListener("keydown", ({ key }) => (key === "Escape" ? ask({ restore: true }) : key === "Enter" && text.blur()))
+  help.addEventListener("click", () => { help.ariaExpanded = String(!(about.hidden = !about.hidden)) })
   show()
 }

@@ -1,15 +1,10 @@
 // Once the page is there: names for widgets that have none of their own, keys, and the theme that the system has.
 const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
 const hosts = (name) => all(document).filter((each) => each.shadowRoot && each.classList.contains(name))
-for (const row of hosts("fieldset")) {
-  const [legend, group] = ["legend", "choice"].map((name) => row.shadowRoot.querySelector(`.${name}`))
-  group.setAttribute("role", "radiogroup")
-  group.setAttribute("aria-label", legend.shadowRoot.querySelector("button").textContent)
-}
-for (const [name, spoken] of Object.entries(named))
-  for (const host of hosts(name))
-    for (const each of host.shadowRoot.querySelectorAll("input, select, textarea, [role=slider]")) each.ariaLabel = spoken
+for (const [name, spoken] of Object.entries(named)) for (const host of hosts(name))
+  for (const each of host.shadowRoot.querySelectorAll("input, select, textarea, [role=slider]")) each.ariaLabel = spoken
 document.documentElement.lang = "en"
+document.documentElement.classList.toggle("dark", theme.tags[0])
 document.addEventListener("keydown", (event) => {
   const on = event.composedPath()[0]
   if (event.ctrlKey || event.altKey || event.metaKey || on.matches?.("input[type=text], textarea, select")) return
@@ -19,8 +14,4 @@ document.addEventListener("keydown", (event) => {
   event.preventDefault()
   host.shadowRoot.querySelector("button").click()
 })
-if (matchMedia("(prefers-color-scheme: dark)").matches && !location.search.includes("dark="))
-  hosts("key-d")[0].shadowRoot.querySelector("button").click()
-if (location.search.includes("dark=1")) document.documentElement.classList.add("dark")
-theme.execute(theme)
-show.execute(packet)
+if (matchMedia("(prefers-color-scheme: dark)").matches && !location.search.includes("dark=")) hosts("key-d")[0].shadowRoot.querySelector("button").click()

@@ -22,35 +22,36 @@ FLAGS = [
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
     "--disable-component-update", "--disable-sync",
 ]  # fmt: skip
-#: Presets of which some tests need what they are: an impact, and one without yield.
-DROP = "Steel ball 16 mm on glass-fibre epoxy, drop weight"
-ELASTIC = "Steel ball 16 mm on epoxy, elastic"
+#: Presets of which some tests need what they are: the opening, an impact, one without yield, a punch.
+GOLD, DROP, ELASTIC = "berkovich-gold", "striker-glass_epoxy-drop-weight", "striker-epoxy-elastic"
+PUNCH = "punch-glass_epoxy"
 
 # What the page draws: rows by name, axes, and whether all is done.
 SCRIPT = """
 window.explorer = {
   model: (name) => window.Bokeh?.documents[0]?.get_model_by_name(name),
   row: (figure, row) => {
-    for (const { name, data_source: { data } } of explorer.model(figure).renderers) {
-      const k = name.startsWith("tips") ? -1 : data.row?.indexOf(row) ?? -1
+    for (const { data_source: { data } } of explorer.model(figure).renderers) {
+      const k = data.row?.indexOf(row) ?? -1
       if (k < 0) continue
-      // Polygons are nested twice more; of a mark there are as many points as it has.
-      const flat = (part) => Array.from(part[0]?.[0]?.length === undefined ? part : part[0][0])
       const mine = (part) => Array.from(part).filter((_, n) => data.row[n] === row)
-      return data.xs ? [flat(data.xs[k]), flat(data.ys[k])] : [mine(data.x), mine(data.y)]
+      return data.xs ? [Array.from(data.xs[k]), Array.from(data.ys[k])] : [mine(data.x), mine(data.y)]
     }
   },
-  labels: (figure) =>
-    explorer.model(figure).renderers.find(({ name }) => name === "labels").data_source.data.Label,
+  labels: (figure) => explorer.model(`${figure} labels`).data.text,
   axis: (figure) => {
     const { x_range, y_range, below, left } = explorer.model(figure)
     return { x: [x_range.start, x_range.end], y: [y_range.start, y_range.end],
              labels: [below[0].axis_label, left[0].axis_label] }
   },
-  serial: () => explorer.model("packet").tags[0],
-  played: () => explorer.model("frames").tags[0] === explorer.serial(),
-  idle: () => Boolean(explorer.model("packet")) && Bokeh.documents.every((each) => each.is_idle) &&
-    explorer.row("force", "now")?.[0][0] > 0,
+  // What is shown once the input is still.
+  scene: () => explorer.model("address").tags[0],
+  played: () => explorer.model("frames").tags.length > 0,
+  all: (root = document) => [...root.querySelectorAll("*")].flatMap(
+    (each) => [each, ...(each.shadowRoot ? explorer.all(each.shadowRoot) : [])]),
+  phase: () => explorer.all().find((on) => on.classList.contains("standing")).shadowRoot.textContent,
+  idle: () => Boolean(explorer.model("address")?.tags.length) &&
+    Bokeh.documents.every((each) => each.is_idle) && explorer.row("force", "now")?.[0].length === 1,
   listen: () => {
     explorer.sent = []
     const send = WebSocket.prototype.send
@@ -154,13 +155,15 @@ class Explorer:
 
     def said(self, symbol):
         """What is said below a field."""
-        number = self.page.locator(".number", has=self.field(symbol))
-        return number.locator("#said").inner_text()
+        return self.number(symbol).locator("#said").inner_text()
 
-    def readout(self, symbol, label=None):
-        """A number of the strip above the plots, with its unit."""
-        cells = self.page.locator(f'.cell[data-symbol="{symbol}"]')
-        return (cells if label is None else cells.filter(has_text=label)).locator("dd").first.inner_text()
+    def number(self, symbol):
+        """A quantity with its field, slider and explanation."""
+        return self.page.locator(".number", has=self.field(symbol))
+
+    def readout(self, name):
+        """A number of the line above the plots, with its unit."""
+        return self.page.locator(f'output[data-name="{name}"]').inner_text()
 
     def press(self, name):
         """Press a button of the page by its name."""
@@ -185,11 +188,23 @@ class Explorer:
         spans = self.page.locator(".lights span").all()
         return [(span.get_attribute("class"), span.inner_text()) for span in spans]
 
-    def save(self, figure, kind):
+    def save(self, figure):
         """Path of the picture of a plot."""
         with self.page.expect_download() as download:
-            self.page.locator(f".card.{figure}").get_by_role("button", name=kind).click()
+            self.page.locator(f".card.{figure}").get_by_role("button", name="Save").click()
         return download.value.path()
+
+    def drag(self, figure, moves, steps=8):
+        """Drag from the middle of a plot by shares of its size, with the mouse."""
+        box = self.page.locator(f".card.{figure} canvas").first.bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        self.page.mouse.move(x, y)
+        self.page.mouse.down()
+        for k in range(1, steps + 1):
+            self.page.mouse.move(
+                x + moves[0] * k / steps * box["width"], y + moves[1] * k / steps * box["height"]
+            )
+        self.page.mouse.up()
 
     def hover(self, figure, row, at):
         """The tooltip over one point of a row, by its number."""
@@ -198,7 +213,7 @@ class Explorer:
             const figure = explorer.model(name), view = Bokeh.index.find_one(figure)
             const { left, top } = view.el.getBoundingClientRect(), { y_range, renderers } = figure
             const drawn = renderers.find(({ data_source: { data } }) => data.row?.includes(row))
-            const { start, end } = drawn.name.endsWith("right") ? figure.extra_y_ranges.right : y_range
+            const { start, end } = drawn.y_range_name === "right" ? figure.extra_y_ranges.right : y_range
             const up = y_range.start + (y - start) / (end - start) * (y_range.end - y_range.start)
             return [left + view.frame.x_scale.compute(x), top + view.frame.y_scale.compute(up)]
         }"""
@@ -237,11 +252,11 @@ class _Change:
         self.page = page
 
     def __enter__(self):
-        self.page.evaluate("window.before = explorer.serial()")
+        self.page.evaluate("window.before = explorer.scene()")
 
     def __exit__(self, kind, *_):
         if kind is None:
-            self.page.wait_for_function("explorer.serial() !== before && explorer.idle()")
+            self.page.wait_for_function("explorer.scene() !== before && explorer.idle()")
 
 
 @pytest.fixture(scope="session")

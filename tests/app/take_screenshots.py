@@ -3,6 +3,8 @@
 Run from the project root: python -m tests.app.take_screenshots
 """
 
+from app.state import PRESETS
+
 from .conftest import CHROMIUM, DROP, FLAGS, ROOT, Explorer, Server
 
 
@@ -16,11 +18,13 @@ def main():
             page = browser.new_page(viewport={"width": 1440, "height": 900})
             explorer = Explorer(page, server.url)
             page.screenshot(path=ROOT / "assets/explorer.png")
-            explorer.choose("Preset", DROP)
+            explorer.choose("Preset", PRESETS[DROP].label)
+            explorer.press("More about the medium")
             explorer.pick("τ")
+            explorer.press("Energy")
             page.locator("h1").click()
-            page.keyboard.press("d")
-            page.wait_for_timeout(800)
+            with explorer.change():
+                page.keyboard.press("d")
             page.screenshot(path=ROOT / "assets/explorer-impact.png")
             page = browser.new_page(viewport={"width": 400, "height": 800})
             Explorer(page, server.url)

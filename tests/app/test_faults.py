@@ -1,18 +1,19 @@
 """What cannot be shown leaves the page as it was, and in use, wherever it fails. Without a browser."""
 
-import time
+import threading
 from dataclasses import replace
 
 import pytest
 
-from app import link, view
-from app.explorer import FROM_FILE
+from app import changes
 from app.page import Page
-from app.plots import PLOTS
-from app.presets import OPENING, PRESETS
-from app.resting import COMPUTING, FAULT
+from app.plots import plot
+from app.solve import COMPUTING, FAULT
+from app.state import PRESETS, opened
 
-pytestmark = pytest.mark.filterwarnings("ignore:Widget.name is deprecated:PendingDeprecationWarning")
+from .conftest import DROP, GOLD
+
+Q_C = PRESETS[GOLD].values["q_c"]
 
 
 @pytest.fixture
@@ -23,55 +24,57 @@ def page(monkeypatch):
     return page
 
 
-def failing(*arguments):
+def failing(*arguments, **named):
     raise ArithmeticError("made to fail")
+
+
+def put(page, name, value):
+    page.tell(lambda state: changes.put(state, name, value))
 
 
 def assert_in_use(page):
     """It said so once, and the next change is drawn."""
     (said,) = page.said
     assert "Everything is as it was before" in said
-    page.explorer.q_c = 1.5 * PRESETS[OPENING].values["q_c"]
-    assert page.drawn.way.scene.medium.q_c == page.explorer.q_c
-    page.tell(page.explorer.undo)
-    assert page.drawn.way.scene.medium.q_c == PRESETS[OPENING].values["q_c"]
+    put(page, "q_c", 1.5 * Q_C)
+    assert page.shown.view.course.scene.medium.q_c == page.state.q_c == 1.5 * Q_C
+    page.frame.undo.clicks += 1
+    assert page.shown.view.course.scene.medium.q_c == Q_C
     assert len(page.said) == 1
 
 
 def test_axes(page, monkeypatch):
-    monkeypatch.setattr(view, "scales", failing)
-    page.controls.choices["axes"].value = "ratio"
-    assert page.explorer.axes == page.controls.choices["axes"].value == "units"
+    monkeypatch.setattr(plot, "_scales", failing)
+    page.choices.widgets["axes"].value = "ratio"
+    assert page.state.axes == page.choices.widgets["axes"].value == "units"
     assert_in_use(page)
 
 
 def test_a_plot_on_request(page, monkeypatch):
-    monkeypatch.setattr(page.grid, "_make", failing)
-    page.asked["map"].value = True
-    assert page.explorer.plots == []
-    assert not page.asked["map"].value
+    monkeypatch.setattr(page.board, "_make", failing)
+    page.board.tabs["surface"].value = True
+    assert page.state.tiles == ()
+    assert not page.board.tabs["surface"].value
     assert_in_use(page)
 
 
 def test_a_scene_that_is_held(page, monkeypatch):
-    monkeypatch.setattr(page.table, "show", lambda way, held: failing() if held else None)
-    page.hold.value = True
-    assert (page.explorer.hold, page.held, page.hold.value) == ([], [], False)
+    monkeypatch.setattr(page.table, "show", lambda course, held: failing() if held else None)
+    page.frame.hold.value = True
+    assert (page.state.hold, page.shown.held, page.frame.hold.value) == ((), [], False)
     assert_in_use(page)
 
 
 def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
     """What is beside the plots counts as shown too: undo leads to nothing that was refused."""
-    shown = page.away.show
+    shown = page.fitting.show
     monkeypatch.setattr(
-        page.away, "show", lambda: shown() if page.explorer.preset == OPENING else failing()
+        page.fitting, "show", lambda state: shown(state) if state.preset == GOLD else failing()
     )
-    page.explorer.progress = page.way.progress[3]
-    page._around()
-    page.controls.choices["preset"].value = list(PRESETS)[2]
-    assert page.explorer.preset == page.controls.choices["preset"].value == OPENING
-    assert page.explorer.progress == page.way.progress[3]
-    assert page.undo.disabled
+    put(page, "q_c", Q_C)
+    page.choices.widgets["preset"].value = DROP
+    assert page.state.preset == page.choices.widgets["preset"].value == GOLD
+    assert page.frame.undo.disabled
     assert_in_use(page)
 
 
@@ -84,75 +87,95 @@ class Typed:
 
 @pytest.mark.parametrize("act", ["preset", "undo", "reset"])
 def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
-    number = page.controls.number("q_c")
-    page.controls.number("max_depth")._asked(Typed("5 nm"))
-    number._asked(Typed("abc"))
-    assert (number.refused, number.said) == (
-        True,
-        "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m",
-    )
+    (depth,), (_, q_c) = page.controls.numbers["drive"], page.controls.numbers["first"]
+    depth._asked(Typed("5 nm"))
+    q_c._asked(Typed("abc"))
+    words = "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m"
+    assert (q_c.refused, q_c.said) == (True, words)
     # It stays to be mended while other numbers are set.
-    page.controls.number("max_depth")._asked(Typed("6 nm"))
-    assert number.refused
+    depth._asked(Typed("6 nm"))
+    assert q_c.refused
     if act == "preset":
-        page.controls.choices["preset"].value = list(PRESETS)[1]
+        page.choices.widgets["preset"].value = DROP
     else:
-        getattr(page, act).clicks += 1
-    assert (number.refused, number.said) == (False, "")
+        getattr(page.frame, act).clicks += 1
+    assert (q_c.refused, q_c.said) == (False, "")
 
 
-def test_a_scene_from_a_file_can_be_chosen_only_where_there_is_one(page):
-    presets = page.controls.choices["preset"]
-    assert list(presets.options) == list(PRESETS)
-    page.tell(lambda: link.load_scene(page.explorer, page.explorer.scene().to_json()))
-    assert list(presets.options) == [*PRESETS, "Scene from a file"]
-    assert presets.value == FROM_FILE
-    presets.value = list(PRESETS)[3]
-    assert page.explorer.preset == list(PRESETS)[3]
-    assert list(presets.options) == list(PRESETS)
-    page.undo.clicks += 1
-    assert presets.value == page.explorer.preset == FROM_FILE
+def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
+    (number,) = page.controls.numbers["drive"]
+    start = page.state.max_depth
+    for position in (210, 220, 230):
+        message = Typed("")
+        message.data = {"position": position}
+        number._asked(message)
+    assert page.state.max_depth > start
+    page.tell(lambda state: state.but(progress=0.5, axes="ratio"))
+    page.frame.undo.clicks += 1
+    assert (page.state.max_depth, page.state.progress, page.state.axes) == (start, 0.5, "ratio")
+    assert page.frame.undo.disabled
+    page.frame.redo.clicks += 1
+    assert page.state.max_depth > start
 
 
-def found(page, title=PLOTS["section"].title):
-    """What is shown of the section once the input has been at rest."""
+def test_the_indenter_is_dragged_to_a_depth_and_no_further_than_it_is_known(page):
+    page._dragged("tags", [], [12.0])
+    assert page.state.max_depth == pytest.approx(12e-9)
+    page._dragged("tags", [], [13.0])
+    assert page.board.player.hand.tags == []
+    page.frame.undo.clicks += 1
+    assert page.state.max_depth == PRESETS[GOLD].values["max_depth"]
+    page.tell(lambda state: changes.choose(state, "drive", "force"))
+    page._dragged("tags", [], [5.0])
+    assert float(page.shown.view.course.deepest.depth) == pytest.approx(5e-9)
+    page._dragged("tags", [], ["<b>"])
+    assert page.said == []
+
+
+def rested(page):
+    """Let the input be at rest, and wait until what was looked for then has come."""
+    came, show = threading.Event(), page._show_found
+
+    def shown(name, what):
+        show(name, what)
+        came.set()
+
+    page.resting._show = shown
     page._settled()
-    until = time.monotonic() + 30
-    while page.drawn.found[title] is COMPUTING or not page.drawn.found[title].rows:
-        assert time.monotonic() < until
-        time.sleep(0.02)
-    return page.drawn.found[title]
+    assert came.wait(60)
+    return page.shown.view.found["section"]
 
 
 def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
-    title = PLOTS["section"].title
-    page.asked["section"].value = True
-    assert page.drawn.found[title] == COMPUTING
-    first = found(page)
-    page.explorer.q_c = 1.2 * page.explorer.q_c
-    assert page.drawn.found[title] == replace(COMPUTING, axes=first.axes)
-    page.asked["section"].value = False
-    page.tell(page.explorer.undo)
-    page.asked["section"].value = True
-    assert page.drawn.found[title] is first
-    page._stood("value_throttled", page.way.now, 5)
-    assert page.drawn.found[title].note == "computing …"
-    assert found(page).rows["contact radius a"][0][0] == page.way.state.contact_radius
+    page.board.tabs["section"].value = True
+    assert page.shown.view.found["section"] == COMPUTING
+    first = rested(page)
+    put(page, "q_c", 1.2 * Q_C)
+    assert page.shown.view.found["section"] == replace(COMPUTING, axes=first.axes)
+    page.frame.undo.clicks += 1
+    assert page.shown.view.found["section"] is first
+    page._stood("value_throttled", page.shown.view.course.now, 5)
+    assert page.shown.view.found["section"].note == "computing …"
+    again = rested(page)
+    assert again.rows["contact radius a"][0][0] == page.shown.view.course.state.contact_radius
 
 
 def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
-    show = page.grid.show
-    page.asked["section"].value = True
-    monkeypatch.setattr(
-        page.grid, "show", lambda view, names: failing() if found_rows(view) else show(view, names)
-    )
-    page._settled()
-    until = time.monotonic() + 30
-    while page.drawn.found[PLOTS["section"].title] is not FAULT:
-        assert time.monotonic() < until
-        time.sleep(0.02)
+    show = page.board.show
+    page.board.tabs["section"].value = True
+
+    def fails(columns, view, state):
+        return failing() if view.found["section"].rows else show(columns, view, state)
+
+    monkeypatch.setattr(page.board, "show", fails)
+    assert rested(page) is FAULT
     assert_in_use(page)
 
 
-def found_rows(view):
-    return view.found[PLOTS["section"].title].rows
+def test_a_link_that_cannot_be_opened_is_a_notice(monkeypatch):
+    said = []
+    monkeypatch.setattr(Page, "notify", lambda page, text: said.append(text))
+    page = Page({"preset": [b"none"]})
+    assert said == ["The link was not opened: this link names no preset that is known"]
+    assert page.state == opened()
+    assert Page({"preset": [DROP.encode()], "speed": [b"3.0"]}).shown.view.course.hit.speed == 3.0

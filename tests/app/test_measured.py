@@ -1,16 +1,20 @@
 """A measured curve: read as instruments write it, laid over the model, and fitted."""
 
+import re
+
 import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app import export, measured
-from app.drives import follow
-from app.explorer import Explorer
-from app.measured import Curve, read_curve
+from app import changes
+from app.page import Page
+from app.panels import fitting, share
 from app.plots import PLOTS
-from app.view import View
+from app.solve import follow, scene_of
+from app.state import medium, opened, profile
+from app.state.files import agrees, read_curve
 
+from .made import seen
 from .test_page import unit as unit_of
 
 DEPTH, FORCE = [-1.0, 0.0, 2.0, 4.0, 3.0], [0.0, 0.0, 1.5, 6.0, 2.0]
@@ -59,17 +63,29 @@ def test_old_encodings_and_long_files():
     ("data", "says"),
     [
         (b"h (nm)\n1\n2\n", "one column"),
-        (b"h (nm), F (nN)\n1, 2\n2, nan\n", "row 2 of the numbers"),
         (b"h (nm), F (nN)\n1,5,2,3\n", "separate columns by semicolons"),
-        (b"h (nm), F (nN)\n1, 2\nx, 3\n", "line 3: expected 2 numbers, found 'x, 3'"),
         (b"nothing", "no rows of numbers"),
         (b"h (nm), F (nN)\n1, 2\n", "one row of numbers"),
         (b" \n", "the file is empty"),
+        (b"h (nm), F (nN)\n1, 2\nx, 3\ny, 4\nz\n", "most lines|column of numbers"),
     ],
 )
 def test_what_is_no_curve_is_refused(data, says):
     with pytest.raises(ValueError, match=says):
         read_curve(data, "run.csv")
+
+
+def test_a_column_of_text_and_an_empty_cell_are_left_out_and_said():
+    lines = [
+        "phase; h (nm); F (nN)",
+        *(f"load; {k}; {k * k}" for k in range(8)),
+        "load; ; 9",
+        "hold; 9; 81",
+    ]
+    curve = read_curve("\n".join(lines).encode(), "run.csv")
+    np.testing.assert_allclose(curve.data[0], np.array([*range(8), 9]) * 1e-9, rtol=1e-12)
+    assert "column 1 is no number and is left out" in curve.note
+    assert "line 10 has a cell that is no finite number and is left out" in curve.note
 
 
 def test_columns_and_units_are_corrected():
@@ -83,90 +99,77 @@ def test_columns_and_units_are_corrected():
         curve.corrected("time", 1)
 
 
-def fitted(**changes):
-    explorer = Explorer()
-    before = explorer.medium()
-    explorer.take_curve(measured.example(explorer))
-    explorer.param.update(**changes)
-    explorer.accept()
-    measured.fit(explorer)
-    explorer.accept()
-    return explorer, before
-
-
-def view(explorer):
-    return View(follow(explorer.scene(), 1.0), curve=Curve.of(explorer))
+def fitted(**changed):
+    state = fitting.take(opened(), fitting.example(opened())).but(**changed)
+    return fitting.fit(state), medium(opened())
 
 
 def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
-    explorer, before = fitted()
+    page = Page()
+    before = medium(page.state)
+    page.tell(lambda state: fitting.take(state, fitting.example(state)))
+    page.tell(fitting.fit)
+    state = page.state
     # Ten standard errors of 0.4 % noise in 400 samples.
-    assert explorer.E_star == pytest.approx(1.3 * before.E_star, rel=1e-2)
-    assert explorer.q_c == pytest.approx(0.8 * before.q_c, rel=5e-3)
-    deepest = float(np.max(explorer.measured.fit.path.depth))
-    assert explorer.scene().drive == mdr.DepthPath(deepest)
-    assert measured.agrees(explorer)
-    explorer.undo()
-    assert explorer.medium() == before
-    assert explorer.measured.fit is None
-    assert explorer.contact_point == 0
-    explorer.undo()
-    assert explorer.measured is None
+    assert state.E_star == pytest.approx(1.3 * before.E_star, rel=1e-2)
+    assert state.q_c == pytest.approx(0.8 * before.q_c, rel=5e-3)
+    deepest = float(np.max(state.curve.fit.path.depth))
+    assert scene_of(state).drive == mdr.DepthPath(deepest)
+    assert agrees(state)
+    assert "residual" in page.board.names
+    page.frame.undo.clicks += 1
+    assert medium(page.state) == before
+    assert page.state.curve.fit is None
+    page.frame.undo.clicks += 1
+    assert page.state.curve is None
+    page.frame.redo.clicks += 2
+    assert page.state.curve is not None
 
 
-def test_what_is_held_stays():
-    explorer, before = fitted(holds=["E_star", "frame_compliance"], noise="given", depth_noise=1e-11)
-    assert explorer.medium().E_star == before.E_star
-    assert explorer.elasticity == "bodies"
-    assert explorer.measured.fit.standard_errors.keys() == {"q_c", "contact_point", "baseline"}
-    assert explorer.baseline == explorer.measured.fit.baseline != 0
+def test_what_is_fixed_stays():
+    state, before = fitted(fixed=("E_star", "frame_compliance"), noise="given", depth_noise=1e-11)
+    assert medium(state).E_star == before.E_star
+    assert state.elasticity == "bodies"
+    assert state.curve.fit.standard_errors.keys() == {"q_c", "contact_point", "baseline"}
+    assert state.baseline == state.curve.fit.baseline != 0
 
 
 def test_what_cannot_be_fitted_is_refused_as_it_was():
-    explorer = Explorer()
-    explorer.take_curve(read_curve(file((range(6), [0] * 6), ["h (nm), F (nN)"]), "flat"))
+    curve = read_curve(file((range(6), [0] * 6), ["h (nm), F (nN)"]), "flat")
     with pytest.raises(ValueError, match="no contact in it"):
-        measured.fit(explorer)
+        fitting.fit(fitting.take(opened(), curve))
 
 
 def test_the_curve_lies_where_it_is_set_to_and_its_residual_is_of_what_is_set():
-    explorer, _ = fitted()
-    still = view(explorer)
-    np.testing.assert_allclose(still.residual, explorer.measured.fit.residuals)
-    rows = still.columns(PLOTS["residual"], 0)
-    np.testing.assert_allclose(rows["± noise"][1][0], explorer.measured.fit.force_noise)
-    z, F = explorer.measured.data
-    explorer.param.update(E_star=2e11, baseline=1e-8, contact_point=1e-9, frame_compliance=1e-5)
-    moved = view(explorer)
+    state, _ = fitted()
+    np.testing.assert_allclose(seen(state).residual, state.curve.fit.residuals)
+    z, F = state.curve.data
+    state = state.but(E_star=2e11, baseline=1e-8, contact_point=1e-9, frame_compliance=1e-5)
+    view = seen(state)
     d = z - 1e-9 - 1e-5 * (F - 1e-8)
-    x, y = moved.columns(PLOTS["force"], 0)["measured"]
-    np.testing.assert_allclose((x, y), (d, F - 1e-8), rtol=1e-12)
-    expected = F - 1e-8 - mdr.indent(explorer.profile(), explorer.medium(), d).force
-    np.testing.assert_allclose(moved.residual, expected, rtol=1e-9, atol=1e-15)
-    assert np.isnan(moved.columns(PLOTS["residual"], 0)["± noise"][0]).all()
-    assert moved.axes["ΔF"].end >= np.abs(expected).max()
-    assert moved.axes["ΔF"].start == -moved.axes["ΔF"].end
+    np.testing.assert_allclose((view.curve.depth, view.curve.force), (d, F - 1e-8), rtol=1e-12)
+    expected = F - 1e-8 - mdr.indent(profile(state), medium(state), d).force
+    np.testing.assert_allclose(view.residual, expected, rtol=1e-9, atol=1e-15)
+    assert np.isnan(view.rows(PLOTS["residual"], 0)["± noise"][0]).all()
+    assert view.axis("ΔF").end >= np.abs(expected).max()
 
 
 def test_a_tip_that_ends_above_the_measured_depth_says_so():
-    explorer = Explorer()
-    explorer.take_curve(measured.example(explorer))
     r = np.linspace(0, 5e-9, 20)
-    explorer.take_tip((r, 0.1 * r), "")
-    assert view(explorer).columns(PLOTS["residual"], 0)["missing"][2] == "no model at these depths"
+    state = changes.take_tip(fitting.take(opened(), fitting.example(opened())), (r, 0.1 * r), "")
+    assert seen(state).rows(PLOTS["residual"], 0)["missing"][2] == "no model at these depths"
 
 
-@pytest.mark.parametrize("holds", [["baseline"], ["E_star", "baseline", "frame_compliance"], []])
-def test_csv_and_python_reproduce_the_fit(holds, tmp_path, monkeypatch):
-    explorer, _ = fitted(holds=holds)
-    way, found = follow(explorer.scene(), 1.0), explorer.measured.fit
-    text = export.fit_csv(way, explorer)
-    assert f"# q_c = {found.to_dict()['q_c']!r}" in text
+@pytest.mark.parametrize("fixed", [("baseline",), ("E_star", "baseline", "frame_compliance"), ()])
+def test_csv_and_python_reproduce_the_fit(fixed, tmp_path, monkeypatch):
+    state, _ = fitted(fixed=fixed)
+    found = state.curve.fit
+    text = share.fit_csv(follow(state), state)
     assert f"# q_c_error = {found.to_dict()['q_c_error']!r}" in text
     (tmp_path / "fit.csv").write_text(text, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     values = {}
-    exec(export.python(way) + export.fit_python(explorer.measured), values)
+    exec(share.python(follow(state)) + share.fit_python(state.curve), values)
     # The same data by the same way.
     assert values["fit"].to_dict() == pytest.approx(found.to_dict(), rel=1e-9)
 
@@ -178,22 +181,32 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
     path.write_bytes(file((d * 1e9 + 0.5, F * 1e9), ["h (nm); F (µN)"], "; "))
     page.locator("h1").click()
     page.keyboard.press("f")
-    with explorer.change():
-        page.get_by_label("CSV file of a measured curve: depth, force").set_input_files(path)
-    explorer.choose("Unit of force", "nN")
-    assert explorer.hover("force", "measured", 60)[0] == "measured"
+    for again in (False, True):
+        if again:
+            with explorer.change():
+                explorer.press("Remove")
+        # A file of the same name is read again.
+        with explorer.change():
+            with page.expect_file_chooser() as chooser:
+                page.get_by_label("CSV file of a measured curve: depth, force").click()
+            chooser.value.set_files(path)
+    before = explorer.axis("force")["labels"][1]
+    page.get_by_label("Unit of force", exact=True).select_option(label="nN")
+    explorer.wait("(label) => explorer.axis('force').labels[1] !== label", before)
     with explorer.change():
         explorer.press("Fit")
     # The file has three decimals, of 1.5 nm of unloading.
-    modulus, unit = explorer.field("E*").input_value().split()
-    assert float(modulus) == pytest.approx(60, rel=1e-3)
-    assert unit == "GPa"
-    assert explorer.readout("d") == "9.000 nm"
     y = explorer.row("residual", "measured − model")[1]
     size = unit_of(explorer.axis("residual")["labels"][1], "force")
     assert np.nanmax(np.abs(y)) * size < 1e-3 * F.max()
-    with explorer.change():
-        explorer.type("q_c", "100 N/m")
-    page.get_by_text("What is set on the page is not this fit any more.").wait_for()
-    explorer.press("Take with you")
-    page.get_by_label("Link to this page, without the measured curve").wait_for()
+    assert explorer.readout("depth") == "9.000 nm"
+    text = page.locator(".said table").inner_text()
+    modulus = float(re.search(r"E\*\s+([\d.]+)", text)[1])
+    assert modulus == pytest.approx(60, rel=1e-3)
+    # The plots stay in view beside the form.
+    for name in ("springs", "pressure", "force", "residual"):
+        box = page.locator(f".card.{name}").bounding_box()
+        assert box["y"] + box["height"] <= 900
+    page.locator("h1").click()
+    page.keyboard.press("t")
+    page.get_by_text("The measured curve is not in the link").wait_for()

@@ -6,16 +6,15 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app import columns
-from app.drives import follow
-from app.explorer import Explorer as State
-from app.packet import inside
+from app import changes
 from app.plots import PLOTS
-from app.presets import PRESETS
-from app.units import UNITS
-from app.view import View
+from app.plots.draw import Picture
+from app.solve import follow, scene_of
+from app.state import PRESETS, State, opened
+from app.state.units import UNITS
 
-from .conftest import DROP
+from .conftest import DROP, ELASTIC, PUNCH
+from .made import chosen, seen
 
 
 def unit(label, kind):
@@ -31,93 +30,165 @@ def now(explorer):
     return [x[0] * unit(labels[0], "length"), y[0] * unit(labels[1], "force")]
 
 
-def assert_draws(explorer, state):
-    """All that the page draws of the present state is what the columns of `state` say."""
-    view = View(follow(state.scene(), state.progress))
-    way = view.way
-    np.testing.assert_allclose(now(explorer), [way.state.depth, way.state.force], rtol=1e-6, atol=1e-30)
-    rows = columns.springs(view, way.now) | columns.pressure(view, way.now)
-    for figure, kind, name in (
-        ("springs", "lines", "yielded"),
-        ("springs", "areas", "profile g(x)"),
-        ("pressure", "lines", "−σzz(r)"),
-    ):
-        plot = PLOTS[figure]
-        row = inside(kind, view.axes_of(plot), rows[name])
-        for drawn, expected, axis in zip(explorer.row(figure, name), row, view.axes_of(plot), strict=True):
-            np.testing.assert_allclose(drawn, expected / axis.factor, rtol=1e-5, atol=1e-5 * axis.ends[1])
+def assert_draws(explorer, state: State):
+    """All that the page draws of the present state is what the plots have of `state`."""
+    view = seen(state, state.progress)
+    course = view.course
+    expected = float(course.state.depth), float(course.state.force)
+    np.testing.assert_allclose(now(explorer), expected, rtol=1e-3, atol=1e-30)
+    for figure, name in (("springs", "yielded"), ("springs", "profile g(x)"), ("pressure", "−σzz(r)")):
+        columns = Picture(PLOTS[figure]).columns(view, course.now, False)
+        data = next(data for data in columns.values() if name in data["row"])
+        k = data["row"].index(name)
+        for drawn, places in zip(explorer.row(figure, name), (data["xs"][k], data["ys"][k]), strict=True):
+            np.testing.assert_allclose(drawn, np.array(places, float), rtol=1e-6, atol=1e-9)
+
+
+#: Boxes of what must be in view at once, and what can be pressed.
+FIRST = """() => {
+  const box = (on) => on.getBoundingClientRect().toJSON()
+  const hosts = (name) => explorer.all().filter((on) => on.classList.contains(name) && on.shadowRoot)
+  const seen = (on) => on.getBoundingClientRect().width > 0
+  const cards = ["springs", "pressure", "force"].map((name) => box(hosts(name)[0]))
+  const numbers = hosts("number").filter(seen).map(box)
+  const within = hosts("buttons").flatMap((on) => explorer.all(on.shadowRoot))
+  const six = within.filter((on) => on.matches("button") && seen(on)).length
+  const readouts = explorer.all().filter((on) => on.matches("output")).length
+  return { cards, numbers, strip: box(hosts("line")[0]), readouts, six }
+}"""
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (1440, 900)])
+def test_the_first_screen_has_what_a_person_comes_for(server, browser, size):
+    """The drive with its slider first, shape, E* and q_c; one line of readouts; three plots, all whole."""
+    from .conftest import Explorer
+
+    width, height = size
+    with browser.new_context(viewport={"width": width, "height": height}) as context:
+        explorer = Explorer(context.new_page(), server.url)
+        found = explorer.page.evaluate(FIRST)
+        assert len(found["numbers"]) == 4
+        assert [number["bottom"] <= height for number in found["numbers"]] == [True] * 4
+        first = explorer.slider("d_max").bounding_box()
+        assert first["y"] < 0.3 * height
+        for card in found["cards"]:
+            assert card["bottom"] <= height
+            assert card["right"] <= width
+            assert card["right"] - card["left"] > 0.3 * width
+            assert card["bottom"] - card["top"] > 0.3 * height
+        assert found["readouts"] <= 8
+        assert found["six"] == 6
+        assert found["strip"]["bottom"] - found["strip"]["top"] < 70
+        assert explorer.page.evaluate("document.documentElement.scrollHeight") <= height
+        assert explorer.problems == []
 
 
 def test_the_page_opens_on_a_cone_that_has_yielded_and_says_what_everything_is(explorer):
     """Every control has a name and an explanation; tooltips are of the data and their own axis."""
-    assert_draws(explorer, State())
+    assert_draws(explorer, opened())
     assert explorer.page.title() == "Indentation explorer"
-    assert explorer.readout("F") == "4.514 µN"
-    assert explorer.readout("d/d_c") == "5.000"
+    assert explorer.readout("force") == "4.514 µN"
+    assert explorer.readout("relative_depth") == "5.000"
     assert explorer.axis("springs")["x"] == explorer.axis("pressure")["x"]
     page = explorer.page
-    for each in page.locator("input, select, textarea").all():
+    for each in page.locator("input:visible, select:visible, textarea:visible").all():
         named = each.evaluate(
             """(on) => on.ariaLabel || on.labels?.[0]?.textContent.trim()
                 || on.closest("label")?.textContent.trim()"""
         )
         assert named, each.evaluate("(on) => on.outerHTML")
-    assert page.get_by_label("State along the way").get_attribute("role") == "slider"
-    assert page.get_by_role("radiogroup", name="Viscosity").count() == 1
-    explorer.page.get_by_label("What is q_c, yield constant?").click()
-    about = page.locator(".number", has=explorer.field("q_c")).locator(".about")
+    assert page.get_by_label("State along the path").get_attribute("role") == "slider"
+    page.get_by_label("What is q_c, yield constant?").click()
+    about = explorer.number("q_c").locator(".about")
     assert "Hardness times contact radius" in about.inner_text()
     assert "(11)" in about.inner_text()
-    label = explorer.axis("radii")["labels"][1]
+    page.get_by_role("button", name="Radii").click()
+    explorer.wait("explorer.model('radii') && explorer.row('radii', 'plastic zone c')?.[0].length > 10")
     c = explorer.row("radii", "plastic zone c")
-    k = len(c[0]) * 2 // 3
-    tip = explorer.hover("radii", "plastic zone c", k)
+    tip = explorer.hover("radii", "plastic zone c", len(c[0]) * 2 // 3)
     assert tip[0] == "plastic zone c"
-    assert tip[1].startswith("c = ")
-    assert tip[1].endswith(label.rpartition("(")[2].rstrip(")"))
-    said = float(re.search(r"[\d.]+", tip[1])[0])
-    # One of the points drawn, to the digits shown.
-    assert np.min(np.abs(c[1] - said) / said) < 1e-3
+    assert re.fullmatch(r"c = [\d.]+ nm", tip[1])
+    assert re.fullmatch(r"d = [\d.]+ nm", tip[2])
 
 
-def test_keys_and_the_player_move_every_plot(explorer):
-    """The imprint stays when the load is gone; playing and dragging need no server."""
+def test_keys_player_and_hand_move_every_plot(explorer):
+    """Playing needs no server; the indenter and the mark are dragged."""
     page = explorer.page
     for symbol in ("s", "q_c", "d_max"):
         before, text = now(explorer), explorer.field(symbol).input_value()
         explorer.slider(symbol).focus()
         with explorer.change():
-            explorer.page.keyboard.press("PageUp")
+            page.keyboard.press("PageUp")
         assert explorer.field(symbol).input_value() != text
         assert now(explorer) != before
-    explorer.press("Reset")
-    explorer.wait("explorer.row('force', 'now')[0][0].toFixed(3) === '8.978'")
-    assert_draws(explorer, State())
-    explorer.page.get_by_label("State along the way").press("End")
+    page.locator("h1").click()
+    with explorer.change():
+        page.keyboard.press("r")
+    assert_draws(explorer, opened())
+    # The indenter is taken by the hand: deeper, and one change to undo.
+    explorer.drag("springs", (0, 0.2))
+    explorer.wait(
+        "explorer.row('force', 'now')[0][0] > 9.5 && !explorer.model('hand').tags.length && explorer.idle()"
+    )
+    deeper = now(explorer)
+    explorer.link("max_depth=")
+    assert explorer.slider("d_max").input_value() != "200"
+    with explorer.change():
+        explorer.press("Undo")
+    assert now(explorer)[0] < deeper[0]
+    assert_draws(explorer, opened())
+    page.get_by_label("State along the path").press("End")
     explorer.wait("explorer.played() && explorer.row('force', 'now')[1][0] === 0")
-    state = State()
-    state.progress = 2.2
-    assert_draws(explorer, state)
-    assert explorer.readout("a") == "0"
+    assert explorer.readout("contact_radius") == "0"
     explorer.link("at=2.2")
     page.evaluate("explorer.listen()")
-    box = page.locator(".card.force").bounding_box()
-    page.mouse.move(box["x"] + 0.7 * box["width"], box["y"] + 0.5 * box["height"])
-    page.mouse.down()
-    for share in (0.6, 0.5, 0.4, 0.3):
-        before = explorer.row("force", "now")[0][0]
-        page.mouse.move(box["x"] + share * box["width"], box["y"] + 0.6 * box["height"])
-        explorer.wait("(old) => explorer.row('force', 'now')[0][0] !== old", before)
-    assert page.evaluate("explorer.sent") == []
-    page.mouse.up()
+    page.mouse.move(0, 0)
+    before = explorer.row("force", "now")
+    explorer.drag("force", (-0.15, 0.1))
+    explorer.wait("(old) => explorer.row('force', 'now')[0][0] !== old", before[0][0])
+    # Where it ends is all that the server hears.
+    sent = page.evaluate("explorer.sent.length")
+    assert sent <= 6
     page.locator("h1").click()
     page.keyboard.press(" ")
-    first = now(explorer)
-    explorer.wait("(old) => Math.abs(explorer.row('force', 'now')[0][0] - old) > 0.01", first[0] * 1e9)
+    first = explorer.row("force", "now")[0][0]
+    explorer.wait("(old) => Math.abs(explorer.row('force', 'now')[0][0] - old) > 0.01", first)
     page.keyboard.press(" ")
     page.get_by_role("button", name="▶ Play").wait_for()
-    at = float(explorer.link("at=")["at"])
-    assert 0 <= at <= 2.2
+    assert 0 <= float(explorer.link("at=")["at"]) <= 2.2
+
+
+def test_a_finger_drags_the_indenter(server, browser):
+    """On a touch screen: the events that a finger makes, as the browser gets them."""
+    from .conftest import Explorer
+
+    with browser.new_context(viewport={"width": 1000, "height": 1400}, has_touch=True) as context:
+        explorer = Explorer(context.new_page(), server.url)
+        page = explorer.page
+        page.locator(".card.springs").scroll_into_view_if_needed()
+        box = page.locator(".card.springs canvas").first.bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        touch = context.new_cdp_session(page)
+
+        def send(kind, *points):
+            points = [{"x": px, "y": py} for px, py in points]
+            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+        send("touchStart", (x, y))
+        for k in range(1, 8):
+            send("touchMove", (x, y + 6 * k))
+        send("touchEnd")
+        explorer.wait("explorer.row('force', 'now')[0][0] > 9.2")
+
+
+def test_the_pointer_reads_springs_and_pressure_at_once(explorer):
+    x, y = explorer.row("pressure", "−σzz(r)")
+    k = int(np.searchsorted(x, 5.0))
+    explorer.hover("pressure", "−σzz(r)", k)
+    text = "() => explorer.model('springs').center.find((each) => each.type === 'Label').text"
+    explorer.wait(f"() => ({text})().includes('σzz')")
+    r, p = map(float, re.findall(r"= ([\d.]+)", explorer.page.evaluate(text)))
+    assert p == pytest.approx(np.interp(r, x, y), rel=1e-2)
 
 
 def test_typed_numbers_are_read_as_they_say_refused_where_they_stand_and_undone(explorer):
@@ -127,114 +198,184 @@ def test_typed_numbers_are_read_as_they_say_refused_where_they_stand_and_undone(
     assert now(explorer)[0] == pytest.approx(2.5e-9)
     with explorer.change():
         explorer.type("d_max", "1e-6")
-    assert now(explorer)[0] == pytest.approx(1e-6)
     assert explorer.said("d_max") == "1e-6 in SI is 1.000 µm"
-    explorer.slider("d_max").dblclick(position={"x": 3, "y": 2})
-    explorer.wait("explorer.row('force', 'now')[0][0].toFixed(3) === '8.978'")
+    with explorer.change():
+        explorer.press("Undo")
+    with explorer.change():
+        explorer.press("Undo")
+    number = explorer.number("d_max")
     for text, why in (
         ("abc", "is not a number"),
         ("1000 m", "out of bounds"),
         ("<img src=x>", "<img src=x>"),
     ):
         explorer.type("d_max", text)
-        number = explorer.page.locator(".number", has=explorer.field("d_max"))
         number.locator("#said", has_text=why).wait_for()
         assert explorer.field("d_max").input_value() == text
         assert explorer.field("d_max").get_attribute("aria-invalid") == "true"
         assert number.locator("img").count() == 0
-    assert_draws(explorer, State())
-    explorer.press("Reset")
-    number.locator("#said", has_text="is not").wait_for(state="detached")
-    assert explorer.field("d_max").input_value() == "8.978 nm"
-    assert explorer.field("d_max").get_attribute("aria-invalid") == "false"
+    assert_draws(explorer, opened())
     with explorer.change():
         explorer.type("d_max", "5 nm")
     assert explorer.field("d_max").get_attribute("aria-invalid") == "false"
     with explorer.change():
-        explorer.press("Undo")
-    assert_draws(explorer, State())
-    with explorer.change():
-        explorer.page.locator("h1").click()
-        explorer.page.keyboard.press("y")
-    assert now(explorer)[0] == pytest.approx(5e-9)
+        explorer.slider("d_max").dblclick(position={"x": 3, "y": 2})
+    explorer.wait("explorer.row('force', 'now')[0][0].toFixed(3) === '8.978'")
 
 
-def test_in_time_each_axis_has_its_unit_and_a_body_hits_the_same_spot_again(explorer):
-    explorer.choose("Preset", DROP)
-    tip = explorer.hover("motion", "depth d", 20)
-    assert tip[0] == "depth d"
-    assert re.fullmatch(r"d = [\d.]+ [µm]m", tip[1])
-    tip = explorer.hover("motion", "force F", 10)
-    assert re.fullmatch(r"F = [\d.]+ kN", tip[1])
-    assert re.fullmatch(r"t = [\d.]+ ms", tip[2])
-    hit = State(DROP).scene().solve()
-    with explorer.change():
-        explorer.press("Hit again")
-    again = mdr.impact(hit.profile, hit.medium, hit.mass, hit.speed, plastic_depth=hit.plastic_depth)
-    assert explorer.readout("e") == f"{float(again.restitution):.4f}"
-    assert explorer.page.locator('.cell[data-symbol="F_c"]').count() == 0
-    assert explorer.page.locator('.cell[data-symbol="d_y"]').count() == 1
-
-
-def test_a_peak_beyond_the_axis_is_named_and_presets_shapes_drives_and_media_are_drawn(explorer):
-    assert explorer.labels("pressure")[2] == ""
-    with explorer.change():
-        explorer.type("d_max", "1.9 nm")
-    explorer.page.get_by_label("State along the way").press("Home")
-    explorer.wait("explorer.played()")
-    explorer.choose("Preset", "Flat steel punch on glass-fibre epoxy")
-    assert explorer.labels("pressure")[2] == "↑ −σzz → ∞ at the rim"
-    for label in list(PRESETS)[1:4]:
-        explorer.choose("Preset", label)
-        assert_draws(explorer, State(label))
-    state = State(label)
+def test_presets_shapes_drives_and_media_are_drawn(explorer):
+    for key in (PUNCH, "berkovich-pdms"):
+        explorer.choose("Preset", PRESETS[key].label)
+        assert_draws(explorer, opened(key))
+    state = opened("berkovich-pdms")
     explorer.choose("Shape", "Sphere")
-    state.choose("shape", "sphere")
+    state = changes.choose(state, "shape", "sphere")
     assert_draws(explorer, state)
-    for option, name, value in (
-        ("to force", "drive", "force"),
-        ("E*", "elasticity", "modulus"),
-        ("hardness", "plasticity", "hardness"),
-    ):
+    explorer.pick("force")
+    state = changes.choose(state, "drive", "force")
+    assert_draws(explorer, state)
+    explorer.press("More about the medium")
+    for option, name, value in (("hardness", "plasticity", "hardness"), ("E*", "elasticity", "modulus")):
         explorer.pick(option)
-        state.choose(name, value)
+        state = changes.choose(state, name, value)
         assert_draws(explorer, state)
     assert explorer.page.get_by_text("Altered. Where the preset's numbers come from").count() == 1
 
 
-def test_what_is_taken_away_comes_back(explorer, tmp_path):
-    """Pictures with title, legend and inputs; link, snippet and scene; a measured tip."""
-    picture = explorer.save("force", "SVG").read_text(encoding="utf-8")
-    for text in ("Force and depth", "dissipated", "yielding", "Cone, s = 0.358"):
-        assert text in picture
-    assert "held" not in picture
-    png = explorer.save("pressure", "PNG").read_bytes()
+def test_in_time_each_axis_has_its_unit_and_a_body_hits_the_same_spot_again(explorer):
+    explorer.choose("Preset", PRESETS[DROP].label)
+    explorer.press("In time")
+    explorer.wait("explorer.model('motion') && explorer.row('motion', 'depth d')?.[0].length > 10")
+    tip = explorer.hover("motion", "depth d", 20)
+    assert tip[0] == "depth d"
+    assert re.fullmatch(r"d = [\d.]+ [µm]m", tip[1])
+    tip = explorer.hover("motion", "force F", 40)
+    assert re.fullmatch(r"F = [\d.]+ kN", tip[1])
+    hit = scene_of(opened(DROP)).solve()
+    with explorer.change():
+        explorer.press("Hit again")
+    again = mdr.impact(hit.profile, hit.medium, hit.mass, hit.speed, plastic_depth=hit.plastic_depth)
+    assert explorer.readout("restitution") == f"{float(again.restitution):.4f}"
+    explorer.press("All numbers")
+    explorer.page.locator('tr[data-name="again_depth"]').wait_for()
+    assert explorer.page.locator('tr[data-name="critical_force"]').count() == 0
+
+
+def test_an_oblique_impact_a_path_and_a_section_are_found_at_rest(explorer):
+    explorer.choose("Preset", PRESETS[ELASTIC].label)
+    explorer.pick("oblique impact")
+    explorer.press("Friction")
+    hit = scene_of(chosen(ELASTIC, "oblique")).solve()
+    explorer.wait("explorer.model('forces') && !explorer.phase().includes('so far')")
+    explorer.link("tiles=forces")
+    _, force = explorer.row("forces", "force along Fₓ")
+    assert np.max(np.abs(force)) == pytest.approx(float(hit.max_tangential_force), rel=1e-3)
+    page, table = explorer.page, explorer.page.get_by_label("Vertices: one a line, with times or without")
+    explorer.pick("path")
+    explorer.choose("Pattern", "five cycles, growing")
+    assert len(table.input_value().splitlines()) == 10
+    table.fill("10 nm\n5 bananas")
+    table.blur()
+    page.get_by_text("Line 2: “5 bananas” is not a number").wait_for()
+    with explorer.change():
+        table.fill("6 µm\n5 µm\n8 µm")
+        table.blur()
+    assert explorer.link("pattern=own")["path"] == "6e-06 5e-06 8e-06"
+    explorer.press("Section")
+    explorer.wait(
+        "explorer.model('section') && explorer.row('section', 'contact radius a')?.[0].length === 2"
+    )
+    a = float(follow(changes.type_path(chosen(ELASTIC, "path"), "6 µm\n5 µm\n8 µm")).deepest.contact_radius)
+    explorer.wait(
+        "(a) => Math.abs(explorer.row('section', 'contact radius a')[0][0] - a) < 1e-3 * a", a * 1e6
+    )
+
+
+def test_scenes_are_held_and_come_back_from_the_address_in_the_dark(explorer):
+    page = explorer.page
+    for depth in ("4 nm", "7 nm"):
+        with explorer.change():
+            explorer.type("d_max", depth)
+        page.locator("h1").click()
+        with explorer.change():
+            page.keyboard.press("h")
+    page.keyboard.press("j")
+    names = page.get_by_role("textbox", name=re.compile("held [12]"))
+    assert [names.nth(k).input_value() for k in (0, 1)] == ["d_max = 4.00 nm", "d_max = 7.00 nm"]
+    for k in (1, 2):
+        box = page.get_by_role("button", name=f"Remove {k}").bounding_box()
+        assert box["x"] + box["width"] <= 312
+    with explorer.change():
+        names.first.fill("shallow")
+        names.first.press("Enter")
+    with explorer.change():
+        page.get_by_role("button", name="Remove 2").click()
+    page.locator("h1").click()
+    with explorer.change():
+        page.keyboard.press("d")
+    explorer.press("Explore")
+    with explorer.change():
+        explorer.type("q_c", "90 N/m")
+    explorer.link("q_c=90")
+    held = explorer.row("force", "held 1")
+    page.reload()
+    explorer.wait("window.explorer?.idle() && document.documentElement.classList.contains('dark')")
+    np.testing.assert_allclose(explorer.row("force", "held 1"), held, rtol=1e-6)
+    assert explorer.field("q_c").input_value() == "90 N/m"
+    assert page.get_by_role("button", name="Undo").is_disabled()
+
+
+def test_the_sweep_moves_with_a_slider_and_one_plot_can_be_large(explorer):
+    explorer.choose("Preset", PRESETS[DROP].label)
+    explorer.press("Sweep")
+    explorer.wait("explorer.model('sweep') && explorer.row('sweep', 'this scene')?.[0].length > 50")
+
+    def present():
+        labels = explorer.axis("sweep")["labels"]
+        (x,), (y,) = explorer.row("sweep", "present value")
+        return x * unit(labels[0], "energy"), y * unit(labels[1], "area")
+
+    hit = scene_of(opened(DROP)).solve()
+    assert present() == pytest.approx((2.75, float(hit.damaged_area)), rel=1e-4)
+    explorer.slider("v_0").focus()
+    with explorer.change():
+        explorer.page.keyboard.press("PageUp")
+    assert present()[0] > 2.75
+    before = explorer.page.locator(".card.springs").bounding_box()
+    explorer.page.locator(".card.springs").get_by_role("button", name="Large").click()
+    explorer.wait("(wide) => explorer.model('springs').inner_width > 1.5 * wide", before["width"] * 0.8)
+    slider = explorer.slider("v_0").bounding_box()
+    large = explorer.page.locator(".card.springs").bounding_box()
+    assert slider["x"] + slider["width"] <= large["x"]
+
+
+def test_what_is_shared_comes_back(explorer, tmp_path):
+    """A picture with title and legend; link and snippet; a measured tip."""
+    png = explorer.save("pressure").read_bytes()
     width, height = (int.from_bytes(png[k : k + 4], "big") for k in (16, 20))
     assert min(width / 840, height / 600) >= 1
     page = explorer.page
-    explorer.press("Take with you")
+    explorer.press("Share")
     snippet = page.get_by_label("This state with mdr_core")
-    explorer.wait("explorer.idle()")
     page.wait_for_function("(on) => on.value.includes('mdr.indent')", arg=snippet.element_handle())
-    assert page.get_by_label("Link to this page").input_value().startswith(page.url.split("?")[0])
-    with page.expect_download() as download:
-        page.get_by_text("Scene (JSON)", exact=True).click()
-    scene = mdr.Scene.from_json(download.value.path().read_text(encoding="utf-8"))
-    assert scene == State().scene()
-    path = tmp_path / "scene.json"
-    path.write_text(mdr.Scene(mdr.Sphere(1e-6), mdr.Medium(1e9, 1.0), mdr.DepthPath(2e-9)).to_json())
-    with explorer.change():
-        page.get_by_label("Load a scene (JSON)").set_input_files(path)
-    assert page.get_by_label("Preset", exact=True).input_value() == "Scene from a file"
-    page.get_by_text("A scene from a file").wait_for()
-    assert now(explorer)[0] == pytest.approx(2e-9)
-    page = explorer.page
+    assert page.get_by_label("Link to this page").input_value() == page.url.split("?")[0]
+    explorer.press("Explore")
     path = tmp_path / "tip.csv"
     r = np.linspace(0, 60, 40)
-    path.write_text(
-        "r (nm); z (nm)\n" + "\n".join(f"{x:.4f}; {x * x / 100:.6f}".replace(".", ",") for x in r)
-    )
+    rows = "\n".join(f"{x:.4f}; {x * x / 100:.6f}".replace(".", ",") for x in r)
+    path.write_text("r (nm); z (nm)\n" + rows)
     with explorer.change():
         page.get_by_label("CSV file of a measured tip: r, z").set_input_files(path)
-    assert page.get_by_label("Shape", exact=True).input_value() == "Measured tip (CSV)"
+    assert page.get_by_label("Shape", exact=True).input_value() == "Measured tip"
     assert page.get_by_text("40 samples as they are").count() == 1
+
+
+def test_nothing_is_left_of_drives_that_were_looked_at(explorer):
+    """Elements of the page after many changes of drive are as many as before."""
+    drives = ("force", "path", "impact", "oblique impact", "depth")
+    for drive in drives:
+        explorer.pick(drive)
+    before = explorer.page.evaluate("explorer.all().length")
+    for drive in 2 * drives:
+        explorer.pick(drive)
+    assert explorer.page.evaluate("explorer.all().length") == pytest.approx(before, rel=0.05)

@@ -6,20 +6,22 @@ from html import unescape
 import numpy as np
 import pytest
 
-from app import export
-from app.drives import follow
-from app.explorer import Explorer
+from app import changes
+from app.panels import share
+from app.panels.readouts import readings, text
+from app.panels.report import printed, report
 from app.plots import PLOTS
-from app.presets import PRESETS
-from app.readouts import cells
-from app.report import drawing, report
-from app.units import written
-from app.view import View
+from app.state import PRESETS, opened
+from app.state.units import written
 
 from .conftest import DROP
+from .made import seen
 
-VIEW = View(follow(Explorer().scene(), 1.0))
-SHOWN = [name for name, plot in PLOTS.items() if VIEW.axes.keys() >= set(plot.axes) and not plot.resting]
+SHOWN = [
+    name
+    for name, plot in PLOTS.items()
+    if plot.there(seen(opened())) and not plot.find and name != "residual"
+]
 
 
 def plain(html):
@@ -35,55 +37,58 @@ def assert_names_nothing_outside(html):
 
 
 def test_the_report_says_what_the_page_says():
-    explorer = Explorer(DROP)
-    explorer.type("speed", "2 m/s")
-    way = follow(explorer.scene(), 1.5)
-    names, view = ["springs", "force", "motion", "pressure", "radii", "energy"], View(way)
-    html = report(explorer, view, names, export.python(way), "http://localhost/app", ["<b>stiff</b>"])
+    state, _ = changes.typed(opened(DROP), "speed", "2 m/s")
+    view = seen(state, 1.5)
+    course, plots = (
+        view.course,
+        [PLOTS[name] for name in ("springs", "pressure", "force", "motion", "energy")],
+    )
+    html = report(
+        state, view, plots, share.python(course), "http://localhost/app?speed=2.0", ["<b>stiff</b>"]
+    )
     assert_names_nothing_outside(html)
-    text = plain(html)
-    assert f"{DROP}, altered" in text
-    assert "Held 1: <b>stiff</b>." in text
-    for _, label, kind, values in cells(way):
-        value = float(values if np.ndim(values) == 0 else values[way.now])
-        assert f"{label} {written(value, kind, 5)}" in text
+    said = plain(html)
+    assert f"{PRESETS[DROP].label}, altered" in said
+    assert "Held 1: <b>stiff</b>." in said
+    for each, values in readings(course).items():
+        assert f"{each.known.long_name} {text(each, values, course.now, 5)}" in said
     # What the preset says has its source; what was typed says so.
-    assert PRESETS[DROP].sources["q_c"][2] in text
-    assert "2.0000 m/s set on the page" in text
-    for limit in way.hit.limits:
-        assert limit.sentence in text
-    assert "mdr.impact(profile, medium, mass=5.5, speed=2.0)" in text
-    assert "speed=2.0" in text.split("http://localhost/app?")[1]
-    assert all(PLOTS[name].title in text for name in ("motion", "energy", "pressure"))
+    assert PRESETS[DROP].sources["q_c"][2] in said
+    assert "2.0000 m/s set on the page" in said
+    for limit in course.hit.limits:
+        assert limit.sentence.rstrip(".") in said
+    assert "mdr.impact(profile, medium, mass=5.5, speed=2.0)" in said
+    assert "http://localhost/app?speed=2.0" in said
+    assert all(plot.title in said for plot in plots)
+    assert written(2.0, "speed", 5) in said
 
 
 def test_text_of_others_is_never_markup_in_a_report():
-    explorer = Explorer()
     r = np.linspace(0, 1e-6, 20)
-    explorer.take_tip((r, r**2 / 1e-5), "20 rows of <img src=x>")
-    html = report(explorer, View(follow(explorer.scene(), 1.0)), ["force"], "")
+    state = changes.take_tip(opened(), (r, r**2 / 1e-5), "20 rows of <img src=x>")
+    html = report(state, seen(state), [PLOTS["force"]], "")
     assert "<img src=x" not in html
     assert "20 rows of <img src=x>" in plain(html)
 
 
 @pytest.mark.parametrize("name", SHOWN)
-def test_figures_hold_the_columns_of_the_page(name):
-    """Every row that the page sends is in the source of the figure, in the units of its axes."""
-    view = VIEW
-    plot, made = PLOTS[name], drawing(view, name)
-    columns, x = view.columns(plot, view.way.now), view.axes_of(plot)[0]
-    assert made.x_range.end == pytest.approx(x.end / x.factor)
+def test_figures_hold_the_rows_of_the_page(name):
+    """Every row is in the source of the figure, in the units of its axes, to a fraction of a pixel."""
+    view = seen(opened())
+    plot, figure = PLOTS[name], printed(view, PLOTS[name])
+    rows, axes = view.rows(plot, view.course.now), view.axes_of(plot)
+    assert figure.x_range.end == pytest.approx(axes[0].end / axes[0].factor)
     found = set()
-    for renderer in made.renderers:
+    for renderer in figure.renderers:
         data = renderer.data_source.data
-        if "image" in data:
-            np.testing.assert_allclose(data["image"][0], columns["image"][2] / view.axes_of(plot)[2].factor)
         for k, row in enumerate(data.get("row", ())):
-            if renderer.name.startswith("tips"):
-                continue
-            size = view.axes_of(plot)[2 if renderer.name.endswith("right") else 1].factor
-            drawn = np.ravel(data["ys"][k]) if "ys" in data else np.asarray(data["y"])[data["row"] == row]
-            np.testing.assert_allclose(drawn, np.ravel(columns[row][1]) / size)
+            axis = axes[2 if renderer.y_range_name == "right" else 1]
             found.add(row)
-    kinds = {row.name for row in plot.rows if row.kind != "labels"}
-    assert found == kinds
+            if "ys" not in data:
+                drawn = [y for y, name in zip(data["y"], data["row"], strict=True) if name == row]
+                expected = np.atleast_1d(rows[row][1]) / axis.factor
+                np.testing.assert_allclose(drawn, expected, atol=1e-4 * axis.ends[1])
+            else:
+                # What leaves the axes is cut there.
+                assert np.nanmax([*data["ys"][k], axis.ends[0]]) <= axis.ends[1] * (1 + 1e-4)
+    assert found == {row.name for row in plot.rows}

@@ -5,7 +5,7 @@ import re
 import pytest
 
 import mdr_core as mdr
-from app.explorer import Explorer as State
+from app.state import opened
 
 from .conftest import Explorer, Server
 from .deployed import Proxy, deployed
@@ -45,9 +45,7 @@ def test_page_comes_back_with_what_it_showed(proxy, context):
         server = serve(proxy)
         # It loads itself again, once the server answers.
         page.wait_for_function("!window.left && window.explorer?.idle()", timeout=60_000)
-        state = State()
-        state.max_depth = 13.5e-9
-        assert_draws(explorer, state)
+        assert_draws(explorer, opened().but(max_depth=13.5e-9))
         assert explorer.off_host() == []
     finally:
         page.close()
@@ -69,22 +67,19 @@ def assert_a_fault_is_told(explorer, server):
 
 
 def test_text_of_others_is_never_markup(explorer, tmp_path):
-    explorer.press("Take with you")
-    scene = mdr.Scene(mdr.Cone(0.5), mdr.Medium(2e9, 5.0), mdr.DepthPath(5e-9)).to_json()
     told = explorer.page.locator(".notyf__message")
-    for label, text in (
-        ("CSV file of a measured tip: r, z", ""),
-        ("CSV file of a measured tip: r, z", f"{MARKUP} (nm), z (nm)\n0, 0\n1, {MARKUP}\n"),
-        ("Load a scene (JSON)", scene.replace("Cone", MARKUP)),
+    for text, said in (
+        ("", "the file is empty"),
+        (f"{MARKUP} (nm), z (nm)\n0, 0\n1, {MARKUP}\n", "expected 3 numbers"),
     ):
         path = tmp_path / f"brought {len(text)}"
         path.write_text(text, encoding="utf-8")
-        count = told.count()
-        explorer.page.get_by_label(label).set_input_files(path)
-        explorer.wait("(n) => document.querySelectorAll('.notyf__message').length > n", count)
+        explorer.page.get_by_label("CSV file of a measured tip: r, z").set_input_files(path)
+        told.filter(has_text=said).first.wait_for()
         assert explorer.page.locator("img[src=x]").count() == 0
-    assert_draws(explorer, State())
-    explorer.page.goto(f"{explorer.page.url.split('?')[0]}?preset={MARKUP}")
-    explorer.wait("window.explorer?.idle()")
-    assert explorer.page.locator("img[src=x]").count() == 0
-    assert_draws(explorer, State())
+    assert_draws(explorer, opened())
+    for query in (f"preset={MARKUP}", f"fit_note={MARKUP}"):
+        explorer.page.goto(f"{explorer.page.url.split('?')[0]}?{query}")
+        explorer.wait("window.explorer?.idle()")
+        assert explorer.page.locator("img[src=x]").count() == 0
+    assert_draws(explorer, opened())

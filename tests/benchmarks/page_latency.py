@@ -7,12 +7,22 @@ import math
 import os
 import statistics
 import time
+from functools import partial
 from pathlib import Path
 
 from tests.app.conftest import CHROMIUM, FLAGS, SCRIPT, Server
 
 PRESSES = 60
-FIGURES = ["springs", "force", "pressure", "radii"]
+CHANGES = 100
+FIGURES = ["springs", "pressure", "force"]
+#: Scenes that are dragged, by their links, each with the symbol of its slider.
+SCENES = {
+    "pressing": ("", "d_max"),
+    "dry impact": ("?preset=striker-glass_epoxy-drop-weight", "v_0"),
+    "viscous impact": ("?preset=striker-glass_epoxy-drop-weight&damping=tau&tau=0.0002", "v_0"),
+    "oblique impact": ("?preset=striker-glass_epoxy-drop-weight&drive=oblique&incoming_speed=2", "V_0"),
+    "sweep beside an impact": ("?preset=striker-glass_epoxy-drop-weight&tiles=sweep", "v_0"),
+}
 
 # Notes the time of each key press and of every paint of a plot, which begins by clearing its canvas.
 HOOK = """(names) => {
@@ -88,7 +98,9 @@ def frames_per_second(page, act):
 
 def drag(page, symbol):
     """Drag a slider to and fro for two seconds, a step every 16 ms."""
-    box = page.locator(f'input[type="range"][aria-label^="{symbol},"]').bounding_box()
+    slider = page.locator(f'input[type="range"][aria-label^="{symbol},"]')
+    slider.scroll_into_view_if_needed()
+    box, before = slider.bounding_box(), slider.input_value()
     y = box["y"] + box["height"] / 2
     page.mouse.move(box["x"] + box["width"] / 2, y)
     page.mouse.down()
@@ -97,17 +109,40 @@ def drag(page, symbol):
         page.mouse.move(box["x"] + box["width"] * (0.5 + 0.15 * math.sin(4 * seconds)), y)
         time.sleep(0.016)
     page.mouse.up()
+    assert slider.input_value() != before, "the drag has missed its slider"
 
 
-def smoothness(page):
-    """Print the frame rates of a drag and of playback."""
-    print(f"drag of a slider: {frames_per_second(page, lambda: drag(page, 'd_max')):.0f} frames/s")
-    play = page.locator(".key-space button")
-    play.click()
-    page.wait_for_function("explorer.played()")
-    rate = frames_per_second(page, lambda: page.wait_for_timeout(3000))
-    play.click()
-    print(f"playback: {rate:.0f} frames/s")
+def smoothness(browser, url):
+    """Print the pictures a second of a drag in each scene, and of playback in the first."""
+    for name, (query, symbol) in SCENES.items():
+        page, _, _ = cold_load(browser, url + query)
+        page.evaluate(HOOK, FIGURES)
+        rate = frames_per_second(page, partial(drag, page, symbol))
+        print(f"drag, {name}: {rate:.0f} pictures/s", flush=True)
+        if not query:
+            play = page.locator(".key-space button")
+            begin = time.perf_counter()
+            play.click()
+            page.wait_for_function("explorer.played()", polling=20)
+            print(f"frames for playing: {time.perf_counter() - begin:.2f} s")
+            rate = frames_per_second(page, partial(page.wait_for_timeout, 3000))
+            play.click()
+            print(f"playback: {rate:.0f} pictures/s")
+        page.context.close()
+
+
+def left_in_the_tab(browser, url):
+    """Print how many elements the page has before and after many changes of drive."""
+    page, _, _ = cold_load(browser, url)
+    count = "explorer.all().length"
+    drives = ("force", "path", "impact", "oblique impact", "depth")
+    for k in range(len(drives) + CHANGES):
+        if k == len(drives):
+            before = page.evaluate(count)
+        page.get_by_label(drives[k % len(drives)], exact=True).first.check()
+        page.wait_for_function("Bokeh.documents[0].is_idle", polling=50)
+    print(f"after {CHANGES} changes of drive: elements {before} → {page.evaluate(count)}")
+    page.context.close()
 
 
 def main():
@@ -122,7 +157,6 @@ def main():
                 page, seconds, size = cold_load(browser, server.url)
                 print(f"cold load to last plot, {visitor}: {seconds:.2f} s, {size / 1e6:.2f} MB")
             page.evaluate(HOOK, FIGURES)
-            smoothness(page)
             page.locator('input[type="range"][aria-label^="d_max,"]').focus()
             before = cpu_seconds(server.process.pid)
             latencies = sorted(moves(page, "ArrowRight"))
@@ -132,6 +166,8 @@ def main():
                 f"key press to all {len(FIGURES)} plots painted: median {median:.0f} ms, p95 {p95:.0f} ms"
             )
             print(f"server CPU: {1000 * used / PRESSES:.1f} ms a move")
+            smoothness(browser, server.url)
+            left_in_the_tab(browser, server.url)
             browser.close()
     finally:
         server.stop()

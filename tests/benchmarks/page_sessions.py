@@ -22,7 +22,7 @@ PATIENCE = 180.0
 #: People at once, moves of each a second, for so long (s); the p95 (ms) beyond which no more are tried.
 SESSIONS, RATE, SECONDS, ENOUGH = (8, 16, 24, 32, 40, 48), 2.0, 10.0, 200.0
 #: Sessions opened and closed before memory is looked at.
-OPENED = (15, 100, 1000)
+OPENED = (15, 100)
 
 
 def objects(part):

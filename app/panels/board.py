@@ -1,0 +1,213 @@
+"""The board on the right: plots in frames with title, formula and legend; their tabs, and the player."""
+
+import json
+from collections.abc import Callable
+from html import escape
+from typing import Any
+
+import numpy as np
+import panel as pn
+from bokeh.events import MouseLeave, MouseMove, Pan, PanEnd, PanStart
+from bokeh.models import ColumnDataSource, CustomJS, Label, Slider, Span, Toggle
+from panel.models.markup import HTML
+
+from ..plots import NAMED, PLOTS, TILES
+from ..plots.draw import Picture, described, drawn
+from ..plots.plot import Plot, View
+from ..ui import FULL, JS, STYLE, WIDE, button, html, legend, linked, show, toggle
+from . import readouts
+from .controls import Choices
+
+#: Plots that share the axis x of another one.
+_SAME_X = {"pressure": "springs"}
+
+
+class Card:
+    """A plot in its frame: title, formula, legend, controls above and a note below."""
+
+    def __init__(self, plot: Plot, choices: Choices, scene: ColumnDataSource):
+        self.plot, self.picture, self._shown = plot, Picture(plot), None
+        self.words, self.key, self.note = html("", "formula"), html("", "key"), html("", "note", "found")
+        save, self.large = button("Save", "none"), toggle("Large", "none")
+        rows = [row.name for row in plot.rows if row.legend]
+        told = {"figure": self.picture.figure, "scene": scene, "rows": rows, "title": plot.title}
+        save.js_on_click(args=told, code=f"(async () => {{{JS['save']}}})()")
+        self.large.param.watch(self._enlarge, "value")
+        head = pn.Row(self.words, save, self.large, css_classes=["head"], stylesheets=STYLE, **WIDE)
+        above = (
+            [pn.Row(*map(choices.row, plot.controls), css_classes=["above"], **WIDE)]
+            if plot.controls
+            else []
+        )
+        below = [self.note] if plot.find or plot.note else []
+        parts = [head, *above, self.key, pn.pane.Bokeh(self.picture.figure, **FULL), *below]
+        self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
+
+    def _enlarge(self, event):
+        self.view.css_classes = ["card", self.plot.name, *["large"] * event.new]
+        self.large.label = "Small" if event.new else "Large"
+
+    def show(self, columns: dict, view: View, dark: bool) -> None:
+        """Draw columns made for a view, with what is said around them."""
+        plot, course = self.plot, view.course
+        self.picture.show(columns, view, dark)
+        show(self.words, object=f"<h3>{plot.title}</h3>{linked(plot.says(course))}")
+        there = drawn(view, plot, {course.now, course.peak})
+        if there != self._shown:
+            self._shown = there
+            show(self.key, object=legend(plot, there))
+        if plot.name in view.found:
+            show(self.note, object=view.found[plot.name].note)
+        elif plot.note:
+            show(self.note, object=linked(plot.note(view)))
+
+    def describe(self, view: View) -> None:
+        """Say what is seen, to those who do not see it."""
+        self.picture.figure.html_attributes = {"role": "img", "aria-label": described(view, self.plot)}
+
+
+class Player:
+    """Moves through the states of a scene in the browser, from frames that are sent once."""
+
+    def __init__(self):
+        styled = {"stylesheets": STYLE, "margin": 0}
+        self.play = Toggle(label="▶ Play", css_classes=["button", "key-space"], width=84, **styled)
+        look = {"show_value": False, "title": None, "tooltips": False, "sizing_mode": "stretch_width"}
+        self.state = Slider(
+            start=0, end=1, value=1, step=1, name="state", css_classes=["slider"], **look, **styled
+        )
+        self.frames, self.hand = ColumnDataSource(name="frames"), ColumnDataSource(name="hand")
+        fixed = {"stylesheets": STYLE, "margin": 0, "sizing_mode": "stretch_width"}
+        self.heads = HTML(css_classes=["readouts", "heads"], height=29, **fixed)
+        self.readout = HTML(css_classes=["readouts"], height=24, **fixed)
+        self.standing = HTML(css_classes=["standing"], width=190, height=18, stylesheets=STYLE, margin=0)
+        parts = {"frames": self.frames, "state": self.state, "play": self.play}
+        self.parts = parts | {"readout": self.readout, "standing": self.standing}
+        code = CustomJS(args=self.parts, code=JS["player"])
+        self.state.js_on_change("value", code)
+        self.frames.js_on_change("tags", code)
+        self.play.js_on_change("active", code)
+        self.view = pn.Row(
+            *map(pn.pane.Bokeh, (self.play, self.state, self.standing)), css_classes=["player"], **WIDE
+        )
+
+    def stand(self, view: View, found: dict) -> None:
+        """Show where a course stands, and its readouts; frames of another one are none of it."""
+        course, i = view.course, view.course.now
+        if self.frames.tags:
+            self.frames.tags = []
+        self.state.update(end=len(course) - 1, value=i)
+        d, F, z = (view.axis(name) for name in ("d", "F", "z"))
+        path = {"d": _rounded(course.states.depth / d.factor), "F": _rounded(course.force / F.factor)}
+        self.state.tags = [
+            path | {"unit": d.factor / z.factor, "pressing": course.motion is None and not course.turns}
+        ]
+        self.heads.text = escape(readouts.heads(course, found))
+        self.readout.text = escape(readouts.values(course, found, i))
+        self.standing.text = escape(readouts.phase(course, i))
+
+    def send(self, view: View, found: dict, pictures: list[Picture]) -> None:
+        """Send all states, once."""
+        if self.frames.tags:
+            return
+        course = view.course
+        states = range(len(course))
+        frames = [[picture.frame(view, i) for picture in pictures] for i in states]
+        sources = [source for frame in frames[0] for source in frame]
+        times = np.linspace(0, 1, len(course))
+        if course.motion is not None:
+            times = (course.motion.time - course.motion.time[0]) / np.ptp(course.motion.time)
+        sent = {
+            "pictures": [[columns for frame in each for columns in frame.values()] for each in frames],
+            "words": [escape(readouts.values(course, found, i)) for i in states],
+            "phases": [escape(readouts.phase(course, i)) for i in states],
+            "times": times.tolist(),
+        }
+        # As one text: Bokeh would look at every number of it.
+        self.frames.tags = [sources, json.dumps(sent).replace("NaN", "null")]
+
+
+def _rounded(values: Any) -> list[float]:
+    return [float(f"{value:.6g}") for value in values]
+
+
+class Board:
+    """All plots of a session: a card is made when it is seen for the first time, and stays."""
+
+    def __init__(self, choices: Choices, asked: Callable[[str, bool], None]):
+        self.player, self._choices = Player(), choices
+        self.cards: dict[str, Card] = {}
+        self.names: list[str] = []
+        self._scene = ColumnDataSource(name="scene")
+        self.tabs = {name: toggle(*PLOTS[name].tab) for name in TILES}
+        self.keep = toggle("Keep", "k")
+        for name, tab in self.tabs.items():
+            tab.param.watch(lambda event, name=name: asked(name, event.new), "value")
+        row = pn.Row(*self.tabs.values(), self.keep, css_classes=["tools", "tabs"], **WIDE)
+        self.tab_row = row
+        self.grid = pn.Column(css_classes=["plots"], **FULL)
+        drag = {"hand": self.player.hand, **self.player.parts}
+        for name in NAMED:
+            self._make(name, drag)
+        self._link_pointer()
+
+    def _make(self, name, drag=None):
+        card = self.cards[name] = Card(PLOTS[name], self._choices, self._scene)
+        figure = card.picture.figure
+        if name in _SAME_X:
+            figure.x_range = self.cards[_SAME_X[name]].picture.figure.x_range
+        if drag and name in ("springs", "force"):
+            code = CustomJS(args=drag | {"figure": figure}, code=JS["drag"])
+            for event in (PanStart, Pan, PanEnd):
+                figure.js_on_event(event, code)
+        self.grid.append(card.view)
+
+    def _link_pointer(self):
+        pair = [self.cards[name].picture for name in ("springs", "pressure")]
+        look = {"dimension": "height", "visible": False, "line_color": "#848c97", "line_width": 1}
+        spans = [Span(location=0, **look) for _ in pair]
+        read = Label(
+            x=0, y=6, y_units="screen", text="", visible=False, text_font_size="11px", text_color="#848c97"
+        )
+        lines = next(layer.source for layer in pair[1].layers if layer.name == "lines")
+        told = {"spans": spans, "read": read, "lines": lines}
+        for picture, span in zip(pair, spans, strict=True):
+            picture.figure.add_layout(span)
+            picture.figure.js_on_event(MouseMove, CustomJS(args=told, code=JS["point"]))
+            picture.figure.js_on_event(MouseLeave, CustomJS(args=told, code=JS["point"]))
+        pair[0].figure.add_layout(read)
+
+    def columns(self, view: View, tiles: tuple[str, ...], dark: bool) -> dict[str, dict]:
+        """Columns of all plots that are seen, by their names; nothing on the page is changed."""
+        names = [*NAMED, *(name for name in tiles if name in PLOTS and PLOTS[name].there(view))]
+        for name in names:
+            if name not in self.cards:
+                self._make(name)
+        return {name: self.cards[name].picture.columns(view, view.course.now, dark) for name in names}
+
+    def show(self, columns: dict[str, dict], view: View, state: Any) -> None:
+        """Draw columns made for a view, on the plots that they are of."""
+        self.names = list(columns)
+        for name, data in columns.items():
+            self.cards[name].show(data, view, state.dark)
+        for name, card in self.cards.items():
+            show(card.view, visible=name in columns)
+        count = len(columns) - len(NAMED)
+        show(self.grid, css_classes=["plots", f"with-{min(count, 2)}"])
+
+    def show_tabs(self, view: View, state: Any) -> None:
+        """The tabs of plots that the scene has, of which some are asked for."""
+        for name, tab in self.tabs.items():
+            there = PLOTS[name].there(view)
+            show(tab, visible=there, value=there and name in state.tiles)
+        show(self.keep, value=state.keep)
+
+    def pictures(self) -> list[Picture]:
+        """The pictures that are seen."""
+        return [self.cards[name].picture for name in self.names]
+
+    def describe(self, view: View, summary: str) -> None:
+        """Say what is seen in the plots, and below pictures that are saved what the scene is."""
+        self._scene.tags = [summary]
+        for name in self.names:
+            self.cards[name].describe(view)

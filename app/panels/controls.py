@@ -1,0 +1,342 @@
+"""The controls: Panel widgets over what can be set, each with its symbol, name, unit and an explanation."""
+
+from collections.abc import Callable
+from html import escape
+from math import atan, degrees
+from typing import Any
+
+import panel as pn
+import param
+
+from .. import changes
+from ..drives import Course
+from ..solve import DRIVES, option, options
+from ..state import PRESETS, State, altered, began, number, quantity
+from ..state.quantities import ABOUT, CHOICES, LABELS, SHAPES, USED, Quantity, Scale, shape_quantities
+from ..state.units import UNITS, digits, entry, written
+from ..ui import JS, WIDE, button, explained, field, html, linked, marked, show, symbol, tools, upload
+from .readouts import sketch
+
+#: Standard acceleration of free fall (m/s²).
+_GRAVITY = 9.80665
+#: Choices of which all options are seen; others are lists.
+_RADIO = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface", "prescribed", "aim", "body")
+#: Choices about the medium that are one click away, unless they are in use.
+_MORE = ("elasticity", "plasticity", "damping", "inertia")
+_VERTICES = (
+    "One vertex a line: a depth or force with its unit, then a time after a comma and a blank, a semicolon "
+    "or a tab, at each vertex or at none. Straight in between. Without times the path is followed "
+    "infinitely slowly, from first contact on."
+)
+
+
+def _about(known: Quantity) -> str:
+    low, high = (written(bound, known.kind, 2) for bound in known.bounds)
+    units = ", ".join(unit.name for unit in UNITS[known.kind] if unit.name)
+    rows = [linked(known.help), f"<em>{linked(known.equation)}</em>" if known.equation else ""]
+    rows.append(f"Usual: {marked(known.typical)}." if known.typical else "")
+    rows.append(f"From {low} to {high}" + (f"; units {units}." if units else "."))
+    return "".join(f"<p>{row}</p>" for row in rows if row)
+
+
+class Number(pn.custom.JSComponent):
+    """A quantity that is typed with its unit, or dragged on its scale; it can be told to be another one.
+
+    `act` gets a function that gives a state of a state, and a mark: changes of one mark are one to undo. It
+    raises ValueError with what the person is told.
+    """
+
+    label, spoken, about = param.String(), param.String(), param.String()
+    text, said, refused = param.String(), param.String(), param.Boolean()
+    position, steps, answered = param.Integer(), param.Integer(Scale.STEPS), param.Integer()
+
+    _esm = JS["quantity"]
+
+    def __init__(self, act: Callable[..., None]):
+        self._act, self.key, self._like, self._scale = act, "", 0.0, None
+        super().__init__(css_classes=["number"], **WIDE)
+        self.on_msg(self._asked)
+
+    def _asked(self, event):
+        said, message = "", event.data
+        with pn.io.hold():
+            try:
+                said = self._change(message)
+                self.refused = False
+            except ValueError as error:
+                said, self.refused = str(error), "text" in message
+            self.param.update(said=said, answered=self.answered + 1)
+
+    def _change(self, message):
+        said: list[str] = []
+
+        def type_it(state):
+            state, text = changes.typed(state, self.key, message["text"], self._like)
+            said.append(text)
+            return state
+
+        if isinstance(message.get("text"), str):
+            self._act(type_it)
+        elif isinstance(message.get("position"), int | float):
+            value = self._scale.value(message["position"])
+            self._act(lambda state: changes.put(state, self.key, value), self.key)
+        elif "reset" in message:
+            reset = None if self.key.startswith("sweep") else self._scale.middle
+            self._act(
+                lambda state: (
+                    state.but(**{self.key: None}) if reset is None else changes.put(state, self.key, reset)
+                )
+            )
+        return said[0] if said else ""
+
+    def forget(self) -> None:
+        """Say no more what was refused, or how it was read."""
+        show(self, said="", refused=False)
+
+    def show(self, state: State, name: str, like: float = 0.0) -> None:
+        """Show a number as it stands; zero in the unit that fits the value `like`."""
+        known, value = quantity(state, name), number(state, name)
+        scaled = (name, state.preset, known.symbol)
+        if (
+            self.key != name
+            or self._scale is None
+            or scaled != self._scaled
+            or not self._scale.reaches(value)
+        ):
+            # A value beyond the slider's reach becomes its new middle.
+            start = value if name.startswith("sweep") else began(state, name)
+            self._scale, self._scaled = Scale(known, start), scaled
+            if not self._scale.reaches(value):
+                self._scale = Scale(known, value)
+            label = f"{symbol(known.symbol)} {marked(known.label)}"
+            if self.label != label or self.key != name:
+                self.forget()
+                show(self, label=label, about=_about(known), steps=Scale.STEPS if known.span >= 0 else 0)
+                show(self, spoken=", ".join(filter(None, (known.symbol, known.label))))
+        self.key, self._like = name, like
+        show(self, text=entry(value, known.kind, like), position=self._scale.position(value))
+
+
+class Numbers(pn.Column):
+    """Numbers one below the other: as many as were ever needed, of which some are shown as others."""
+
+    def __init__(self, act: Callable[..., None]):
+        super().__init__(css_classes=["numbers"], **WIDE)
+        self._act = act
+
+    def show(self, state: State, names: list[str], likes: dict[str, float] | None = None) -> None:
+        """Show some numbers."""
+        for name, place in zip(names, range(len(names)), strict=True):
+            if place == len(self):
+                self.append(Number(self._act))
+            self[place].show(state, name, (likes or {}).get(name, 0.0))
+        for place, each in enumerate(self):
+            show(each, visible=place < len(names))
+
+    def forget(self) -> None:
+        """Say no more what was refused."""
+        for each in self:
+            each.forget()
+
+
+class Choices:
+    """Choices of a session by name: a widget each, with what it means, made when it is asked for."""
+
+    def __init__(self, tell: Callable[..., None], state: Callable[[], State]):
+        self._tell, self._state = tell, state
+        self.widgets: dict[str, Any] = {}
+        self.rows: dict[str, Any] = {}
+
+    def row(self, name: str) -> Any:
+        """The row of a choice."""
+        if name not in self.rows:
+            self.rows[name] = self._radio(name) if name in _RADIO else self._list(name)
+        return self.rows[name]
+
+    def _radio(self, name):
+        texts = {text: option for option, text in CHOICES[name].items()}
+        widget = self._made(name, pn.widgets.RadioBoxGroup, options=texts, inline=True)
+        legend = html(explained("about", LABELS[name], linked(ABOUT[name])), "legend")
+        return pn.Row(legend, widget, css_classes=["fieldset", f"of-{name}"], **WIDE)
+
+    def _list(self, name):
+        """A choice from a list, with a question mark beside it that says what is chosen."""
+        beside = ["beside"] * (name != "shape")
+        widget = self._made(name, pn.widgets.Select, f"of-{name}", *beside, options=self._texts(name))
+        look = f'class="help" aria-label="What is {LABELS[name]}?"'
+        about = explained("about", "?", linked(ABOUT[name]), look)
+        return tools(widget, pn.pane.HTML(about, width=26, margin=0))
+
+    def _texts(self, name):
+        state = self._state()
+        if name == "preset":
+            return {preset.label: key for key, preset in PRESETS.items()}
+        if name == "shape":
+            return {shape.label: key for key, shape in SHAPES.items() if key != "sampled" or state.samples}
+        return {CHOICES[name][option]: option for option in options(state, name)}
+
+    def _made(self, name, kind, *classes, **options):
+        def choose(event):
+            if event.new != option(self._state(), name):
+                self._tell(lambda state: changes.choose(state, name, event.new))
+            show(widget, value=option(self._state(), name))
+
+        value = option(self._state(), name)
+        label = {"label": LABELS[name]} if kind is pn.widgets.Select else {}
+        widget = self.widgets[name] = field(kind, *classes, value=value, **label, **options)
+        widget.param.watch(choose, "value")
+        return widget
+
+    def show(self, state: State) -> None:
+        """Everything as it is chosen."""
+        for name, widget in self.widgets.items():
+            if name in ("shape", "swept", "against"):
+                show(widget, options=self._texts(name))
+            show(widget, value=option(state, name))
+
+
+class Controls:
+    """The form: the drive with its main number, the shape, E* and q_c; all else about the medium folds."""
+
+    def __init__(self, choices: Choices, act: Callable[..., None], tell: Callable[..., None]):
+        self.choices, self._opened, self._path = choices, False, ""
+        drive, shape, first, more = (Numbers(act) for _ in range(4))
+        self.numbers = {"drive": drive, "shape": shape, "first": first, "more": more}
+        self.parts = {
+            name: choices.row(name)
+            for drive in DRIVES.values()
+            for name in drive.form
+            if name in CHOICES and name not in _MORE
+        }
+        self.parts["again"] = self.again = button("Hit again", width=90)
+        self.parts["vertices"] = self._vertices(tell)
+        self.notes = {name: html() for name in ("drive", "shape", "medium", "more", "sources", "tip")}
+        self.tip = upload("tip", ".csv,.txt,text/csv")
+        self.more = pn.widgets.Toggle(
+            label="More about the medium", css_classes=["button", "more"], margin=(4, 0)
+        )
+        self._more = pn.Column(
+            *map(choices.row, _MORE), self.numbers["more"], self.notes["more"], visible=False, **WIDE
+        )
+        self._forms = pn.Column(*self.parts.values(), **WIDE)
+        self._tip = pn.Column(
+            html("or a measured tip, as CSV (r, z):"), self.tip, self.notes["tip"], **WIDE
+        )
+        self.more.param.watch(lambda event: show(self._more, visible=event.new), "value")
+        parts = (choices.row("drive"), drive, self.notes["drive"], self._forms)
+        parts += (_head("Indenter"), choices.row("shape"), self.notes["shape"], shape)
+        parts += (_head("Medium"), first, self.notes["medium"], self.more, self._more)
+        parts += (_head("Tip and sources"), self._tip, self.notes["sources"])
+        self.view = pn.Column(*parts, css_classes=["form"], **WIDE)
+
+    def _vertices(self, tell):
+        self.text = field(
+            pn.widgets.TextAreaInput,
+            "vertices",
+            label="Vertices: one a line, with times or without",
+            description=_VERTICES,
+            rows=6,
+            auto_grow=True,
+            max_rows=14,
+        )
+        self.said = html()
+
+        def typed(event):
+            def refused(text):
+                self.said.object = f'<span class="refused">{marked(text)}</span>'
+
+            tell(lambda state: changes.type_path(state, event.new), refused=refused)
+
+        self.text.param.watch(typed, "value")
+        return pn.Column(self.text, self.said, **WIDE)
+
+    def show(self, state: State) -> None:
+        """Everything that is used, with its values."""
+        form = DRIVES[state.drive].form
+        for name, part in self.parts.items():
+            show(part, visible=name in form)
+        extra = [n for part in form if part in USED and part not in _MORE for n in USED[part][state[part]]]
+        self.numbers["drive"].show(state, [*USED["drive"][state.drive], *extra])
+        self.numbers["shape"].show(state, [name for name, _ in shape_quantities(state.shape)])
+        self.numbers["first"].show(state, ["E_star", *["q_c"] * (state.plasticity != "none")])
+        more = [name for name in _MORE if name != "inertia" or name in form]
+        show(self.choices.row("inertia"), visible="inertia" in form)
+        given = [n for choice in more for n in USED[choice][state[choice]] if n not in ("E_star", "q_c")]
+        self.numbers["more"].show(state, given)
+        in_use = bool({*more, *given} & set(altered(state))) or state.damping != "none"
+        if in_use and not self._opened:
+            show(self.more, value=True)
+        self._opened = in_use
+        if state.path and form == DRIVES["path"].form:
+            self._write(state)
+
+    def _write(self, state):
+        text = changes.write_path(state.path, state.prescribed)
+        # What was refused stays in the table, to be mended.
+        if self._path != text:
+            self._path, self.said.object = text, ""
+        if not self.said.object:
+            show(self.text, value=text)
+
+    def say(self, state: State, course: Course) -> None:
+        """What follows from what is set, in words."""
+        preset, made = PRESETS[state.preset], course.scene.medium
+        rows = "".join(
+            f"<dt>{marked(f'{what} = {value}')}</dt><dd>{escape(where)}</dd>"
+            for what, value, where in preset.sources.values()
+        )
+        title = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
+        texts = {
+            "sources": f"<details><summary>{title}</summary><dl>{rows}</dl></details>",
+            "tip": escape(state.tip_note if state.shape == "sampled" else ""),
+            "shape": sketch(course, state.shape) + marked(_half_angle(state)),
+            "drive": marked(_drop(state)),
+            "medium": linked(_yield(state, made)),
+            "more": linked(_damping(state, made, course.dashpots)),
+        }
+        for name, text in texts.items():
+            show(self.notes[name], object=text)
+
+    def forget(self) -> None:
+        """Say no more what was refused."""
+        for numbers in self.numbers.values():
+            numbers.forget()
+
+
+def _head(text: str) -> Any:
+    return html(f"<h2>{text}</h2>", "title")
+
+
+def _half_angle(state: State) -> str:
+    slope = state.get(f"{state.shape}_slope")
+    if slope is None:
+        return ""
+    angle = degrees(atan(slope))
+    return f"Half-angle {digits(90 - angle)}°, flank {digits(angle)}° to the surface"
+
+
+def _drop(state: State) -> str:
+    if state.drive != "impact":
+        return ""
+    energy, height = state.mass * state.speed**2 / 2, state.speed**2 / (2 * _GRAVITY)
+    fallen = written(height, "length")
+    return f"Energy m v_0²/2 = {written(energy, 'energy')}; fallen from v_0²/(2 g) = {fallen} without drag"
+
+
+def _yield(state: State, made: Any) -> str:
+    if state.plasticity == "none":
+        return "Nothing yields: q_c = ∞"
+    depth = written(made.critical_depth, "length")
+    if state.plasticity == "hardness":
+        return f"q_c = σ_c a_c (11); d_c = {depth} (19)"
+    return f"Yield starts at d_c = π q_c/(2E*) = {depth} (19)"
+
+
+def _damping(state: State, made: Any, timed: bool) -> str:
+    if state.damping == "none":
+        return ""
+    if state.damping == "tau":
+        text = f"η = {written(made.eta, 'viscosity')}"
+    else:
+        text = f"τ = 4η/E* = {written(made.relaxation_time, 'time')} (1)"
+    return text if timed else f"{text}; no effect here: pressing is infinitely slow"

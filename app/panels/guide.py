@@ -1,0 +1,71 @@
+"""Guided scenes: steps, each a state with some sentences, in a panel above the form."""
+
+import json
+from collections.abc import Callable
+from typing import Any
+from urllib.parse import urlencode
+
+import panel as pn
+
+from ..drives import Course
+from ..state import State, link
+from ..state.quantities import ASSETS
+from ..ui import WIDE, button, field, html, linked, show
+from .readouts import readings, text
+
+#: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
+TOURS = json.loads((ASSETS / "tours.json").read_text(encoding="utf-8"))
+_INTRO = "Three scenes, each of a few steps. Next begins; Undo takes back what a step has set."
+_LEFT = "The page shows something else by now. Back and Next go on with the steps."
+
+
+def step_state(step: dict[str, Any], now: State) -> State:
+    """The state of a step; tiles stay unless it opens one, and so does the theme."""
+    pairs = {name: str(value) for name, value in step["set"].items()}
+    state = link.read(link.arguments(urlencode(pairs)))
+    kept = {name: now[name] for name in ("hold", "keep", "dark", "axes", "curve")}
+    return state.but(tiles=state.tiles or now.tiles, **kept)
+
+
+def said(step: dict[str, Any], course: Course) -> str:
+    """What a step says, with the numbers of the state that is shown."""
+    numbers = {
+        each.known.symbol: text(each, values, course.now, 3) for each, values in readings(course).items()
+    }
+    return step["says"].format_map(numbers)
+
+
+class Guide:
+    """The panel *Guide*; `go` shows the state that a function gives, and `course` is what is shown then."""
+
+    def __init__(self, go: Callable[..., None], course: Callable[[], Course]):
+        self._do, self._course, self.at, self._scene, self._text = go, course, -1, None, ""
+        self.title = field(pn.widgets.Select, "tour", options=list(TOURS))
+        self.back, self.next = (button(name, width=70) for name in ("Back", "Next"))
+        self.words = html(_INTRO)
+        self.title.param.watch(lambda event: self.go(0), "value")
+        self.back.on_click(lambda event: self.go(self.at - 1))
+        self.next.on_click(lambda event: self.go(self.at + 1))
+        row = pn.Row(self.back, self.next, css_classes=["tools"], **WIDE)
+        self.view = pn.Column(self.title, row, self.words, css_classes=["guide"], visible=False, **WIDE)
+        self._bound()
+
+    def go(self, at: int) -> None:
+        """Go to a step."""
+        self.at, steps = at, TOURS[self.title.value]
+        self._do(lambda state: step_state(steps[at], state))
+        course = self._course()
+        self._scene, self._text = course.scene, linked(said(steps[at], course))
+        self.show(course)
+        self._bound()
+
+    def show(self, course: Course) -> None:
+        """What the step says, while the page shows its scene."""
+        if self.at >= 0:
+            words = self._text if course.scene == self._scene else _LEFT
+            count = len(TOURS[self.title.value])
+            show(self.words, object=f'<p role="status">{self.at + 1} of {count}. {words}</p>')
+
+    def _bound(self):
+        show(self.back, disabled=self.at <= 0)
+        show(self.next, disabled=self.at == len(TOURS[self.title.value]) - 1)

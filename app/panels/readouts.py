@@ -1,0 +1,201 @@
+"""The readouts, how far the assumptions hold, the sketch of the indenter, and the scene in words."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from mdr_core.results.limits import friction_limits
+from mdr_core.results.quantities import QUANTITIES as RESULTS
+from mdr_core.results.quantities import Quantity
+
+from ..drives import Course
+from ..solve import DRIVES, drive_of
+from ..state import State, medium
+from ..state.quantities import DATA, QUANTITIES, SHAPES, USED, shape_quantities
+from ..state.units import KINDS, digits, fitting, written
+from ..ui import explained, linked, marked, plain, symbol
+
+
+@dataclass(frozen=True)
+class Readout:
+    """A number that is read: its name in the core's table of quantities, and where a course has it.
+
+    `of` names what has one value, or one for each state; where it is not there, there is no such number.
+    `help` and `equation` say what it is; `own` is its symbol, unit and name where the core has none.
+    """
+
+    name: str
+    of: str
+    help: str
+    equation: str = ""
+    own: tuple[str, str, str] | None = None
+
+    @property
+    def known(self) -> Quantity:
+        """Symbol, unit and name."""
+        return Quantity(*self.own) if self.own else RESULTS[self.name]
+
+    def values(self, course: Course) -> Any:
+        """Its values of a course, or None."""
+        for name in self.of.split("."):
+            course = getattr(course, name, None)
+        return course
+
+
+#: Every number that can be read, in the order in which all of them are listed.
+READOUTS = tuple(
+    Readout(**row | {"own": tuple(row["own"])} if "own" in row else row) for row in DATA["readouts"]
+)
+
+
+def readings(course: Course) -> dict[Readout, Any]:
+    """All that can be read of a course: one value, or one for each state."""
+    found = ((readout, readout.values(course)) for readout in READOUTS)
+    return {readout: values for readout, values in found if values is not None}
+
+
+def here(values: Any, i: int) -> float:
+    """The value of a number in state i: it has one, or one for each state."""
+    return float(values if np.ndim(values) == 0 else values[i])
+
+
+def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
+    """A number in state i with its unit."""
+    return written(here(values, i), KINDS[readout.known.unit], count)
+
+
+def line(course: Course, found: dict[Readout, Any]) -> list[Readout]:
+    """The readouts that are always seen."""
+    names = drive_of(course.scene).line
+    return [readout for readout in found if readout.name in names]
+
+
+def values(course: Course, found: dict[Readout, Any], i: int) -> str:
+    """The cells of the line in state i, as HTML."""
+    cells = (
+        f'<output data-name="{each.name}">{text(each, found[each], i)}</output>'
+        for each in line(course, found)
+    )
+    return f'<div class="strip">{"".join(cells)}</div>'
+
+
+def heads(course: Course, found: dict[Readout, Any]) -> str:
+    """What stands above the cells of the line; each says what it is."""
+    return f'<div class="strip">{"".join(map(_head, line(course, found)))}</div>'
+
+
+def table(course: Course, found: dict[Readout, Any], i: int) -> str:
+    """All numbers in state i, as HTML."""
+    rows = (
+        f'<tr data-name="{each.name}"><th>{_head(each)}</th><td>{text(each, value, i)}</td></tr>'
+        for each, value in found.items()
+    )
+    return f'<p class="phase">{phase(course, i)}</p><table>{"".join(rows)}</table>'
+
+
+@cache
+def _head(readout: Readout) -> str:
+    known = readout.known
+    about = f"<p>{linked(readout.help)}</p><em>{linked(readout.equation)}</em>"
+    return explained(f"about-{readout.name}", f"{symbol(known.symbol)} {known.long_name}", about)
+
+
+def phase(course: Course, i: int) -> str:
+    """Where a state stands on its path, in words."""
+    share, rise = course.progress[i], course.states.depth[i] - course.states.depth[max(i - 1, 0)]
+    if i == course.peak:
+        words = "deepest"
+    elif i and (course.states.contact_radius[i] == 0 or (share >= 2 and not course.turns)):
+        words = "load gone"
+    else:
+        words = "unloading" if rise < 0 else "holding" if i and rise == 0 else "loading"
+    words += f", {course.pending}" if course.pending else ""
+    if course.motion is None:
+        return words
+    unit = fitting(float(course.motion.time[-1]), "time")
+    return f"{words}, t = {digits(float(course.motion.time[i]) / unit.factor, 3)} {unit.name}"
+
+
+def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
+    """How far the assumptions hold, as the core says: "good", "note" or "beyond", with a sentence."""
+    found = list((course.states if course.hit is None else course.hit).limits)
+    if course.hit is not None and state.inertia == "density":
+        found.append(course.hit.speed_limit(state.density))
+    found += friction_limits(course.scene.medium) if course.oblique is not None else ()
+    given = state.elasticity != "modulus"
+    for limit in sorted(found, key=lambda limit: limit.concerns != "result"):
+        if limit.what == "Poisson ratio" and not given:
+            yield "note", "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*."
+        elif limit.what == "coupling" and not given:
+            yield "note", "Friction along the surface is that of ν = ½; ν is not given with E*."
+        else:
+            areas = _areas(course.hit) if limit.what == "fast limit" and np.isfinite(limit.value) else ""
+            yield limit.level, plain(limit.sentence) + areas
+
+
+def _areas(hit: Any) -> str:
+    """Both areas that the fast limit may be compared with."""
+    limit = float(hit.fast_limit.contact_area)
+    area = {"πa²": float(np.pi * hit.contact_radius**2), "A = πc²": float(hit.damaged_area)}
+    texts = (
+        f"{written(value, 'area')} ({name}, {_percent(limit / value - 1)})" for name, value in area.items()
+    )
+    return f" Its area is {written(limit, 'area')}; those of contact and damage: {', '.join(texts)}."
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:+.3g} %".replace("-", "−")
+
+
+def warnings(course: Course, state: State) -> str:
+    """What is exceeded, as HTML; what holds is folded."""
+    said = [
+        (level, f'<span class="{level}">{linked(sentence)}</span>')
+        for level, sentence in limits(course, state)
+    ]
+    seen = "".join(html for level, html in said if level == "beyond")
+    rest = "".join(html for level, html in said if level != "beyond")
+    return (
+        f"{seen}<details><summary>Assumptions that hold, and notes</summary>{rest}</details>"
+        if rest
+        else seen
+    )
+
+
+def sketch(course: Course, shape: str) -> str:
+    """A small drawing of the indenter z(r), its height stretched to fit, with its formulas, as HTML."""
+    profile, a = course.scene.profile, float(course.deepest.contact_radius)
+    width, height, half = 104, 46, min(1.5 * a, profile.known_radius)
+    r = np.unique(np.append(np.linspace(0, half, 60), min(profile.wall, half)))
+    z = profile.height(r)
+    finite = np.isfinite(z)
+    top = z[finite].max() or 1.0
+    x, y = r[finite] / half * (width / 2 - 4), height - 8 - z[finite] / top * (height - 14)
+    if not finite.all():
+        x, y = np.append(x, x[-1]), np.append(y, 4)
+    x, y = np.concatenate([-x[::-1], x]) + width / 2, np.concatenate([y[::-1], y])
+    points = " ".join(f"{px:.1f},{py:.1f}" for px, py in zip(x, y, strict=True))
+    words, size = SHAPES[shape], f'width="{width}" height="{height}"'
+    ground = f'<line x1="0" y1="{height - 7}" x2="{width}" y2="{height - 7}"/>'
+    drawing = (
+        f'<svg {size} role="img" aria-label="{words.label}">{ground}<polygon points="{points}"/></svg>'
+    )
+    formulas = f"{marked(words.height)}<br>{marked(words.reduced)}"
+    return f"<figure>{drawing}<figcaption>{formulas}</figcaption></figure>"
+
+
+def summary(state: State) -> str:
+    """A scene in a line: its shape, medium and drive with their main numbers."""
+    made, drive = medium(state), DRIVES[state.drive]
+    names = [name for name, _ in shape_quantities(state.shape)]
+    names += [name for name in ("E_star", "q_c", "eta") if 0 < getattr(made, name) < np.inf]
+    names += USED["drive"][state.drive]
+    names += ["plastic_depth"] * ("surface" in drive.form and state.surface == "imprint")
+    words = [SHAPES[state.shape].label]
+    for name in names:
+        value = float(getattr(made, name)) if name in ("E_star", "q_c", "eta") else state[name]
+        words.append(f"{QUANTITIES[name].symbol} = {written(value, QUANTITIES[name].kind, 3)}")
+    return ", ".join([*words, *drive.words(state)])

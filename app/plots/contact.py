@@ -1,0 +1,207 @@
+"""The contact in one state: springs, pressure, radii over the depth, and the pressure seen obliquely."""
+
+import numpy as np
+
+from mdr_core.results import figures
+from mdr_core.results.figures import (
+    NOTHING,
+    PRESSURE_ROWS,
+    REST,
+    SPRING_ROWS,
+    area,
+    both,
+    label,
+    line,
+    mark,
+    split,
+)
+
+from ..drives import Course
+from .plot import Plot, View, held_rows
+
+#: Cuts through the pressure over the plane, points along each, and how far the last one is moved: to the
+#: right in shares of the width, and up in shares of the height.
+_CUTS, _POINTS, _RIGHT, _UP = 25, 61, 0.22, 0.25
+
+
+def relaxing(course: Course, i: int, g):
+    """What is left (m) of the elastic compression of elements that have let go of a viscous rebound."""
+    tau = course.scene.medium.relaxation_time
+    if course.chained:
+        return course.states[i].relaxing(g)
+    if course.hit is None or tau == 0 or i <= course.peak:
+        return 0.0
+    past = slice(course.peak, i + 1)
+    upper, time = course.states.live_interval.upper[past], course.motion.time[past]
+    ahead = course.states.depth[past] - upper
+    gone = np.minimum(np.searchsorted(-upper, -g), len(upper) - 1)
+    return np.where(g >= upper[-1], ahead[gone] * np.exp((time[gone] - time[-1]) / tau), 0.0)
+
+
+def leaning(course: Course, i: int, r):
+    """How far elements at some radii lean in state i (m), and whether they stick."""
+    m, medium = course.oblique, course.scene.medium
+    # The first element is a flat face, which most shapes have not.
+    first = int(m.x[0] == 0)
+    load, sticks = (
+        np.interp(r, m.x[first:], part[i, first:]) for part in (m.tangential_line_load, m.sticks)
+    )
+    return load / (medium.tangential_ratio * medium.E_star), sticks > 0.5
+
+
+def springs(view: View, i: int) -> dict:
+    """Springs by what has happened to them; under friction they lean, and their feet say which stick."""
+    course, state = view.course, view.course.states[i]
+    size = view.end("x"), view.end("z")
+    along = None if course.oblique is None else lambda r: leaning(course, i, r)
+    rows = figures.springs(state, *size, lambda g: relaxing(course, i, g), along)
+    return rows if along is None else rows | _feet(state, rows, *size)
+
+
+def _feet(state, rows: dict, half: float, height: float) -> dict:
+    """Leaning springs as elastic and yielded ones, and lines below those that stick or slip."""
+    found, width = {}, 0.8 * half / figures.SPRINGS
+    paths = [np.reshape(part, (-1, 9)) for part in (np.hstack([rows["sticks"], rows["slips"]]))]
+    yielded = figures.reduced(state.profile, np.abs(paths[0][:, 0])) < state.live_interval.lower
+    for name, some in (("elastic", ~yielded), ("yielded", yielded)):
+        leaning = [part[some].ravel() for part in paths]
+        found[name] = tuple(np.append(part, more) for part, more in zip(rows[name], leaning, strict=True))
+    for name in ("sticks", "slips"):
+        foot = rows[name][0].reshape(-1, 9)[:, 0]
+        ends = foot[:, None] + np.array([-width, width, np.nan])
+        found[name] = ends.ravel(), np.full(ends.size, -0.97 * REST * height)
+    return found
+
+
+def _spring_formula(course: Course) -> str:
+    law = "(1) (17) (18)  q = E* u + 4η du/dt" if course.dashpots else "(17) (18)  q = E* u"
+    return f"{law},  u ≤ d_c the elastic part" + (";  |q_x| ≤ μ q  § 13" if course.oblique else "")
+
+
+SPRINGS = Plot(
+    "springs", "1D foundation", _spring_formula, ("x", "z"),
+    (*SPRING_ROWS, line("sticks", "stick", 4.0), line("slips", "slip", 4.0)),
+    moving=springs,
+)  # fmt: skip
+
+
+def pressure(view: View, i: int) -> dict:
+    half, top = view.end("x"), view.end("p")
+    rows = figures.pressure(view.course.states[i], *view.pressure(i), half, top)
+    return rows | {"exceeds": (-0.97 * half, 0.98 * top, view.exceeds(i))}
+
+
+def _held_pressure(view: View) -> dict:
+    def columns(course, beside):
+        r = figures.radii(course.state, view.end("x") / beside("r", 1.0))
+        p = np.minimum(beside("p", course.state.pressure(r)), 1e3 * view.end("p"))
+        return both(beside("r", r), -1), both(p)
+
+    return view.of_held("", columns)
+
+
+PRESSURE = Plot(
+    "pressure", "Contact pressure", "(10)  σ_zz(r) = (1/π) ∫ q′(x) dx/√(x² − r²)", ("r", "p"),
+    (*held_rows("−σzz"), *PRESSURE_ROWS, label("exceeds")), _held_pressure, pressure,
+)  # fmt: skip
+
+
+def _loading(course: Course):
+    """Depths and contact radii of loading: dense where the depth begins, as its root is."""
+    depth, a = course.states.depth[: course.peak + 1], course.states.contact_radius[: course.peak + 1]
+    if course.hit is None:
+        return depth, a
+    fine = course.before + (depth[-1] - course.before) * np.linspace(0, 1, 81) ** 2
+    return np.append(fine[:1], fine), np.append(a[:1], course.scene.profile.contact_radius(fine))
+
+
+def zone(course: Course):
+    """Loading, unloading and plastic zone: the contact radius falls by a step where the load is gone."""
+    depth, a, c = course.states.depth, course.states.contact_radius, course.states.plastic_radius
+    deeper = depth >= np.maximum.accumulate(depth)
+    if course.turns:
+        rows = split(depth, a, depth, course.states.live_interval.lower)
+        loading = np.concatenate([rows["elastic"], [[np.nan]] * 2, rows["yielding"]], axis=1)
+        return tuple(loading), rows["unloading"], (depth[deeper], c[deeper])
+    peak, gone = course.peak, int(np.flatnonzero(course.states.live_interval.length > 0)[-1]) + 1
+    last = c[-1:] if course.states.live_interval.lower[-1] > 0 else a[gone : gone + 1]
+    back = np.append(depth[peak : gone + 1], depth[gone:])
+    past = slice(peak + 1)
+    falling = np.concatenate([a[peak:gone], last, 0 * depth[gone:]])
+    return _loading(course), (back, falling), (depth[past], c[past])
+
+
+def radii_still(view: View) -> dict:
+    loading, back, (d, c) = zone(view.course)
+    # From the last state on that has not yielded.
+    begun = np.flatnonzero(c > c[0])
+    some = slice(max(int(begun[0]) - 1, 0), None) if begun.size else slice(0, 0)
+    d, c = d[some], c[some]
+    rows = {"contact radius a": loading, "unloading": back, "plastic zone c": (d, c)}
+    rows["zone"] = np.append(d, [*d[-1:], *d[:1]]), np.append(c, [0, 0][: 2 * len(d)])
+
+    def held_a(course, beside):
+        loading, back, _ = zone(course)
+        d, a = map(np.append, loading, back)
+        return beside("d", d), beside("a", a)
+
+    def held_c(course, beside):
+        d, c = zone(course)[2]
+        return beside("d", d), beside("a", c)
+
+    return rows | view.of_held(" a", held_a) | view.of_held(" c", held_c)
+
+
+def radii_marks(view: View, i: int) -> dict:
+    depth, a = view.mark(i, "d", "a")
+    c = view.course.states.plastic_radius[[i]]
+    return {"now": (depth, a), "c now": (depth, np.where(c > 0, c, np.nan))}
+
+
+RADII = Plot(
+    "radii", "Contact and plastic zone", "(16) (21)  g(a) = d,  g(c) = d_p", ("d", "a"),
+    (
+        area("zone", "yielded", 0.13, legend=False),
+        *held_rows("a", what=" a"),
+        *held_rows("c", what=" c", width=0.9, legend=False),
+        line("unloading", "elastic", 1.8, "dashed", "a"),
+        line("contact radius a", "elastic", 2.2, symbol="a"),
+        line("plastic zone c", "yielded", 3.0, symbol="c"),
+        mark("now"),
+        mark("c now", legend=False),
+    ),
+    radii_still, radii_marks, tab=("Radii", "a"),
+)  # fmt: skip
+
+
+def relief(view: View, i: int) -> dict:
+    """Cuts through the pressure over the plane, from the back to the front, each hiding what is behind."""
+    state, half, end = view.course.states[i], view.end("across"), view.end("oblique")
+    r, p = view.pressure(i)
+    a, c = float(state.contact_radius), float(state.plastic_radius)
+    rows = {}
+    for k, y in enumerate(np.linspace(1, -1, _CUTS) * 1.02 * (a or 0.8 * half)):
+        back = (y / half + 1) / 2
+        edges = [np.sqrt(max(radius**2 - y * y, 0.0)) for radius in (a, c)]
+        for name, reach in (("cut", half), ("zone", edges[1])):
+            x = np.unique(
+                np.append(np.linspace(-reach, reach, _POINTS), [s * e for e in edges for s in (-1, 1)])
+            )
+            x = x[np.abs(x) <= reach]
+            over = np.interp(np.hypot(x, y), r, np.minimum(p, view.end("p")), right=0.0)
+            at = (1 - _RIGHT) * x + _RIGHT * half * (2 * back - 1)
+            closed = np.append(at, at[::-1]), _UP * end * back + np.append(over, 0 * x)
+            rows[f"{name} {k}"] = closed if reach > 0 else NOTHING
+    return rows
+
+
+def _cut_rows():
+    for k in range(_CUTS):
+        yield area(f"cut {k}", "cut", 1.0, legend=False)
+        yield area(f"zone {k}", "yielded", 0.35, legend=False)
+
+
+RELIEF = Plot(
+    "relief", "Pressure over the plane, seen obliquely", "(10)  −σ_zz(√(x² + y²));  zone: orange",
+    ("across", "oblique"), tuple(_cut_rows()), moving=relief, tab=("Relief", "i"),
+)  # fmt: skip

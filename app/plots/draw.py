@@ -1,0 +1,325 @@
+"""Plots as Bokeh figures: one source for the rows of a kind, drawn by `source.data = …`; frames."""
+
+from functools import lru_cache
+from typing import Any
+
+import bokeh.models as bk
+import numpy as np
+from bokeh.plotting import figure
+
+from mdr_core.results.figures import DASHES, ROLES, Axis, Row
+
+from ..state.units import digits
+from .plot import Plot, View
+
+FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
+#: Colours of the roles, light and dark; a cut through the pressure is tinted, to hide what is behind.
+COLOURS = ROLES | {"cut": ("#e3edf5", "#1f2f3c")}
+#: Rows that are drawn together, from the back to the front.
+_GROUPS = ("areas", "lines", "lines right", "marks", "marks right", "labels")
+#: What the pointer is told: the point of the curve that is nearest.
+_TIP = "<b>@row</b><br>@symbol = $snap_y{{%.4g}} {y.unit}<br>{symbol} = $snap_x{{%.4g}} {x.unit}"
+_TEXT = {
+    "text_font_size": "12px",
+    "text_font_style": "italic",
+    "text_baseline": "top",
+    "text_color": "color",
+}
+_TEXT |= {"background_fill_color": "ground", "background_fill_alpha": 0.8}
+
+
+class Layer:
+    """The rows of a plot that share a source, and how they look."""
+
+    def __init__(self, plot: Plot, group: str):
+        self.kind, _, right = group.partition(" ")
+        self.name, self.right = group, bool(right)
+        self.rows = [row for row in plot.rows if row.group == group]
+        places = (
+            ("xs", "ys")
+            if self.kind in ("areas", "lines")
+            else ("x", "y", *["text"] * (self.kind == "labels"))
+        )
+        empty = {name: [] for name in (*self.look(False, [0] * len(self.rows)), *places)}
+        self.source = bk.ColumnDataSource(empty, name=f"{plot.name} {group}")
+        # Columns come from the server, or from the frames it has sent: never the other way.
+        self.source.syncable = False
+
+    def look(self, dark: bool, sizes: list[int]) -> dict[str, list]:
+        """Columns of the look, one value for each row, or for each point of marks."""
+        rows = [row for row, size in zip(self.rows, sizes, strict=True) for _ in range(size)]
+        found = {"row": [row.name for row in rows], "color": [COLOURS[row.role][dark] for row in rows]}
+        if self.kind == "labels":
+            return found | {"ground": [COLOURS["paper"][dark]] * len(rows)}
+        for key in self.rows[0].look:
+            found[key] = [row.look[key] for row in rows]
+        if self.kind == "lines":
+            found["dash"] = [DASHES[dash] for dash in found["dash"]]
+            found["symbol"] = [row.symbol or row.name for row in rows]
+        elif self.kind == "marks":
+            found["edge"] = [COLOURS[edge][dark] for edge in found["edge"]]
+        elif self.kind == "areas":
+            found["edge"] = [COLOURS["elastic"][dark] if row.role == "cut" else None for row in rows]
+        return found
+
+    def places(self, rows: dict, axes: list[Axis]) -> tuple[dict[str, list], list[int]]:
+        """Columns of the places of all rows in the units of their axes, and how many points a row has."""
+        x_axis, y_axis = axes[0], axes[2] if self.right else axes[1]
+        xs, ys, sizes = [], [], []
+        for row in self.rows:
+            x, y = _inside(row, x_axis, y_axis, *rows[row.name][:2])
+            xs.append(_short(x, x_axis))
+            ys.append(_short(y, y_axis))
+            sizes.append(len(xs[-1]))
+        if self.kind in ("areas", "lines"):
+            return {"xs": xs, "ys": ys}, [1] * len(xs)
+        found: dict[str, list] = {
+            "x": [x for part in xs for x in part],
+            "y": [y for part in ys for y in part],
+        }
+        if self.kind == "labels":
+            found["text"] = [rows[row.name][2] for row in self.rows]
+        return found, sizes
+
+
+def _short(values: Any, axis: Axis) -> list[float]:
+    """Values in the unit of an axis, as list, on a linear one to a fraction of a pixel."""
+    values = np.atleast_1d(np.asarray(values, float)) / axis.factor
+    return (values if axis.log else np.round(values, _decimals(axis))).tolist()
+
+
+@lru_cache(1000)
+def _decimals(axis: Axis) -> int:
+    size = max(abs(end) for end in axis.ends) or 1.0
+    return 4 - int(np.floor(np.log10(size)))
+
+
+def _inside(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, Any]:
+    """A line or area as far as it is within its axes, for a canvas that does not clip."""
+    if row.kind not in ("areas", "lines"):
+        return parts[0], parts[1]
+    for k, sign, bound in ((1, 1, y.end), (0, 1, x.end), (0, -1, -x.start)):
+        outside = sign * parts[k] > bound + 1e-9 * abs(bound)
+        if not outside.any():
+            continue
+        at = np.flatnonzero(outside[:-1] != outside[1:])
+        share = (sign * bound - parts[k][at]) / (parts[k][at + 1] - parts[k][at])
+        parts = [np.insert(part, at + 1, part[at] + share * (part[at + 1] - part[at])) for part in parts]
+        cut = sign * bound if row.kind == "areas" else np.nan
+        parts[k] = np.where(np.insert(outside, at + 1, False), cut, parts[k])
+    return parts[0], parts[1]
+
+
+class Picture:
+    """One plot as a figure; `level` is where its data are painted, `size` that of one that is printed."""
+
+    def __init__(self, plot: Plot, level: str = "overlay", size: tuple[int, int] | None = None):
+        self.plot, self.axes, self.drawn = plot, None, None
+        kinds = {"x_axis_type": "log", "y_axis_type": "log"} if plot.log else {}
+        ranges = {"x_range": bk.Range1d(0.1, 1), "y_range": bk.Range1d(0.1, 1)}
+        self.figure = figure(name=plot.name, tools="", toolbar_location=None, **kinds, **ranges)
+        self.layers = [Layer(plot, g) for g in _GROUPS if any(row.group == g for row in plot.rows)]
+        self.hovers: list[tuple[Any, bool]] = []
+        if any(layer.right for layer in self.layers):
+            self.figure.extra_y_ranges = {"right": bk.Range1d(0, 1)}
+            self.figure.add_layout(bk.LinearAxis(y_range_name="right"), "right")
+        self.image = self._image() if plot.image else None
+        for layer in self.layers:
+            self._add(layer, level)
+        self._dress(size)
+
+    def _image(self):
+        empty = {name: [] for name in ("image", "x", "y", "dw", "dh")}
+        source = bk.ColumnDataSource(empty, name=f"{self.plot.name} image")
+        source.syncable = False
+        mapper = bk.LinearColorMapper(palette="Cividis256", low=0, high=1)
+        glyph = self.figure.image("image", "x", "y", "dw", "dh", source=source, color_mapper=mapper)
+        glyph.name, self.bar = "image", glyph.construct_color_bar(padding=2, width=12)
+        self.bar.update(background_fill_color=None, bar_line_color=None)
+        self.figure.add_layout(self.bar, "right")
+        return source
+
+    def _add(self, layer: Layer, level: str):
+        f, source, kind = self.figure, layer.source, layer.kind
+        if kind == "areas":
+            hatched = any(row.look["hatch"] != " " for row in layer.rows)
+            hatch = (
+                {"hatch_pattern": "hatch", "hatch_color": "color", "hatch_alpha": 0.35} if hatched else {}
+            )
+            glyph = f.patches(
+                "xs",
+                "ys",
+                source=source,
+                fill_color="color",
+                fill_alpha="alpha",
+                line_color="edge",
+                **hatch,
+            )
+        elif kind == "lines":
+            glyph = f.multi_line(
+                "xs", "ys", source=source, line_color="color", line_width="width", line_dash="dash"
+            )
+        elif kind == "marks":
+            look = {
+                "fill_color": "color",
+                "line_color": "edge",
+                "marker": "marker",
+                "size": "size",
+                "line_width": 1.6,
+            }
+            glyph = f.scatter("x", "y", source=source, **look)
+        else:
+            glyph = f.text("x", "y", "text", source=source, **_TEXT)
+        only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
+        # Above the axes, on a canvas of its own: they are not painted again with the data.
+        glyph.update(name=layer.name, level=level, **only)
+        if layer.right:
+            glyph.y_range_name = "right"
+        if kind == "lines" and any(row.symbol for row in layer.rows):
+            told = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
+            hover = bk.HoverTool(renderers=[glyph], line_policy="nearest", visible=False, **told)
+            self.figure.add_tools(hover)
+            self.hovers.append((hover, layer.right))
+
+    def _dress(self, size):
+        f = self.figure
+        f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None, title=None)
+        # The outermost pixels of a canvas keep a trace of the colour before the last one.
+        f.styles = {"clip-path": "inset(1px)"}
+        f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
+        fixed = (
+            {"sizing_mode": "fixed", "width": size[0], "height": size[1], "output_backend": "svg"}
+            if size
+            else {}
+        )
+        f.update(**fixed or {"sizing_mode": "stretch_both", "min_height": 150})
+        for axis in f.axis:
+            axis.update(minor_tick_line_color=None, major_tick_in=0, axis_label_text_font_style="normal")
+            axis.update(axis_label_text_font=FONT, axis_label_text_font_size="12px")
+            axis.update(major_label_text_font=FONT, major_label_text_font_size="11px")
+
+    def columns(self, view: View, i: int, dark: bool) -> dict[Any, dict[str, list]]:
+        """What each source has in state i."""
+        axes, rows = view.axes_of(self.plot), view.rows(self.plot, i)
+        if not axes:
+            return {}
+        found = {}
+        for layer in self.layers:
+            places, sizes = layer.places(rows, axes)
+            found[layer.source] = layer.look(dark, sizes) | places
+        if self.image is not None:
+            (left, right), (low, high) = (
+                np.asarray(part) / axes[k].factor for k, part in enumerate(rows["image"][:2])
+            )
+            corner = {"x": [left], "y": [low], "dw": [right - left], "dh": [high - low]}
+            found[self.image] = corner | {"image": [np.float32(rows["image"][2] / axes[2].factor)]}
+        return found
+
+    def frame(self, view: View, i: int) -> dict[Any, dict[str, list]]:
+        """Places of what moves in state i; the rest of its columns is as it is drawn."""
+        axes, rows = view.axes_of(self.plot), view.rows(self.plot, i)
+        moving = self.plot.moving(view, view.course.now).keys()
+        some = [layer for layer in self.layers if any(row.name in moving for row in layer.rows)]
+        return {layer.source: layer.places(rows, axes)[0] for layer in some}
+
+    def show(self, columns: dict, view: View, dark: bool) -> None:
+        """Draw columns that were made for a view."""
+        axes = view.axes_of(self.plot)
+        if axes and (axes, dark) != self.axes:
+            self.axes = axes, dark
+            self._set_axes(axes, dark)
+        for source, data in columns.items():
+            source.data = data
+
+    def _set_axes(self, axes: list[Axis], dark: bool):
+        f, ground = self.figure, COLOURS["paper"][dark]
+        # Another ground paints the axes anew, too, which take their colours from the sheet.
+        f.update(background_fill_color=ground, border_fill_color=ground)
+        ranges = (f.x_range, f.y_range, f.extra_y_ranges.get("right"))
+        sides = (f.below[0], f.left[0], *f.right[:1])
+        for bounds, side, axis in zip(ranges, sides, axes, strict=False):
+            start, end = axis.ends
+            if bounds is not None:
+                bounds.update(start=start, end=end)
+                side.axis_label = axis.label
+                self._scale(side, axis)
+        for hover, right in self.hovers:
+            symbol, y = axes[0].title.split(",")[0], axes[2 if right else 1]
+            hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=y)
+        if self.image is not None:
+            low, high = axes[2].ends
+            self.bar.color_mapper.update(low=low, high=high)
+            colour = COLOURS["ink"][dark]
+            self.bar.update(
+                title=f"{axes[2].title.split(',')[0]} ({axes[2].unit})",
+                title_text_color=colour,
+                major_label_text_color=colour,
+            )
+
+    def _scale(self, side, axis: Axis):
+        """Make the scale along one side logarithmic, or linear again."""
+        f, log = self.figure, axis.log or self.plot.log
+        name = "x_scale" if side is f.below[0] else "y_scale"
+        if isinstance(getattr(f, name), bk.LogScale) != log:
+            setattr(f, name, bk.LogScale() if log else bk.LinearScale())
+        elif not log:
+            return
+        ticker, formatter = ticks(*axis.ends) if log else (bk.BasicTicker(), bk.BasicTickFormatter())
+        side.update(ticker=ticker, formatter=formatter)
+        for grid in (each for each in f.center if getattr(each, "axis", None) is side):
+            grid.ticker = side.ticker
+
+
+def ticks(low: float, high: float) -> tuple[Any, Any]:
+    """Ticker and formatter of a logarithmic axis; over two decades or less Bokeh's has too many."""
+    if high > 101 * low:
+        return bk.LogTicker(), bk.LogTickFormatter()
+    powers = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
+    fixed = bk.FixedTicker(ticks=[float(f"{n}e{power:.0f}") for power in powers for n in (1, 2, 5)])
+    return fixed if high > 5 * low else bk.BasicTicker(), bk.BasicTickFormatter()
+
+
+def drawn(view: View, plot: Plot, states: set[int]) -> set[str]:
+    """Names of the rows of a plot that have something to show in one of some states."""
+    rows = [row for i in states for row in view.rows(plot, i).items()]
+    return {row for row, values in rows if np.size(values[1]) and np.isfinite(values[1]).any()}
+
+
+def described(view: View, plot: Plot) -> str:
+    """A plot in words, for those who do not see it: its axes, and how far and how high each row goes."""
+    axes = view.axes_of(plot)
+    if not axes:
+        return f"{plot.title}: nothing yet."
+    x, y, *more = axes
+    said = [f"{plot.title}: {y.title}, over {x.title}, from {_at(x, x.start)} to {_at(x, x.end)}."]
+    rows = view.rows(plot, view.course.now)
+    for row in plot.rows:
+        if row.legend and (text := _row(row, rows[row.name], x, more[0] if row.axis == 2 else y)):
+            said.append(f"{row.name}: {text}.")
+    if plot.image and np.isfinite(rows["image"][2]).any():
+        said.append(f"colours: {_at(more[0], np.nanmax(rows['image'][2]))} at most.")
+    return " ".join(said)
+
+
+def _row(row: Row, columns: Any, x: Axis, y: Axis) -> str:
+    """Where one row is; nothing if it is not drawn."""
+    at, values = (np.ravel(part) for part in columns[:2])
+    there = np.isfinite(at) & np.isfinite(values)
+    if not there.any():
+        return ""
+    at, values = at[there], values[there]
+    if row.kind == "marks" and values.size < 4:
+        return "; ".join(f"{_of(x, a)}, {_of(y, b)}" for a, b in zip(at, values, strict=True))
+    if row.symbol:
+        # Of two sides that are alike the right one.
+        top = values.size - 1 - int(np.argmax(values[::-1]))
+        return f"{row.symbol} from {_at(y, values.min())} to {_at(y, values[top])} at {_of(x, at[top])}"
+    return f"from {_of(x, at.min())} to {_at(x, at.max())}"
+
+
+def _at(axis: Axis, value: float) -> str:
+    return f"{digits(float(value) / axis.factor, 3)} {axis.unit}".strip()
+
+
+def _of(axis: Axis, value: float) -> str:
+    return f"{axis.title.split(',')[0]} = {_at(axis, value)}"

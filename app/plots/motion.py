@@ -1,0 +1,137 @@
+"""What has times: depth and force, energies, and of an oblique impact what is along the surface."""
+
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+
+import mdr_core as mdr
+from mdr_core.results.figures import NOTHING, area, line, mark
+
+from ..drives import Course
+from ..solve import Found
+from .plot import Plot, View, held_rows, maw_chi, maw_numbers
+
+#: Impacts on Maw's curve where stick and slip meet, and error allowed there: less than is seen.
+_PLACES, _TOLERANCE = 14, 1e-3
+
+
+def motion_still(view: View) -> dict:
+    on = view.course.on
+    return {"depth d": (on["t"], on["d"]), "force F": (on["t"], on["F"])} | view.held_on("t", "F")
+
+
+def motion(view: View, i: int) -> dict:
+    marks = {"now": view.mark(i, "t", "d"), "F now": view.mark(i, "t", "F")}
+    return marks | {"time": view.time(i, "d")}
+
+
+MOTION = Plot(
+    "motion", "Depth and force over time",
+    lambda course: "m d²d/dt² = −F,  § 9" if course.hit else "as prescribed  § 8, § 14", ("t", "d", "F"),
+    (
+        *held_rows("F", axis=2),
+        line("depth d", "speed", 2.2, symbol="d"),
+        line("force F", "elastic", 2.2, "dashed", "F", axis=2),
+        line("time", "ink", 1.0, "dashed", legend=False),
+        mark("now"),
+        mark("F now", marker="diamond", size=11, axis=2, legend=False),
+    ),
+    motion_still, motion, tab=("In time", "v"),
+)  # fmt: skip
+
+
+def energy_still(view: View) -> dict:
+    m = view.course.ledger
+    slip = 0 * m.time if view.course.oblique is None else m.friction_work
+    parts = slip, m.plastic_work, m.viscous_work, m.stored_energy, m.kinetic_energy
+    sums = np.cumsum([np.zeros_like(m.time), *parts], axis=0)
+    time = np.append(m.time, m.time[::-1])
+    between = [(time, np.append(upper, lower[::-1])) for lower, upper in pairwise(sums)]
+    # What is nothing but rounding is not in the legend.
+    some = [part.max() > 1e-9 * sums.max() for part in parts]
+    rows = [row if there else NOTHING for row, there in zip(between, some, strict=True)]
+    return dict(zip(("friction", "plastic", "viscous", "stored", "kinetic"), rows, strict=True))
+
+
+def _ledger(course: Course) -> str:
+    lost = "U + W_p" + " + W_v" * course.dashpots + " + W_f" * (course.oblique is not None)
+    if course.hit is None:
+        return f"{lost} = ∫ F dd  § 14"
+    along = " + m_t W²/2" * (course.oblique is not None)
+    return f"{lost} + m v²/2{along} = const.  § 9" + ", § 13" * bool(along)
+
+
+ENERGY = Plot(
+    "energy", "Where the energy is", _ledger, ("t", "E"),
+    (
+        area("friction", "slip", 0.6, "x"),
+        area("plastic", "yielded", 0.45, "/"),
+        area("viscous", "loss", 0.5, "\\"),
+        area("stored", "elastic", 0.45),
+        area("kinetic", "speed", 0.3),
+        line("time", "ink", 1.0, "dashed", legend=False),
+    ),
+    energy_still, lambda view, i: {"time": view.time(i, "E")}, tab=("Energy", "n"),
+)  # fmt: skip
+
+
+def forces_still(view: View) -> dict:
+    on, most = view.course.on, view.course.scene.drive.friction * view.course.force
+    both = np.append(on["t"], [np.nan, *on["t"]]), np.append(most, [np.nan, *-most])
+    rows = {"normal force F": (on["t"], on["F"]), "force along Fₓ": (on["t"], on["force"])}
+    return rows | {"most friction ±μF": both} | view.held_on("t", "force")
+
+
+def forces(view: View, i: int) -> dict:
+    marks = {"now": view.mark(i, "t", "force"), "F now": view.mark(i, "t", "F")}
+    return marks | {"time": view.time(i, "force")}
+
+
+FORCES = Plot(
+    "forces", "Forces of an oblique impact", "|F_x| ≤ μ F,  § 13", ("t", "force"),
+    (
+        *held_rows("F"),
+        line("most friction ±μF", "slip", 1.2, "dashed", "μF"),
+        line("normal force F", "elastic", 2.2, symbol="F"),
+        line("force along Fₓ", "stick", 2.2, symbol="Fₓ"),
+        line("time", "ink", 1.0, "dashed", legend=False),
+        mark("now"),
+        mark("F now", marker="diamond", legend=False),
+    ),
+    forces_still, forces, tab=("Friction", "c"),
+)  # fmt: skip
+
+
+def maw_still(view: View) -> dict:
+    psi, after, _ = maw_numbers(view.course)
+    return {"this impact": (np.array([psi]), np.array([after]))} if psi else {}
+
+
+def maw(course: Course, asked):
+    """The elastic curve of the same body, as far as it has been found: Maw's own under a paraboloid."""
+    drive, medium = course.scene.drive, course.scene.medium
+    elastic = mdr.Medium(medium.E_star, poisson=medium.poisson)
+    body, found = (drive.mass, drive.speed, drive.tangential_mass), [(0.0, 0.0)]
+    last, reach = max(4 * maw_chi(course) - 1, 1.0), maw_numbers(course)[2]
+    for psi in [*np.linspace(0, last, _PLACES)[1:], reach]:
+        found.append((psi, _after(course.scene.profile, elastic, *body, float(psi))))
+        note = "" if psi > last else "finding the curve …"
+        yield Found({"elastic (Maw)": tuple(np.array(found).T)}, [], note)
+
+
+@cache
+def _after(profile, medium, mass, speed, tangential_mass, psi):
+    """ψ₂ of an elastic impact with some ψ₁."""
+    unit = speed / float(medium.tangential_ratio)
+    hit = mdr.oblique_impact(
+        profile, medium, mass, speed, psi * unit, 1.0, tangential_mass=tangential_mass, tolerance=_TOLERANCE
+    )
+    return float(hit.tangential_velocity) / unit
+
+
+MAW = Plot(
+    "maw", "Speed along the surface, after over before", "ψ = κ W/(μ v_0),  § 13", ("ψ₁", "ψ₂"),
+    (line("elastic (Maw)", "elastic", 2.2, symbol="ψ₂"), mark("this impact", "slip", "ink", "diamond", 12)),
+    maw_still, find=maw, tab=("ψ", "o"),
+)  # fmt: skip

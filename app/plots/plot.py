@@ -1,0 +1,331 @@
+"""What a plot is, and a view: one course with the axes that hold it, from which rows are drawn, in SI."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from typing import Any
+
+import numpy as np
+
+import mdr_core as mdr
+from mdr_core.results.figures import NOTHING, REST, Axis, Row, ceiling, line, radii
+from mdr_core.results.quantities import QUANTITIES
+
+from ..drives import Course, onset
+from ..state.units import fitting, round_up, written
+
+#: Scenes that are held have each its own dashes.
+DASHES = ("dotdash", "dashed", "dotted", "solid")
+
+
+def _titled(name: str) -> str:
+    known = QUANTITIES[name]
+    return f"{known.symbol}, {known.long_name}"
+
+
+#: Every axis: its title, the kind of its unit, the size (see `_sizes`) that it holds, and how far it
+#: reaches below zero, in shares of that.
+AXES: dict[str, tuple[str, str, str, float]] = {
+    "x": ("x, coordinate of the springs", "length", "r", 1.0),
+    "r": ("r, radius", "length", "r", 1.0),
+    "z": ("z, height", "length", "z", REST),
+    "d": (_titled("depth"), "length", "d", 0.0),
+    "F": (_titled("force"), "force", "F", 0.0),
+    "a": ("a, c, radius", "length", "a", 0.0),
+    "p": ("−σzz, contact pressure", "pressure", "p", 0.0),
+    "far r": ("r, radius", "length", "far", 1.0),
+    "far z": ("z, height", "length", "z", 1.2),
+    "t": (_titled("time"), "time", "t", 0.0),
+    "E": ("E, energy", "energy", "E", 0.0),
+    "ΔF": ("ΔF, residual force", "force", "ΔF", 1.0),
+    "force": ("F, Fₓ, force", "force", "force", 0.0),
+    "ψ₁": ("ψ₁, speed along the surface before", "number", "ψ₁", 0.0),
+    "ψ₂": ("ψ₂, speed along the surface after", "number", "ψ₂", 1.0),
+    "log d": (_titled("depth"), "length", "d", 0.0),
+    "log F": (_titled("force"), "force", "F", 0.0),
+    "across": ("x, across the surface", "length", "r", 1.0),
+    "oblique": ("−σzz, above its own ground", "pressure", "relief", 0.0),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Plot:
+    """A plot: title, formula (of a course), keys of its axes (x, y, one on the right or of colours), rows.
+
+    `still` gives rows that stay while a scene is played, `moving` those of one of its states: x and y of
+    each (SI), of a label its text, of an image its values. With a `tab` (its text, and a key) it is
+    shown on request, where all its axes are. `find` takes longer than a move: it gets the course and what
+    `asks` gives of the state, or the values of the `controls` above the plot, and yields what it has found
+    so far, anew for each scene, `of_state` for each state; what is `quick` is found at every move. An
+    `image` has so many rows and columns of pixels. `note` stands below.
+    """
+
+    name: str
+    title: str
+    formula: str | Callable[[Course], str]
+    axes: tuple[str, ...]
+    rows: tuple[Row, ...]
+    still: Callable[["View"], dict] = lambda view: {}
+    moving: Callable[["View", int], dict] = lambda view, i: {}
+    find: Callable[..., Iterator[Any]] | None = None
+    asks: Callable[[Any], Any] | None = None
+    quick: Callable[[Any], bool] = lambda asked: False
+    of_state: bool = False
+    tab: tuple[str, str] | None = None
+    controls: tuple[str, ...] = ()
+    log: bool = False
+    image: tuple[int, int] | None = None
+    note: Callable[["View"], str] | None = None
+    fitted: Callable[["View"], list] | None = None
+
+    def __post_init__(self):
+        if unknown := set(self.axes) - AXES.keys():
+            raise ValueError(f"plot {self.name}: no axis {', '.join(unknown)}")
+
+    def asked(self, state: Any) -> Any:
+        """What is looked for in a state, beside its course."""
+        return self.asks(state) if self.asks else tuple(state[name] for name in self.controls)
+
+    def says(self, course: Course) -> str:
+        """The formula that holds for a course."""
+        return self.formula if isinstance(self.formula, str) else self.formula(course)
+
+    def there(self, view: "View") -> bool:
+        """Whether a view has all its axes."""
+        return all(AXES[name][2] in view.size for name in self.axes)
+
+
+def held_rows(
+    symbol: str, axis: int = 1, what: str = "", width: float = 1.6, legend: bool = True
+) -> list[Row]:
+    """A row for each scene that may be held."""
+    rows = enumerate(DASHES, 1)
+    return [line(f"held {k}{what}", "held", width, dash, symbol, axis, legend) for k, dash in rows]
+
+
+def axis(name: str, title: str, kind: str, largest: float, below: float = 0.0, scale: Any = None) -> Axis:
+    """An axis that ends at the next round number above `largest` (SI), in a unit that fits.
+
+    With a `scale` (a size and what it is) it is dimensionless.
+    """
+    unit = fitting(largest, kind)
+    if round_up(largest / unit.factor) >= 1000:
+        unit = fitting(round_up(largest / unit.factor) * unit.factor, kind)
+    made = over(Axis(name, title, unit.name, unit.factor), scale)
+    end = round_up(largest / made.factor) * made.factor
+    return replace(made, start=0.0 - below * end, end=end)
+
+
+def over(axis: Axis, scale: tuple[float, str] | None) -> Axis:
+    """An axis with a size (SI) of the scene, and what that is, for its unit, if there is such a size."""
+    return replace(axis, unit=f"× {scale[1]}", factor=scale[0]) if scale else axis
+
+
+class View:
+    """A course and its axes, with those held beside it, what plots have found, and choices of the view.
+
+    `curve` is what was measured, if anything was.
+    """
+
+    def __init__(self, course: Course, state: Any, held=(), found=None, curve=None):
+        self.course, self.held, self.found, self.curve = course, held, found or {}, curve
+        self.references, self.heights = state.references, state.heights
+        ratio = state.axes == "ratio"
+        # Sizes of the scene that are units, and those of what is held, each in its own.
+        self._scales, *self._theirs = (_scales(each) if ratio else {} for each in (course, *held))
+        self._axes: dict[str, Axis] = {}
+        self._drawn: dict[Any, Any] = {}
+
+    @cached_property
+    def size(self) -> dict[str, float]:
+        """Largest values (SI) that the axes are to hold, with all that is held."""
+        size = _sizes(self.course)
+        for k, held in enumerate(self.held):
+            theirs = _sizes(held)
+            # Heights are those of this scene: nothing that is held is drawn over them.
+            for name in size.keys() & theirs.keys() - {"z"}:
+                size[name] = max(size[name], self._beside(k, name, theirs[name]))
+        if self.curve is not None:
+            size["d"] = max(size["d"], 1.02 * float(self.curve.depth.max()))
+            size["F"] = max(size["F"], 1.05 * float(self.curve.force.max()))
+            size["ΔF"] = float(np.nan_to_num(np.abs(self.residual)).max())
+        return size
+
+    def axis(self, name: str) -> Axis:
+        """An axis of the view, made when it is asked for."""
+        if name not in self._axes:
+            title, kind, size, below = AXES[name]
+            key = name.removeprefix("log ")
+            made = axis(key, title, kind, self.size[size], below, self._scales.get(key))
+            if name == "force" and np.min(self.course.on["force"]) < 0:
+                made = replace(made, start=-made.end)
+            elif name == "force":
+                made = replace(made, start=-min(self.course.scene.drive.friction, 1.0) * made.end)
+            elif name == "t":
+                made = replace(made, start=min(float(self.course.motion.time[0]), 0.0))
+            elif name != key:
+                least = _least(self.course)[key]
+                power = np.floor(np.log10(max(least, 1e-8 * made.end) / made.factor))
+                made = replace(made, start=float(10.0**power) * made.factor, log=True)
+            self._axes[name] = made
+        return self._axes[name]
+
+    def end(self, name: str) -> float:
+        """Where an axis ends (SI)."""
+        return self.axis(name).end
+
+    def axes_of(self, plot: Plot) -> list[Axis]:
+        """The axes of a plot: those of the view, or what was found with its rows."""
+        found = self.found.get(plot.name)
+        if found and found.axes:
+            return [over(each, self._scales.get(each.name)) for each in found.axes]
+        return plot.fitted(self) if plot.fitted else [self.axis(key) for key in plot.axes]
+
+    def _beside(self, k: int, name: str, values: Any) -> Any:
+        """Values of one that is held on an axis of this scene, a dimensionless one in units of its own."""
+        both = self._scales, self._theirs[k]
+        (ours, same), (theirs, symbol) = (scale.get(name, (1.0, "")) for scale in both)
+        return values * (ours / theirs) if symbol == same else values
+
+    def of_held(self, what: str, columns: Callable[..., Any]) -> dict:
+        """Rows of all that is held, `what` after their names: `columns` gets a course and its scaling."""
+        return {
+            f"held {k + 1}{what}": columns(held, partial(self._beside, k))
+            for k, held in enumerate(self.held)
+        }
+
+    def held_on(self, x: str, y: str) -> dict:
+        """Curves of all that is held on two axes, where it has what is on them."""
+
+        def columns(course, beside):
+            known = course.on.keys() >= {x, y}
+            return (beside(x, course.on[x]), beside(y, course.on[y])) if known else NOTHING
+
+        return self.of_held("", columns)
+
+    def mark(self, i: int, x: str, y: str) -> tuple[Any, Any]:
+        """Where state i is on two axes."""
+        return self.course.on[x][[i]], self.course.on[y][[i]]
+
+    def time(self, i: int, y: str) -> tuple[Any, Any]:
+        """A line at the time of state i, along an axis."""
+        return self.course.on["t"][[i, i]], np.array([self.axis(y).start, self.axis(y).end])
+
+    @cached_property
+    def residual(self) -> np.ndarray:
+        """Measured less modelled force (N)."""
+        return self.curve.residual(self.course.scene)
+
+    def still(self, plot: Plot) -> dict:
+        """Rows of a plot that stay while the scene is played."""
+        if plot.name not in self._drawn:
+            found = self.found.get(plot.name)
+            self._drawn[plot.name] = plot.still(self) | (found.rows if found else {})
+        return self._drawn[plot.name]
+
+    def rows(self, plot: Plot, i: int) -> dict:
+        """All rows of a plot in state i, empty where there is none; those of the present one are kept."""
+        if (plot.name, i) in self._drawn:
+            return self._drawn[plot.name, i]
+        empty = {row.name: (*NOTHING, "") for row in plot.rows}
+        if plot.image:
+            empty["image"] = *[np.array([0.0, 1.0])] * 2, np.full(plot.image, np.nan)
+        rows = empty | self.still(plot) | plot.moving(self, i)
+        if i == self.course.now:
+            self._drawn[plot.name, i] = rows
+        return rows
+
+    def pressure(self, i: int) -> tuple[Any, Any]:
+        """Radii and pressures (SI) of state i."""
+        if ("r, p", i) not in self._drawn:
+            state = self.course.states[i]
+            r = radii(state, self.end("x"))
+            self._drawn["r, p", i] = r, state.pressure(r)
+        return self._drawn["r, p", i]
+
+    def exceeds(self, i: int) -> str:
+        """What is said of a pressure that the axis does not reach; nothing if it does."""
+        r, p = self.pressure(i)
+        infinite, k = np.isinf(p), int(np.argmax(np.where(np.isinf(p), -1.0, p)))
+        if infinite.any():
+            # A sharp tip that has not yielded is infinite on the axis, a flat face at its rim.
+            return "↑ −σzz → ∞ at the " + ("axis" if r[np.argmax(infinite)] == 0 else "rim")
+        if p[k] <= self.end("p"):
+            return ""
+        where = "on the axis" if r[k] == 0 else f"at r = {written(r[k], 'length', 3)}"
+        return f"↑ −σzz = {written(p[k], 'pressure', 3)} {where}"
+
+
+def _sizes(course: Course) -> dict[str, float]:
+    """Largest values (SI) that the axes are to hold, by their names."""
+    states, begun = course.states, course.onset
+    radius, depth = float(np.max(states.contact_radius)), float(np.max(states.depth))
+    size = {
+        "r": 1.25 * radius,
+        "a": 1.14 * radius,
+        "z": depth,
+        "d": 1.02 * depth,
+        "far": 1.75 * 1.25 * radius,
+    }
+    size["relief"] = 1.35 * 1.05 * ceiling(course.deepest, 1.25 * radius)
+    size |= {"F": 1.05 * float(np.max(course.force)), "p": 1.05 * ceiling(course.deepest, 1.25 * radius)}
+    # An onset that lies little deeper than the path is kept in the picture.
+    if begun is not None and depth < begun.depth <= 2.5 * depth:
+        size["d"] = 1.02 * max(depth, 1.02 * float(begun.depth))
+        size["F"] = max(size["F"], 1.05 * float(begun.force))
+    if course.motion is not None:
+        size |= {"t": float(course.motion.time[-1]), "E": float(np.max(course.energy))}
+    if course.oblique is not None:
+        _, after, reach = maw_numbers(course)
+        size["force"] = max(size["F"], float(np.max(np.abs(course.on["force"]))))
+        size |= {"ψ₁": reach, "ψ₂": max(reach - 4 * maw_chi(course), abs(after), 1.2)}
+    return size
+
+
+def maw_chi(course: Course) -> float:
+    """χ = κm/(2m_t) of an oblique impact."""
+    drive = course.scene.drive
+    return float(course.scene.medium.tangential_ratio) * drive.mass / (2 * drive.tangential_mass)
+
+
+def maw_numbers(course: Course) -> tuple[float, float, float]:
+    """ψ₁ and ψ₂ of an oblique impact, speeds over μv₀/κ, and how far Maw's curve goes."""
+    drive, hit = course.scene.drive, course.oblique.impact
+    unit = drive.friction * drive.speed / float(course.scene.medium.tangential_ratio)
+    velocity = course.oblique.tangential_velocity[-1] if hit is None else hit.tangential_velocity
+    psi, after = (drive.tangential_speed / unit, float(velocity) / unit) if unit else (0.0, 0.0)
+    # Further than where all slips throughout.
+    return psi, after, 1.15 * max(psi, 4 * maw_chi(course) + 1)
+
+
+def _least(course: Course) -> dict[str, float]:
+    """Depth and force (SI) where logarithmic axes begin: well before the onset of yield."""
+    profile, medium = course.scene.profile, course.scene.medium
+    depth = min(float(np.max(course.states.depth)), medium.critical_depth) / 50
+    return {"d": depth, "F": float(mdr.indent(profile, mdr.Medium(medium.E_star), depth).force)}
+
+
+def _scales(course: Course) -> dict[str, tuple[float, str]]:
+    """Sizes (SI) of a scene with what they are, by the names of the axes that they are the units of.
+
+    Depth, force and radius where yield starts, on the surface as it was at first; where that is never, or
+    the shape is not known so deep, those of the deepest state. Radii in fields, and pressures, have the
+    contact radius and the mean pressure of the deepest state.
+    """
+    begun, deepest = onset(course.scene), course.deepest
+    at, words = (deepest, "largest {}") if begun is None else (begun, "{} at onset")
+    depth, force, radius = (
+        (float(getattr(at, name)), words.format(symbol))
+        for name, symbol in (("depth", "d"), ("force", "F"), ("contact_radius", "a"))
+    )
+    found = {"d": depth, "z": depth, "far z": depth, "F": force, "a": radius}
+    along = float(deepest.contact_radius), "largest a"
+    found |= dict.fromkeys(("x", "r", "far r", "across", "far", "depth"), along)
+    found |= dict.fromkeys(("p", "oblique", "stress"), (float(deepest.mean_pressure), "mean pressure"))
+    if course.motion is not None:
+        found["t"] = float(np.ptp(course.motion.time)), "duration"
+        # That of a body, or what is put in along a path, which begins without any.
+        found["E"] = float(np.max(course.energy)), "energy put in"
+    if course.oblique is not None:
+        found["force"] = found["F"]
+    return found

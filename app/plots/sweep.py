@@ -1,0 +1,197 @@
+"""One number of the scene over a range against a quantity of results, beside the limit of fast impacts."""
+
+from dataclasses import dataclass, replace
+from operator import attrgetter
+from types import SimpleNamespace
+
+import numpy as np
+
+import mdr_core as mdr
+from mdr_core.results.figures import NOTHING, line, mark
+from mdr_core.results.quantities import QUANTITIES as RESULTS
+
+from ..solve import DRIVES, Found, option
+from ..state import State, medium, number, profile
+from ..state.quantities import SWEPT, lowered
+from ..state.units import KINDS, digits, written
+from ..ui import marked, plain
+from .plot import Plot, axis
+
+#: Points along the range, and of a viscous impact, which takes a millisecond each.
+POINTS, VISCOUS = 81, 31
+#: Rows of the fast limit, which is that of class (b), and of the other classes, with their dashes.
+FAST = "fast limit (23) (24), class (b)"
+CLASSES = {"a": "class (a), hardness constant", "c": "class (c), hardness ∝ 1/a²"}
+LINES = {FAST: "dashed", CLASSES["a"]: "dotted", CLASSES["c"]: "dotdash"}
+#: What the fast limit has: its quantity, and the power of the energy that a `ScalingLaw` has for it.
+_LIMITS = {
+    "damaged_area": ("fast_limit.contact_area", lambda law: law.area),
+    "max_depth": ("fast_limit.max_depth", lambda law: law.depth),
+    "restitution": ("fast_limit.restitution", lambda law: law.restitution / 2),
+}
+_SHAPES = {"cone": 1.0, "paraboloid": 2.0}
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """What is asked for: all that is set, the number that is swept between two ends, and against what."""
+
+    values: dict
+    swept: str
+    present: float
+    low: float
+    high: float
+    against: str
+    axes: str
+
+    @property
+    def drive(self):
+        return DRIVES[self.values["drive"]]
+
+    @property
+    def viscous(self):
+        return self.values["damping"] != "none" and "speed" in self.drive.solver
+
+    @property
+    def together(self):
+        """Whether the core solves it all at once: forces are those on one indenter on one medium."""
+        return self.drive.solver[:1] != ("indent_to_force",) or self.swept == "max_force"
+
+    @property
+    def logarithmic(self):
+        return self.axes != "linear" and self.low > 0
+
+    @property
+    def numbers(self):
+        """Values (SI) of the number that is swept."""
+        space = np.geomspace if self.logarithmic else np.linspace
+        return space(self.low, self.high, VISCOUS if self.viscous else POINTS)
+
+    def parts(self, numbers):
+        """Profile, medium and arguments of the solver, by name, for some values of the number."""
+        values = self.values | {self.swept: numbers}
+        if self.swept == "energy":
+            values["speed"] = (2 * numbers / values["mass"]) ** 0.5
+        state, names = SimpleNamespace(**values), self.drive.solver[1:]
+        given = {name.replace("max_", ""): getattr(state, name) for name in names}
+        if "speed" in given and state.surface == "imprint":
+            given["plastic_depth"] = state.plastic_depth
+        return profile(state), medium(state), given
+
+    def solve(self, numbers):
+        """The result of the core for a column of values of the number."""
+        profile, medium, given = self.parts(numbers)
+        return getattr(mdr, self.drive.solver[0])(profile, medium, **given)
+
+    def columns(self, numbers, quantities):
+        """Some quantities of the results, a row each; NaN where the core refuses."""
+        try:
+            # One at a time also what is not solved together.
+            result = self.solve(numbers[:, None] if len(numbers) > 1 else float(numbers[0]))
+            rows = [np.broadcast_to(attrgetter(each)(result), (len(numbers), 1)) for each in quantities]
+            return np.hstack(rows).T
+        except ValueError:
+            if len(numbers) == 1:
+                return np.full((len(quantities), 1), np.nan)
+            halves = np.array_split(numbers, 2)
+            return np.hstack([self.columns(half, quantities) for half in halves])
+
+    def limits(self, numbers):
+        """Rows of the fast limit and of the classes, where there are such; their powers of the energy."""
+        values, (limit, power) = self.values, _LIMITS.get(self.against, ("", None))
+        dry = "speed" in self.drive.solver and not self.viscous and values["surface"] == "virgin"
+        if not (limit and dry and values["plasticity"] != "none"):
+            return {}, {}
+        rows = {FAST: self.columns(numbers, [limit])[0]}
+        exponent = (_SHAPES | {"power_law": values["power_law_exponent"]}).get(values["shape"])
+        if exponent is None or self.swept not in ("energy", "mass", "speed"):
+            return rows, {}
+        powers = {name: power(mdr.ScalingLaw(name, exponent)) for name in "abc"}
+        # All through the limit at the present energy.
+        here = self.columns(np.array([self.present]), [limit])[0]
+        energy = (numbers / self.present) ** (2 if self.swept == "speed" else 1)
+        return rows | {CLASSES[name]: here * energy ** powers[name] for name in CLASSES}, powers
+
+
+def asked(state: State) -> Sweep:
+    """The sweep that is set."""
+    swept = option(state, "swept")
+    low, high = sorted(number(state.but(swept=swept), end) for end in ("sweep_low", "sweep_high"))
+    chosen = option(state, "against"), option(state, "sweep_axes")
+    return Sweep(state.scene_values, swept, number(state, swept), low, high, *chosen)
+
+
+def quick(sweep: Sweep) -> bool:
+    """Whether it takes no longer than a move has time for: shapes whose depths are closed forms."""
+    return sweep.together and not sweep.viscous and sweep.values["shape"] in (*_SHAPES, "power_law")
+
+
+def found(course, sweep: Sweep):
+    """The curve with the present value, its limits, and what they tell."""
+    if not sweep.drive.solver or sweep.low == sweep.high:
+        what = (
+            "the range is empty" if sweep.drive.solver else "press to a depth or a force, or let a body hit"
+        )
+        yield Found({}, [], f"Nothing is swept: {what}.")
+        return
+    numbers, here = sweep.numbers, getattr(course.hit or course.deepest, sweep.against)
+    (values,) = sweep.columns(numbers, [sweep.against])
+    limits, powers = sweep.limits(numbers)
+    inside = sweep.low <= sweep.present <= sweep.high
+    rows = {"this scene": (numbers, values)} | {name: (numbers, row) for name, row in limits.items()}
+    x, y = _axes(sweep, values, float(here))
+    if y.log:
+        rows = {name: (numbers, np.where(row > 0, row, np.nan)) for name, (_, row) in rows.items()}
+    seen = inside and (here > 0 or not y.log)
+    rows["present value"] = (np.array([sweep.present]), np.array([here])) if seen else NOTHING
+    yield Found(rows, [x, y], " ".join(_notes(sweep, numbers, values, powers, inside)))
+
+
+def _axes(sweep, values, here):
+    quantity, result = SWEPT[sweep.swept], RESULTS[sweep.against]
+    x = axis("swept", lowered(f"{quantity.symbol}, {quantity.label}"), quantity.kind, sweep.high)
+    x = replace(x, start=sweep.low, end=sweep.high, log=sweep.logarithmic)
+    some = np.append(values, here)
+    some = some[np.isfinite(some)]
+    title = lowered(f"{result.symbol}, {result.long_name}")
+    y = axis("against", title, KINDS[result.unit], max(some, default=1.0))
+    if sweep.axes != "log" or not (some > 0).any():
+        return x, y
+    # Six decades at most, from power to power of ten.
+    least, most = max(min(some[some > 0]), 1e-6 * max(some)), max(some)
+    low, high = 10.0 ** np.floor(np.log10(least / y.factor)), 10.0 ** np.ceil(np.log10(most / y.factor))
+    return x, replace(y, start=low * y.factor, end=max(high, 10 * low) * y.factor, log=True)
+
+
+def _notes(sweep, numbers, values, powers, inside):
+    quantity, symbol = SWEPT[sweep.swept], RESULTS[sweep.against].symbol
+    if not inside:
+        shown = written(sweep.present, quantity.kind, 3)
+        yield f"The present value, {marked(f'{quantity.symbol} = {shown}')}, is outside of the range."
+    elif sweep.logarithmic:
+        pair = sweep.present * np.array([0.999, 1.001])
+        (ends,) = sweep.columns(pair, [sweep.against])
+        if (ends > 0).all():
+            slope = round(float(np.log(ends[1] / ends[0]) / np.log(pair[1] / pair[0])), 6)
+            power = f"<sup>{digits(slope, 3)}</sup>."
+            yield marked(f"At the present value {symbol} goes as {quantity.symbol}") + power
+    if powers:
+        texts = ", ".join(f"W<sup>{digits(power, 3)}</sup> ({name})" for name, power in powers.items())
+        yield f"In the fast limit it goes with the energy as {texts}: hardness constant, ∝ 1/a, ∝ 1/a²."
+    refused = numbers[np.isnan(values)]
+    if refused.size:
+        try:
+            sweep.solve(float(refused[0]))
+        except ValueError as error:
+            yield marked(f"Not all of the range can be solved: {plain(str(error))}.")
+
+
+SWEEP = Plot(
+    "sweep", "Sweep", "one number over a range, all others as they are  § 10", (),
+    (
+        *(line(name, "ink", 1.4, dash, "y") for name, dash in LINES.items()),
+        line("this scene", "elastic", 2.4, symbol="y"),
+        mark("present value"),
+    ),
+    find=found, asks=asked, quick=quick, tab=("Sweep", "w"), controls=("swept", "against", "sweep_axes"),
+)  # fmt: skip

@@ -1,0 +1,239 @@
+"""What one person has set: a frozen mapping of numbers (SI) and choices, and what it makes of them."""
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from math import inf
+from types import MappingProxyType
+from typing import Any
+
+import mdr_core as mdr
+
+from .quantities import (
+    ASSETS,
+    CHOICES,
+    QUANTITIES,
+    SHAPES,
+    SWEPT,
+    USED,
+    Quantity,
+    Scale,
+    lowered,
+    shape_quantities,
+)
+from .units import written
+
+
+@dataclass(frozen=True)
+class Preset:
+    """What the page can open on.
+
+    `key` is its name in a link. `choices` and `values` are what the page sets (SI); `sources` says for each
+    number, by its name, what
+    it is, how large, and where it comes from.
+    """
+
+    label: str
+    key: str
+    choices: dict[str, str]
+    values: dict[str, float]
+    sources: dict[str, tuple[str, str, str]]
+
+
+def _preset(scene, media, indenters):
+    medium, indenter = media[scene["medium"]], indenters[scene["indenter"]]
+    shape, drive = indenter["shape"], "depth" if "depth" in scene else "impact"
+    # Symbol, owner, name and number of everything that has a source.
+    given = [
+        *(("E", medium, "E_1", medium["E"]), ("ν", medium, "nu_1", medium["nu"])),
+        *((QUANTITIES[name].symbol, medium, name, medium[name]) for name in ("q_c", "density")),
+        *(
+            (QUANTITIES[f"{shape}_{name}"].symbol, indenter, f"{shape}_{name}", number)
+            for name, number in indenter["parameters"].items()
+        ),
+        *(("E", indenter, "E_2", indenter["E"]), ("ν", indenter, "nu_2", indenter["nu"])),
+    ]
+    impact = {"label": "the impact"}
+    given += [(QUANTITIES[n].symbol, impact, n, scene[n]) for n in USED["drive"]["impact"] if n in scene]
+    values = {name: number["value"] for _, _, name, number in given}
+    bodies = (values[name] for name in USED["elasticity"]["bodies"])
+    made = mdr.Medium.from_bodies(*bodies, q_c=values["q_c"])
+    values["E_star"] = made.E_star
+    if drive == "depth":
+        values["max_depth"] = float(scene["depth"] * made.critical_depth)
+    choices = {"shape": shape, "elasticity": "bodies", "plasticity": "q_c", "damping": "none"}
+    choices |= {"drive": drive, "inertia": "density", "surface": "virgin"}
+    sources = {
+        name: (f"{symbol} of {owner['label']}", written(n["value"], QUANTITIES[name].kind, 3), n["source"])
+        for symbol, owner, name, n in given
+    }
+    if drive == "depth":
+        times = f"{scene['depth']:g} times the depth at which yield begins"
+        sources["max_depth"] = ("d_max", written(values["max_depth"], "length", 3), times)
+    remark = f", {scene['remark']}" if "remark" in scene else ""
+    label = f"{indenter['label']} on {medium['label']}{remark}"
+    key = "-".join([scene["indenter"], scene["medium"], *scene.get("remark", "").split()])
+    return Preset(label[0].upper() + label[1:], key, choices, values, sources)
+
+
+_DATA = json.loads((ASSETS / "presets.json").read_text(encoding="utf-8"))
+_MADE = (_preset(scene, _DATA["media"], _DATA["indenters"]) for scene in _DATA["scenes"])
+#: By their keys.
+PRESETS = {preset.key: preset for preset in _MADE}
+
+#: What the page opens on.
+OPENING = next(iter(PRESETS))
+
+#: From first contact (0) over the deepest state (1) to the loss of contact (2) and the tip back at the
+#: height of the undeformed surface.
+LAST_PROGRESS = 2.2
+#: What the view is like rather than the scene: undo leaves it alone.
+VIEW = ("progress", "hold", "tiles", "keep", "dark", "heights", "references", "axes")
+
+# A number of a shape that has not been looked at is None: it is sized when it is.
+_DEFAULTS: dict[str, Any] = {name: q.bounded(q.default) for name, q in QUANTITIES.items()}
+_DEFAULTS |= {name: None for shape in SHAPES for name, _ in shape_quantities(shape)}
+_DEFAULTS |= {name: next(iter(options)) for name, options in CHOICES.items()}
+_DEFAULTS |= {
+    "preset": OPENING, "shape": "cone", "progress": 1.0, "path": (), "samples": (), "tip_note": "",
+    "sweep_low": None, "sweep_high": None, "hold": (), "tiles": (), "keep": False, "dark": False,
+    "curve": None, "fit_note": "", "fixed": ("baseline", "frame_compliance"),
+}  # fmt: skip
+
+
+class State(Mapping[str, Any]):
+    """All that is set on the page; values are read as attributes, `but` makes another one.
+
+    `path` has the vertices of a path, `samples` radii and heights of a measured tip, `hold` the scenes
+    that are held as links, `tiles` the plots that are asked for; `curve` is a measured curve, `fixed` the
+    names of what a fit leaves as it is, and `fit_note` what a fit has found, in a line.
+    """
+
+    __slots__ = ("_values",)
+    _values: Mapping[str, Any]
+
+    def __init__(self, values: Mapping[str, Any]):
+        object.__setattr__(self, "_values", MappingProxyType({**_DEFAULTS, **values}))
+
+    def __getitem__(self, name: str) -> Any:
+        return self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name not in self._values:
+            raise AttributeError(name)
+        return self._values[name]
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"a state is frozen: use but({name}=…)")
+
+    def but(self, **changes: Any) -> "State":
+        """The same with some values changed."""
+        unknown = changes.keys() - _DEFAULTS.keys()
+        if unknown:
+            raise KeyError(f"a state has no {', '.join(sorted(unknown))}")
+        return State({**self._values, **changes})
+
+    @property
+    def scene_values(self) -> dict[str, Any]:
+        """All that undo takes back."""
+        return {name: value for name, value in self._values.items() if name not in VIEW}
+
+
+def opened(key: str = OPENING, **view: Any) -> State:
+    """The state of a preset, with the view as given."""
+    preset = PRESETS[key]
+    state = State({"preset": key, **preset.choices, **preset.values, **view})
+    return settled(state)
+
+
+def profile(state: Any) -> mdr.Profile:
+    """The indenter."""
+    if state.shape != "sampled":
+        values = {q.name: getattr(state, name) for name, q in shape_quantities(state.shape)}
+        return SHAPES[state.shape].build(**values)
+    if not state.samples:
+        raise ValueError("load a tip first: a CSV file with radii r and heights z")
+    return mdr.Sampled(*state.samples)
+
+
+def medium(state: Any) -> mdr.Medium:
+    """The medium."""
+    numbers = [getattr(state, name) for name in USED["elasticity"][state.elasticity]]
+    make = mdr.Medium if state.elasticity == "modulus" else mdr.Medium.from_bodies
+    made = make(*numbers)
+    hardness = state.hardness * state.hardness_radius
+    q_c = {"q_c": state.q_c, "hardness": hardness, "none": inf}[state.plasticity]
+    eta = {"none": 0.0, "eta": state.eta, "tau": state.tau * made.E_star / 4}[state.damping]
+    return replace(made, q_c=q_c, eta=eta)
+
+
+def settled(state: State) -> State:
+    """With E* and q_c as they follow from two bodies or a hardness, if these are given."""
+    made = medium(state)
+    q_c = {} if state.plasticity == "none" else {"q_c": float(made.q_c)}
+    return state.but(E_star=float(made.E_star), **q_c)
+
+
+def used(state: State, form: tuple[str, ...]) -> list[str]:
+    """Names of the numbers that the scene is made of; `form` are the choices of its drive."""
+    names = [name for name, _ in shape_quantities(state.shape)]
+    choices = ["elasticity", "plasticity", "damping", "drive", *(part for part in form if part in USED)]
+    return names + [name for choice in choices for name in USED[choice][state[choice]]]
+
+
+def quantity(state: State, name: str) -> Quantity:
+    """What is known of a number; of an end of a range by what is swept."""
+    if name not in ("sweep_low", "sweep_high"):
+        return SWEPT[name]
+    swept = SWEPT[state.swept]
+    return replace(
+        swept, name=name, symbol=f"{swept.symbol} {'from' if name == 'sweep_low' else 'to'}", label=""
+    )
+
+
+def number(state: State, name: str) -> float:
+    """A number; an end of a range that is not set is about a third of the slider's reach away."""
+    if name == "energy":
+        return state.mass * state.speed**2 / 2
+    if name not in ("sweep_low", "sweep_high") or state[name] is not None:
+        return state[name]
+    swept = SWEPT[state.swept]
+    scale = Scale(swept, began(state, state.swept))
+    value = scale.low if name == "sweep_low" else scale.high
+    if scale.logarithmic:
+        value = min(3 * value, scale.middle) if name == "sweep_low" else max(value / 3, scale.middle)
+    return swept.bounded(float(f"{value:.1g}"))
+
+
+def began(state: State, name: str) -> float:
+    """What a preset has a number at; where it has none, what it is."""
+    if name == "energy":
+        return began(state, "mass") * began(state, "speed") ** 2 / 2
+    start = PRESETS[state.preset].values.get(name)
+    return number(state, name) if start is None else start
+
+
+def checked(state: State, name: str, value: float) -> float:
+    """A value of a number, in SI, if it is within bounds up to rounding; else ValueError."""
+    known = quantity(state, name)
+    if abs(known.bounded(value) - value) > 1e-12 * abs(value):
+        shown, low, high = (written(v, known.kind) for v in (value, *known.bounds))
+        raise ValueError(f"{lowered(known.symbol)} = {shown} is out of bounds: {low} to {high}")
+    return float(known.bounded(value))
+
+
+def altered(state: State) -> list[str]:
+    """Names of what a preset has set and is not so any more, and of other numbers that are in use."""
+    preset = PRESETS[state.preset]
+    loaded = preset.choices | preset.values
+    return [name for name, was in loaded.items() if state[name] != was and not _same(state[name], was)]
+
+
+def _same(now: Any, was: Any) -> bool:
+    return isinstance(now, float) and abs(now - was) <= 1e-9 * abs(was)

@@ -1,0 +1,140 @@
+"""Every number, choice and shape that can be set: their words and bounds are in assets/quantities.json."""
+
+import json
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import log
+from pathlib import Path
+
+import mdr_core as mdr
+
+ASSETS = Path(__file__).parents[2] / "assets"
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number that can be set.
+
+    `symbol` and `label` are as shown: "q_c", "yield constant"; `kind` is a key of `units.UNITS`. `bounds`
+    and `default` are in SI, but for a length of a shape `default` is in contact radii of what is on the
+    page, so that another shape begins at the same scale. The slider reaches the factor `span` below and
+    above the value that it is reset to; 0: from bound to bound, on a linear scale; below 0 there is
+    none. `help` says in two sentences what it is, `equation` where it stands, `typical` is a usual range.
+    """
+
+    name: str
+    symbol: str
+    label: str
+    kind: str
+    bounds: tuple[float, float]
+    default: float
+    span: float
+    help: str
+    equation: str
+    typical: str = ""
+
+    def bounded(self, value):
+        """The value within the bounds next to another one."""
+        return min(max(value, self.bounds[0]), self.bounds[1])
+
+
+@dataclass(frozen=True)
+class Shape:
+    """An indenter shape: its name, formulas and parameters, and how the core makes it of them."""
+
+    label: str
+    height: str
+    reduced: str
+    quantities: tuple[Quantity, ...]
+    build: Callable[..., mdr.Profile]
+
+
+def _power_law(height, width, exponent):
+    return mdr.PowerLaw(coefficient=height / width**exponent, exponent=exponent)
+
+
+#: Units, and the words and bounds of quantities, choices and shapes.
+DATA = json.loads((ASSETS / "quantities.json").read_text(encoding="utf-8"), parse_int=float)
+
+
+def _quantity(like="", **own):
+    values = DATA["like"].get(like, {}) | own
+    return Quantity(**values | {"bounds": tuple(values["bounds"])})
+
+
+def _shape(key, label, height, reduced, quantities):
+    build = _power_law if key == "power_law" else getattr(mdr, key.title().replace("_", ""))
+    return Shape(label, height, reduced, tuple(_quantity(**each) for each in quantities), build)
+
+
+_LOWERED = str.maketrans("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
+
+
+def lowered(text):
+    """A text in which indices, as in v_0, are letters of Unicode; those it has not stay as high: qc."""
+    return re.sub("_([a-z0-9]+)", lambda index: index[1].translate(_LOWERED), text)
+
+
+SHAPES = {key: _shape(key, **words) for key, words in DATA["shapes"].items()}
+#: What each choice is called, its options as they are shown, the numbers that each of them uses, and
+#: what it is.
+LABELS, CHOICES, USED, ABOUT = {}, {}, {}, {}
+for _name, _choice in DATA["choices"].items():
+    LABELS[_name], ABOUT[_name] = _choice["label"], _choice["help"]
+    CHOICES[_name] = {option: each["label"] for option, each in _choice["options"].items()}
+    USED[_name] = {option: each["uses"] for option, each in _choice["options"].items()}
+
+
+def shape_quantities(shape):
+    """Names and quantities of the numbers of a shape; a measured tip has none."""
+    return [(f"{shape}_{q.name}", q) for q in SHAPES[shape].quantities]
+
+
+#: Every quantity by its name; those of the shapes are named as in "cone_slope".
+QUANTITIES = {each["name"]: _quantity(**each) for each in DATA["numbers"]} | {
+    name: quantity for shape in SHAPES for name, quantity in shape_quantities(shape)
+}
+
+
+#: What can be swept: every number, and the energy of an impact.
+SWEPT = {"energy": _quantity(**DATA["energy"])} | QUANTITIES
+LABELS |= {"swept": "Swept", "preset": "Preset", "shape": "Shape"}
+ABOUT |= {
+    "swept": "The number that takes all values of a range; all others stay as they are.",
+    "preset": "A medium and an indenter that exist, with their numbers. Choosing one sets everything.",
+    "shape": "What is pressed or hits: a body of revolution, which touches with its tip.",
+}
+CHOICES["swept"] = {name: lowered(f"{q.symbol}, {q.label}") for name, q in SWEPT.items()}
+USED["swept"] = {name: ["sweep_low", "sweep_high"] for name in SWEPT}
+
+
+class Scale:
+    """The steps of a slider and the values they stand for, about a middle value on a logarithmic scale."""
+
+    STEPS = 400
+
+    def __init__(self, quantity: Quantity, middle: float):
+        low, high = quantity.bounds
+        self.logarithmic = quantity.span > 0 and middle > 0
+        self.middle = middle
+        if self.logarithmic:
+            low, high = max(low, middle / quantity.span), min(high, middle * quantity.span)
+        self.low, self.high = low, high
+
+    def reaches(self, value: float) -> bool:
+        """Whether a value lies on the slider."""
+        return self.low <= value <= self.high
+
+    def position(self, value: float) -> int:
+        """The step nearest to a value."""
+        scaled = log if self.logarithmic else float
+        low, high, at = map(scaled, (self.low, self.high, min(max(value, self.low), self.high)))
+        return round(self.STEPS * (at - low) / (high - low))
+
+    def value(self, position: float) -> float:
+        """The value of a step, with three digits."""
+        share = min(max(position, 0), self.STEPS) / self.STEPS
+        low, high = self.low, self.high
+        value = low * (high / low) ** share if self.logarithmic else low + (high - low) * share
+        return min(max(float(f"{value:.3g}"), low), high)

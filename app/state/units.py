@@ -1,0 +1,127 @@
+"""Units at the edge of the app: chosen to fit, written and read back. The core knows SI only."""
+
+import re
+from dataclasses import dataclass
+from math import floor, isfinite, log10, radians, tan
+
+import numpy as np
+
+from .quantities import DATA
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit and its size in SI: a value in SI divided by `factor` is the number shown."""
+
+    name: str
+    factor: float
+
+
+#: The units of each kind of quantity, smallest first; the first of factor 1 is the SI unit.
+UNITS = {
+    kind: tuple(Unit(name, float(factor)) for name, factor in units.items())
+    for kind, units in DATA["units"].items()
+}
+
+
+#: Kinds by the names of their SI units, as the core has them: "N" is a force.
+KINDS = {unit.name: kind for kind, units in reversed(UNITS.items()) for unit in units if unit.factor == 1}
+KINDS |= {"": "number", "rad": "angle"}
+#: Units that are read, but not chosen.
+_READ = {"length": (Unit("Å", 1e-10), Unit("um", 1e-6))}
+
+
+def fitting(value: float, kind: str, like: float = 0.0) -> Unit:
+    """The unit of that kind in which a value in SI has one to three digits before the point.
+
+    Of areas, whose units are further apart, up to four: 0.01 mm² from there on. Zero has the unit that
+    fits the value `like`.
+    """
+    units = UNITS[kind]
+    size = abs(value) if isfinite(value) and value else abs(like)
+    if size == 0:
+        return next((unit for unit in units if unit.factor == 1), units[0])
+    # A value a rounding error below the next unit is written in that unit: 1 mm, not 1000 µm.
+    pairs = zip(units[:0:-1], units[-2::-1], strict=True)
+    fits = (unit for unit, below in pairs if min(unit.factor, 1e4 * below.factor) <= size * (1 + 1e-9))
+    return next(fits, units[0])
+
+
+def digits(value: float, count: int = 4) -> str:
+    """A number with that many significant digits, very large and very small ones as a × 10ⁿ."""
+    if not isfinite(value):
+        return "∞" if value > 0 else "–"
+    if value == 0:
+        return "0"
+    if 1e-3 <= abs(value) < 1e5:
+        value = float(f"{value:.{count - 1}e}")
+        return f"{value:.{max(count - 1 - floor(log10(abs(value))), 0)}f}".replace("-", "−")
+    mantissa, exponent = f"{value:.{count - 1}e}".split("e")
+    power = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{mantissa} × 10{power}".replace("-", "−")
+
+
+def written(value: float, kind: str, count: int = 4) -> str:
+    """A value in SI as text with its unit, with that many significant digits."""
+    if value == 0 or not isfinite(value):
+        return digits(value)
+    unit = fitting(value, kind)
+    return f"{digits(value / unit.factor, count)} {unit.name}".strip()
+
+
+def entry(value: float, kind: str, like: float = 0.0) -> str:
+    """A value in SI as short text for a field to type in, which `read` understands."""
+    if not isfinite(value):
+        return digits(value)
+    unit = fitting(value, kind, like)
+    return f"{value / unit.factor:.5g} {unit.name}".strip()
+
+
+_KEYBOARD = str.maketrans("µ·³²", "u*32")
+
+
+def named(kind: str) -> dict[str, Unit]:
+    """The units of a kind by their names, with u, * and 3 for µ, · and ³ as on any keyboard too."""
+    units = (*UNITS[kind], *_READ.get(kind, ()))
+    return {name: unit for unit in units for name in (unit.name, unit.name.translate(_KEYBOARD))}
+
+
+_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
+
+
+def read(text: str, kind: str, shown: Unit) -> tuple[float, bool]:
+    """A value in SI from what was typed, and whether what it was read as is worth showing.
+
+    A bare number is in the unit that is shown, one with an exponent in SI; a comma is a decimal comma, and
+    spaces separate thousands. A slope may be given as a half-angle in degrees. Raises ValueError if the
+    text is not a finite number with a unit of that kind.
+    """
+    plain = text.strip().replace("−", "-").replace("μ", "µ")
+    plain = re.sub(r"(?<=\d)\s(?=\d{3}(?!\d))", "", plain)
+    if plain.count(",") == 1 and "." not in plain:
+        plain = plain.replace(",", ".")
+    match = _NUMBER.fullmatch(plain) if len(plain) <= 40 else None
+    units = named(kind)
+    if match and kind == "slope" and match[3] == "°" and 0 < float(match[1]) < 90:
+        return 1 / tan(radians(float(match[1]))), True
+    if match is None or (match[3] and match[3] not in units):
+        known = ", ".join(unit.name for unit in UNITS[kind] if unit.name) or "°" * (kind == "slope")
+        raise ValueError(f"“{text:.40}” is not a number" + f" with one of the units {known}" * bool(known))
+    in_si = bool(match[2]) and not match[3] and shown.factor != 1
+    factor = units[match[3]].factor if match[3] else 1.0 if in_si else shown.factor
+    # 15 nm as 1.5e-08, not as 1.5000000000000002e-08.
+    value = float(f"{float(match[1]) * factor:.15g}")
+    if not isfinite(value):
+        raise ValueError(f"“{text}” is too large")
+    return value, in_si
+
+
+_ROUND = np.array([1, 1.5, 2, 3, 4, 5, 6, 8, 10])
+
+
+def round_up(value: float) -> float:
+    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8 × 10ⁿ: axes that end there keep still while a slider moves."""
+    if not value > 0 or not isfinite(value):
+        return 1.0
+    power = 10.0 ** floor(log10(value))
+    return float(_ROUND[np.searchsorted(_ROUND, value / power * (1 - 1e-9))] * power)

@@ -1,0 +1,294 @@
+"""Every drive gives states along its path through one interface, and what it says is what the core says."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+from app import changes
+from app.changes import read_path, write_path
+from app.drives import States
+from app.panels import readouts, share
+from app.panels.readouts import phase, readings
+from app.plots.force import force, force_still
+from app.solve import DRIVES, drive_of, follow, scene_of
+from app.state import PRESETS, medium, opened, profile
+from app.state.quantities import CHOICES
+
+from .conftest import DROP, ELASTIC, GOLD
+from .made import chosen, seen, solved, there
+
+PATTERNS = [pattern for pattern in CHOICES["pattern"] if pattern != "own"]
+ARRAYS = (
+    "depth", "force", "contact_radius", "plastic_radius", "plastic_depth", "mean_pressure", "stored_energy",
+    "plastic_work",
+)  # fmt: skip
+
+
+def path(pattern, viscous=False, shape="cone"):
+    state = chosen(shape=shape)
+    state = changes.choose(state, "damping", "tau") if viscous else state
+    return changes.choose(changes.choose(state, "drive", "path"), "pattern", pattern)
+
+
+def numbers(course):
+    """What is read of a course, by name."""
+    return {each.name: values for each, values in readings(course).items()}
+
+
+def test_every_drive_of_the_form_is_in_the_table():
+    assert set(DRIVES) == set(CHOICES["drive"])
+
+
+@pytest.mark.parametrize("damping", ["none", "tau"])
+@pytest.mark.parametrize("drive", DRIVES)
+def test_every_drive_gives_the_same_interface(drive, damping):
+    state = chosen(DROP, drive, damping=damping)
+    if drive == "path" and damping == "tau":
+        state = changes.choose(state, "pattern", "hold")
+    course = solved(state)
+    states, count = course.states, len(course)
+    assert isinstance(states, States)
+    for name in ARRAYS:
+        assert np.shape(getattr(states, name)) == (count,), name
+    assert states.live_interval.lower.shape == states.live_interval.length.shape == (count,)
+    assert np.all(np.diff(course.progress) >= 0)
+    assert course.progress[course.peak] == 1.0
+    state = states[course.peak]
+    assert isinstance(state, States)
+    r = float(state.contact_radius) * np.array([0.1, 0.5, 1.2])
+    for field in (state.pressure, state.line_load, state.surface, state.imprint):
+        assert np.shape(field(r)) == (3,)
+    line = [each.name for each in readouts.line(course, readings(course))]
+    assert 6 <= len(line) <= 8
+    assert drive_of(course.scene) is DRIVES[drive]
+
+
+@pytest.mark.parametrize("pattern", PATTERNS)
+def test_a_pattern_goes_as_deep_as_what_was_there_before(pattern):
+    course = solved(path(pattern))
+    assert float(course.deepest.depth) == pytest.approx(opened().max_depth, rel=1e-9)
+
+
+def test_hysteresis_yields_once_a_cycle_and_reloads_elastically():
+    view = seen(path("cycles"))
+    rows = force(view, len(view.course) - 1)
+    yielding, elastic = rows["yielding"], rows["elastic"]
+    peaks = opened().max_depth * np.arange(1, 6) / 5
+    stretches = np.split(yielding[0], np.flatnonzero(np.isnan(yielding[0])))
+    ends = [[part[~np.isnan(part)][k] for part in stretches] for k in (0, -1)]
+    np.testing.assert_allclose(ends, [peaks[:-1], peaks[1:]], rtol=1e-9)
+    # One goes back elastically to where the cycle before began to unload.
+    assert np.nanmax(elastic[0]) == pytest.approx(peaks[-2], rel=1e-9)
+
+
+def test_the_curve_is_drawn_as_one_goes():
+    view = seen(path("reload"))
+    middle, end = (force(view, i) for i in (view.course.peak // 2, len(view.course) - 1))
+    names = ("elastic", "yielding", "unloading")
+    drawn = [sum(np.isfinite(rows[name][0]).sum() for name in names) for rows in (middle, end)]
+    assert 0 < drawn[0] < drawn[1]
+    assert len(force_still(view)["path ahead"][0]) == len(view.course)
+
+
+@pytest.mark.parametrize("name", ["depth", "force"])
+def test_the_load_is_gone_at_a_step(name):
+    """The contact radius comes down to that of the imprint and then falls, within a trace of depth."""
+    course = solved(changes.choose(path("reload"), "prescribed", name))
+    a, c, depth = course.states.contact_radius, course.states.plastic_radius, course.states.depth
+    gone = np.flatnonzero((a[1:] == 0) & (a[:-1] > 0))
+    assert len(gone) == 2
+    np.testing.assert_allclose(a[gone], c[gone], rtol=1e-6)
+    assert np.all(np.abs(depth[gone] - depth[gone + 1]) < 1e-6 * depth.max())
+    assert phase(course, len(course) - 1) == "load gone"
+
+
+def test_depth_and_force_prescribe_the_same_states():
+    state = path("cycles")
+    depth = [row[0] for row in state.path]
+    state = changes.choose(state, "prescribed", "force")
+    np.testing.assert_allclose(scene_of(state).solve().depth, depth, rtol=1e-9, atol=1e-20)
+    state = changes.choose(state, "prescribed", "depth")
+    np.testing.assert_allclose([row[0] for row in state.path], depth, rtol=1e-9, atol=1e-20)
+
+
+@pytest.mark.parametrize("shape", ["cone", "sphere"])
+def test_a_held_ramp_of_a_viscous_medium_is_that_of_the_core(shape):
+    state = path("hold", viscous=True, shape=shape)
+    course = solved(state)
+    time, made = course.motion.time, medium(state)
+    exact = mdr.indent_in_time(profile(state), made, course.states.depth, time)
+    # What the page asks of the chain is 3·10⁻³.
+    np.testing.assert_allclose(course.force, exact.force, atol=3e-3 * exact.force.max())
+    assert numbers(course)["chain_error"] == course.states.error
+    # At the end of the hold the dashpots carry nothing: F of the springs alone.
+    still = mdr.indent(profile(state), made, course.states.depth)
+    assert course.force[-1] == pytest.approx(float(still.force[-1]), rel=1e-3)
+    # All that has been put in is in the ledger, by the trapezoidal rule over 24 steps a piece.
+    motion = course.motion
+    work = np.sum((course.force[1:] + course.force[:-1]) / 2 * np.diff(course.states.depth))
+    ledger = motion.stored_energy + motion.plastic_work + motion.viscous_work
+    assert ledger[-1] == pytest.approx(work, rel=0.02)
+    # Away from the rim the pressure is the core's; elements between 300 places are straight.
+    for i in (course.peak // 2, course.peak, len(course) - 1):
+        one = course.states[i]
+        r = float(one.contact_radius) * np.linspace(0.02, 0.98, 40)
+        there = mdr.indent_in_time(profile(state), made, course.states.depth[: i + 1], time[: i + 1])[-1]
+        p = one.pressure(r)
+        np.testing.assert_allclose(p, there.pressure(r), atol=3e-3 * p.max())
+        assert np.isinf(one.pressure(float(one.contact_radius))) == (
+            i <= course.peak or shape == "flat_punch"
+        )
+
+
+def test_the_surface_beside_a_ramp_is_that_of_the_springs():
+    """While nothing lets go dashpots do not move the surface; between 300 places it is straight."""
+    course = solved(path("hold", viscous=True))
+    scene = course.scene
+    for i in (course.peak // 2, len(course) - 1):
+        state = course.states[i]
+        still = mdr.indent(scene.profile, scene.medium, course.states.depth[: i + 1])[-1]
+        r = float(state.contact_radius) * np.array([0.5, 1.01, 1.5, 3.0])
+        np.testing.assert_allclose(state.surface(r), still.surface(r), rtol=1e-3)
+        np.testing.assert_allclose(state.imprint(r), still.imprint(r), rtol=1e-9, atol=1e-15)
+
+
+def test_creep_is_first_shown_without_dashpots_and_then_in_time():
+    state = path("creep", viscous=True)
+    first, course = follow(state), solved(state)
+    assert first.pending
+    assert "without dashpots" in phase(first, first.now)
+    assert not course.pending
+    assert np.all(np.diff(course.states.depth) > 0)
+    assert course.force[-1] == pytest.approx(first.force[-1])
+    # It creeps towards what the springs alone carry.
+    assert 0.7 < course.states.depth[-1] / first.states.depth[-1] < 1
+
+
+_TAKEN = [("reload", False), ("cycles", True), ("hold", False), ("hold", True)]
+
+
+@pytest.mark.parametrize(("pattern", "viscous"), _TAKEN)
+def test_a_path_is_in_the_link_and_the_snippet(pattern, viscous, capsys):
+    state = path(pattern, viscous)
+    assert scene_of(there(state)) == scene_of(state)
+    course = solved(state)
+    for now in (len(course) // 3, course.peak, len(course) - 2):
+        values = {}
+        exec(share.python(replace(course, now=now)), values)
+        # Another chain, of the tolerance of its own.
+        tolerance = (3e-3 if viscous and pattern == "hold" else 1e-9) * course.force.max()
+        assert float(values["state"].force) == pytest.approx(float(course.force[now]), abs=tolerance)
+    capsys.readouterr()
+    assert "vertices" in readouts.summary(state)
+    data = [line for line in share.csv(course, state).splitlines() if not line.startswith("#")]
+    assert len(data) == 1 + len(course)
+
+
+def test_vertices_are_typed_as_text():
+    shown = ((1e-8, 0.0), (5e-9, 1e-3))
+    assert write_path(shown, "depth") == "10 nm, 0 ms\n5 nm, 1 ms"
+    typed = "0 nm, 0\n10, 1\n\n10 nm; 2\n0,005 µm\t3 ms\n2.5 nm at 0.004 s"
+    expected = [(0, 0), (1e-8, 1e-3), (1e-8, 2e-3), (5e-9, 3e-3), (2.5e-9, 4e-3)]
+    np.testing.assert_allclose(read_path(typed, "depth", shown), expected, rtol=1e-14)
+    # A line that is left alone keeps the digits that are not shown.
+    third = ((1e-8 / 3,), (1e-8,))
+    assert read_path(write_path(third, "depth") + "\n5 nm", "depth", third) == (*third, (5e-9,))
+
+
+@pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ("10 nm\n5 bananas", "Line 2: “5 bananas” is not a number"),
+        ("10 nm, 1 ms, 3", "Line 1: .* more than a depth and a time"),
+        ("10 nm, 1 ms\n5 nm", "a time at each vertex, or at none"),
+        ("10 nm, 1 ms\n5 nm, 1 ms", "does not increase"),
+        ("10 nm, 1 ms", "in time 2 at least"),
+        ("0 nm\n-5 nm", "largest depth of a path is out of bounds"),
+        ("10 nm\n" * 61, "1 to 60 vertices"),
+        ("", "1 to 60 vertices"),
+    ],
+)
+def test_what_is_no_path_is_refused(typed, said):
+    with pytest.raises(ValueError, match=said):
+        read_path(typed, "depth", ((1e-8,),))
+
+
+def test_a_path_drawn_by_hand_is_kept_while_other_drives_are_looked_at():
+    state = chosen(GOLD, "path").but(path=((2e-9,), (1e-9,), (3e-9,)), pattern="own")
+    for drive in ("impact", "path"):
+        state = changes.choose(state, "drive", drive)
+    assert [row[0] for row in state.path] == [2e-9, 1e-9, 3e-9]
+    assert changes.reset(state).path == ()
+
+
+@pytest.mark.parametrize("vertices", [(1.0,), (1.0, 0.6), (1.0, 0.0)])
+def test_a_path_of_one_or_two_vertices_ends_there(vertices):
+    state = path("reload")
+    most = max(row[0] for row in state.path)
+    state = state.but(path=tuple((most * share,) for share in vertices), pattern="own")
+    depth = solved(there(state)).states.depth
+    assert depth[0] == 0
+    assert depth[-1] == pytest.approx(most * vertices[-1], abs=1e-9 * most)
+    assert max(depth) == pytest.approx(most, rel=1e-9)
+
+
+# Oblique impacts.
+
+
+def thrown(key=ELASTIC, **numbers):
+    return chosen(key, "oblique", body="solid").but(**{"attack": 0.9, "friction": 0.5} | numbers)
+
+
+@pytest.mark.parametrize("key", [ELASTIC, DROP])
+def test_a_move_is_right_to_three_digits(key):
+    state = thrown(key)
+    rough, full = follow(state), solved(state)
+    assert (bool(rough.pending), bool(full.pending)) == (True, False)
+    hit, size = scene_of(state).solve(), state.incoming_speed
+    for course, error in ((rough, 2e-3), (full, 1e-4)):
+        found = numbers(course)
+        assert found["friction_work"][-1] == pytest.approx(float(hit.friction_work), rel=error)
+        assert found["max_tangential_force"] == pytest.approx(float(hit.max_tangential_force), rel=error)
+        after = course.rebound.contact_velocity
+        assert after == pytest.approx(float(hit.tangential_velocity), abs=error * size)
+
+
+def test_numbers_of_the_rebound_are_those_of_the_ball():
+    course = solved(thrown())
+    found, drive = numbers(course), course.scene.drive
+    body = mdr.Ball(drive.mass, float(course.scene.profile.body_radius))
+    assert drive.tangential_mass == pytest.approx(float(body.tangential_mass))
+    hit = course.oblique.impact
+    speed, spin = body.rebound(hit, drive.tangential_speed)
+    assert found["body_speed"] == pytest.approx(float(speed), rel=1e-12)
+    assert found["spin"] == pytest.approx(float(spin), rel=1e-12)
+    assert found["body_angle"] == pytest.approx(np.arctan2(float(hit.normal.rebound_speed), float(speed)))
+    assert found["tangential_restitution"] == pytest.approx(float(hit.tangential_restitution), rel=1e-12)
+    # A tip that belongs to no ball has no radius to turn about; what cannot turn has no spin.
+    assert "spin_speed" in numbers(follow(chosen(ELASTIC, "oblique", body="solid", shape="cone")))
+    assert not {"spin", "spin_speed"} & numbers(follow(chosen(ELASTIC, "oblique", body="block"))).keys()
+
+
+def test_looking_at_the_other_impact_keeps_body_and_normal_speed():
+    before = scene_of(opened(DROP)).drive
+    state = chosen(DROP, "oblique")
+    drive = scene_of(state).drive
+    assert (drive.mass, drive.speed) == pytest.approx((before.mass, before.speed), rel=1e-12)
+    back = scene_of(changes.choose(state, "drive", "impact")).drive
+    assert back.speed == pytest.approx(before.speed, rel=1e-12)
+
+
+def test_the_snippet_of_an_oblique_impact_has_the_angle_of_the_page(capsys):
+    course, values = replace(solved(thrown()), now=90), {}
+    exec(share.python(course), values)
+    angle = numbers(course)["body_angle"]
+    assert float(capsys.readouterr().out.splitlines()[1]) == pytest.approx(np.degrees(angle), rel=1e-3)
+    assert values["hit"].friction_work == course.oblique.impact.friction_work
+
+
+def test_presets_are_within_what_the_model_assumes():
+    for key in PRESETS:
+        levels = [level for level, _ in readouts.limits(follow(opened(key)), opened(key))]
+        assert "beyond" not in levels, key

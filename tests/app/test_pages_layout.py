@@ -1,0 +1,74 @@
+"""How the app is laid out: small, imports point down on few floors, scripts in files of their own."""
+
+import ast
+import re
+from functools import cache
+from pathlib import Path
+
+import app
+
+APP = Path(app.__file__).parent
+#: What no documentation of Bokeh, Panel or HoloViews has.
+PRIVATE = re.compile(
+    r"\b(_actual_paint|is_forcing_paint|map_data|mark_finished|canvas_view|plot_view|renderer_views|repainted"
+    r"|_send_msg|_handle_msg|_models|_debounce|get_serialized_svg|embed_items|events_el|v_compute|pixel_ratio"
+    r"|source_range|getContext|silent)\b"
+)
+
+
+def lines(kind):
+    return sum(len(path.read_text(encoding="utf-8").splitlines()) for path in APP.rglob(f"*.{kind}"))
+
+
+def test_the_page_stays_small():
+    modules = list(APP.rglob("*.py"))
+    assert len(modules) <= 34
+    assert max(len(path.read_text(encoding="utf-8").splitlines()) for path in modules) <= 350
+    assert lines("py") <= 5950
+    assert lines("js") <= 140
+    assert lines("css") <= 170
+
+
+def test_nothing_private_of_the_toolkit_is_used():
+    for path in [*APP.rglob("*.py"), *(APP / "js").glob("*.js")]:
+        text = path.read_text(encoding="utf-8")
+        assert PRIVATE.findall(text) == [], path.name
+        if path.suffix == ".js":
+            assert re.findall(r"\.(_\w+)", text) == [], path.name
+
+
+@cache
+def imports(path):
+    """Modules of the app that one of them imports."""
+    found, package = set(), path.parent
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            base = package if node.level == 1 else package.parents[node.level - 2]
+            base = base / (node.module or "").replace(".", "/")
+            for name in [alias.name for alias in node.names]:
+                for each in (
+                    base / f"{name}.py",
+                    base / name / "__init__.py",
+                    base.with_suffix(".py"),
+                    base / "__init__.py",
+                ):
+                    if each.is_file():
+                        found.add(each)
+                        break
+    return found - {path, APP / "__init__.py"}
+
+
+def floor(path, below=()):
+    assert path not in below, f"a cycle of imports at {path}"
+    return 1 + max((floor(each, (*below, path)) for each in imports(path)), default=0)
+
+
+def test_imports_point_down_on_few_floors():
+    floors = {path: floor(path) for path in APP.rglob("*.py")}
+    assert max(floors.values()) <= 9, {str(path.relative_to(APP)): n for path, n in floors.items()}
+
+
+def test_scripts_stand_in_files_of_their_own():
+    for path in APP.rglob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        assert not re.search(r'code="[^"]*[;=(]', text), path.name

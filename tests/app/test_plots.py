@@ -1,0 +1,420 @@
+"""What the plots show, as arrays and as Bokeh figures: every row against the core, without a browser."""
+
+import re
+
+import bokeh.models as bk
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+from app import changes
+from app.panels import readouts
+from app.plots import NAMED, PLOTS, TILES
+from app.plots.below import SURFACE, section, surface
+from app.plots.contact import RADII, leaning, pressure, springs
+from app.plots.draw import Picture, described, drawn, ticks
+from app.plots.force import _SHARE, force_still, references
+from app.plots.motion import energy_still, forces_still, maw, maw_still
+from app.plots.plot import Plot, maw_chi
+from app.solve import follow, scene_of
+from app.state import PRESETS, medium, opened, profile
+from app.state.quantities import SHAPES
+from app.state.units import written
+from app.ui import legend
+from mdr_core.results.figures import SPRINGS, line, mark
+
+from .conftest import DROP, ELASTIC, GOLD, PUNCH
+from .made import chosen, seen, solved, tip, viscous
+from .test_drives import thrown
+
+SHAPED = [shape for shape in SHAPES if shape != "sampled"]
+
+
+def assert_all_is_drawn(view, step=9):
+    """Every plot that has its axes has all its rows in every state, and the same length in every column."""
+    for plot in PLOTS.values():
+        if plot.there(view) and not (plot.name == "residual" and view.curve is None):
+            picture = Picture(plot)
+            for i in range(0, len(view.course), step):
+                rows = view.rows(plot, i)
+                assert all(np.size(x) == np.size(y) for x, y, *_ in rows.values())
+                assert rows.keys() == {row.name for row in plot.rows} | ({"image"} if plot.image else set())
+                for data in picture.columns(view, i, False).values():
+                    assert len({len(column) for column in data.values()}) == 1
+
+
+@pytest.mark.parametrize("shape", SHAPED)
+def test_loading_curve_and_pressure_are_those_of_the_core(shape):
+    state = chosen(shape=shape)
+    view = seen(state)
+    rows = force_still(view)
+    for name in ("elastic", "yielding"):
+        depth, force = rows[name]
+        result = mdr.indent(profile(state), medium(state), depth[:, None])
+        np.testing.assert_allclose(force, result.force[:, 0], rtol=1e-9, atol=1e-30)
+    r, p = pressure(view, view.course.now)["−σzz(r)"]
+    np.testing.assert_allclose(p, np.minimum(view.course.state.pressure(r), 1e3 * view.end("p")), rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "made", [opened, lambda: opened(DROP), viscous, tip], ids=["press", "drop", "viscous", "tip"]
+)
+def test_every_plot_of_every_state_can_be_drawn(made):
+    assert_all_is_drawn(seen(made()))
+
+
+@pytest.mark.parametrize("damping", ["none", "tau"])
+def test_every_plot_of_an_oblique_impact_beside_a_held_one_can_be_drawn(damping):
+    state = chosen(DROP, "oblique", damping=damping)
+    assert_all_is_drawn(seen(state, 1.0, state, axes="ratio"), 17)
+
+
+def test_springs_are_yielded_elastic_or_free_where_the_core_says():
+    view = seen(opened())
+    rows, state = springs(view, view.course.now), view.course.state
+    reach = {name: np.nanmax(np.abs(rows[name][0])) for name in ("yielded", "elastic")}
+    spacing = 2 * view.end("x") / SPRINGS
+    assert reach["yielded"] == pytest.approx(state.plastic_radius, abs=spacing)
+    assert reach["elastic"] == pytest.approx(state.contact_radius, abs=spacing)
+
+
+def test_a_measured_tip_ends_at_its_rim_without_pressure():
+    view = seen(tip())
+    r, p = view.pressure(view.course.now)
+    a = float(view.course.state.contact_radius)
+    assert np.all(np.isfinite(p))
+    assert p[np.argmin(np.abs(r - a))] == pytest.approx(0.0, abs=0.05 * p.max())
+    assert view.exceeds(view.course.now) == ""
+
+
+def test_the_contact_radius_falls_by_a_step_where_the_load_is_gone():
+    for key in (GOLD, DROP, PUNCH):
+        view = seen(opened(key))
+        depth, radius = view.rows(RADII, 0)["unloading"]
+        step = int(np.flatnonzero(radius == 0)[0])
+        assert depth[step] == depth[step - 1]
+        last = view.course.states.plastic_radius[-1] or profile(opened(key)).face_radius
+        assert radius[step - 1] == pytest.approx(last)
+
+
+def test_a_peak_that_the_axis_does_not_reach_is_named():
+    view = seen(opened())
+    tops = {i: view.pressure(i)[1] for i in range(view.course.peak)}
+    cut = [i for i, p in tops.items() if np.max(p) > view.end("p")]
+    assert cut
+    for i in tops:
+        assert bool(view.exceeds(i)) == (i in cut)
+    first = next(i for i in cut if np.isfinite(tops[i]).all())
+    value, unit = re.search(r"= ([\d.]+) (\wPa)", view.exceeds(first)).groups()
+    factor = {"GPa": 1e9, "TPa": 1e12}[unit]
+    assert float(value) * factor == pytest.approx(np.max(tops[first]), rel=0.01)
+    assert "∞ at the rim" in seen(opened(PUNCH)).exceeds(50)
+
+
+def test_the_ledger_of_an_impact_sums_up():
+    view = seen(viscous())
+    t, top = energy_still(view)["kinetic"]
+    np.testing.assert_allclose(top[: len(top) // 2], 5.5 / 2, rtol=1e-6)
+    assert t.max() == pytest.approx(float(view.course.hit.contact_time))
+
+
+def test_after_another_hit_depth_and_force_of_yield_belong_together():
+    hit = scene_of(opened(DROP)).solve()
+    state = changes.hit_again(opened(DROP), hit)
+    course = follow(state)
+    found = {each.name: values for each, values in readouts.readings(course).items()}
+    again = float(hit.plastic_depth) + medium(state).critical_depth
+    assert found["again_depth"] == pytest.approx(again)
+    assert not found.keys() & {"critical_depth", "critical_force"}
+    assert found["again_force"] == pytest.approx(float(course.onset.force))
+    np.testing.assert_allclose(force_still(seen(state))["onset of yield"][0], again)
+
+
+# Limits of the model.
+
+
+def limits(state):
+    return list(readouts.limits(follow(state), state))
+
+
+def test_a_viscous_impact_has_its_poisson_ratio():
+    state = viscous()
+    assert any(level == "beyond" and "ν = ½" in text for level, text in limits(state))
+    assert any(level == "good" and "ν = ½" in text for level, text in limits(state.but(nu_1=0.5)))
+    state = changes.choose(state, "elasticity", "modulus")
+    assert any(level == "note" and "ν = ½" in text for level, text in limits(state))
+
+
+def test_only_what_is_exceeded_is_seen_and_the_rest_folds():
+    html = readouts.warnings(follow(opened()), opened())
+    assert html.index("<details>") == 0
+    steep = opened(DROP).but(speed=500.0)
+    html = readouts.warnings(follow(steep), steep)
+    assert html[: html.index("<details>")].count('class="beyond"') >= 2
+
+
+# References, dimensionless axes, the surface.
+
+
+def test_the_elastic_curve_of_a_paraboloid_is_that_of_hertz():
+    state = chosen(shape="paraboloid")
+    d, F = references(seen(state, references="elastic"))["elastic throughout"]
+    expected = 4 / 3 * medium(state).E_star * np.sqrt(profile(state).radius) * d**1.5
+    np.testing.assert_allclose(F, expected, rtol=1e-12)
+    assert len(d) == len(_SHARE)
+
+
+@pytest.mark.parametrize(("shape", "power"), [("cone", 2), ("paraboloid", 1), ("flat_punch", 0)])
+def test_classes_share_the_hardness_of_the_deepest_state_and_differ_in_its_power(shape, power):
+    """F ∝ a², a⁰ and z ∝ rⁿ: powers 2/n and 0 of the depth."""
+    view = seen(chosen(shape=shape), 1.6, references="classes")
+    rows, deepest = references(view), view.course.deepest
+    d, constant_hardness = rows["class (a), F ∝ a²"]
+    d, constant_force = (part[1:] for part in rows["class (c), F constant"])
+    share = (d / deepest.depth) ** power
+    np.testing.assert_allclose(constant_hardness[1:], deepest.force * share, rtol=1e-9)
+    np.testing.assert_allclose(constant_force, deepest.force, rtol=1e-12)
+
+
+def test_nothing_is_said_to_have_a_hardness_that_has_not_yielded():
+    view = seen(opened(ELASTIC), references="all")
+    assert references(view).keys() == {"elastic throughout"}
+    assert "Nothing has yielded" in PLOTS["force"].note(view)
+    assert references(seen(opened())) == {}
+
+
+def test_cones_on_gold_and_pdms_are_one_dimensionless_curve():
+    """Popov (2015), Eqs. (20), (22): F/F_c = 2 d/d_c − 1, whatever cone and medium."""
+    pdms = opened("berkovich-pdms")
+    ratio = opened().max_depth / medium(opened()).critical_depth
+    pdms = pdms.but(max_depth=ratio * medium(pdms).critical_depth)
+    view = seen(opened(), 1.0, pdms, axes="ratio")
+    course, (d, F) = view.course, (view.axis(name) for name in "dF")
+    past = course.states.plastic_depth > 0
+    past[course.peak + 1 :] = False
+    expected = 2 * course.states.depth[past] / d.factor - 1
+    np.testing.assert_allclose(course.force[past] / F.factor, expected, rtol=1e-9)
+    assert (d.label, F.label) == ("d, indentation depth (× d at onset)", "F, normal force (× F at onset)")
+    held = force_still(view)["held 1"]
+    np.testing.assert_allclose(held[0], course.states.depth, rtol=1e-12)
+    np.testing.assert_allclose(held[1], course.force, rtol=1e-9, atol=1e-12 * course.force.max())
+
+
+def test_beside_an_elastic_paraboloid_the_surface_is_that_of_hertz():
+    state = chosen(shape="paraboloid", plasticity="none")
+    view = seen(state)
+    r, z = surface(view, view.course.now)["deformed surface"]
+    a, radius = float(view.course.state.contact_radius), profile(state).radius
+    r, z = (part[r > a] for part in (r, z))
+    # Johnson, Contact Mechanics (1985), Eq. (3.42a), with d = a²/R.
+    expected = ((2 * a**2 - r**2) * np.arcsin(a / r) + a * np.sqrt(r**2 - a**2)) / (np.pi * radius)
+    np.testing.assert_allclose(z, -expected, rtol=1e-10)
+
+
+@pytest.mark.parametrize("shape", SHAPED)
+def test_the_surface_lies_on_the_tip_in_contact_and_below_it_beside(shape):
+    state = chosen(shape=shape)
+    view, made = seen(state, 1.4), profile(state)
+    now = view.course.state
+    r, z = surface(view, view.course.now)["deformed surface"]
+    gap = made.height(np.minimum(np.abs(r), made.known_radius)) - now.depth - z
+    inside, scale = np.abs(r) <= now.contact_radius, view.end("far z")
+    assert inside.sum() > 10
+    # To the rounding of a depth.
+    assert np.max(np.abs(gap[inside])) < 1e-14 * scale
+    assert np.all(gap[~inside] > -1e-12 * scale)
+
+
+def test_heights_are_to_scale_when_asked_for():
+    r, z = seen(opened(), heights="to_scale").axes_of(SURFACE)
+    assert (r.unit, r.factor) == (z.unit, z.factor)
+    assert z.title == "z, height to scale"
+
+
+# Section, oblique impacts, the pressure seen obliquely.
+
+
+@pytest.mark.parametrize("quantity", ["max_shear", "von_mises", "zz"])
+@pytest.mark.parametrize("key", [ELASTIC, DROP])
+def test_the_section_shows_the_stress_of_the_core(key, quantity):
+    course = follow(opened(key))
+    (found,) = section(course, (quantity,))
+    state, (r, z, colours) = course.state, found.axes
+    (left, right), (bottom, top), image = found.rows["image"]
+    assert (left, right, bottom, top) == (r.start, r.end, z.start, z.end) == (0, r.end, -r.end, 0)
+    assert image.shape == PLOTS["section"].image
+    down, along = (30 + 0.5) / image.shape[0], (50 + 0.5) / image.shape[1]
+    stress = state.stress(r.end * along, -bottom * (1 - down))
+    expected = {"zz": -stress.zz, "max_shear": stress.max_shear, "von_mises": stress.von_mises}[quantity]
+    assert image[30, 50] == pytest.approx(expected, rel=1e-12)
+    place = found.rows["largest"]
+    if quantity == "zz":
+        assert np.isnan(place[0]).all()
+    else:
+        peak = state.stress_peak(quantity)
+        assert (place[0][0], place[1][0]) == (peak.r, -peak.z)
+        assert image.max() <= peak.value <= colours.end
+    if (key, quantity) == (ELASTIC, "max_shear"):
+        # Hertz, ν of the preset: 0.3 to 0.33 p₀ on the axis, 0.4 to 0.6 a deep; the note says so.
+        assert peak.value / state.pressure(0.0) == pytest.approx(0.31, abs=0.02)
+        assert f"{peak.value / 1e6:.1f} MPa" in found.note
+
+
+def test_the_section_of_an_unloaded_state_is_empty():
+    (found,) = section(follow(opened().but(progress=2.2)), ("zz",))
+    assert found.rows == {}
+    assert found.note == "The load is gone."
+
+
+def test_springs_lean_as_far_as_they_are_loaded_and_stick_where_the_core_says():
+    course = solved(thrown())
+    view, m = seen(thrown()), course.oblique
+    view.course = course
+    spacing = 2 * view.end("x") / SPRINGS
+    share = m.stick_radius[1:-1] / m.contact_radius[1:-1]
+    i = 1 + int(np.argmin(np.abs(share - 0.6)))
+    rows = springs(view, i)
+    # The middles of the lines below the feet.
+    stick, slip = (np.abs(rows[name][0].reshape(-1, 3)[:, :2].mean(axis=1)) for name in ("sticks", "slips"))
+    assert stick.max() == pytest.approx(m.stick_radius[i], abs=1.5 * spacing)
+    assert slip.min() > stick.max()
+    # The springs carry the force: along the surface κE* times how far they lean.
+    r = np.linspace(0, float(m.contact_radius[i]), 4001)
+    lean, _ = leaning(course, i, r)
+    made = course.scene.medium
+    force = 2 * made.tangential_ratio * made.E_star * np.trapezoid(lean, r)
+    assert force == pytest.approx(m.tangential_force[i], rel=0.01)
+
+
+def test_forces_of_an_oblique_impact_are_bounded_by_friction_and_change_the_speed():
+    view = seen(thrown())
+    drive = view.course.scene.drive
+    rows = forces_still(view)
+    (t, along), (_, normal) = rows["force along Fₓ"], rows["normal force F"]
+    assert np.all(np.abs(along) <= drive.friction * normal * (1 + 1e-9) + 1e-9 * normal.max())
+    # Momentum along the surface, by the trapezoidal rule over 120 instants.
+    W = view.course.oblique.tangential_velocity
+    assert W[0] - W[-1] == pytest.approx(np.trapezoid(along, t) / drive.tangential_mass, rel=2e-3)
+    assert view.axis("force").start < 0
+
+
+def test_maw_s_curve_and_the_present_impact_on_it(monkeypatch):
+    monkeypatch.setattr("app.plots.motion._PLACES", 4)
+    view = seen(thrown(attack=0.3, friction=0.3))
+    *_, found = maw(view.course, ())
+    x, y = found.rows["elastic (Maw)"]
+    chi = maw_chi(view.course)
+    # Of a solid ball: where all slips ψ₂ = ψ₁ − 4χ, from ψ₁ = 4χ − 1 on.
+    np.testing.assert_allclose(y[-2:], x[-2:] - 4 * chi, atol=1e-6)
+    (before,), (after,) = maw_still(view)["this impact"]
+    assert before > 4 * chi - 1
+    assert after == pytest.approx(before - 4 * chi, abs=2e-3)
+
+
+def test_the_relief_has_the_pressure_on_every_cut():
+    view = seen(opened())
+    rows = view.rows(PLOTS["relief"], view.course.now)
+    x, y = rows["cut 12"]
+    # The middle cut passes the axis; its top is the pressure above its own ground.
+    half = len(x) // 2
+    top = float(np.max(y[:half] - y[half:][::-1]))
+    assert top == pytest.approx(np.max(view.pressure(view.course.now)[1]), rel=0.02)
+    assert np.isfinite(rows["zone 12"][0]).all()
+
+
+# Figures.
+
+
+def test_a_new_plot_is_one_entry(monkeypatch):
+    """The example of how to add a plot."""
+
+    def work(view, some):
+        course = view.course
+        return course.states.depth[some], course.plastic_work[some] / course.scene.medium.critical_depth
+
+    plot = Plot(
+        "work", "Plastic work", "W_p = d_c φ(d_p)", ("d", "F"),
+        (line("W_p/d_c", "yielded", 2.5, symbol="W_p/d_c"), mark("now")),
+        still=lambda view: {"W_p/d_c": work(view, slice(None))},
+        moving=lambda view, i: {"now": work(view, [i])},
+        tab=("Work", "p"),
+    )  # fmt: skip
+    view, picture = seen(opened()), Picture(plot)
+    data = {source.name: columns for source, columns in picture.columns(view, 20, True).items()}
+    assert data["work lines"]["row"] == ["W_p/d_c"]
+    assert data["work marks"]["x"][0] == pytest.approx(view.course.states.depth[20] * 1e9, rel=1e-3)
+    assert [source.name for source in picture.frame(view, 3)] == ["work marks"]
+    assert legend(plot, drawn(view, plot, {view.course.now})).count("<span") == 2
+
+
+def test_an_unknown_axis_is_refused_when_a_plot_is_made():
+    with pytest.raises(ValueError, match="plot work: no axis depht"):
+        Plot("work", "Work", "", ("depht", "F"), ())
+
+
+def test_another_theme_is_another_palette():
+    view = seen(opened())
+    picture = Picture(PLOTS["force"])
+    light, dark = (list(picture.columns(view, 5, theme).values()) for theme in (False, True))
+    assert all(one["color"] != other["color"] for one, other in zip(light, dark, strict=True))
+    for theme, ground in ((False, "#ffffff"), (True, "#181b20")):
+        picture.show(picture.columns(view, 5, theme), view, theme)
+        # Another ground paints the axes anew, too.
+        assert picture.figure.background_fill_color == ground
+    bar = Picture(PLOTS["section"])
+    (found,) = section(view.course, ("zz",))
+    view.found["section"] = found
+    bar.show(bar.columns(view, view.course.now, True), view, True)
+    # The numbers of the colour bar can be read in the dark.
+    assert bar.figure.select_one(bk.ColorBar).major_label_text_color == "#e4e7eb"
+
+
+def test_the_models_of_a_figure_are_few():
+    figures = [Picture(PLOTS[name]).figure for name in NAMED]
+    assert sum(len(figure.references()) for figure in figures) < 180
+    assert len(NAMED) == 3
+    assert len({PLOTS[name].tab[1] for name in TILES}) == len(TILES)
+
+
+def test_legends_name_what_is_drawn_only():
+    shown = drawn(seen(opened()), PLOTS["force"], {50})
+    assert "held 1" not in shown
+    elastic = opened(ELASTIC)
+    assert not drawn(seen(elastic), PLOTS["force"], {20, 40}) & {"yielding", "dissipated"}
+    elastic = changes.choose(elastic, "drive", "impact")
+    assert drawn(seen(elastic), PLOTS["energy"], {20}) == {"stored", "kinetic", "time"}
+
+
+def test_numbers_along_a_logarithmic_axis_have_room():
+    short, _ = ticks(0.9, 90)
+    assert [tick for tick in short.ticks if 0.9 <= tick <= 90] == [1, 2, 5, 10, 20, 50]
+    assert [type(ticks(1, most)[0]).__name__ for most in (3, 1000)] == ["BasicTicker", "LogTicker"]
+    # Units of areas are a million apart.
+    assert [written(area, "area") for area in (9.99e-9, 4.98e-7)] == ["9990 µm²", "0.4980 mm²"]
+
+
+# Plots in words.
+
+
+@pytest.mark.parametrize(("key", "at"), [(GOLD, 1.0), (DROP, 1.0), (DROP, 1.7), (GOLD, 2.2), (GOLD, 0.0)])
+def test_every_plot_is_described(key, at):
+    view = seen(opened(key), at)
+    for plot in PLOTS.values():
+        if plot.there(view) and plot.name != "residual":
+            text = described(view, plot)
+            assert text.startswith(f"{plot.title}: ")
+            assert not re.search("nan|None|inf", text)
+
+
+def test_force_and_depth_in_words():
+    view = seen(opened())
+    text, course = described(view, PLOTS["force"]), view.course
+    assert f"now: d = {written(float(course.state.depth), 'length', 3)}" in text
+    # Forces are in the unit of the axis, µN, with three digits.
+    said = float(re.search(r"now: d = [^F]*F = ([\d.]+)", text)[1])
+    assert said == pytest.approx(float(course.state.force) * 1e6, rel=1e-2)
+    assert "held" not in text
+
+
+def test_presets_are_named_apart():
+    assert len({preset.label for preset in PRESETS.values()}) == len(PRESETS)

@@ -1,0 +1,210 @@
+"""What an earlier page said wrong: each statement is read here as it is drawn or said now."""
+
+import re
+from html import unescape
+
+import numpy as np
+import pytest
+
+from app import changes
+from app.page import Page
+from app.panels import fitting, held, readouts
+from app.panels.guide import TOURS, said, step_state
+from app.panels.report import report
+from app.panels.share import Share
+from app.plots import PLOTS
+from app.plots.contact import springs
+from app.plots.force import force, residual
+from app.solve import DRIVES, follow
+from app.state import link, opened, settled
+from app.state.quantities import DATA, LABELS, QUANTITIES
+
+from .conftest import DROP, GOLD
+from .made import chosen, seen, solved, viscous, written
+from .test_drives import thrown
+
+
+def plain(html):
+    return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())
+
+
+def area(row):
+    """The area that a closed row encloses."""
+    x, y = row
+    return 0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(np.roll(x, -1), y))
+
+
+@pytest.mark.parametrize("progress", [0.6, 1.0, 1.3, 1.7])
+def test_1_areas_of_a_viscous_impact_are_its_energies(progress):
+    """Hatched is what yield and dashpots have taken, blue what is stored, up to what has let go."""
+    view = seen(viscous(), progress)
+    course, i = view.course, view.course.now
+    rows, m = force(view, i), view.course.motion
+    contact = float(course.states.stored_energy[i])
+    assert abs(area(rows["stored"])) == pytest.approx(contact, rel=0.02, abs=1e-3 * m.kinetic_energy[0])
+    lost = m.plastic_work[i] + m.viscous_work[i] + m.stored_energy[i] - contact
+    # By the trapezoidal rule over 120 instants.
+    assert abs(area(rows["dissipated"])) == pytest.approx(lost, rel=0.02)
+    # The edge of what is stored is at the state.
+    assert np.max(rows["stored"][0]) == pytest.approx(float(course.states.depth[i]), rel=1e-9)
+
+
+def test_2_the_fast_limit_is_compared_with_both_areas():
+    course = follow(opened(DROP))
+    text = " ".join(sentence for _, sentence in readouts.limits(course, opened(DROP)))
+    assert "πa²" in text
+    assert "A = πc²" in text
+    assert (
+        f"{100 * (float(course.hit.fast_limit.contact_area / course.hit.damaged_area) - 1):+.3g} %" in text
+    )
+
+
+def test_3_the_guide_says_of_which_shape_the_area_goes_with_the_energy():
+    steps = TOURS["A fast impact, and what it destroys"]
+    assert len(steps) == 6
+    assert "under a cone the area is proportional to the energy" in steps[4]["says"]
+    assert step_state(steps[5], opened()).tiles == ("sweep",)
+    assert "ball of 5.5 kg" not in str(TOURS)
+    areas = [follow(step_state(step, opened())).hit.damaged_area for step in steps[3:5]]
+    assert areas[1] / areas[0] == pytest.approx(4, rel=0.05)
+
+
+def test_4_report_and_link_of_a_fit_have_the_fit():
+    state = fitting.take(opened(), fitting.example(opened()))
+    state = fitting.fit(state.but(noise="given", depth_noise=1e-11))
+    found = state.curve.fit
+    text = plain(report(state, seen(state), [PLOTS["residual"]], ""))
+    assert "Fit to A made curve" in text
+    assert "± " in text[text.index("The fit") :]
+    for part in ("reduced χ²", "contact point", *found.remarks):
+        assert part in text
+    again = link.read(link.arguments(written(state)))
+    assert "χ² =" in again.fit_note
+    assert "E* =" in again.fit_note
+    assert "made with a fit to A made curve" in plain(fitting.result(again))
+
+
+def test_5_the_noise_around_a_residual_has_that_of_the_depth():
+    state = fitting.take(opened(), fitting.example(opened()))
+    state = fitting.fit(state.but(noise="given", depth_noise=5e-11))
+    found, view = state.curve.fit, seen(state)
+    size = residual(view)["± noise"][1][: found.residuals.size]
+    expected = np.hypot(found.force_noise, found.path.stiffness * 5e-11)
+    np.testing.assert_allclose(size, expected, rtol=1e-9)
+    # A good fit looks good: two thirds of the samples are within.
+    assert np.mean(np.abs(found.residuals) < size) > 0.6
+    assert next(row for row in PLOTS["force"].rows if row.name == "measured").kind == "marks"
+
+
+def test_6_and_7_are_of_typed_numbers():
+    """In test_state.py: zeros in the unit of their column, 90°, 10 000 nm, 5 Å, 70.3°."""
+    page = Page()
+    page.tell(lambda state: fitting.take(state, fitting.example(state)))
+    texts = [number.text for number in page.fitting.place]
+    assert [text.split()[1] for text in texts] == ["nm", "µN", "nm/µN"]
+
+
+def test_8_formulas_are_those_of_the_drive():
+    dry, wet = follow(opened(DROP)), follow(viscous())
+    for name in ("force", "springs"):
+        assert "η" not in PLOTS[name].says(dry)
+        assert "η" in PLOTS[name].says(wet)
+    assert "W_v" in PLOTS["energy"].says(wet)
+    assert "W_v" not in PLOTS["energy"].says(dry)
+    assert "W_f" in PLOTS["energy"].says(follow(thrown()))
+
+
+@pytest.mark.parametrize("progress", [0.7, 1.0, 1.5])
+def test_9_the_numbers_of_a_state_sum_up(progress):
+    course = follow(viscous().but(progress=progress))
+    found = {
+        each.name: readouts.here(values, course.now) for each, values in readouts.readings(course).items()
+    }
+    parts = ("stored_energy", "plastic_work", "viscous_work", "kinetic_energy")
+    assert sum(found[name] for name in parts) == pytest.approx(2.75, rel=1e-6)
+    helps = {each.name: each.help for each in readouts.READOUTS}
+    assert "Without dashpots" in helps["stored_energy"]
+    assert "Without them" in helps["mean_pressure"]
+
+
+def test_10_held_scenes_are_named_by_what_differs():
+    names = []
+    for state in (
+        opened(DROP),
+        opened(DROP).but(speed=2.0),
+        settled(opened(DROP).but(q_c=2e5)),
+        chosen(DROP, shape="cone").but(cone_slope=0.2),
+    ):
+        names.append(held.difference(state))
+    assert names == [
+        "Steel ball 16 mm on glass-fibre epoxy, drop weight",
+        "v_0 = 2.00 m/s",
+        "q_c = 200 kN/m",
+        "Cone, s = 0.200",
+    ]
+
+
+def test_11_small_things_are_said_right():
+    about = (changes.__file__.rpartition("/")[0]) + "/static/about.html"
+    with open(about, encoding="utf-8") as file:
+        assert "never cut" not in file.read()
+    assert "∞ m" not in str(
+        readouts.table(follow(chosen(plasticity="none")), readouts.readings(follow(opened())), 0)
+    )
+    from app.ui import plain as said_plainly
+
+    assert said_plainly("reach 4.26e-06 within") == "reach 4.26 × 10⁻⁶ within"
+    assert "line load" in QUANTITIES["q_c"].help
+    force_c = next(each for each in readouts.READOUTS if each.name == "critical_force")
+    assert force_c.equation.startswith("(22)")
+
+
+def test_12_curves_with_a_vertical_start_are_no_chords():
+    view = seen(opened(DROP))
+    d, a = view.rows(PLOTS["radii"], 0)["contact radius a"]
+    for depth in (1e-6, 5e-6, 5e-5):
+        exact = float(view.course.scene.profile.contact_radius(depth))
+        assert np.interp(depth, d[1:], a[1:]) == pytest.approx(exact, rel=0.03)
+    state = changes.choose(chosen(GOLD, damping="tau"), "drive", "path")
+    course = solved(changes.choose(state, "pattern", "creep"))
+    time, depth = course.motion.time, course.states.depth
+    assert len(time) > 20
+    # Half of the states of the hold are in its first tenth.
+    held_at = np.flatnonzero(course.force >= 0.999 * course.force.max())
+    share = (time[held_at] - time[held_at[0]]) / np.ptp(time[held_at])
+    assert np.mean(share < 0.1) > 0.5
+    assert np.all(np.diff(depth) > 0)
+
+
+def test_13_springs_of_an_oblique_impact_are_elastic_or_yielded():
+    view = seen(chosen(DROP, "oblique"))
+    rows, state = springs(view, view.course.now), view.course.state
+    reach = {name: np.nanmax(np.abs(rows[name][0][::9])) for name in ("yielded", "elastic")}
+    spacing = 2 * view.end("x") / 60
+    assert reach["yielded"] == pytest.approx(state.plastic_radius, abs=spacing)
+    assert reach["elastic"] == pytest.approx(state.contact_radius, abs=spacing)
+    assert "speed" not in PLOTS
+    assert LABELS["drive"] == "Drive"
+    assert "Speed" not in LABELS.values()
+    assert DATA["choices"]["drive"]["options"]["depth"]["label"] == "depth"
+
+
+def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept():
+    page = Page()
+    page.board.tabs["maw"].value = True
+    assert page.shown.plots == [PLOTS[name] for name in ("springs", "pressure", "force")]
+    assert not page.board.tabs["maw"].value
+    page.tell(lambda state: changes.put(state, "max_depth", 5e-9))
+    assert page.state.max_depth == 5e-9
+    assert "maw" not in link.write(page.state, DRIVES["depth"].form)
+    # A measured tip can be chosen where there is one only.
+    assert "Measured tip" not in page.choices.widgets["shape"].options
+    assert isinstance(page.share, Share)
+
+
+def test_a_reset_stands_at_the_deepest_state():
+    page = Page()
+    page.tell(lambda state: state.but(progress=0.0))
+    page.frame.reset.clicks += 1
+    assert page.state.progress == 1.0
+    assert said(TOURS["First yield"][0], page.shown.view.course)
