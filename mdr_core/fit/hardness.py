@@ -6,7 +6,7 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
-from ..medium import Medium, check_pair
+from ..medium import Medium, check_pair, yield_constant
 from ..quantities import engineering
 from ..scaling import HardnessClass, class_of, straight_line
 from ..shapes.profile import Profile
@@ -25,10 +25,9 @@ def fit_hardness(
     """Fit the yield constant to hardness at several contact radii, and find the class of hardness.
 
     Hardness is the mean pressure F/(π a²) under load, `Indentation.mean_pressure` on a first loading. It is
-    less than q_c/a, because the outer ring of the contact is elastic (for a cone by 25 % at twice the
-    critical depth, 5 % at ten times): q_c at each radius is the root of F(q_c) = π a² H at depth g(a), and
-    the result their weighted mean for hardnesses of one relative error. The class follows from the power of
-    a in q_c/a, the hardness of a fully yielded contact.
+    less than q_c/a, because the outer ring of the contact is elastic: q_c at each radius is the root of
+    F(q_c) = π a² H at depth g(a), and the result their weighted mean for hardnesses of one relative error.
+    The class follows from the power of a in q_c/a, the hardness of a fully yielded contact.
 
     Parameters
     ----------
@@ -44,15 +43,12 @@ def fit_hardness(
     Returns
     -------
     HardnessFit
+        The standard error is that of the mean, from the scatter of the values, infinite for a single one.
 
     Raises
     ------
     ValueError
         If no hardness is below the mean pressure of an elastic contact: then nothing has yielded.
-
-    Notes
-    -----
-    The standard error is that of the mean, from the scatter of the values, and infinite for a single one.
 
     Examples
     --------
@@ -74,19 +70,18 @@ def fit_hardness(
             f"E* = {engineering(E_star, 'Pa')}: nothing has yielded; check E_star, or press deeper"
         )
     a, depth, area, d_c = a[yielded], depth[yielded], area[yielded], d_c[yielded]
-    values = 2 / np.pi * E_star * d_c
+    values = yield_constant(E_star, d_c)
     # ∂ ln F/∂ ln q_c = c d_c / ∫ a ds.
     weight = (profile._radius(depth - d_c) * d_c / area) ** 2
-    logarithms = np.log(values)
-    mean = np.sum(weight * logarithms) / np.sum(weight)
-    variance = np.sum(weight * (logarithms - mean) ** 2) / max(a.size - 1, 1)
+    mean = np.sum(weight * np.log(values)) / np.sum(weight)
+    deviation = np.log(values) - mean
+    variance = np.sum(weight * deviation**2) / max(a.size - 1, 1)
     error = float(np.sqrt(variance / np.sum(weight))) if a.size > 1 else np.inf
     q_c, hardness_class = float(np.exp(mean)), _class(a, values)
-    covariance, residuals = np.array([[(q_c * error) ** 2]]), (logarithms - mean) * np.sqrt(weight)
     return HardnessFit(
-        profile=profile, medium=Medium(E_star, q_c), standard_errors={"q_c": q_c * error},
-        covariance=_check.frozen(covariance), residuals=_check.frozen(residuals), class_=hardness_class,
-        q_c_values=_check.frozen(values), remarks=tuple(_remarks(yielded, hardness_class, error)),
+        profile, Medium(E_star, q_c), {"q_c": q_c * error}, _check.frozen([[(q_c * error) ** 2]]),
+        _check.frozen(deviation * np.sqrt(weight)), class_=hardness_class, q_c_values=_check.frozen(values),
+        remarks=tuple(_remarks(yielded, hardness_class, error)),
     )  # fmt: skip
 
 
@@ -141,30 +136,15 @@ def _remarks(yielded, hardness_class, error):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HardnessFit(Fit):
-    """A medium fitted to hardness at several radii, returned by `fit_hardness`.
+    """A medium fitted to hardness at several radii, a `Fit` returned by `fit_hardness`.
 
-    Attributes
-    ----------
-    medium : Medium
-        With the given E* and the fitted q_c.
-    standard_errors : dict
-        Standard error of q_c (N/m) by name; `covariance` is its square.
-    residuals : ndarray
-        Relative residuals of the hardness.
-    class_ : HardnessClass
-        Power of the radius, `slope` ± `slope_error`, and the class as `hardness`.
-    q_c_values : ndarray
-        q_c (N/m) at each radius that has yielded.
-    remarks : tuple of str
-        Measurements that were left out, and deviations from class (b).
+    Residuals are those of the hardness, relative; remarks name measurements that were left out.
     """
 
-    profile: Profile
-    medium: Medium
     standard_errors: dict[str, float]
-    covariance: Array
-    residuals: Array
+    #: Power of the radius, `slope` ± `slope_error`, and the class as `hardness`.
     class_: HardnessClass
+    #: q_c (N/m) at each radius that has yielded.
     q_c_values: Array
     remarks: tuple[str, ...]
 

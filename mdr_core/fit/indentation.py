@@ -1,6 +1,6 @@
 """The medium from measured force–depth curves."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Any
 
@@ -16,7 +16,7 @@ from ..superposition import tabulated
 from ..yielding import LiveInterval
 from .curve import PARAMETERS, REACH
 from .least_squares import Fit
-from .remarks import Remark, remarks_of
+from .remarks import remarks_of
 from .solution import grouped, solved
 
 _UNITS = dict(zip(PARAMETERS, ("Pa", "N/m", "m", "N", "m/N"), strict=True))
@@ -79,10 +79,9 @@ def fit_indentation(
     Notes
     -----
     Standard errors come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)², S the slope.
-    In simulated curves (400 samples, 0.4 % force noise, cone, paraboloid, sphere) deviations over errors
-    have standard deviations of 0.9 to 1.2, also with depth noise up to 1/15 of the depth if that is less
-    than the critical depth; with more noise 1.5 to 3, and E* is wrong by a sixth. The errors are those of
-    the noise alone: where `remarks` names correlated residuals, model or profile cause larger ones.
+    In simulated curves deviations over errors have standard deviations of 0.9 to 1.2; with depth noise
+    above 1/15 of the depth or above the critical depth 1.5 to 3, and E* is wrong by a sixth. The errors are
+    those of the noise alone: where `remarks` names correlated residuals, others are larger.
 
     Examples
     --------
@@ -202,43 +201,25 @@ def _arrays(fit):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class IndentationFit(Fit):
-    """Media fitted to one or many curves, returned by `fit_indentation`; `fit[i]` is the fit of one curve.
+    """Media fitted to one or many curves, a `Fit` returned by `fit_indentation`; `fit[i]` is one curve's.
 
-    Attributes
-    ----------
-    medium : Medium
-        With the fitted E* and q_c, arrays (R,) for many curves; q_c is infinite where nothing has yielded.
-    contact_point, baseline, frame_compliance : float or ndarray
-        Fitted or held values (m, N, m/N).
-    standard_errors : dict
-        Standard errors of the free parameters by name, in their units; infinite where undetermined.
-    covariance : ndarray
-        Covariance of the free parameters in the order of `standard_errors` (P, P), or (R, P, P).
-    residuals : ndarray
-        Measured force minus force of the model at the measured depth (N).
-    reduced_chi_square : float or ndarray
-        Sum of squares in units of the noise over the degrees of freedom, NaN where the noise was estimated
-        from the residuals.
-    force_noise : float or ndarray
-        Standard deviation of the force (N), given or estimated.
-    path : Indentation
-        States of the fitted model at all samples, with depth noise at the most probable depths.
-    remarks : tuple of str
-        Parameters that the data do not determine, and deviations from the model.
+    Parameters and errors are arrays (R,) for many curves, `covariance` is (R, P, P). q_c is infinite where
+    nothing has yielded. Residuals are those of the force (N) at the measured depth.
     """
 
-    profile: Profile
-    medium: Medium
+    #: Fitted or held values (m, N, m/N).
     contact_point: Array
     baseline: Array
     frame_compliance: Array
     standard_errors: dict[str, Array]
-    covariance: Array
-    residuals: Array
+    #: Sum of squares in units of the noise over the degrees of freedom, NaN for noise from the residuals.
     reduced_chi_square: Array
+    #: Standard deviation of the force (N), given or estimated.
     force_noise: Array
+    #: States of the fitted model at all samples, with depth noise at the most probable depths.
     path: Indentation
-    _remarks: tuple[tuple[Remark, ...], ...] = field(default=(), repr=False)
+    #: Remarks on each curve by their kind.
+    _remarks: tuple[dict[str, str], ...]
 
     _further_parameters = _FURTHER
     _dimensions = ("curve",)
@@ -259,11 +240,11 @@ class IndentationFit(Fit):
     def remarks(self) -> tuple[str, ...]:
         """Remarks as sentences; of many curves one of each kind, with the number of such curves."""
         if not self.shape:
-            return tuple(remark.text for remark in self._remarks[0])
+            return tuple(self._remarks[0].values())
         kinds: dict[str, dict[int, str]] = {}
         for i, remarks in enumerate(self._remarks):
-            for remark in remarks:
-                kinds.setdefault(remark.kind, {})[i] = remark.text
+            for kind, text in remarks.items():
+                kinds.setdefault(kind, {})[i] = text
         return tuple(
             f"curve {min(texts)} ({len(texts)} of {len(self)} curves): {texts[min(texts)]}"
             for texts in kinds.values()

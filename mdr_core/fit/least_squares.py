@@ -1,13 +1,17 @@
 """Least squares for many small problems at once, standard errors, and the base class of fits."""
 
+from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from .._check import Array
+from ..medium import Medium
 from ..quantities import QUANTITIES, Quantity, described, engineering, prefixed
 from ..report import Report
 from ..results import Model
+from ..shapes.profile import Profile
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -117,8 +121,29 @@ def with_error(value, error, unit):
     return f"{value:.{digits}f} ± {error:.{digits}f} {unit}".rstrip()
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class Fit(Report):
-    """Base class of fits: values and standard errors of the parameters by name, and their report."""
+    """Base class of fits: values and standard errors of the parameters by name, and their report.
+
+    Attributes
+    ----------
+    profile, medium
+        The indenter, and the medium with fitted and held parameters.
+    standard_errors : dict
+        Standard errors of the free parameters by name, in their units; infinite where undetermined.
+    covariance : ndarray
+        Covariance of the free parameters, in that order.
+    residuals : ndarray
+        Measured minus fitted values.
+    remarks : tuple of str
+        Parameters that the data do not determine, and deviations from the model.
+    """
+
+    profile: Profile
+    medium: Medium
+    standard_errors: dict[str, Any]
+    covariance: Array
+    residuals: Array
 
     model = LEAST_SQUARES
     _shown = ("medium",)
@@ -126,11 +151,6 @@ class Fit(Report):
     #: Names of all parameters, free or fixed: attributes of the medium, and of the fit itself.
     _medium_parameters: ClassVar[tuple[str, ...]] = ("E_star", "q_c")
     _further_parameters: ClassVar[tuple[str, ...]] = ()
-
-    profile: Any
-    medium: Any
-    standard_errors: dict[str, Any]
-    covariance: Any
 
     def _values(self):
         """Values of all parameters by name."""

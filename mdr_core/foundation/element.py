@@ -21,9 +21,9 @@ import scipy
 class Elements:
     """State of a row of elements: arrays with one entry per element.
 
-    Lengths (m): coordinate, width, reduced height g(x), penetration d − g(x) − u_p into the relaxed surface
-    of the element, elastic part u_e and plastic part u_p of the compression. In contact the penetration
-    equals u_e; after yield it is updated step by step, because the difference of depths would cancel.
+    Lengths (m): coordinate, width, reduced profile g(x), penetration d − g(x) − u_p into the relaxed
+    surface, elastic part u_e and plastic part u_p of the compression. In contact the penetration equals
+    u_e; after yield it is updated step by step, because the difference of depths would cancel.
     """
 
     x: np.ndarray
@@ -45,8 +45,7 @@ class Elements:
 class Ramp:
     """A straight piece of a path of depth in time, and the medium's τ (s) and d_c (m).
 
-    `depth` (m) is that at its end, `travel` its change (m), given separately because the difference of two
-    depths may cancel. The `duration` (s) may be infinite.
+    `travel` (m) ends at `depth` (m): a difference of depths may cancel. The `duration` (s) may be infinite.
     """
 
     depth: float
@@ -72,8 +71,8 @@ class Exchange:
 
     In contact, `stroke` is the change of compression (m), `mean` the mean elastic part (m) over it,
     `duration` the time (s), and `spring_share` the fraction of the stroke before the yield cap. The elastic
-    part (m) is `initial` and `final` at the ends of the ramp, `first` and `last` at the ends of contact.
-    Without contact stroke and duration are zero, and `first` and `last` equal `final`.
+    part (m) is `initial` and `final` at the ends of the ramp, `first` and `last` at those of contact, and
+    both equal `final` without contact; stroke and duration are then 0.
     """
 
     ramp: Ramp
@@ -93,13 +92,11 @@ class Exchange:
 
     @property
     def impulse_slope(self):
-        """Derivative of ∫ q dt/E* by the rate of the ramp (s²); approximate where contact returns.
-
-        A larger rate compresses the spring by t more at time t, and begins contact earlier.
-        """
+        """Derivative of ∫ q dt/E* by the rate of the ramp (s²); approximate where contact returns."""
         ramp, spring_time = self.ramp, self.spring_share * self.duration
         if ramp.travel < 0:
             return self.duration * (self.duration / 2 + ramp.tau)
+        # A larger rate compresses the spring by t more at time t, and begins contact earlier.
         free_time = ramp.duration - self.duration
         dashpot = ramp.tau * ramp.duration * (self.duration > 0)
         return spring_time * (free_time + spring_time / 2) + dashpot
@@ -113,13 +110,7 @@ class Exchange:
 
 
 def advance(elements, ramp):
-    """`Elements` at the end of a ramp, and the `Exchange` along it.
-
-    1. Move the indenter: penetration += travel.
-    2. Find the elastic part at which contact of a free element begins.
-    3. Follow contact to the end of the ramp, to the yield cap, or to release.
-    4. Relax for the remaining time.
-    """
+    """`Elements` at the end of a ramp, and the `Exchange` along it."""
     virgin = elements.plastic == 0
     penetration = np.where(virgin, ramp.depth - elements.reduced, elements.penetration + ramp.travel)
     return (_press if ramp.travel >= 0 else _withdraw)(elements, ramp, penetration)

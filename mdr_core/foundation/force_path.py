@@ -33,8 +33,8 @@ def creep(
 ) -> TimedIndentation:
     """Press an indenter into a viscous medium along a path of force in time, under which it creeps.
 
-    Solved by the chain in steps of constant ḋ, each of which ends at the prescribed force. Steps are finer
-    at the start of each piece of the path; errors of first and second order are extrapolated away.
+    Solved by the chain in steps of constant ḋ, each of which ends at the prescribed force; errors of first
+    and second order are extrapolated away.
 
     Parameters
     ----------
@@ -95,13 +95,11 @@ def creep(
         return runs[-1].record
 
     record, errors = refine(run, tolerance, _RUNS, 1, orders=_ORDERS)
-    depth, stored, plastic, viscous = record.T
+    depth, energies = record[:, 0], np.maximum(record[:, 1:], 0.0).T
     path_time, path_depth, index, radius = _consistent_path(runs, force)
     return TimedIndentation(
         profile, medium, time, depth, force, radius,
-        stored_energy=np.maximum(stored, 0.0),
-        plastic_work=np.maximum(plastic, 0.0),
-        viscous_work=np.maximum(viscous, 0.0),
+        **dict(zip(("stored_energy", "plastic_work", "viscous_work"), energies, strict=True)),
         plastic_depth=plastic_depth(np.maximum.accumulate(depth), medium.critical_depth),
         error=float(errors[0]), _index=index, _path_time=path_time, _path_depth=path_depth,
     )  # fmt: skip
