@@ -25,8 +25,6 @@ LOGARITHMIC = ("E_star", "q_c", "contact_point")
 _OF_FORCE = ("E_star", "q_c", "frame_compliance")
 #: The contact point is searched down to so many ranges of depth below the record.
 REACH = 30.0
-#: Steps of the search for the nearest point of a branch.
-_PROJECTIONS = 6
 
 
 @dataclass(frozen=True)
@@ -52,21 +50,11 @@ class CurveProblem:
         names = "depth", "force", "sigma", "turning_points", "loading_starts"
         return replace(self, fixed=fixed, **{name: getattr(self, name)[rows] for name in names})
 
-    @cached_property
-    def top(self):
-        return self.depth.max(axis=1, keepdims=True)
-
-    @cached_property
-    def length(self):
-        return np.ptp(self.depth, axis=1, keepdims=True)
-
-    @cached_property
-    def load(self):
-        return np.ptp(self.force, axis=1, keepdims=True)
-
-    @cached_property
-    def free(self):
-        return tuple(name for name in PARAMETERS if name not in self.fixed)
+    #: Largest depth (m), ranges of depth (m) and force (N) of each curve (R, 1); names of free parameters.
+    top = cached_property(lambda self: self.depth.max(axis=1, keepdims=True))
+    length = cached_property(lambda self: np.ptp(self.depth, axis=1, keepdims=True))
+    load = cached_property(lambda self: np.ptp(self.force, axis=1, keepdims=True))
+    free = cached_property(lambda self: tuple(name for name in PARAMETERS if name not in self.fixed))
 
     @property
     def memoryless(self):
@@ -166,7 +154,7 @@ class CurveProblem:
         # The slope is 0 without contact: the search also starts just within the contact.
         inside = np.maximum(measured, state.live_interval.lower + noise)
         state = CurveState.at(self, values, inside, turning_depth)
-        for _ in range(_PROJECTIONS):
+        for _ in range(6):
             squares = distance(state)
             nearest = np.where(squares < least, state.displacement, nearest)
             least = np.minimum(squares, least)

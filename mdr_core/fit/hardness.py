@@ -6,16 +6,14 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
+from .._numeric import increasing_root
 from ..medium import Medium, check_pair, yield_constant
 from ..quantities import engineering
 from ..scaling import HardnessClass, class_of, straight_line
 from ..shapes.profile import Profile
 from ..superposition import radius_integral
-from ..yielding import LiveInterval, elastic_interval
+from ..yielding import LiveInterval
 from .least_squares import Fit
-
-#: Power of the contact radius that hardness is proportional to in each class, and its tolerance.
-_POWERS = {"a": (0.0, 0.1), "b": (-1.0, 0.1), "c": (-2.0, 0.1)}
 
 
 @_check.keywords_explained
@@ -100,27 +98,23 @@ def _measured(profile, hardness, radius):
 
 
 def _critical_depths(profile, depth, area):
-    """Critical depth d_c (m) with ∫ a ds = `area` (m²) over [d − d_c, d], and whether there is one.
+    """Critical depth d_c (m) with ∫ a ds = `area` (m²) over [d − d_c, d], and whether there is one."""
 
-    The integral increases with d_c and is concave: Newton's method from area/a stays below the root.
-    """
-    exists = area < radius_integral(profile, elastic_interval(depth))
-    d_c = np.minimum(area / profile._radius(depth), depth)
-    for _ in range(200):
+    def integral(d_c):
         interval = LiveInterval(depth - d_c, depth, d_c)
-        missing = np.maximum(area - radius_integral(profile, interval), 0.0)
-        before = d_c
-        d_c = np.minimum(d_c + missing / np.maximum(profile._radius(interval.lower), 1e-300), depth)
-        if np.all((d_c - before <= 1e-15 * d_c) | ~exists):
-            break
-    return d_c, exists
+        return radius_integral(profile, interval), profile._radius(interval.lower)
+
+    d_c = increasing_root(integral, area, area / profile._radius(depth), depth, quantity="critical depth")
+    return d_c, d_c < depth
 
 
 def _class(a, q_c):
+    """`HardnessClass` by the power of the radius a in q_c/a, each with its tolerance."""
     if np.unique(a).size < 2:
         return HardnessClass(None, np.nan, np.inf, {}, "insufficient: one radius determines no class")
     slope, error = straight_line(np.log(a), np.log(q_c / a))
-    name, reason = class_of(_POWERS, slope, error, "radii")
+    powers = {"a": (0.0, 0.1), "b": (-1.0, 0.1), "c": (-2.0, 0.1)}
+    name, reason = class_of(powers, slope, error, "radii")
     return HardnessClass(name, slope, error, {}, reason)
 
 

@@ -11,7 +11,7 @@ from ..dynamics.impact import impact
 from ..medium import Medium, check_pair, yield_constant
 from ..shapes.power import FlatPunch, PowerLaw
 from ..shapes.profile import Profile
-from .least_squares import Fit, autocorrelation, covariances, least_squares
+from .least_squares import SINGULAR, Fit, autocorrelation, covariances, least_squares
 
 #: Parameters and their units.
 _UNITS = {"E_star": "Pa", "q_c": "N/m", "eta": "Pa·s"}
@@ -19,8 +19,6 @@ _UNITS = {"E_star": "Pa", "q_c": "N/m", "eta": "Pa·s"}
 _STEP = 1e-4
 #: Initial standard deviations of the restitution and of ln T, later estimated from residuals.
 _NOISE = (0.01, 0.02)
-#: Standard error of a logarithm above which a remark is made.
-_VAGUE = 0.3
 
 
 @_check.keywords_explained
@@ -201,7 +199,7 @@ def _solved(data, fixed, free):
 def _noises(residual, noise, data, jacobian):
     """Standard deviations of restitution and ln T, each with its share of the degrees of freedom."""
     basis, s, _ = np.linalg.svd(jacobian, full_matrices=False)
-    leverage = np.sum(basis[:, s > 1e-11 * s[:1]] ** 2, axis=1)
+    leverage = np.sum(basis[:, s > SINGULAR * s[:1]] ** 2, axis=1)
     noise = noise.copy()
     for k, rows in enumerate(np.split(np.arange(residual.size), [data.count])):
         if rows.size:
@@ -240,7 +238,7 @@ def _start(data, fixed, free):
         costs = similar.costs({"E_star": np.full(q_c.size, E), "q_c": q_c, "eta": np.zeros(q_c.size)})
         trials.append((costs.min(), E, q_c[costs.argmin()]))
     if not trials:
-        raise ValueError("these impacts reach beyond the known depth of the profile for any modulus")
+        raise ValueError("these impacts exceed the known depth of the profile for any modulus")
     (_, E, q_c), eta = min(trials), fixed.get("eta")
     if eta != 0:
         time = float(_elastic_impact(subset, E, energy, speed).contact_time)
@@ -290,7 +288,8 @@ def _elastic_impact(subset, E, energy, speed):
 
 def _remarks(data, errors, jacobian, residual, noise):
     """Parameters that the impacts do not determine, and residuals that are not noise."""
-    vague = [name for name, error in errors.items() if not error < _VAGUE]
+    # Errors are those of logarithms.
+    vague = [name for name, error in errors.items() if not error < 0.3]
     if vague:
         _, s, vt = np.linalg.svd(jacobian, full_matrices=False)
         powers = zip(errors, vt[-1], strict=True)

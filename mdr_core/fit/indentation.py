@@ -141,15 +141,14 @@ def _fixed(name, value, count):
 
 def _refuse_empty(depth, force, fixed):
     free = [name for name in PARAMETERS if name not in fixed]
-    if depth.shape[1] <= len(free):
-        count, names = depth.shape[1], ", ".join(free)
+    count, names = depth.shape[1], ", ".join(free)
+    if count <= len(free):
         raise ValueError(f"{count} samples do not determine {names}: hold some of these, or give more")
-    width = np.ptp(depth, axis=1)
+    width, height = np.ptp(depth, axis=1), np.ptp(force, axis=1)
     _check.refuse("range of depth", width, width == 0, "m: the indenter does not move", remedy="check it")
     rise = force.max(axis=1) - fixed.get("baseline", force.min(axis=1))
     bound, remedy = "above the baseline: no contact", "forces are positive in compression; or free baseline"
     _check.refuse("largest force", rise, rise <= 0, bound, unit="N", remedy=remedy)
-    height = np.ptp(force, axis=1)
     _check.refuse("range of force", height, height == 0, "N: it is constant", remedy="check it")
 
 
@@ -170,14 +169,13 @@ def _collected(profile, fits):
     arrays = [_arrays(fit) for fit in fits]
     joined = {name: np.concatenate([group[name] for group in arrays])[order] for name in arrays[0]}
     remarks = list(chain.from_iterable(map(remarks_of, fits)))
-    problem = fits[0].problem
     errors = np.sqrt(np.einsum("rpp->rp", joined["covariance"]))
     column = Medium(joined["E_star"][:, None], joined["q_c"][:, None])
-    interval = LiveInterval(*(joined[name] for name in ("lower", "upper", "length")))
-    path = Indentation(profile, column, joined["depth"], interval)
+    interval = LiveInterval(joined["lower"], joined["upper"], joined["length"])
     return IndentationFit(
-        profile=profile, medium=Medium(joined["E_star"], joined["q_c"]), path=path,
-        standard_errors={name: _check.frozen(errors[:, i]) for i, name in enumerate(problem.free)},
+        profile=profile, medium=Medium(joined["E_star"], joined["q_c"]),
+        path=Indentation(profile, column, joined["depth"], interval),
+        standard_errors={name: _check.frozen(errors[:, i]) for i, name in enumerate(fits[0].problem.free)},
         **{name: _check.frozen(joined[name]) for name in (*_FURTHER, *_QUALITY)},
         _remarks=tuple(remarks[i] for i in order),
     )  # fmt: skip

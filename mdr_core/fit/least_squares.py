@@ -19,14 +19,7 @@ if TYPE_CHECKING:
 LEAST_SQUARES = Model("least squares", "the medium whose model has the least squares of residuals")
 
 #: Singular values below this share of the largest one leave their combination of parameters undetermined.
-_SINGULAR = 1e-11
-#: Standard error of a scaled parameter above which it is undetermined.
-_UNDETERMINED = 30.0
-#: Median of the absolute third differences of noise with unit standard deviation.
-_THIRD_DIFFERENCE = 0.6745 * np.sqrt(20.0)
-#: Correlations above this value are shown.
-_CORRELATED = 0.9
-
+SINGULAR = 1e-11
 #: Parameters of fits that are no quantities of results.
 _FURTHER_QUANTITIES = {
     "contact_point": Quantity("z₀", "m", "contact point"),
@@ -78,11 +71,12 @@ def covariances(jacobian, variance):
     """Covariance of scaled parameters (R, P, P); undetermined ones have infinite variance, covariance 0."""
     _, s, vt = np.linalg.svd(jacobian, full_matrices=False)
     largest = np.maximum(s[:, :1], 1e-150)
-    singular = s <= _SINGULAR * largest
+    singular = s <= SINGULAR * largest
     root = vt / np.maximum(s, 1e-14 * largest)[..., None]
     root = np.where(singular[..., None], 0.0, root)
     covariance = np.einsum("rkp,rkq->rpq", root, root) * np.reshape(variance, (-1, 1, 1))
-    wide = np.einsum("rpp->rp", covariance) > _UNDETERMINED**2
+    # Scaled parameters are about 1.
+    wide = np.einsum("rpp->rp", covariance) > 30.0**2
     undetermined = wide | np.any(singular[..., None] & (np.abs(vt) > 1e-3), axis=1)
     covariance[undetermined[:, :, None] | undetermined[:, None, :]] = 0.0
     np.einsum("rpp->rp", covariance)[undetermined] = np.inf
@@ -93,7 +87,9 @@ def roughness(values):
     """Standard deviation of the noise of smooth rows (R, 1) from third differences, 0 for few samples."""
     if values.shape[1] < 8:
         return np.zeros((len(values), 1))
-    return np.median(np.abs(np.diff(values, 3, axis=1)), axis=1, keepdims=True) / _THIRD_DIFFERENCE
+    # The median of absolute normal deviations is 0.6745, the variance of third differences 20.
+    differences = np.median(np.abs(np.diff(values, 3, axis=1)), axis=1, keepdims=True)
+    return differences / (0.6745 * np.sqrt(20.0))
 
 
 def autocorrelation(residual):
@@ -103,13 +99,7 @@ def autocorrelation(residual):
 
 
 def with_error(value, error, unit):
-    """A number and its standard error as text, with one prefix and two digits of the error.
-
-    Examples
-    --------
-    >>> with_error(95.234e9, 0.31e9, "Pa"), with_error(2.5e-9, 0.0, "m"), with_error(1.0, float("inf"), "N")
-    ('95.23 ± 0.31 GPa', '2.5 ± 0 nm', '1 ± ∞ N')
-    """
+    """A number and its standard error as text, with one prefix and two digits of the error."""
     if not np.isfinite(value) or not np.isfinite(error) or error == 0:
         number, _, unit = engineering(value, unit).partition(" ")
         return f"{number} ± {'∞' if error == np.inf else '0'} {unit}".rstrip()
@@ -170,9 +160,6 @@ class Fit(Report):
         errors = {f"{name}_error": error for name, error in self.standard_errors.items()}
         return {name: v if np.ndim(v) else float(v) for name, v in (self._values() | errors).items()}
 
-    def _parameters(self):
-        return {}
-
     @property
     def correlations(self) -> dict[tuple[str, str], float]:
         """Correlations above 0.9 of two parameters of one fit, by their names."""
@@ -182,7 +169,7 @@ class Fit(Report):
         for (i, first), (j, second) in combinations(enumerate(self.standard_errors), 2):
             if 0 < sigma[i] * sigma[j] < np.inf:
                 value = float(self.covariance[i, j] / sigma[i] / sigma[j])
-                correlations |= {(first, second): value} if abs(value) > _CORRELATED else {}
+                correlations |= {(first, second): value} if abs(value) > 0.9 else {}
         return correlations
 
     def _rows(self):

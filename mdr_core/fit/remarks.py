@@ -6,36 +6,28 @@ import numpy as np
 
 from ..medium import critical_depth
 from ..quantities import engineering
-from .least_squares import autocorrelation, roughness
+from .least_squares import SINGULAR, autocorrelation, roughness
 
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.1, 0.01
-#: Moduli (Pa) outside of which the units of the data are probably wrong.
-_SOFTEST, _STIFFEST = 1.0, 1e13
-#: Correlation with the frame compliance above which a remark is made.
-_CORRELATED = 0.9
 #: Number of standard errors above which a trend is significant.
 _SIGNIFICANT = 4.0
 
 
 def remarks_of(solved):
     """Remarks on each curve of `SolvedCurves`: a sentence by its kind, the same for all curves."""
-    checks = _units, _ambiguous, _undetermined, _jitter, _class_b, _misfit
+    checks = _ambiguous, _undetermined, _jitter, _class_b, _misfit
     curves = range(len(solved.rows))
     return [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in curves]
 
 
-def _units(solved, i):
-    """A modulus that no material has."""
+def _ambiguous(solved, i):
+    """A modulus of no material, parameters at a bound, a second minimum, a frame like the medium."""
+    problem, squares = solved.problem, np.sum(solved.residual[i] ** 2)
     E = solved.values_and_states[0]["E_star"][i, 0]
-    if not _SOFTEST <= E <= _STIFFEST and "E_star" in solved.problem.free:
+    if not 1.0 <= E <= 1e13 and "E_star" in problem.free:
         text = f"E* = {engineering(E, 'Pa')} is that of no material: give depth in m and force in N"
         yield "units", text
-
-
-def _ambiguous(solved, i):
-    """Parameters at a bound, a second minimum that is about as good, a frame that stands for the medium."""
-    problem, squares = solved.problem, np.sum(solved.residual[i] ** 2)
     for name, at_bound in zip(problem.free, solved.at_bound[i], strict=False):
         if at_bound:
             yield f"bound {name}", f"{name} is at the bound of its search: hold it, or check the data"
@@ -49,7 +41,7 @@ def _ambiguous(solved, i):
         pair = [problem.free.index(name) for name in ("E_star", "frame_compliance")]
         block = solved.covariance[i][np.ix_(pair, pair)]
         correlation = block[0, 1] / max(np.sqrt(block[0, 0] * block[1, 1]), 1e-300)
-        if abs(correlation) > _CORRELATED:
+        if abs(correlation) > 0.9:
             yield (
                 "frame",
                 f"E* and frame_compliance are nearly one parameter (correlation {correlation:.3f}): hold "
@@ -133,7 +125,7 @@ def _class_b(solved, i):
         jacobian = np.vstack([jacobian, pins])
         column, residual = (np.append(values, np.zeros(count)) for values in (column, residual))
     basis, s, _ = np.linalg.svd(jacobian, full_matrices=False)
-    basis = basis[:, s > 1e-11 * s[:1]]
+    basis = basis[:, s > SINGULAR * s[:1]]
     independent = column - basis @ (basis.T @ column)
     power = independent @ independent
     if power <= 1e-12 * (column @ column):

@@ -11,13 +11,6 @@ from .curve import LOGARITHMIC, REACH, CurveProblem
 from .least_squares import covariances, least_squares, roughness
 from .start import first_guesses, turning_points
 
-#: Number of curves that are solved together.
-_TOGETHER = 64
-#: Most repetitions of the assignment of turning points.
-_ROUNDS = 5
-#: Represents the logarithm of an infinite q_c.
-_LOG_OF_INFINITE = 300.0
-
 
 @dataclass(frozen=True)
 class SolvedCurves:
@@ -77,7 +70,7 @@ def grouped(depth, force, fixed, noise):
     counts = [(len(turns), len(starts)) for turns, starts in indices]
     for count in sorted(set(counts)):
         rows = np.array([i for i, other in enumerate(counts) if other == count])
-        for chunk in chunks(rows.size, _TOGETHER):
+        for chunk in chunks(rows.size, 64):
             subset = rows[chunk]
             turns, starts = zip(*(indices[i] for i in subset), strict=True)
             yield subset, np.array(turns, int), np.array(starts, int)
@@ -92,7 +85,7 @@ def solved(profile, depth, force, fixed, noise, force_noise, rows, turns, starts
     sigma = _first_sigma(ordered, noise, force_noise)
     problem = CurveProblem(profile, depth, force, fixed, noise, sigma, turns, starts)
     solution, rival = _best_minimum(problem)
-    for _ in range(_ROUNDS if noise and turns.size else 0):
+    for _ in range(5 if noise and turns.size else 0):
         before, problem = problem, problem.with_best_turning_points(solution[0])
         if np.array_equal(before.turning_points, problem.turning_points):
             break
@@ -169,7 +162,8 @@ def _compared_with_elastic(problem, solution, noise_known):
     held = replace(subset, fixed=subset.fixed | {"q_c": np.full(rows.size, np.inf)})
     start = np.delete(x[rows], column, axis=1)
     elastic_x, elastic_residual, jacobian, at_bound = _minimum(held, start)
-    elastic_x = np.insert(elastic_x, column, _LOG_OF_INFINITE, axis=1)
+    # 300 represents the logarithm of an infinite q_c.
+    elastic_x = np.insert(elastic_x, column, 300.0, axis=1)
     jacobian = np.insert(jacobian, column, 0.0, axis=2)
     unyielding = elastic_x, elastic_residual, jacobian, np.insert(at_bound, column, False, axis=1)
     residuals = residual[rows], yielding[1], elastic_residual

@@ -59,8 +59,6 @@ def first_guesses(problem):
 
 def _turning_depth(problem):
     """Measured depths (m) at the turning points (R, K), means of five samples."""
-    if not problem.turning_points.size:
-        return np.zeros(problem.turning_points.shape)
     last = problem.depth.shape[1] - 1
     neighbours = np.clip(problem.turning_points[..., None] + np.arange(-2, 3), 0, last)
     return np.take_along_axis(problem.depth[:, None], neighbours, axis=2).mean(axis=2)

@@ -156,7 +156,6 @@ class TimedIndentation(Result):
     _path_time: np.ndarray
     _path_depth: np.ndarray
 
-    #: Model that was solved.
     model = CHAIN
     _shown = ("time", "depth", "force", "contact_radius", "plastic_radius", "plastic_depth")
     _quantities = (*_shown, "stored_energy", "plastic_work", "viscous_work")

@@ -70,9 +70,8 @@ class Exchange:
     """Impulse and energy that each element takes up along a ramp, per unit of E* and of width.
 
     In contact, `stroke` is the change of compression (m), `mean` the mean elastic part (m) over it,
-    `duration` the time (s), and `spring_share` the fraction of the stroke before the yield cap. The elastic
-    part (m) is `initial` and `final` at the ends of the ramp, `first` and `last` at those of contact, and
-    both equal `final` without contact; stroke and duration are then 0.
+    `duration` the time (s), and `spring_share` the fraction of the stroke before the yield cap; without
+    contact stroke and duration are 0. `relaxed` is the energy (m²) dissipated out of contact.
     """
 
     ramp: Ramp
@@ -80,10 +79,7 @@ class Exchange:
     mean: np.ndarray
     duration: np.ndarray
     spring_share: np.ndarray | float
-    initial: np.ndarray
-    first: np.ndarray
-    last: np.ndarray
-    final: np.ndarray
+    relaxed: np.ndarray
 
     @property
     def impulse(self):
@@ -104,9 +100,12 @@ class Exchange:
     @property
     def viscous(self):
         """Energy (m²) dissipated by the dashpot: 4ηḋ along the stroke, and by relaxation out of contact."""
-        before = (self.initial - self.first) * (self.initial + self.first)
-        after = (self.last - self.final) * (self.last + self.final)
-        return self.ramp.lag * self.stroke + (before + after) / 2
+        return self.ramp.lag * self.stroke + self.relaxed
+
+
+def _released_energy(before, after):
+    """Energy (m²) by which a spring relaxes from one elastic part (m) to another."""
+    return (before - after) * (before + after) / 2
 
 
 def advance(elements, ramp):
@@ -132,7 +131,7 @@ def _press(elements, ramp, penetration):
     penetration = np.where(contact, elastic, penetration)
     plastic = elements.plastic + excess
     new = replace(elements, penetration=penetration, elastic=elastic, plastic=plastic, contact=contact)
-    return new, Exchange(ramp, stroke, mean, duration, spring_share, initial, first, elastic, elastic)
+    return new, Exchange(ramp, stroke, mean, duration, spring_share, _released_energy(initial, first))
 
 
 def _pressed_contact(elements, ramp, penetration, touching):
@@ -184,7 +183,8 @@ def _withdraw(elements, ramp, penetration):
         held = elements.contact & contact
         duration = np.where(held, ramp.duration, stroke / ramp.travel * ramp.duration)
     new = replace(elements, penetration=penetration, elastic=elastic, contact=contact)
-    return new, Exchange(ramp, stroke, mean, duration, 1.0, initial, first, last, elastic)
+    energy = _released_energy(initial, first) + _released_energy(last, elastic)
+    return new, Exchange(ramp, stroke, mean, duration, 1.0, energy)
 
 
 def _withdrawn_contact(elements, ramp, penetration, candidates):

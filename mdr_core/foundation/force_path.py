@@ -19,12 +19,8 @@ from .refinement import extrapolate, refine
 
 #: Steps per piece of the path and elements of the coarsest run; number of runs; orders of their errors.
 _STEPS, _ELEMENTS, _RUNS, _ORDERS = 8, 200, 6, (1, 2)
-#: Smallest force relative to the largest: it maintains contact where none is prescribed.
-_CONTACT_FORCE = 1e-10
 #: Fraction of the last step of a piece that has the rate at its end instead of the mean rate of the step.
 _END_FRACTION = 1 / 16
-#: Largest difference between the force on the extrapolated path and the prescribed one, over the largest.
-_MAX_DEVIATION = 1 / 16
 
 
 @_check.keywords_explained
@@ -124,7 +120,8 @@ def _creep_run(profile, medium, bound, n, force, time, steps, precision):
     # A path without contact has no width of its own.
     half_width = float(profile.contact_radius(bound)) or min(1.0, profile.known_radius)
     foundation = Foundation(profile, medium, n, half_width)
-    close, smallest, rate = precision * bound, _CONTACT_FORCE * np.max(force), 0.0
+    # A small force maintains contact where none is prescribed.
+    close, smallest, rate = precision * bound, 1e-10 * np.max(force), 0.0
     # Times after the start of a piece increase as the cube of the step.
     fraction = (np.arange(steps + 1) / steps) ** 3
     if force[0] > 0:
@@ -177,11 +174,10 @@ def _consistent_path(runs, force):
         half_width = max(finest.half_width, float(profile.contact_radius(max(np.max(depth), 0.0))))
         record = follow(Foundation(profile, medium, finest.n, half_width), depth, time)[index]
         carried, radius = record[:, 0], record[:, -1]
-        if np.all(np.abs(carried - force) <= _MAX_DEVIATION * np.max(force)):
+        if np.all(np.abs(carried - force) <= np.max(force) / 16):
             break
-    dashpots = 8 * medium.eta * radius
+    dashpots, end = 8 * medium.eta * radius, index[1:]
     rate = np.divide(force - carried, dashpots, out=np.zeros(force.shape), where=dashpots > 0)[1:]
-    end = index[1:]
     step = time[end] - time[end - 1]
     rate += (depth[end] - depth[end - 1]) / step
     time = np.insert(time, end, time[end] - _END_FRACTION * step)

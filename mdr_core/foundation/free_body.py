@@ -21,9 +21,8 @@ from .foundation import Foundation
 from .fronts import force_and_radius
 from .grid import depth_bound
 
-_MAX_STEPS = 20_000
-#: Largest depth over critical depth; at larger ones the live depth is lost in rounding.
-_MAX_DEPTH_RATIO = 1e11
+#: Largest number of steps, and largest depth over critical depth.
+_MAX_STEPS, _MAX_DEPTH_RATIO = 20_000, 1e11
 
 
 def earlier_depth(history):
@@ -90,7 +89,8 @@ class ImpactSolver:
         turning_time, max_force = self.time, self._max_force(untouched, first)
         # Time scale of the rebound: of an oscillator of the stiffness 2E*a, or of its creep if overdamped.
         rate = 2 * self.foundation.medium.E_star * force_and_radius(self.foundation)[1] / self.mass
-        self._advance_until(self._released, 1 / (np.sqrt(rate) + self.tau * rate))
+        unit = 1 / (np.sqrt(rate) + self.tau * rate)
+        self._advance_until(lambda: self.velocity < 0 and not self.foundation._elements.contact.any(), unit)
         # Contact ended in the last step where d + τḋ was the surface at the axis; no force acts afterwards.
         penetration = self.foundation._elements.penetration[0]
         release_time = self.time - (penetration + self.tau * self.velocity) / self.velocity
@@ -106,9 +106,6 @@ class ImpactSolver:
             # The energy that relaxing elements store at the end is dissipated afterwards.
             "viscous_work": viscous[-1] - viscous[0] + stored[-1] - stored[0],
         }
-
-    def _released(self):
-        return self.velocity < 0 and not self.foundation._elements.contact.any()
 
     def _approach(self):
         """Move freely up to the surface at the axis, within 1e-9 of the depth bound."""

@@ -160,13 +160,11 @@ class ChainImpact(ImpactResult):
     viscous_work: float
     #: Estimated error that the tolerance bounds: the larger one of rebound speed (over `speed`) and depth.
     error: float
-    #: Estimated relative errors of four quantities.
     errors: ChainErrors
     #: The foundation when contact ends, from which another impact may start.
     foundation: Foundation = field(repr=False)
     _motion: Motion = field(repr=False)
 
-    #: Model that was solved.
     model = CHAIN
 
     @cached_property
