@@ -9,12 +9,12 @@ from .._check import ArrayLike
 from ..abel import kappa
 from ..dynamics.impact import impact
 from ..medium import Medium, check_pair, yield_constant
+from ..quantities import QUANTITIES
 from ..shapes.power import FlatPunch, PowerLaw
 from ..shapes.profile import Profile
 from .least_squares import SINGULAR, Fit, autocorrelation, covariances, least_squares
 
-#: Parameters and their units.
-_UNITS = {"E_star": "Pa", "q_c": "N/m", "eta": "Pa·s"}
+_PARAMETERS = ("E_star", "q_c", "eta")
 #: Steps of the logarithms for differences: the error of viscous impacts, 10⁻⁹, becomes 10⁻⁵ of them.
 _STEP = 1e-4
 #: Initial standard deviations of the restitution and of ln T, later estimated from residuals.
@@ -74,8 +74,8 @@ def fit_impacts(
     """
     check_pair(profile, Medium(1.0), "a fit")
     data = ImpactData.of(profile, mass, speed, restitution, contact_time)
-    fixed = _fixed({"E_star": E_star, "q_c": q_c, "eta": eta})
-    free = [name for name in _UNITS if name not in fixed]
+    fixed = _fixed(dict(zip(_PARAMETERS, (E_star, q_c, eta), strict=True)))
+    free = [name for name in _PARAMETERS if name not in fixed]
     _refuse_undetermined(data, fixed, free)
     x, residual, jacobian, noise = _solved(data, fixed, free)
     (covariance,) = covariances(jacobian[None], 1.0)
@@ -98,7 +98,7 @@ def _fixed(values):
     for name, value in values.items():
         if value is not None:
             allowed = {"infinite": name == "q_c", "zero": name == "eta"}
-            checked[name] = _check.positive_number(name, value, unit=_UNITS[name], **allowed)
+            checked[name] = _check.positive_number(name, value, unit=QUANTITIES[name].unit, **allowed)
     return checked
 
 
@@ -316,4 +316,4 @@ class ImpactFit(Fit):
     standard_errors: dict[str, float]
     remarks: tuple[str, ...]
 
-    _medium_parameters = tuple(_UNITS)
+    _medium_parameters = _PARAMETERS

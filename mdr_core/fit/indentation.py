@@ -15,14 +15,13 @@ from ..shapes.profile import Profile
 from ..superposition import tabulated
 from ..yielding import LiveInterval
 from .curve import PARAMETERS, REACH
-from .least_squares import Fit
+from .least_squares import FITTED_QUANTITIES, Fit
 from .remarks import remarks_of
 from .solution import grouped, solved
 
-_UNITS = dict(zip(PARAMETERS, ("Pa", "N/m", "m", "N", "m/N"), strict=True))
-#: Parameters besides those of the medium, and arrays that describe the quality of a fit.
+#: Parameters besides those of the medium; arrays of a fit with one entry per curve.
 _FURTHER = ("contact_point", "baseline", "frame_compliance")
-_QUALITY = ("covariance", "residuals", "reduced_chi_square", "force_noise")
+_ARRAYS = (*_FURTHER, "covariance", "residuals", "reduced_chi_square", "force_noise")
 
 
 @_check.keywords_explained
@@ -125,7 +124,7 @@ def _data(depth, force):
 
 def _fixed(name, value, count):
     """A fixed parameter, one number a curve."""
-    unit = _UNITS[name]
+    unit = FITTED_QUANTITIES[name].unit
     if isinstance(value, str):
         raise ValueError(
             f"{name} = {value!r} must be a number, which holds it, or None, which makes it free"
@@ -176,7 +175,7 @@ def _collected(profile, fits):
         profile=profile, medium=Medium(joined["E_star"], joined["q_c"]),
         path=Indentation(profile, column, joined["depth"], interval),
         standard_errors={name: _check.frozen(errors[:, i]) for i, name in enumerate(fits[0].problem.free)},
-        **{name: _check.frozen(joined[name]) for name in (*_FURTHER, *_QUALITY)},
+        **{name: _check.frozen(joined[name]) for name in _ARRAYS},
         _remarks=tuple(remarks[i] for i in order),
     )  # fmt: skip
 
@@ -231,7 +230,7 @@ class IndentationFit(Fit):
             standard_errors={name: error[index] for name, error in self.standard_errors.items()},
             path=self.path[index],
             _remarks=self._remarks[index] if isinstance(index, slice) else (self._remarks[index],),
-            **{name: getattr(self, name)[index] for name in (*_FURTHER, *_QUALITY)},
+            **{name: getattr(self, name)[index] for name in _ARRAYS},
         )
 
     @property

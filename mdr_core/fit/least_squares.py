@@ -20,8 +20,8 @@ LEAST_SQUARES = Model("least squares", "the medium whose model has the least squ
 
 #: Singular values below this share of the largest one leave their combination of parameters undetermined.
 SINGULAR = 1e-11
-#: Parameters of fits that are no quantities of results.
-_FURTHER_QUANTITIES = {
+#: Quantities of results, and further parameters of fits.
+FITTED_QUANTITIES = QUANTITIES | {
     "contact_point": Quantity("z₀", "m", "contact point"),
     "baseline": Quantity("F₀", "N", "baseline"),
     "frame_compliance": Quantity("C", "m/N", "frame compliance"),
@@ -175,8 +175,8 @@ class Fit(Report):
     def _rows(self):
         yield "indenter", described(self.profile)
         for name, value in self._values().items():
-            quantity = QUANTITIES.get(name) or _FURTHER_QUANTITIES[name]
-            error, unit = self.standard_errors.get(name), quantity.unit
+            quantity, error = FITTED_QUANTITIES[name], self.standard_errors.get(name)
+            unit = quantity.unit
             if error is None:
                 text = f"{engineering(value, unit)} (held)"
             elif np.ndim(value):
