@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from mdr_core.fit.least_squares import with_error
 
 from .shapes import SHAPES, name
 
@@ -350,3 +351,15 @@ class TestHardness:
         state = mdr.indent(mdr.Cone(0.3), mdr.Medium(E), self.DEPTH)
         with pytest.raises(ValueError, match="nothing has yielded"):
             mdr.fit_hardness(mdr.Cone(0.3), 1.01 * state.mean_pressure, state.contact_radius, E_star=E)
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "unit", "text"),
+    [
+        (95.234e9, 0.31e9, "Pa", "95.23 ± 0.31 GPa"),
+        (2.5e-9, 0.0, "m", "2.5 ± 0 nm"),
+        (1.0, np.inf, "N", "1 ± ∞ N"),
+    ],
+)
+def test_values_with_errors(value, error, unit, text):
+    assert with_error(value, error, unit) == text

@@ -15,6 +15,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..medium import critical_depth
 from ..superposition import radius_integral
 from ..yielding import LiveInterval, interval_at
 
@@ -24,8 +25,6 @@ LOGARITHMIC = ("E_star", "q_c", "contact_point")
 _OF_FORCE = ("E_star", "q_c", "frame_compliance")
 #: The contact point is searched down to so many ranges of depth below the record.
 REACH = 30.0
-#: Steps of the search for the nearest point of a branch.
-_PROJECTIONS = 6
 
 
 @dataclass(frozen=True)
@@ -51,21 +50,11 @@ class CurveProblem:
         names = "depth", "force", "sigma", "turning_points", "loading_starts"
         return replace(self, fixed=fixed, **{name: getattr(self, name)[rows] for name in names})
 
-    @cached_property
-    def top(self):
-        return self.depth.max(axis=1, keepdims=True)
-
-    @cached_property
-    def length(self):
-        return np.ptp(self.depth, axis=1, keepdims=True)
-
-    @cached_property
-    def load(self):
-        return np.ptp(self.force, axis=1, keepdims=True)
-
-    @cached_property
-    def free(self):
-        return tuple(name for name in PARAMETERS if name not in self.fixed)
+    #: Largest depth (m), ranges of depth (m) and force (N) of each curve (R, 1); names of free parameters.
+    top = cached_property(lambda self: self.depth.max(axis=1, keepdims=True))
+    length = cached_property(lambda self: np.ptp(self.depth, axis=1, keepdims=True))
+    load = cached_property(lambda self: np.ptp(self.force, axis=1, keepdims=True))
+    free = cached_property(lambda self: tuple(name for name in PARAMETERS if name not in self.fixed))
 
     @property
     def memoryless(self):
@@ -85,10 +74,9 @@ class CurveProblem:
     @cached_property
     def scale(self):
         """Unit of each scaled parameter, 1 for a logarithm (R, P)."""
-        length, load, logarithm = self.length, self.load, np.ones_like(self.length)
-        units = (logarithm, logarithm, logarithm, load, length / load)
-        units = dict(zip(PARAMETERS, units, strict=True))
-        return self._columns(units, np.repeat(length, self.turning_points.shape[1], axis=1))
+        units = dict.fromkeys(LOGARITHMIC, np.ones_like(self.length))
+        units |= {"baseline": self.load, "frame_compliance": self.length / self.load}
+        return self._columns(units, np.repeat(self.length, self.turning_points.shape[1], axis=1))
 
     @cached_property
     def offset(self):
@@ -156,19 +144,17 @@ class CurveProblem:
         return values, measured - state.displacement, state
 
     def _nearest(self, values, measured, turning_depth, state):
-        """The state of each branch that is nearest to its sample.
-
-        The slope is 0 without contact: the search also starts just within the contact.
-        """
+        """The state of each branch that is nearest to its sample."""
         load, noise = self.force - values["baseline"], self.depth_noise
 
         def distance(state):
             return ((measured - state.displacement) / noise) ** 2 + ((load - state.force) / self.sigma) ** 2
 
         nearest, least = state.displacement, distance(state)
+        # The slope is 0 without contact: the search also starts just within the contact.
         inside = np.maximum(measured, state.live_interval.lower + noise)
         state = CurveState.at(self, values, inside, turning_depth)
-        for _ in range(_PROJECTIONS):
+        for _ in range(6):
             squares = distance(state)
             nearest = np.where(squares < least, state.displacement, nearest)
             least = np.minimum(squares, least)
@@ -246,11 +232,10 @@ class CurveState:
 
     @classmethod
     def on_rigid_frame(cls, profile, values, depth, largest, loading):
-        """States at depths (m), the largest ones so far given; beyond the known depth those at its end."""
-        d_c, modulus = critical_depth(values), 2 * values["E_star"]
-        interval = interval_at(
-            np.minimum(largest, profile.known_depth), np.minimum(depth, profile.known_depth), d_c
-        )
+        """States at depths (m), the largest ones so far given; above the known depth those at it."""
+        d_c, modulus = critical_depth(values["E_star"], values["q_c"]), 2 * values["E_star"]
+        known = profile.known_depth
+        interval = interval_at(np.minimum(largest, known), np.minimum(depth, known), d_c)
         contact = interval.length > 0
         a = np.where(contact, profile._radius(interval.upper), 0.0)
         c = np.where(contact & (interval.lower > 0), profile._radius(interval.lower), 0.0)
@@ -264,19 +249,13 @@ class CurveState:
     def derivatives(self, problem, values):
         """−∂F by the free parameters, in logarithms, and by turning depths (R, N, P)."""
         columns = dict(zip(_OF_FORCE, -self.gradient, strict=False))
-        columns |= {
-            "contact_point": (values["contact_point"] - problem.top) * (self.slope + self.memory_slope),
-            "baseline": np.full_like(self.force, -1.0),
-        }
+        shift = values["contact_point"] - problem.top
+        columns["contact_point"] = shift * (self.slope + self.memory_slope)
+        columns["baseline"] = np.full_like(self.force, -1.0)
         last, _ = problem.branches
         turning = [np.where(last == k, -self.memory_slope, 0.0) for k in range(problem.free_turning_points)]
         free = [columns[name] for name in problem.free]
         return np.stack([*free, *turning], axis=-1) if free or turning else self.force[..., None][..., :0]
-
-
-def critical_depth(values):
-    """d_c (m) of parameters by name."""
-    return np.pi / 2 * values["q_c"] / values["E_star"]
 
 
 def _depth_in_frame(profile, values, displacement, largest, loading):

@@ -6,16 +6,14 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
-from ..medium import Medium, check_pair
+from .._numeric import increasing_root
+from ..medium import Medium, check_pair, yield_constant
 from ..results.quantities import engineering
 from ..scaling import HardnessClass, class_of, straight_line
 from ..shapes.profile import Profile
 from ..superposition import radius_integral
-from ..yielding import LiveInterval, elastic_interval
+from ..yielding import LiveInterval
 from .least_squares import Fit
-
-#: Power of the contact radius that hardness is proportional to in each class, and its tolerance.
-_POWERS = {"a": (0.0, 0.1), "b": (-1.0, 0.1), "c": (-2.0, 0.1)}
 
 
 @_check.keywords_explained
@@ -25,10 +23,9 @@ def fit_hardness(
     """Fit the yield constant to hardness at several contact radii, and find the class of hardness.
 
     Hardness is the mean pressure F/(π a²) under load, `Indentation.mean_pressure` on a first loading. It is
-    less than q_c/a, because the outer ring of the contact is elastic (for a cone by 25 % at twice the
-    critical depth, 5 % at ten times): q_c at each radius is the root of F(q_c) = π a² H at depth g(a), and
-    the result their weighted mean for hardnesses of one relative error. The class follows from the power of
-    a in q_c/a, the hardness of a fully yielded contact.
+    less than q_c/a, because the outer ring of the contact is elastic: q_c at each radius is the root of
+    F(q_c) = π a² H at depth g(a), and the result their weighted mean for hardnesses of one relative error.
+    The class follows from the power of a in q_c/a, the hardness of a fully yielded contact.
 
     Parameters
     ----------
@@ -44,15 +41,12 @@ def fit_hardness(
     Returns
     -------
     HardnessFit
+        The standard error is that of the mean, from the scatter of the values, infinite for a single one.
 
     Raises
     ------
     ValueError
         If no hardness is below the mean pressure of an elastic contact: then nothing has yielded.
-
-    Notes
-    -----
-    The standard error is that of the mean, from the scatter of the values, and infinite for a single one.
 
     Examples
     --------
@@ -74,19 +68,18 @@ def fit_hardness(
             f"E* = {engineering(E_star, 'Pa')}: nothing has yielded; check E_star, or press deeper"
         )
     a, depth, area, d_c = a[yielded], depth[yielded], area[yielded], d_c[yielded]
-    values = 2 / np.pi * E_star * d_c
+    values = yield_constant(E_star, d_c)
     # ∂ ln F/∂ ln q_c = c d_c / ∫ a ds.
     weight = (profile._radius(depth - d_c) * d_c / area) ** 2
-    logarithms = np.log(values)
-    mean = np.sum(weight * logarithms) / np.sum(weight)
-    variance = np.sum(weight * (logarithms - mean) ** 2) / max(a.size - 1, 1)
+    mean = np.sum(weight * np.log(values)) / np.sum(weight)
+    deviation = np.log(values) - mean
+    variance = np.sum(weight * deviation**2) / max(a.size - 1, 1)
     error = float(np.sqrt(variance / np.sum(weight))) if a.size > 1 else np.inf
     q_c, hardness_class = float(np.exp(mean)), _class(a, values)
-    covariance, residuals = np.array([[(q_c * error) ** 2]]), (logarithms - mean) * np.sqrt(weight)
     return HardnessFit(
-        profile=profile, medium=Medium(E_star, q_c), standard_errors={"q_c": q_c * error},
-        covariance=_check.frozen(covariance), residuals=_check.frozen(residuals), class_=hardness_class,
-        q_c_values=_check.frozen(values), remarks=tuple(_remarks(yielded, hardness_class, error)),
+        profile, Medium(E_star, q_c), {"q_c": q_c * error}, _check.frozen([[(q_c * error) ** 2]]),
+        _check.frozen(deviation * np.sqrt(weight)), class_=hardness_class, q_c_values=_check.frozen(values),
+        remarks=tuple(_remarks(yielded, hardness_class, error)),
     )  # fmt: skip
 
 
@@ -105,27 +98,23 @@ def _measured(profile, hardness, radius):
 
 
 def _critical_depths(profile, depth, area):
-    """Critical depth d_c (m) with ∫ a ds = `area` (m²) over [d − d_c, d], and whether there is one.
+    """Critical depth d_c (m) with ∫ a ds = `area` (m²) over [d − d_c, d], and whether there is one."""
 
-    The integral increases with d_c and is concave: Newton's method from area/a stays below the root.
-    """
-    exists = area < radius_integral(profile, elastic_interval(depth))
-    d_c = np.minimum(area / profile._radius(depth), depth)
-    for _ in range(200):
+    def integral(d_c):
         interval = LiveInterval(depth - d_c, depth, d_c)
-        missing = np.maximum(area - radius_integral(profile, interval), 0.0)
-        before = d_c
-        d_c = np.minimum(d_c + missing / np.maximum(profile._radius(interval.lower), 1e-300), depth)
-        if np.all((d_c - before <= 1e-15 * d_c) | ~exists):
-            break
-    return d_c, exists
+        return radius_integral(profile, interval), profile._radius(interval.lower)
+
+    d_c = increasing_root(integral, area, area / profile._radius(depth), depth, quantity="critical depth")
+    return d_c, d_c < depth
 
 
 def _class(a, q_c):
+    """`HardnessClass` by the power of the radius a in q_c/a, each with its tolerance."""
     if np.unique(a).size < 2:
         return HardnessClass(None, np.nan, np.inf, {}, "insufficient: one radius determines no class")
     slope, error = straight_line(np.log(a), np.log(q_c / a))
-    name, reason = class_of(_POWERS, slope, error, "radii")
+    powers = {"a": (0.0, 0.1), "b": (-1.0, 0.1), "c": (-2.0, 0.1)}
+    name, reason = class_of(powers, slope, error, "radii")
     return HardnessClass(name, slope, error, {}, reason)
 
 
@@ -141,30 +130,15 @@ def _remarks(yielded, hardness_class, error):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HardnessFit(Fit):
-    """A medium fitted to hardness at several radii, returned by `fit_hardness`.
+    """A medium fitted to hardness at several radii, a `Fit` returned by `fit_hardness`.
 
-    Attributes
-    ----------
-    medium : Medium
-        With the given E* and the fitted q_c.
-    standard_errors : dict
-        Standard error of q_c (N/m) by name; `covariance` is its square.
-    residuals : ndarray
-        Relative residuals of the hardness.
-    class_ : HardnessClass
-        Power of the radius, `slope` ± `slope_error`, and the class as `hardness`.
-    q_c_values : ndarray
-        q_c (N/m) at each radius that has yielded.
-    remarks : tuple of str
-        Measurements that were left out, and deviations from class (b).
+    Residuals are those of the hardness, relative; remarks name measurements that were left out.
     """
 
-    profile: Profile
-    medium: Medium
     standard_errors: dict[str, float]
-    covariance: Array
-    residuals: Array
+    #: Power of the radius, `slope` ± `slope_error`, and the class as `hardness`.
     class_: HardnessClass
+    #: q_c (N/m) at each radius that has yielded.
     q_c_values: Array
     remarks: tuple[str, ...]
 

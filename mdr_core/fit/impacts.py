@@ -5,22 +5,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .. import _check
-from .._check import Array, ArrayLike
+from .._check import ArrayLike
 from ..abel import kappa
 from ..dynamics.impact import impact
-from ..medium import Medium, check_pair
+from ..medium import Medium, check_pair, yield_constant
+from ..results.quantities import QUANTITIES
 from ..shapes.power import FlatPunch, PowerLaw
 from ..shapes.profile import Profile
-from .least_squares import Fit, autocorrelation, covariances, least_squares
+from .least_squares import SINGULAR, Fit, autocorrelation, covariances, least_squares
 
-#: Parameters and their units.
-_UNITS = {"E_star": "Pa", "q_c": "N/m", "eta": "Pa·s"}
+_PARAMETERS = ("E_star", "q_c", "eta")
 #: Steps of the logarithms for differences: the error of viscous impacts, 10⁻⁹, becomes 10⁻⁵ of them.
 _STEP = 1e-4
 #: Initial standard deviations of the restitution and of ln T, later estimated from residuals.
 _NOISE = (0.01, 0.02)
-#: Standard error of a logarithm above which a remark is made.
-_VAGUE = 0.3
 
 
 @_check.keywords_explained
@@ -58,7 +56,6 @@ def fit_impacts(
     Returns
     -------
     ImpactFit
-
         Restitutions have one absolute error, contact times one relative error, estimated from residuals.
 
     Raises
@@ -77,11 +74,11 @@ def fit_impacts(
     """
     check_pair(profile, Medium(1.0), "a fit")
     data = ImpactData.of(profile, mass, speed, restitution, contact_time)
-    fixed = _fixed({"E_star": E_star, "q_c": q_c, "eta": eta})
-    free = [name for name in _UNITS if name not in fixed]
+    fixed = _fixed(dict(zip(_PARAMETERS, (E_star, q_c, eta), strict=True)))
+    free = [name for name in _PARAMETERS if name not in fixed]
     _refuse_undetermined(data, fixed, free)
     x, residual, jacobian, noise = _solved(data, fixed, free)
-    (covariance,) = covariances(jacobian[None], np.array([1.0]))
+    (covariance,) = covariances(jacobian[None], 1.0)
     errors = dict(zip(free, np.sqrt(np.diag(covariance)).tolist(), strict=True))
     remarks = list(_remarks(data, errors, jacobian, residual, noise))
     scale = np.exp(x)
@@ -101,7 +98,7 @@ def _fixed(values):
     for name, value in values.items():
         if value is not None:
             allowed = {"infinite": name == "q_c", "zero": name == "eta"}
-            checked[name] = _check.positive_number(name, value, unit=_UNITS[name], **allowed)
+            checked[name] = _check.positive_number(name, value, unit=QUANTITIES[name].unit, **allowed)
     return checked
 
 
@@ -126,21 +123,15 @@ class ImpactData:
             given["contact_time"] = _check.positive("contact_time", time, unit="s")
         shape = _check.common_shape("fit_impacts", **given)
         given = {name: np.broadcast_to(values, shape).ravel() for name, values in given.items()}
-        time = given.pop("contact_time", None)
-        return cls(profile, time=time, **given)
+        return cls(profile, time=given.pop("contact_time", None), **given)
 
     @property
     def count(self):
         return self.restitution.size
 
-    @property
-    def size(self):
-        """Number of measurements: restitutions, and contact times if given."""
-        return self.count * (1 if self.time is None else 2)
-
     def per_measurement(self, pair):
         """A pair of values for restitutions and contact times, repeated for each measurement."""
-        return np.repeat(pair, self.count)[: self.size]
+        return np.repeat(pair[:1] if self.time is None else pair, self.count)
 
     def thinned(self, count):
         """A subset of impacts in the order of energy."""
@@ -159,26 +150,23 @@ class ImpactData:
         return np.hstack([residual, np.atleast_2d(np.log(self.time) - np.log(hit.contact_time))])
 
     def costs(self, values):
-        """Sums of squares in units of the initial noise for M media, infinite beyond the known depth."""
+        """Sums of squares in units of the initial noise for M media, infinite above the known depth."""
         try:
             return np.sum((self.residuals(values) / self.per_measurement(_NOISE)) ** 2, axis=1)
         except ValueError:
-            if len(values["eta"]) == 1:
-                return np.array([np.inf])
-            media = [
-                {name: value[[i]] for name, value in values.items()} for i in range(len(values["eta"]))
-            ]
-            return np.concatenate([self.costs(medium) for medium in media])
+            count = len(values["eta"])
+            media = [{name: value[[i]] for name, value in values.items()} for i in range(count)]
+            return np.array([np.inf]) if count == 1 else np.concatenate([*map(self.costs, media)])
 
 
 def _refuse_undetermined(data, fixed, free):
     """Refuses parameters that no such data determine."""
-    if data.size <= len(free):
+    size = data.per_measurement(_NOISE).size
+    if size <= len(free):
         raise ValueError(
-            f"{data.size} measurements do not determine {', '.join(free)}: hold some of these, or give more"
+            f"{size} measurements do not determine {', '.join(free)}: hold some of these, or give more"
         )
-    viscous, yields = fixed.get("eta") != 0, fixed.get("q_c") != np.inf
-    determined = viscous + yields
+    determined = (fixed.get("eta") != 0) + (fixed.get("q_c") != np.inf)
     if data.time is None and len(free) > determined:
         count = ("nothing without yield and viscosity", "one combination", "two combinations")[determined]
         raise ValueError(
@@ -211,7 +199,7 @@ def _solved(data, fixed, free):
 def _noises(residual, noise, data, jacobian):
     """Standard deviations of restitution and ln T, each with its share of the degrees of freedom."""
     basis, s, _ = np.linalg.svd(jacobian, full_matrices=False)
-    leverage = np.sum(basis[:, s > 1e-11 * s[:1]] ** 2, axis=1)
+    leverage = np.sum(basis[:, s > SINGULAR * s[:1]] ** 2, axis=1)
     noise = noise.copy()
     for k, rows in enumerate(np.split(np.arange(residual.size), [data.count])):
         if rows.size:
@@ -228,8 +216,9 @@ def _differences(data, fixed, free, x):
     try:
         residuals = data.residuals(values)
     except ValueError:
-        # Beyond the known depth of the profile: large residuals reject the step.
-        return np.full(data.size, 1e3), np.zeros((data.size, len(free)))
+        # The known depth of the profile is exceeded: large residuals reject the step.
+        large = data.per_measurement((1e3, 1e3))
+        return large, np.zeros((large.size, len(free)))
     return residuals[0], ((residuals[1:] - residuals[0]) / _STEP).T
 
 
@@ -243,13 +232,13 @@ def _start(data, fixed, free):
         if elastic is None:
             continue
         depth = float(elastic.max_depth)
-        q_c = 2 / np.pi * E * depth * np.geomspace(1e-5, 2.0, 24)
-        q_c = np.array([fixed["q_c"]]) if "q_c" in fixed else q_c
+        grid = yield_constant(E, depth) * np.geomspace(1e-5, 2.0, 24)
+        q_c = np.array([fixed["q_c"]]) if "q_c" in fixed else grid
         similar = replace(subset, profile=_power_law(subset.profile, depth))
         costs = similar.costs({"E_star": np.full(q_c.size, E), "q_c": q_c, "eta": np.zeros(q_c.size)})
         trials.append((costs.min(), E, q_c[costs.argmin()]))
     if not trials:
-        raise ValueError("these impacts reach beyond the known depth of the profile for any modulus")
+        raise ValueError("these impacts exceed the known depth of the profile for any modulus")
     (_, E, q_c), eta = min(trials), fixed.get("eta")
     if eta != 0:
         time = float(_elastic_impact(subset, E, energy, speed).contact_time)
@@ -257,12 +246,12 @@ def _start(data, fixed, free):
         yield_factor = np.array([1.0, 2.0, 6.0, 40.0]) if "q_c" not in fixed else np.ones(1)
         modulus_factor = np.array([1.0, 0.6]) if "E_star" not in fixed else np.ones(1)
         grid = np.meshgrid(yield_factor, eta, modulus_factor)
-        yield_factor, eta, modulus_factor = (values.ravel() for values in grid)
+        yield_factor, eta, modulus_factor = map(np.ravel, grid)
         media = {"E_star": E * modulus_factor, "q_c": q_c * yield_factor, "eta": eta}
         best = int(np.argmin(data.thinned(5).costs(media)))
         E, q_c, eta = (float(values[best]) for values in media.values())
     values = {"E_star": E, "q_c": q_c, "eta": eta}
-    return np.log([values[name] for name in free]) if free else np.zeros(0)
+    return np.log(np.array([values[name] for name in free]))
 
 
 def _power_law(profile, depth):
@@ -290,7 +279,7 @@ def _moduli(subset, energy, speed):
 
 
 def _elastic_impact(subset, E, energy, speed):
-    """An impact with an energy (J) and speed (m/s), None beyond the known depth of the profile."""
+    """An impact with an energy (J) and speed (m/s), None if it exceeds the known depth of the profile."""
     try:
         return impact(subset.profile, Medium(E), 2 * energy / speed**2, speed)
     except ValueError:
@@ -299,7 +288,8 @@ def _elastic_impact(subset, E, energy, speed):
 
 def _remarks(data, errors, jacobian, residual, noise):
     """Parameters that the impacts do not determine, and residuals that are not noise."""
-    vague = [name for name, error in errors.items() if not error < _VAGUE]
+    # Errors are those of logarithms.
+    vague = [name for name, error in errors.items() if not error < 0.3]
     if vague:
         _, s, vt = np.linalg.svd(jacobian, full_matrices=False)
         powers = zip(errors, vt[-1], strict=True)
@@ -318,27 +308,12 @@ def _remarks(data, errors, jacobian, residual, noise):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ImpactFit(Fit):
-    """A medium fitted to impacts, returned by `fit_impacts`.
+    """A medium fitted to impacts, a `Fit` returned by `fit_impacts`.
 
-    Attributes
-    ----------
-    medium : Medium
-        With fitted and held parameters.
-    standard_errors : dict
-        Standard errors of the free parameters by name, in their units; infinite where undetermined.
-    covariance : ndarray
-        Covariance of the free parameters, in that order.
-    residuals : ndarray
-        Measured minus fitted restitution, followed by relative contact times (ln T) where given.
-    remarks : tuple of str
-        Parameters that the data do not determine.
+    Residuals are those of the restitution, followed by relative ones of contact times (ln T) where given.
     """
 
-    profile: Profile
-    medium: Medium
     standard_errors: dict[str, float]
-    covariance: Array
-    residuals: Array
     remarks: tuple[str, ...]
 
-    _medium_parameters = tuple(_UNITS)
+    _medium_parameters = _PARAMETERS

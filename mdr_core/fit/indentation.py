@@ -1,6 +1,6 @@
 """The medium from measured force–depth curves."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Any
 
@@ -15,14 +15,13 @@ from ..shapes.profile import Profile
 from ..superposition import tabulated
 from ..yielding import LiveInterval
 from .curve import PARAMETERS, REACH
-from .least_squares import Fit
-from .remarks import Remark, remarks_of
+from .least_squares import FITTED_QUANTITIES, Fit
+from .remarks import remarks_of
 from .solution import grouped, solved
 
-_UNITS = dict(zip(PARAMETERS, ("Pa", "N/m", "m", "N", "m/N"), strict=True))
-#: Parameters besides those of the medium, and arrays that describe the quality of a fit.
+#: Parameters besides those of the medium; arrays of a fit with one entry per curve.
 _FURTHER = ("contact_point", "baseline", "frame_compliance")
-_QUALITY = ("covariance", "residuals", "reduced_chi_square", "force_noise")
+_ARRAYS = (*_FURTHER, "covariance", "residuals", "reduced_chi_square", "force_noise")
 
 
 @_check.keywords_explained
@@ -79,10 +78,9 @@ def fit_indentation(
     Notes
     -----
     Standard errors come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)², S the slope.
-    In simulated curves (400 samples, 0.4 % force noise, cone, paraboloid, sphere) deviations over errors
-    have standard deviations of 0.9 to 1.2, also with depth noise up to 1/15 of the depth if that is less
-    than the critical depth; with more noise 1.5 to 3, and E* is wrong by a sixth. The errors are those of
-    the noise alone: where `remarks` names correlated residuals, model or profile cause larger ones.
+    In simulated curves deviations over errors have standard deviations of 0.9 to 1.2; with depth noise
+    above 1/15 of the depth or above the critical depth 1.5 to 3, and E* is wrong by a sixth. The errors are
+    those of the noise alone: where `remarks` names correlated residuals, others are larger.
 
     Examples
     --------
@@ -126,7 +124,7 @@ def _data(depth, force):
 
 def _fixed(name, value, count):
     """A fixed parameter, one number a curve."""
-    unit = _UNITS[name]
+    unit = FITTED_QUANTITIES[name].unit
     if isinstance(value, str):
         raise ValueError(
             f"{name} = {value!r} must be a number, which holds it, or None, which makes it free"
@@ -142,15 +140,14 @@ def _fixed(name, value, count):
 
 def _refuse_empty(depth, force, fixed):
     free = [name for name in PARAMETERS if name not in fixed]
-    if depth.shape[1] <= len(free):
-        count, names = depth.shape[1], ", ".join(free)
+    count, names = depth.shape[1], ", ".join(free)
+    if count <= len(free):
         raise ValueError(f"{count} samples do not determine {names}: hold some of these, or give more")
-    width = np.ptp(depth, axis=1)
+    width, height = np.ptp(depth, axis=1), np.ptp(force, axis=1)
     _check.refuse("range of depth", width, width == 0, "m: the indenter does not move", remedy="check it")
     rise = force.max(axis=1) - fixed.get("baseline", force.min(axis=1))
     bound, remedy = "above the baseline: no contact", "forces are positive in compression; or free baseline"
     _check.refuse("largest force", rise, rise <= 0, bound, unit="N", remedy=remedy)
-    height = np.ptp(force, axis=1)
     _check.refuse("range of force", height, height == 0, "N: it is constant", remedy="check it")
 
 
@@ -171,15 +168,14 @@ def _collected(profile, fits):
     arrays = [_arrays(fit) for fit in fits]
     joined = {name: np.concatenate([group[name] for group in arrays])[order] for name in arrays[0]}
     remarks = list(chain.from_iterable(map(remarks_of, fits)))
-    problem = fits[0].problem
     errors = np.sqrt(np.einsum("rpp->rp", joined["covariance"]))
     column = Medium(joined["E_star"][:, None], joined["q_c"][:, None])
-    interval = LiveInterval(*(joined[name] for name in ("lower", "upper", "length")))
-    path = Indentation(profile, column, joined["depth"], interval)
+    interval = LiveInterval(joined["lower"], joined["upper"], joined["length"])
     return IndentationFit(
-        profile=profile, medium=Medium(joined["E_star"], joined["q_c"]), path=path,
-        standard_errors={name: _check.frozen(errors[:, i]) for i, name in enumerate(problem.free)},
-        **{name: _check.frozen(joined[name]) for name in (*_FURTHER, *_QUALITY)},
+        profile=profile, medium=Medium(joined["E_star"], joined["q_c"]),
+        path=Indentation(profile, column, joined["depth"], interval),
+        standard_errors={name: _check.frozen(errors[:, i]) for i, name in enumerate(fits[0].problem.free)},
+        **{name: _check.frozen(joined[name]) for name in _ARRAYS},
         _remarks=tuple(remarks[i] for i in order),
     )  # fmt: skip
 
@@ -202,43 +198,25 @@ def _arrays(fit):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class IndentationFit(Fit):
-    """Media fitted to one or many curves, returned by `fit_indentation`; `fit[i]` is the fit of one curve.
+    """Media fitted to one or many curves, a `Fit` returned by `fit_indentation`; `fit[i]` is one curve's.
 
-    Attributes
-    ----------
-    medium : Medium
-        With the fitted E* and q_c, arrays (R,) for many curves; q_c is infinite where nothing has yielded.
-    contact_point, baseline, frame_compliance : float or ndarray
-        Fitted or held values (m, N, m/N).
-    standard_errors : dict
-        Standard errors of the free parameters by name, in their units; infinite where undetermined.
-    covariance : ndarray
-        Covariance of the free parameters in the order of `standard_errors` (P, P), or (R, P, P).
-    residuals : ndarray
-        Measured force minus force of the model at the measured depth (N).
-    reduced_chi_square : float or ndarray
-        Sum of squares in units of the noise over the degrees of freedom, NaN where the noise was estimated
-        from the residuals.
-    force_noise : float or ndarray
-        Standard deviation of the force (N), given or estimated.
-    path : Indentation
-        States of the fitted model at all samples, with depth noise at the most probable depths.
-    remarks : tuple of str
-        Parameters that the data do not determine, and deviations from the model.
+    Parameters and errors are arrays (R,) for many curves, `covariance` is (R, P, P). q_c is infinite where
+    nothing has yielded. Residuals are those of the force (N) at the measured depth.
     """
 
-    profile: Profile
-    medium: Medium
+    #: Fitted or held values (m, N, m/N).
     contact_point: Array
     baseline: Array
     frame_compliance: Array
     standard_errors: dict[str, Array]
-    covariance: Array
-    residuals: Array
+    #: Sum of squares in units of the noise over the degrees of freedom, NaN for noise from the residuals.
     reduced_chi_square: Array
+    #: Standard deviation of the force (N), given or estimated.
     force_noise: Array
+    #: States of the fitted model at all samples, with depth noise at the most probable depths.
     path: Indentation
-    _remarks: tuple[tuple[Remark, ...], ...] = field(default=(), repr=False)
+    #: Remarks on each curve by their kind.
+    _remarks: tuple[dict[str, str], ...]
 
     _further_parameters = _FURTHER
     _dimensions = ("curve",)
@@ -252,18 +230,18 @@ class IndentationFit(Fit):
             standard_errors={name: error[index] for name, error in self.standard_errors.items()},
             path=self.path[index],
             _remarks=self._remarks[index] if isinstance(index, slice) else (self._remarks[index],),
-            **{name: getattr(self, name)[index] for name in (*_FURTHER, *_QUALITY)},
+            **{name: getattr(self, name)[index] for name in _ARRAYS},
         )
 
     @property
     def remarks(self) -> tuple[str, ...]:
         """Remarks as sentences; of many curves one of each kind, with the number of such curves."""
         if not self.shape:
-            return tuple(remark.text for remark in self._remarks[0])
+            return tuple(self._remarks[0].values())
         kinds: dict[str, dict[int, str]] = {}
         for i, remarks in enumerate(self._remarks):
-            for remark in remarks:
-                kinds.setdefault(remark.kind, {})[i] = remark.text
+            for kind, text in remarks.items():
+                kinds.setdefault(kind, {})[i] = text
         return tuple(
             f"curve {min(texts)} ({len(texts)} of {len(self)} curves): {texts[min(texts)]}"
             for texts in kinds.values()

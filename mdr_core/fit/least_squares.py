@@ -1,13 +1,17 @@
 """Least squares for many small problems at once, standard errors, and the base class of fits."""
 
+from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from .._check import Array
+from ..medium import Medium
 from ..results.base import Model
 from ..results.quantities import QUANTITIES, Quantity, described, engineering, prefixed
 from ..results.report import Report
+from ..shapes.profile import Profile
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -15,16 +19,9 @@ if TYPE_CHECKING:
 LEAST_SQUARES = Model("least squares", "the medium whose model has the least squares of residuals")
 
 #: Singular values below this share of the largest one leave their combination of parameters undetermined.
-_SINGULAR = 1e-11
-#: Standard error of a scaled parameter above which it is undetermined.
-_UNDETERMINED = 30.0
-#: Median of the absolute third differences of noise with unit standard deviation.
-_THIRD_DIFFERENCE = 0.6745 * np.sqrt(20.0)
-#: Correlations above this value are shown.
-_CORRELATED = 0.9
-
-#: Parameters of fits that are no quantities of results.
-_FURTHER_QUANTITIES = {
+SINGULAR = 1e-11
+#: Quantities of results, and further parameters of fits.
+FITTED_QUANTITIES = QUANTITIES | {
     "contact_point": Quantity("z₀", "m", "contact point"),
     "baseline": Quantity("F₀", "N", "baseline"),
     "frame_compliance": Quantity("C", "m/N", "frame compliance"),
@@ -74,11 +71,12 @@ def covariances(jacobian, variance):
     """Covariance of scaled parameters (R, P, P); undetermined ones have infinite variance, covariance 0."""
     _, s, vt = np.linalg.svd(jacobian, full_matrices=False)
     largest = np.maximum(s[:, :1], 1e-150)
-    singular = s <= _SINGULAR * largest
+    singular = s <= SINGULAR * largest
     root = vt / np.maximum(s, 1e-14 * largest)[..., None]
     root = np.where(singular[..., None], 0.0, root)
     covariance = np.einsum("rkp,rkq->rpq", root, root) * np.reshape(variance, (-1, 1, 1))
-    wide = np.einsum("rpp->rp", covariance) > _UNDETERMINED**2
+    # Scaled parameters are about 1.
+    wide = np.einsum("rpp->rp", covariance) > 30.0**2
     undetermined = wide | np.any(singular[..., None] & (np.abs(vt) > 1e-3), axis=1)
     covariance[undetermined[:, :, None] | undetermined[:, None, :]] = 0.0
     np.einsum("rpp->rp", covariance)[undetermined] = np.inf
@@ -89,7 +87,9 @@ def roughness(values):
     """Standard deviation of the noise of smooth rows (R, 1) from third differences, 0 for few samples."""
     if values.shape[1] < 8:
         return np.zeros((len(values), 1))
-    return np.median(np.abs(np.diff(values, 3, axis=1)), axis=1, keepdims=True) / _THIRD_DIFFERENCE
+    # The median of absolute normal deviations is 0.6745, the variance of third differences 20.
+    differences = np.median(np.abs(np.diff(values, 3, axis=1)), axis=1, keepdims=True)
+    return differences / (0.6745 * np.sqrt(20.0))
 
 
 def autocorrelation(residual):
@@ -99,13 +99,7 @@ def autocorrelation(residual):
 
 
 def with_error(value, error, unit):
-    """A number and its standard error as text, with one prefix and two digits of the error.
-
-    Examples
-    --------
-    >>> with_error(95.234e9, 0.31e9, "Pa"), with_error(2.5e-9, 0.0, "m"), with_error(1.0, float("inf"), "N")
-    ('95.23 ± 0.31 GPa', '2.5 ± 0 nm', '1 ± ∞ N')
-    """
+    """A number and its standard error as text, with one prefix and two digits of the error."""
     if not np.isfinite(value) or not np.isfinite(error) or error == 0:
         number, _, unit = engineering(value, unit).partition(" ")
         return f"{number} ± {'∞' if error == np.inf else '0'} {unit}".rstrip()
@@ -117,8 +111,29 @@ def with_error(value, error, unit):
     return f"{value:.{digits}f} ± {error:.{digits}f} {unit}".rstrip()
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class Fit(Report):
-    """Base class of fits: values and standard errors of the parameters by name, and their report."""
+    """Base class of fits: values and standard errors of the parameters by name, and their report.
+
+    Attributes
+    ----------
+    profile, medium
+        The indenter, and the medium with fitted and held parameters.
+    standard_errors : dict
+        Standard errors of the free parameters by name, in their units; infinite where undetermined.
+    covariance : ndarray
+        Covariance of the free parameters, in that order.
+    residuals : ndarray
+        Measured minus fitted values.
+    remarks : tuple of str
+        Parameters that the data do not determine, and deviations from the model.
+    """
+
+    profile: Profile
+    medium: Medium
+    standard_errors: dict[str, Any]
+    covariance: Array
+    residuals: Array
 
     model = LEAST_SQUARES
     _shown = ("medium",)
@@ -126,11 +141,6 @@ class Fit(Report):
     #: Names of all parameters, free or fixed: attributes of the medium, and of the fit itself.
     _medium_parameters: ClassVar[tuple[str, ...]] = ("E_star", "q_c")
     _further_parameters: ClassVar[tuple[str, ...]] = ()
-
-    profile: Any
-    medium: Any
-    standard_errors: dict[str, Any]
-    covariance: Any
 
     def _values(self):
         """Values of all parameters by name."""
@@ -150,9 +160,6 @@ class Fit(Report):
         errors = {f"{name}_error": error for name, error in self.standard_errors.items()}
         return {name: v if np.ndim(v) else float(v) for name, v in (self._values() | errors).items()}
 
-    def _parameters(self):
-        return {}
-
     @property
     def correlations(self) -> dict[tuple[str, str], float]:
         """Correlations above 0.9 of two parameters of one fit, by their names."""
@@ -162,14 +169,14 @@ class Fit(Report):
         for (i, first), (j, second) in combinations(enumerate(self.standard_errors), 2):
             if 0 < sigma[i] * sigma[j] < np.inf:
                 value = float(self.covariance[i, j] / sigma[i] / sigma[j])
-                correlations |= {(first, second): value} if abs(value) > _CORRELATED else {}
+                correlations |= {(first, second): value} if abs(value) > 0.9 else {}
         return correlations
 
     def _rows(self):
         yield "indenter", described(self.profile)
         for name, value in self._values().items():
-            quantity = QUANTITIES.get(name) or _FURTHER_QUANTITIES[name]
-            error, unit = self.standard_errors.get(name), quantity.unit
+            quantity, error = FITTED_QUANTITIES[name], self.standard_errors.get(name)
+            unit = quantity.unit
             if error is None:
                 text = f"{engineering(value, unit)} (held)"
             elif np.ndim(value):

@@ -1,72 +1,48 @@
 """Remarks on a fitted curve: parameters that the data do not determine, and deviations from the model."""
 
-from dataclasses import dataclass
 from itertools import chain
 
 import numpy as np
 
+from ..medium import critical_depth
 from ..results.quantities import engineering
-from .curve import critical_depth
-from .least_squares import autocorrelation, roughness
+from .least_squares import SINGULAR, autocorrelation, roughness
 
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.1, 0.01
-#: Moduli (Pa) outside of which the units of the data are probably wrong.
-_SOFTEST, _STIFFEST = 1.0, 1e13
-#: Correlation with the frame compliance above which a remark is made.
-_CORRELATED = 0.9
 #: Number of standard errors above which a trend is significant.
 _SIGNIFICANT = 4.0
 
 
-@dataclass(frozen=True)
-class Remark:
-    """A remark as a sentence, and its kind, which is the same for all curves that it applies to."""
-
-    kind: str
-    text: str
-
-
 def remarks_of(solved):
-    """Remarks on each curve of `SolvedCurves`, one tuple a curve."""
-    kinds = _units, _ambiguous, _undetermined, _jitter, _class_b, _misfit
-    return [
-        tuple(chain.from_iterable(remarks(solved, i) for remarks in kinds)) for i in range(len(solved.rows))
-    ]
-
-
-def _units(solved, i):
-    """A modulus that no material has."""
-    values, _ = solved.values_and_states
-    E = values["E_star"][i, 0]
-    if not _SOFTEST <= E <= _STIFFEST and "E_star" in solved.problem.free:
-        yield Remark(
-            "units", f"E* = {engineering(E, 'Pa')} is that of no material: give depth in m and force in N"
-        )
+    """Remarks on each curve of `SolvedCurves`: a sentence by its kind, the same for all curves."""
+    checks = _ambiguous, _undetermined, _jitter, _class_b, _misfit
+    curves = range(len(solved.rows))
+    return [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in curves]
 
 
 def _ambiguous(solved, i):
-    """Parameters at a bound, a second minimum that is about as good, a frame that stands for the medium."""
+    """A modulus of no material, parameters at a bound, a second minimum, a frame like the medium."""
     problem, squares = solved.problem, np.sum(solved.residual[i] ** 2)
+    E = solved.values_and_states[0]["E_star"][i, 0]
+    if not 1.0 <= E <= 1e13 and "E_star" in problem.free:
+        text = f"E* = {engineering(E, 'Pa')} is that of no material: give depth in m and force in N"
+        yield "units", text
     for name, at_bound in zip(problem.free, solved.at_bound[i], strict=False):
         if at_bound:
-            yield Remark(
-                f"bound {name}", f"{name} is at the bound of its search: hold it, or check the data"
-            )
+            yield f"bound {name}", f"{name} is at the bound of its search: hold it, or check the data"
     noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
     if solved.rival_squares[i] - squares <= _SIGNIFICANT**2 * noise:
         rival, _ = problem.rows([i]).parameters(solved.rival[[i]])
         E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
-        yield Remark(
-            "second minimum",
-            f"E* = {E} with contact at {point} fits about as well: hold contact_point or E_star",
-        )
+        text = f"E* = {E} with contact at {point} fits about as well: hold contact_point or E_star"
+        yield "second minimum", text
     if {"E_star", "frame_compliance"} <= set(problem.free):
         pair = [problem.free.index(name) for name in ("E_star", "frame_compliance")]
         block = solved.covariance[i][np.ix_(pair, pair)]
         correlation = block[0, 1] / max(np.sqrt(block[0, 0] * block[1, 1]), 1e-300)
-        if abs(correlation) > _CORRELATED:
-            yield Remark(
+        if abs(correlation) > 0.9:
+            yield (
                 "frame",
                 f"E* and frame_compliance are nearly one parameter (correlation {correlation:.3f}): hold "
                 "frame_compliance",
@@ -79,41 +55,37 @@ def _undetermined(solved, i):
     errors = dict(zip(solved.problem.free, np.sqrt(np.diag(solved.covariance[i])).tolist(), strict=True))
     if solved.elastic[i] and "q_c" in errors:
         largest = engineering(state.depth[i].max(), "m")
-        yield Remark(
+        yield (
             "elastic",
             "nothing has yielded within the noise: q_c = ∞ stands for a critical depth of more than about "
             f"{largest}; press deeper",
         )
         return
     if solved.hardly_yields[i]:
-        yield Remark(
-            "hardly yields",
-            "an elastic medium fits about as well: yield and q_c are hardly determined; press deeper",
-        )
+        text = "an elastic medium fits about as well: yield and q_c are hardly determined; press deeper"
+        yield "hardly yields", text
     unloading = np.count_nonzero((state.live_interval.length[i] > 0) & ~state.loading[i])
     error = errors.get("E_star", 0.0)
     if solved.problem.memoryless:
         if _VAGUE < error < np.inf:
-            yield Remark("vague", f"the data hardly determine E* (to {100 * error:.2g} %): hold E_star")
+            yield "vague", f"the data hardly determine E* (to {100 * error:.2g} %): hold E_star"
     elif unloading < 2 and error > _VAGUE_LOADING:
-        yield Remark(
+        yield (
             "loading",
             f"loading alone hardly determines E* (here to {100 * error:.2g} %): record the unloading, or "
             "hold E_star",
         )
     elif error > _VAGUE:
-        d_c = engineering(critical_depth(values)[i, 0], "m")
-        yield Remark(
+        d_c = engineering(critical_depth(values["E_star"], values["q_c"])[i, 0], "m")
+        yield (
             "vague",
             f"the unloading hardly determines E* (to {100 * error:.2g} %): there are {unloading} samples "
             f"within the critical depth of {d_c}; record more of them, or hold E_star",
         )
     for name, error in errors.items():
         if error == np.inf:
-            yield Remark(
-                f"undetermined {name}",
-                f"the data do not determine {name}: hold it, or a parameter that it is correlated with",
-            )
+            text = f"the data do not determine {name}: hold it, or a parameter that it is correlated with"
+            yield f"undetermined {name}", text
 
 
 def _jitter(solved, i):
@@ -124,7 +96,7 @@ def _jitter(solved, i):
     exact = not (solved.problem.depth_noise or solved.problem.memoryless)
     if exact and reversals > max(4, 0.05 * steps.size):
         noise = engineering(roughness(depth)[0, 0], "m")
-        yield Remark(
+        yield (
             "jitter",
             f"the depth goes back and forth at {reversals} of {steps.size} samples, which count as new "
             f"largest depths: E* is too small; give depth_noise, about {noise}",
@@ -137,7 +109,7 @@ def _class_b(solved, i):
     Tested by one linear step on the residuals, with −∂F/∂d_p the derivative by the largest depth so far.
     """
     problem, (values, state) = solved.problem, solved.values_and_states
-    d_c = critical_depth(values)[i, 0]
+    d_c = critical_depth(values["E_star"], values["q_c"])[i, 0]
     memory_slope, jacobian, residual = state.memory_slope[i], solved.jacobian[i], solved.residual[i]
     unloading = ~state.loading[i] & ((state.live_interval.length[i] > 0) | (memory_slope < 0))
     if problem.turning_points.shape[1] < 2 or d_c == np.inf or not unloading.any():
@@ -153,7 +125,7 @@ def _class_b(solved, i):
         jacobian = np.vstack([jacobian, pins])
         column, residual = (np.append(values, np.zeros(count)) for values in (column, residual))
     basis, s, _ = np.linalg.svd(jacobian, full_matrices=False)
-    basis = basis[:, s > 1e-11 * s[:1]]
+    basis = basis[:, s > SINGULAR * s[:1]]
     independent = column - basis @ (basis.T @ column)
     power = independent @ independent
     if power <= 1e-12 * (column @ column):
@@ -161,7 +133,7 @@ def _class_b(solved, i):
     variance = residual @ residual / max(residual.size - jacobian.shape[1] - 1, 1)
     trend, error = independent @ residual / power, np.sqrt(variance / power)
     if abs(trend) > max(_SIGNIFICANT * error, 0.05):
-        yield Remark(
+        yield (
             "class",
             f"the recovered depth {'grows' if trend > 0 else 'falls'} with depth (about as its power "
             f"{trend:+.2g} ± {error:.1g}), whereas it is constant for hardness ∝ 1/radius: not class (b)",
@@ -182,10 +154,10 @@ def _misfit(solved, i):
     if size < 1e-7:
         return
     if correlation > max(0.3, _SIGNIFICANT / np.sqrt(freedom)):
-        yield Remark(
+        yield (
             "misfit",
             f"the residuals ({100 * size:.2g} % of the force) are not noise but correlated with their "
             f"neighbours ({correlation:.2f}): {cause}, or another profile; errors are underestimated",
         )
     elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom):
-        yield Remark("noisy", f"χ² per degree of freedom is {chi:.3g}: the noise is larger than given")
+        yield "noisy", f"χ² per degree of freedom is {chi:.3g}: the noise is larger than given"

@@ -6,24 +6,18 @@ from functools import cached_property
 import numpy as np
 
 from .._numeric import chunks
-from .curve import LOGARITHMIC, REACH, CurveProblem, critical_depth
+from ..medium import critical_depth
+from .curve import LOGARITHMIC, REACH, CurveProblem
 from .least_squares import covariances, least_squares, roughness
 from .start import first_guesses, turning_points
-
-#: Number of curves that are solved together.
-_TOGETHER = 64
-#: Most repetitions of the assignment of turning points.
-_ROUNDS = 5
-#: Represents the logarithm of an infinite q_c.
-_LOG_OF_INFINITE = 300.0
 
 
 @dataclass(frozen=True)
 class SolvedCurves:
     """Curves `rows` of a measurement, the solution of their problem, and whether they are elastic (R,).
 
-    `at_bound` (R, P) says which parameters stopped at a bound. `rival` is the second-best minimum in scaled
-    parameters (R, P), `rival_squares` its sum of squares, infinite where there is none.
+    `at_bound` (R, P) marks parameters at a bound. `rival` is the second-best minimum in scaled parameters
+    (R, P), `rival_squares` its sum of squares, infinite where there is none.
     """
 
     rows: np.ndarray
@@ -52,17 +46,16 @@ class SolvedCurves:
     @cached_property
     def covariance(self):
         """Covariance of the scaled free parameters (R, P, P)."""
-        free, chi = len(self.problem.free), self.reduced_chi_square
-        variance = np.ones_like(chi) if self.noise_known else chi
+        free = len(self.problem.free)
+        variance = 1.0 if self.noise_known else self.reduced_chi_square
         return covariances(self.jacobian, variance)[:, :free, :free]
 
 
 def grouped(depth, force, fixed, noise):
     """Yields curves with the same number of turning points: rows, turning points, starts of loadings.
 
-    A medium that is held elastic has no memory and neither of these.
-
-    Depth and force turn at the same sample: both are added in units in which the quieter one weighs more.
+    A medium that is held elastic has no memory and neither of these. Depth and force turn at the same
+    sample: both are added in units in which the quieter one weighs more.
     """
     path, variance, threshold = 0.0, 0.0, 0.0
     for values, sigma in ((depth, noise), (force, roughness(force))):
@@ -77,7 +70,7 @@ def grouped(depth, force, fixed, noise):
     counts = [(len(turns), len(starts)) for turns, starts in indices]
     for count in sorted(set(counts)):
         rows = np.array([i for i, other in enumerate(counts) if other == count])
-        for chunk in chunks(rows.size, _TOGETHER):
+        for chunk in chunks(rows.size, 64):
             subset = rows[chunk]
             turns, starts = zip(*(indices[i] for i in subset), strict=True)
             yield subset, np.array(turns, int), np.array(starts, int)
@@ -87,11 +80,12 @@ def solved(profile, depth, force, fixed, noise, force_noise, rows, turns, starts
     """Solves curves with the same number of turning points."""
     depth, force = depth[rows], force[rows]
     fixed = {name: value[rows] for name, value in fixed.items()}
-    order = np.argsort(depth, axis=1) if not starts.size else np.arange(depth.shape[1])[None]
-    sigma = _first_sigma(np.take_along_axis(force, order, axis=1), noise, force_noise)
+    # Without turning points the order of time means nothing, and that of depth makes the force smooth.
+    ordered = force if starts.size else np.take_along_axis(force, np.argsort(depth, axis=1), axis=1)
+    sigma = _first_sigma(ordered, noise, force_noise)
     problem = CurveProblem(profile, depth, force, fixed, noise, sigma, turns, starts)
     solution, rival = _best_minimum(problem)
-    for _ in range(_ROUNDS if noise and turns.size else 0):
+    for _ in range(5 if noise and turns.size else 0):
         before, problem = problem, problem.with_best_turning_points(solution[0])
         if np.array_equal(before.turning_points, problem.turning_points):
             break
@@ -137,18 +131,15 @@ def _best_minimum(problem):
     columns = [i for i, name in enumerate(problem.free) if name in ("E_star", "contact_point")]
     for rows, start in others:
         trial = _minimum(problem.rows(rows), start)
-        x, squares, trial_squares = (
-            solution[0][rows],
-            np.sum(solution[1][rows] ** 2, axis=1),
-            np.sum(trial[1] ** 2, axis=1),
-        )
+        x, squares = solution[0][rows], np.sum(solution[1][rows] ** 2, axis=1)
+        trial_squares = np.sum(trial[1] ** 2, axis=1)
         differs = np.any(np.abs(trial[0] - x)[:, columns] > 0.05, axis=1)
         better, worse = trial_squares < squares, np.maximum(squares, trial_squares)
         second = differs & (worse < rival_squares[rows])
         rival[rows[second]] = np.where(better[:, None], x, trial[0])[second]
         rival_squares[rows[second]] = worse[second]
-        for whole, part in zip(solution, trial, strict=True):
-            whole[rows[better]] = part[better]
+        for values, improved in zip(solution, trial, strict=True):
+            values[rows[better]] = improved[better]
     return solution, (rival, rival_squares)
 
 
@@ -160,7 +151,8 @@ def _compared_with_elastic(problem, solution, noise_known):
     x, residual, *_ = solution
     elastic, hardly_yields = np.zeros((2, len(x)), bool)
     column, freedom = problem.free.index("q_c"), max(residual.shape[1] - x.shape[1], 1)
-    share = _yield_share(problem, x)
+    values, _, state = problem.states(x)
+    share = critical_depth(values["E_star"], values["q_c"])[:, 0] / state.depth.max(axis=1)
     rows = np.flatnonzero(share > 0.5)
     if not rows.size:
         return solution, elastic, hardly_yields
@@ -170,25 +162,17 @@ def _compared_with_elastic(problem, solution, noise_known):
     held = replace(subset, fixed=subset.fixed | {"q_c": np.full(rows.size, np.inf)})
     start = np.delete(x[rows], column, axis=1)
     elastic_x, elastic_residual, jacobian, at_bound = _minimum(held, start)
-    unyielding = (
-        np.insert(elastic_x, column, _LOG_OF_INFINITE, axis=1),
-        elastic_residual,
-        np.insert(jacobian, column, 0.0, axis=2),
-        np.insert(at_bound, column, False, axis=1),
-    )
+    # 300 represents the logarithm of an infinite q_c.
+    elastic_x = np.insert(elastic_x, column, 300.0, axis=1)
+    jacobian = np.insert(jacobian, column, 0.0, axis=2)
+    unyielding = elastic_x, elastic_residual, jacobian, np.insert(at_bound, column, False, axis=1)
     residuals = residual[rows], yielding[1], elastic_residual
     squares = np.array([np.sum(values**2, axis=1) for values in residuals])
     noise = np.ones(rows.size) if noise_known else squares.min(axis=0) / freedom
     gain = (squares[2] - squares[:2].min(axis=0)) / np.maximum(noise, 1e-300)
     nearer = (gain <= 2) | (squares[2] <= 1e-24 * residual.shape[1])
     better = (squares[1] < squares[0]) & ~nearer
-    for whole, second, third in zip(solution, yielding, unyielding, strict=True):
-        whole[rows[better]], whole[rows[nearer]] = second[better], third[nearer]
+    for values, second, third in zip(solution, yielding, unyielding, strict=True):
+        values[rows[better]], values[rows[nearer]] = second[better], third[nearer]
     elastic[rows], hardly_yields[rows] = nearer, (gain <= 9) & ~nearer
     return solution, elastic, hardly_yields
-
-
-def _yield_share(problem, x):
-    """Critical depth over the largest depth of each curve."""
-    values, _, state = problem.states(x)
-    return critical_depth(values)[:, 0] / state.depth.max(axis=1)

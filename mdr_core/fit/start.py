@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..medium import critical_depth, yield_constant
 from ..superposition import radius_integral
 from ..yielding import elastic_interval, interval_at
 from .curve import PARAMETERS, REACH
@@ -41,16 +42,15 @@ def turning_points(depth, threshold):
 def first_guesses(problem):
     """Starts of a search, the best first, each with its rows and their scaled parameters.
 
-    They are the minima over a grid of contact points, with the best of grids of critical depths and frame
-    compliances. The force is E* times a function of these: E* and baseline follow by linear regression.
+    They are the minima over a grid of contact points, with the best critical depth and frame compliance of
+    grids. The force is E* times a function of these: E* and baseline follow by linear regression.
     """
     largest = min((1 + REACH) * float(problem.length.max()), problem.profile.known_depth)
     depths = largest * np.append(0.0, np.geomspace(1e-7, 1, 600))
     table = depths, radius_integral(problem.profile, elastic_interval(depths))
     turning_depth = _turning_depth(problem)
-    guesses = [
-        _guesses(problem.rows([row]), turning_depth[[row]], table) for row in range(len(problem.depth))
-    ]
+    count = len(problem.depth)
+    guesses = [_guesses(problem.rows([row]), turning_depth[[row]], table) for row in range(count)]
     for k in range(max(map(len, guesses))):
         rows = np.array([i for i, minima in enumerate(guesses) if len(minima) > k])
         values = {name: np.array([[guesses[i][k][name]] for i in rows]) for name in PARAMETERS}
@@ -59,8 +59,6 @@ def first_guesses(problem):
 
 def _turning_depth(problem):
     """Measured depths (m) at the turning points (R, K), means of five samples."""
-    if not problem.turning_points.size:
-        return np.zeros(problem.turning_points.shape)
     last = problem.depth.shape[1] - 1
     neighbours = np.clip(problem.turning_points[..., None] + np.arange(-2, 3), 0, last)
     return np.take_along_axis(problem.depth[:, None], neighbours, axis=2).mean(axis=2)
@@ -69,8 +67,8 @@ def _turning_depth(problem):
 def _guesses(curve, turning_depth, table):
     """Parameters of one curve by name at the minima over its contact points, the best first."""
     fixed = {name: float(value[0]) for name, value in curve.fixed.items()}
-    unit = float((curve.length / curve.load)[0, 0])
-    compliances = [fixed["frame_compliance"]] if "frame_compliance" in fixed else _COMPLIANCES * unit
+    compliances = _COMPLIANCES * float((curve.length / curve.load)[0, 0])
+    compliances = [fixed["frame_compliance"]] if "frame_compliance" in fixed else compliances
     grids = [_grid(curve, fixed, turning_depth, table, C) for C in compliances]
     trials = [min(column, key=lambda trial: trial["squares"]) for column in zip(*grids, strict=True)]
     squares = np.array([np.inf, *(trial["squares"] for trial in trials), np.inf])
@@ -93,31 +91,30 @@ def _grid(curve, fixed, turning_depth, table, compliance):
     points, shares = points[:, None, None], np.ones(1) if known else _SHARES
     d_c = shares[:, None] * np.maximum(top - points, 1e-3 * length)
     if known:
-        d_c[:] = np.pi / 2 * fixed["q_c"] / fixed.get("E_star", 1.0)
+        d_c[:] = critical_depth(fixed.get("E_star", 1.0), fixed["q_c"])
     interval = interval_at(largest[:, subset] - points, depth[subset] - points, d_c)
     unit_force = 2 * (np.interp(interval.upper, *table) - np.interp(interval.lower, *table))
     modulus, baseline = _regression(unit_force, force[subset], fixed, d_c)
     squares = np.sum((force[subset] - baseline - modulus * unit_force) ** 2, axis=-1)
     squares = np.where(np.isfinite(squares), squares, np.finfo(float).max)
     for i, j in enumerate(squares.argmin(axis=1)):
-        E = float(modulus[i, j, 0])
+        E, depth = float(modulus[i, j, 0]), float(d_c[i, j, 0])
         yield {
-            "E_star": E, "q_c": 2 / np.pi * E * float(d_c[i, j, 0]), "baseline": float(baseline[i, j, 0]),
-            "contact_point": float(points[i, 0, 0]), "frame_compliance": compliance,
+            "E_star": E, "q_c": yield_constant(E, depth), "contact_point": float(points[i, 0, 0]),
+            "baseline": float(baseline[i, j, 0]), "frame_compliance": compliance,
             "squares": squares[i, j], **fixed,
         }  # fmt: skip
 
 
 def _regression(unit_force, force, fixed, d_c):
     """E* and baseline of the line E* × unit force + baseline that is nearest to the force."""
+    mean, centre = unit_force.mean(axis=-1, keepdims=True), force.mean()
     if "baseline" in fixed:
         mean, centre = 0.0, fixed["baseline"]
-    else:
-        mean, centre = unit_force.mean(axis=-1, keepdims=True), force.mean()
     if "E_star" in fixed:
         modulus = np.full_like(d_c, fixed["E_star"])
     elif fixed.get("q_c", np.inf) < np.inf:
-        modulus = np.pi / 2 * fixed["q_c"] / d_c
+        modulus = fixed["q_c"] / yield_constant(1.0, d_c)
     else:
         deviation = unit_force - mean
         power = np.sum(deviation**2, axis=-1, keepdims=True)

@@ -21,7 +21,7 @@ from .refinement import refine
 
 #: Elements of the coarsest run; largest number of elements times depths of the finest.
 _ELEMENTS, _MAX_ELEMENT_STEPS = 256, 10**8
-#: Depths of a path that have edges at their radii; of longer paths the deepest turning points.
+#: Depths of a path that have edges at their radii; of longer paths the turning points of largest depth.
 _MAX_EDGE_DEPTHS = 300
 #: Quantities that `follow` records.
 _RECORD = ("force", "stored_energy", "plastic_work", "viscous_work", "contact_radius")
@@ -71,12 +71,12 @@ def indent_in_time(
 
     Examples
     --------
-    A dashpot adds 8ηb ḋ to the force of a flat punch, and nothing at constant depth:
+    Dashpots add 8ηb ḋ to the force of a flat punch and 4ηḋ to its line load, and nothing at constant depth:
 
     >>> from mdr_core import FlatPunch, Medium
-    >>> medium = Medium(E_star=1.0, eta=1.0)
-    >>> indent_in_time(FlatPunch(1.0), medium, [0.0, 3.0, 3.0], [0.0, 1.5, 2.0]).force.round(9).tolist()
-    [0.0, 22.0, 6.0]
+    >>> path = indent_in_time(FlatPunch(1.0), Medium(E_star=1.0, eta=1.0), [0.0, 3.0, 3.0], [0.0, 1.5, 2.0])
+    >>> print(path.force.round(9).tolist(), path[1].line_load(0.5))
+    [0.0, 22.0, 6.0] 11.0
     """
     check_pair(profile, medium, "a path in time")
     depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LARGEST))
@@ -132,15 +132,6 @@ class TimedIndentation(Result):
 
     Every quantity has the shape of `time`; `result[i]` is one state. Where the rate changes, force and
     fields are those at the end of the earlier piece.
-
-    Examples
-    --------
-    A flat punch of radius 1 is pressed to d = 3 in 1.5 s and held: F = 2E*b d + 8ηb ḋ.
-
-    >>> from mdr_core import FlatPunch, Medium
-    >>> path = indent_in_time(FlatPunch(1.0), Medium(E_star=1.0, eta=1.0), [0.0, 3.0, 3.0], [0.0, 1.5, 2.0])
-    >>> print(path[1].line_load(0.5))  # E* d + 4η ḋ
-    11.0
     """
 
     profile: Profile
@@ -165,15 +156,10 @@ class TimedIndentation(Result):
     _path_time: np.ndarray
     _path_depth: np.ndarray
 
-    #: Model that was solved.
     model = CHAIN
-    _quantities = (
-        "time", "depth", "force", "contact_radius", "plastic_radius", "plastic_depth", "stored_energy",
-        "plastic_work", "viscous_work",
-    )  # fmt: skip
     _shown = ("time", "depth", "force", "contact_radius", "plastic_radius", "plastic_depth")
+    _quantities = (*_shown, "stored_energy", "plastic_work", "viscous_work")
     _dimensions = ("time",)
-
     #: Fields with one entry per state.
     _state_fields = (*(set(_quantities) - {"plastic_radius"}), "_index")
 
@@ -196,23 +182,15 @@ class TimedIndentation(Result):
         return np.where(np.asarray(self.plastic_depth) > 0, radius, 0.0)
 
     def line_load(self, x: ArrayLike) -> Array:
-        """Line load q = E* u_e + 4ηḋ (N/m) of one state at x (m); Popov (2015), Eqs. (1), (17), (18).
-
-        Exact along the path of depth: the element at each x is followed from the start.
-        """
+        """Line load q = E* u_e + 4ηḋ (N/m) of one state at x (m); Popov (2015), Eqs. (1), (17), (18)."""
         self._one("line_load")
         return self.elements(x)[0]
 
     def elements(self, x: ArrayLike) -> tuple[Array, Array]:
         """Line load (N/m) and elastic compression (m) of the elements at x (m), in every state.
 
-        The compression of released elements is what has not relaxed yet. Exact along the path of depth: the
-        element at each x is followed from the start.
-
-        Returns
-        -------
-        tuple of ndarray
-            Both of the shape of `time`, followed by that of `x`.
+        Each has the shape of `time`, followed by that of `x`. The compression of a released element is the
+        part that has not relaxed yet. Exact along the path of depth.
         """
         x = np.abs(_check.finite_array("coordinate x", x, unit="m"))
         index, medium = np.asarray(self._index, int), self.medium
@@ -220,10 +198,10 @@ class TimedIndentation(Result):
         count = int(np.max(index)) + 1
         travel = np.diff(self._path_depth, prepend=0.0)
         duration = np.append(np.inf, np.diff(self._path_time))
+        ramps = zip(self._path_depth[:count], travel, duration, strict=False)
         load, elastic = np.empty((2, count, x.size))
-        for i in range(count):
-            to, tau = self._path_depth[i], medium.relaxation_time
-            ramp = Ramp(to, travel[i], duration[i], tau, medium.critical_depth)
+        for i, piece in enumerate(ramps):
+            ramp = Ramp(*piece, medium.relaxation_time, medium.critical_depth)
             elements, _ = element.advance(elements, ramp)
             elastic[i] = elements.elastic
             load[i] = np.where(elements.contact, medium.E_star * (elastic[i] + ramp.lag), 0.0)
@@ -233,13 +211,13 @@ class TimedIndentation(Result):
     def pressure(self, r: ArrayLike) -> Array:
         """Contact pressure p = −σ_zz (Pa) of one state at radii r (m); Popov (2015), Eq. (10).
 
-        From the line load at 4000 coordinates, linear in between. Infinite at the contact radius while the
-        dashpots carry load there.
+        Infinite at the contact radius while the dashpots carry load there.
         """
         self._one("pressure")
         r, radius = _check.finite_array("radius", r, unit="m"), float(self.contact_radius)
         if radius == 0:
             return np.zeros(r.shape)[()]
+        # The line load at 4000 coordinates is linear in between.
         x = cell_edges(self.profile, 4000, radius, nodes=(self.plastic_radius,))
         # The last value just inside the contact, where the load may jump; without jumps of rounding's size.
         load = self.line_load(np.minimum(x, radius * (1 - 1e-12)))

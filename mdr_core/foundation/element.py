@@ -21,9 +21,9 @@ import scipy
 class Elements:
     """State of a row of elements: arrays with one entry per element.
 
-    Lengths (m): coordinate, width, reduced height g(x), penetration d − g(x) − u_p into the relaxed surface
-    of the element, elastic part u_e and plastic part u_p of the compression. In contact the penetration
-    equals u_e; after yield it is updated step by step, because the difference of depths would cancel.
+    Lengths (m): coordinate, width, reduced profile g(x), penetration d − g(x) − u_p into the relaxed
+    surface, elastic part u_e and plastic part u_p of the compression. In contact the penetration equals
+    u_e; after yield it is updated step by step, because the difference of depths would cancel.
     """
 
     x: np.ndarray
@@ -45,8 +45,7 @@ class Elements:
 class Ramp:
     """A straight piece of a path of depth in time, and the medium's τ (s) and d_c (m).
 
-    `depth` (m) is that at its end, `travel` its change (m), given separately because the difference of two
-    depths may cancel. The `duration` (s) may be infinite.
+    `travel` (m) ends at `depth` (m): a difference of depths may cancel. The `duration` (s) may be infinite.
     """
 
     depth: float
@@ -71,9 +70,8 @@ class Exchange:
     """Impulse and energy that each element takes up along a ramp, per unit of E* and of width.
 
     In contact, `stroke` is the change of compression (m), `mean` the mean elastic part (m) over it,
-    `duration` the time (s), and `spring_share` the fraction of the stroke before the yield cap. The elastic
-    part (m) is `initial` and `final` at the ends of the ramp, `first` and `last` at the ends of contact.
-    Without contact stroke and duration are zero, and `first` and `last` equal `final`.
+    `duration` the time (s), and `spring_share` the fraction of the stroke before the yield cap; without
+    contact stroke and duration are 0. `relaxed` is the energy (m²) dissipated out of contact.
     """
 
     ramp: Ramp
@@ -81,10 +79,7 @@ class Exchange:
     mean: np.ndarray
     duration: np.ndarray
     spring_share: np.ndarray | float
-    initial: np.ndarray
-    first: np.ndarray
-    last: np.ndarray
-    final: np.ndarray
+    relaxed: np.ndarray
 
     @property
     def impulse(self):
@@ -93,13 +88,11 @@ class Exchange:
 
     @property
     def impulse_slope(self):
-        """Derivative of ∫ q dt/E* by the rate of the ramp (s²); approximate where contact returns.
-
-        A larger rate compresses the spring by t more at time t, and begins contact earlier.
-        """
+        """Derivative of ∫ q dt/E* by the rate of the ramp (s²); approximate where contact returns."""
         ramp, spring_time = self.ramp, self.spring_share * self.duration
         if ramp.travel < 0:
             return self.duration * (self.duration / 2 + ramp.tau)
+        # A larger rate compresses the spring by t more at time t, and begins contact earlier.
         free_time = ramp.duration - self.duration
         dashpot = ramp.tau * ramp.duration * (self.duration > 0)
         return spring_time * (free_time + spring_time / 2) + dashpot
@@ -107,19 +100,16 @@ class Exchange:
     @property
     def viscous(self):
         """Energy (m²) dissipated by the dashpot: 4ηḋ along the stroke, and by relaxation out of contact."""
-        before = (self.initial - self.first) * (self.initial + self.first)
-        after = (self.last - self.final) * (self.last + self.final)
-        return self.ramp.lag * self.stroke + (before + after) / 2
+        return self.ramp.lag * self.stroke + self.relaxed
+
+
+def _released_energy(before, after):
+    """Energy (m²) by which a spring relaxes from one elastic part (m) to another."""
+    return (before - after) * (before + after) / 2
 
 
 def advance(elements, ramp):
-    """`Elements` at the end of a ramp, and the `Exchange` along it.
-
-    1. Move the indenter: penetration += travel.
-    2. Find the elastic part at which contact of a free element begins.
-    3. Follow contact to the end of the ramp, to the yield cap, or to release.
-    4. Relax for the remaining time.
-    """
+    """`Elements` at the end of a ramp, and the `Exchange` along it."""
     virgin = elements.plastic == 0
     penetration = np.where(virgin, ramp.depth - elements.reduced, elements.penetration + ramp.travel)
     return (_press if ramp.travel >= 0 else _withdraw)(elements, ramp, penetration)
@@ -141,7 +131,7 @@ def _press(elements, ramp, penetration):
     penetration = np.where(contact, elastic, penetration)
     plastic = elements.plastic + excess
     new = replace(elements, penetration=penetration, elastic=elastic, plastic=plastic, contact=contact)
-    return new, Exchange(ramp, stroke, mean, duration, spring_share, initial, first, elastic, elastic)
+    return new, Exchange(ramp, stroke, mean, duration, spring_share, _released_energy(initial, first))
 
 
 def _pressed_contact(elements, ramp, penetration, touching):
@@ -193,7 +183,8 @@ def _withdraw(elements, ramp, penetration):
         held = elements.contact & contact
         duration = np.where(held, ramp.duration, stroke / ramp.travel * ramp.duration)
     new = replace(elements, penetration=penetration, elastic=elastic, contact=contact)
-    return new, Exchange(ramp, stroke, mean, duration, 1.0, initial, first, last, elastic)
+    energy = _released_energy(initial, first) + _released_energy(last, elastic)
+    return new, Exchange(ramp, stroke, mean, duration, 1.0, energy)
 
 
 def _withdrawn_contact(elements, ramp, penetration, candidates):

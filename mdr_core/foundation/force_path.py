@@ -19,12 +19,8 @@ from .refinement import extrapolate, refine
 
 #: Steps per piece of the path and elements of the coarsest run; number of runs; orders of their errors.
 _STEPS, _ELEMENTS, _RUNS, _ORDERS = 8, 200, 6, (1, 2)
-#: Smallest force relative to the largest: it maintains contact where none is prescribed.
-_CONTACT_FORCE = 1e-10
 #: Fraction of the last step of a piece that has the rate at its end instead of the mean rate of the step.
 _END_FRACTION = 1 / 16
-#: Largest difference between the force on the extrapolated path and the prescribed one, over the largest.
-_MAX_DEVIATION = 1 / 16
 
 
 @_check.keywords_explained
@@ -33,8 +29,8 @@ def creep(
 ) -> TimedIndentation:
     """Press an indenter into a viscous medium along a path of force in time, under which it creeps.
 
-    Solved by the chain in steps of constant ḋ, each of which ends at the prescribed force. Steps are finer
-    at the start of each piece of the path; errors of first and second order are extrapolated away.
+    Solved by the chain in steps of constant ḋ, each of which ends at the prescribed force; errors of first
+    and second order are extrapolated away.
 
     Parameters
     ----------
@@ -95,13 +91,11 @@ def creep(
         return runs[-1].record
 
     record, errors = refine(run, tolerance, _RUNS, 1, orders=_ORDERS)
-    depth, stored, plastic, viscous = record.T
+    depth, energies = record[:, 0], np.maximum(record[:, 1:], 0.0).T
     path_time, path_depth, index, radius = _consistent_path(runs, force)
     return TimedIndentation(
         profile, medium, time, depth, force, radius,
-        stored_energy=np.maximum(stored, 0.0),
-        plastic_work=np.maximum(plastic, 0.0),
-        viscous_work=np.maximum(viscous, 0.0),
+        **dict(zip(("stored_energy", "plastic_work", "viscous_work"), energies, strict=True)),
         plastic_depth=plastic_depth(np.maximum.accumulate(depth), medium.critical_depth),
         error=float(errors[0]), _index=index, _path_time=path_time, _path_depth=path_depth,
     )  # fmt: skip
@@ -126,7 +120,8 @@ def _creep_run(profile, medium, bound, n, force, time, steps, precision):
     # A path without contact has no width of its own.
     half_width = float(profile.contact_radius(bound)) or min(1.0, profile.known_radius)
     foundation = Foundation(profile, medium, n, half_width)
-    close, smallest, rate = precision * bound, _CONTACT_FORCE * np.max(force), 0.0
+    # A small force maintains contact where none is prescribed.
+    close, smallest, rate = precision * bound, 1e-10 * np.max(force), 0.0
     # Times after the start of a piece increase as the cube of the step.
     fraction = (np.arange(steps + 1) / steps) ** 3
     if force[0] > 0:
@@ -179,11 +174,10 @@ def _consistent_path(runs, force):
         half_width = max(finest.half_width, float(profile.contact_radius(max(np.max(depth), 0.0))))
         record = follow(Foundation(profile, medium, finest.n, half_width), depth, time)[index]
         carried, radius = record[:, 0], record[:, -1]
-        if np.all(np.abs(carried - force) <= _MAX_DEVIATION * np.max(force)):
+        if np.all(np.abs(carried - force) <= np.max(force) / 16):
             break
-    dashpots = 8 * medium.eta * radius
+    dashpots, end = 8 * medium.eta * radius, index[1:]
     rate = np.divide(force - carried, dashpots, out=np.zeros(force.shape), where=dashpots > 0)[1:]
-    end = index[1:]
     step = time[end] - time[end - 1]
     rate += (depth[end] - depth[end - 1]) / step
     time = np.insert(time, end, time[end] - _END_FRACTION * step)

@@ -1,7 +1,6 @@
 """The 1D foundation under an indenter: a row of independent springs with yield cap and dashpots.
 
-Elements stand symmetrically on both sides of the axis; only one side is computed. It starts with an element
-of no width on the axis, where contact begins and ends.
+One side of the axis is computed. It starts with an element of no width, where contact begins and ends.
 """
 
 from dataclasses import dataclass, field, replace
@@ -50,8 +49,7 @@ class Foundation:
 
     Each of the n elements between −half_width and half_width is a spring Δk = E*Δx, which carries at most
     π q_c/2 per length, in parallel with a dashpot Δγ = 4ηΔx (Eqs. (1), (12)). A foundation is immutable:
-    `advance` returns a new one. A straight ramp of depth is exact in one step, with contact, yield, release
-    and relaxation of every element in closed form. Independent of `indent` and `impact`.
+    `advance` returns a new one, exact for a straight ramp of depth. Independent of `indent` and `impact`.
 
     Parameters
     ----------
@@ -72,20 +70,16 @@ class Foundation:
 
     Examples
     --------
-    Cone of slope 1 pressed to three times the critical depth, F = 5 F_c (Popov 2015, Eqs. (20), (22)),
-    then withdrawn:
+    Cone of slope 1 pressed to three times the critical depth, F = 5 F_c (Popov 2015, Eqs. (20), (22)):
 
     >>> from mdr_core import Cone, Medium
     >>> cone, medium = Cone(slope=1.0), Medium(E_star=1.0, q_c=2.0)
-    >>> d_c = medium.critical_depth
-    >>> foundation = Foundation(cone, medium, 12, half_width=3 * d_c / 1.5707963267948966)
-    >>> pressed = foundation.advance(3 * d_c)
-    >>> print(round(pressed.force / (3.141592653589793 * 2.0**2 / 2), 12))
+    >>> depth = 3 * medium.critical_depth
+    >>> foundation = Foundation(cone, medium, 12, half_width=cone.contact_radius(depth)).advance(depth)
+    >>> print(round(foundation.force / (3.141592653589793 * 2.0**2 / 2), 12))
     5.0
-    >>> pressed.state[6:].tolist()
+    >>> foundation.state[6:].tolist()
     ['yielded', 'yielded', 'yielded', 'yielded', 'elastic', 'elastic']
-    >>> print(pressed.advance(0.0).force)
-    0.0
     """
 
     profile: Profile
@@ -100,9 +94,8 @@ class Foundation:
             # A copy in another state has been checked before.
             return
         check_pair(self.profile, self.medium, "a foundation")
-        n = element_count(self.n)
+        n, known = element_count(self.n), self.profile.known_radius
         half_width = _check.positive_number("half_width", self.half_width, unit="m")
-        known = self.profile.known_radius
         if half_width > known:
             raise ValueError(
                 f"half_width = {half_width:g} m exceeds the known radius of the profile, {known:g} m; "
@@ -120,15 +113,14 @@ class Foundation:
             object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
-        lines = (
-            f"Foundation: {self.n} elements to ±{engineering(self.half_width, 'm')}, after "
-            f"{len(self.history)} moves",
-            f"  indenter                 {described(self.profile)}",
-            f"  medium                   {described(self.medium)}",
-            f"  depth d                  {engineering(self.depth, 'm')}",
-            f"  force F                  {engineering(self.force, 'N')}",
+        width, moves = engineering(self.half_width, "m"), len(self.history)
+        return (
+            f"Foundation: {self.n} elements to ±{width}, after {moves} moves\n"
+            f"  indenter                 {described(self.profile)}\n"
+            f"  medium                   {described(self.medium)}\n"
+            f"  depth d                  {engineering(self.depth, 'm')}\n"
+            f"  force F                  {engineering(self.force, 'N')}"
         )
-        return "\n".join(lines)
 
     def advance(self, depth: float, dt: float = np.inf) -> "Foundation":
         """Move the indenter along a straight ramp of depth in time.
@@ -175,7 +167,8 @@ class Foundation:
         """Foundation with these elements at the end of a ramp, at the rate (m/s) of the ramp or another."""
         if ramp.depth > self.profile.known_depth:
             self.profile._known(np.asarray(ramp.depth))
-        if ramp.depth > self._current.edge_depth:
+        edge_depth = self._current.edge_depth
+        if ramp.depth > edge_depth:
             radius = self.profile.contact_radius(ramp.depth)
             raise ValueError(
                 f"half_width = {self.half_width:g} m is less than the contact radius {radius:g} m at "
@@ -184,7 +177,6 @@ class Foundation:
         lag = ramp.lag if rate is None else ramp.tau * rate
         work = self.viscous_work + self._total(exchange.viscous)
         history = (*self.history, (ramp.depth, ramp.duration))
-        edge_depth = self._current.edge_depth
         new = FoundationState(elements, edge_depth, float(ramp.depth), lag, work, history)
         return replace(self, _current=new)
 

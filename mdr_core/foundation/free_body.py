@@ -1,13 +1,11 @@
 """A free body on the chain: Newton's equation in steps that are exact for the elements.
 
-1. The foundation is as wide as the largest contact that springs alone, or dashpots alone, allow.
-2. A step of constant ḋ = V is exact for every element, and so is the impulse J(V) of their force. The
+1. A step of constant ḋ = V is exact for every element, and so is the impulse J(V) of their force. The
    velocity of the body changes from v to v₁ with m (v₁ − v) = −J(V), V = (v + v₁)/2, solved by Newton's
    method. The kinetic energy changes by the work of this force: energy is conserved for every step size.
-3. One step ends at the turning point, because the elements remember the largest depth, and one where yield
+2. One step ends at the turning point, because the elements remember the largest depth, and one where yield
    begins, because the force has a kink there.
-4. Steps are equal in ln(T₀ + t), with the time t since first contact, then since the turning point.
-   Contact ends when the last element is released.
+3. Steps are equal in ln(T₀ + t), with the time t since first contact, then since the turning point.
 """
 
 from typing import NamedTuple
@@ -23,9 +21,8 @@ from .foundation import Foundation
 from .fronts import force_and_radius
 from .grid import depth_bound
 
-_MAX_STEPS = 20_000
-#: Largest depth over critical depth; at larger ones the live depth is lost in rounding.
-_MAX_DEPTH_RATIO = 1e11
+#: Largest number of steps, and largest depth over critical depth.
+_MAX_STEPS, _MAX_DEPTH_RATIO = 20_000, 1e11
 
 
 def earlier_depth(history):
@@ -60,14 +57,6 @@ def foundation_before(profile, medium, history, n, depth):
     return foundation
 
 
-class ImpactRun(NamedTuple):
-    """Result of one run: its motion, the foundation when contact ends, quantities of a `ChainImpact`."""
-
-    motion: Motion
-    foundation: Foundation
-    quantities: dict[str, float]
-
-
 class BodyStep(NamedTuple):
     """One step: its ramp, the elements at its end, their exchange, and the velocity (m/s) of the body."""
 
@@ -78,40 +67,36 @@ class BodyStep(NamedTuple):
 
 
 class ImpactSolver:
-    """Time integration of one impact, with a record of every step."""
+    """Time integration of one impact: `motion`, `foundation` at the end of contact, and `quantities`."""
 
     def __init__(self, foundation, mass, speed, steps, bound):
-        self.foundation, self.mass, self.speed, self.steps, self.bound = (
-            foundation,
-            mass,
-            speed,
-            steps,
-            bound,
-        )
-        self.time, self.velocity, self.acceleration, self.records = 0.0, speed, 0.0, []
-        medium = foundation.medium
+        self.foundation, self.steps, self.bound = foundation, steps, bound
+        self.mass, self.speed, self.velocity, self.acceleration = mass, speed, speed, 0.0
+        self.time, self.records, medium = 0.0, [], foundation.medium
         self.earlier_depth, self.tau = earlier_depth(foundation.history), medium.relaxation_time
         self.yield_depth = max(self.earlier_depth, medium.critical_depth)
         # Velocities are computed to twelve digits of the velocity that damping leaves.
         tau = max(self.tau, bound * 1e-9 / speed)
         self.precision = 1e-12 * min(speed, min(bound, medium.critical_depth) / tau)
         self._record()
+        self._solve()
 
-    def run(self):
-        """`ImpactRun` from the start to the loss of contact."""
+    def _solve(self):
+        """Integrate from the start to the loss of contact."""
         self._approach()
         first, untouched = len(self.records), self.foundation
         self._advance_until(lambda: self.velocity <= self.precision, self.bound / self.speed)
         turning_time, max_force = self.time, self._max_force(untouched, first)
         # Time scale of the rebound: of an oscillator of the stiffness 2E*a, or of its creep if overdamped.
         rate = 2 * self.foundation.medium.E_star * force_and_radius(self.foundation)[1] / self.mass
-        self._advance_until(self._released, 1 / (np.sqrt(rate) + self.tau * rate))
+        unit = 1 / (np.sqrt(rate) + self.tau * rate)
+        self._advance_until(lambda: self.velocity < 0 and not self.foundation._elements.contact.any(), unit)
         # Contact ended in the last step where d + τḋ was the surface at the axis; no force acts afterwards.
         penetration = self.foundation._elements.penetration[0]
         release_time = self.time - (penetration + self.tau * self.velocity) / self.velocity
-        motion = self._motion(max(release_time, turning_time))
+        motion = self.motion = self._motion(max(release_time, turning_time))
         stored, viscous = motion.stored_energy, motion.viscous_work
-        quantities = {
+        self.quantities = {
             "restitution": -self.velocity / self.speed,
             "max_depth": motion.depth.max(),
             "max_force": max_force,
@@ -121,10 +106,6 @@ class ImpactSolver:
             # The energy that relaxing elements store at the end is dissipated afterwards.
             "viscous_work": viscous[-1] - viscous[0] + stored[-1] - stored[0],
         }
-        return ImpactRun(motion, self.foundation, quantities)
-
-    def _released(self):
-        return self.velocity < 0 and not self.foundation._elements.contact.any()
 
     def _approach(self):
         """Move freely up to the surface at the axis, within 1e-9 of the depth bound."""

@@ -30,10 +30,9 @@ def cell_edges(profile, count, half_width, nodes=()):
 
 def _fixed_edges(profile, half_width, nodes):
     """Radii (m) of the axis, flat face, kinks, wall, nodes and half-width, distinct within rounding."""
-    kinks = np.array([0.0, *profile.kinks])
     with np.errstate(all="ignore"):
         # At depth 0 the contact radius is that of the flat face.
-        own = profile.contact_radius(kinks)
+        own = profile.contact_radius(np.array([0.0, *profile.kinks]))
     radii = np.concatenate([own, [profile.wall], np.asarray(nodes, dtype=float)])
     radii = np.unique(radii[(radii > 0) & (radii < half_width * (1 - 1e-12))])
     distinct = np.diff(radii, prepend=0.0) > 1e-12 * half_width
@@ -41,10 +40,9 @@ def _fixed_edges(profile, half_width, nodes):
 
 
 def _grading(profile, fixed):
-    """Power p of the edges ξ^p within each interval; 1 for equal elements.
+    """Power p of the edges ξ^p within each interval, 1 for equal elements.
 
-    Where g rises with a vertical tangent, as (x − lower)^n with n < 1, p = 3/(1 + n) makes h³ g″ the same
-    for all elements.
+    Where g rises as (x − lower)^n with n < 1, p = 3/(1 + n) makes h³ g″ the same for all elements.
     """
     lower, length = fixed[:-1], np.diff(fixed)
     with np.errstate(all="ignore"):
@@ -57,8 +55,7 @@ def depth_bound(profile, medium, quantity, amount, start=0.0):
     """Depth (m) at which an amount of a quantity is taken up from depth `start` on, plus 5 %.
 
     The quantity is "force" (N) or "work" (J) of the springs, ∫F dd = 2E* ∫ (u_e²/2 + d_c u_p) dx, or
-    "momentum" (N s) of the dashpots, 8η ∫ a dd = 8η ∫ u dx. Accurate to a few percent (64 elements).
-    At most the known depth.
+    "momentum" (N s) of the dashpots, 8η ∫ a dd = 8η ∫ u dx. At most the known depth.
     """
     d_c = medium.critical_depth
 
@@ -79,7 +76,6 @@ def depth_bound(profile, medium, quantity, amount, start=0.0):
     if quantity == "momentum" and medium.eta == 0:
         return profile.known_depth
     known = min(profile.known_depth, _check.LARGEST)
-    guess = max(min(d_c, known, 1.0), start)
     target = amount + (taken_up(start)[0] if start > 0 else 0.0)
-    depth = increasing_root(taken_up, target, guess, known)
+    depth = increasing_root(taken_up, target, max(min(d_c, known, 1.0), start), known)
     return min(1.05 * float(depth), profile.known_depth)

@@ -1,7 +1,6 @@
 """Impact of a free rigid body on the chain: also with viscosity, and on the imprint of earlier impacts.
 
-Runs of `free_body` are refined: each has twice the elements and half the steps of the one before, and both
-errors are of second order.
+Each run has twice the elements and half the steps of the one before; both errors are of second order.
 """
 
 from dataclasses import dataclass, field, replace
@@ -87,7 +86,7 @@ def chain_impact(
 
     def solve(elements, depth, steps):
         foundation = foundation_before(profile, medium, history, count or elements, depth)
-        return ImpactSolver(foundation, mass, speed, steps, bound).run()
+        return ImpactSolver(foundation, mass, speed, steps, bound)
 
     # A first run determines the largest depth, at whose radius the next one has an edge.
     runs = [solve(_ELEMENTS, bound, _STEPS / 2)]
@@ -161,13 +160,11 @@ class ChainImpact(ImpactResult):
     viscous_work: float
     #: Estimated error that the tolerance bounds: the larger one of rebound speed (over `speed`) and depth.
     error: float
-    #: Estimated relative errors of four quantities.
     errors: ChainErrors
     #: The foundation when contact ends, from which another impact may start.
     foundation: Foundation = field(repr=False)
     _motion: Motion = field(repr=False)
 
-    #: Model that was solved.
     model = CHAIN
 
     @cached_property

@@ -1,8 +1,7 @@
 """Refinement of a computation until its result is known to a tolerance.
 
 A run of level k has 2^k times the elements and steps of the run of level 0. The limit for vanishing steps
-is extrapolated from the last runs (Richardson). Its error is estimated by its change from level to level,
-relative to the largest absolute value of the same quantity.
+is extrapolated from the last runs (Richardson); its error is estimated by its change from level to level.
 """
 
 from itertools import pairwise
@@ -21,25 +20,11 @@ def extrapolate(runs, orders):
 def refine(run, tolerance, levels, controlled, *, orders=(), runs=2, trust=0.0, floor=0.0):
     """Limit of ever finer runs, and the estimated relative error of each quantity.
 
-    Parameters
-    ----------
-    run : callable
-        Result of a level as an array, with one quantity per entry of its last axis.
-    tolerance : float
-        Refinement ends when the errors of the first `controlled` quantities are at most this.
-    levels, runs : int
-        Largest and smallest number of runs. A single change may be small by chance.
-    orders : tuple of int
-        Orders of the errors that are extrapolated away; by default none.
-    trust : float or ndarray
-        Smallest error as a share of the correction by the extrapolation.
-    floor : float or ndarray
-        Smallest value of each quantity to which its error is relative.
-
-    Returns
-    -------
-    limit, errors : ndarray
-        The errors are at least half the tolerance, and infinite after a single run.
+    `run(level)` returns an array with one quantity per entry of its last axis. Refinement ends when the
+    errors of the first `controlled` quantities are at most the tolerance, after `runs` to `levels` runs: a
+    single change may be small by chance. Errors of these `orders` are extrapolated away. `trust` is the
+    smallest error as a share of this correction, `floor` the smallest value to which an error is relative.
+    Errors are at least half the tolerance, and infinite after a single run.
     """
     values, limit, errors = [], None, np.inf
     for level in range(levels):
