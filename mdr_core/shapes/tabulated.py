@@ -5,7 +5,6 @@ own (`OneLength`) these are functions of one variable, tabulated once for the cl
 table of one profile.
 """
 
-from abc import abstractmethod
 from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache, partial
 
@@ -35,14 +34,9 @@ class RadiusTable:
     2. From depth 0 to the first edge a(s) is taken as the radius of the face plus a power of s. The panel
        there is the parabola that has the integrals of this power.
 
-    Parameters
-    ----------
-    radius : callable
-        a(s) (m) at arrays of depths (m).
-    edges : array_like
-        Depths (m), ascending: the first and the last one of the table, and all kinks between them.
-    unit : float
-        Unit of depth (m) of the polynomials: powers of depths over it must stay within double precision.
+    `radius` is a(s) (m) at arrays of depths (m); `edges` are depths (m), ascending: the first and the last
+    one of the table, and all kinks between them. Powers of depths over `unit` (m) must stay within double
+    precision.
     """
 
     def __init__(self, radius, edges, unit=1.0):
@@ -106,8 +100,7 @@ class RadiusTable:
 
 def _panels(radius, edges):
     """Lower edges of panels, ascending, and coefficients of their polynomials, highest power first."""
-    low, high = edges[:-1], edges[1:]
-    panels = []
+    low, high, panels = edges[:-1], edges[1:], []
     while low.size:
         width = high - low
         values = radius(low[:, None] + width[:, None] * _NODE)
@@ -116,8 +109,7 @@ def _panels(radius, edges):
         below = low - edges[np.searchsorted(edges, low, side="right") - 1]
         rough &= width > np.maximum(below / 8, 2.0**-44 * high)
         powers = np.linalg.solve(np.vander(_NODE), values.T) / width ** np.arange(_COUNT)[::-1, None]
-        panels.append((low, powers.T))
-        panels[-1] = tuple(array[~rough] for array in panels[-1])
+        panels.append((low[~rough], powers.T[~rough]))
         low, high = low[rough], high[rough]
         low, high = np.append(low, (low + high) / 2), np.append((low + high) / 2, high)
     low, powers = (np.concatenate(arrays) for arrays in zip(*panels, strict=True))
@@ -134,7 +126,6 @@ class OneLength(Profile):
 
     _length: float
     _depth: float
-
     #: u at which G starts to grow, 0, or 1 at the edge of a flat face; and the largest u.
     _edge, _end = 0.0, np.inf
 
@@ -143,29 +134,11 @@ class OneLength(Profile):
         units = {field.name: "" if field.name == "slope" else "m" for field in fields(self)}
         _check.set_positive(self, **units)
 
-    @staticmethod
-    @abstractmethod
-    def _Z(u): ...
-
-    @staticmethod
-    @abstractmethod
-    def _G(u): ...
-
-    @staticmethod
-    @abstractmethod
-    def _G_slope(u): ...
-
     face_radius = property(lambda self: self._edge * self._length)
     transition_depth = property(lambda self: self._depth)
-
-    @cached_property
-    def unit(self):
-        return _unit(type(self)), self._length, self._depth
-
-    @property
-    def table(self):
-        """The `RadiusTable` of the unit profile."""
-        return _unit_table(type(self))
+    unit = property(lambda self: (_unit(type(self)), self._length, self._depth))
+    #: The `RadiusTable` of the unit profile.
+    table = property(lambda self: _unit_table(type(self)))
 
     def _height(self, r):
         return self._depth * self._Z(r / self._length)
