@@ -4,9 +4,7 @@
    and where either end of the live interval passes a kink of g.
 2. A leg is a sequence of steps: in the depth while the depth changes faster, relative to itself, than the
    velocity, and in the velocity near the turning point. Each impact has step lengths of its own.
-3. The last Legendre coefficients of a step are the estimate of its error: they accept or refuse the step,
-   and set the length of the next one.
-4. The force is largest on loading: it is searched for next to the node where it is largest.
+3. The last Legendre coefficients of a step are the estimate of its error, which sets the next length.
 """
 
 from dataclasses import dataclass
@@ -18,8 +16,6 @@ from .energy_balance import loading_interval
 from .equation_of_motion import Loading, MotionState, Unloading
 from .steps import DepthCoordinate, DepthSteps, VelocitySteps
 
-#: Relative error of a step from its last coefficients; at the ends of steps the error is far smaller.
-TOLERANCE = 1e-5
 _MOST_STEPS = 3000
 
 
@@ -51,8 +47,8 @@ class Solution:
 
 
 @np.errstate(all="ignore")
-def solve(bodies, tolerance=TOLERANCE):
-    """The `Solution` of impacts, from first contact to the loss of contact."""
+def solve(bodies, tolerance=1e-5):
+    """The `Solution` of impacts; the tolerance is that between nodes: at ends errors are far smaller."""
     # A step that is too long may leave double precision; it is then repeated, shorter.
     turning_point, loading = _load(bodies, tolerance)
     end, unloading = _unload(bodies, turning_point, tolerance)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from ..limits import Limit, friction_limits
 from ..medium import Medium, check_pair, shape_with
 from ..results import Entries, Model, Result
 from ..shapes.profile import Profile
-from .impact import Impact, impact
+from .impact import Impact, impact, quantity_of
 from .oblique_motion import ObliqueMotion, oblique_motion
 from .surface import EXACT, SurfaceSolution, solve_surface
 
@@ -45,7 +45,7 @@ def oblique_impact(
     Parameters
     ----------
     profile, medium
-        The indenter, and the medium: elastic, yielding or viscous; its `poisson` is ν.
+        The indenter, and the medium; its `poisson` is ν.
     mass, speed : float or array_like
         Mass m (kg) and normal speed v₀ (m/s) at first contact, positive.
     tangential_speed : float or array_like
@@ -143,6 +143,8 @@ class ObliqueImpact(Entries, Result):
     friction: Array
     tangential_mass: Array
     _surface: SurfaceSolution
+    #: How the tangential motion was solved.
+    model: ClassVar[Model] = FRICTION
     _quantities = (
         "mass", "speed", "tangential_speed", "friction", "tangential_mass", "restitution",
         "tangential_velocity", "tangential_restitution", "rebound_angle", "max_depth", "max_force",
@@ -154,6 +156,16 @@ class ObliqueImpact(Entries, Result):
     )  # fmt: skip
     _dimensions = ("impact",)
 
+    mass = quantity_of("normal.mass", "Mass m (kg).")
+    speed = quantity_of("normal.speed", "Normal speed v₀ (m/s) before.")
+    restitution = quantity_of("normal.restitution", "Normal coefficient of restitution e.")
+    contact_time = quantity_of("normal.contact_time", "Time (s) from first contact to the loss of contact.")
+    max_depth = quantity_of("normal.max_depth", "Largest depth (m).")
+    max_force = quantity_of("normal.max_force", "Largest normal force (N).")
+    plastic_work = quantity_of("normal.plastic_work", "Energy (J) dissipated by yielding.")
+    max_tangential_force = quantity_of("_surface.max_force", "Largest tangential force (N), without sign.")
+    friction_work = quantity_of("_surface.friction_work", "Energy (J) dissipated by slip.")
+
     @property
     def profile(self) -> Profile:
         """The indenter."""
@@ -164,71 +176,10 @@ class ObliqueImpact(Entries, Result):
         """The medium."""
         return self.normal.medium
 
-    @property
-    def model(self) -> Model:
-        """How the tangential motion was solved."""
-        return FRICTION
-
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """Where the model's assumptions end, as data: those of the normal impact, and those of friction.
-
-        Examples
-        --------
-        >>> from mdr_core import Cone, Medium
-        >>> hit = oblique_impact(Cone(0.1), Medium(1e9, 10.0, poisson=0.3), 1e-12, 0.1, 0.1, 0.3)
-        >>> for limit in hit.limits:
-        ...     print(limit.what, round(limit.value, 3), limit.holds)
-        slope 0.1 True
-        coupling 0.286 False
-        slip direction 0.088 True
-        """
+        """Where the model's assumptions end, as data: those of the normal impact, and those of friction."""
         return (*(x for x in self.normal.limits if x.concerns == "result"), *friction_limits(self.medium))
-
-    @property
-    def mass(self) -> Array:
-        """Mass m (kg)."""
-        return self.normal.mass
-
-    @property
-    def speed(self) -> Array:
-        """Normal speed v₀ (m/s) before."""
-        return self.normal.speed
-
-    @property
-    def restitution(self) -> Array:
-        """Normal coefficient of restitution e."""
-        return self.normal.restitution
-
-    @property
-    def contact_time(self) -> Array:
-        """Time (s) from first contact to the loss of contact."""
-        return self.normal.contact_time
-
-    @property
-    def max_depth(self) -> Array:
-        """Largest depth (m)."""
-        return self.normal.max_depth
-
-    @property
-    def max_force(self) -> Array:
-        """Largest normal force (N)."""
-        return self.normal.max_force
-
-    @property
-    def plastic_work(self) -> Array:
-        """Energy (J) dissipated by yielding."""
-        return self.normal.plastic_work
-
-    @property
-    def max_tangential_force(self) -> Array:
-        """Largest tangential force (N), without sign."""
-        return self._surface.max_force
-
-    @property
-    def friction_work(self) -> Array:
-        """Energy (J) dissipated by slip."""
-        return self._surface.friction_work
 
     @property
     def slips_throughout(self) -> Any:
@@ -263,11 +214,11 @@ class ObliqueImpact(Entries, Result):
     @property
     def errors(self) -> ObliqueErrors:
         """Estimated relative errors by the name of the quantity, as in `errors.friction_work`."""
-        normal, surface, exact = self.normal, self._surface, np.full(self.shape, EXACT)[()]
+        surface, exact = self._surface, np.full(self.shape, EXACT)[()]
         energy = self.tangential_mass * self.tangential_speed**2 / 2
-        viscous = surface.viscous_error * energy + EXACT * normal.viscous_work
+        viscous = surface.viscous_error * energy + EXACT * self.normal.viscous_work
         return ObliqueErrors(
-            restitution=EXACT * normal.restitution,
+            restitution=EXACT * self.restitution,
             tangential_velocity=surface.change_error,
             tangential_restitution=surface.change_error,
             max_tangential_force=surface.force_error,
@@ -281,7 +232,7 @@ class ObliqueImpact(Entries, Result):
         """The motion of one impact at n instants, normal and tangential, with stick and slip.
 
         Instants are equally spaced before the turning point, and again after it. The elements are those of
-        the finest run; the energies sum to the same at every instant.
+        the finest run.
 
         Examples
         --------

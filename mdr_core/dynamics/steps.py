@@ -1,9 +1,8 @@
 """Steps of an equation of motion by collocation, in the depth or in the velocity, many impacts at once.
 
-Time is eliminated: the unknown of a step is the velocity as a function of the depth, or the depth as a
-function of the velocity where the body is about to turn round or has just done so. Every step therefore
-ends at a depth or velocity known beforehand, and no event is searched for. The unknown is a polynomial
-through 24 Gauss nodes, from Newton's method; time and viscous work are integrals over the step.
+The unknown of a step is the velocity as a function of the depth, or near the turning point the depth as a
+function of the velocity: every step ends at a known depth or velocity. The unknown is a polynomial through
+24 Gauss nodes, from Newton's method; time and viscous work are integrals over the step.
 """
 
 from dataclasses import dataclass, replace
@@ -36,10 +35,6 @@ class DepthCoordinate(Entries):
     def delta(self, depth):
         """Coordinates of depths (m)."""
         return cube_way(self.root, depth - self.base)
-
-    def rate(self, delta):
-        """dq/dδ."""
-        return 3 * (self.root + delta) ** 2
 
 
 @dataclass(frozen=True)
@@ -117,7 +112,7 @@ class DepthSteps(Steps):
     def _slopes(self, delta):
         """Function from the unknown to slopes of unknown, time and work, and ∂(first)/∂(unknown)."""
         load, radius = self.equation.load(self.coordinate.depth(delta))
-        damping, depth_rate = self.equation.damping(radius), self.coordinate.rate(delta)
+        damping, depth_rate = self.equation.damping(radius), 3 * (self.coordinate.root + delta) ** 2
 
         def slopes(velocity):
             rate, acceleration, power = self.equation.rates(load, radius, velocity)

@@ -20,10 +20,6 @@ from .profile import Profile
 _COUNT = 10
 _NODE = (1 + np.cos(np.pi * (np.arange(_COUNT) + 0.5) / _COUNT)) / 2
 _TO_LAST = np.linalg.inv(np.polynomial.chebyshev.chebvander(2 * _NODE - 1, _COUNT - 1))[-2:]
-#: A panel resolves a(s) where its last Chebyshev coefficients are smaller than this share of a(s).
-_RESOLVED = 1e-15
-#: Octaves of a table on each side of the unit of depth of a class, and below the first kink of one profile.
-_OCTAVES, _OCTAVES_OF_ONE = 100, 64
 
 
 class RadiusTable:
@@ -104,7 +100,7 @@ def _panels(radius, edges):
     while low.size:
         width = high - low
         values = radius(low[:, None] + width[:, None] * _NODE)
-        rough = np.abs(values @ _TO_LAST.T).max(axis=1) > _RESOLVED * values.min(axis=1)
+        rough = np.abs(values @ _TO_LAST.T).max(axis=1) > 1e-15 * values.min(axis=1)
         # Halving helps no more where rounding of a(s), or of the depth, is what is left.
         below = low - edges[np.searchsorted(edges, low, side="right") - 1]
         rough &= width > np.maximum(below / 8, 2.0**-44 * high)
@@ -175,7 +171,7 @@ def _unit(kind):
 @lru_cache
 def _unit_table(kind):
     """The `RadiusTable` of the unit profile of a class; the kinks of these are at the unit of depth."""
-    edges = np.ldexp(1.0, np.arange(-_OCTAVES, _OCTAVES + 1))
+    edges = np.ldexp(1.0, np.arange(-100, 101))
     end = min(_unit(kind).known_depth, edges[-1])
     with np.errstate(all="ignore"):
         return RadiusTable(partial(_unit_radius, kind), np.append(edges[edges < end], end))
@@ -201,7 +197,7 @@ class Tabulated(Profile):
     @cached_property
     def table(self):
         kinks = [kink for kink in self.kinks if kink < self.known_depth] + [self.known_depth]
-        edges = np.append(np.ldexp(kinks[0], np.arange(-_OCTAVES_OF_ONE, 0)), kinks)
+        edges = np.append(np.ldexp(kinks[0], np.arange(-64, 0)), kinks)
         with np.errstate(all="ignore"):
             return RadiusTable(
                 lambda s: self.profile._radius(np.minimum(s, self.known_depth)), edges, self.known_depth
