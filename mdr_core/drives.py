@@ -19,10 +19,7 @@ from .results import CHAIN, CLOSED_FORM, SCALAR_ODE, Model
 
 
 class _Path:
-    """Base class of a path of a quantity, the first field of a subclass, with or without `time`.
-
-    A subclass has the unit of the quantity, and the functions that solve slow paths and paths in time.
-    """
+    """Base class of a path of a quantity, the first field of a subclass, with or without `time`."""
 
     _unit: ClassVar[str]
     _slowly: ClassVar[Callable[..., Indentation]]
@@ -116,11 +113,8 @@ class FreeImpact:
             object.__setattr__(self, name, value)
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models for this drive, the cheapest exact one first.
-
-        The chain is not available for an imprint, because its state is more than the plastic depth: use
-        `chain_impact(start=…)`.
-        """
+        """Names of the models for this drive, the cheapest exact one first."""
+        # The state of a chain with an imprint is more than the plastic depth: `chain_impact(start=…)`.
         models = (SCALAR_ODE, CHAIN) if medium.eta > 0 else (CLOSED_FORM, SCALAR_ODE, CHAIN)
         return models[:-1] if self.plastic_depth > 0 else models
 

@@ -47,8 +47,7 @@ class ScalingLaw:
 
     def __post_init__(self):
         _check.one_of("hardness class", self.hardness, _FORCE_POWER)
-        exponent = _check.positive_number("ScalingLaw exponent", self.exponent)
-        object.__setattr__(self, "exponent", exponent)
+        object.__setattr__(self, "exponent", _check.positive_number("ScalingLaw exponent", self.exponent))
 
     @property
     def force(self) -> int:
@@ -122,10 +121,8 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
     radius = np.atleast_1d(_check.positive("radius", radius, unit="m"))
     x, y = np.log(energy.ravel()), np.log(radius.ravel())
     if energy.shape != radius.shape or np.all(x == x[:1]):
-        raise ValueError(
-            f"energy {energy.shape} and radius {radius.shape} must be of the same shape, with at least two "
-            "different energies"
-        )
+        bound = "must be of the same shape, with at least two different energies"
+        raise ValueError(f"energy {energy.shape} and radius {radius.shape} {bound}")
     laws = {name: ScalingLaw(name, exponent) for name in _FORCE_POWER}
     slope, error = straight_line(x, y)
     expected = {name: (law.radius, _MAX_ERROR * law.radius) for name, law in laws.items()}
@@ -179,11 +176,10 @@ class FastLimit(Entries, Report):
     contact_area_error: Array
     restitution_error: Array
 
-    _quantities = (
+    _quantities = _shown = (
         "max_depth", "contact_area", "restitution", "max_depth_error", "contact_area_error",
         "restitution_error",
     )  # fmt: skip
-    _shown = _quantities
     _dimensions = ("impact",)
 
 
@@ -219,23 +215,16 @@ def how_fast(hit):
     except ValueError as error:
         text = f"{equations} do not hold: {error}."
         return (Limit("fast limit", np.inf, _MAX_ERROR, True, text, equations),)
-    area, depth = (
-        float(np.ravel(error)[np.argmax(np.abs(error))])
-        for error in (limit.contact_area_error, limit.max_depth_error)
-    )
+    errors = limit.contact_area_error, limit.max_depth_error
+    area, depth = (float(np.ravel(error)[np.argmax(np.abs(error))]) for error in errors)
     # Without yield errors may cross zero by chance, hence the share of the viscous work is a criterion too.
     viscous = float(np.max(hit.viscous_work / (hit.mass * hit.speed**2 / 2)))
     value = max(abs(area), abs(depth), viscous)
     exceeded = value > _MAX_ERROR or not first
-    text = f"The fast limit, {equations}, {'does not hold' if exceeded else 'holds'}: "
-    text += f"{_percent(area)} of the area, {_percent(depth)} of the depth"
+    errors = f"{100 * area:+.3g} % of the area, {100 * depth:+.3g} % of the depth".replace("-", "−")
+    text = f"The fast limit, {equations}, {'does not hold' if exceeded else 'holds'}: {errors}"
     if viscous > _MAX_ERROR:
         text += f", and viscosity takes {100 * viscous:.3g} % of the energy"
     if not first:
         text += ", because it is for the first impact on a spot"
     return (Limit("fast limit", value, _MAX_ERROR, exceeded, f"{text}.", equations),)
-
-
-def _percent(share):
-    """A share with its sign, as text."""
-    return f"{100 * share:+.3g} %".replace("-", "−")

@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 
 __all__ = ["cost", "impacts", "indentations", "oblique_impacts"]
 
-#: Entries that are solved at a time; besides its results a block needs some tens of MB.
+#: Entries that are solved at a time, with some tens of MB.
 _BLOCK = 2**17
 
 
@@ -135,8 +135,6 @@ def oblique_impacts(
 
     Examples
     --------
-    Energy dissipated by friction as a function of the angle of attack:
-
     >>> import xarray as xr
     >>> from mdr_core import Paraboloid
     >>> attack = xr.DataArray(np.radians([30.0, 60.0, 90.0]), dims="attack")
@@ -218,9 +216,8 @@ def cost(solve: Callable[..., "xarray.Dataset"], shape: "Shape", **arguments: An
 
 def _timed(solve, shape, arguments):
     """Time (s) of a sweep, and the number of its results."""
-    start = perf_counter()
-    solved = solve(shape, **arguments)
-    return perf_counter() - start, float(np.prod(list(solved.sizes.values())))
+    start, sizes = perf_counter(), solve(shape, **arguments).sizes
+    return perf_counter() - start, float(np.prod(list(sizes.values())))
 
 
 def _sweep(kind, solve, shape, parameters, shape_parameters, quantities):
@@ -318,8 +315,8 @@ def _press(profile, E_star, q_c, depth):
 
 def _attributes(kind, shape, given):
     """Attributes of the dataset: the parameters, for arrays their dimensions."""
-    indenter = shape.__name__ if isclass(shape) else described(shape)
+    profile = shape.__name__ if isclass(shape) else described(shape)
     varied = {name: "over " + " × ".join(value.dims) for name, value in given.items() if np.ndim(value)}
     fixed = {name: float(value) for name, value in given.items() if name not in varied}
-    about = {"result": kind.__name__, "model": "MDR, V. L. Popov 2015", "indenter": indenter}
+    about = {"result": kind.__name__, "model": "MDR, V. L. Popov 2015", "indenter": profile}
     return about | fixed | varied

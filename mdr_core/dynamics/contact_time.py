@@ -19,13 +19,14 @@ _TRANSITIONS, _LENGTHS = np.array([1.0, 6.0]), 5 * 25.0 ** np.arange(6)
 def contact_time(profile, inertia, speed, interval, increase):
     """Time (s) from first contact to its loss, elementwise.
 
-    From inertia m/(2E*) (m s²), speed v₀ (m/s), live interval at the turning point, and increase (m) of the
-    plastic depth by the impact. Profile, inertia and speed broadcast to the shape of the other two.
+    From inertia m/(2E*) (m s²), speed v₀ (m/s), and, of full shape, the live interval at the turning point
+    and the increase (m) of the plastic depth.
     """
     shape = np.shape(interval.upper)
     factor = np.broadcast_to(np.sqrt(inertia / 2), shape).ravel()
-    increase = np.ravel(increase)
-    lower, upper, length = (np.ravel(end) for end in (interval.lower, interval.upper, interval.length))
+    lower, upper, length, increase = map(
+        np.ravel, (interval.lower, interval.upper, interval.length, increase)
+    )
     passage = np.broadcast_to(upper.reshape(shape) / speed, shape).ravel()
     virgin, forms = increase == lower, closed_forms(profile)
     exponent, similar = (forms.elastic_exponent, forms.similar) if forms else (None, None)
@@ -51,15 +52,8 @@ def contact_time(profile, inertia, speed, interval, increase):
 
 
 def elastic_time(p):
-    """Contact time over d_max/v₀ of an elastic impact with F ∝ dᵖ.
-
-    Examples
-    --------
-    >>> print(round(elastic_time(1.5), 10))  # Hertz
-    2.9432751843
-    """
-    q = 1 / (p + 1)
-    gamma = scipy.special.gamma
+    """Contact time over d_max/v₀ of an elastic impact with F ∝ dᵖ: 2.9433 for p = 3/2 (Hertz)."""
+    q, gamma = 1 / (p + 1), scipy.special.gamma
     return 2 * np.sqrt(np.pi) * gamma(1 + q) / gamma(0.5 + q)
 
 
@@ -100,7 +94,6 @@ def time_over_root(profile, interval, increase):
     breaks = np.empty((1, 0))
     if profile.transition_depth is not None:
         breaks = np.atleast_2d(np.multiply.outer(profile.transition_depth, _TRANSITIONS))
-
     time, _ = stretch(lambda s, rows: (lower[rows], s), lower, length, kinks - lower, breaks - lower)
     # Loading deeper than the critical depth.
     both = np.hstack([kinks - before, kinks - before - length])
@@ -133,9 +126,8 @@ def _stretch(profile, interval_at, upper, length, kinks, breaks, distance=0.0, w
         if subset.any():
             node, weight, tail = _rule(count)
             row, at = rows[subset, None], start[subset, None]
-            depth, rate = _places(
-                at - origin[subset, None], size[subset, None], remainder[subset, None], node
-            )
+            sizes = size[subset, None], remainder[subset, None]
+            depth, rate = _places(at - origin[subset, None], *sizes, node)
             entries = profile.entries((row,), (len(length),))
             flow = _flow(entries, *interval_at(at + depth, row[:, 0])) * rate
             # Not by @: for sums as short as these the threads of BLAS take a second core, and no less time.
@@ -165,9 +157,8 @@ def _places(offset, size, remainder, node):
     """Nodes of pieces as depths from their start (m), and their rates by the node.
 
     A piece starts `offset` (m) below the depth where a(s) starts as a root, has the length `size`, and ends
-    `remainder` above the turning point. With W the distance to the turning point in σ = ∛depth,
-    σ = ∛offset + W u(2 − u): smooth enough in u from the root on, and with a velocity that is linear in u
-    at the turning point, u = 1.
+    `remainder` above the turning point. With W the distance to it in σ = ∛depth, σ = ∛offset + W u(2 − u):
+    smooth in u from the root on, with a velocity that is linear in u at the turning point, u = 1.
     """
     first = np.cbrt(offset)
     rise = cube_way(first, size + remainder)

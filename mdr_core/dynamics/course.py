@@ -75,10 +75,7 @@ class Branch:
 
 
 class CourseState(NamedTuple):
-    """States of one impact: depth (m), velocity (m/s), live interval, increase of the plastic depth (m).
-
-    Viscous work is over 2E* (m³), with the energy that released elements are still to lose.
-    """
+    """States of one impact in SI units; viscous work over 2E*, with what released elements are to lose."""
 
     depth: np.ndarray
     velocity: np.ndarray
@@ -88,10 +85,7 @@ class CourseState(NamedTuple):
 
 
 class Course:
-    """Motion of one `Impact`, viscous or not, from first contact to the loss of contact.
-
-    `loading` and `unloading` are its branches; times (s) of the turning point and of the end.
-    """
+    """Motion of one `Impact` from first contact to its loss: two branches, and when (s) they end."""
 
     def __init__(self, hit):
         self._turning_point, self._increase = hit.turning_point, hit.plastic_depth_increase

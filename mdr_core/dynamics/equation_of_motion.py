@@ -9,7 +9,7 @@ y = d − p₀ into an imprint of plastic depth p₀, the plastic depth p, the l
     loading     μ v̇ = −(Φ + τ a v)     ẏ = v              ẇ = τ a v²        until v = 0
     unloading   μ v̇ = −Φ               ℓ̇ = v + τ v̇       ẇ = τ a v ℓ̇     until ℓ = 0
 
-2E* w is the viscous work, including the energy that released elements are still to lose. `steps` and `legs`
+2E* w is the viscous work, with the energy that released elements are still to lose. `steps` and `legs`
 solve these equations, in the depth q = y or ℓ and the velocity v.
 """
 
@@ -116,8 +116,8 @@ class Loading(Entries):
         return slope + self.bodies.relaxation_time * velocity * spread
 
     def _interval(self, depth):
-        depth = np.maximum(depth, 0.0)
-        return loading_interval(depth, self.bodies.critical_depth, self.bodies.imprint_depth)
+        bodies = self.bodies
+        return loading_interval(np.maximum(depth, 0.0), bodies.critical_depth, bodies.imprint_depth)
 
 
 @dataclass(frozen=True)

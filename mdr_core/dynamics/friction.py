@@ -33,10 +33,7 @@ def bound_ratio(hit, speed, friction):
 
 
 class SurfaceElements(NamedTuple):
-    """Elements between levels, the flat face first: outer edges, widths, mean depths (m).
-
-    `delay` is the share of its first step after which an element is covered.
-    """
+    """Elements between levels: outer edges, widths, mean depths (m), share of the first step before."""
 
     edge: np.ndarray
     width: np.ndarray
@@ -93,10 +90,7 @@ def _largest(time, values):
 
 
 def slide(hit, levels, inertia, ratio, instants=()):
-    """One `FrictionRun` of a body of tangential speed 1 under a normal `Impact`.
-
-    With C = `inertia` (1/(m s²)), and B the `ratio` times the normal load.
-    """
+    """One `FrictionRun` of a body of speed 1: C = `inertia` (1/(m s²)), B = `ratio` × normal load."""
     tau, d_c = float(hit.medium.relaxation_time), hit.medium.critical_depth
     elements = SurfaceElements.of(hit.profile, levels.depth)
     plastic_depth = np.maximum(levels.depth - d_c, 0.0)
@@ -138,9 +132,9 @@ def stick_instants(hit, run, ratio):
 class FrictionRun:
     """One run in units of the initial tangential speed: the elements during it, and its records.
 
-    Each element in contact has a load Q and a displacement s (s). Records at every time (s) are the velocity,
-    force over 2κE* (m s), stored, viscous and friction energy over 2κE* (m s²); `element_states` are loads
-    of elements, and whether they stick, by the numbers of the requested `instants`.
+    Each element in contact has a load Q and a displacement s (s). Records at every time (s) are velocity,
+    force over 2κE* (m s), stored, viscous and friction energy over 2κE* (m s²); `element_states` are
+    loads of elements, and whether they stick, by the numbers of the requested `instants`.
     """
 
     def __init__(self, elements, inertia, tau, time, instants):
@@ -164,10 +158,7 @@ class FrictionRun:
         self.bound[old:count] = bound
 
     def step(self, i, bound, changing):
-        """A step to the instant i, at which elements carry at most `bound`.
-
-        The `changing` ones (a slice) are covered or released within the step.
-        """
+        """A step to the instant i, with bounds there; `changing` elements are covered or released."""
         h = self.time[i] - self.time[i - 1] if i else 0.0
         n, width = self.count, self.elements.width[: self.count]
         start_load, s = self.load[:n], self.s[:n]

@@ -45,8 +45,7 @@ def impact(
 ) -> "Impact":
     """Let a body of given mass hit the medium at given speed, with no other force acting.
 
-    Contact starts at the bottom of the imprint, on a virgin medium at depth 0, and ends when the force
-    returns to zero.
+    Contact starts at the bottom of the imprint (depth 0 on a virgin medium), and ends at zero force.
 
     Parameters
     ----------
@@ -68,8 +67,7 @@ def impact(
     Raises
     ------
     ValueError
-        If a mass or a speed is not finite and positive, shapes do not broadcast, or the indenter
-        would go deeper than its profile is known.
+        If an argument is out of its range, or the indenter would go deeper than its profile is known.
 
     Examples
     --------
@@ -159,6 +157,7 @@ class Impact(ImpactResult):
     speed: Array
     turning_point: Indentation
     plastic_depth_increase: np.ndarray
+    #: Quantities by the equation of motion, and where it was "solved"; None if nowhere.
     _integrated: dict[str, Array] | None = None
 
     @cached_property
@@ -167,9 +166,7 @@ class Impact(ImpactResult):
         limits = contact_limits(self.profile, self.medium, self.contact_radius)
         return (*limits, *how_fast(self))
 
-    @cached_property
-    def _course(self):
-        return Course(self)
+    _course = cached_property(lambda self: Course(self))
 
     def __getitem__(self, index: Any) -> "Impact":
         state, increase = self.turning_point[index], self.plastic_depth_increase[index]
@@ -218,15 +215,15 @@ class Impact(ImpactResult):
     @_check.frozen_property
     def restitution(self):
         """Coefficient of restitution e, speed after over speed before."""
-        interval, increase = self.turning_point.live_interval, self.plastic_depth_increase
-        d_c = self.medium.critical_depth
-        return self._merged("restitution", lambda: dry_restitution(self.profile, interval, d_c, increase))
+        interval, d_c = self.turning_point.live_interval, self.medium.critical_depth
+        arguments = self.profile, interval, d_c, self.plastic_depth_increase
+        return self._merged("restitution", lambda: dry_restitution(*arguments))
 
     @_check.frozen_property
     def contact_time(self):
         """Time (s) from first contact to the loss of contact."""
-        interval, increase = self.turning_point.live_interval, self.plastic_depth_increase
-        arguments = self.profile, self.mass / (2 * self.medium.E_star), self.speed, interval, increase
+        inertia, interval = self.mass / (2 * self.medium.E_star), self.turning_point.live_interval
+        arguments = self.profile, inertia, self.speed, interval, self.plastic_depth_increase
         return self._merged("contact_time", lambda: contact_time(*arguments))
 
     @property

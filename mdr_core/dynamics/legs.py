@@ -21,10 +21,7 @@ _MOST_STEPS = 3000
 
 @dataclass(frozen=True)
 class Solution:
-    """Turning point and loss of contact of impacts, as states (N, 1), and steps with their impacts.
-
-    The depth of the turning point is the penetration y (m), infinite where it exceeds the known depth.
-    """
+    """States (N, 1) at turning point (infinite below the known depth) and end; steps with their impacts."""
 
     turning_point: MotionState
     end: MotionState
@@ -97,8 +94,8 @@ def _unload(bodies, turning_state, tolerance):
 class _Leg:
     """One leg of impacts, from a `state` to a depth `edge` (m) or to the turning point, one impact a row.
 
-    A subclass gives the sign of its steps in depth, the kind of steps that run towards zero, the margin by
-    which a depth may pass the edge in rounding, and `_room`: the distance to the end, and the longest step.
+    A subclass gives the sign of steps in depth, the kind of steps that run towards zero, the rounding by
+    which a depth may pass the edge, and `_room`: the distance to the end, and the longest step.
     """
 
     def __init__(self, equation, coordinate, edge, state):
@@ -159,7 +156,7 @@ class _Leg:
         factor = np.clip(0.9 * (tolerance / error) ** (1 / 30), 0.3, 3.0)
         factor[passed] = 0.3
         if kind is self.vanishing:
-            # What remains shrinks, and the steps in proportion to it.
+            # Steps shrink in proportion to the remainder.
             factor = np.where(good, factor * (1 - length / room)[:, 0], np.where(last, 0.85, factor))
         self.length[rows] = length * factor[:, None]
         taken, ended = rows[good], rows[good & last]

@@ -37,10 +37,9 @@ def oblique_impact(
 ) -> "ObliqueImpact":
     """Let a body hit the medium with a speed along the surface as well, under Coulomb's friction.
 
-    Popov's outlook (2015): every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν)
-    times as stiff and as viscous (Mindlin). It sticks while its load is at most the friction coefficient
-    times the normal load, and slips otherwise. Yield limits the normal springs only; friction acts under
-    the normal load of springs and dashpots.
+    Every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν) times as stiff and as
+    viscous (Mindlin; outlook of Popov 2015). It sticks while its load is at most μ times the normal load of
+    spring and dashpot, and slips otherwise. Yield limits the normal springs only.
 
     Parameters
     ----------
@@ -49,13 +48,13 @@ def oblique_impact(
     mass, speed : float or array_like
         Mass m (kg) and normal speed v₀ (m/s) at first contact, positive.
     tangential_speed : float or array_like
-        Speed W₀ (m/s) of the contact point along the surface, of any sign: that of a body that does not
-        spin, otherwise `Ball.contact_speed`. `at_angle` gives both speeds from a speed and an angle.
+        Speed W₀ (m/s) of the contact point along the surface, of any sign: see `at_angle`, and for bodies
+        that spin `Ball.contact_speed`.
     friction : float or array_like
         Coefficient of friction μ, the same for stick and slip; 0 and infinity are allowed.
     tangential_mass : float or array_like, optional
-        Effective mass m_t (kg) at the contact point along the surface, 1/m_t = 1/m + R²/I; by default m,
-        that of a body that cannot turn. `Ball.tangential_mass` is that of a ball.
+        Effective mass m_t (kg) at the contact point along the surface, 1/m_t = 1/m + R²/I, as by
+        `Ball.tangential_mass`; by default m, that of a body that cannot turn.
     tolerance : float, optional
         Error allowed in the tangential velocity relative to the tangential speed, and in work and largest
         force relative to themselves (or to a hundredth of the tangential energy, where work is less).
@@ -73,23 +72,24 @@ def oblique_impact(
     Examples
     --------
     A ball that slips throughout, Maw, Barber & Fawcett (1976): with ψ = κW/(μv) and χ = κm/(2m_t),
-    ψ₂ = ψ₁ − 4χ, here for κ = 2/3 and χ = 7/6.
+    ψ₂ = ψ₁ − 4χ, here ψ₁ = 4 and χ = 7/6.
 
     >>> from mdr_core import Ball, Medium, Paraboloid
-    >>> ball = Ball(mass=1e-3, radius=5e-3)
-    >>> medium = Medium(E_star=1e9)
-    >>> hit = oblique_impact(
-    ...     Paraboloid(5e-3), medium, 1e-3, 1.0, 3.0, 0.5, tangential_mass=ball.tangential_mass
-    ... )
-    >>> print(round(hit.tangential_velocity * (2 / 3) / 0.5, 9), round(3.0 * (2 / 3) / 0.5 - 4 * 7 / 6, 9))
-    -0.666666667 -0.666666667
+    >>> ball, medium = Ball(mass=1e-3, radius=5e-3), Medium(E_star=1e9)
+    >>> mass = ball.tangential_mass
+    >>> hit = oblique_impact(Paraboloid(5e-3), medium, 1e-3, 1.0, 3.0, 0.5, tangential_mass=mass)
+    >>> print(round(hit.tangential_velocity * (2 / 3) / 0.5, 9))
+    -0.666666667
     """
     check_pair(profile, medium)
     mass = _check.positive("mass", mass, unit="kg")
     speed = _check.positive("speed", speed, unit="m/s")
     tangential_mass = mass if tangential_mass is None else tangential_mass
+    signed = _check.finite_array("tangential_speed", tangential_speed, unit="m/s", most=_check.LARGEST)
+    tiny = (signed != 0) & (np.abs(signed) < _check.SMALLEST)
+    bound = f"must be 0 or at least {_check.SMALLEST:g}"
     surface = {
-        "tangential_speed": _signed(tangential_speed),
+        "tangential_speed": _check.refuse("tangential_speed", signed, tiny, bound, unit="m/s"),
         "friction": _check.positive("friction", friction, infinite=True, zero=True),
         "tangential_mass": _check.positive("tangential_mass", tangential_mass, unit="kg"),
     }
@@ -104,20 +104,11 @@ def oblique_impact(
     return ObliqueImpact(normal=hit, **surface, _surface=SurfaceSolution.of(solutions, shape))
 
 
-def _signed(speed):
-    """A tangential speed (m/s) of any sign as a float array: 0, or of a size whose square is a number."""
-    speed = _check.finite_array("tangential_speed", speed, unit="m/s", most=_check.LARGEST)
-    tiny = (speed != 0) & (np.abs(speed) < _check.SMALLEST)
-    bound = f"must be 0 or at least {_check.SMALLEST:g}"
-    return _check.refuse("tangential_speed", speed, tiny, bound, unit="m/s")
-
-
 class ObliqueErrors(NamedTuple):
     """Estimated relative errors of an `ObliqueImpact`.
 
-    Those of coefficients of restitution are relative to 1, that of the velocity to W₀, that of the friction
-    work to the energy ½ m_t W₀² along the surface, that of the viscous work to the whole kinetic energy;
-    all others relative to the quantity.
+    Those of coefficients of restitution are relative to 1, of the velocity to W₀, of the friction work to
+    ½ m_t W₀², of the viscous work to the whole kinetic energy; all others to the quantity.
     """
 
     restitution: Array

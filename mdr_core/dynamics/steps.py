@@ -21,8 +21,8 @@ _NODES, _WEIGHTS = _numeric.gauss_legendre(24)
 class DepthCoordinate(Entries):
     """Coordinate δ of depths q = base + (root + δ)³ − root³ (m), one impact a row of (N, 1).
 
-    Behind a kink, or the vertex of the indenter, a(s) is a fractional power of the distance; root³ is the
-    distance at `base`. In δ it is smooth enough.
+    Behind a kink, or the vertex of the indenter, a(s) is a fractional power of the distance, root³ at `base`.
+    In δ it is smooth.
     """
 
     base: np.ndarray
@@ -41,8 +41,8 @@ class DepthCoordinate(Entries):
 class Steps(Entries):
     """Steps of impacts, one a row, from states `start`: base class of steps in depth and in velocity.
 
-    The variable of a step goes from `origin` on by `length`, of shape (N, 1). `slopes` (N, 3, 24) are the
-    derivatives of the unknown, of time and of work at the nodes.
+    The variable of a step goes from `origin` on by `length` (N, 1). `slopes` (N, 3, 24) are the rates of
+    the unknown, of time and of work at the nodes.
     """
 
     equation: Loading | Unloading

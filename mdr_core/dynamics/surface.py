@@ -23,8 +23,7 @@ class SurfaceSolution(Entries):
     """Motion along the surface of one impact, or of many as arrays, with estimated errors.
 
     Change of the velocity over W₀, largest force (N), friction and viscous work (J) along the surface.
-    Errors are those of the relative change, of the force relative to itself, of works to ½ m_t W₀².
-    `halvings` counts those of the steps of the first run, 0 in closed form.
+    Errors of works are relative to ½ m_t W₀². Closed forms have 0 `halvings` of the steps of the first run.
     """
 
     relative_change: Array

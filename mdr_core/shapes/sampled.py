@@ -47,9 +47,8 @@ class Sampled(Profile):
     def __post_init__(self):
         r, z = _lists("Sampled", self.r, self.z, most=_check.LONGEST)
         if r.size > _MOST_SAMPLES:
-            raise ValueError(
-                f"Sampled has {r.size} samples, more than {_MOST_SAMPLES}; thin them out, as in r[::10]"
-            )
+            remedy = "thin them out, as in r[::10]"
+            raise ValueError(f"Sampled has {r.size} samples, more than {_MOST_SAMPLES}; {remedy}")
         if r[0] != 0:
             raise ValueError(f"Sampled r[0] = {r[0]:g} m must be 0: add the sample at the tip")
         tiny, bound = (r > 0) & (r < _check.SHORTEST), f"must be 0 or at least {_check.SHORTEST:g}"
@@ -89,9 +88,8 @@ class Sampled(Profile):
     def fit(cls, r: ArrayLike, z: ArrayLike) -> "Sampled":
         """Fit the convex profile nearest to noisy samples, by least squares in the height.
 
-        Samples may lie on both sides of the axis at r = 0, in any order; the height of the tip is fitted
-        together with the profile. The fit is unbiased where the contact has many samples. An apex is not
-        sharper than noise and spacing allow.
+        Samples may lie on both sides of the axis at r = 0, in any order; the height of the tip is fitted.
+        The fit is unbiased where the contact has many samples.
 
         Parameters
         ----------
@@ -235,10 +233,9 @@ class Sampled(Profile):
         zone = np.clip(np.searchsorted(self._g, depth, side="right") - 1, 0, len(self.r) - 2)
         cell = np.clip((g[zone] <= depth[..., None]).sum(axis=-1) - 1, 0, 7)
         low, high = (zone, cell), (zone, cell + 1)
-        width = g[high] - g[low]
+        width, rise = g[high] - g[low], t[high] - t[low]
         # Hermite's cubic; without meaning on a flat face.
         u = np.divide(depth - g[low], width, out=np.zeros_like(width), where=width > 0)
-        rise = t[high] - t[low]
         bow = (1 - u) * (width * rate[low] - rise) - u * (width * rate[high] - rise)
         # Next to the vertex g is its bend, β √(2r) t, and a term in t².
         bend, y = (self._bend * np.sqrt(2 * self._r[:-1]))[zone], np.maximum(depth - g[zone, 0], 0.0)
@@ -265,7 +262,6 @@ def _lists(what, r, z, **bounds):
     """Check that radii and heights (m) are two lists of one length, and return them as arrays."""
     r, z = (_check.finite_array(f"{what} {n}", v, unit="m", **bounds) for n, v in (("r", r), ("z", z)))
     if r.ndim != 1 or r.shape != z.shape or r.size < 2:
-        raise ValueError(
-            f"{what} r and z must be two lists of one length ≥ 2, got shapes {r.shape}, {z.shape}"
-        )
+        shapes = f"got shapes {r.shape}, {z.shape}"
+        raise ValueError(f"{what} r and z must be two lists of one length ≥ 2, {shapes}")
     return r, z

@@ -32,8 +32,9 @@ def _lines(file, name):
     """Lines of a file of limited length."""
     while line := file.readline(_LONGEST_LINE + 1):
         if len(line) > _LONGEST_LINE:
-            bound = f"a line is longer than {_LONGEST_LINE} characters"
-            raise ValueError(f"{name}: {bound}; give a sample a line")
+            raise ValueError(
+                f"{name}: a line is longer than {_LONGEST_LINE} characters; use a line a sample"
+            )
         yield line
 
 

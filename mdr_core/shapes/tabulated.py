@@ -25,10 +25,9 @@ _TO_LAST = np.linalg.inv(np.polynomial.chebyshev.chebvander(2 * _NODE - 1, _COUN
 class RadiusTable:
     """Contact radius a(s) (m) of one profile, ∫ a ds (m²) and ∫∫ a ds ds (m³) from depth 0 on.
 
-    1. Panels between the given edges are halved until a polynomial of degree 9 is a(s) to rounding: next to
-       a kink, below which a(s) may start as a root, down to the rounding of the depth.
-    2. From depth 0 to the first edge a(s) is taken as the radius of the face plus a power of s. The panel
-       there is the parabola that has the integrals of this power.
+    Panels between the edges are halved until a polynomial of degree 9 is a(s) to rounding. From depth 0 to
+    the first edge a(s) is the radius of the face plus a power of s, for which the panel has a parabola with
+    the same integrals.
 
     `radius` is a(s) (m) at arrays of depths (m); `edges` are depths (m), ascending: the first and the last
     one of the table, and all kinks between them. Powers of depths over `unit` (m) must stay within double

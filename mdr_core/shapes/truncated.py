@@ -9,10 +9,7 @@ from .tabulated import OneLength
 
 
 class _FlatFaced(OneLength):
-    """Base class of profiles with a flat face, whose radius `flat_radius` is the unit of length of G.
-
-    With τ = √(u² − 1), arccos(1/u) = arctan τ.
-    """
+    """Base class of profiles with a flat face. With τ = √(u² − 1), arccos(1/u) = arctan τ."""
 
     flat_radius: Parameter
     _edge = 1.0
