@@ -99,9 +99,8 @@ class HardnessClass:
 def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> HardnessClass:
     """Class of hardness from the radii of imprints of fast impacts as a function of energy.
 
-    Fits ln(radius) against ln(energy) and compares the slope with 1/(n + i). A class fits within two
-    standard errors, or within 10 %, because real impacts are only approximately fast. The result is None if
-    no class or more than one fits, and for two energies, for which the error is unknown.
+    The slope of ln(radius) over ln(energy) is compared with 1/(n + i). A class fits within two standard
+    errors, or within 10 %, because real impacts are only approximately fast.
 
     Parameters
     ----------

@@ -90,8 +90,7 @@ def impacts(
     Returns
     -------
     xarray.Dataset
-        The quantities with units and long names, over all dimensions of the parameters; lazy if a parameter
-        is a dask array.
+        The quantities over all dimensions of the parameters; lazy if a parameter is a dask array.
 
     Raises
     ------
@@ -130,8 +129,7 @@ def oblique_impacts(
 ) -> "xarray.Dataset":
     """Oblique impacts (`mdr_core.oblique_impact`) over named dimensions.
 
-    Parameters and result as in `impacts`, with the Poisson ratio of the `Medium`, and the additional
-    arguments and quantities of `oblique_impact`.
+    As in `impacts`, with the Poisson ratio, and the further arguments and quantities of `oblique_impact`.
 
     Examples
     --------

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
     """Normal and tangential speed (m/s) of a body at some speed (m/s) and angle of incidence (rad).
 
-    The angle counts from the normal, between −π/2 and π/2; an angle of attack α, from the surface, is
-    π/2 − α here. Use as in `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
+    The angle is that to the normal, π/2 less the angle of attack, between −π/2 and π/2. Use as in
+    `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
 
     Examples
     --------

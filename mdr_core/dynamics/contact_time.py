@@ -11,7 +11,7 @@ from ..closed_forms import closed_forms
 from ..superposition import energy_integral, radius_integral, tabulated
 from ..yielding import LiveInterval, elastic_interval
 
-#: Depths between pieces, where a(s) goes over from one power of the depth to another, in units of the
+#: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
 #: transition depth; and in units of the length of the live interval, whose lower end is close to the tip.
 _TRANSITIONS, _LENGTHS = np.array([1.0, 6.0]), 5 * 25.0 ** np.arange(6)
 
@@ -84,7 +84,6 @@ def time_over_root(profile, interval, increase):
     """∫ ds/√(∫∫ a ds ds) over unloading and loading (m^(−1/2)), one impact a row.
 
     The kinetic energy is 2E* times the inner integral, which is the work up to the turning point.
-
     Unloading is one stretch of depth, loading two: deeper than d_c both ends of the live interval move. In
     each piece of a stretch the work is integrated from the turning point back, so that it never cancels.
     """
@@ -100,7 +99,7 @@ def time_over_root(profile, interval, increase):
     all_breaks = np.hstack([breaks - before, _LENGTHS * length])
     yielding = partial(stretch, lambda s, rows: (before[rows] + s, length[rows]))
     time_below, work = yielding(before, increase, both, all_breaks)
-    # Loading down to it, and about the distance after which it would turn if the interval went on to grow.
+    # Loading down to it, and about the further distance to rest if nothing yielded.
     force = _flow(profile, before[:, 0], interval.length)
     a = profile._radius(before[:, 0] + interval.length)
     distance = (2 * work / (force + np.sqrt(force**2 + 2 * a * work)))[:, None]

@@ -75,7 +75,7 @@ class Branch:
 
 
 class CourseState(NamedTuple):
-    """States of one impact in SI units; viscous work over 2E*, with what released elements are to lose."""
+    """States of one impact (SI); viscous work over 2E* with the energy that released elements will lose."""
 
     depth: np.ndarray
     velocity: np.ndarray
@@ -85,7 +85,7 @@ class CourseState(NamedTuple):
 
 
 class Course:
-    """Motion of one `Impact` from first contact to its loss: two branches, and when (s) they end."""
+    """Motion of one `Impact` to the loss of contact: two branches, and the times (s) of their ends."""
 
     def __init__(self, hit):
         self._turning_point, self._increase = hit.turning_point, hit.plastic_depth_increase

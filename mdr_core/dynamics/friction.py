@@ -33,7 +33,7 @@ def bound_ratio(hit, speed, friction):
 
 
 class SurfaceElements(NamedTuple):
-    """Elements between levels: outer edges, widths, mean depths (m), share of the first step before."""
+    """Elements between levels: outer edges, widths, mean depths (m), delays (shares of the first step)."""
 
     edge: np.ndarray
     width: np.ndarray

@@ -112,9 +112,9 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
 
 
 def _integrated(bodies, penetration, mass, E_star, in_time):
-    """Penetrations (m), from those without viscosity, and quantities by name, with `solved` rows.
+    """Penetrations (m) from those without viscosity, and quantities, by the equation of motion.
 
-    The equation of motion is solved where the medium is viscous, or everywhere if `in_time`.
+    It is solved where the medium is viscous, or everywhere if `in_time`.
     """
     shape, penetration = np.shape(penetration), penetration.ravel()
     velocity, time, work, deceleration = np.zeros((4, penetration.size))
@@ -145,10 +145,9 @@ def quantity_of(path: str, doc: str) -> "cached_property[Array]":
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Impact(ImpactResult):
-    """One impact or many; made by `impact`. Every quantity has the shape of the ensemble.
+    """One impact or many; made by `impact`. `result[i]` picks one.
 
-    `turning_point` is the state of largest depth, `plastic_depth_increase` (m) the increase of the plastic
-    depth by this impact. `result[i]` picks one impact.
+    `turning_point` is the state of largest depth; `plastic_depth_increase` (m) is due to this impact alone.
     """
 
     profile: Profile
@@ -197,7 +196,7 @@ class Impact(ImpactResult):
 
     @_check.frozen_property
     def max_force(self):
-        """Largest force (N); in a viscous impact it comes before the turning point."""
+        """Largest force (N); a viscous impact reaches it before the turning point."""
         return self._merged("max_force", lambda: self.turning_point.force)
 
     @_check.frozen_property

@@ -53,7 +53,7 @@ def solve(bodies, tolerance=1e-5):
 
 
 def _load(bodies, tolerance):
-    """State at the turning point (its depth infinite beyond the known one), and the steps of loading."""
+    """State at the turning point (of infinite depth below the known depth), and the steps of loading."""
     profile, imprint, d_c = bodies.profile, bodies.imprint_depth, bodies.critical_depth
     equation, steps, zero = Loading(bodies), [], np.zeros_like(bodies.speed)
     state = MotionState(zero.copy(), bodies.speed.copy(), zero.copy(), zero.copy())

@@ -22,7 +22,7 @@ class Levels:
 def levels(hit, inertia, halvings, instants=()):
     """The `Levels` of a run along the surface under one normal `Impact`, with C = 2κE*/m_t (1/(m s²)).
 
-    The steps of loading are halved in time; the depths at `instants` (s) are levels as well.
+    Steps of loading are halved in time; depths at `instants` (s) are levels as well.
     """
     course, max_depth, lower = hit._course, hit.max_depth, hit.plastic_depth
     loading, unloading, turn = course.loading, course.unloading, course.turning_time

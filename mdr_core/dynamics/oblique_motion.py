@@ -36,10 +36,8 @@ class ObliqueMotion(MotionResult):
         Load q_x(x) (N/m) of every element along the surface at every instant.
     sticks : ndarray of bool, shape (n, N)
         Whether an element is in contact and sticks.
-    normal : Motion
-        The normal motion, with `normal.states`.
-    impact : ObliqueImpact
-        The impact whose motion it is.
+    normal, impact
+        The normal `Motion`, with `normal.states`, and the `ObliqueImpact`.
     """
 
     tangential_velocity: Array

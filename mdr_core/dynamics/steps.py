@@ -21,8 +21,7 @@ _NODES, _WEIGHTS = _numeric.gauss_legendre(24)
 class DepthCoordinate(Entries):
     """Coordinate δ of depths q = base + (root + δ)³ − root³ (m), one impact a row of (N, 1).
 
-    Behind a kink, or the vertex of the indenter, a(s) is a fractional power of the distance, root³ at `base`.
-    In δ it is smooth.
+    Behind a kink or vertex a(s) is a fractional power of the distance (root³ at `base`), but smooth in δ.
     """
 
     base: np.ndarray

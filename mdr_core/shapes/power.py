@@ -142,10 +142,8 @@ class PowerLaw(Profile):
 
     Parameters
     ----------
-    coefficient : float or array_like
-        Coefficient c (m^(1−n)), positive.
-    exponent : float or array_like
-        Exponent n, from 0.01 to 1000.
+    coefficient, exponent : float or array_like
+        Coefficient c (m^(1−n)), positive; exponent n, from 0.01 to 1000.
 
     Examples
     --------

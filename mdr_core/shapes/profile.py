@@ -12,7 +12,7 @@ from .._numeric import increasing_root
 class Profile(_check.Parameters, ABC):
     """Profile of a rigid axisymmetric indenter, with its tip at the origin and its height growing outward.
 
-    Lengths are in m, slopes dimensionless. A profile of your own is a frozen dataclass with the methods
+    Lengths are in m. A profile of your own is a frozen dataclass with the methods
     `_height`, `_reduced` and `_reduced_slope` for arrays of radii r ≥ 0. Where it has a flat face, a wall,
     kinks or an end it also gives `face_radius`, `wall`, `kinks`, `known_depth` and `known_radius`.
     Parameters may be arrays that broadcast with each other, with radii and with depths: an ensemble of

@@ -20,9 +20,8 @@ _MOST_SAMPLES = 5000
 class Sampled(Profile):
     """The polygon through samples of the height, solved exactly.
 
-    Its reduced height is x Σ sᵢ [arcsin(min(rᵢ₊₁, x)/x) − arcsin(rᵢ/x)] with the slopes sᵢ, from
-    Popov (2015), Eq. (3). The polygon must be convex: outside a vertex at which the slope falls,
-    g falls with a vertical tangent, and the contact would not be compact.
+    Its reduced height is x Σ sᵢ [arcsin(min(rᵢ₊₁, x)/x) − arcsin(rᵢ/x)] with slopes sᵢ, from Popov (2015),
+    Eq. (3). It must be convex: outside a concave vertex g falls, and the contact would not be compact.
 
     Parameters
     ----------

@@ -100,7 +100,7 @@ def _panels(radius, edges):
         width = high - low
         values = radius(low[:, None] + width[:, None] * _NODE)
         rough = np.abs(values @ _TO_LAST.T).max(axis=1) > 1e-15 * values.min(axis=1)
-        # Halving helps no more where rounding of a(s), or of the depth, is what is left.
+        # Panels that are limited by the rounding of a(s) or of the depth are not halved.
         below = low - edges[np.searchsorted(edges, low, side="right") - 1]
         rough &= width > np.maximum(below / 8, 2.0**-44 * high)
         powers = np.linalg.solve(np.vander(_NODE), values.T) / width ** np.arange(_COUNT)[::-1, None]
