@@ -92,7 +92,7 @@ class Course:
         self._imprint_depth = np.asarray(hit.plastic_depth - self._increase)
         self._penetration = self._turning_point.live_interval.length + self._increase
         arguments = hit.mass, hit.speed, self._imprint_depth, self._penetration
-        solution = solve(Bodies.of(hit.profile, hit.medium, *arguments), tolerance=1e-10)
+        solution = solve(Bodies.of(hit.profile, hit.medium, *arguments), 1e-10)
         self.loading, self.unloading = Branch(solution.loading), Branch(solution.unloading)
         self.turning_time, self.end_time = self.loading.end.time, self.unloading.end.time
 
