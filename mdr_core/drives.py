@@ -18,24 +18,8 @@ from .medium import Medium
 from .results.base import CHAIN, CLOSED_FORM, SCALAR_ODE, Model
 
 
-def _path(quantity, values, unit):
-    values = _check.finite_array(quantity, values, unit=unit)
-    if values.ndim > 1 or not values.size:
-        raise ValueError(f"{quantity} must be a number or a path, got shape {values.shape}")
-    return tuple(values.tolist()) if values.ndim else values.item()
-
-
-def _times(quantity, values, path):
-    if values is None:
-        return None
-    return tuple(check_times(values, np.asarray(path), quantity).tolist())
-
-
 class _Path:
-    """Base class of a path of a quantity, the first field of a subclass, with or without `time`.
-
-    A subclass has the unit of the quantity, and the functions that solve slow paths and paths in time.
-    """
+    """Base class of a path of a quantity, the first field of a subclass, with or without `time`."""
 
     _unit: ClassVar[str]
     _slowly: ClassVar[Callable[..., Indentation]]
@@ -43,9 +27,13 @@ class _Path:
     time: ArrayLike | None
 
     def __post_init__(self):
-        name = self._name
-        object.__setattr__(self, name, _path(f"{type(self).__name__} {name}", self._path, self._unit))
-        object.__setattr__(self, "time", _times(name, self.time, self._path))
+        quantity = f"{type(self).__name__} {self._name}"
+        path = _check.finite_array(quantity, self._path, unit=self._unit)
+        if path.ndim > 1 or not path.size:
+            raise ValueError(f"{quantity} must be a number or a path, got shape {path.shape}")
+        object.__setattr__(self, self._name, tuple(path.tolist()) if path.ndim else path.item())
+        if self.time is not None:
+            object.__setattr__(self, "time", tuple(check_times(self.time, path, self._name).tolist()))
 
     _name = property(lambda self: fields(self)[0].name)
     _path = property(lambda self: getattr(self, self._name))
@@ -108,10 +96,8 @@ class FreeImpact:
 
     Parameters
     ----------
-    mass : float
-        Mass m (kg), positive.
-    speed : float
-        Speed v₀ (m/s) at first contact, positive.
+    mass, speed : float
+        Mass m (kg), and speed v₀ (m/s) at first contact, positive.
     plastic_depth : float
         Plastic depth (m) after earlier impacts on the same spot; 0, the default, for a virgin surface.
     """
@@ -127,11 +113,8 @@ class FreeImpact:
             object.__setattr__(self, name, value)
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models for this drive, the cheapest exact one first.
-
-        The chain is not available for an imprint, because its state is more than the plastic depth: use
-        `chain_impact(start=…)`.
-        """
+        """Names of the models for this drive, the cheapest exact one first."""
+        # The state of a chain with an imprint is more than the plastic depth: `chain_impact(start=…)`.
         models = (SCALAR_ODE, CHAIN) if medium.eta > 0 else (CLOSED_FORM, SCALAR_ODE, CHAIN)
         return models[:-1] if self.plastic_depth > 0 else models
 
@@ -156,8 +139,7 @@ class FreeObliqueImpact:
     friction : float
         Coefficient of friction μ, not negative.
     tangential_mass : float, optional
-        Mass m_t (kg) at the contact point along the surface; by default m, for a body that cannot rotate.
-        For a ball see `Ball.tangential_mass`.
+        Mass m_t (kg) at the contact point along the surface; by default m. See `Ball.tangential_mass`.
     """
 
     mass: float
@@ -169,13 +151,13 @@ class FreeObliqueImpact:
     def __post_init__(self):
         if self.tangential_mass is None:
             object.__setattr__(self, "tangential_mass", self.mass)
-        units = {"mass": "kg", "speed": "m/s", "tangential_speed": "m/s", "tangential_mass": "kg"}
-        for name in (field.name for field in fields(self)):
+        units = zip(fields(self), ("kg", "m/s", "m/s", "", "kg"), strict=True)
+        for name, unit in ((field.name, unit) for field, unit in units):
             quantity = f"FreeObliqueImpact {name}"
-            value = _check.number(quantity, getattr(self, name), units.get(name, ""))
+            value = _check.number(quantity, getattr(self, name), unit)
             if name != "tangential_speed":
-                value = _check.positive(quantity, value, unit=units.get(name, ""), zero=name == "friction")
-            object.__setattr__(self, name, float(value))
+                value = _check.positive(quantity, value, unit=unit, zero=name == "friction")
+            object.__setattr__(self, name, value)
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
         """Names of the models for this drive."""

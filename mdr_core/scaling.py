@@ -1,19 +1,18 @@
 """Scaling laws of very fast impacts, and the class of hardness of a material.
 
 Popov (2015), section 1, distinguishes three classes of plasticity: hardness (a) constant, (b) inversely
-proportional to the contact radius, (c) inversely proportional to the contact area, governed by
-volume, surface and line processes. In a fully yielded contact the force is proportional to a^i with
-i = 2, 1, 0. For a profile z = c rⁿ this gives powers of the impact energy.
+proportional to the contact radius, (c) inversely proportional to the contact area. In a fully yielded
+contact the force is proportional to a^i with i = 2, 1, 0.
 """
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from . import _check
 from ._check import Array, ArrayLike
 from ._numeric import increasing_root
+from .results.base import Entries
 from .results.limits import Limit
 from .results.report import Report
 from .superposition import radius_integral
@@ -39,12 +38,8 @@ class ScalingLaw:
 
     Examples
     --------
-    In class (b) the area that a cone damages is proportional to the energy (Popov 2015, Eq. (24)),
-    and the coefficient of restitution decreases as the inverse square root of the speed:
-
-    >>> law = ScalingLaw("b", 1.0)
-    >>> law.area, law.restitution
-    (1.0, -0.5)
+    >>> ScalingLaw("b", 1.0).area  # Popov (2015), Eq. (24)
+    1.0
     """
 
     hardness: str
@@ -52,8 +47,7 @@ class ScalingLaw:
 
     def __post_init__(self):
         _check.one_of("hardness class", self.hardness, _FORCE_POWER)
-        exponent = _check.positive_number("ScalingLaw exponent", self.exponent)
-        object.__setattr__(self, "exponent", exponent)
+        object.__setattr__(self, "exponent", _check.positive_number("ScalingLaw exponent", self.exponent))
 
     @property
     def force(self) -> int:
@@ -105,22 +99,15 @@ class HardnessClass:
 def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> HardnessClass:
     """Class of hardness from the radii of imprints of fast impacts as a function of energy.
 
-    Fits ln(radius) against ln(energy) and compares the slope with 1/(n + i). A class fits within two
-    standard errors, or within 10 %, because real impacts are only approximately fast. The result is None if
-    no class or more than one fits, and for two energies, for which the error is unknown.
+    The slope of ln(radius) over ln(energy) is compared with 1/(n + i). A class fits within two standard
+    errors, or within 10 %, because real impacts are only approximately fast.
 
     Parameters
     ----------
-    energy : array_like
-        Energies (J) dissipated by the impacts, positive; at least two different ones.
-    radius : array_like
-        Radii (m) of the imprints, positive.
+    energy, radius : array_like
+        Energies (J) dissipated by the impacts, at least two different ones, and radii (m) of the imprints.
     exponent : float
         Exponent n of the indenter z = c rⁿ.
-
-    Returns
-    -------
-    HardnessClass
 
     Examples
     --------
@@ -129,16 +116,12 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
     >>> hardness_class(hit.plastic_work, hit.plastic_radius, exponent=1.0).hardness
     'b'
     """
-    energy, radius = (
-        np.atleast_1d(_check.positive(name, value, unit=unit))
-        for name, value, unit in (("energy", energy, "J"), ("radius", radius, "m"))
-    )
+    energy = np.atleast_1d(_check.positive("energy", energy, unit="J"))
+    radius = np.atleast_1d(_check.positive("radius", radius, unit="m"))
     x, y = np.log(energy.ravel()), np.log(radius.ravel())
     if energy.shape != radius.shape or np.all(x == x[:1]):
-        raise ValueError(
-            f"energy {energy.shape} and radius {radius.shape} must be of the same shape, with at least two "
-            "different energies"
-        )
+        bound = "must be of the same shape, with at least two different energies"
+        raise ValueError(f"energy {energy.shape} and radius {radius.shape} {bound}")
     laws = {name: ScalingLaw(name, exponent) for name in _FORCE_POWER}
     slope, error = straight_line(x, y)
     expected = {name: (law.radius, _MAX_ERROR * law.radius) for name, law in laws.items()}
@@ -161,11 +144,13 @@ def class_of(expected, slope, error, points="energies"):
 
     `expected` has the power of each class, and the tolerance of it if two standard errors are smaller.
     """
+    if error == np.inf:
+        return (
+            None,
+            f"insufficient: two {points} leave no error of the slope {slope:.3g}; give three or more",
+        )
     powers = ", ".join(f"{name}: {power:.3g}" for name, (power, _) in expected.items())
     measured = f"the slope {slope:.3g} ± {error:.2g}, where the classes have {powers}"
-    if error == np.inf:
-        reason = f"insufficient: two {points} leave no error of the slope {slope:.3g}; give three or more"
-        return None, reason
     fits = [n for n, (power, limit) in expected.items() if abs(slope - power) <= max(2 * error, limit)]
     if len(fits) == 1:
         return fits[0], f"class {fits[0]} alone fits {measured}"
@@ -173,18 +158,14 @@ def class_of(expected, slope, error, points="energies"):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class FastLimit(Report):
+class FastLimit(Entries, Report):
     """Impact in the limit of a fully yielded contact, and its errors against the exact solution.
 
     Popov (2015), Eqs. (23), (24): the work is π q_c ∫ a dd, for a cone q_c d²/s, and the whole contact
     is damaged. The coefficient of restitution is √(U/W) with U = E* a d_c².
 
-    Attributes
-    ----------
-    max_depth, contact_area, restitution : float or ndarray
-        Depth (m), area (m²), coefficient of restitution in this limit.
-    max_depth_error, contact_area_error, restitution_error : float or ndarray
-        Their relative errors; large where the limit does not hold.
+    Largest depth (m), contact area (m²) and coefficient of restitution in this limit, with their relative
+    errors, which are large where the limit does not hold.
     """
 
     max_depth: Array
@@ -194,25 +175,19 @@ class FastLimit(Report):
     contact_area_error: Array
     restitution_error: Array
 
-    _quantities = (
+    _quantities = _shown = (
         "max_depth", "contact_area", "restitution", "max_depth_error", "contact_area_error",
         "restitution_error",
     )  # fmt: skip
-    _shown = _quantities
     _dimensions = ("impact",)
-
-    def __getitem__(self, index: Any) -> "FastLimit":
-        return FastLimit(*(getattr(self, name)[index] for name in self._quantities))
 
 
 def fast_limit(hit):
     """The `FastLimit` of an `Impact`."""
-    profile, medium = hit.profile, hit.medium
+    profile, medium, energy = hit.profile, hit.medium, hit.mass * hit.speed**2 / 2
     d_c = np.asarray(medium.critical_depth)
     _check.refuse("critical depth", d_c, np.isinf(d_c), "m: nothing yields", remedy="give q_c")
-    shape = np.shape(hit.max_depth)
-    energy = hit.mass * hit.speed**2 / 2
-    target = np.broadcast_to(energy / (np.pi * medium.q_c), shape)
+    target = np.broadcast_to(energy / (np.pi * medium.q_c), np.shape(hit.max_depth))
 
     def work(depth):
         return radius_integral(profile, elastic_interval(depth)), profile._radius(depth)
@@ -237,26 +212,18 @@ def how_fast(hit):
     try:
         limit = hit.fast_limit
     except ValueError as error:
-        return (
-            Limit("fast limit", np.inf, _MAX_ERROR, True, f"{equations} do not hold: {error}.", equations),
-        )
-    area, depth = (
-        float(np.ravel(error)[np.argmax(np.abs(error))])
-        for error in (limit.contact_area_error, limit.max_depth_error)
-    )
+        text = f"{equations} do not hold: {error}."
+        return (Limit("fast limit", np.inf, _MAX_ERROR, True, text, equations),)
+    errors = limit.contact_area_error, limit.max_depth_error
+    area, depth = (float(np.ravel(error)[np.argmax(np.abs(error))]) for error in errors)
     # Without yield errors may cross zero by chance, hence the share of the viscous work is a criterion too.
     viscous = float(np.max(hit.viscous_work / (hit.mass * hit.speed**2 / 2)))
     value = max(abs(area), abs(depth), viscous)
     exceeded = value > _MAX_ERROR or not first
-    text = f"The fast limit, {equations}, {'does not hold' if exceeded else 'holds'}: "
-    text += f"{_percent(area)} of the area, {_percent(depth)} of the depth"
+    errors = f"{100 * area:+.3g} % of the area, {100 * depth:+.3g} % of the depth".replace("-", "−")
+    text = f"The fast limit, {equations}, {'does not hold' if exceeded else 'holds'}: {errors}"
     if viscous > _MAX_ERROR:
         text += f", and viscosity takes {100 * viscous:.3g} % of the energy"
     if not first:
         text += ", because it is for the first impact on a spot"
     return (Limit("fast limit", value, _MAX_ERROR, exceeded, f"{text}.", equations),)
-
-
-def _percent(share):
-    """A share with its sign, as text."""
-    return f"{100 * share:+.3g} %".replace("-", "−")

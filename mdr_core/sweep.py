@@ -1,19 +1,16 @@
 """Ensembles over named dimensions: impacts and indentations of xarray's arrays, in memory or by dask.
 
-Parameters are numbers or DataArrays, which broadcast by the names of their dimensions. Arrays in memory are
-solved at once, in blocks. Results of dask arrays are lazy: `compute` solves them chunk by chunk, on the
-cores of a machine or, with a ``dask.distributed.Client``, on a cluster.
-
-The sum over a stream that does not fit in memory:
+Parameters are numbers or DataArrays, which broadcast by the names of their dimensions. Results of dask
+arrays are lazy: `compute` solves them chunk by chunk, on the cores of a machine or, with a
+``dask.distributed.Client``, on a cluster. The sum over a stream that does not fit in memory:
 
     speed = xr.DataArray(0.1 * dask.array.random.weibull(2.0, 10**9, chunks=10**6), dims="particle")
     stream = sweep.impacts(Sphere, radius=1e-5, E_star=1e9, q_c=10.0, mass=1e-12, speed=speed,
                            quantities=("restitution", "damaged_area"))
-    with dask.diagnostics.ProgressBar():
-        total = stream.damaged_area.sum().compute()
+    total = stream.damaged_area.sum().compute()
 
-A long run to disk that can be interrupted and continued: the store is created first and then filled region
-by region; a region whose last number is missing has not been computed.
+A long run to disk that can be interrupted and continued, region by region; a region whose last number is
+missing has not been computed:
 
     encoding = {name: {"_FillValue": numpy.nan} for name in stream}
     stream.to_zarr("stream.zarr", compute=False, encoding=encoding)  # once
@@ -22,8 +19,7 @@ by region; a region whose last number is missing has not been computed.
         if xr.open_zarr("stream.zarr").restitution.isel(region)[-1].isnull():
             stream.isel(region).to_zarr("stream.zarr", region=region)
 
-Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; the regions on disk remain. `cost`
-estimates the time beforehand.
+Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; the regions on disk remain.
 """
 
 import re
@@ -57,10 +53,8 @@ if TYPE_CHECKING:
 
 __all__ = ["cost", "impacts", "indentations", "oblique_impacts"]
 
-#: Entries that are solved at a time; besides its results a block needs some tens of MB.
+#: Entries that are solved at a time, with some tens of MB.
 _BLOCK = 2**17
-#: Shortest time (s) of a sample in `cost`.
-_MIN_TIME = 0.2
 
 
 def __dir__():
@@ -96,8 +90,7 @@ def impacts(
     Returns
     -------
     xarray.Dataset
-        The quantities with their units and long names, over all dimensions of the parameters. Lazy if a
-        parameter is a dask array; the memory is then bounded by that of a chunk.
+        The quantities over all dimensions of the parameters; lazy if a parameter is a dask array.
 
     Raises
     ------
@@ -136,13 +129,10 @@ def oblique_impacts(
 ) -> "xarray.Dataset":
     """Oblique impacts (`mdr_core.oblique_impact`) over named dimensions.
 
-    Parameters and result as in `impacts`, with the Poisson ratio of the `Medium`, and the additional
-    arguments and quantities of `oblique_impact`.
+    As in `impacts`, with the Poisson ratio, and the further arguments and quantities of `oblique_impact`.
 
     Examples
     --------
-    Energy dissipated by friction as a function of the angle of attack:
-
     >>> import xarray as xr
     >>> from mdr_core import Paraboloid
     >>> attack = xr.DataArray(np.radians([30.0, 60.0, 90.0]), dims="attack")
@@ -169,19 +159,8 @@ def indentations(
 ) -> "xarray.Dataset":
     """First loadings (`mdr_core.indent`) over named dimensions: each depth on a virgin medium.
 
-    Parameters
-    ----------
-    shape, E_star, q_c, **shape_parameters
-        As in `impacts`.
-    depth : float or DataArray
-        Indentation depth (m); negative above the surface.
-    quantities : sequence of str
-        Names of quantities of `Indentation`: "force", "contact_radius", "mean_pressure", …
-
-    Returns
-    -------
-    xarray.Dataset
-        As in `impacts`.
+    Parameters and result as in `impacts`, with depths (m), negative above the surface, and with quantities
+    of `Indentation`: "force", "contact_radius", "mean_pressure", …
 
     Examples
     --------
@@ -207,7 +186,6 @@ def cost(solve: Callable[..., "xarray.Dataset"], shape: "Shape", **arguments: An
 
     Examples
     --------
-    >>> import numpy as np
     >>> import xarray as xr
     >>> from mdr_core import Cone
     >>> speed = xr.DataArray(np.linspace(0.1, 1.0, 10**5), dims="particle")
@@ -229,16 +207,15 @@ def cost(solve: Callable[..., "xarray.Dataset"], shape: "Shape", **arguments: An
         sample = {name: x.isel(index, missing_dims="ignore").compute() for name, x in arrays.items()}
         # Twice, because the first run at a size may make tables.
         elapsed, count = min(_timed(solve, shape, arguments | sample) for _ in range(2))
-        if count >= available or elapsed >= _MIN_TIME:
+        if count >= available or elapsed >= 0.2:
             return elapsed * total / count
         number *= 8
 
 
 def _timed(solve, shape, arguments):
     """Time (s) of a sweep, and the number of its results."""
-    start = perf_counter()
-    solved = solve(shape, **arguments)
-    return perf_counter() - start, float(np.prod(list(solved.sizes.values())))
+    start, sizes = perf_counter(), solve(shape, **arguments).sizes
+    return perf_counter() - start, float(np.prod(list(sizes.values())))
 
 
 def _sweep(kind, solve, shape, parameters, shape_parameters, quantities):
@@ -249,21 +226,15 @@ def _sweep(kind, solve, shape, parameters, shape_parameters, quantities):
     for name in names or [""]:
         _check.one_of("quantity", name, known)
     _check_shape(shape, shape_parameters)
-    given = {
-        name: _labelled(xarray, name, value) for name, value in (shape_parameters | parameters).items()
-    }
+    parameters = shape_parameters | parameters
+    given = {name: _labelled(xarray, name, value) for name, value in parameters.items()}
 
     def block(*values):
-        return _in_blocks(solve, shape, dict(zip(given, values, strict=True)), tuple(parameters), names)
+        return _in_blocks(solve, shape, dict(zip(given, values, strict=True)), shape_parameters, names)
 
-    results = xarray.apply_ufunc(
-        block,
-        *given.values(),
-        output_core_dims=[[] for _ in names],
-        dask="parallelized",
-        output_dtypes=[float] * len(names),
-        keep_attrs=False,
-    )
+    lazily = {"dask": "parallelized", "output_dtypes": [float] * len(names)}
+    dims = [[] for _ in names]
+    results = xarray.apply_ufunc(block, *given.values(), output_core_dims=dims, keep_attrs=False, **lazily)
     results = results if len(names) > 1 else [results]
     dataset = xarray.Dataset(dict(zip(names, results, strict=True)), attrs=_attributes(kind, shape, given))
     for name in names:
@@ -309,7 +280,7 @@ def _labelled(xarray, name, value):
 
 
 def _in_blocks(solve, shape, values, own, names):
-    """Arrays of the named quantities for arrays of parameters, solved in blocks."""
+    """Arrays of the named quantities for arrays of parameters, `own` ones of the shape, in blocks."""
     size = np.broadcast_shapes(*(np.shape(value) for value in values.values()))
     # Scalars are not repeated.
     varied = {k: np.broadcast_to(v, size).flat for k, v in values.items() if np.size(v) > 1}
@@ -317,8 +288,8 @@ def _in_blocks(solve, shape, values, own, names):
     flat = results.reshape(len(names), -1)
     for rows in chunks(flat.shape[1], _BLOCK):
         block = {k: varied[k][rows] if k in varied else np.ravel(v)[0] for k, v in values.items()}
-        parameters = {k: block.pop(k) for k in own}
-        result = solve(shape(**block) if isclass(shape) else shape, **parameters)
+        own_values = {name: block.pop(name) for name in own}
+        result = solve(shape(**own_values) if isclass(shape) else shape, **block)
         for row, name in zip(flat, names, strict=True):
             row[rows] = getattr(result, name)
     return tuple(results) if len(names) > 1 else results[0]
@@ -342,8 +313,8 @@ def _press(profile, E_star, q_c, depth):
 
 def _attributes(kind, shape, given):
     """Attributes of the dataset: the parameters, for arrays their dimensions."""
-    indenter = shape.__name__ if isclass(shape) else described(shape)
+    profile = shape.__name__ if isclass(shape) else described(shape)
     varied = {name: "over " + " × ".join(value.dims) for name, value in given.items() if np.ndim(value)}
     fixed = {name: float(value) for name, value in given.items() if name not in varied}
-    about = {"result": kind.__name__, "model": "MDR, V. L. Popov 2015", "indenter": indenter}
+    about = {"result": kind.__name__, "model": "MDR, V. L. Popov 2015", "indenter": profile}
     return about | fixed | varied

@@ -1,1 +1,1 @@
-"""A free body on the medium: how deep it comes, how long it stays, what it gives back."""
+"""Impacts of free bodies: depth, contact time and restitution, normal and oblique."""

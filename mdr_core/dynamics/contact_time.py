@@ -11,25 +11,22 @@ from ..closed_forms import closed_forms
 from ..superposition import energy_integral, radius_integral, tabulated
 from ..yielding import LiveInterval, elastic_interval
 
-#: Nodes for pieces that are longer than their distance from the turning point, and for others.
-_NEAR, _FAR = 28, 12
-#: Depths between pieces, where a(s) goes over from one power of the depth to another, in units of the
+#: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
 #: transition depth; and in units of the length of the live interval, whose lower end is close to the tip.
 _TRANSITIONS, _LENGTHS = np.array([1.0, 6.0]), 5 * 25.0 ** np.arange(6)
-#: Over live intervals shorter than this share of the depth a difference of integrals has too few digits.
-_SHORT = 1e-4
 
 
 def contact_time(profile, inertia, speed, interval, increase):
     """Time (s) from first contact to its loss, elementwise.
 
-    From inertia m/(2E*) (m s²), speed v₀ (m/s), live interval at the turning point, and increase (m) of the
-    plastic depth by the impact. Profile, inertia and speed broadcast to the shape of the other two.
+    From inertia m/(2E*) (m s²), speed v₀ (m/s), and, of full shape, the live interval at the turning point
+    and the increase (m) of the plastic depth.
     """
     shape = np.shape(interval.upper)
     factor = np.broadcast_to(np.sqrt(inertia / 2), shape).ravel()
-    increase = np.ravel(increase)
-    lower, upper, length = (np.ravel(end) for end in (interval.lower, interval.upper, interval.length))
+    lower, upper, length, increase = map(
+        np.ravel, (interval.lower, interval.upper, interval.length, increase)
+    )
     passage = np.broadcast_to(upper.reshape(shape) / speed, shape).ravel()
     virgin, forms = increase == lower, closed_forms(profile)
     exponent, similar = (forms.elastic_exponent, forms.similar) if forms else (None, None)
@@ -55,15 +52,8 @@ def contact_time(profile, inertia, speed, interval, increase):
 
 
 def elastic_time(p):
-    """Contact time over d_max/v₀ of an elastic impact with F ∝ dᵖ.
-
-    Examples
-    --------
-    >>> print(round(elastic_time(1.5), 10))  # Hertz
-    2.9432751843
-    """
-    q = 1 / (p + 1)
-    gamma = scipy.special.gamma
+    """Contact time over d_max/v₀ of an elastic impact with F ∝ dᵖ: 2.9433 for p = 3/2 (Hertz)."""
+    q, gamma = 1 / (p + 1), scipy.special.gamma
     return 2 * np.sqrt(np.pi) * gamma(1 + q) / gamma(0.5 + q)
 
 
@@ -94,12 +84,8 @@ def time_over_root(profile, interval, increase):
     """∫ ds/√(∫∫ a ds ds) over unloading and loading (m^(−1/2)), one impact a row.
 
     The kinetic energy is 2E* times the inner integral, which is the work up to the turning point.
-
-    1. Unloading is one stretch of depth, loading two: below the critical depth both ends of the live
-       interval move.
-    2. Stretches are cut into pieces at kinks, and at depths where a piece would be long.
-    3. In each piece the work is integrated at Gauss nodes, from the turning point back, so that it never
-       cancels.
+    Unloading is one stretch of depth, loading two: deeper than d_c both ends of the live interval move. In
+    each piece of a stretch the work is integrated from the turning point back, so that it never cancels.
     """
     lower, length, increase = interval.lower[:, None], interval.length[:, None], increase[:, None]
     before, stretch = lower - increase, partial(_stretch, profile)
@@ -107,49 +93,40 @@ def time_over_root(profile, interval, increase):
     breaks = np.empty((1, 0))
     if profile.transition_depth is not None:
         breaks = np.atleast_2d(np.multiply.outer(profile.transition_depth, _TRANSITIONS))
-
-    def unloading(s, rows):
-        return lower[rows], s
-
-    def yielding(s, rows):
-        return before[rows] + s, length[rows]
-
-    def elastic(s, rows):
-        return before[rows], s
-
-    time, _ = stretch(unloading, lower, length, kinks - lower, breaks - lower)
-    # Loading below the critical depth.
+    time, _ = stretch(lambda s, rows: (lower[rows], s), lower, length, kinks - lower, breaks - lower)
+    # Loading deeper than the critical depth.
     both = np.hstack([kinks - before, kinks - before - length])
     all_breaks = np.hstack([breaks - before, _LENGTHS * length])
-    time_below, work = stretch(yielding, before, increase, both, all_breaks)
-    # Loading down to it, and about the distance after which it would turn if the interval went on to grow.
+    yielding = partial(stretch, lambda s, rows: (before[rows] + s, length[rows]))
+    time_below, work = yielding(before, increase, both, all_breaks)
+    # Loading down to it, and about the further distance to rest if nothing yielded.
     force = _flow(profile, before[:, 0], interval.length)
     a = profile._radius(before[:, 0] + interval.length)
     distance = (2 * work / (force + np.sqrt(force**2 + 2 * a * work)))[:, None]
-    time_above, _ = stretch(elastic, before, length, kinks - before, breaks - before, distance, work)
+    elastic = partial(stretch, lambda s, rows: (before[rows], s))
+    time_above, _ = elastic(before, length, kinks - before, breaks - before, distance, work)
     return time + time_below + time_above
 
 
 def _stretch(profile, interval_at, upper, length, kinks, breaks, distance=0.0, work=0.0):
-    """∫ ds/√W over a stretch of depth, and the work W from its start to the turning point.
+    """∫ ds/√W over a stretch of depth that starts at `upper` (m), and the work W from there on.
 
-    The stretch starts at the depth `upper` (m). At its end `work` remains, and `distance` (m) to the
-    turning point. `interval_at` gives the lower end and the length of the live interval at depths from the
-    start; at depths `kinks` from there, of shape (N, K), the force has a kink, and at `breaks` a piece
-    ends.
+    `interval_at` gives the lower end and the length of the live interval at depths from the start; pieces
+    end at depths `kinks` from there, (N, K), where the force has a kink, and at `breaks`. At the end of the
+    stretch `work` remains, and the `distance` (m) to the turning point.
     """
     edges, origins = _edges(profile, upper, length, kinks, breaks)
     rows, k = np.nonzero(np.diff(edges) > 0)
     start, origin = edges[rows, k], origins[rows, k]
     size, remainder = edges[rows, k + 1] - start, (length - edges[:, 1:] + distance)[rows, k]
     works, pieces = np.zeros((len(length), edges.shape[1])), []
-    for subset, count in ((size > remainder, _NEAR), (size <= remainder, _FAR)):
+    # Pieces that are longer than their distance from the turning point need more nodes.
+    for subset, count in ((size > remainder, 28), (size <= remainder, 12)):
         if subset.any():
             node, weight, tail = _rule(count)
             row, at = rows[subset, None], start[subset, None]
-            depth, rate = _places(
-                at - origin[subset, None], size[subset, None], remainder[subset, None], node
-            )
+            sizes = size[subset, None], remainder[subset, None]
+            depth, rate = _places(at - origin[subset, None], *sizes, node)
             entries = profile.entries((row,), (len(length),))
             flow = _flow(entries, *interval_at(at + depth, row[:, 0])) * rate
             # Not by @: for sums as short as these the threads of BLAS take a second core, and no less time.
@@ -179,9 +156,8 @@ def _places(offset, size, remainder, node):
     """Nodes of pieces as depths from their start (m), and their rates by the node.
 
     A piece starts `offset` (m) below the depth where a(s) starts as a root, has the length `size`, and ends
-    `remainder` above the turning point. With W the distance to the turning point in σ = ∛depth,
-    σ = ∛offset + W u(2 − u): smooth enough in u from the root on, and with a velocity that is linear in u
-    at the turning point, u = 1.
+    `remainder` above the turning point. With W the distance to it in σ = ∛depth, σ = ∛offset + W u(2 − u):
+    smooth in u from the root on, with a velocity that is linear in u at the turning point, u = 1.
     """
     first = np.cbrt(offset)
     rise = cube_way(first, size + remainder)
@@ -206,7 +182,8 @@ def _flow(profile, lower, length):
     if not table or not np.all(table.covers([lower.min(), upper.min(), upper.max()])):
         return radius_integral(profile, LiveInterval(*np.broadcast_arrays(lower, upper, length)))
     flow = table.area(upper) - table.area(lower)
-    short = length < _SHORT * upper
+    # Over these a difference of integrals has too few digits.
+    short = length < 1e-4 * upper
     if short.any():
         # Across a kink the difference must do.
         short &= profile._kink_above(lower) == profile._kink_above(upper)

@@ -10,11 +10,8 @@ from .energy_balance import loading_interval
 from .equation_of_motion import Bodies, MotionState
 from .legs import solve
 
-#: Relative error of the steps; between their nodes the polynomials are as exact as that.
-_TOLERANCE = 1e-10
-#: Parts of a step in which Newton's method starts; its largest number of trials, and relative error.
-_CELLS, _MOST_TRIALS, _CLOSE = 64, 20, 1e-14
-_SHARES = np.linspace(0.0, 1.0, _CELLS + 1)
+#: Parts of a step in which Newton's method starts.
+_CELLS = 64
 
 
 class Branch:
@@ -24,7 +21,8 @@ class Branch:
         self._steps = [step for _, step in steps]
         self._slopes = np.concatenate([step.slopes for step in self._steps])
         self.start, self.end = self._steps[0].start[0, 0], self._steps[-1].end()[0, 0]
-        self._places = np.add.outer(np.arange(len(self._steps)), _SHARES).ravel()
+        shares = np.linspace(0.0, 1.0, _CELLS + 1)
+        self._places = np.add.outer(np.arange(len(self._steps)), shares).ravel()
         self._table = self._states(self._places)
 
     def at(self, time):
@@ -57,11 +55,11 @@ class Branch:
         table = np.maximum.accumulate(sign * getattr(self._table, name))
         place = np.interp(sign * values, table, self._places)
         low, states, rows = np.floor(place * _CELLS) / _CELLS, self._states(place), np.arange(values.size)
-        for _ in range(_MOST_TRIALS):
+        for _ in range(20):
             # Newton's method, with a difference for the derivative, which may vanish at an end of a step,
             # where the depth is a cube of δ: a miss within rounding must not move the place there.
             miss = values[rows] - getattr(states, name)[rows]
-            far = np.abs(miss) > _CLOSE * max(abs(start), abs(end))
+            far = np.abs(miss) > 1e-14 * max(abs(start), abs(end))
             rows, miss = rows[far], miss[far]
             if not rows.size:
                 break
@@ -77,10 +75,7 @@ class Branch:
 
 
 class CourseState(NamedTuple):
-    """States of one impact: depth (m), velocity (m/s), live interval, increase of the plastic depth (m).
-
-    Viscous work is over 2E* (m³), with the energy that released elements are still to lose.
-    """
+    """States of one impact (SI); viscous work over 2E* with the energy that released elements will lose."""
 
     depth: np.ndarray
     velocity: np.ndarray
@@ -90,18 +85,14 @@ class CourseState(NamedTuple):
 
 
 class Course:
-    """Motion of one `Impact`, viscous or not, from first contact to the loss of contact.
-
-    `loading` and `unloading` are its branches; times (s) of the turning point and of the end.
-    """
+    """Motion of one `Impact` to the loss of contact: two branches, and the times (s) of their ends."""
 
     def __init__(self, hit):
-        self._interval, self._increase = hit.turning_point.live_interval, hit.plastic_depth_increase
+        self._turning_point, self._increase = hit.turning_point, hit.plastic_depth_increase
         self._imprint_depth = np.asarray(hit.plastic_depth - self._increase)
-        self._penetration = self._interval.length + self._increase
-        self._critical_depth, self._tau = hit.medium.critical_depth, hit.medium.relaxation_time
+        self._penetration = self._turning_point.live_interval.length + self._increase
         arguments = hit.mass, hit.speed, self._imprint_depth, self._penetration
-        solution = solve(Bodies.of(hit.profile, hit.medium, *arguments), _TOLERANCE)
+        solution = solve(Bodies.of(hit.profile, hit.medium, *arguments), 1e-10)
         self.loading, self.unloading = Branch(solution.loading), Branch(solution.unloading)
         self.turning_time, self.end_time = self.loading.end.time, self.unloading.end.time
 
@@ -114,15 +105,12 @@ class Course:
         # The penetration at the turning point is that of the impact, to the last digit.
         largest = self._penetration
         y = np.where(time < self.turning_time, np.minimum(state.depth, largest), largest)
-        interval, increase = loading_interval(y, self._critical_depth, self._imprint_depth)
-        lower = np.where(pressed, interval.lower, self._interval.lower)
+        medium, final = self._turning_point.medium, self._turning_point.live_interval
+        interval, increase = loading_interval(y, medium.critical_depth, self._imprint_depth)
+        lower = np.where(pressed, interval.lower, final.lower)
         length = np.where(pressed, interval.length, state.depth)
         upper = np.where(pressed, interval.upper, lower + length)
-        unloading_depth = upper - self._tau * np.minimum(state.velocity, 0.0)
-        return CourseState(
-            depth=np.where(pressed, self._imprint_depth + y, unloading_depth),
-            velocity=state.velocity,
-            interval=LiveInterval(lower, upper, length),
-            increase=np.where(pressed, increase, self._increase),
-            viscous_work=state.work,
-        )
+        unloading_depth = upper - medium.relaxation_time * np.minimum(state.velocity, 0.0)
+        depth = np.where(pressed, self._imprint_depth + y, unloading_depth)
+        increase = np.where(pressed, increase, self._increase)
+        return CourseState(depth, state.velocity, LiveInterval(lower, upper, length), increase, state.work)

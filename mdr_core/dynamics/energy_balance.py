@@ -12,18 +12,12 @@ from ..closed_forms import closed_forms
 from ..superposition import energy_integral, radius_and_energy, radius_integral, tabulated
 from ..yielding import LiveInterval
 
-#: More impacts of one profile than this are worth a table of it.
-_FEW = 16
-#: Relative length of the last step of Newton's method: the next one would be its square, which is rounding.
-_LAST_STEP = 1e-7
-
 
 def turning_interval(profile, target, d_c, before):
     """Live interval at the turning point of a dry impact, and the increase Δ (m) of the plastic depth.
 
-    Elementwise for kinetic energies `target` over 2E* (m³), to whose shape profiles, critical depths d_c
-    (m) and plastic depths p₀ (m) `before` the impact broadcast. The interval is infinite where the profile
-    ends above the turning point. Δ is returned, because p₀ may be much larger.
+    Elementwise for kinetic energies `target` over 2E* (m³), to whose shape the other arguments broadcast.
+    The interval is infinite where the turning point is deeper than the known depth.
     """
     forms = closed_forms(profile)
     if forms and not np.any(before):
@@ -48,7 +42,7 @@ def turning_interval(profile, target, d_c, before):
 
 def tabulated_for(profile, count):
     """The profile to solve `count` impacts with: a table if they are many and the known depth is finite."""
-    many = count > _FEW and np.all(profile.known_depth < np.inf)
+    many = count > 16 and np.all(profile.known_depth < np.inf)
     return tabulated(profile, profile.known_depth) if many else profile
 
 
@@ -96,7 +90,8 @@ def _penetration(profile, target, d_c, before):
             new = np.minimum(y[rows] * np.exp(step), highest[rows])
             # At the known depth the work is still less than the energy.
             y[rows] = np.where((y[rows] == highest[rows]) & (step > 1e-13), np.inf, new)
-            rows = rows[~(np.abs(step) < _LAST_STEP) & (y[rows] < np.inf)]
+            # After a step of 10⁻⁷ the next one would be its square, which is rounding.
+            rows = rows[~(np.abs(step) < 1e-7) & (y[rows] < np.inf)]
             if not rows.size:
                 return y
         # The first guess was poor, or left double precision: in a bracket.

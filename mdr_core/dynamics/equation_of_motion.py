@@ -9,11 +9,11 @@ y = d − p₀ into an imprint of plastic depth p₀, the plastic depth p, the l
     loading     μ v̇ = −(Φ + τ a v)     ẏ = v              ẇ = τ a v²        until v = 0
     unloading   μ v̇ = −Φ               ℓ̇ = v + τ v̇       ẇ = τ a v ℓ̇     until ℓ = 0
 
-2E* w is the viscous work, including the energy that released elements are still to lose. `steps` and `legs`
+2E* w is the viscous work, with the energy that released elements are still to lose. `steps` and `legs`
 solve these equations, in the depth q = y or ℓ and the velocity v.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -78,12 +78,12 @@ class Bodies:
         )
 
     def __getitem__(self, index):
-        size = self.speed.size
-        if index.size == size:
+        if index.size == self.speed.size:
             return self
-        columns = {field.name: getattr(self, field.name) for field in fields(self)}
-        profile = columns.pop("profile").entries(index, (size, 1))
-        return Bodies(profile, **{name: values[index] for name, values in columns.items()})
+        columns = {
+            name: getattr(self, name)[index] for name in self.__dataclass_fields__ if name != "profile"
+        }
+        return Bodies(self.profile.entries(index, self.speed.shape), **columns)
 
 
 @dataclass(frozen=True)
@@ -108,17 +108,16 @@ class Loading(Entries):
 
     def stiffness(self, depth, radius, velocity):
         """−μ ∂v̇/∂y (m): a (less c while yielding), and the drag on a contact that grows."""
-        profile, (interval, increase) = self.bodies.profile, self._interval(depth)
-        slope = radius
+        profile, (interval, increase), slope = self.bodies.profile, self._interval(depth), radius
         if np.any(increase > 0):
             slope = np.where(increase > 0, radius - profile._radius(interval.lower), radius)
         # At a wall the contact no longer grows.
-        growth = np.where(radius < profile.wall, 1 / profile._reduced_slope(radius), 0.0)
-        return slope + self.bodies.relaxation_time * velocity * growth
+        spread = np.where(radius < profile.wall, 1 / profile._reduced_slope(radius), 0.0)
+        return slope + self.bodies.relaxation_time * velocity * spread
 
     def _interval(self, depth):
-        depth = np.maximum(depth, 0.0)
-        return loading_interval(depth, self.bodies.critical_depth, self.bodies.imprint_depth)
+        bodies = self.bodies
+        return loading_interval(np.maximum(depth, 0.0), bodies.critical_depth, bodies.imprint_depth)
 
 
 @dataclass(frozen=True)

@@ -7,15 +7,12 @@ depth ℓ and the plastic depth p:
     stick    ṡ = W      |Q| ≤ B             slip    Q = ±B, s follows         released    Q = 0, s relaxes
     the body            m_t Ẇ = −2κE* ∫Q dx
 
-1. Levels of depth are the edges of the elements, and times are those at which the edge of the contact
-   passes them, on loading and on unloading: an element is covered, and released, within one step.
-2. An element stands for its mean depth ḡ = ∫g dx/Δx, so that the normal force is exact at every level, and
-   is covered for a share of its first step.
-3. Over a step Q is linear in time; then s is exact, and of second order for any ratio of τ to the step. The
-   momentum balance is linear between changes of stick and slip: Newton's method in a bracket ends there.
-4. Work is the mean load times the displacement, friction work the mean load times the slip: the ledger
-   closes for any step.
-5. The next run has twice the levels; the quantities converge with the square of the step.
+1. The edges of the elements are the contact radii at levels of depth, and the steps of time lie between the
+   instants at which loading and unloading pass these: an element is covered or released within one step.
+2. The depth of an element is its mean ḡ = ∫g dx/Δx: the normal force is then exact at every level.
+3. Over a step Q is linear in time, and s is then exact. The momentum balance is piecewise linear.
+4. Work is the mean load times the displacement, friction work the mean load times the slip: the energies
+   sum to a constant for any step. Results converge with the square of the step.
 """
 
 from typing import NamedTuple
@@ -25,24 +22,18 @@ import numpy as np
 from ..superposition import radius_integral
 from ..yielding import LiveInterval
 
-#: Largest bound that counts, as its rate over that of the load: everything in contact sticks.
-_STICKS = 1e10
-
 
 def bound_ratio(hit, speed, friction):
     """(μ/κ)/W₀ (s/m) at a tangential speed: the ratio of B to the normal load, for a speed of 1.
 
-    Limited to a ratio that makes everything stick, which is that of a body without speed.
+    A body without speed has the largest ratio, at which everything sticks.
     """
-    largest = _STICKS / float(hit.speed)
+    largest = 1e10 / float(hit.speed)
     return min(friction / float(hit.medium.tangential_ratio) / abs(speed), largest) if speed else largest
 
 
 class SurfaceElements(NamedTuple):
-    """Elements between levels, the flat face first: outer edges, widths, mean depths (m).
-
-    `delay` is the share of its first step after which an element is covered.
-    """
+    """Elements between levels: outer edges, widths, mean depths (m), delays (shares of the first step)."""
 
     edge: np.ndarray
     width: np.ndarray
@@ -99,10 +90,7 @@ def _largest(time, values):
 
 
 def slide(hit, levels, inertia, ratio, instants=()):
-    """One `FrictionRun` of a body of tangential speed 1 under a normal `Impact`.
-
-    With C = `inertia` (1/(m s²)), and B the `ratio` times the normal load.
-    """
+    """One `FrictionRun` of a body of speed 1: C = `inertia` (1/(m s²)), B = `ratio` × normal load."""
     tau, d_c = float(hit.medium.relaxation_time), hit.medium.critical_depth
     elements = SurfaceElements.of(hit.profile, levels.depth)
     plastic_depth = np.maximum(levels.depth - d_c, 0.0)
@@ -144,9 +132,9 @@ def stick_instants(hit, run, ratio):
 class FrictionRun:
     """One run in units of the initial tangential speed: the elements during it, and its records.
 
-    Each element in contact has a load Q and a displacement s (s). Records at every instant are time (s),
-    velocity, force over 2κE* (m s), stored, viscous and friction energy over 2κE* (m s²); `element_states`
-    are loads of elements, and whether they stick, by the numbers of the requested `instants`.
+    Each element in contact has a load Q and a displacement s (s). Records at every time (s) are velocity,
+    force over 2κE* (m s), stored, viscous and friction energy over 2κE* (m s²); `element_states` are
+    loads of elements, and whether they stick, by the numbers of the requested `instants`.
     """
 
     def __init__(self, elements, inertia, tau, time, instants):
@@ -160,12 +148,8 @@ class FrictionRun:
     @property
     def quantities(self):
         """The `RunQuantities`, after all elements have relaxed."""
-        return RunQuantities(
-            change=self.velocities[-1] - 1.0,
-            force=_largest(self.time, np.abs(self.forces)),
-            friction=self.friction[-1],
-            viscous=self.viscous[-1] + self.energies[-1],
-        )
+        change, force = self.velocities[-1] - 1.0, _largest(self.time, np.abs(self.forces))
+        return RunQuantities(change, force, self.friction[-1], self.viscous[-1] + self.energies[-1])
 
     def cover(self, old, count, bound):
         """Covers elements at a speed at which they carry at most `bound`."""
@@ -174,10 +158,7 @@ class FrictionRun:
         self.bound[old:count] = bound
 
     def step(self, i, bound, changing):
-        """A step to the instant i, at which elements carry at most `bound`.
-
-        The `changing` ones (a slice) are covered or released within the step.
-        """
+        """A step to the instant i, with bounds there; `changing` elements are covered or released."""
         h = self.time[i] - self.time[i - 1] if i else 0.0
         n, width = self.count, self.elements.width[: self.count]
         start_load, s = self.load[:n], self.s[:n]
@@ -202,10 +183,8 @@ class FrictionRun:
         self.velocities[i], self.forces[i] = velocity, width @ load
         self.energies[i] = self.stored + self.released
         if i:
-            self.viscous[i], self.friction[i] = (
-                self.viscous[i - 1] + viscous,
-                self.friction[i - 1] + friction,
-            )
+            self.viscous[i] = self.viscous[i - 1] + viscous
+            self.friction[i] = self.friction[i - 1] + friction
         if i in self.instants:
             self.element_states[i] = load, slip_share == 0
 

@@ -6,6 +6,7 @@ viscous one by the equation of motion.
 
 from dataclasses import dataclass
 from functools import cached_property
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from .._check import Array, ArrayLike
 from .._numeric import chunks
 from ..indentation import Indentation
 from ..medium import Medium, check_pair, shape_with
-from ..results.base import CLOSED_FORM, SCALAR_ODE, Entries, ImpactResult, Model, Motion
+from ..results.base import CLOSED_FORM, SCALAR_ODE, ImpactResult, Model, Motion
 from ..results.limits import Limit, contact_limits
 from ..scaling import FastLimit, fast_limit, how_fast
 from ..shapes.profile import Profile
@@ -44,8 +45,7 @@ def impact(
 ) -> "Impact":
     """Let a body of given mass hit the medium at given speed, with no other force acting.
 
-    Contact starts at the bottom of the imprint, on a virgin medium at depth 0, and ends when the force
-    returns to zero.
+    Contact starts at the bottom of the imprint (depth 0 on a virgin medium), and ends at zero force.
 
     Parameters
     ----------
@@ -53,10 +53,8 @@ def impact(
         The indenter.
     medium : Medium
         The medium; viscous if `eta` is positive.
-    mass : float or array_like
-        Mass m (kg), positive.
-    speed : float or array_like
-        Speed v₀ (m/s) at first contact, positive.
+    mass, speed : float or array_like
+        Mass m (kg), and speed v₀ (m/s) at first contact, positive.
     plastic_depth : float or array_like, optional
         Plastic depth (m) of a relaxed imprint of the same indenter: for repeated impacts, the
         `plastic_depth` of the previous one. 0 (the default) is a virgin medium.
@@ -64,18 +62,16 @@ def impact(
     Returns
     -------
     Impact
-        Quantities of the shape to which mass, speed, plastic depth and the parameters of profile
-        and medium broadcast: one impact or a million.
+        Quantities of the shape to which all arguments broadcast: one impact or a million.
 
     Raises
     ------
     ValueError
-        If a mass or a speed is not finite and positive, shapes do not broadcast, or the indenter
-        would go deeper than its profile is known.
+        If an argument is out of its range, or the indenter would go deeper than its profile is known.
 
     Examples
     --------
-    Restitution of a cone that is pressed five times as deep as where yield starts:
+    Restitution of a cone whose largest depth is five times the critical depth:
 
     >>> from mdr_core import Cone, Medium, indent
     >>> medium = Medium(E_star=1.0, q_c=1.0)
@@ -84,12 +80,6 @@ def impact(
     >>> hit = impact(Cone(slope=1.0), medium, 2.0, energy**0.5)
     >>> print(round(hit.restitution, 9))
     0.461643536
-
-    The second impact on the same spot loses less:
-
-    >>> again = impact(Cone(slope=1.0), medium, 2.0, energy**0.5, plastic_depth=hit.plastic_depth)
-    >>> bool(again.restitution > hit.restitution)
-    True
     """
     return solve_impact(profile, medium, mass, speed, plastic_depth)
 
@@ -102,8 +92,7 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
     imprint_depth = _check.positive("plastic_depth", plastic_depth, unit="m", zero=True)
     shape = shape_with("impact", profile, medium, mass=mass, speed=speed, plastic_depth=imprint_depth)
     mass, speed, imprint_depth = (np.broadcast_to(values, shape) for values in (mass, speed, imprint_depth))
-    too_deep = profile._too_deep()
-    outside = imprint_depth > profile.known_depth
+    outside, too_deep = imprint_depth > profile.known_depth, profile._too_deep()
     _check.refuse("plastic_depth", imprint_depth, outside, f"is {too_deep}", unit="m")
     # The search may start far from the root, where powers leave double precision.
     with np.errstate(all="ignore"):
@@ -113,7 +102,7 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
         if in_time or np.any(np.asarray(medium.eta) > 0):
             penetration = np.where(interval.upper < np.inf, interval.length + increase, np.inf)
             bodies = Bodies.of(profile, medium, mass, speed, imprint_depth, penetration)
-            penetration, integrated = _integrate(bodies, penetration, mass, medium.E_star, in_time)
+            penetration, integrated = _integrated(bodies, penetration, mass, medium.E_star, in_time)
             interval, increase = loading_interval(penetration, medium.critical_depth, imprint_depth)
     known = np.minimum(profile.known_depth, _check.LARGEST)
     bound = f"m/s presses {too_deep}"
@@ -122,24 +111,10 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
     return Impact(profile, medium, mass[()], speed[()], turning_point, increase, integrated)
 
 
-@dataclass(frozen=True)
-class IntegratedQuantities(Entries):
-    """Quantities of impacts from the equation of motion, where it was `solved`, as arrays of their shape.
+def _integrated(bodies, penetration, mass, E_star, in_time):
+    """Penetrations (m) from those without viscosity, and quantities, by the equation of motion.
 
-    Coefficient of restitution, contact time (s), viscous work (J), largest force (N).
-    """
-
-    solved: Array
-    restitution: Array
-    contact_time: Array
-    viscous_work: Array
-    max_force: Array
-
-
-def _integrate(bodies, penetration, mass, E_star, in_time):
-    """Penetrations (m), and `IntegratedQuantities`; where nothing is viscous only if `in_time`.
-
-    The `penetration` is that without viscosity.
+    It is solved where the medium is viscous, or everywhere if `in_time`.
     """
     shape, penetration = np.shape(penetration), penetration.ravel()
     velocity, time, work, deceleration = np.zeros((4, penetration.size))
@@ -151,22 +126,28 @@ def _integrate(bodies, penetration, mass, E_star, in_time):
         penetration[rows], end = solution.turning_point.depth[:, 0], solution.end[:, 0]
         velocity[rows], time[rows], work[rows] = end.velocity, end.time, end.work
         deceleration[rows] = solution.max_deceleration
-    restitution = np.minimum(-velocity / bodies.speed[:, 0], 1.0)
-    return penetration.reshape(shape), IntegratedQuantities(
-        solved=solved.reshape(shape)[()],
-        restitution=restitution.reshape(shape)[()],
-        contact_time=time.reshape(shape)[()],
-        viscous_work=(2 * E_star * work.reshape(shape))[()],
-        max_force=(deceleration.reshape(shape) * mass)[()],
-    )
+    quantities = {
+        "solved": solved.reshape(shape),
+        "restitution": np.minimum(-velocity / bodies.speed[:, 0], 1.0).reshape(shape),
+        "contact_time": time.reshape(shape),
+        "viscous_work": 2 * E_star * work.reshape(shape),
+        "max_force": deceleration.reshape(shape) * mass,
+    }
+    return penetration.reshape(shape), {name: _check.frozen(values) for name, values in quantities.items()}
+
+
+def quantity_of(path: str, doc: str) -> "cached_property[Array]":
+    """A property that is one of a state or result in this result, as in "turning_point.depth"."""
+    quantity = cached_property(attrgetter(path))
+    quantity.__doc__ = doc
+    return quantity
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Impact(ImpactResult):
-    """One impact or many; made by `impact`. Every quantity has the shape of the ensemble.
+    """One impact or many; made by `impact`. `result[i]` picks one.
 
-    `turning_point` is the state of largest depth, `plastic_depth_increase` (m) the increase of the plastic
-    depth by this impact. `result[i]` picks one impact.
+    `turning_point` is the state of largest depth; `plastic_depth_increase` (m) is due to this impact alone.
     """
 
     profile: Profile
@@ -175,79 +156,48 @@ class Impact(ImpactResult):
     speed: Array
     turning_point: Indentation
     plastic_depth_increase: np.ndarray
-    _integrated: IntegratedQuantities | None = None
+    #: Quantities by the equation of motion, and where it was "solved"; None if nowhere.
+    _integrated: dict[str, Array] | None = None
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """Where the model's assumptions end for these impacts, and the fast limit (23), (24), as data.
-
-        Examples
-        --------
-        >>> from mdr_core import Cone, Medium
-        >>> for limit in impact(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), 1e-12, 0.1).limits:
-        ...     print(limit.what, limit.holds, limit.sentence)
-        slope True Slopes reach 0.3 within the contact, which is small.
-        """
+        """Where the model's assumptions end for these impacts, and the fast limit (23), (24), as data."""
         limits = contact_limits(self.profile, self.medium, self.contact_radius)
         return (*limits, *how_fast(self))
 
-    @cached_property
-    def _course(self):
-        return Course(self)
+    _course = cached_property(lambda self: Course(self))
 
     def __getitem__(self, index: Any) -> "Impact":
-        state = self.turning_point[index]
-        return Impact(
-            profile=state.profile,
-            medium=state.medium,
-            mass=self.mass[index],
-            speed=self.speed[index],
-            turning_point=state,
-            plastic_depth_increase=self.plastic_depth_increase[index],
-            _integrated=None if self._integrated is None else self._integrated[index],
-        )
+        state, increase = self.turning_point[index], self.plastic_depth_increase[index]
+        integrated = self._integrated and {name: array[index] for name, array in self._integrated.items()}
+        mass, speed = self.mass[index], self.speed[index]
+        return Impact(state.profile, state.medium, mass, speed, state, increase, integrated)
 
     @property
     def model(self) -> Model:
         """How it was solved: by the energy balance in closed form, or by the equation of motion."""
         return CLOSED_FORM if self._integrated is None else SCALAR_ODE
 
-    @property
-    def max_depth(self) -> Array:
-        """Largest indentation depth d_max (m), from the virgin surface."""
-        return self.turning_point.depth
+    max_depth = quantity_of("turning_point.depth", "Largest depth d_max (m), from the virgin surface.")
+    contact_radius = quantity_of("turning_point.contact_radius", "Largest contact radius a (m).")
+    plastic_radius = quantity_of("turning_point.plastic_radius", "Radius c (m) of the final plastic zone.")
+    plastic_depth = quantity_of("turning_point.plastic_depth", "Plastic depth d_p (m) that remains.")
+    stored_energy = quantity_of(
+        "turning_point.stored_energy",
+        "Elastic energy (J) at the turning point; without viscosity all of it is returned.",
+    )
 
     def _merged(self, name, dry):
         """A quantity from the equation of motion where that was solved, else from a function without it."""
         if self._integrated is None:
             return dry()
-        solved, values = self._integrated.solved, getattr(self._integrated, name)
+        solved, values = self._integrated["solved"], self._integrated[name]
         return values if np.all(solved) else np.where(solved, values, dry())
 
     @_check.frozen_property
     def max_force(self):
-        """Largest force (N); in a viscous impact it comes before the turning point."""
+        """Largest force (N); a viscous impact reaches it before the turning point."""
         return self._merged("max_force", lambda: self.turning_point.force)
-
-    @property
-    def contact_radius(self) -> Array:
-        """Largest contact radius a (m)."""
-        return self.turning_point.contact_radius
-
-    @property
-    def plastic_radius(self) -> Array:
-        """Radius c (m) of the plastic zone that remains."""
-        return self.turning_point.plastic_radius
-
-    @property
-    def plastic_depth(self) -> Array:
-        """Plastic depth d_p (m) that remains."""
-        return self.turning_point.plastic_depth
-
-    @property
-    def stored_energy(self) -> Array:
-        """Elastic energy (J) at the turning point; without viscosity all of it is returned."""
-        return self.turning_point.stored_energy
 
     @_check.frozen_property
     def plastic_work(self):
@@ -259,36 +209,25 @@ class Impact(ImpactResult):
     @property
     def viscous_work(self) -> Array:
         """Energy (J) dissipated by viscosity, during the contact and by relaxation after it."""
-        return np.zeros(self.mass.shape)[()] if self._integrated is None else self._integrated.viscous_work
+        return self._merged("viscous_work", lambda: np.zeros(self.mass.shape)[()])
 
     @_check.frozen_property
     def restitution(self):
         """Coefficient of restitution e, speed after over speed before."""
-        interval, increase = self.turning_point.live_interval, self.plastic_depth_increase
-        d_c = self.medium.critical_depth
-        return self._merged("restitution", lambda: dry_restitution(self.profile, interval, d_c, increase))
+        interval, d_c = self.turning_point.live_interval, self.medium.critical_depth
+        arguments = self.profile, interval, d_c, self.plastic_depth_increase
+        return self._merged("restitution", lambda: dry_restitution(*arguments))
 
     @_check.frozen_property
     def contact_time(self):
         """Time (s) from first contact to the loss of contact."""
-        interval, increase = self.turning_point.live_interval, self.plastic_depth_increase
-        arguments = self.profile, self.mass / (2 * self.medium.E_star), self.speed, interval, increase
+        inertia, interval = self.mass / (2 * self.medium.E_star), self.turning_point.live_interval
+        arguments = self.profile, inertia, self.speed, interval, self.plastic_depth_increase
         return self._merged("contact_time", lambda: contact_time(*arguments))
 
     @property
     def fast_limit(self) -> FastLimit:
-        """The impact in the limit of Popov (2015), Eqs. (23), (24), with its error: a `FastLimit`.
-
-        Examples
-        --------
-        >>> from mdr_core import Cone, Medium
-        >>> hit = impact(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), 1e-6, 30.0)
-        >>> limit = hit.fast_limit
-        >>> print(round(limit.contact_area / (4 * 1e-6 * 30.0**2 / 2 / (np.pi * 10.0 * 0.3)), 12))  # (24)
-        1.0
-        >>> print(f"{limit.max_depth_error:.1e}")  # −d_c/(2 d_max)
-        -2.1e-06
-        """
+        """The impact in the limit of Popov (2015), Eqs. (23), (24), with its error: a `FastLimit`."""
         return fast_limit(self)
 
     def motion(self, n: int = 200) -> Motion:
@@ -301,19 +240,11 @@ class Impact(ImpactResult):
         n : int
             Number of instants, at least 2.
 
-        Returns
-        -------
-        Motion
-            Time, depth, velocity, force, radii and the energy ledger as arrays.
-
         Examples
         --------
         >>> from mdr_core import Medium, Paraboloid
         >>> hit = impact(Paraboloid(radius=1.0), Medium(E_star=1.0), 1.0, 0.01)
-        >>> motion = hit.motion(101)
-        >>> print(round(motion.time[-1] / (hit.max_depth / 0.01), 6))  # Hertz
+        >>> print(round(hit.motion(101).time[-1] / (hit.max_depth / 0.01), 6))  # Hertz
         2.943275
-        >>> print(round(motion.depth[50] / hit.max_depth, 9))  # half way
-        1.0
         """
         return motion(self, n)

@@ -4,9 +4,7 @@
    and where either end of the live interval passes a kink of g.
 2. A leg is a sequence of steps: in the depth while the depth changes faster, relative to itself, than the
    velocity, and in the velocity near the turning point. Each impact has step lengths of its own.
-3. The last Legendre coefficients of a step are the estimate of its error: they accept or refuse the step,
-   and set the length of the next one.
-4. The force is largest on loading: it is searched for next to the node where it is largest.
+3. The last Legendre coefficients of a step are the estimate of its error, which sets the next length.
 """
 
 from dataclasses import dataclass
@@ -18,17 +16,12 @@ from .energy_balance import loading_interval
 from .equation_of_motion import Loading, MotionState, Unloading
 from .steps import DepthCoordinate, DepthSteps, VelocitySteps
 
-#: Relative error of a step from its last coefficients; at the ends of steps the error is far smaller.
-TOLERANCE = 1e-5
 _MOST_STEPS = 3000
 
 
 @dataclass(frozen=True)
 class Solution:
-    """Turning point and loss of contact of impacts, as states (N, 1), and steps with their impacts.
-
-    The depth of the turning point is the penetration y (m), infinite where it exceeds the known depth.
-    """
+    """States (N, 1) at turning point (infinite below the known depth) and end; steps with their impacts."""
 
     turning_point: MotionState
     end: MotionState
@@ -51,8 +44,8 @@ class Solution:
 
 
 @np.errstate(all="ignore")
-def solve(bodies, tolerance=TOLERANCE):
-    """The `Solution` of impacts, from first contact to the loss of contact."""
+def solve(bodies, tolerance=1e-5):
+    """The `Solution` of impacts; the tolerance is that between nodes: at ends errors are far smaller."""
     # A step that is too long may leave double precision; it is then repeated, shorter.
     turning_point, loading = _load(bodies, tolerance)
     end, unloading = _unload(bodies, turning_point, tolerance)
@@ -60,7 +53,7 @@ def solve(bodies, tolerance=TOLERANCE):
 
 
 def _load(bodies, tolerance):
-    """State at the turning point (its depth infinite beyond the known one), and the steps of loading."""
+    """State at the turning point (of infinite depth below the known depth), and the steps of loading."""
     profile, imprint, d_c = bodies.profile, bodies.imprint_depth, bodies.critical_depth
     equation, steps, zero = Loading(bodies), [], np.zeros_like(bodies.speed)
     state = MotionState(zero.copy(), bodies.speed.copy(), zero.copy(), zero.copy())
@@ -101,8 +94,8 @@ def _unload(bodies, turning_state, tolerance):
 class _Leg:
     """One leg of impacts, from a `state` to a depth `edge` (m) or to the turning point, one impact a row.
 
-    A subclass gives the sign of its steps in depth, the kind of steps that run towards zero, the margin by
-    which a depth may pass the edge in rounding, and `_room`: the distance to the end, and the longest step.
+    A subclass gives the sign of steps in depth, the kind of steps that run towards zero, the rounding by
+    which a depth may pass the edge, and `_room`: the distance to the end, and the longest step.
     """
 
     def __init__(self, equation, coordinate, edge, state):
@@ -163,7 +156,7 @@ class _Leg:
         factor = np.clip(0.9 * (tolerance / error) ** (1 / 30), 0.3, 3.0)
         factor[passed] = 0.3
         if kind is self.vanishing:
-            # What remains shrinks, and the steps in proportion to it.
+            # Steps shrink in proportion to the remainder.
             factor = np.where(good, factor * (1 - length / room)[:, 0], np.where(last, 0.85, factor))
         self.length[rows] = length * factor[:, None]
         taken, ended = rows[good], rows[good & last]

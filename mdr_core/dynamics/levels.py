@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-#: Steps of the first run for each unit of change, and the largest number of levels of a run.
-_STEPS, MOST_LEVELS = 4, 6000
+#: Largest number of levels of a run.
+MOST_LEVELS = 6000
 
 
 @dataclass(frozen=True)
@@ -22,8 +22,7 @@ class Levels:
 def levels(hit, inertia, halvings, instants=()):
     """The `Levels` of a run along the surface under one normal `Impact`, with C = 2κE*/m_t (1/(m s²)).
 
-    As dense as loading and unloading need, then halved in the time of loading; the depths that the impact
-    passes at `instants` (s) are levels as well.
+    Steps of loading are halved in time; depths at `instants` (s) are levels as well.
     """
     course, max_depth, lower = hit._course, hit.max_depth, hit.plastic_depth
     loading, unloading, turn = course.loading, course.unloading, course.turning_time
@@ -60,5 +59,5 @@ def _even_times(hit, branch, lower, inertia):
     for values, size in zip((state.depth, radius, state.velocity), sizes, strict=True):
         share += np.abs(np.diff(values)) / size
     share = np.append(0.0, np.cumsum(share))
-    count = int(np.ceil(min(_STEPS * share[-1], MOST_LEVELS / 16)))
+    count = int(np.ceil(min(4 * share[-1], MOST_LEVELS / 16)))
     return np.interp(np.linspace(0, share[-1], count + 1)[1:-1], share, state.time)

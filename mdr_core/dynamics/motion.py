@@ -6,9 +6,6 @@ from ..indentation import Indentation
 from ..results.base import Motion, instants
 from .energy_balance import plastic_integral
 
-#: Instants of unloading at which the energy of released elements is summed.
-_INSTANTS = 400
-
 
 def motion(hit, n):
     """The `Motion` of one `Impact` at n instants."""
@@ -44,19 +41,18 @@ def _released_energy(hit, course, time):
     """Energy over 2E* (m³) of the springs of released elements at times (s), 0 on loading.
 
     An element is released with the elastic part τ|v|, which relaxes as exp(−t/τ). Between two instants the
-    rim passes elements at a constant rate of the radius, and v² is linear in time.
+    radius of the rim and v² are linear in time.
     """
     tau = hit.medium.relaxation_time
     if tau == 0:
         return np.zeros_like(time)
     # Steps are short where the velocity falls quickly.
-    even = np.linspace(course.turning_time, course.end_time, _INSTANTS)
+    even = np.linspace(course.turning_time, course.end_time, 400)
     finer = np.unique(np.concatenate([time, even, course.unloading.nodes(33).time]))
     finer = finer[(finer >= course.turning_time) & (finer <= course.end_time)]
     state = course.unloading.at(finer)
     radius = hit.profile._radius(hit.plastic_depth + state.depth)
-    density = (tau * state.velocity) ** 2 / 2
-    decay = 2 * np.diff(finer) / tau
+    density, decay = (tau * state.velocity) ** 2 / 2, 2 * np.diff(finer) / tau
     remaining = np.exp(-decay)
     # Means of s and 1 − s with the weight exp(−decay (1 − s)).
     with np.errstate(invalid="ignore", divide="ignore"):

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from ..medium import Medium, check_pair, shape_with
 from ..results.base import Entries, Model, Result
 from ..results.limits import Limit, friction_limits
 from ..shapes.profile import Profile
-from .impact import Impact, impact
+from .impact import Impact, impact, quantity_of
 from .oblique_motion import ObliqueMotion, oblique_motion
 from .surface import EXACT, SurfaceSolution, solve_surface
 
@@ -37,25 +37,24 @@ def oblique_impact(
 ) -> "ObliqueImpact":
     """Let a body hit the medium with a speed along the surface as well, under Coulomb's friction.
 
-    Popov's outlook (2015): every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν)
-    times as stiff and as viscous (Mindlin). It sticks while its load is at most the friction coefficient
-    times the normal load, and slips otherwise. Yield limits the normal springs only; friction acts under
-    the normal load of springs and dashpots.
+    Every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν) times as stiff and as
+    viscous (Mindlin; outlook of Popov 2015). It sticks while its load is at most μ times the normal load of
+    spring and dashpot, and slips otherwise. Yield limits the normal springs only.
 
     Parameters
     ----------
     profile, medium
-        The indenter, and the medium: elastic, yielding or viscous; its `poisson` is ν.
+        The indenter, and the medium; its `poisson` is ν.
     mass, speed : float or array_like
         Mass m (kg) and normal speed v₀ (m/s) at first contact, positive.
     tangential_speed : float or array_like
-        Speed W₀ (m/s) of the contact point along the surface, of any sign: that of a body that does not
-        spin, otherwise `Ball.contact_speed`. `at_angle` gives both speeds from a speed and an angle.
+        Speed W₀ (m/s) of the contact point along the surface, of any sign: see `at_angle`, and for bodies
+        that spin `Ball.contact_speed`.
     friction : float or array_like
         Coefficient of friction μ, the same for stick and slip; 0 and infinity are allowed.
     tangential_mass : float or array_like, optional
-        Effective mass m_t (kg) at the contact point along the surface, 1/m_t = 1/m + R²/I; by default m,
-        that of a body that cannot turn. `Ball.tangential_mass` is that of a ball.
+        Effective mass m_t (kg) at the contact point along the surface, 1/m_t = 1/m + R²/I, as by
+        `Ball.tangential_mass`; by default m, that of a body that cannot turn.
     tolerance : float, optional
         Error allowed in the tangential velocity relative to the tangential speed, and in work and largest
         force relative to themselves (or to a hundredth of the tangential energy, where work is less).
@@ -73,23 +72,24 @@ def oblique_impact(
     Examples
     --------
     A ball that slips throughout, Maw, Barber & Fawcett (1976): with ψ = κW/(μv) and χ = κm/(2m_t),
-    ψ₂ = ψ₁ − 4χ, here for κ = 2/3 and χ = 7/6.
+    ψ₂ = ψ₁ − 4χ, here ψ₁ = 4 and χ = 7/6.
 
     >>> from mdr_core import Ball, Medium, Paraboloid
-    >>> ball = Ball(mass=1e-3, radius=5e-3)
-    >>> medium = Medium(E_star=1e9)
-    >>> hit = oblique_impact(
-    ...     Paraboloid(5e-3), medium, 1e-3, 1.0, 3.0, 0.5, tangential_mass=ball.tangential_mass
-    ... )
-    >>> print(round(hit.tangential_velocity * (2 / 3) / 0.5, 9), round(3.0 * (2 / 3) / 0.5 - 4 * 7 / 6, 9))
-    -0.666666667 -0.666666667
+    >>> ball, medium = Ball(mass=1e-3, radius=5e-3), Medium(E_star=1e9)
+    >>> mass = ball.tangential_mass
+    >>> hit = oblique_impact(Paraboloid(5e-3), medium, 1e-3, 1.0, 3.0, 0.5, tangential_mass=mass)
+    >>> print(round(hit.tangential_velocity * (2 / 3) / 0.5, 9))
+    -0.666666667
     """
     check_pair(profile, medium)
     mass = _check.positive("mass", mass, unit="kg")
     speed = _check.positive("speed", speed, unit="m/s")
     tangential_mass = mass if tangential_mass is None else tangential_mass
+    signed = _check.finite_array("tangential_speed", tangential_speed, unit="m/s", most=_check.LARGEST)
+    tiny = (signed != 0) & (np.abs(signed) < _check.SMALLEST)
+    bound = f"must be 0 or at least {_check.SMALLEST:g}"
     surface = {
-        "tangential_speed": _signed(tangential_speed),
+        "tangential_speed": _check.refuse("tangential_speed", signed, tiny, bound, unit="m/s"),
         "friction": _check.positive("friction", friction, infinite=True, zero=True),
         "tangential_mass": _check.positive("tangential_mass", tangential_mass, unit="kg"),
     }
@@ -104,20 +104,11 @@ def oblique_impact(
     return ObliqueImpact(normal=hit, **surface, _surface=SurfaceSolution.of(solutions, shape))
 
 
-def _signed(speed):
-    """A tangential speed (m/s) of any sign as a float array: 0, or of a size whose square is a number."""
-    speed = _check.finite_array("tangential_speed", speed, unit="m/s", most=_check.LARGEST)
-    tiny = (speed != 0) & (np.abs(speed) < _check.SMALLEST)
-    bound = f"must be 0 or at least {_check.SMALLEST:g}"
-    return _check.refuse("tangential_speed", speed, tiny, bound, unit="m/s")
-
-
 class ObliqueErrors(NamedTuple):
     """Estimated relative errors of an `ObliqueImpact`.
 
-    Those of coefficients of restitution are relative to 1, that of the velocity to W₀, that of the friction
-    work to the energy ½ m_t W₀² along the surface, that of the viscous work to the whole kinetic energy;
-    all others relative to the quantity.
+    Those of coefficients of restitution are relative to 1, of the velocity to W₀, of the friction work to
+    ½ m_t W₀², of the viscous work to the whole kinetic energy; all others to the quantity.
     """
 
     restitution: Array
@@ -143,6 +134,8 @@ class ObliqueImpact(Entries, Result):
     friction: Array
     tangential_mass: Array
     _surface: SurfaceSolution
+    #: How the tangential motion was solved.
+    model: ClassVar[Model] = FRICTION
     _quantities = (
         "mass", "speed", "tangential_speed", "friction", "tangential_mass", "restitution",
         "tangential_velocity", "tangential_restitution", "rebound_angle", "max_depth", "max_force",
@@ -154,6 +147,16 @@ class ObliqueImpact(Entries, Result):
     )  # fmt: skip
     _dimensions = ("impact",)
 
+    mass = quantity_of("normal.mass", "Mass m (kg).")
+    speed = quantity_of("normal.speed", "Normal speed v₀ (m/s) before.")
+    restitution = quantity_of("normal.restitution", "Normal coefficient of restitution e.")
+    contact_time = quantity_of("normal.contact_time", "Time (s) from first contact to the loss of contact.")
+    max_depth = quantity_of("normal.max_depth", "Largest depth (m).")
+    max_force = quantity_of("normal.max_force", "Largest normal force (N).")
+    plastic_work = quantity_of("normal.plastic_work", "Energy (J) dissipated by yielding.")
+    max_tangential_force = quantity_of("_surface.max_force", "Largest tangential force (N), without sign.")
+    friction_work = quantity_of("_surface.friction_work", "Energy (J) dissipated by slip.")
+
     @property
     def profile(self) -> Profile:
         """The indenter."""
@@ -164,71 +167,10 @@ class ObliqueImpact(Entries, Result):
         """The medium."""
         return self.normal.medium
 
-    @property
-    def model(self) -> Model:
-        """How the tangential motion was solved."""
-        return FRICTION
-
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """Where the model's assumptions end, as data: those of the normal impact, and those of friction.
-
-        Examples
-        --------
-        >>> from mdr_core import Cone, Medium
-        >>> hit = oblique_impact(Cone(0.1), Medium(1e9, 10.0, poisson=0.3), 1e-12, 0.1, 0.1, 0.3)
-        >>> for limit in hit.limits:
-        ...     print(limit.what, round(limit.value, 3), limit.holds)
-        slope 0.1 True
-        coupling 0.286 False
-        slip direction 0.088 True
-        """
+        """Where the model's assumptions end, as data: those of the normal impact, and those of friction."""
         return (*(x for x in self.normal.limits if x.concerns == "result"), *friction_limits(self.medium))
-
-    @property
-    def mass(self) -> Array:
-        """Mass m (kg)."""
-        return self.normal.mass
-
-    @property
-    def speed(self) -> Array:
-        """Normal speed v₀ (m/s) before."""
-        return self.normal.speed
-
-    @property
-    def restitution(self) -> Array:
-        """Normal coefficient of restitution e."""
-        return self.normal.restitution
-
-    @property
-    def contact_time(self) -> Array:
-        """Time (s) from first contact to the loss of contact."""
-        return self.normal.contact_time
-
-    @property
-    def max_depth(self) -> Array:
-        """Largest depth (m)."""
-        return self.normal.max_depth
-
-    @property
-    def max_force(self) -> Array:
-        """Largest normal force (N)."""
-        return self.normal.max_force
-
-    @property
-    def plastic_work(self) -> Array:
-        """Energy (J) dissipated by yielding."""
-        return self.normal.plastic_work
-
-    @property
-    def max_tangential_force(self) -> Array:
-        """Largest tangential force (N), without sign."""
-        return self._surface.max_force
-
-    @property
-    def friction_work(self) -> Array:
-        """Energy (J) dissipated by slip."""
-        return self._surface.friction_work
 
     @property
     def slips_throughout(self) -> Any:
@@ -263,11 +205,11 @@ class ObliqueImpact(Entries, Result):
     @property
     def errors(self) -> ObliqueErrors:
         """Estimated relative errors by the name of the quantity, as in `errors.friction_work`."""
-        normal, surface, exact = self.normal, self._surface, np.full(self.shape, EXACT)[()]
+        surface, exact = self._surface, np.full(self.shape, EXACT)[()]
         energy = self.tangential_mass * self.tangential_speed**2 / 2
-        viscous = surface.viscous_error * energy + EXACT * normal.viscous_work
+        viscous = surface.viscous_error * energy + EXACT * self.normal.viscous_work
         return ObliqueErrors(
-            restitution=EXACT * normal.restitution,
+            restitution=EXACT * self.restitution,
             tangential_velocity=surface.change_error,
             tangential_restitution=surface.change_error,
             max_tangential_force=surface.force_error,
@@ -281,7 +223,7 @@ class ObliqueImpact(Entries, Result):
         """The motion of one impact at n instants, normal and tangential, with stick and slip.
 
         Instants are equally spaced before the turning point, and again after it. The elements are those of
-        the finest run; the energies sum to the same at every instant.
+        the finest run.
 
         Examples
         --------

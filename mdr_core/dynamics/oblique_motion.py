@@ -1,6 +1,6 @@
 """The motion of one oblique impact over time: the normal motion, and one run along the surface."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -8,6 +8,7 @@ import numpy as np
 from .._check import Array
 from ..results.base import Motion, MotionResult
 from .friction import bound_ratio, slide
+from .impact import quantity_of
 from .levels import levels
 
 
@@ -20,39 +21,28 @@ class ObliqueMotion(MotionResult):
 
     Attributes
     ----------
-    time, depth, velocity, force, contact_radius, plastic_radius : ndarray
-        As in `Motion`.
     tangential_velocity, tangential_force : ndarray
         Velocity W (m/s) of the contact point along the surface, and the force (N) against it.
     stick_radius, slip_radius : ndarray
         Outer and inner radius (m) of the region that sticks, to within an element; both 0 if all slips.
-    kinetic_energy, stored_energy, plastic_work, viscous_work, friction_work : ndarray
-        The ledger (J): ½mv² + ½m_t W², the energy of all springs, normal and tangential, and three losses.
+    kinetic_energy, stored_energy, viscous_work, friction_work : ndarray
+        The ledger (J): ½mv² + ½m_t W², the energy of all springs, normal and tangential, and losses.
     x : ndarray, shape (N,)
         Coordinates (m) of the elements of the foundation.
     tangential_line_load : ndarray, shape (n, N)
         Load q_x(x) (N/m) of every element along the surface at every instant.
     sticks : ndarray of bool, shape (n, N)
         Whether an element is in contact and sticks.
-    normal : Motion
-        The normal motion, with `normal.states`.
-    impact : ObliqueImpact
-        The impact whose motion it is.
+    normal, impact
+        The normal `Motion`, with `normal.states`, and the `ObliqueImpact`.
     """
 
-    time: Array
-    depth: Array
-    velocity: Array
-    force: Array
-    contact_radius: Array
-    plastic_radius: Array
     tangential_velocity: Array
     tangential_force: Array
     stick_radius: Array
     slip_radius: Array
     kinetic_energy: Array
     stored_energy: Array
-    plastic_work: Array
     viscous_work: Array
     friction_work: Array
     x: Array
@@ -61,6 +51,13 @@ class ObliqueMotion(MotionResult):
     normal: Motion
     impact: Any
 
+    time = quantity_of("normal.time", "Time (s) since first contact.")
+    depth = quantity_of("normal.depth", "Indentation depth (m).")
+    velocity = quantity_of("normal.velocity", "Rate (m/s) of the depth.")
+    force = quantity_of("normal.force", "Normal force (N).")
+    contact_radius = quantity_of("normal.contact_radius", "Contact radius (m).")
+    plastic_radius = quantity_of("normal.plastic_radius", "Radius (m) of the plastic zone.")
+    plastic_work = quantity_of("normal.plastic_work", "Energy (J) dissipated by yielding.")
     _quantities = (
         "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "tangential_velocity",
         "tangential_force", "stick_radius", "slip_radius", "kinetic_energy", "stored_energy",
@@ -72,7 +69,8 @@ class ObliqueMotion(MotionResult):
     )  # fmt: skip
 
     def __getitem__(self, index: Any) -> "ObliqueMotion":
-        instants = {name: getattr(self, name)[index] for name in self._quantities}
+        names = set(self._quantities) & {field.name for field in fields(self)}
+        instants = {name: getattr(self, name)[index] for name in names}
         load, sticks, normal = self.tangential_line_load[index], self.sticks[index], self.normal[index]
         return replace(self, **instants, tangential_line_load=load, sticks=sticks, normal=normal)
 
@@ -98,19 +96,12 @@ def along_surface(hit, speed, friction, mass, n, halvings, impact=None):
     first, last = sticks.argmax(axis=1), sticks.shape[1] - sticks[:, ::-1].argmax(axis=1)
     velocity, energy = run.velocities[at] * speed, stiffness * speed**2
     return ObliqueMotion(
-        time=normal.time,
-        depth=normal.depth,
-        velocity=normal.velocity,
-        force=normal.force,
-        contact_radius=normal.contact_radius,
-        plastic_radius=normal.plastic_radius,
         tangential_velocity=velocity,
         tangential_force=stiffness * speed * run.forces[at],
         stick_radius=np.where(stuck, edges[last], 0.0),
         slip_radius=np.where(stuck, edges[first], 0.0),
         kinetic_energy=normal.kinetic_energy + mass * velocity**2 / 2,
         stored_energy=normal.stored_energy + energy * run.energies[at],
-        plastic_work=normal.plastic_work,
         viscous_work=normal.viscous_work + energy * run.viscous[at],
         friction_work=energy * run.friction[at],
         x=(edges[1:] + edges[:-1]) / 2,

@@ -1,9 +1,8 @@
 """Steps of an equation of motion by collocation, in the depth or in the velocity, many impacts at once.
 
-Time is eliminated: the unknown of a step is the velocity as a function of the depth, or the depth as a
-function of the velocity where the body is about to turn round or has just done so. Every step therefore
-ends at a depth or velocity known beforehand, and no event is searched for. The unknown is a polynomial
-through 24 Gauss nodes, from Newton's method; time and viscous work are integrals over the step.
+The unknown of a step is the velocity as a function of the depth, or near the turning point the depth as a
+function of the velocity: every step ends at a known depth or velocity. The unknown is a polynomial through
+24 Gauss nodes, from Newton's method; time and viscous work are integrals over the step.
 """
 
 from dataclasses import dataclass, replace
@@ -22,8 +21,7 @@ _NODES, _WEIGHTS = _numeric.gauss_legendre(24)
 class DepthCoordinate(Entries):
     """Coordinate δ of depths q = base + (root + δ)³ − root³ (m), one impact a row of (N, 1).
 
-    Behind a kink, or the vertex of the indenter, a(s) is a fractional power of the distance; root³ is the
-    distance at `base`. In δ it is smooth enough.
+    Behind a kink or vertex a(s) is a fractional power of the distance (root³ at `base`), but smooth in δ.
     """
 
     base: np.ndarray
@@ -37,17 +35,13 @@ class DepthCoordinate(Entries):
         """Coordinates of depths (m)."""
         return cube_way(self.root, depth - self.base)
 
-    def rate(self, delta):
-        """dq/dδ."""
-        return 3 * (self.root + delta) ** 2
-
 
 @dataclass(frozen=True)
 class Steps(Entries):
     """Steps of impacts, one a row, from states `start`: base class of steps in depth and in velocity.
 
-    The variable of a step goes from `origin` on by `length`, of shape (N, 1). `slopes` (N, 3, 24) are the
-    derivatives of the unknown, of time and of work at the nodes.
+    The variable of a step goes from `origin` on by `length` (N, 1). `slopes` (N, 3, 24) are the rates of
+    the unknown, of time and of work at the nodes.
     """
 
     equation: Loading | Unloading
@@ -117,7 +111,7 @@ class DepthSteps(Steps):
     def _slopes(self, delta):
         """Function from the unknown to slopes of unknown, time and work, and ∂(first)/∂(unknown)."""
         load, radius = self.equation.load(self.coordinate.depth(delta))
-        damping, depth_rate = self.equation.damping(radius), self.coordinate.rate(delta)
+        damping, depth_rate = self.equation.damping(radius), 3 * (self.coordinate.root + delta) ** 2
 
         def slopes(velocity):
             rate, acceleration, power = self.equation.rates(load, radius, velocity)

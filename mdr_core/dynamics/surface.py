@@ -14,8 +14,6 @@ from ..results.base import Entries
 from .friction import RunQuantities, bound_ratio, slide, stick_instants
 from .levels import MOST_LEVELS, levels
 
-#: Largest number of halvings of the steps of the first run.
-_MOST_HALVINGS = 8
 #: Relative error of the normal motion, and of closed forms that follow from it.
 EXACT = 1e-9
 
@@ -25,8 +23,7 @@ class SurfaceSolution(Entries):
     """Motion along the surface of one impact, or of many as arrays, with estimated errors.
 
     Change of the velocity over W₀, largest force (N), friction and viscous work (J) along the surface.
-    Errors are those of the relative change, of the force relative to itself, of works to ½ m_t W₀².
-    `halvings` counts those of the steps of the first run, 0 in closed form.
+    Errors of works are relative to ½ m_t W₀². Closed forms have 0 `halvings` of the steps of the first run.
     """
 
     relative_change: Array
@@ -55,7 +52,9 @@ def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
     inertia, ratio = stiffness / tangential_mass, bound_ratio(hit, tangential_speed, friction)
     max_force = friction * float(hit.max_force)
     change = -friction * float(hit.mass) / tangential_mass * (1 + float(hit.restitution)) * float(hit.speed)
-    slips = friction == 0 or (speed > 0 and _slips_throughout(hit, speed, friction, change))
+    slowest = friction / kappa * float(hit.speed)
+    fast = speed >= slowest and speed + change >= -slowest * float(hit.restitution)
+    slips = friction == 0 or (speed > 0 and fast)
     limit = error = RunQuantities(0.0, 0.0, 0.0, 0.0)
     halvings, viscous = 0, friction**2 / kappa * float(hit.viscous_work) if slips else 0.0
     if not slips or (hit.medium.eta > 0 and hit.plastic_work > 0 and friction > 0):
@@ -73,30 +72,14 @@ def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
         friction_work = limit.friction * stiffness * speed**2
         change_error, force_error = error.change, error.force / limit.force
         friction_error = error.friction * 2 * inertia
-    return SurfaceSolution(
-        relative_change=change,
-        max_force=max_force,
-        friction_work=friction_work,
-        viscous_work=viscous,
-        change_error=change_error,
-        force_error=force_error,
-        friction_error=friction_error,
-        viscous_error=viscous_error,
-        halvings=halvings,
-        slips_throughout=slips,
-    )
-
-
-def _slips_throughout(hit, speed, friction, change):
-    """Whether all elements slip at a tangential speed (m/s) that friction changes by `change` (m/s)."""
-    slowest = friction / float(hit.medium.tangential_ratio) * float(hit.speed)
-    return speed >= slowest and speed + change >= -slowest * float(hit.restitution)
+    errors = change_error, force_error, friction_error, viscous_error
+    return SurfaceSolution(change, max_force, friction_work, viscous, *errors, halvings, slips)
 
 
 def _limits(hit, inertia, ratio, tolerance):
     """Limits of `RunQuantities` for vanishing steps, their estimated errors, and the number of halvings."""
     run, last_limit = slide(hit, levels(hit, inertia, 0), inertia, ratio), None
-    for halvings in range(1, _MOST_HALVINGS):
+    for halvings in range(1, 8):
         # The instants at which stick begins are known from the last run.
         grid = levels(hit, inertia, halvings, stick_instants(hit, run, ratio))
         coarse, run = run.quantities, slide(hit, grid, inertia, ratio)

@@ -50,8 +50,7 @@ class Cone(Profile):
     Parameters
     ----------
     slope : float
-        Slope s of the generator (dimensionless), positive: the tangent of its angle to the
-        surface.
+        Slope s of the generator, positive: the tangent of its angle to the surface.
 
     Examples
     --------
@@ -84,10 +83,9 @@ class Cone(Profile):
 
         Examples
         --------
-        >>> print(round(3.14159 / Cone.berkovich().slope ** 2, 1))  # A = 24.5 h²
+        >>> print(round(np.pi / Cone.berkovich().slope ** 2, 1))  # A = 3√3 tan²(65.27°) h²
         24.5
         """
-        # Berkovich: A = 3√3 tan²(65.27°) h².
         return cls(math.sqrt(math.pi / (3 * math.sqrt(3.0))) / math.tan(math.radians(65.27)))
 
     def _height(self, r):
@@ -144,10 +142,8 @@ class PowerLaw(Profile):
 
     Parameters
     ----------
-    coefficient : float or array_like
-        Coefficient c (m^(1−n)), positive.
-    exponent : float or array_like
-        Exponent n, from 0.01 to 1000.
+    coefficient, exponent : float or array_like
+        Coefficient c (m^(1−n)), positive; exponent n, from 0.01 to 1000.
 
     Examples
     --------
@@ -161,8 +157,7 @@ class PowerLaw(Profile):
     def __post_init__(self):
         _check.set_positive(self, coefficient="m^(1-n)", exponent="")
         exponent, reduced = np.asarray(self.exponent), np.asarray(self._reduced_coefficient)
-        outside = ~((exponent >= 0.01) & (exponent <= 1000))
-        bound = "must lie in 0.01 ≤ n ≤ 1000"
+        outside, bound = ~((exponent >= 0.01) & (exponent <= 1000)), "must lie in 0.01 ≤ n ≤ 1000"
         _check.refuse("PowerLaw exponent", exponent, outside, bound, remedy="FlatPunch is n → ∞")
         bound = "m^(1-n), the coefficient of the reduced profile, leaves double precision"
         outside = ~((reduced > 0) & (reduced < np.inf))

@@ -12,7 +12,7 @@ from .._numeric import increasing_root
 class Profile(_check.Parameters, ABC):
     """Profile of a rigid axisymmetric indenter, with its tip at the origin and its height growing outward.
 
-    Lengths are in m, slopes dimensionless. A profile of your own is a frozen dataclass with the methods
+    Lengths are in m. A profile of your own is a frozen dataclass with the methods
     `_height`, `_reduced` and `_reduced_slope` for arrays of radii r ≥ 0. Where it has a flat face, a wall,
     kinks or an end it also gives `face_radius`, `wall`, `kinks`, `known_depth` and `known_radius`.
     Parameters may be arrays that broadcast with each other, with radii and with depths: an ensemble of
@@ -46,24 +46,18 @@ class Profile(_check.Parameters, ABC):
 
     #: Radius (m) of a vertical wall, where depth grows at constant contact radius.
     wall = np.inf
-
     #: Radius (m) of a flat face at the tip: the contact radius at depth 0.
     face_radius = 0.0
-
     #: Largest depth and radius (m) for which the profile is known.
     known_depth = np.inf
     known_radius = np.inf
     _end_of_depth = "the shape is known"
-
     #: Radius (m) of the body that ends in the tip; the half-space needs a contact that is small against it.
     body_radius = np.inf
-
     #: Depths (m), ascending, at which the edge of the contact passes a kink of g, or reaches the wall.
     kinks = ()
-
     #: Depth (m) at which g changes from one power of x to another, None if it is not known.
     transition_depth = None
-
     #: Of profiles with a table (`tabulated`): the unit profile, a length L and a depth H (m), with which
     #: g(x) is H times g(x/L) of the unit profile.
     unit = None
@@ -89,12 +83,6 @@ class Profile(_check.Parameters, ABC):
         """Slope g′(x) (dimensionless) of the equivalent 1D profile; on a kink, that of its outer side.
 
         Odd in x; infinite at the sharp edge of a flat face, and at the radius of a wall and outside.
-
-        Examples
-        --------
-        >>> from mdr_core import Paraboloid
-        >>> Paraboloid(radius=2.0).reduced_slope([-1.0, 3.0]).tolist()  # 2x/R
-        [-1.0, 3.0]
         """
         sign = np.where(_check.finite_array("coordinate x", x, unit="m") < 0, -1.0, 1.0)
         slope = self._of_radius("coordinate x", x, self._reduced_slope)
@@ -113,10 +101,10 @@ class Profile(_check.Parameters, ABC):
     def _radius(self, depth):
         """Contact radius (m) at depths (m) from 0 to the known depth."""
 
-        def height(x):
-            return self._reduced(x), self._reduced_slope(x)
-
-        return np.maximum(increasing_root(height, depth, 1.0, self.known_radius), self.face_radius)
+        root = increasing_root(
+            lambda x: (self._reduced(x), self._reduced_slope(x)), depth, 1.0, self.known_radius
+        )
+        return np.maximum(root, self.face_radius)
 
     def _kink_above(self, depth):
         """Depth (m) of the last kink above each depth (m), 0 for the tip."""
@@ -144,19 +132,15 @@ class Profile(_check.Parameters, ABC):
     def _places(self, quantity, values, most=_check.FARTHEST):
         """Radii or depths (m), checked and broadcast to the ensemble."""
         values = _check.finite_array(quantity, values, unit="m", most=most)
-        shape = _check.common_shape(
-            type(self).__name__, **{quantity: values}, indenters=np.empty(self.shape)
-        )
-        return np.broadcast_to(values, shape)
+        given = {quantity: values, "indenters": np.empty(self.shape)}
+        return np.broadcast_to(values, _check.common_shape(type(self).__name__, **given))
 
     def _known(self, depth):
         """`depth` (m), if the profile is known to it."""
         if np.all(self.known_depth == np.inf):
             return depth
-        bound = f"is {self._too_deep()}"
-        return _check.refuse(
-            "depth", depth, depth > self.known_depth, bound, unit="m", remedy="press less deep"
-        )
+        too_deep, bound = depth > self.known_depth, f"is {self._too_deep()}"
+        return _check.refuse("depth", depth, too_deep, bound, unit="m", remedy="press less deep")
 
     def _too_deep(self):
         """Text for a refusal of depths below `known_depth`."""

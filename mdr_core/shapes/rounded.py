@@ -10,9 +10,7 @@ from .tabulated import OneLength
 
 @dataclass(frozen=True, eq=False)
 class Sphere(OneLength):
-    """Sphere z = R − √(R² − r²), with g = x artanh(x/R).
-
-    From Popov (2015), Eq. (3).
+    """Sphere z = R − √(R² − r²), with g = x artanh(x/R): Popov (2015), Eq. (3).
 
     Parameters
     ----------
@@ -28,7 +26,6 @@ class Sphere(OneLength):
     radius: Parameter
 
     _length = _depth = body_radius = property(lambda self: self.radius)
-
     # At this depth a is R to rounding.
     known_depth = property(lambda self: 100 * self.radius)
     _end_of_depth = "the equator, which the contact has reached at d = 100 R"
@@ -39,13 +36,10 @@ class Sphere(OneLength):
         inside = np.minimum(u, 1.0)
         return np.where(u > 1, np.inf, inside * (inside / (1 + np.sqrt((1 - inside) * (1 + inside)))))
 
-    @staticmethod
-    def _G(u):
-        return np.where(u < 1, u * np.arctanh(np.minimum(u, 1.0)), np.inf)
-
-    @staticmethod
-    def _G_slope(u):
-        return np.where(u < 1, np.arctanh(np.minimum(u, 1.0)) + u / ((1 - u) * (1 + u)), np.inf)
+    _G = staticmethod(lambda u: np.where(u < 1, u * np.arctanh(np.minimum(u, 1.0)), np.inf))
+    _G_slope = staticmethod(
+        lambda u: np.where(u < 1, np.arctanh(np.minimum(u, 1.0)) + u / ((1 - u) * (1 + u)), np.inf)
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,21 +63,11 @@ class Hyperboloid(OneLength):
 
     slope: Parameter
     tip_radius: Parameter
-
     _length = property(lambda self: self.slope * self.tip_radius)
     _depth = property(lambda self: self.slope * self._length)
-
-    @staticmethod
-    def _Z(u):
-        return u * (u / (np.hypot(u, 1.0) + 1))
-
-    @staticmethod
-    def _G(u):
-        return u * np.arctan(u)
-
-    @staticmethod
-    def _G_slope(u):
-        return np.arctan(u) + u / (1 + u * u)
+    _Z = staticmethod(lambda u: u * (u / (np.hypot(u, 1.0) + 1)))
+    _G = staticmethod(lambda u: u * np.arctan(u))
+    _G_slope = staticmethod(lambda u: np.arctan(u) + u / (1 + u * u))
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,14 +91,11 @@ class RoundedCone(OneLength):
 
     tip_radius: Parameter
     slope: Parameter
-
     _length = property(lambda self: self.slope * self.tip_radius)
     _depth = property(lambda self: self.slope * self._length)
     kinks = property(lambda self: (self._depth,))
 
-    @staticmethod
-    def _Z(u):
-        return np.where(u <= 1, u * (u / 2), u - 0.5)
+    _Z = staticmethod(lambda u: np.where(u <= 1, u * (u / 2), u - 0.5))
 
     @staticmethod
     def _G(u):
@@ -156,17 +137,9 @@ class ParabolicPunch(OneLength):
     body_radius = property(lambda self: self.radius)
     _end = 1.0
 
-    @staticmethod
-    def _Z(u):
-        return np.where(u <= 1, u * (u / 2), np.inf)
-
-    @staticmethod
-    def _G(u):
-        return np.where(u <= 1, u * u, np.inf)
-
-    @staticmethod
-    def _G_slope(u):
-        return np.where(u <= 1, 2 * u, np.inf)
+    _Z = staticmethod(lambda u: np.where(u <= 1, u * (u / 2), np.inf))
+    _G = staticmethod(lambda u: np.where(u <= 1, u * u, np.inf))
+    _G_slope = staticmethod(lambda u: np.where(u <= 1, 2 * u, np.inf))
 
     def _radius(self, depth):
         # At the wall the radius is exactly that of the cylinder.

@@ -14,24 +14,19 @@ from .tables import area_samples, convex_fit, read_samples
 
 #: Largest number of samples: time and memory grow with its square.
 _MOST_SAMPLES = 5000
-#: Up to this number samples are listed in the representation.
-_SHOWN = 6
 
 
 @dataclass(frozen=True, repr=False)
 class Sampled(Profile):
     """The polygon through samples of the height, solved exactly.
 
-    Its reduced height is x Σ sᵢ [arcsin(min(rᵢ₊₁, x)/x) − arcsin(rᵢ/x)] with the slopes sᵢ, from
-    Popov (2015), Eq. (3). The polygon must be convex: outside a vertex at which the slope falls,
-    g falls with a vertical tangent, and the contact would not be compact.
+    Its reduced height is x Σ sᵢ [arcsin(min(rᵢ₊₁, x)/x) − arcsin(rᵢ/x)] with slopes sᵢ, from Popov (2015),
+    Eq. (3). It must be convex: outside a concave vertex g falls, and the contact would not be compact.
 
     Parameters
     ----------
-    r : array_like
-        Radii (m), strictly ascending from 0; at least two.
-    z : array_like
-        Heights (m) at `r`; they count from the first one.
+    r, z : array_like
+        Radii (m), strictly ascending from 0, at least two; and heights (m), which count from the first one.
 
     Raises
     ------
@@ -41,8 +36,8 @@ class Sampled(Profile):
     Examples
     --------
     >>> profile = Sampled([0.0, 1.0, 2.0], [0.0, 1.0, 3.0])
-    >>> print(round(profile.reduced(1.0), 12), profile.known_depth > 3)  # π/2
-    1.570796326795 True
+    >>> print(round(profile.reduced(1.0), 12))  # π/2
+    1.570796326795
     """
 
     r: Parameter
@@ -51,14 +46,12 @@ class Sampled(Profile):
     def __post_init__(self):
         r, z = _lists("Sampled", self.r, self.z, most=_check.LONGEST)
         if r.size > _MOST_SAMPLES:
-            raise ValueError(
-                f"Sampled has {r.size} samples, more than {_MOST_SAMPLES}; thin them out, as in r[::10]"
-            )
+            remedy = "thin them out, as in r[::10]"
+            raise ValueError(f"Sampled has {r.size} samples, more than {_MOST_SAMPLES}; {remedy}")
         if r[0] != 0:
             raise ValueError(f"Sampled r[0] = {r[0]:g} m must be 0: add the sample at the tip")
-        tiny, remedy = (r > 0) & (r < _check.SHORTEST), "give it in SI units"
-        bound = f"must be 0 or at least {_check.SHORTEST:g}"
-        _check.refuse("Sampled r", r, tiny, bound, unit="m", remedy=remedy)
+        tiny, bound = (r > 0) & (r < _check.SHORTEST), f"must be 0 or at least {_check.SHORTEST:g}"
+        _check.refuse("Sampled r", r, tiny, bound, unit="m", remedy="give it in SI units")
         back = np.append(False, np.diff(r) <= 0)
         _check.refuse("Sampled r", r, back, "does not ascend", unit="m", remedy="sort, and drop duplicates")
         object.__setattr__(self, "r", tuple(r.tolist()))
@@ -66,13 +59,13 @@ class Sampled(Profile):
         self._refuse_concave()
 
     def __repr__(self) -> str:
-        if len(self.r) <= _SHOWN:
+        if len(self.r) <= 6:
             return f"Sampled(r={self.r!r}, z={self.z!r})"
         return f"Sampled({len(self.r)} samples to r = {self.r[-1]:g} m, z = {self.z[-1]:g} m)"
 
     @classmethod
     def from_csv(cls, path: str | PathLike[str], unit: str | None = None) -> "Sampled":
-        """Read a text file with columns radius and height, as spreadsheets write them.
+        """Read a text file with columns radius and height.
 
         Parameters
         ----------
@@ -94,9 +87,8 @@ class Sampled(Profile):
     def fit(cls, r: ArrayLike, z: ArrayLike) -> "Sampled":
         """Fit the convex profile nearest to noisy samples, by least squares in the height.
 
-        Samples may lie on both sides of the axis at r = 0, in any order; the height of the tip is fitted
-        together with the profile. The fit is unbiased where the contact has many samples. An apex is not
-        sharper than noise and spacing allow.
+        Samples may lie on both sides of the axis at r = 0, in any order; the height of the tip is fitted.
+        The fit is unbiased where the contact has many samples.
 
         Parameters
         ----------
@@ -118,8 +110,8 @@ class Sampled(Profile):
     def from_area_function(cls, coefficients: ArrayLike, height: float, samples: int = 400) -> "Sampled":
         """Profile with the cross-section A(h) = C₀h² + C₁h + C₂h^(1/2) + C₃h^(1/4) + … at a height h.
 
-        This is how instruments report their tips (Oliver and Pharr 1992). The profile is a polygon up to
-        some height. Where it is slightly concave, as calibrated ones are, neighbouring slopes are averaged.
+        The area function of instrumented indentation (Oliver and Pharr 1992). The profile is a polygon;
+        where it is slightly concave, as calibrated ones are, neighbouring slopes are averaged.
 
         Parameters
         ----------
@@ -139,17 +131,14 @@ class Sampled(Profile):
         return cls(*area_samples(coefficients, height, samples, _MOST_SAMPLES))
 
     def _refuse_concave(self):
-        r, z, slope = self._r, self._z, self._slope
-        # Straight within the rounding of the heights counts as straight.
-        concave = self._bend < 0
+        slope, concave = self._slope, self._bend < 0
         if slope[0] < 0:
-            raise ValueError(
-                f"Sampled z[1] = {z[1]:g} m lies below the tip; order the samples from the tip out"
-            )
+            below = f"Sampled z[1] = {self.z[1]:g} m lies below the tip"
+            raise ValueError(f"{below}; order the samples from the tip out")
         if np.any(concave):
             i = int(np.argmax(concave))
             raise ValueError(
-                f"Sampled shape is concave at r[{i}] = {r[i]:g} m (slope {slope[i - 1]:g} before, "
+                f"Sampled shape is concave at r[{i}] = {self.r[i]:g} m (slope {slope[i - 1]:g} before, "
                 f"{slope[i]:g} after), so that the contact would not be compact; smooth the samples or "
                 "take Sampled.fit(r, z)"
             )
@@ -161,33 +150,23 @@ class Sampled(Profile):
     _z = cached_property(lambda self: np.array(self.z))
     _slope = cached_property(lambda self: np.diff(self._z) / np.diff(self._r))
 
-    @cached_property
-    def _noise(self):
-        """Largest error of the slopes from rounding of the heights."""
-        z = np.abs(self._z)
-        return 4 * np.finfo(float).eps * (z[1:] + z[:-1]) / np.diff(self._r)
+    #: Reduced height at the vertices (m).
+    _g = cached_property(lambda self: self._reduced(self._r))
 
     @cached_property
     def _bend(self):
-        """Change of the slope at each vertex."""
-        bend = np.diff(self._slope, prepend=0.0)
-        straight = np.append(False, np.abs(bend[1:]) <= self._noise[1:] + self._noise[:-1])
+        """Change of the slope at each vertex; 0 where it may be rounding of the heights."""
+        z, bend = np.abs(self._z), np.diff(self._slope, prepend=0.0)
+        noise = 4 * np.finfo(float).eps * (z[1:] + z[:-1]) / np.diff(self._r)
+        straight = np.append(False, np.abs(bend[1:]) <= noise[1:] + noise[:-1])
         return np.where(straight, 0.0, bend)
-
-    @cached_property
-    def _g(self):
-        """Reduced height at the vertices (m)."""
-        return self._reduced(self._r)
 
     # The samples are one indenter, not an ensemble.
     shape = ()
     known_radius = property(lambda self: self.r[-1])
     known_depth = property(lambda self: float(self._g[-1]))
     face_radius = property(lambda self: float(self._r[np.count_nonzero(self._g == 0) - 1]))
-
-    @cached_property
-    def kinks(self):
-        return tuple(g for g in self._g[1:-1].tolist() if g > 0)
+    kinks = cached_property(lambda self: tuple(g for g in self._g[1:-1].tolist() if g > 0))
 
     @cached_property
     def transition_depth(self):
@@ -253,10 +232,9 @@ class Sampled(Profile):
         zone = np.clip(np.searchsorted(self._g, depth, side="right") - 1, 0, len(self.r) - 2)
         cell = np.clip((g[zone] <= depth[..., None]).sum(axis=-1) - 1, 0, 7)
         low, high = (zone, cell), (zone, cell + 1)
-        width = g[high] - g[low]
+        width, rise = g[high] - g[low], t[high] - t[low]
         # Hermite's cubic; without meaning on a flat face.
         u = np.divide(depth - g[low], width, out=np.zeros_like(width), where=width > 0)
-        rise = t[high] - t[low]
         bow = (1 - u) * (width * rate[low] - rise) - u * (width * rate[high] - rise)
         # Next to the vertex g is its bend, β √(2r) t, and a term in t².
         bend, y = (self._bend * np.sqrt(2 * self._r[:-1]))[zone], np.maximum(depth - g[zone, 0], 0.0)
@@ -283,7 +261,6 @@ def _lists(what, r, z, **bounds):
     """Check that radii and heights (m) are two lists of one length, and return them as arrays."""
     r, z = (_check.finite_array(f"{what} {n}", v, unit="m", **bounds) for n, v in (("r", r), ("z", z)))
     if r.ndim != 1 or r.shape != z.shape or r.size < 2:
-        raise ValueError(
-            f"{what} r and z must be two lists of one length ≥ 2, got shapes {r.shape}, {z.shape}"
-        )
+        shapes = f"got shapes {r.shape}, {z.shape}"
+        raise ValueError(f"{what} r and z must be two lists of one length ≥ 2, {shapes}")
     return r, z

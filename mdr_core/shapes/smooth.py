@@ -23,15 +23,14 @@ _DEGREE, _RESOLVED = 11, 1e-12
 class Smooth(Profile):
     """A smooth profile given by its slope dz/dr.
 
-    The reduced height is Eq. (3) of Popov (2015) with spectral accuracy. The contact radius and the slope
-    g′ come from piecewise polynomials through it, up to 10⁶ m or to the end of the slope.
+    The reduced height is Popov (2015), Eq. (3), by quadrature; the contact radius and the slope g′ are from
+    piecewise polynomials through it, up to 10⁶ m or to the end of the slope.
 
     Parameters
     ----------
     slope_function : callable
-        dz/dr (dimensionless) as a vectorised function of the radius r ≥ 0 (m): smooth on the whole
-        contact, with g growing along it. Fractional powers of r belong to `PowerLaw`, kinks to
-        `Sampled`.
+        dz/dr (dimensionless) as a vectorised function of the radius r ≥ 0 (m): smooth, with a growing g.
+        Fractional powers of r belong to `PowerLaw`, kinks to `Sampled`.
     radius : float, optional
         Largest radius (m) at which the slope is known; infinite by default.
 
@@ -46,10 +45,8 @@ class Smooth(Profile):
 
     def __post_init__(self):
         if not callable(self.slope_function):
-            raise ValueError(
-                "Smooth slope_function must be a function of the radius, "
-                f"got {_check.shown(self.slope_function)}"
-            )
+            given = _check.shown(self.slope_function)
+            raise ValueError(f"Smooth slope_function must be a function of the radius, got {given}")
         radius = _check.positive_number("Smooth radius", self.radius, unit="m", infinite=True)
         object.__setattr__(self, "radius", radius)
 
@@ -88,10 +85,9 @@ class Smooth(Profile):
             if edges[-1] < end:
                 break
         if not panels:
-            raise ValueError(
-                "Smooth slope_function is not finite, not smooth or not positive next to the axis; a "
-                "fractional power of r belongs to PowerLaw, kinks to Sampled"
-            )
+            remedy = "a fractional power of r belongs to PowerLaw, kinks to Sampled"
+            bad = "is not finite, not smooth or not positive next to the axis"
+            raise ValueError(f"Smooth slope_function {bad}; {remedy}")
         return scipy.interpolate.PPoly(np.transpose(panels), np.array(edges))
 
     def _panel(self, low, high):

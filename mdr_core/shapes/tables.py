@@ -9,14 +9,9 @@ import scipy
 from .. import _check
 
 _UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9}
-
 # As in "height/nm".
 _SLASHED = re.compile(r"/\s*(mm|um|µm|μm|nm|m)\b")
 _COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?|[+-]?\d+,([eE][+-]?\d+)?")
-
-#: Largest number of kinks of a fitted profile.
-_VERTICES = 200
-
 #: Largest number of characters of a line.
 _LONGEST_LINE = 10_000
 
@@ -38,7 +33,7 @@ def _lines(file, name):
     while line := file.readline(_LONGEST_LINE + 1):
         if len(line) > _LONGEST_LINE:
             raise ValueError(
-                f"{name}: a line is longer than {_LONGEST_LINE} characters; give a sample a line"
+                f"{name}: a line is longer than {_LONGEST_LINE} characters; use a line a sample"
             )
         yield line
 
@@ -93,9 +88,8 @@ def read_columns(file, limit, name):
             f"{name}: the header names {len(units)} units, the rows have {width} columns: where commas are "
             "decimal ones, separate columns by semicolons"
         )
-    return [" ".join(words).strip() for words in zip(*heads[-2:], strict=True)] or [""] * width, np.array(
-        rows
-    )
+    names = [" ".join(words).strip() for words in zip(*heads[-2:], strict=True)] or [""] * width
+    return names, np.array(rows)
 
 
 def _heads(line):
@@ -145,8 +139,8 @@ def convex_fit(r, z):
     z₀ + Σ bₖ (r − ρₖ)₊ with bends bₖ ≥ 0 at kinks ρₖ from the axis out, by non-negative least squares.
     """
     radii = np.unique(r)
-    # A kink at the last radius would have no samples outside it.
-    kinks = np.unique(np.append(0.0, radii[:-1][:: max(1, -(-radii.size // _VERTICES))]))
+    # At most 200 kinks; one at the last radius would have no samples outside it.
+    kinks = np.unique(np.append(0.0, radii[:-1][:: max(1, -(-radii.size // 200))]))
     ramps = np.maximum(r[:, None] - kinks, 0.0) / radii[-1]
     # Two columns for the height at the axis, which has either sign.
     columns = np.column_stack([np.ones_like(r), -np.ones_like(r), ramps])
@@ -157,7 +151,8 @@ def convex_fit(r, z):
         raise ValueError(
             "Sampled.fit z does not rise from the axis outward: use FlatPunch, or turn its sign"
         )
-    kinks, bends = kinks[(bends > 0) | (kinks == 0)], bends[(bends > 0) | (kinks == 0)]
+    used = (bends > 0) | (kinks == 0)
+    kinks, bends = kinks[used], bends[used]
     vertices = np.append(kinks, radii[-1])
     return vertices, np.maximum(vertices[:, None] - kinks, 0.0) @ bends
 
@@ -171,10 +166,8 @@ def area_samples(coefficients, height, samples, limit):
         raise ValueError(f"samples = {samples:g} must be a whole number from 2 to {limit}")
     h = height * np.geomspace(1e-4, 1.0, int(samples) - 1)
     area = sum(c * h ** (2 / 2**i) for i, c in enumerate(coefficients.tolist()))
+    remedy = "A must be positive and grow with h: check the coefficients and their unit, m^(2 - 2/2^i)"
     back = np.diff(area, prepend=0.0) <= 0
-    remedy = (
-        "A must be positive and grow with the height: check the coefficients and their unit, m^(2 - 2/2^i)"
-    )
     _check.refuse("area A(h)", area, back, "does not grow", unit="m²", remedy=remedy)
     r, h = np.append(0.0, np.sqrt(area / np.pi)), np.append(0.0, h)
     slopes = scipy.optimize.isotonic_regression(np.diff(h) / np.diff(r), weights=np.diff(r)).x

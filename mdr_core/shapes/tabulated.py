@@ -5,7 +5,6 @@ own (`OneLength`) these are functions of one variable, tabulated once for the cl
 table of one profile.
 """
 
-from abc import abstractmethod
 from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache, partial
 
@@ -21,28 +20,18 @@ from .profile import Profile
 _COUNT = 10
 _NODE = (1 + np.cos(np.pi * (np.arange(_COUNT) + 0.5) / _COUNT)) / 2
 _TO_LAST = np.linalg.inv(np.polynomial.chebyshev.chebvander(2 * _NODE - 1, _COUNT - 1))[-2:]
-#: A panel resolves a(s) where its last Chebyshev coefficients are smaller than this share of a(s).
-_RESOLVED = 1e-15
-#: Octaves of a table on each side of the unit of depth of a class, and below the first kink of one profile.
-_OCTAVES, _OCTAVES_OF_ONE = 100, 64
 
 
 class RadiusTable:
     """Contact radius a(s) (m) of one profile, ∫ a ds (m²) and ∫∫ a ds ds (m³) from depth 0 on.
 
-    1. Panels between the given edges are halved until a polynomial of degree 9 is a(s) to rounding: next to
-       a kink, below which a(s) may start as a root, down to the rounding of the depth.
-    2. From depth 0 to the first edge a(s) is taken as the radius of the face plus a power of s. The panel
-       there is the parabola that has the integrals of this power.
+    Panels between the edges are halved until a polynomial of degree 9 is a(s) to rounding. From depth 0 to
+    the first edge a(s) is the radius of the face plus a power of s, for which the panel has a parabola with
+    the same integrals.
 
-    Parameters
-    ----------
-    radius : callable
-        a(s) (m) at arrays of depths (m).
-    edges : array_like
-        Depths (m), ascending: the first and the last one of the table, and all kinks between them.
-    unit : float
-        Unit of depth (m) of the polynomials: powers of depths over it must stay within double precision.
+    `radius` is a(s) (m) at arrays of depths (m); `edges` are depths (m), ascending: the first and the last
+    one of the table, and all kinks between them. Powers of depths over `unit` (m) must stay within double
+    precision.
     """
 
     def __init__(self, radius, edges, unit=1.0):
@@ -106,18 +95,16 @@ class RadiusTable:
 
 def _panels(radius, edges):
     """Lower edges of panels, ascending, and coefficients of their polynomials, highest power first."""
-    low, high = edges[:-1], edges[1:]
-    panels = []
+    low, high, panels = edges[:-1], edges[1:], []
     while low.size:
         width = high - low
         values = radius(low[:, None] + width[:, None] * _NODE)
-        rough = np.abs(values @ _TO_LAST.T).max(axis=1) > _RESOLVED * values.min(axis=1)
-        # Halving helps no more where rounding of a(s), or of the depth, is what is left.
+        rough = np.abs(values @ _TO_LAST.T).max(axis=1) > 1e-15 * values.min(axis=1)
+        # Panels that are limited by the rounding of a(s) or of the depth are not halved.
         below = low - edges[np.searchsorted(edges, low, side="right") - 1]
         rough &= width > np.maximum(below / 8, 2.0**-44 * high)
         powers = np.linalg.solve(np.vander(_NODE), values.T) / width ** np.arange(_COUNT)[::-1, None]
-        panels.append((low, powers.T))
-        panels[-1] = tuple(array[~rough] for array in panels[-1])
+        panels.append((low[~rough], powers.T[~rough]))
         low, high = low[rough], high[rough]
         low, high = np.append(low, (low + high) / 2), np.append((low + high) / 2, high)
     low, powers = (np.concatenate(arrays) for arrays in zip(*panels, strict=True))
@@ -134,7 +121,6 @@ class OneLength(Profile):
 
     _length: float
     _depth: float
-
     #: u at which G starts to grow, 0, or 1 at the edge of a flat face; and the largest u.
     _edge, _end = 0.0, np.inf
 
@@ -143,29 +129,11 @@ class OneLength(Profile):
         units = {field.name: "" if field.name == "slope" else "m" for field in fields(self)}
         _check.set_positive(self, **units)
 
-    @staticmethod
-    @abstractmethod
-    def _Z(u): ...
-
-    @staticmethod
-    @abstractmethod
-    def _G(u): ...
-
-    @staticmethod
-    @abstractmethod
-    def _G_slope(u): ...
-
     face_radius = property(lambda self: self._edge * self._length)
     transition_depth = property(lambda self: self._depth)
-
-    @cached_property
-    def unit(self):
-        return _unit(type(self)), self._length, self._depth
-
-    @property
-    def table(self):
-        """The `RadiusTable` of the unit profile."""
-        return _unit_table(type(self))
+    unit = property(lambda self: (_unit(type(self)), self._length, self._depth))
+    #: The `RadiusTable` of the unit profile.
+    table = property(lambda self: _unit_table(type(self)))
 
     def _height(self, r):
         return self._depth * self._Z(r / self._length)
@@ -202,7 +170,7 @@ def _unit(kind):
 @lru_cache
 def _unit_table(kind):
     """The `RadiusTable` of the unit profile of a class; the kinks of these are at the unit of depth."""
-    edges = np.ldexp(1.0, np.arange(-_OCTAVES, _OCTAVES + 1))
+    edges = np.ldexp(1.0, np.arange(-100, 101))
     end = min(_unit(kind).known_depth, edges[-1])
     with np.errstate(all="ignore"):
         return RadiusTable(partial(_unit_radius, kind), np.append(edges[edges < end], end))
@@ -228,7 +196,7 @@ class Tabulated(Profile):
     @cached_property
     def table(self):
         kinks = [kink for kink in self.kinks if kink < self.known_depth] + [self.known_depth]
-        edges = np.append(np.ldexp(kinks[0], np.arange(-_OCTAVES_OF_ONE, 0)), kinks)
+        edges = np.append(np.ldexp(kinks[0], np.arange(-64, 0)), kinks)
         with np.errstate(all="ignore"):
             return RadiusTable(
                 lambda s: self.profile._radius(np.minimum(s, self.known_depth)), edges, self.known_depth

@@ -9,10 +9,7 @@ from .tabulated import OneLength
 
 
 class _FlatFaced(OneLength):
-    """Base class of profiles with a flat face, whose radius `flat_radius` is the unit of length of G.
-
-    With τ = √(u² − 1), arccos(1/u) = arctan τ.
-    """
+    """Base class of profiles with a flat face. With τ = √(u² − 1), arccos(1/u) = arctan τ."""
 
     flat_radius: Parameter
     _edge = 1.0
@@ -21,9 +18,7 @@ class _FlatFaced(OneLength):
 
 @dataclass(frozen=True, eq=False)
 class TruncatedCone(_FlatFaced):
-    """Truncated cone z = s (r − b)₊, with g = s x arccos(b/x) for x > b.
-
-    From Popov (2015), Eq. (3).
+    """Truncated cone z = s (r − b)₊, with g = s x arccos(b/x) for x > b: Popov (2015), Eq. (3).
 
     Parameters
     ----------
@@ -40,16 +35,9 @@ class TruncatedCone(_FlatFaced):
 
     flat_radius: Parameter
     slope: Parameter
-
     _depth = property(lambda self: self.slope * self.flat_radius)
-
-    @staticmethod
-    def _Z(u):
-        return np.maximum(u - 1, 0.0)
-
-    @staticmethod
-    def _G(u):
-        return u * np.arctan(_tau(u))
+    _Z = staticmethod(lambda u: np.maximum(u - 1, 0.0))
+    _G = staticmethod(lambda u: u * np.arctan(_tau(u)))
 
     @staticmethod
     def _G_slope(u):
@@ -59,9 +47,7 @@ class TruncatedCone(_FlatFaced):
 
 @dataclass(frozen=True, eq=False)
 class TruncatedParaboloid(_FlatFaced):
-    """Truncated paraboloid z = (r² − b²)₊/(2R), with g = x √(x² − b²)/R for x > b.
-
-    From Popov (2015), Eq. (3).
+    """Truncated paraboloid z = (r² − b²)₊/(2R), with g = x √(x² − b²)/R for x > b: Popov (2015), Eq. (3).
 
     Parameters
     ----------
@@ -78,16 +64,9 @@ class TruncatedParaboloid(_FlatFaced):
 
     flat_radius: Parameter
     radius: Parameter
-
     _depth = property(lambda self: self.flat_radius * (self.flat_radius / self.radius))
-
-    @staticmethod
-    def _Z(u):
-        return np.maximum(u - 1, 0.0) * ((u + 1) / 2)
-
-    @staticmethod
-    def _G(u):
-        return u * _tau(u)
+    _Z = staticmethod(lambda u: np.maximum(u - 1, 0.0) * ((u + 1) / 2))
+    _G = staticmethod(lambda u: u * _tau(u))
 
     @staticmethod
     def _G_slope(u):
@@ -116,16 +95,9 @@ class RoundedPunch(_FlatFaced):
 
     flat_radius: Parameter
     edge_radius: Parameter
-
     _depth = property(lambda self: self.flat_radius * (self.flat_radius / self.edge_radius))
-
-    @staticmethod
-    def _Z(u):
-        return np.maximum(u - 1, 0.0) ** 2 / 2
-
-    @staticmethod
-    def _G(u):
-        return u * _arctan_gap(_tau(u))
+    _Z = staticmethod(lambda u: np.maximum(u - 1, 0.0) ** 2 / 2)
+    _G = staticmethod(lambda u: u * _arctan_gap(_tau(u)))
 
     @staticmethod
     def _G_slope(u):
