@@ -77,7 +77,7 @@ __all__ = [
     "yield_speed",
 ]
 
-__version__ = "0.3.0"
+__version__ = "0.4.0"
 
 
 def __dir__():
