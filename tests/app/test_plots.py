@@ -5,6 +5,7 @@ import re
 import bokeh.models as bk
 import numpy as np
 import pytest
+from scipy.integrate import trapezoid
 
 import mdr_core as mdr
 from app import changes
@@ -282,7 +283,7 @@ def test_springs_lean_as_far_as_they_are_loaded_and_stick_where_the_core_says():
     r = np.linspace(0, float(m.contact_radius[i]), 4001)
     lean, _ = leaning(course, i, r)
     made = course.scene.medium
-    force = 2 * made.tangential_ratio * made.E_star * np.trapezoid(lean, r)
+    force = 2 * made.tangential_ratio * made.E_star * trapezoid(lean, r)
     assert force == pytest.approx(m.tangential_force[i], rel=0.01)
 
 
@@ -294,7 +295,7 @@ def test_forces_of_an_oblique_impact_are_bounded_by_friction_and_change_the_spee
     assert np.all(np.abs(along) <= drive.friction * normal * (1 + 1e-9) + 1e-9 * normal.max())
     # Momentum along the surface, by the trapezoidal rule over 120 instants.
     W = view.course.oblique.tangential_velocity
-    assert W[0] - W[-1] == pytest.approx(np.trapezoid(along, t) / drive.tangential_mass, rel=2e-3)
+    assert W[0] - W[-1] == pytest.approx(trapezoid(along, t) / drive.tangential_mass, rel=2e-3)
     assert view.axis("force").start < 0
 
 
