@@ -24,7 +24,7 @@ _NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
 
 
 def html():
-    """The theory as HTML, with formulas as KaTeX reads them and an id at each section and equation."""
+    """The theory as HTML with KaTeX formulas and ids of sections and equations."""
     parser, seen = MarkdownIt().enable("table"), set()
     parser.use(dollarmath_plugin, renderer=lambda text, _: f"\\({escape(text)}\\)")
     tokens = parser.parse((ASSETS / "theory.md").read_text(encoding="utf-8"))
@@ -45,6 +45,6 @@ def html():
 
 
 def page(place):
-    """The page, which begins where `place` is: "eq-11" or "section-4"."""
+    """The page, starting at an id such as "eq-11" or "section-4"."""
     pn.state.curdoc.js_on_event(DocumentReady, CustomJS(args={"place": place}, code=_SHOW))
     return pn.pane.LaTeX(html(), stylesheets=STYLE, css_classes=["theory"], renderer="katex")

@@ -42,7 +42,6 @@ class Frame:
         self.show("explore")
 
     def framed(self, board: Any) -> pn.Column:
-        """The whole page with a board of plots."""
         title = html("<h1>Indentation explorer</h1>", "name", width=190, sizing_mode=None)
         six = (self.undo, self.redo, self.hold, *(self.open[name] for name in ("share", "guide", "menu")))
         buttons = pn.Row(*six, css_classes=["tools", "buttons"], margin=0, width=380)
@@ -60,7 +59,7 @@ class Frame:
         return pn.Column(header, columns, css_classes=["page"], **FULL)
 
     def show(self, tab: str, panel: str | None = None) -> None:
-        """Show a tab, or a panel over it; the guide stands above it."""
+        """Show a tab or a panel over it; the guide stands above the tab."""
         self.tab, free = tab, panel in (None, "guide")
         for name, each in self.tabs.items():
             show(each, value=free and name == tab)

@@ -18,15 +18,15 @@ from ..ui import WIDE, button, field, html, marked, show
 
 @dataclass(frozen=True, eq=False)
 class Held:
-    """One of them: its name, and the course that was solved for it."""
+    """A held scene: its name and course."""
 
     name: str
     course: Course
 
 
-def opened(query: str, known: dict) -> Held:
-    """What is held by a link; ValueError if it is not a scene."""
-    scene, name = link.name_of(query)
+def held_scene(query: str, known: dict) -> Held:
+    """Held scene of a link; ValueError if the link is invalid."""
+    scene, name = link.split_name(query)
     return Held(name, follow(link.read(link.arguments(scene)), known))
 
 
@@ -35,31 +35,30 @@ def _query(state: State) -> str:
 
 
 def _same(query: str, state: State) -> bool:
-    """Whether a link is that of a scene, in whatever state."""
-    scene = link.read(link.arguments(link.name_of(query)[0]))
-    return scene.but(progress=1.0).scene_values == link.read(link.arguments(_query(state))).scene_values
+    """Whether a link has the scene of a state, at any progress."""
+    scene = link.read(link.arguments(link.split_name(query)[0]))
+    return scene.replace(progress=1.0).scene_values == link.read(link.arguments(_query(state))).scene_values
 
 
 def is_held(state: State) -> bool:
-    """Whether the present scene is held."""
     return any(_same(query, state) for query in state.hold)
 
 
-def toggled(state: State) -> State:
+def toggle_hold(state: State) -> State:
     """With the present scene held besides, or without it if it is held.
 
     Raises ValueError if there is no room for it.
     """
     rest = tuple(query for query in state.hold if not _same(query, state))
     if len(rest) < len(state.hold):
-        return state.but(hold=rest)
+        return state.replace(hold=rest)
     if len(rest) == len(DASHES):
         raise ValueError(f"{len(DASHES)} scenes are held: remove one of them first")
-    return state.but(hold=(*rest, link.named(_query(state), difference(state))))
+    return state.replace(hold=(*rest, link.with_name(_query(state), difference(state))))
 
 
 def difference(state: State) -> str:
-    """What a scene differs in from its preset, as its name; its preset, where it is that."""
+    """Name of a scene: its differences from the preset, or the preset."""
     changed, names = altered(state), used(state, DRIVES[state.drive].form)
     words = [SHAPES[state.shape].label] if "shape" in changed else []
     words += [CHOICES[name][state[name]] for name in changed if name in CHOICES and name != "elasticity"]
@@ -75,28 +74,26 @@ def difference(state: State) -> str:
 
 
 def renamed(state: State, k: int, name: str) -> State:
-    """With another name of one that is held."""
     hold = state.hold
-    return state.but(hold=(*hold[:k], link.named(hold[k], name), *hold[k + 1 :]))
+    return state.replace(hold=(*hold[:k], link.with_name(hold[k], name), *hold[k + 1 :]))
 
 
 def removed(state: State, k: int) -> State:
-    """Without one that is held."""
-    return state.but(hold=(*state.hold[:k], *state.hold[k + 1 :]))
+    return state.replace(hold=(*state.hold[:k], *state.hold[k + 1 :]))
 
 
 def numbers(course: Course) -> dict[str, str]:
-    """Symbols and numbers of a scene, with what it is where it is deepest."""
-    medium, deepest = course.scene.medium, course.deepest
+    """Main numbers of a scene at its largest depth, by symbol."""
+    medium, turning_point = course.scene.medium, course.turning_point
     found = {
         "E*": ("pressure", medium.E_star),
         "q_c": ("yield constant", medium.q_c),
         "η": ("viscosity", medium.eta),
-        "d_max": ("length", deepest.depth),
+        "d_max": ("length", turning_point.depth),
         "F_max": ("force", np.max(course.force)),
-        "a_max": ("length", deepest.contact_radius),
-        "c": ("length", deepest.plastic_radius),
-        "p_m": ("pressure", deepest.mean_pressure),
+        "a_max": ("length", turning_point.contact_radius),
+        "c": ("length", turning_point.plastic_radius),
+        "p_m": ("pressure", turning_point.mean_pressure),
         "W_p": ("energy", course.plastic_work[-1]),
     }
     texts = {symbol: written(float(value), kind, 3) for symbol, (kind, value) in found.items()}
@@ -104,16 +101,15 @@ def numbers(course: Course) -> dict[str, str]:
 
 
 class Table:
-    """The scenes that are held, and their numbers beside those of the present one."""
+    """The tab *Held*: held scenes, and their numbers beside the present ones."""
 
-    def __init__(self, tell: Callable[..., None]):
-        self._tell, self._names, self._rows = tell, [], []
+    def __init__(self, apply: Callable[..., None]):
+        self._apply, self._names, self._rows = apply, [], []
         self._list, self._numbers = pn.Column(**WIDE), html("", "numbers-held")
         note = html("Hold keeps the present scene to compare with; its curves are drawn in every plot.")
         self.view = pn.Column(note, self._list, self._numbers, css_classes=["held"], visible=False, **WIDE)
 
     def show(self, course: Course, held: list[Held]) -> None:
-        """Show some scenes that are held, and the present one."""
         while len(self._rows) < len(held):
             self._rows.append(self._made(len(self._rows)))
             self._list.append(self._rows[-1])
@@ -147,13 +143,13 @@ class Table:
             sizing_mode=None,
         )
         remove = button(f"Remove {k + 1}", width=76)
-        remove.on_click(lambda event: self._tell(lambda state: removed(state, k)))
+        remove.on_click(lambda event: self._apply(lambda state: removed(state, k)))
         self._names.append(name)
         return pn.Row(dash, name, remove, css_classes=["head"], **WIDE)
 
     def _rename(self, k: int, name: str) -> None:
-        def act(state: State) -> State:
-            known = k < len(state.hold) and link.name_of(state.hold[k])[1] != name
+        def change(state: State) -> State:
+            known = k < len(state.hold) and link.split_name(state.hold[k])[1] != name
             return renamed(state, k, name) if known else state
 
-        self._tell(act)
+        self._apply(change)

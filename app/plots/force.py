@@ -31,26 +31,26 @@ def references(view: View) -> dict:
     chosen, course, rows = view.references, view.course, {}
     if chosen == "none":
         return {}
-    profile, deepest = course.scene.profile, course.deepest
+    profile, turning_point = course.scene.profile, course.turning_point
     depth = _SHARE * min(view.end("d"), profile.known_depth)
     if chosen in ("elastic", "all"):
         rows[_ELASTIC] = depth, mdr.indent(profile, mdr.Medium(course.scene.medium.E_star), depth).force
-    if chosen in ("classes", "all") and deepest.live_interval.lower > 0:
-        share = profile.contact_radius(depth) / deepest.contact_radius
+    if chosen in ("classes", "all") and turning_point.live_interval.lower > 0:
+        share = profile.contact_radius(depth) / turning_point.contact_radius
         for name, row in _CLASSES.items():
-            rows[row] = depth, deepest.force * share ** mdr.ScalingLaw(name, 1.0).force
+            rows[row] = depth, turning_point.force * share ** mdr.ScalingLaw(name, 1.0).force
     return rows
 
 
 def _note(view: View) -> str:
-    """What the curves to compare with are, and why some of them are not there."""
+    """Explanation of the reference curves."""
     if view.references == "none":
         return ""
     if view.references == "elastic":
         return (
             "The same tip on the same medium if it never yielded: F = 2E* ∫ a dd, of a paraboloid Hertz's."
         )
-    if view.course.deepest.live_interval.lower == 0:
+    if view.course.turning_point.live_interval.lower == 0:
         return "Nothing has yielded: this scene has no hardness that the classes could share."
     return (
         "Fully yielded, hardness constant (a) or ∝ 1/a² (c), as hard as this scene (b) where it is deepest."
@@ -58,13 +58,12 @@ def _note(view: View) -> str:
 
 
 def _curve(course: Course, until=None) -> dict:
-    """The curve of force and depth in parts, all of it or until some state."""
+    """Parts of the force–depth curve, optionally up to a state."""
     depth, past = course.states.depth, slice(until)
     return split(depth[past], course.force[past], depth[past], course.states.live_interval.lower[past])
 
 
 def sampled(x, y):
-    """Measured samples, of not too many."""
     step = -(-len(x) // _DRAWN)
     return x[::step], y[::step]
 
@@ -76,16 +75,12 @@ def force_still(view: View) -> dict:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     if view.curve is not None:
         rows["measured"] = sampled(view.curve.depth, view.curve.force)
-    return rows | view.held_on("d", "F") | references(view)
+    return rows | view.held_on_axes("d", "F") | references(view)
 
 
 def force(view: View, i: int) -> dict:
-    """The present state, what has been passed, and areas: what is lost so far, and what is stored."""
-    course, right, lower = (
-        view.course,
-        0.02 * view.end("d"),
-        float(view.course.states.plastic_depth[i]),
-    )
+    """The present state, the path so far, and the areas of dissipated and stored energy."""
+    course, right, lower = (view.course, 0.02 * view.end("d"), float(view.course.states.plastic_depth[i]))
     rows = {"now": view.mark(i, "d", "F"), "dₚ": (np.nan, np.nan, "")}
     if lower > 0:
         rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end("F"), "dₚ"
@@ -94,8 +89,8 @@ def force(view: View, i: int) -> dict:
         # No live interval tells what is stored in elements that have each a memory of their own.
         return rows
     d, F = (np.asarray(part[: i + 1]) for part in (course.states.depth, course.force))
-    back_d, back_F = course.released(i)
-    elastic = lower == course.before and not course.dashpots
+    back_d, back_F = course.unloading_curve(i)
+    elastic = lower == course.initial_plastic_depth and not course.dashpots
     # The path so far, and back along what is stored: dissipated is the loop that it encloses.
     lost = np.concatenate([d[:1], d, back_d]), np.concatenate([[0.0], F, back_F])
     return rows | {
@@ -128,9 +123,9 @@ FORCE = Plot(
 
 
 def _inside(view: View, d, F, *_):
-    """A curve as far as logarithmic axes reach towards zero."""
-    seen = np.minimum(d / view.axis("log d").start, F / view.axis("log F").start) >= 1
-    return np.where(seen, d, np.nan), np.where(seen, F, np.nan)
+    """The part of a curve inside logarithmic axes."""
+    inside = np.minimum(d / view.axis("log d").start, F / view.axis("log F").start) >= 1
+    return np.where(inside, d, np.nan), np.where(inside, F, np.nan)
 
 
 LOGLOG = Plot(
@@ -152,7 +147,7 @@ LOGLOG = Plot(
 
 
 def residual(view: View) -> dict:
-    """Rows of the residual, and of the noise of force and depth around it."""
+    """Residual and its standard deviation."""
     curve, ends = view.curve, np.array([0.0, view.end("d")])
     missing = "no model at these depths" * bool(np.isnan(view.residual).all())
     rows = {

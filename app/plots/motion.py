@@ -17,8 +17,8 @@ _PLACES, _TOLERANCE = 14, 1e-3
 
 
 def motion_still(view: View) -> dict:
-    on = view.course.on
-    return {"depth d": (on["t"], on["d"]), "force F": (on["t"], on["F"])} | view.held_on("t", "F")
+    on = view.course.on_axes
+    return {"depth d": (on["t"], on["d"]), "force F": (on["t"], on["F"])} | view.held_on_axes("t", "F")
 
 
 def motion(view: View, i: int) -> dict:
@@ -49,8 +49,8 @@ def energy_still(view: View) -> dict:
     time = np.append(m.time, m.time[::-1])
     between = [(time, np.append(upper, lower[::-1])) for lower, upper in pairwise(sums)]
     # What is nothing but rounding is not in the legend.
-    some = [part.max() > 1e-9 * sums.max() for part in parts]
-    rows = [row if there else NOTHING for row, there in zip(between, some, strict=True)]
+    relevant = [part.max() > 1e-9 * sums.max() for part in parts]
+    rows = [row if is_relevant else NOTHING for row, is_relevant in zip(between, relevant, strict=True)]
     return dict(zip(("friction", "plastic", "viscous", "stored", "kinetic"), rows, strict=True))
 
 
@@ -77,10 +77,10 @@ ENERGY = Plot(
 
 
 def forces_still(view: View) -> dict:
-    on, most = view.course.on, view.course.scene.drive.friction * view.course.force
+    on, most = view.course.on_axes, view.course.scene.drive.friction * view.course.force
     both = np.append(on["t"], [np.nan, *on["t"]]), np.append(most, [np.nan, *-most])
     rows = {"normal force F": (on["t"], on["F"]), "force along Fₓ": (on["t"], on["force"])}
-    return rows | {"most friction ±μF": both} | view.held_on("t", "force")
+    return rows | {"most friction ±μF": both} | view.held_on_axes("t", "force")
 
 
 def forces(view: View, i: int) -> dict:
@@ -109,7 +109,7 @@ def maw_still(view: View) -> dict:
 
 
 def maw(course: Course, asked):
-    """The elastic curve of the same body, as far as it has been found: Maw's own under a paraboloid."""
+    """The elastic curve ψ₂(ψ₁) of the same body, point by point; Maw's own under a paraboloid."""
     drive, medium = course.scene.drive, course.scene.medium
     elastic = mdr.Medium(medium.E_star, poisson=medium.poisson)
     body, found = (drive.mass, drive.speed, drive.tangential_mass), [(0.0, 0.0)]
@@ -122,7 +122,7 @@ def maw(course: Course, asked):
 
 @cache
 def _after(profile, medium, mass, speed, tangential_mass, psi):
-    """ψ₂ of an elastic impact with some ψ₁."""
+    """ψ₂ of an elastic impact."""
     unit = speed / float(medium.tangential_ratio)
     hit = mdr.oblique_impact(
         profile, medium, mass, speed, psi * unit, 1.0, tangential_mass=tangential_mass, tolerance=_TOLERANCE

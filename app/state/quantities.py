@@ -35,13 +35,12 @@ class Quantity:
     typical: str = ""
 
     def bounded(self, value):
-        """The value within the bounds next to another one."""
         return min(max(value, self.bounds[0]), self.bounds[1])
 
 
 @dataclass(frozen=True)
 class Shape:
-    """An indenter shape: its name, formulas and parameters, and how the core makes it of them."""
+    """A shape: its name, formulas, parameters and constructor."""
 
     label: str
     height: str
@@ -72,7 +71,7 @@ _LOWERED = str.maketrans("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆�
 
 
 def lowered(text):
-    """A text in which indices, as in v_0, are letters of Unicode; those it has not stay as high: qc."""
+    """Text with indices, as in v_0, as Unicode subscripts where they exist."""
     return re.sub("_([a-z0-9]+)", lambda index: index[1].translate(_LOWERED), text)
 
 
@@ -87,7 +86,7 @@ for _name, _choice in DATA["choices"].items():
 
 
 def shape_quantities(shape):
-    """Names and quantities of the numbers of a shape; a measured tip has none."""
+    """Names and quantities of the parameters of a shape."""
     return [(f"{shape}_{q.name}", q) for q in SHAPES[shape].quantities]
 
 
@@ -110,7 +109,7 @@ USED["swept"] = {name: ["sweep_low", "sweep_high"] for name in SWEPT}
 
 
 class Scale:
-    """The steps of a slider and the values they stand for, about a middle value on a logarithmic scale."""
+    """Steps of a slider and their values, logarithmic about a middle value where possible."""
 
     STEPS = 400
 
@@ -123,17 +122,14 @@ class Scale:
         self.low, self.high = low, high
 
     def reaches(self, value: float) -> bool:
-        """Whether a value lies on the slider."""
         return self.low <= value <= self.high
 
     def position(self, value: float) -> int:
-        """The step nearest to a value."""
         scaled = log if self.logarithmic else float
         low, high, at = map(scaled, (self.low, self.high, min(max(value, self.low), self.high)))
         return round(self.STEPS * (at - low) / (high - low))
 
     def value(self, position: float) -> float:
-        """The value of a step, with three digits."""
         share = min(max(position, 0), self.STEPS) / self.STEPS
         low, high = self.low, self.high
         value = low * (high / low) ** share if self.logarithmic else low + (high - low) * share

@@ -11,7 +11,7 @@ from .quantities import DATA
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit and its size in SI: a value in SI divided by `factor` is the number shown."""
+    """A unit and its size in SI."""
 
     name: str
     factor: float
@@ -48,7 +48,7 @@ def fitting(value: float, kind: str, like: float = 0.0) -> Unit:
 
 
 def digits(value: float, count: int = 4) -> str:
-    """A number with that many significant digits, very large and very small ones as a × 10ⁿ."""
+    """A number with significant digits, very large and small ones as a × 10ⁿ."""
     if not isfinite(value):
         return "∞" if value > 0 else "–"
     if value == 0:
@@ -62,7 +62,7 @@ def digits(value: float, count: int = 4) -> str:
 
 
 def written(value: float, kind: str, count: int = 4) -> str:
-    """A value in SI as text with its unit, with that many significant digits."""
+    """A value (SI) as text with its unit."""
     if value == 0 or not isfinite(value):
         return digits(value)
     unit = fitting(value, kind)
@@ -70,7 +70,7 @@ def written(value: float, kind: str, count: int = 4) -> str:
 
 
 def entry(value: float, kind: str, like: float = 0.0) -> str:
-    """A value in SI as short text for a field to type in, which `read` understands."""
+    """A value (SI) as text for a field, readable by `read`."""
     if not isfinite(value):
         return digits(value)
     unit = fitting(value, kind, like)
@@ -81,7 +81,7 @@ _KEYBOARD = str.maketrans("µ·³²", "u*32")
 
 
 def named(kind: str) -> dict[str, Unit]:
-    """The units of a kind by their names, with u, * and 3 for µ, · and ³ as on any keyboard too."""
+    """Units of a kind by name, also with u, * and 3 for µ, · and ³."""
     units = (*UNITS[kind], *_READ.get(kind, ()))
     return {name: unit for unit in units for name in (unit.name, unit.name.translate(_KEYBOARD))}
 
@@ -120,7 +120,7 @@ _ROUND = np.array([1, 1.5, 2, 3, 4, 5, 6, 8, 10])
 
 
 def round_up(value: float) -> float:
-    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8 × 10ⁿ: axes that end there keep still while a slider moves."""
+    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8 × 10ⁿ, so that axes rest while a slider moves."""
     if not value > 0 or not isfinite(value):
         return 1.0
     power = 10.0 ** floor(log10(value))
