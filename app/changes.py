@@ -1,4 +1,4 @@
-"""What a person may do to a state: each change is a function that gives another state, or refuses it."""
+"""Changes of a state: functions that return another state or raise ValueError."""
 
 import re
 from collections.abc import Callable
@@ -181,10 +181,10 @@ def write_path(vertices: tuple, prescribed: str) -> str:
 
 
 def read_path(text: str, prescribed: str, shown: tuple) -> tuple:
-    """Vertices (SI) from text in which the path `shown` has been altered.
+    """Vertices (SI) from edited text of the path `shown`.
 
-    Bare numbers are in the units shown; a line that stands as it was has all digits that it had. Raises
-    ValueError, with the line, if it is none.
+    Bare numbers are in the displayed units; unchanged lines keep all digits. Raises ValueError with the
+    line.
     """
     vertices, columns = [], _columns(shown, prescribed)
     kept = dict(zip(write_path(shown, prescribed).splitlines(), shown, strict=True))

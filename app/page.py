@@ -1,4 +1,4 @@
-"""The page of one session: a function of one state, which every change gives anew."""
+"""The page of one session, a function of one state."""
 
 import logging
 from dataclasses import dataclass, replace
@@ -26,11 +26,11 @@ from .state.files import Curve, decoded, read_tip
 from .ui import JS, on_upload, plain, show
 
 _LOG = logging.getLogger(__name__)
-#: Milliseconds without a change after which the address follows.
+#: Milliseconds of rest before slow updates.
 SETTLED = 300
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
 _UNDO_STEPS = 100
-#: Names of widgets that have none of their own, by their classes.
+#: Accessible names of widgets, by class.
 _NAMED = {"slider": "State along the path", "tour": "Guided scene"}
 _NAMED |= {"tip": "CSV file of a measured tip: r, z", "curve": "CSV file of a measured curve: depth, force"}
 
@@ -120,17 +120,17 @@ class Page:
         self.document.js_on_event(
             DocumentReady, CustomJS(args={"named": _NAMED, "theme": self.theme}, code=JS["ready"])
         )
-        # What was shown is in the address; the session behind it may be gone.
+        # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
         self.document.on_session_destroyed(lambda context: self.resting.end())
 
-    # What a person does, and what is refused.
+    # Changes and refusals.
 
     @pn.io.hold()
     def apply_or_raise(self, change: Any, mark: str | None = None) -> None:
-        """Make a change and show it, or leave everything as it was; changes of one mark are one to undo.
+        """Apply a change and show it; on failure restore the page and raise ValueError with a message.
 
-        Raises ValueError with what the person is told, if it is refused.
+        Changes with the same mark, as of one drag, are one step of undo.
         """
         before = after = self.state
         try:
@@ -200,7 +200,7 @@ class Page:
         _LOG.error("a change could not be shown, scene %s", described(state or self.state), exc_info=error)
         return _FAULT
 
-    # What is drawn.
+    # Drawing.
 
     @pn.io.hold()
     def draw(self, state: State) -> None:
@@ -239,7 +239,7 @@ class Page:
         self.fitting.show(state)
         self.table.show(course, self.shown.held)
         self.guide.show(course)
-        # Texts that change lay the page out anew: while a slider moves they wait.
+        # Changed texts cause a new layout, so they wait while a slider moves.
         if not self._ready:
             self._show_texts()
         show(self.frame.hold, value=bool(state.hold) and is_held(state))
@@ -264,7 +264,7 @@ class Page:
             course = self.shown.view.course
             show(self.frame.numbers, object=readouts.table(course, self.readings, course.now))
 
-    # What the player and the hand do.
+    # Player and dragging.
 
     def _slider_moved(self, attr, old, new):
         if int(new) != self.shown.view.course.now:
@@ -301,7 +301,7 @@ class Page:
                 self.notify(str(error))
             self.board.player.hand.tags = []
 
-    # What comes when the input is at rest.
+    # Updates when the input rests.
 
     def _browser_ready(self, event):
         self._ready = True

@@ -1,4 +1,4 @@
-"""Scenes solved along their paths: the table of drives, and what takes longer than a move, in threads."""
+"""Courses of scenes: the table of drives, and slow searches in threads."""
 
 import logging
 import threading
@@ -25,7 +25,7 @@ DRIVES: dict[str, Drive] = {}
 for _found in iter_modules(drives.__path__):
     _module = import_module(f".drives.{_found.name}", __package__)
     _kinds = [kind for kind in vars(_module).values() if isinstance(kind, type) and issubclass(kind, Drive)]
-    # One of which a method is missing cannot be made.
+    # A drive with a missing method raises here.
     DRIVES |= {kind.key: kind() for kind in _kinds if kind.key}
 
 
@@ -34,10 +34,7 @@ def scene_of(state: State) -> mdr.Scene:
 
 
 def follow(state: State, known: dict[mdr.Scene, Course] | None = None) -> Course:
-    """The states of a scene along its path, at the progress where the page stands.
-
-    `known` has courses that have been solved in full.
-    """
+    """Course of a state; `known` has exact courses."""
     scene = scene_of(state)
     course = (known or {}).get(scene) or DRIVES[state.drive].follow(scene, state.progress)
     return replace(course, now=nearest(course.progress, state.progress))
@@ -92,25 +89,19 @@ class Found:
     note: str = ""
 
 
-#: What is shown before anything is found, and where nothing can be.
+#: Results before a search ends, and after one failed.
 COMPUTING = Found({}, [], "computing …")
 FAULT = Found({}, [], "This could not be found, because of a fault of the explorer.")
 
 
 class Resting:
-    """The searches of one session: the latest of each name only, in threads that all sessions share.
-
-    `show` is given the name and what was found.
-    """
+    """Searches of a session: the latest of each name, in threads shared by all sessions."""
 
     def __init__(self, show: Callable[[str, Any], None]):
         self._show, self._searches, self._found, self._document = show, {}, {}, pn.state.curdoc
 
     def follow(self, name: str, about: Any, search: Callable[..., Iterator[Any]], *arguments: Any) -> None:
-        """Let a generator search, unless that is under way or done for what it is `about`.
-
-        None: it is no longer looked at.
-        """
+        """Start a search unless one with the same key `about` is running or done; None stops it."""
         last, stop = self._searches.get(name, (None, None))
         if last == about:
             return

@@ -1,4 +1,4 @@
-"""The theory as a page of its own: assets/theory.md with its formulas, at an equation or a section."""
+"""The theory, assets/theory.md, as a page."""
 
 import re
 from html import escape

@@ -1,4 +1,4 @@
-"""Parts of which the page is made: its sheet and scripts, texts as HTML, and widgets with their looks."""
+"""Style sheet, scripts, texts as HTML, and widgets."""
 
 import re
 from html import escape
@@ -18,7 +18,7 @@ FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": STYLE}
 _LABELS = {name: quantity.label for name, quantity in QUANTITIES.items()}
 
 
-#: What the core says to those who call it alone: indices, counts, names of functions.
+#: Parts of messages of the core that do not apply to the page.
 _EXPONENT = re.compile(r"(\d(?:\.\d+)?)e([+-]?)0?(\d+)\b")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PYTHON = re.compile(
@@ -101,7 +101,7 @@ def on_upload(widget, act):
     def bring(*events):
         if widget.filename:
             act(widget.value or b"")
-            # The same file is read again when it is brought again.
+            # Without this a file of the same name is not read again.
             widget.clear()
 
     widget.param.watch(bring, ["value", "filename"])

@@ -1,4 +1,4 @@
-"""What a drive is, and the states along its path: the one interface that all of the page asks."""
+"""Base class of drives, and the states along their paths: one interface for the whole page."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, fields
@@ -53,11 +53,10 @@ class States(Protocol):
 class Course:
     """States of a scene along its path; every array has one value (SI) for each state.
 
-    `progress` is where a state stands: 0 first contact, 1 deepest, 2 loss of contact, and 2.2 the tip back
-    at the height of the undeformed surface. `now` is the number of the present state, `peak` that of the
-    deepest. What has times has them, with speeds and energies, in `motion`; an impact has a `hit`, an
-    `oblique` one its motion with friction, and how far elements `relax` that have let go. A path that may
-    turn round several times `turns`; `pending` says how roughly it is followed until it is solved in full.
+    `progress` is 0 at first contact, 1 at the largest depth, 2 at loss of contact and 2.2 with the indenter
+    at the undeformed surface. `now` and `peak` are the indices of the present state and of the largest
+    depth. `turns`: the path may reverse several times. `pending` describes the approximation used until the
+    exact solution.
     """
 
     scene: mdr.Scene
@@ -175,7 +174,7 @@ class Course:
         drive, hit, motion = self.scene.drive, self.oblique.impact, self.oblique
         after = float(motion.tangential_velocity[-1] if hit is None else hit.tangential_velocity)
         largest = np.max(np.abs(motion.tangential_force)) if hit is None else hit.max_tangential_force
-        # The impulse changes the speed of the body, and for the rest its spin.
+        # The impulse changes the speed of the body and its spin.
         impulse = drive.tangential_mass * (after - drive.tangential_speed)
         body = drive.tangential_speed + impulse / drive.mass
         found = {"contact_velocity": after, "body_speed": body, "max_tangential_force": float(largest)}
@@ -187,9 +186,9 @@ class Course:
         return SimpleNamespace(**found)
 
     def unloading_curve(self, index: int) -> tuple[Array, Array]:
-        """Depths (m) and forces (N) of elastic unloading from one state: the area below is its energy.
+        """Depths (m) and forces (N) of elastic unloading; the area below is the stored energy.
 
-        Elements that dashpots hold back are compressed further than their load tells.
+        Elements held back by dashpots are compressed further than their load indicates.
         """
         live, depth = self.states.live_interval[index], float(self.states.depth[index])
         length = live.length * _RELEASE
@@ -229,12 +228,11 @@ def path_progress(along: Array, peak: int) -> Array:
 
 
 class Drive(ABC):
-    """What drives the indenter, as a person sets it and as `mdr.Scene` has it.
+    """A drive of the indenter, as set on the page and as in `mdr.Scene`.
 
-    `key` is its option of the choice "drive", `values` the types of its values of a scene, `form` the
-    choices and parts of the form that follow its numbers, `line` the names of the readouts that are always
-    seen. `solver` is the function of the core for whole arrays, with the numbers that it takes, `results`
-    what it gives.
+    `key`: option of the choice "drive"; `values`: types in a scene; `form`: its choices and parts of the
+    form; `line`: readouts above the plots; `solver`: function of the core and its arguments; `results`: its
+    results.
     """
 
     key: str = ""

@@ -12,7 +12,7 @@ from ..state.quantities import CHOICES, QUANTITIES, USED
 from ..state.units import written
 from . import arguments, impact, printed
 
-#: Most elements that are kept to be drawn, and how often steps are halved for that: errors of some 10⁻⁵.
+#: Maximum number of drawn elements, and halvings of steps for them (errors about 10⁻⁵).
 _ELEMENTS, _HALVINGS = 300, 2
 
 

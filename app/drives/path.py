@@ -1,4 +1,4 @@
-"""A path of depth or of force through some vertices; in time also ramp and hold, and creep."""
+"""A path of depth or force through vertices; in time also ramp and hold, and creep."""
 
 from functools import cached_property
 from itertools import pairwise
@@ -24,7 +24,7 @@ _IN_TIME = {"depth": "indent_in_time", "force": "creep"}
 #: Most vertices, and about how many states are drawn: of a path without dashpots, on the chain under
 #: prescribed depths, and under forces, where every one of them takes eight steps and more.
 MOST, _SLOW, _DEPTHS, _FORCES = 60, 200, 48, 24
-#: Error allowed on the chain: less than is seen.
+#: Tolerance of the chain, below the resolution of plots.
 _TOLERANCE = 3e-3
 
 
@@ -62,7 +62,7 @@ def pattern(state, turning_point, option):
     depth, time = float(turning_point.depth), float(f"{medium.relaxation_time or 1.0:.2g}")
 
     def back(depth):
-        # Until the load is gone.
+        # Depth at loss of contact.
         return max(depth - medium.critical_depth, 0.0)
 
     if option == "creep":
@@ -92,10 +92,7 @@ def _slowly(scene, values):
 
 
 def _course(drive):
-    """Values of a path, without times from first contact on, and how far along it they are.
-
-    That is their times, or how much has been changed.
-    """
+    """Values of a path, without times from first contact on, and their times or cumulated changes."""
     _, values, time = _parts(drive)
     if time is not None:
         return values, time
@@ -114,7 +111,7 @@ def _refined(scene, chain):
     for (begin, first), (end, last) in pairwise(zip(along, values, strict=True)):
         share = _shares(each + 1, chain, chain and first == last)
         if first != last and not (chain and name == "force"):
-            # Just before yield begins or goes on, and on both sides of where the load is gone.
+            # Just before yield, and on both sides of the loss of contact.
             gone, elastic = 0.0, most
             if name == "depth":
                 gone, elastic = max(most - critical, 0.0), min(critical, most)
@@ -133,7 +130,7 @@ def _shares(count, chain, held):
     share = np.linspace(0, 1, count)
     if held:
         return (1e3**share - 1) / 999
-    # Dashpots change most where a piece begins.
+    # Dashpot forces change fastest at the start of a piece.
     return share**2 if chain else (1 - np.cos(np.pi * share)) / 2
 
 
@@ -173,12 +170,8 @@ class ChainStates:
     def __init__(self, path, at=slice(None), whole=None):
         self._path, self._at, self._whole = path, at, whole or self
         subset = path[at]
-        self.profile, self.medium, self.limits, self.error = (
-            path.profile,
-            path.medium,
-            path.limits,
-            path.error,
-        )
+        self.profile, self.medium = path.profile, path.medium
+        self.limits, self.error = path.limits, path.error
         self.depth, self.force, self.viscous_work = subset.depth, subset.force, subset.viscous_work
         self.contact_radius, self.plastic_radius = subset.contact_radius, subset.plastic_radius
         self.plastic_depth, self.stored_energy = subset.plastic_depth, subset.stored_energy

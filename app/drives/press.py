@@ -1,4 +1,4 @@
-"""Pressed to a depth or to a force, and taken back, infinitely slowly."""
+"""Quasi-static loading to a depth or force, and unloading."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from mdr_core.yielding import LiveInterval, path_intervals
 
 from . import Course, Drive, nearest, printed, rounded
 
-#: From 0 to 1, denser towards both ends, where radii begin as a root of the depth.
+#: Places from 0 to 1, dense at both ends, where radii change as a root of the depth.
 _SPREAD = (1 - np.cos(np.linspace(0, np.pi, 41))) / 2
 
 
@@ -41,7 +41,7 @@ class Press(Drive):
         lifted = 2 + 0.2 * np.linspace(0, 1, 9)
         places = np.unique(rounded(np.concatenate([loading, 1 + _SPREAD, lifted, [progress]])))
         live = path_intervals((np.minimum(places, 1.0) * depth)[:, None], critical)[:, 0]
-        # By its length, which is exactly zero where the load is gone.
+        # The length is exactly zero without contact.
         length = np.clip(2 - places, 0.0, 1.0) * live.length
         upper = np.where(places <= 1, live.upper, live.lower + length)
         lifted = np.where(places <= 2, upper, live.lower * np.maximum(2.2 - places, 0.0) / 0.2)

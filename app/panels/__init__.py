@@ -1,4 +1,4 @@
-"""What stands around the plots, and the frame of all: header, left column with its tabs, right column."""
+"""The frame of the page: header, left column with tabs, right column with plots."""
 
 from collections.abc import Callable
 from typing import Any
@@ -9,10 +9,7 @@ from ..ui import FULL, HERE, STYLE, WIDE, button, html, show, toggle, tools
 
 
 class Frame:
-    """The frame of a page: six buttons, tabs on the left, panels that lie over them, the guide above.
-
-    `panels` and `tabs` are what they show, by their names; `share` is called when that panel opens.
-    """
+    """Six buttons, tabs on the left, panels over them; `share` is called when that panel opens."""
 
     def __init__(self, preset: Any, axes: Any, panels: dict, tabs: dict, share: Callable[[], None]):
         self.undo, self.redo, self.hold = button("Undo", "z"), button("Redo", "y"), toggle("Hold", "h")

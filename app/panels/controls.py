@@ -1,4 +1,4 @@
-"""The controls: Panel widgets over what can be set, each with its symbol, name, unit and an explanation."""
+"""The form: number fields and choices, each with symbol, name, unit and explanation."""
 
 from collections.abc import Callable
 from html import escape
@@ -19,7 +19,7 @@ from .readouts import sketch
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
-#: Choices of which all options are seen; others are lists.
+#: Choices shown as radio buttons; others are lists.
 _RADIO = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface", "prescribed", "aim", "body")
 #: Choices about the medium that are one click away, unless they are in use.
 _MORE = ("elasticity", "plasticity", "damping", "inertia")
@@ -40,10 +40,9 @@ def _about(known: Quantity) -> str:
 
 
 class Number(pn.custom.JSComponent):
-    """A quantity that is typed with its unit, or dragged on its scale; it can be told to be another one.
+    """A field and slider for a number.
 
-    `act` gets a function that gives a state of a state, and a mark: changes of one mark are one to undo. It
-    raises ValueError with what the person is told.
+    `apply_or_raise` takes a function from state to state, and a mark that joins steps of undo.
     """
 
     label, spoken, about = param.String(), param.String(), param.String()
@@ -101,7 +100,7 @@ class Number(pn.custom.JSComponent):
             or scaled != self._scaled
             or not self._scale.reaches(value)
         ):
-            # A value beyond the slider's reach becomes its new middle.
+            # A value outside the slider becomes its new middle.
             start = value if name.startswith("sweep") else preset_value(state, name)
             self._scale, self._scaled = Scale(known, start), scaled
             if not self._scale.reaches(value):
@@ -123,7 +122,7 @@ class Numbers(pn.Column):
         self._apply_or_raise = apply_or_raise
 
     def show(self, state: State, names: list[str], likes: dict[str, float] | None = None) -> None:
-        for name, place in zip(names, range(len(names)), strict=True):
+        for place, name in enumerate(names):
             if place == len(self):
                 self.append(Number(self._apply_or_raise))
             self[place].show(state, name, (likes or {}).get(name, 0.0))

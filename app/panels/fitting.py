@@ -1,4 +1,4 @@
-"""The tab in which a measured curve is brought, its columns corrected, and a medium fitted to it."""
+"""The tab *Fit a measurement*: upload of a curve, choice of its columns, and fit of the medium."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -17,7 +17,7 @@ from ..state.units import fitting, written
 from ..ui import WIDE, button, field, html, indexed, marked, on_upload, plain, show, upload
 from .controls import Choices, Numbers
 
-#: What the example is called, and what is said of it.
+#: Name and description of the example.
 _MADE = "A made curve, no measurement"
 _EXAMPLE = (
     "This tip on a medium of 1.3 E* and 0.8 q_c, which begins at a tenth of the depth, with 0.4 % noise."

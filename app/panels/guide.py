@@ -1,4 +1,4 @@
-"""Guided scenes: steps, each a state with some sentences, in a panel above the form."""
+"""Guided scenes: steps with a state and a text."""
 
 import json
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Scenes that are held to compare with: each a link with a name, and their numbers side by side."""
+"""Held scenes: links with names, and a table of their numbers."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -45,10 +45,7 @@ def is_held(state: State) -> bool:
 
 
 def toggle_hold(state: State) -> State:
-    """With the present scene held besides, or without it if it is held.
-
-    Raises ValueError if there is no room for it.
-    """
+    """Hold the present scene, or remove it; ValueError if there is no room."""
     rest = tuple(query for query in state.hold if not _same(query, state))
     if len(rest) < len(state.hold):
         return state.replace(hold=rest)
@@ -75,6 +72,8 @@ def difference(state: State) -> str:
 
 def renamed(state: State, k: int, name: str) -> State:
     hold = state.hold
+    if k >= len(hold) or link.split_name(hold[k])[1] == name:
+        return state
     return state.replace(hold=(*hold[:k], link.with_name(hold[k], name), *hold[k + 1 :]))
 
 
@@ -100,6 +99,10 @@ def numbers(course: Course) -> dict[str, str]:
     return texts | {"e": "–" if course.hit is None else written(float(course.hit.restitution), "number", 3)}
 
 
+def _dash(k: int) -> str:
+    return f'<span class="held"><i class="lines {DASHES[k]}"></i></span>'
+
+
 class Table:
     """The tab *Held*: held scenes, and their numbers beside the present ones."""
 
@@ -118,38 +121,21 @@ class Table:
             if k < len(held):
                 show(self._names[k], value=held[k].name)
         columns = [numbers(course), *(numbers(each.course) for each in held)]
-        heads = "".join(
-            f'<th><span class="held"><i class="lines {dash}"></i></span></th>'
-            for dash in DASHES[: len(held)]
-        )
+        heads = "".join(f"<th>{_dash(k)}</th>" for k in range(len(held)))
         rows = "".join(
             f"<tr><th>{marked(symbol)}</th>" + "".join(f"<td>{each[symbol]}</td>" for each in columns)
             for symbol in columns[0]
         )
-        show(
-            self._numbers,
-            object=f"<table><tr><th></th><th>now</th>{heads}</tr>{rows}</table>" if held else "",
-        )
+        table = f"<table><tr><th></th><th>now</th>{heads}</tr>{rows}</table>"
+        show(self._numbers, object=table if held else "")
 
     def _made(self, k: int) -> Any:
         name = field(
             pn.widgets.TextInput, "called", "beside", label=f"held {k + 1}", width=164, sizing_mode=None
         )
-        name.param.watch(lambda event: self._rename(k, event.new), "value")
-        dash = html(
-            f'<span class="held"><i class="lines {DASHES[k]}"></i></span>',
-            "key",
-            width=44,
-            sizing_mode=None,
-        )
+        name.param.watch(lambda event: self._apply(lambda state: renamed(state, k, event.new)), "value")
+        dash = html(_dash(k), "key", width=44, sizing_mode=None)
         remove = button(f"Remove {k + 1}", width=76)
         remove.on_click(lambda event: self._apply(lambda state: removed(state, k)))
         self._names.append(name)
         return pn.Row(dash, name, remove, css_classes=["head"], **WIDE)
-
-    def _rename(self, k: int, name: str) -> None:
-        def change(state: State) -> State:
-            known = k < len(state.hold) and link.split_name(state.hold[k])[1] != name
-            return renamed(state, k, name) if known else state
-
-        self._apply(change)

@@ -1,4 +1,4 @@
-"""The readouts, how far the assumptions hold, the sketch of the indenter, and the scene in words."""
+"""Readouts, assumptions, sketch of the indenter, and summary of the scene."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -21,10 +21,9 @@ from ..ui import explained, linked, marked, plain, symbol
 
 @dataclass(frozen=True)
 class Readout:
-    """A number that is read: its name in the core's table of quantities, and where a course has it.
+    """A readout: its name in the table of quantities of the core, and its attribute `of` a course.
 
-    `of` names what has one value, or one for each state; where it is not there, there is no such number.
-    `help` and `equation` say what it is; `own` is its symbol, unit and name where the core has none.
+    `own` is its symbol, unit and name if the core has none.
     """
 
     name: str
@@ -156,11 +155,8 @@ def warnings(course: Course, state: State) -> str:
     ]
     seen = "".join(html for level, html in sentences if level == "beyond")
     rest = "".join(html for level, html in sentences if level != "beyond")
-    return (
-        f"{seen}<details><summary>Assumptions that hold, and notes</summary>{rest}</details>"
-        if rest
-        else seen
-    )
+    folded = f"<details><summary>Assumptions that hold, and notes</summary>{rest}</details>"
+    return seen + folded * bool(rest)
 
 
 def sketch(course: Course, shape: str) -> str:

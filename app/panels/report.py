@@ -1,4 +1,4 @@
-"""The report: one file of HTML with all that the page shows, to be read and printed alone."""
+"""The report: one HTML file with everything on the page."""
 
 from datetime import UTC, datetime
 from html import escape

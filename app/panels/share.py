@@ -1,4 +1,4 @@
-"""What is taken away: the link, the report, curves as CSV in SI and the state as Python."""
+"""Exports: link, report, curves as CSV in SI, and Python."""
 
 from collections.abc import Callable
 from inspect import signature
@@ -20,15 +20,7 @@ from ..ui import WIDE, field, html, show
 from .report import report
 
 #: Columns of the states along a path, by their names in the core's table; those of a motion.
-_STATES = (
-    "depth",
-    "force",
-    "contact_radius",
-    "plastic_radius",
-    "plastic_depth",
-    "stored_energy",
-    "plastic_work",
-)
+_STATES = ("depth", "force", "contact_radius", "plastic_radius", "plastic_depth")
 _TIMED = ("velocity", "kinetic_energy", "viscous_work")
 _OBLIQUE = ("tangential_velocity", "tangential_force", "friction_work", "stick_radius", "slip_radius")
 #: How far the pressure of a measured tip can be trusted.
@@ -210,10 +202,8 @@ class Share:
             "Fit (CSV)": ("fit.csv", curves(fit_csv)),
         }
         self.files = {label: self._file(label, *of) for label, of in files.items()}
-        self.link, self.python = (
-            field(pn.widgets.TextInput, label="Link to this page"),
-            field(pn.widgets.TextAreaInput, label="This state with mdr_core", rows=12),
-        )
+        self.link = field(pn.widgets.TextInput, label="Link to this page")
+        self.python = field(pn.widgets.TextAreaInput, label="This state with mdr_core", rows=12)
         self._note = html()
         buttons = pn.FlexBox(*self.files.values(), css_classes=["tools"], **WIDE)
         self.view = pn.Column(self.link, self._note, buttons, self.python, visible=False, **WIDE)

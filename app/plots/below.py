@@ -1,4 +1,4 @@
-"""Below and beside the contact: the deformed surface with its imprint, and the stress under the tip."""
+"""The deformed surface with its imprint, and the stress below it."""
 
 from dataclasses import replace
 
@@ -91,7 +91,7 @@ def section(course: Course, asked):
     down, along = ((np.arange(count) + 0.5) / count for count in _PIXELS)
     across, deep = r.end * along, -z.start * (1 - down)
     image = of_stress(state.stress(across, deep[:, None]))
-    # Where it grows without bound, most of it.
+    # A quantile, as the maximum may be infinite.
     most, place, note = float(np.quantile(image, 0.998)), NOTHING, ""
     if quantity != "zz":
         peak = state.stress_peak(quantity)

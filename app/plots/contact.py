@@ -1,4 +1,4 @@
-"""The contact in one state: springs, pressure, radii over the depth, and the pressure seen obliquely."""
+"""The contact in one state: springs, pressure, radii, and an oblique view of the pressure."""
 
 import numpy as np
 
@@ -41,7 +41,7 @@ def relaxing(course: Course, i: int, g):
 def leaning(course: Course, i: int, r):
     """Tangential displacement (m) of elements in state i, and whether they stick."""
     m, medium = course.oblique, course.scene.medium
-    # The first element is a flat face, which most shapes have not.
+    # The first element is a flat face; most shapes have none.
     first = int(m.x[0] == 0)
     load, sticks = (
         np.interp(r, m.x[first:], part[i, first:]) for part in (m.tangential_line_load, m.sticks)

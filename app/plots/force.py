@@ -1,4 +1,4 @@
-"""Force over depth, linear and logarithmic, with reference curves and measured ones; and the residual."""
+"""Force over depth, linear and logarithmic, with reference and measured curves; and the residual."""
 
 import numpy as np
 
@@ -15,18 +15,18 @@ REFERENCES = (
     line(_CLASSES["a"], "ink", 1.4, "dotted", "F"),
     line(_CLASSES["c"], "ink", 1.4, "dotdash", "F"),
 )
-#: Depths, over the largest: close where a logarithmic axis begins, too.
+#: Depths over the largest one, dense at the start of logarithmic axes.
 _SHARE = np.unique(np.append(np.linspace(0, 1, 80), np.geomspace(1e-5, 1, 60)))
 #: Most samples of a measured curve that are drawn.
 _DRAWN = 150
 
 
 def references(view: View) -> dict:
-    """Curves to compare with that are chosen, as deep as the axis reaches and the shape is known.
+    """Chosen reference curves.
 
-    Popov (2015), section 1: under a fully yielded contact the force goes as aⁱ, i = 2 where the hardness
-    is constant (a), 1 where it is as 1/a (b), this model, and 0 where it is as 1/a² (c), with the contact
-    radius a = g⁻¹(d) of (16). All of them have the hardness F/(πa²) of the deepest state of the scene.
+    Popov (2015), section 1: under a fully yielded contact F ∝ aⁱ with i = 2 for constant hardness (a), 1
+    for hardness ∝ 1/a (b), this model, and 0 for ∝ 1/a² (c). All have the hardness F/(πa²) at the largest
+    depth.
     """
     chosen, course, rows = view.references, view.course, {}
     if chosen == "none":
@@ -80,7 +80,8 @@ def force_still(view: View) -> dict:
 
 def force(view: View, i: int) -> dict:
     """The present state, the path so far, and the areas of dissipated and stored energy."""
-    course, right, lower = (view.course, 0.02 * view.end("d"), float(view.course.states.plastic_depth[i]))
+    course, right = view.course, 0.02 * view.end("d")
+    lower = float(course.states.plastic_depth[i])
     rows = {"now": view.mark(i, "d", "F"), "dₚ": (np.nan, np.nan, "")}
     if lower > 0:
         rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end("F"), "dₚ"
@@ -104,17 +105,21 @@ def _formula(course: Course) -> str:
     return f"(20) (22)  F = 2E* ∫ a(s) ds{dashpots},  d_p < s < d"
 
 
+_CURVES = (
+    *held_rows("F"),
+    *REFERENCES,
+    line("path ahead", "free", 1.0),
+    *parts("F"),
+    mark("measured", "measured", "measured", size=4),
+    mark("onset of yield", "paper", "yielded", "diamond", 11),
+)
+
 FORCE = Plot(
     "force", "Force and depth", _formula, ("d", "F"),
     (
         area("dissipated", "yielded", 0.13, "/"),
         area("stored", "elastic", 0.25),
-        *held_rows("F"),
-        *REFERENCES,
-        line("path ahead", "free", 1.0),
-        *parts("F"),
-        mark("measured", "measured", "measured", size=4),
-        mark("onset of yield", "paper", "yielded", "diamond", 11),
+        *_CURVES,
         mark("now", size=13),
         label("dₚ"),
     ),
@@ -130,16 +135,7 @@ def _inside(view: View, d, F, *_):
 
 LOGLOG = Plot(
     "loglog", "Force and depth, logarithmic", "z ∝ rⁿ:  F ∝ d^(1 + 1/n), then d^(1/n)  § 6",
-    ("log d", "log F"),
-    (
-        *held_rows("F"),
-        *REFERENCES,
-        line("path ahead", "free", 1.0),
-        *parts("F"),
-        mark("measured", "measured", "measured", size=4),
-        mark("onset of yield", "paper", "yielded", "diamond", 11),
-        mark("now"),
-    ),
+    ("log d", "log F"), (*_CURVES, mark("now")),
     lambda view: {name: _inside(view, *row) for name, row in force_still(view).items()},
     lambda view, i: {"now": _inside(view, *view.mark(i, "d", "F"))},
     tab=("Log–log", "l"), log=True,

@@ -1,4 +1,4 @@
-"""What has times: depth and force, energies, and of an oblique impact what is along the surface."""
+"""Depth, force and energies over time, and friction of an oblique impact."""
 
 from functools import cache
 from itertools import pairwise
@@ -12,7 +12,7 @@ from ..drives import Course
 from ..solve import Found
 from .plot import Plot, View, held_rows, maw_chi, maw_numbers
 
-#: Impacts on Maw's curve where stick and slip meet, and error allowed there: less than is seen.
+#: Points of Maw's curve in partial slip, and their tolerance.
 _PLACES, _TOLERANCE = 14, 1e-3
 
 
@@ -21,9 +21,13 @@ def motion_still(view: View) -> dict:
     return {"depth d": (on["t"], on["d"]), "force F": (on["t"], on["F"])} | view.held_on_axes("t", "F")
 
 
-def motion(view: View, i: int) -> dict:
-    marks = {"now": view.mark(i, "t", "d"), "F now": view.mark(i, "t", "F")}
-    return marks | {"time": view.time(i, "d")}
+def _marks(y: str):
+    """Marks of the present state on the axis `y` and of its force."""
+    return lambda view, i: {
+        "now": view.mark(i, "t", y),
+        "F now": view.mark(i, "t", "F"),
+        "time": view.time(i, y),
+    }
 
 
 MOTION = Plot(
@@ -37,7 +41,7 @@ MOTION = Plot(
         mark("now"),
         mark("F now", marker="diamond", size=11, axis=2, legend=False),
     ),
-    motion_still, motion, tab=("In time", "v"),
+    motion_still, _marks("d"), tab=("In time", "v"),
 )  # fmt: skip
 
 
@@ -83,11 +87,6 @@ def forces_still(view: View) -> dict:
     return rows | {"most friction ±μF": both} | view.held_on_axes("t", "force")
 
 
-def forces(view: View, i: int) -> dict:
-    marks = {"now": view.mark(i, "t", "force"), "F now": view.mark(i, "t", "F")}
-    return marks | {"time": view.time(i, "force")}
-
-
 FORCES = Plot(
     "forces", "Forces of an oblique impact", "|F_x| ≤ μ F,  § 13", ("t", "force"),
     (
@@ -99,7 +98,7 @@ FORCES = Plot(
         mark("now"),
         mark("F now", marker="diamond", legend=False),
     ),
-    forces_still, forces, tab=("Friction", "c"),
+    forces_still, _marks("force"), tab=("Friction", "c"),
 )  # fmt: skip
 
 

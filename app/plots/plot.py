@@ -1,4 +1,4 @@
-"""What a plot is, and a view: one course with the axes that hold it, from which rows are drawn, in SI."""
+"""Definition of a plot, and a view: a course with axes, from which rows are drawn, in SI."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -50,14 +50,13 @@ AXES: dict[str, tuple[str, str, str, float]] = {
 
 @dataclass(frozen=True, eq=False)
 class Plot:
-    """A plot: title, formula (of a course), keys of its axes (x, y, one on the right or of colours), rows.
+    """A plot: title, formula, keys of its axes (x, y, and one on the right or of colours), and rows.
 
-    `still` gives rows that stay while a scene is played, `moving` those of one of its states: x and y of
-    each (SI), of a label its text, of an image its values. With a `tab` (its text, and a key) it is
-    shown on request, where all its axes are. `find` takes longer than a move: it gets the course and what
-    `asks` gives of the state, or the values of the `controls` above the plot, and yields what it has found
-    so far, anew for each scene, `of_state` for each state; what is `quick` is found at every move. An
-    `image` has so many rows and columns of pixels. `note` stands below.
+    `still` returns rows that stay during playback, `moving` those of one state: x and y (SI), the text of a
+    label or the values of an image. A plot with a `tab` (text, key) is optional. `find` is a slow search:
+    it gets the course and the result of `asks` (default: the `controls`), and yields results, for each
+    scene or state (`of_state`); `quick` ones run at every move. `image`: rows and columns of pixels.
+    `note`: text below.
     """
 
     name: str
@@ -102,10 +101,7 @@ def held_rows(
 
 
 def axis(name: str, title: str, kind: str, largest: float, below: float = 0.0, scale: Any = None) -> Axis:
-    """An axis that ends at the next round number above `largest` (SI), in a unit that fits.
-
-    With a `scale` (a size and what it is) it is dimensionless.
-    """
+    """Axis up to the next round number above `largest` (SI), in a fitting unit or relative to `scale`."""
     unit = fitting(largest, kind)
     if round_up(largest / unit.factor) >= 1000:
         unit = fitting(round_up(largest / unit.factor) * unit.factor, kind)
@@ -120,10 +116,7 @@ def over(axis: Axis, scale: tuple[float, str] | None) -> Axis:
 
 
 class View:
-    """A course and its axes, with those held beside it, what plots have found, and choices of the view.
-
-    `curve` is what was measured, if anything was.
-    """
+    """A course and its axes, with held scenes, search results and the measured curve."""
 
     def __init__(self, course: Course, state: Any, held=(), found=None, curve=None):
         self.course, self.held, self.found, self.curve = course, held, found or {}, curve
@@ -259,7 +252,7 @@ def _sizes(course: Course) -> dict[str, float]:
         1.05 * float(np.max(course.force)),
     )
     size["relief"] = 1.35 * size["p"]
-    # An onset that lies little deeper than the path is kept in the picture.
+    # An onset slightly below the path stays visible.
     if begun is not None and depth < begun.depth <= 2.5 * depth:
         size["d"] = 1.02 * max(depth, 1.02 * float(begun.depth))
         size["F"] = max(size["F"], 1.05 * float(begun.force))
@@ -296,11 +289,9 @@ def _least(course: Course) -> dict[str, float]:
 
 
 def _scales(course: Course) -> dict[str, tuple[float, str]]:
-    """Sizes (SI) of a scene with what they are, by the names of the axes that they are the units of.
+    """Sizes (SI) with their names, by axis, for dimensionless axes.
 
-    Depth, force and radius where yield starts, on the surface as it was at first; where that is never, or
-    the shape is not known so deep, those of the deepest state. Radii in fields, and pressures, have the
-    contact radius and the mean pressure of the deepest state.
+    Depth, force and radius are those at first yield of a virgin surface, else those at the largest depth.
     """
     begun, turning_point = onset(course.scene), course.turning_point
     at, words = (turning_point, "largest {}") if begun is None else (begun, "{} at onset")

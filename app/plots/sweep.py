@@ -1,4 +1,4 @@
-"""One number of the scene over a range against a quantity of results, beside the limit of fast impacts."""
+"""Results over a range of one number, with the limit of fast impacts."""
 
 from dataclasses import dataclass, replace
 from operator import attrgetter
@@ -154,7 +154,7 @@ def _axes(sweep, values, present):
     y = axis("against", title, KINDS[result.unit], max(sizes, default=1.0))
     if sweep.axes != "log" or not (sizes > 0).any():
         return x, y
-    # Six decades at most, from power to power of ten.
+    # At most six decades, between powers of ten.
     least, most = max(min(sizes[sizes > 0]), 1e-6 * max(sizes)), max(sizes)
     low, high = 10.0 ** np.floor(np.log10(least / y.factor)), 10.0 ** np.ceil(np.log10(most / y.factor))
     return x, replace(y, start=low * y.factor, end=max(high, 10 * low) * y.factor, log=True)

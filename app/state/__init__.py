@@ -1,4 +1,4 @@
-"""What one person has set: a frozen mapping of numbers (SI) and choices, and what it makes of them."""
+"""The state of the page: a frozen mapping of numbers (SI) and choices."""
 
 import json
 from collections.abc import Iterator, Mapping
@@ -26,12 +26,7 @@ from .units import written
 
 @dataclass(frozen=True)
 class Preset:
-    """What the page can open on.
-
-    `key` is its name in a link. `choices` and `values` are what the page sets (SI); `sources` says for each
-    number, by its name, what
-    it is, how large, and where it comes from.
-    """
+    """A preset: `key` in links, `choices` and `values` (SI); `sources` by name: what, value, reference."""
 
     label: str
     key: str
@@ -102,11 +97,11 @@ _DEFAULTS |= {
 
 
 class State(Mapping[str, Any]):
-    """All that is set on the page; values are read as attributes, `replace` makes a copy with others.
+    """Everything set on the page; values are attributes, `replace` returns a copy with other values.
 
-    `path` has the vertices of a path, `samples` radii and heights of a measured tip, `hold` the scenes
-    that are held as links, `tiles` the plots that are asked for; `curve` is a measured curve, `fixed` the
-    names of what a fit leaves as it is, and `fit_note` what a fit has found, in a line.
+    `path` has vertices, `samples` radii and heights of a measured tip, `hold` held scenes as links, `tiles`
+    optional plots; `curve` is a measured curve, `fixed` the fixed parameters of a fit, `fit_note` its
+    summary.
     """
 
     __slots__ = ("_values",)

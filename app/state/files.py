@@ -1,4 +1,4 @@
-"""Files that are brought: tables of numbers, measured tips and curves, with what was made of them."""
+"""Uploaded files: tables of numbers, measured tips and curves."""
 
 import re
 import tempfile
@@ -20,7 +20,7 @@ from .units import UNITS, named, written
 #: Most samples that are pressed without keeping everybody waiting, most that a tip is fitted to, and most
 #: rows of a file.
 MAX_SAMPLES, _FITTED, MAX_ROWS = 60, 2000, 20_000
-#: Parameters of a fit: those of the medium, and where the curve lies.
+#: Parameters of a fit: medium and position of the curve.
 FITTED = ("E_star", "q_c", "contact_point", "baseline", "frame_compliance")
 #: Most samples of a curve that are taken.
 _CURVE_SAMPLES = 2000
@@ -49,7 +49,7 @@ def decoded(data: bytes) -> str:
         return data.decode("cp1252", "replace")
 
 
-# A table as instruments write it: a header, and rows of numbers with whatever stands between them.
+# Tables as instruments write them: a header and rows of numbers.
 
 
 def _cells(line: str) -> list[str]:
@@ -74,10 +74,10 @@ def _number(cell: str) -> float:
 
 
 def table(text: str) -> tuple[list[str], np.ndarray, list[str]]:
-    """Names of the columns of a table, their numbers (rows, columns), and notes on what was left out.
+    """Names of columns, numbers (rows, columns), and notes on what was left out.
 
-    A column that is no number in most rows is left out, and so is a row with a cell that is none. Raises
-    ValueError if there are no rows of numbers.
+    Columns without numbers in most rows and incomplete rows are left out. Raises ValueError without any
+    rows.
     """
     lines = [(n, line, _cells(line)) for n, line in enumerate(text.splitlines()[: 2 * MAX_ROWS], 1)]
     lines = [each for each in lines if each[1].strip()]
@@ -86,10 +86,8 @@ def table(text: str) -> tuple[list[str], np.ndarray, list[str]]:
         for _, line, cells in lines
     ]
     first = is_row.index(True) if any(is_row) else len(lines)
-    header, rows = (
-        [line for _, line, _ in lines[:first]],
-        [each for each in lines[first:] if each[1][0] != "#"],
-    )
+    header = [line for _, line, _ in lines[:first]]
+    rows = [each for each in lines[first:] if each[1][0] != "#"]
     if not rows:
         raise ValueError("the file has no rows of numbers")
     if len(rows) > MAX_ROWS:
@@ -107,11 +105,8 @@ def table(text: str) -> tuple[list[str], np.ndarray, list[str]]:
     notes += [f"{len(odd) - 3} more lines are left out"] * (len(odd) > 3)
     if len(odd) > 0.5 * len(rows):
         raise ValueError(f"most lines of the file are no rows of numbers: line {min(odd)[0]} {min(odd)[1]}")
-    return (
-        [head for head, keep in zip(heads, kept, strict=True) if keep],
-        np.delete(values, bad, 0)[:, kept],
-        notes,
-    )
+    heads = [head for head, keep in zip(heads, kept, strict=True) if keep]
+    return heads, np.delete(values, bad, 0)[:, kept], notes
 
 
 def _heads(header: list[str], width: int) -> list[str]:
@@ -136,15 +131,13 @@ def _heads(header: list[str], width: int) -> list[str]:
 
 
 def read_tip(text: str) -> tuple[tuple[Any, Any], str]:
-    """Radii and heights (m) of an uploaded tip, and a note on what was done to them.
+    """Radii and heights (m) of an uploaded tip, and a note; the header names the units.
 
-    A header names the units, as in "r (nm), z (nm)". What is long, noisy or has both sides becomes the
-    convex tip that is nearest to it, see `mdr.Sampled.fit`. Raises ValueError if the text is not two
-    columns of numbers, or no tip.
+    Long, noisy or two-sided data become the nearest convex tip, see `mdr.Sampled.fit`. Raises ValueError.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "tip.csv"
-        # A decimal comma is one where something else stands between the columns.
+        # A comma is decimal if columns have another separator.
         columns = text.replace(",", ".") if ";" in text or "\t" in text else text
         path.write_text(columns, encoding="utf-8")
         try:
@@ -191,11 +184,7 @@ def _axis(r, z):
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """A curve from a file: the names of its columns and their numbers, and what is made of them.
-
-    `columns` has the number of the column of depth, of force, and of time or −1, `units` names of
-    `SIZES`. `fit` is the fit to it, and `asked` what that was given beside the curve.
-    """
+    """A curve from a file, with the numbers of its columns (time −1: none), their units, and its fit."""
 
     name: str
     heads: tuple[str, ...]
@@ -229,10 +218,7 @@ class Measured:
 
 
 def read_curve(data: bytes, name: str) -> Measured:
-    """A measured curve from the bytes of a file; columns, units and signs are guessed.
-
-    Raises ValueError if there are no two columns of numbers in it.
-    """
+    """Measured curve from a file; columns, units and signs are guessed. Raises ValueError."""
     heads, values, left_out = table(decoded(data))
     if len(values) < 2:
         raise ValueError("the file has one row of numbers: give a curve, a sample a line")

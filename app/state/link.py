@@ -1,4 +1,4 @@
-"""A state as the text of a link, and back: what is at its default is left out, and nothing is believed."""
+"""States as links: defaults are left out, and links are read as hostile input."""
 
 from math import inf, isfinite
 from typing import Any
@@ -11,18 +11,15 @@ from . import LAST_PROGRESS, OPENING, PRESETS, State, checked, preset_state, use
 from .files import FITTED, MAX_SAMPLES
 from .quantities import CHOICES, QUANTITIES, SHAPES, USED
 
-#: Longest link, most scenes that are held, longest name of one.
+#: Limits of a link: characters, held scenes, characters of a name.
 MAX_LENGTH, MAX_HELD, MAX_NAME = 8000, 4, 60
 _NAME = "&called="
-#: What a link of version 0.3 may have and this page has not any more: it is left out, and that is said.
+#: Plots of version 0.3 that no longer exist; they are ignored in links.
 _DROPPED_TILES = {"map", "speed", "hodograph"}
 
 
 def write(state: State, form: tuple[str, ...], view: bool = True) -> str:
-    """The state as the query of a link; `form` are the choices of its drive.
-
-    Without `view` the scene alone, as it is held. Raises ValueError if it is too long.
-    """
+    """State as a query; without `view` the scene alone. Raises ValueError if it is too long."""
     start = preset_state(state.preset)
     pairs = {} if state.preset == OPENING else {"preset": state.preset}
     choices = (
@@ -68,10 +65,7 @@ def arguments(text: str) -> dict[str, list[bytes]]:
 
 
 def read(arguments: dict[str, list[bytes]]) -> State:
-    """The state that a link says, from the arguments of a request, of this version or of 0.3.
-
-    Raises ValueError if anything in them is unknown, said twice, or out of bounds.
-    """
+    """State from the arguments of a request, of this version or of 0.3. Raises ValueError if they are invalid."""
     length = sum(len(text) for texts in arguments.values() for text in texts)
     if len(arguments) > 100 or length > MAX_LENGTH:
         raise ValueError("this link is too long")

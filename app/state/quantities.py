@@ -1,4 +1,4 @@
-"""Every number, choice and shape that can be set: their words and bounds are in assets/quantities.json."""
+"""Numbers, choices and shapes; their texts and bounds are in assets/quantities.json."""
 
 import json
 import re
@@ -16,11 +16,9 @@ ASSETS = Path(__file__).parents[2] / "assets"
 class Quantity:
     """A number that can be set.
 
-    `symbol` and `label` are as shown: "q_c", "yield constant"; `kind` is a key of `units.UNITS`. `bounds`
-    and `default` are in SI, but for a length of a shape `default` is in contact radii of what is on the
-    page, so that another shape begins at the same scale. The slider reaches the factor `span` below and
-    above the value that it is reset to; 0: from bound to bound, on a linear scale; below 0 there is
-    none. `help` says in two sentences what it is, `equation` where it stands, `typical` is a usual range.
+    `kind` is a key of `units.UNITS`. `bounds` and `default` are in SI, but a length of a shape has its
+    `default` in contact radii. The slider covers a factor `span` each way; 0: linear between bounds; below
+    0: no slider.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Units at the edge of the app: chosen to fit, written and read back. The core knows SI only."""
+"""Units of the page. The core knows SI only."""
 
 import re
 from dataclasses import dataclass
@@ -32,10 +32,9 @@ _READ = {"length": (Unit("Å", 1e-10), Unit("um", 1e-6))}
 
 
 def fitting(value: float, kind: str, like: float = 0.0) -> Unit:
-    """The unit of that kind in which a value in SI has one to three digits before the point.
+    """Unit in which a value (SI) has one to three digits before the point; areas up to four.
 
-    Of areas, whose units are further apart, up to four: 0.01 mm² from there on. Zero has the unit that
-    fits the value `like`.
+    Zero has the unit of the value `like`.
     """
     units = UNITS[kind]
     size = abs(value) if isfinite(value) and value else abs(like)
@@ -90,11 +89,10 @@ _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(e[+-]?\d{1,3})?)\s*(.*)", re.IG
 
 
 def read(text: str, kind: str, shown: Unit) -> tuple[float, bool]:
-    """A value in SI from what was typed, and whether what it was read as is worth showing.
+    """Value (SI) of typed text, and whether its reading may surprise.
 
-    A bare number is in the unit that is shown, one with an exponent in SI; a comma is a decimal comma, and
-    spaces separate thousands. A slope may be given as a half-angle in degrees. Raises ValueError if the
-    text is not a finite number with a unit of that kind.
+    Bare numbers are in the displayed unit, with an exponent in SI; decimal commas, spaces between
+    thousands, and half-angles for slopes are accepted. Raises ValueError.
     """
     plain = text.strip().replace("−", "-").replace("μ", "µ")
     plain = re.sub(r"(?<=\d)\s(?=\d{3}(?!\d))", "", plain)

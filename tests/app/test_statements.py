@@ -118,7 +118,8 @@ def test_8_formulas_are_those_of_the_drive():
 def test_9_the_numbers_of_a_state_sum_up(progress):
     course = follow(viscous().replace(progress=progress))
     found = {
-        each.name: readouts.value_at(values, course.now) for each, values in readouts.readings(course).items()
+        each.name: readouts.value_at(values, course.now)
+        for each, values in readouts.readings(course).items()
     }
     parts = ("stored_energy", "plastic_work", "viscous_work", "kinetic_energy")
     assert sum(found[name] for name in parts) == pytest.approx(2.75, rel=1e-6)
