@@ -84,7 +84,7 @@ def reset(state: State) -> State:
     return preset_state(state.preset, **{name: state[name] for name in _STAYING})
 
 
-# Numbers that mean the same under another option, so that looking at it changes no result.
+# Numbers that keep their meaning under another option of a choice.
 
 
 def _shape(state: State, shape: str) -> dict[str, Any]:
@@ -161,7 +161,7 @@ CONVERT: dict[str, Callable[[State, str], dict[str, Any]]] = {
 }
 
 
-# The vertices of a path as text, a line each: a depth or a force, and a time where times count.
+# Vertices of a path as text, a line each: depth or force, and an optional time.
 
 
 def _columns(vertices: tuple, prescribed: str) -> list[tuple[str, Any]]:

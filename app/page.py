@@ -57,16 +57,14 @@ class Page:
         self.document, self.past, self.future, self._drag = pn.state.curdoc, [], [], None
         self.solved: dict[Any, Course] = {}
         self._waiting, self._ready, self.shown, self._courses_changed = None, False, None, False
-        self.state, notice = preset_state(), ""
+        self.state = preset_state()
         self.resting = Resting(self._show_result)
         self.choices = Choices(self.apply, lambda: self.state)
         self.board = Board(self.choices, self._toggle_tile)
         self.controls = Controls(self.choices, self.apply_or_raise, self.apply)
         self.fitting = Fitting(self.choices, self.apply_or_raise, self.apply)
-        self.share, self.guide = (
-            Share(lambda: self.shown),
-            Guide(self.apply, lambda: self.shown.view.course),
-        )
+        self.share = Share(lambda: self.shown)
+        self.guide = Guide(self.apply, lambda: self.shown.view.course)
         self.table = Table(self.apply)
         self._layout()
         self._show_history()
@@ -74,17 +72,14 @@ class Page:
         try:
             self.draw(link.read(arguments) if arguments else self.state)
         except Exception as error:
-            notice = f"The link was not opened: {self._refusal(error)}"
-            self.draw(preset_state())
-        if notice:
-            self.notify(notice)
+            self.draw(self.state)
+            self.notify(f"The link was not opened: {self._refusal(error)}")
 
     def _layout(self):
         panels = {"share": self.share.view, "guide": self.guide.view, "menu": None}
         tabs = {"explore": self.controls.view, "fit": self.fitting.view, "held": self.table.view}
-        self.frame = Frame(
-            self.choices.row("preset"), self.choices.row("axes"), panels, tabs, self.share.show
-        )
+        row = self.choices.row
+        self.frame = Frame(row("preset"), row("axes"), panels, tabs, self.share.show)
         self.address, self.theme = ColumnDataSource(name="address"), ColumnDataSource(name="theme")
         self.view = self.frame.framed(self.board)
 
@@ -93,9 +88,13 @@ class Page:
         frame.undo.on_click(lambda event: self._step(self.past, self.future))
         frame.redo.on_click(lambda event: self._step(self.future, self.past))
         frame.reset.on_click(lambda event: apply(changes.reset))
-        again, tip = self.controls.again, self.controls.tip
-        again.on_click(lambda event: apply(lambda now: changes.hit_again(now, self.shown.view.course.hit)))
-        on_upload(tip, lambda data: apply(lambda now: changes.take_tip(now, *read_tip(decoded(data)))))
+        self.controls.again.on_click(
+            lambda event: apply(lambda now: changes.hit_again(now, self.shown.view.course.hit))
+        )
+        on_upload(
+            self.controls.tip,
+            lambda data: apply(lambda now: changes.take_tip(now, *read_tip(decoded(data)))),
+        )
         frame.hold.param.watch(self._hold_toggled, "value")
         frame.all.param.watch(lambda event: self._show_numbers(), "value")
         for name, each in (("dark", frame.dark), ("keep", self.board.keep)):
@@ -107,8 +106,8 @@ class Page:
         player.state.on_change("value", self._slider_moved)
         player.play.on_change("active", lambda attr, old, new: new and self._send())
         player.hand.on_change("tags", self._dragged)
-        self.theme.js_on_change("tags", CustomJS(args={}, code=JS["tell"]))
-        self.address.js_on_change("tags", CustomJS(args={}, code=JS["tell"]))
+        for source in (self.theme, self.address):
+            source.js_on_change("tags", CustomJS(args={}, code=JS["tell"]))
         if self.document is not None:
             self._connect()
 
@@ -117,9 +116,8 @@ class Page:
         for source in (self.theme, self.address):
             self.document.add_root(source)
         self.document.on_event(DocumentReady, self._browser_ready)
-        self.document.js_on_event(
-            DocumentReady, CustomJS(args={"named": _NAMED, "theme": self.theme}, code=JS["ready"])
-        )
+        ready = CustomJS(args={"named": _NAMED, "theme": self.theme}, code=JS["ready"])
+        self.document.js_on_event(DocumentReady, ready)
         # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
         self.document.on_session_destroyed(lambda context: self.resting.end())

@@ -137,14 +137,9 @@ def _areas(hit: Any) -> str:
     """Comparison of the fast limit with the areas of contact and damage."""
     limit = float(hit.fast_limit.contact_area)
     area = {"πa²": float(np.pi * hit.contact_radius**2), "A = πc²": float(hit.damaged_area)}
-    texts = (
-        f"{written(value, 'area')} ({name}, {_percent(limit / value - 1)})" for name, value in area.items()
-    )
-    return f" Its area is {written(limit, 'area')}; those of contact and damage: {', '.join(texts)}."
-
-
-def _percent(share: float) -> str:
-    return f"{100 * share:+.3g} %".replace("-", "−")
+    texts = (f"{written(v, 'area')} ({name}, {100 * (limit / v - 1):+.3g} %)" for name, v in area.items())
+    text = ", ".join(texts).replace("-", "−")
+    return f" Its area is {written(limit, 'area')}; those of contact and damage: {text}."
 
 
 def warnings(course: Course, state: State) -> str:

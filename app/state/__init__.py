@@ -3,7 +3,7 @@
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from math import inf
+from math import inf, isclose
 from types import MappingProxyType
 from typing import Any
 
@@ -225,8 +225,8 @@ def altered(state: State) -> list[str]:
     """Names of choices and numbers that differ from the preset."""
     preset = PRESETS[state.preset]
     loaded = preset.choices | preset.values
-    return [name for name, was in loaded.items() if state[name] != was and not _same(state[name], was)]
-
-
-def _same(now: Any, was: Any) -> bool:
-    return isinstance(now, float) and abs(now - was) <= 1e-9 * abs(was)
+    return [
+        name
+        for name, value in loaded.items()
+        if state[name] != value and not (name in QUANTITIES and isclose(state[name], value, rel_tol=1e-9))
+    ]

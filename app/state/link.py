@@ -65,7 +65,7 @@ def arguments(text: str) -> dict[str, list[bytes]]:
 
 
 def read(arguments: dict[str, list[bytes]]) -> State:
-    """State from the arguments of a request, of this version or of 0.3. Raises ValueError if they are invalid."""
+    """State from the arguments of a request, of this version or of 0.3; ValueError if they are invalid."""
     length = sum(len(text) for texts in arguments.values() for text in texts)
     if len(arguments) > 100 or length > MAX_LENGTH:
         raise ValueError("this link is too long")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.panels import share
-from app.panels.held import Held, held_scene, is_held, numbers, renamed, toggle_hold
+from app.panels.held import Held, held_scene, is_held, numbers, toggle_hold
 from app.plots import PLOTS
 from app.plots.force import force_still
 from app.plots.plot import DASHES
@@ -48,13 +48,6 @@ def test_a_fifth_is_refused():
         toggle_hold(state.replace(max_depth=5e-9))
     with pytest.raises(ValueError, match="more than 4"):
         linked_state(state.replace(hold=(*state.hold, state.hold[0])))
-
-
-def test_names_come_back_from_the_link():
-    state = renamed(holding(6e-9, 9e-9), 1, "50 % & <b> + 1")
-    again = linked_state(state)
-    assert again.hold == state.hold
-    assert [held_scene(query, {}).name for query in again.hold] == ["d_max = 6.00 nm", "50 % & <b> + 1"]
 
 
 @pytest.mark.parametrize("query", ["preset=none", "preset=x&called=1", "shape=&called="])

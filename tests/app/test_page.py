@@ -13,7 +13,7 @@ from app.solve import follow, scene_of
 from app.state import PRESETS, State, preset_state
 from app.state.units import UNITS
 
-from .conftest import DROP, ELASTIC, PUNCH
+from .conftest import DROP, ELASTIC, PUNCH, Explorer
 from .states import state_with, view_of
 
 
@@ -61,8 +61,6 @@ FIRST = """() => {
 @pytest.mark.parametrize("size", [(1280, 720), (1440, 900)])
 def test_the_first_screen_has_what_a_person_comes_for(server, browser, size):
     """The drive with its slider first, shape, E* and q_c; one line of readouts; three plots, all whole."""
-    from .conftest import Explorer
-
     width, height = size
     with browser.new_context(viewport={"width": width, "height": height}) as context:
         explorer = Explorer(context.new_page(), server.url)
@@ -160,8 +158,6 @@ def test_keys_player_and_hand_move_every_plot(explorer):
 
 def test_a_finger_drags_the_indenter(server, browser):
     """On a touch screen: the events that a finger makes, as the browser gets them."""
-    from .conftest import Explorer
-
     with browser.new_context(viewport={"width": 1000, "height": 1400}, has_touch=True) as context:
         explorer = Explorer(context.new_page(), server.url)
         page = explorer.page

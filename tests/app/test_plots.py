@@ -71,15 +71,6 @@ def test_every_plot_of_an_oblique_impact_beside_a_held_one_can_be_drawn(damping)
     assert_all_is_drawn(view_of(state, 1.0, state, axes="ratio"), 17)
 
 
-def test_springs_are_yielded_elastic_or_free_where_the_core_says():
-    view = view_of(preset_state())
-    rows, state = springs(view, view.course.now), view.course.state
-    reach = {name: np.nanmax(np.abs(rows[name][0])) for name in ("yielded", "elastic")}
-    spacing = 2 * view.end("x") / SPRINGS
-    assert reach["yielded"] == pytest.approx(state.plastic_radius, abs=spacing)
-    assert reach["elastic"] == pytest.approx(state.contact_radius, abs=spacing)
-
-
 def test_a_measured_tip_ends_at_its_rim_without_pressure():
     view = view_of(tip())
     r, p = view.pressure(view.course.now)

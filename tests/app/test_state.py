@@ -10,7 +10,7 @@ import mdr_core as mdr
 from app import changes
 from app.panels import share
 from app.solve import DRIVES, follow, numbers_of, scene_of, turning_point
-from app.state import OPENING, PRESETS, State, altered, link, medium, number, preset_state, profile
+from app.state import OPENING, PRESETS, VIEW, State, altered, link, medium, number, preset_state, profile
 from app.state.files import MAX_SAMPLES, read_tip
 from app.state.quantities import QUANTITIES, SHAPES, Scale
 from app.state.units import entry, fitting, read, written
@@ -98,12 +98,9 @@ def test_an_angle_of_90_degrees_is_taken():
 def test_a_zero_has_the_unit_of_its_column():
     """A bare 5 typed over it is 5 nm, not 5 m."""
     assert entry(0.0, "length", 9e-9) == "0 nm"
+    assert written(float("inf"), "length") == "∞"
     state, _ = changes.typed(preset_state(), "contact_point", "5", like=9e-9)
     assert state.contact_point == pytest.approx(5e-9)
-
-
-def test_what_is_not_finite_has_no_unit():
-    assert written(float("inf"), "length") == "∞"
 
 
 @pytest.mark.parametrize(
@@ -155,18 +152,7 @@ def test_a_link_holds_the_whole_page(drive):
     state = state.replace(axes="ratio", references="all", heights="to_scale", section="zz")
     again = linked_state(state)
     assert scene_of(again) == scene_of(state)
-    for name in (
-        "progress",
-        "hold",
-        "tiles",
-        "dark",
-        "keep",
-        "axes",
-        "references",
-        "heights",
-        "section",
-        "fit_note",
-    ):
+    for name in (*VIEW, "section", "fit_note"):
         assert again[name] == state[name], name
     assert link.split_name(again.hold[0])[1] == "50 % & <b> + 1"
     assert len(link_of(state)) < 700
