@@ -25,18 +25,18 @@ _NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
 
 def html():
     """The theory as HTML with KaTeX formulas and ids of sections and equations."""
-    parser, seen = MarkdownIt().enable("table"), set()
+    parser, marked = MarkdownIt().enable("table"), set()
     parser.use(dollarmath_plugin, renderer=lambda text, _: f"\\({escape(text)}\\)")
     tokens = parser.parse((ASSETS / "theory.md").read_text(encoding="utf-8"))
-    parts, begun = [], False
+    parts, in_body = [], False
     for k, token in enumerate(tokens):
         if token.type == "heading_open" and (number := re.match(r"\d+", tokens[k + 1].content)):
             token.attrSet("id", f"section-{number[0]}")
-            begun = True
-        for first, last in _NAMED.findall(token.content) if begun and not token.nesting else ():
-            new = set(range(int(first), int(last or first) + 1)) - seen
+            in_body = True
+        for first, last in _NAMED.findall(token.content) if in_body and not token.nesting else ():
+            new = set(range(int(first), int(last or first) + 1)) - marked
             parts += [f'<a id="eq-{n}"></a>' for n in sorted(new)]
-            seen |= new
+            marked |= new
         if token.type == "fence" and token.info == "math":
             parts.append(f"<p>$${escape(token.content)}$$</p>")
         else:

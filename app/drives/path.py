@@ -105,18 +105,18 @@ def _refined(scene, chain):
     (name, *_), (values, along) = _parts(scene.drive), _course(scene.drive)
     most, places = 0.0, []
     states = _SLOW if not chain else _DEPTHS if name == "depth" else _FORCES
-    each = min(max(states // (len(values) - 1), 1 if chain else 4), 32)
-    critical, begun = scene.medium.critical_depth, onset(scene)
-    start = critical if name == "depth" or begun is None else float(begun.force)
+    pieces = min(max(states // (len(values) - 1), 1 if chain else 4), 32)
+    critical, first_yield = scene.medium.critical_depth, onset(scene)
+    start = critical if name == "depth" or first_yield is None else float(first_yield.force)
     for (begin, first), (end, last) in pairwise(zip(along, values, strict=True)):
-        share = _shares(each + 1, chain, chain and first == last)
+        share = _shares(pieces + 1, chain, chain and first == last)
         if first != last and not (chain and name == "force"):
             # Just before yield, and on both sides of the loss of contact.
-            gone, elastic = 0.0, most
+            released, elastic = 0.0, most
             if name == "depth":
-                gone, elastic = max(most - critical, 0.0), min(critical, most)
+                released, elastic = max(most - critical, 0.0), min(critical, most)
             before = 1 - 1e-12
-            events = np.array([before * start, before * most, gone, gone + 1e-9 * elastic])
+            events = np.array([before * start, before * most, released, released + 1e-9 * elastic])
             events = (events - first) / (last - first)
             share = np.append(share, events[(events > 0) & (events < 1)])
         places.append(begin + (end - begin) * share)
@@ -217,8 +217,8 @@ class ChainStates:
         inside, slope = np.minimum(x, r), np.diff(u) / np.diff(x)
         with np.errstate(invalid="ignore"):
             angle = np.diff(np.where(r > 0, np.arcsin(inside / np.where(r > 0, r, 1.0)), np.pi / 2))
-        rest = np.diff(np.sqrt((r - inside) * (r + inside)))
-        return 2 / np.pi * np.sum((u[:-1] - slope * x[:-1]) * angle - slope * rest, axis=-1)
+        root = np.diff(np.sqrt((r - inside) * (r + inside)))
+        return 2 / np.pi * np.sum((u[:-1] - slope * x[:-1]) * angle - slope * root, axis=-1)
 
     def imprint(self, r):
         return mdr.Indentation(self.profile, self.medium, self.depth, self.live_interval).imprint(r)

@@ -46,12 +46,12 @@ def is_held(state: State) -> bool:
 
 def toggle_hold(state: State) -> State:
     """Hold the present scene, or remove it; ValueError if there is no room."""
-    rest = tuple(query for query in state.hold if not _same(query, state))
-    if len(rest) < len(state.hold):
-        return state.replace(hold=rest)
-    if len(rest) == len(DASHES):
+    others = tuple(query for query in state.hold if not _same(query, state))
+    if len(others) < len(state.hold):
+        return state.replace(hold=others)
+    if len(others) == len(DASHES):
         raise ValueError(f"{len(DASHES)} scenes are held: remove one of them first")
-    return state.replace(hold=(*rest, link.with_name(_query(state), difference(state))))
+    return state.replace(hold=(*others, link.with_name(_query(state), difference(state))))
 
 
 def difference(state: State) -> str:

@@ -148,10 +148,10 @@ def warnings(course: Course, state: State) -> str:
         (level, f'<span class="{level}">{linked(sentence)}</span>')
         for level, sentence in limits(course, state)
     ]
-    seen = "".join(html for level, html in sentences if level == "beyond")
-    rest = "".join(html for level, html in sentences if level != "beyond")
-    folded = f"<details><summary>Assumptions that hold, and notes</summary>{rest}</details>"
-    return seen + folded * bool(rest)
+    exceeded = "".join(html for level, html in sentences if level == "beyond")
+    others = "".join(html for level, html in sentences if level != "beyond")
+    folded = f"<details><summary>Assumptions that hold, and notes</summary>{others}</details>"
+    return exceeded + folded * bool(others)
 
 
 def sketch(course: Course, shape: str) -> str:

@@ -34,8 +34,8 @@ def relaxing(course: Course, i: int, g):
     past = slice(course.peak, i + 1)
     upper, time = course.states.live_interval.upper[past], course.motion.time[past]
     ahead = course.states.depth[past] - upper
-    gone = np.minimum(np.searchsorted(-upper, -g), len(upper) - 1)
-    return np.where(g >= upper[-1], ahead[gone] * np.exp((time[gone] - time[-1]) / tau), 0.0)
+    released = np.minimum(np.searchsorted(-upper, -g), len(upper) - 1)
+    return np.where(g >= upper[-1], ahead[released] * np.exp((time[released] - time[-1]) / tau), 0.0)
 
 
 def leaning(course: Course, i: int, r):
@@ -126,19 +126,19 @@ def zone(course: Course):
         rows = split(depth, a, depth, course.states.live_interval.lower)
         loading = np.concatenate([rows["elastic"], [[np.nan]] * 2, rows["yielding"]], axis=1)
         return tuple(loading), rows["unloading"], (depth[deeper], c[deeper])
-    peak, gone = course.peak, int(np.flatnonzero(course.states.live_interval.length > 0)[-1]) + 1
-    last = c[-1:] if course.states.live_interval.lower[-1] > 0 else a[gone : gone + 1]
-    back = np.append(depth[peak : gone + 1], depth[gone:])
+    peak, released = course.peak, int(np.flatnonzero(course.states.live_interval.length > 0)[-1]) + 1
+    last = c[-1:] if course.states.live_interval.lower[-1] > 0 else a[released : released + 1]
+    back = np.append(depth[peak : released + 1], depth[released:])
     past = slice(peak + 1)
-    falling = np.concatenate([a[peak:gone], last, 0 * depth[gone:]])
+    falling = np.concatenate([a[peak:released], last, 0 * depth[released:]])
     return _loading(course), (back, falling), (depth[past], c[past])
 
 
 def radii_still(view: View) -> dict:
     loading, back, (d, c) = zone(view.course)
     # From the last state on that has not yielded.
-    begun = np.flatnonzero(c > c[0])
-    subset = slice(max(int(begun[0]) - 1, 0), None) if begun.size else slice(0, 0)
+    yielded_states = np.flatnonzero(c > c[0])
+    subset = slice(max(int(yielded_states[0]) - 1, 0), None) if yielded_states.size else slice(0, 0)
     d, c = d[subset], c[subset]
     rows = {"contact radius a": loading, "unloading": back, "plastic zone c": (d, c)}
     rows["zone"] = np.append(d, [*d[-1:], *d[:1]]), np.append(c, [0, 0][: 2 * len(d)])

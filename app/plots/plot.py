@@ -244,7 +244,7 @@ class View:
 
 def _sizes(course: Course) -> dict[str, float]:
     """Largest values (SI) on the axes."""
-    states, begun = course.states, course.onset
+    states, first_yield = course.states, course.onset
     radius, depth = float(np.max(states.contact_radius)), float(np.max(states.depth))
     size = {"r": 1.25 * radius, "a": 1.14 * radius, "far": 2.1875 * radius, "z": depth, "d": 1.02 * depth}
     size["p"], size["F"] = (
@@ -253,9 +253,9 @@ def _sizes(course: Course) -> dict[str, float]:
     )
     size["relief"] = 1.35 * size["p"]
     # An onset slightly below the path stays visible.
-    if begun is not None and depth < begun.depth <= 2.5 * depth:
-        size["d"] = 1.02 * max(depth, 1.02 * float(begun.depth))
-        size["F"] = max(size["F"], 1.05 * float(begun.force))
+    if first_yield is not None and depth < first_yield.depth <= 2.5 * depth:
+        size["d"] = 1.02 * max(depth, 1.02 * float(first_yield.depth))
+        size["F"] = max(size["F"], 1.05 * float(first_yield.force))
     if course.motion is not None:
         size |= {"t": float(course.motion.time[-1]), "E": float(np.max(course.energy))}
     if course.oblique is not None:
@@ -293,8 +293,8 @@ def _scales(course: Course) -> dict[str, tuple[float, str]]:
 
     Depth, force and radius are those at first yield of a virgin surface, else those at the largest depth.
     """
-    begun, turning_point = onset(course.scene), course.turning_point
-    at, words = (turning_point, "largest {}") if begun is None else (begun, "{} at onset")
+    first_yield, turning_point = onset(course.scene), course.turning_point
+    at, words = (turning_point, "largest {}") if first_yield is None else (first_yield, "{} at onset")
     depth, force, radius = (
         (float(getattr(at, name)), words.format(symbol))
         for name, symbol in (("depth", "d"), ("force", "F"), ("contact_radius", "a"))
