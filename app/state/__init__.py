@@ -79,7 +79,7 @@ PRESETS = {preset.key: preset for preset in _MADE}
 #: What the page opens on.
 OPENING = next(iter(PRESETS))
 
-#: From first contact (0) over the deepest state (1) to the loss of contact (2) and the tip back at the
+#: Progress at the end: 0 first contact, 1 largest depth, 2 loss of contact, 2.2 indenter at the
 #: height of the undeformed surface.
 LAST_PROGRESS = 2.2
 #: What the view is like rather than the scene: undo leaves it alone.
