@@ -1,4 +1,4 @@
-"""What a person may do to a state: each change is a function that gives another state, or refuses it."""
+"""Changes of a state: functions that return another state or raise ValueError."""
 
 import re
 from collections.abc import Callable
@@ -8,102 +8,100 @@ from typing import Any
 import mdr_core as mdr
 
 from .drives import oblique, path
-from .solve import DRIVES, deepest, option, options, scene_of
-from .state import State, checked, medium, number, opened, quantity, settled
-from .state.quantities import QUANTITIES, Scale, shape_quantities
+from .solve import DRIVES, option, options, scene_of, turning_point
+from .state import State, checked, medium, number, preset_state, quantity, with_derived
+from .state.quantities import QUANTITIES, shape_quantities
 from .state.units import fitting, read, written
 
+#: Values of the view that a preset leaves as they are.
+_STAYING = ("hold", "tiles", "keep", "dark", "axes")
 _BETWEEN = re.compile(r"\s*(?:;|\t|,\s|\bat\b)\s*")
 
 
 def choose(state: State, name: str, wanted: str) -> State:
-    """Take another option of a choice, with the numbers that mean the same where there are such."""
+    """Take another option of a choice, with numbers converted to keep their meaning."""
     known = options(state, name)
     if wanted not in known:
         raise ValueError(f"{wanted!r:.40} is not one of {', '.join(known)}")
     if wanted == option(state, name):
         return state
     if name == "preset":
-        return opened(wanted, **{each: state[each] for each in ("hold", "tiles", "keep", "dark", "axes")})
+        return preset_state(wanted, **{each: state[each] for each in _STAYING})
     if name == "swept":
-        return state.but(swept=wanted, sweep_low=None, sweep_high=None)
+        return state.replace(swept=wanted, sweep_low=None, sweep_high=None)
     if name == "shape" and wanted == "sampled" and not state.samples:
         raise ValueError("load a tip first: a CSV file with radii r and heights z")
     convert = CONVERT.get(name, lambda state, wanted: {})
     numbers = {k: float(v) if k in QUANTITIES else v for k, v in convert(state, wanted).items()}
-    return settled(state.but(**{name: wanted}, **numbers))
-
-
-def slide(state: State, name: str, scale: Scale, position: float) -> State:
-    """Set a number to a step of its slider."""
-    return put(state, name, scale.value(position))
+    return with_derived(state.replace(**{name: wanted}, **numbers))
 
 
 def put(state: State, name: str, value: float) -> State:
-    """Set a number; E* of two bodies by the modulus of the medium, q_c of a hardness by that."""
+    """Set a number; E* of two bodies through their moduli, q_c of a hardness through the hardness."""
     value = checked(state, name, value)
     if name == "E_star" and state.elasticity != "modulus":
-        return settled(state.but(**_elasticity(state, state.elasticity, value)))
+        return with_derived(state.replace(**_elasticity(state, state.elasticity, value)))
     if name == "q_c" and state.plasticity == "hardness":
-        return settled(state.but(hardness=checked(state, "hardness", value / state.hardness_radius)))
-    return settled(state.but(**{name: value}))
+        name, value = "hardness", checked(state, "hardness", value / state.hardness_radius)
+    return with_derived(state.replace(**{name: value}))
 
 
 def typed(state: State, name: str, text: str, like: float = 0.0) -> tuple[State, str]:
-    """Set a number to what was typed; and how it was read, where that may surprise."""
+    """Set a number from text; also returns how the text was read, if that may surprise."""
     kind = quantity(state, name).kind
     value, surprising = read(text, kind, fitting(number(state, name), kind, like))
-    said = f"{text.strip()}{'' if kind == 'slope' else ' in SI'} is {written(value, kind)}"
-    return put(state, name, value), said if surprising else ""
+    reading = f"{text.strip()}{'' if kind == 'slope' else ' in SI'} is {written(value, kind)}"
+    return put(state, name, value), reading if surprising else ""
 
 
 def take_tip(state: State, samples: tuple[Any, Any], note: str) -> State:
-    """Take the samples of a tip as the indenter, pressed no deeper than they reach."""
+    """Use samples of a measured tip as the indenter; the depth is limited to their range."""
     tip, more = mdr.Sampled(*samples), {}
     if state.drive == "depth" and state.max_depth > tip.known_depth:
         more["max_depth"] = float(f"{tip.known_depth / 2:.3g}")
-    return state.but(samples=(tip.r, tip.z), tip_note=note, shape="sampled", **more)
+    return state.replace(samples=(tip.r, tip.z), tip_note=note, shape="sampled", **more)
 
 
 def hit_again(state: State, hit: mdr.Impact) -> State:
-    """Let the body hit the imprint that it has left itself."""
+    """Let the body hit its own imprint."""
     if not hit.plastic_depth_increase > 0:
         raise ValueError("nothing has yielded further: the next impact is the same as this one")
     left = checked(state, "plastic_depth", float(hit.plastic_depth))
-    return state.but(plastic_depth=left, surface="imprint")
+    return state.replace(plastic_depth=left, surface="imprint")
 
 
 def press_to(state: State, depth: float) -> State:
-    """Press to another depth (m), as the indenter is dragged there."""
+    """Press to a depth (m), as dragged by hand."""
     depth = QUANTITIES["max_depth"].bounded(depth)
-    state_there = mdr.indent(scene_of(state).profile, medium(state), depth)
-    numbers = DRIVES[state.drive].alike(state, state_there)
-    return state.but(progress=1.0, **{name: checked(state, name, value) for name, value in numbers.items()})
+    pressed = mdr.indent(scene_of(state).profile, medium(state), depth)
+    numbers = DRIVES[state.drive].equivalent(state, pressed)
+    numbers = {name: checked(state, name, value) for name, value in numbers.items()}
+    return state.replace(progress=1.0, **numbers)
 
 
 def reset(state: State) -> State:
-    """The preset as it is, at its deepest state; what is seen beside it stays."""
-    return opened(state.preset, **{name: state[name] for name in ("hold", "tiles", "keep", "dark", "axes")})
+    """Return to the preset at its largest depth; the view stays."""
+    return preset_state(state.preset, **{name: state[name] for name in _STAYING})
 
 
-# Numbers that mean the same under another option, so that looking at it changes no result.
+# Numbers that keep their meaning under another option of a choice.
 
 
 def _shape(state: State, shape: str) -> dict[str, Any]:
-    """Numbers of a shape that has not been looked at: those of the present one, or sizes of its contact."""
+    """Initial numbers of a shape: those of the present one, or multiples of the contact radius."""
     if all(state[name] is not None for name, _ in shape_quantities(shape)):
         return {}
-    here = {q.name: state[name] for name, q in shape_quantities(state.shape)}
-    radius = float(deepest(state).contact_radius)
+    present = {q.name: state[name] for name, q in shape_quantities(state.shape)}
+    radius = float(turning_point(state).contact_radius)
     return {
-        name: here.get(q.name)
+        name: present.get(q.name)
         or q.bounded(float(f"{q.default * radius:.2g}") if q.kind == "length" else q.default)
         for name, q in shape_quantities(shape)
     }
 
 
 def _elasticity(state: State, wanted: str, modulus: float | None = None) -> dict[str, Any]:
-    """Numbers with which the effective modulus is as it was, or another one, Popov (2015), Eq. (2)."""
+    """Moduli that give the present effective modulus, or another one, Popov (2015), Eq. (2)."""
     modulus = modulus or medium(state).E_star
     if wanted == "modulus":
         return {"E_star": modulus}
@@ -115,33 +113,35 @@ def _elasticity(state: State, wanted: str, modulus: float | None = None) -> dict
 
 
 def _plasticity(state: State, wanted: str) -> dict[str, Any]:
-    """Numbers with which the yield constant stays as it is; none is remembered from before."""
+    """Numbers that give the present yield constant."""
     q_c = medium(state).q_c
     if q_c == inf:
         return {}
     if wanted == "q_c":
         return {"q_c": q_c}
-    radius = float(f"{float(deepest(state).contact_radius):.1g}")
+    radius = float(f"{float(turning_point(state).contact_radius):.1g}")
     return {"hardness": q_c / radius, "hardness_radius": radius} if wanted == "hardness" else {}
 
 
 def _damping(state: State, wanted: str) -> dict[str, Any]:
-    """Numbers with which viscosity and relaxation time mean the same."""
+    """Viscosity and relaxation time of the present medium."""
     made = medium(state)
     if state.damping == "none":
         # A relaxation time that shows, and does not rule, at the time scale of an impact.
-        lasting = DRIVES[state.drive].duration(state, deepest(state))
+        lasting = DRIVES[state.drive].duration(state, turning_point(state))
         tau = float(f"{(lasting or 1e-3) / 10:.1g}")
         return {"tau": tau, "eta": tau * made.E_star / 4}
     return {"eta": made.eta, "tau": made.relaxation_time} if wanted != "none" else {}
 
 
 def _surface(state: State, wanted: str) -> dict[str, Any]:
-    """The imprint that the present impact leaves; a shallow one where it leaves none."""
+    """Plastic depth of the imprint of the present impact; a shallow imprint if there is none."""
     if wanted == "virgin" or state.drive != "impact":
         return {}
-    there = deepest(state)
-    return {"plastic_depth": float(there.live_interval.lower) or float(f"{0.1 * float(there.depth):.2g}")}
+    pressed = turning_point(state)
+    return {
+        "plastic_depth": float(pressed.live_interval.lower) or float(f"{0.1 * float(pressed.depth):.2g}")
+    }
 
 
 def _prescribed(state: State, wanted: str) -> dict[str, Any]:
@@ -153,26 +153,26 @@ CONVERT: dict[str, Callable[[State, str], dict[str, Any]]] = {
     "elasticity": _elasticity,
     "plasticity": _plasticity,
     "damping": _damping,
-    "drive": lambda state, wanted: DRIVES[wanted].alike(state, deepest(state)),
+    "drive": lambda state, wanted: DRIVES[wanted].equivalent(state, turning_point(state)),
     "surface": _surface,
     "aim": oblique.aim,
-    "pattern": lambda state, wanted: path.pattern(state, deepest(state), wanted),
+    "pattern": lambda state, wanted: path.pattern(state, turning_point(state), wanted),
     "prescribed": _prescribed,
 }
 
 
-# The vertices of a path as text, a line each: a depth or a force, and a time where times count.
+# Vertices of a path as text, a line each: depth or force, and an optional time.
 
 
 def _columns(vertices: tuple, prescribed: str) -> list[tuple[str, Any]]:
-    """The kinds of the columns, and the units in which they are shown."""
+    """Kind and displayed unit of each column."""
     kinds = path.KIND[prescribed], "time"
     largest = [max(map(abs, column)) for column in zip(*vertices, strict=True)]
     return [(kind, fitting(size, kind)) for kind, size in zip(kinds, [*largest, 0.0], strict=False)]
 
 
 def write_path(vertices: tuple, prescribed: str) -> str:
-    """Vertices as text that `read_path` understands, in one unit for each column, with five digits."""
+    """Vertices as text for `read_path`, one unit a column, five digits."""
     columns = _columns(vertices, prescribed)
     return "\n".join(
         ", ".join(f"{v / unit.factor:.5g} {unit.name}" for v, (_, unit) in zip(row, columns, strict=False))
@@ -181,10 +181,10 @@ def write_path(vertices: tuple, prescribed: str) -> str:
 
 
 def read_path(text: str, prescribed: str, shown: tuple) -> tuple:
-    """Vertices (SI) from text in which the path `shown` has been altered.
+    """Vertices (SI) from edited text of the path `shown`.
 
-    Bare numbers are in the units shown; a line that stands as it was has all digits that it had. Raises
-    ValueError, with the line, if it is none.
+    Bare numbers are in the displayed units; unchanged lines keep all digits. Raises ValueError with the
+    line.
     """
     vertices, columns = [], _columns(shown, prescribed)
     kept = dict(zip(write_path(shown, prescribed).splitlines(), shown, strict=True))
@@ -202,7 +202,7 @@ def read_path(text: str, prescribed: str, shown: tuple) -> tuple:
 
 
 def type_path(state: State, text: str) -> State:
-    """Take the vertices that were typed as a path of one's own."""
+    """Take typed vertices as an own path."""
     if state.path and text == write_path(state.path, state.prescribed):
         return state
-    return state.but(path=read_path(text, state.prescribed, state.path), pattern="own")
+    return state.replace(path=read_path(text, state.prescribed, state.path), pattern="own")

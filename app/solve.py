@@ -1,4 +1,4 @@
-"""Scenes solved along their paths: the table of drives, and what takes longer than a move, in threads."""
+"""Courses of scenes: the table of drives, and slow searches in threads."""
 
 import logging
 import threading
@@ -15,7 +15,7 @@ import mdr_core as mdr
 
 from . import drives
 from .drives import Course, Drive, nearest
-from .state import PRESETS, State, medium, profile, settled, used
+from .state import PRESETS, State, medium, profile, used, with_derived
 from .state.quantities import CHOICES, SHAPES
 
 _LOG = logging.getLogger(__name__)
@@ -25,40 +25,36 @@ DRIVES: dict[str, Drive] = {}
 for _found in iter_modules(drives.__path__):
     _module = import_module(f".drives.{_found.name}", __package__)
     _kinds = [kind for kind in vars(_module).values() if isinstance(kind, type) and issubclass(kind, Drive)]
-    # One of which a method is missing cannot be made.
+    # A drive with a missing method raises here.
     DRIVES |= {kind.key: kind() for kind in _kinds if kind.key}
 
 
 def scene_of(state: State) -> mdr.Scene:
-    """What is to be modelled."""
     return mdr.Scene(profile(state), medium(state), DRIVES[state.drive].make(state))
 
 
 def follow(state: State, known: dict[mdr.Scene, Course] | None = None) -> Course:
-    """The states of a scene along its path, at the progress where the page stands.
-
-    `known` has courses that have been solved in full.
-    """
+    """Course of a state; `known` has exact courses."""
     scene = scene_of(state)
     course = (known or {}).get(scene) or DRIVES[state.drive].follow(scene, state.progress)
     return replace(course, now=nearest(course.progress, state.progress))
 
 
 def described(state: State) -> Any:
-    """The scene of a state as JSON; if it cannot be made, what it would be made of."""
+    """Scene as JSON for the log; its values if it is invalid."""
     try:
         return scene_of(state).to_json()
     except Exception:
         return dict(state)
 
 
-def deepest(state: State) -> mdr.Indentation:
-    """The deepest state of the present scene, without its path there."""
-    return DRIVES[state.drive].deepest(scene_of(settled(state)))
+def turning_point(state: State) -> mdr.Indentation:
+    """State of largest depth, without the path."""
+    return DRIVES[state.drive].turning_point(scene_of(with_derived(state)))
 
 
 def options(state: State, name: str) -> list[str]:
-    """The options of a choice that apply to the scene, the one to begin with first."""
+    """Applicable options of a choice, the default first."""
     drive = DRIVES[state.drive]
     if name == "preset":
         return list(PRESETS)
@@ -75,62 +71,54 @@ def options(state: State, name: str) -> list[str]:
 
 
 def numbers_of(state: State) -> list[str]:
-    """Names of the numbers that the scene is made of, and of those that its drive asks for."""
     return used(state, DRIVES[state.drive].form)
 
 
 def option(state: State, name: str) -> str:
-    """The option of a choice; the first, where what was chosen does not apply."""
+    """Option of a choice; the first one if the chosen one does not apply."""
     chosen, known = state[name], options(state, name)
     return chosen if chosen in known else known[0]
 
 
 @dataclass(frozen=True)
 class Found:
-    """Rows of a plot (SI), the axes that hold them, and what is said below it, as HTML."""
+    """Rows of a plot (SI) with their axes, and a note as HTML."""
 
     rows: dict[str, Any]
     axes: list[Any]
     note: str = ""
 
 
-#: What is shown before anything is found, and where nothing can be.
+#: Results before a search ends, and after one failed.
 COMPUTING = Found({}, [], "computing …")
 FAULT = Found({}, [], "This could not be found, because of a fault of the explorer.")
 
 
 class Resting:
-    """The searches of one session: the latest of each name only, in threads that all sessions share.
-
-    `show` is given the name and what was found.
-    """
+    """Searches of a session: the latest of each name, in threads shared by all sessions."""
 
     def __init__(self, show: Callable[[str, Any], None]):
-        self._show, self._asked, self._found, self._document = show, {}, {}, pn.state.curdoc
+        self._show, self._searches, self._found, self._document = show, {}, {}, pn.state.curdoc
 
     def follow(self, name: str, about: Any, search: Callable[..., Iterator[Any]], *arguments: Any) -> None:
-        """Let a generator search, unless that is under way or done for what it is `about`.
-
-        None: it is no longer looked at.
-        """
-        last, stop = self._asked.get(name, (None, None))
+        """Start a search unless one with the same key `about` is running or done; None stops it."""
+        last, stop = self._searches.get(name, (None, None))
         if last == about:
             return
         if stop is not None:
             stop.set()
         stop = threading.Event()
-        self._asked[name] = about, stop
+        self._searches[name] = about, stop
         if about is not None:
             thread = pn.state.as_cached("resting", ThreadPoolExecutor, max_workers=2)
             thread.submit(self._run, name, stop, search, *arguments)
 
     def known(self, name: str, about: Any) -> Found:
-        """What was found of a plot for what it is about."""
         asked, last = self._found.get(name, (None, COMPUTING))
         return last if asked == about else replace(COMPUTING, axes=last.axes)
 
     def found(self, plots: dict[str, Any], state: State, course: Course) -> dict[str, Found]:
-        """What is known of the plots that are asked for; what is quick is found."""
+        """Results for the visible plots; quick ones are computed."""
         known = {}
         for plot in (plots[name] for name in state.tiles if name in plots and plots[name].find):
             asked = plot.asked(state)
@@ -141,7 +129,7 @@ class Resting:
         return known
 
     def look(self, plots: dict[str, Any], seen: set[str], state: State, course: Course) -> None:
-        """Let what is seen be found, where that takes longer than a move."""
+        """Start the slow searches of visible plots."""
         for plot in (plot for plot in plots.values() if plot.find):
             asked = plot.asked(state) if plot.name in seen else None
             slow = plot.name in seen and not plot.quick(asked)
@@ -150,18 +138,16 @@ class Resting:
 
     @staticmethod
     def _about(plot, course, asked):
-        """What a search for a plot is about: the scene, what is asked for, and the state."""
+        """Key of a search."""
         return course.scene, asked, course.progress[course.now] if plot.of_state else None
 
     def give_up(self, name: str) -> None:
-        """Of what was found last nothing is known."""
-        self._found[name] = self._asked[name][0], FAULT
+        self._found[name] = self._searches[name][0], FAULT
 
     def end(self) -> None:
-        """The session is over."""
-        for _, stop in self._asked.values():
+        for _, stop in self._searches.values():
             stop.set()
-        self._asked, self._found = {}, {}
+        self._searches, self._found = {}, {}
 
     def _run(self, name, stop, search, *arguments):
         def show(found):
@@ -180,11 +166,11 @@ class Resting:
 
     def _take(self, name, found):
         if isinstance(found, Found):
-            self._found[name] = self._asked[name][0], found
+            self._found[name] = self._searches[name][0], found
         self._show(name, found)
 
     def _inside(self, act):
-        """Call a function with the lock of the session; without a server, directly."""
+        """Call a function under the lock of the session."""
         if self._document is None or self._document.session_context is None:
             act()
         else:
@@ -192,7 +178,7 @@ class Resting:
 
 
 def in_time(course: Course) -> Iterator[Any]:
-    """A course that is pending, in time, or why it cannot be so."""
+    """Exact course of a pending one, or the reason of failure."""
     drive = next(each for each in DRIVES.values() if each.owns(course.scene.drive))
     try:
         yield drive.in_time(course.scene)
@@ -201,5 +187,4 @@ def in_time(course: Course) -> Iterator[Any]:
 
 
 def drive_of(scene: mdr.Scene) -> Drive:
-    """The drive that shows a scene."""
     return next(drive for drive in DRIVES.values() if drive.owns(scene.drive))

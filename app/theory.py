@@ -1,4 +1,4 @@
-"""The theory as a page of its own: assets/theory.md with its formulas, at an equation or a section."""
+"""The theory, assets/theory.md, as a page."""
 
 import re
 from html import escape
@@ -24,19 +24,19 @@ _NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
 
 
 def html():
-    """The theory as HTML, with formulas as KaTeX reads them and an id at each section and equation."""
-    parser, seen = MarkdownIt().enable("table"), set()
+    """The theory as HTML with KaTeX formulas and ids of sections and equations."""
+    parser, marked = MarkdownIt().enable("table"), set()
     parser.use(dollarmath_plugin, renderer=lambda text, _: f"\\({escape(text)}\\)")
     tokens = parser.parse((ASSETS / "theory.md").read_text(encoding="utf-8"))
-    parts, begun = [], False
+    parts, in_body = [], False
     for k, token in enumerate(tokens):
         if token.type == "heading_open" and (number := re.match(r"\d+", tokens[k + 1].content)):
             token.attrSet("id", f"section-{number[0]}")
-            begun = True
-        for first, last in _NAMED.findall(token.content) if begun and not token.nesting else ():
-            new = set(range(int(first), int(last or first) + 1)) - seen
+            in_body = True
+        for first, last in _NAMED.findall(token.content) if in_body and not token.nesting else ():
+            new = set(range(int(first), int(last or first) + 1)) - marked
             parts += [f'<a id="eq-{n}"></a>' for n in sorted(new)]
-            seen |= new
+            marked |= new
         if token.type == "fence" and token.info == "math":
             parts.append(f"<p>$${escape(token.content)}$$</p>")
         else:
@@ -45,6 +45,6 @@ def html():
 
 
 def page(place):
-    """The page, which begins where `place` is: "eq-11" or "section-4"."""
+    """The page, starting at an id such as "eq-11" or "section-4"."""
     pn.state.curdoc.js_on_event(DocumentReady, CustomJS(args={"place": place}, code=_SHOW))
     return pn.pane.LaTeX(html(), stylesheets=STYLE, css_classes=["theory"], renderer="katex")

@@ -1,4 +1,4 @@
-"""Parts of which the page is made: its sheet and scripts, texts as HTML, and widgets with their looks."""
+"""Style sheet, scripts, texts as HTML, and widgets."""
 
 import re
 from html import escape
@@ -18,7 +18,7 @@ FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": STYLE}
 _LABELS = {name: quantity.label for name, quantity in QUANTITIES.items()}
 
 
-#: What the core says to those who call it alone: indices, counts, names of functions.
+#: Parts of messages of the core that do not apply to the page.
 _EXPONENT = re.compile(r"(\d(?:\.\d+)?)e([+-]?)0?(\d+)\b")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PYTHON = re.compile(
@@ -27,12 +27,12 @@ _PYTHON = re.compile(
 
 
 def indexed(text):
-    """HTML in which every symbol such as d_c has its index."""
+    """HTML with subscripts in symbols such as d_c."""
     return re.sub(r"(\b[a-zA-Z]|[α-ω])_([a-zA-Z0-9]+)", r"<i>\1</i><sub>\2</sub>", text)
 
 
 def plain(text):
-    """What the core says of arguments, in words of the page: numbers by their labels, and of one place."""
+    """Message of the core in words of the page: labels for names, no indices."""
     for name, label in _LABELS.items():
         text = text.replace(f"{label} {name} ", f"{label} ")
     text = _PYTHON.sub("", text)
@@ -41,29 +41,28 @@ def plain(text):
 
 
 def marked(text):
-    """A text as HTML, in which every symbol such as d_c has its index."""
     return indexed(escape(text))
 
 
 def symbol(text):
-    """A symbol as HTML: q_c with its index; of two with a stroke between them each has its own."""
+    """A symbol as HTML, also a ratio such as d/d_c."""
     return "/".join(marked(each) if "_" in each else f"<i>{escape(each)}</i>" for each in text.split("/"))
 
 
 def linked(text):
-    """A text as HTML in which equations, (11), and sections, § 9, lead to the theory."""
+    """HTML with links from equations, (11), and sections, § 9, to the theory."""
     led = r'<a href="?theory={}-\1" target="theory">\g<0></a>'
     text = re.sub(r"\(([1-9]\d?)\)", led.format("eq"), marked(text))
     return re.sub(r"§ (\d+)", led.format("section"), text)
 
 
 def explained(key, label, about, look='class="word"'):
-    """A label that says what it is about when it is pressed."""
+    """A label with an explanation in a popover."""
     return f'<button {look} popovertarget="{key}">{label}</button><div popover id="{key}">{about}</div>'
 
 
 def legend(plot, shown):
-    """The legend of a plot, of those rows that are shown, as HTML."""
+    """Legend of the visible rows of a plot, as HTML."""
     return "".join(
         f'<span class="{row.role}"><i class="{row.kind} {_style(row.look)}"></i>{row.name}</span>'
         for row in plot.rows
@@ -77,49 +76,43 @@ def _style(look):
 
 
 def html(text="", *classes, **options):
-    """A text, a note unless it is of another class."""
     return pn.pane.HTML(text, css_classes=[*(classes or ["note"])], **WIDE | options)
 
 
 def button(name, key="", kind=pn.widgets.Button, **options):
-    """A button or toggle, which a key may press as well."""
     return kind(label=name, css_classes=["button", *[f"key-{key}"] * bool(key)], **{"margin": 0} | options)
 
 
 def toggle(name, key):
-    """A button that stays pressed."""
     return button(name, key, pn.widgets.Toggle)
 
 
 def field(kind, *classes, **options):
-    """A widget to choose with or to type in."""
     return kind(css_classes=["choice", *classes], **WIDE | options)
 
 
 def upload(name, accept, **options):
-    """A field that takes a file."""
     return pn.widgets.FileInput(accept=accept, css_classes=["file", name], **WIDE | options)
 
 
-def brought(widget, act):
-    """Call a function with the bytes of each file that is brought; there are none in an empty one."""
+def on_upload(widget, act):
+    """Call a function with the bytes of each uploaded file."""
 
     def bring(*events):
         if widget.filename:
             act(widget.value or b"")
-            # The same file is read again when it is brought again.
+            # Without this a file of the same name is not read again.
             widget.clear()
 
     widget.param.watch(bring, ["value", "filename"])
 
 
 def tools(*parts, **options):
-    """Parts in a row that is wrapped where it is narrow."""
     return pn.Row(*parts, css_classes=["tools"], **WIDE | options)
 
 
 def show(part, **values):
-    """Tell a widget or pane what it does not know yet: telling takes a good part of a move."""
+    """Set parameters of a widget that have changed: setting is slow."""
     news = {name: value for name, value in values.items() if getattr(part, name) != value}
     if news:
         part.param.update(**news)

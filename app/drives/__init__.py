@@ -1,4 +1,4 @@
-"""What a drive is, and the states along its path: the one interface that all of the page asks."""
+"""Base class of drives, and the states along their paths: one interface for the whole page."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, fields
@@ -19,7 +19,7 @@ _RELEASE = np.linspace(1, 0, 25)
 
 @runtime_checkable
 class States(Protocol):
-    """States of contact along a path, one value (SI) for each; `states[i]` is one, with its fields."""
+    """States of contact along a path, one value (SI) each; `states[i]` is a single state."""
 
     profile: mdr.Profile
     medium: mdr.Medium
@@ -46,18 +46,17 @@ class States(Protocol):
         """Elastic displacement (m) of the surface."""
 
     def imprint(self, r: Array) -> Array:
-        """Depth (m) of what is left once the load is gone."""
+        """Depth (m) of the residual imprint."""
 
 
 @dataclass(frozen=True, eq=False)
 class Course:
     """States of a scene along its path; every array has one value (SI) for each state.
 
-    `progress` is where a state stands: 0 first contact, 1 deepest, 2 loss of contact, and 2.2 the tip back
-    at the height of the undeformed surface. `now` is the number of the present state, `peak` that of the
-    deepest. What has times has them, with speeds and energies, in `motion`; an impact has a `hit`, an
-    `oblique` one its motion with friction, and how far elements `relax` that have let go. A path that may
-    turn round several times `turns`; `pending` says how roughly it is followed until it is solved in full.
+    `progress` is 0 at first contact, 1 at the largest depth, 2 at loss of contact and 2.2 with the indenter
+    at the undeformed surface. `now` and `peak` are the indices of the present state and of the largest
+    depth. `turns`: the path may reverse several times. `pending` describes the approximation used until the
+    exact solution.
     """
 
     scene: mdr.Scene
@@ -76,69 +75,65 @@ class Course:
 
     @property
     def force(self) -> Array:
-        """Normal force (N), with that of the dashpots."""
+        """Normal force (N), including the dashpots."""
         return self.states.force
 
     @property
     def state(self) -> States:
-        """The present state."""
         return self.states[self.now]
 
     @cached_property
-    def deepest(self) -> States:
-        """The deepest state."""
+    def turning_point(self) -> States:
         return self.states[self.peak]
 
     @property
-    def before(self) -> float:
-        """Plastic depth (m) that was left on this spot before."""
+    def initial_plastic_depth(self) -> float:
+        """Plastic depth (m) of an earlier imprint."""
         return getattr(self.scene.drive, "plastic_depth", 0.0)
 
     @property
     def dashpots(self) -> bool:
-        """Whether dashpots carry a load along this path."""
+        """Whether dashpots carry load along this path."""
         return self.motion is not None and self.scene.medium.eta > 0
 
     @property
     def chained(self) -> bool:
-        """Whether every element has a memory of its own, so that no live interval tells all of it."""
+        """Whether elements have separate memories, which one live interval does not describe."""
         return not isinstance(self.states, mdr.Indentation)
 
     @property
     def ledger(self) -> Any:
-        """The motion with all energies, those along the surface too; None of what has no times."""
+        """Motion with all energies, including those along the surface; None without times."""
         return self.motion if self.oblique is None else self.oblique
 
     @property
     def plastic_work(self) -> Array:
-        """Work (J) lost to yield so far, of an impact its own only."""
+        """Work (J) of yield; of an impact without earlier ones."""
         return self.states.plastic_work if self.motion is None else self.motion.plastic_work
 
     @property
     def viscous_work(self) -> Array | None:
-        """Work (J) lost in the dashpots so far, where there are some."""
         return self.ledger.viscous_work if self.dashpots else None
 
     @property
     def kinetic_energy(self) -> Array | None:
-        """Energy (J) of a free body, along the surface too."""
         return None if self.hit is None else self.ledger.kinetic_energy
 
     @property
     def stored_energy(self) -> Array:
-        """Energy (J) of all springs, of those too that have let go of a viscous rebound."""
+        """Energy (J) of all springs, including released elements."""
         return self.states.stored_energy if self.motion is None else self.ledger.stored_energy
 
     @property
     def energy(self) -> Array:
-        """All that is there and has been lost so far (J), of what has times."""
+        """Sum (J) of stored energy and losses."""
         m = self.ledger
         energy = m.kinetic_energy + m.stored_energy + m.plastic_work + m.viscous_work
         return energy if self.oblique is None else energy + m.friction_work
 
     @cached_property
-    def on(self) -> dict[str, Array]:
-        """Values of all states by the names of the axes that they are on."""
+    def on_axes(self) -> dict[str, Array]:
+        """Values of all states by the names of their axes."""
         values = {"d": self.states.depth, "F": self.force, "a": self.states.contact_radius}
         if self.motion is not None:
             values["t"] = self.motion.time
@@ -148,40 +143,38 @@ class Course:
 
     @cached_property
     def onset(self) -> States | None:
-        """The state where yield starts; None if nothing yields or the shape is not known so deep."""
-        return onset(self.scene, self.before)
+        return onset(self.scene, self.initial_plastic_depth)
 
     @property
     def first_onset(self) -> States | None:
-        """The state where yield starts on a virgin surface."""
-        return None if self.before else self.onset
+        """State at first yield of a virgin surface."""
+        return None if self.initial_plastic_depth else self.onset
 
     @property
     def next_onset(self) -> States | None:
-        """The state where yield goes on upon an imprint."""
-        return self.onset if self.before else None
+        """State at first yield below an imprint."""
+        return self.onset if self.initial_plastic_depth else None
 
     @property
     def critical_depth(self) -> float | None:
-        """Depth (m) at which yield begins on a virgin surface, if anything yields."""
+        """Critical depth (m) of a virgin surface that yields."""
         critical = self.scene.medium.critical_depth
-        return None if self.before or critical == np.inf else critical
+        return None if self.initial_plastic_depth or critical == np.inf else critical
 
     @property
     def relative_depth(self) -> Array | None:
-        """Depth over the critical one, if anything yields."""
         critical = self.scene.medium.critical_depth
         return self.states.depth / critical if critical < np.inf else None
 
     @cached_property
     def rebound(self) -> SimpleNamespace | None:
-        """Numbers (SI) of the rebound of an oblique impact: of the contact point and of the body."""
+        """Results (SI) of an oblique impact, of the contact point and of the body."""
         if self.oblique is None:
             return None
         drive, hit, motion = self.scene.drive, self.oblique.impact, self.oblique
         after = float(motion.tangential_velocity[-1] if hit is None else hit.tangential_velocity)
         largest = np.max(np.abs(motion.tangential_force)) if hit is None else hit.max_tangential_force
-        # The impulse changes the speed of the body, and for the rest its spin.
+        # The impulse changes the speed of the body and its spin.
         impulse = drive.tangential_mass * (after - drive.tangential_speed)
         body = drive.tangential_speed + impulse / drive.mass
         found = {"contact_velocity": after, "body_speed": body, "max_tangential_force": float(largest)}
@@ -192,10 +185,10 @@ class Course:
             found |= {"spin_speed": spin} if radius == np.inf else {"spin": spin / radius}
         return SimpleNamespace(**found)
 
-    def released(self, index: int) -> tuple[Array, Array]:
-        """Depths (m) and forces (N) of elastic unloading from one state: the area below is its energy.
+    def unloading_curve(self, index: int) -> tuple[Array, Array]:
+        """Depths (m) and forces (N) of elastic unloading; the area below is the stored energy.
 
-        Elements that dashpots hold back are compressed further than their load tells.
+        Elements held back by dashpots are compressed further than their load indicates.
         """
         live, depth = self.states.live_interval[index], float(self.states.depth[index])
         length = live.length * _RELEASE
@@ -209,24 +202,24 @@ class Course:
 
 
 def onset(scene: mdr.Scene, before: float = 0.0) -> mdr.Indentation | None:
-    """The state where yield starts above some plastic depth (m); None if there is no such state."""
+    """State at first yield above a plastic depth (m); None if it is not reached."""
     depth = before + scene.medium.critical_depth
     reached = depth <= min(scene.profile.known_depth, 1e300)
     return mdr.indent(scene.profile, scene.medium, depth) if reached else None
 
 
 def nearest(progress: Array, at: float) -> int:
-    """Number of the state next to some progress."""
+    """Index of the state nearest to a progress."""
     return int(np.argmin(np.abs(progress - at)))
 
 
 def rounded(progress: Array) -> Array:
-    """Six digits: what the page says about where it stands is read back as the same number."""
+    """Progress rounded to six digits, the precision of links."""
     return np.array([float(f"{p:.6g}") for p in progress])
 
 
-def passed(along: Array, peak: int) -> Array:
-    """The progress at some places along a path, of which one is the deepest: 1 there, 2 at the end."""
+def path_progress(along: Array, peak: int) -> Array:
+    """Progress of places along a path: 1 at the index `peak`, 2 at the end."""
     share = (along - along[0]) / ((along[-1] - along[0]) or 1.0)
     turn = share[peak]
     progress = np.where(share <= turn, share / (turn or 1.0), 1 + (share - turn) / ((1 - turn) or 1.0))
@@ -235,12 +228,11 @@ def passed(along: Array, peak: int) -> Array:
 
 
 class Drive(ABC):
-    """What drives the indenter, as a person sets it and as `mdr.Scene` has it.
+    """A drive of the indenter, as set on the page and as in `mdr.Scene`.
 
-    `key` is its option of the choice "drive", `values` the types of its values of a scene, `form` the
-    choices and parts of the form that follow its numbers, `line` the names of the readouts that are always
-    seen. `solver` is the function of the core for whole arrays, with the numbers that it takes, `results`
-    what it gives.
+    `key`: option of the choice "drive"; `values`: types in a scene; `form`: its choices and parts of the
+    form; `line`: readouts above the plots; `solver`: function of the core and its arguments; `results`: its
+    results.
     """
 
     key: str = ""
@@ -254,55 +246,53 @@ class Drive(ABC):
     results: tuple[str, ...] = ()
 
     def owns(self, value: Any) -> bool:
-        """Whether this drive shows a value of a scene."""
         return isinstance(value, self.values)
 
     @abstractmethod
     def make(self, state: Any) -> Any:
-        """The value of a scene, from what is set on the page."""
+        """Drive of a scene, from the state of the page."""
 
     @abstractmethod
     def follow(self, scene: mdr.Scene, progress: float) -> Course:
-        """The states of a scene, as far as a move has time for."""
+        """States of a scene; may be approximate where an exact solution is slow."""
 
     def in_time(self, scene: mdr.Scene) -> Course:
-        """The same solved in full, where `follow` leaves something pending."""
+        """Exact states of a scene whose course is pending."""
         return self.follow(scene, 1.0)
 
     @abstractmethod
-    def deepest(self, scene: mdr.Scene) -> mdr.Indentation:
-        """The deepest state of a scene alone."""
+    def turning_point(self, scene: mdr.Scene) -> mdr.Indentation:
+        """State of largest depth of a scene."""
 
     @abstractmethod
-    def alike(self, state: Any, deepest: mdr.Indentation) -> dict[str, Any]:
-        """Numbers with which a state would be the deepest one."""
+    def equivalent(self, state: Any, turning_point: mdr.Indentation) -> dict[str, Any]:
+        """Numbers of this drive that lead to the same largest depth."""
 
     @abstractmethod
     def snippet(self, course: Course, given: str, prefix: str) -> list[str]:
-        """Lines of Python that come to the present state, from arguments and a prefix of names."""
+        """Python lines that reproduce the present state."""
 
     def words(self, state: Any) -> list[str]:
-        """More for the summary in a line."""
+        """Additional parts of the summary."""
         return []
 
-    def duration(self, state: Any, deepest: mdr.Indentation) -> float | None:
-        """How long it takes (s), where that counts."""
+    def duration(self, state: Any, turning_point: mdr.Indentation) -> float | None:
+        """Duration (s), if it matters."""
         return None
 
 
 def arguments(value: Any, written: Any = repr) -> str:
-    """The fields of a value of the core as arguments in Python, without what it takes by default."""
+    """Fields of a value of the core as Python arguments, without defaults."""
     own = {each.name: getattr(value, each.name) for each in fields(value)}
     usual = {each.name: each.default for each in fields(value)}
     return named({n: own[n] for n in own if not np.array_equal(own[n], usual[n])}, written)
 
 
 def named(numbers: dict[str, Any], written: Any = repr) -> str:
-    """Numbers by their names as arguments in Python."""
     numbers = {n: v.item() if isinstance(v, np.generic) else v for n, v in numbers.items()}
     return ", ".join(f"{name}={written(number)}" for name, number in numbers.items())
 
 
 def printed(name: str, values: tuple[str, ...], index: str = "") -> str:
-    """A line of Python that prints some values of a result."""
+    """Python line that prints values of a result."""
     return f"print({', '.join(f'{name}.{value}{index}' for value in values)})"

@@ -2,7 +2,7 @@
 
 import mdr_core as mdr
 
-from . import Course, Drive, arguments, nearest, passed, printed
+from . import Course, Drive, arguments, nearest, path_progress, printed
 
 #: Instants of an impact.
 INSTANTS = 120
@@ -31,36 +31,36 @@ class Impact(Drive):
         hit = scene.solve()
         return along(scene, progress, hit, hit.motion(INSTANTS))
 
-    def deepest(self, scene):
+    def turning_point(self, scene):
         return scene.solve().turning_point
 
-    def alike(self, state, deepest):
-        """Mass and speed of the body that hits, or of one that comes as deep."""
+    def equivalent(self, state, turning_point):
+        """Present mass and speed, or those of an impact of equal depth."""
         if state.drive in ("impact", "oblique"):
             return {"mass": state.mass, "speed": state.speed}
         # A body as heavy as a ball of the contact's size times ten, of steel.
-        mass = float(f"{4.2 * 7800 * (10 * float(deepest.contact_radius)) ** 3:.1g}")
-        work = float(deepest.stored_energy + deepest.plastic_work)
+        mass = float(f"{4.2 * 7800 * (10 * float(turning_point.contact_radius)) ** 3:.1g}")
+        work = float(turning_point.stored_energy + turning_point.plastic_work)
         return {"mass": mass, "speed": (2 * work / mass) ** 0.5}
 
     def snippet(self, course, given, prefix):
-        hit, told = f"{prefix}hit", ("max_depth", "max_force", "restitution", "contact_time")
-        lines = [f"{hit} = mdr.impact({given}, {arguments(course.scene.drive)})", printed(hit, told)]
+        hit, names = f"{prefix}hit", ("max_depth", "max_force", "restitution", "contact_time")
+        lines = [f"{hit} = mdr.impact({given}, {arguments(course.scene.drive)})", printed(hit, names)]
         values = ("time", "depth", "velocity", "force", "contact_radius", "plastic_radius")
         return lines if course.now == course.peak else lines + in_motion(course, prefix, values)
 
-    def duration(self, state, deepest):
-        return float(deepest.depth) / self.make(state).speed
+    def duration(self, state, turning_point):
+        return float(turning_point.depth) / self.make(state).speed
 
 
 def along(scene, progress, hit, motion, **more):
-    """All states of an impact, from its motion along the normal."""
-    places, peak = passed(motion.time, motion.turning_index), motion.turning_index
+    """Course of an impact from its motion along the normal."""
+    places, peak = path_progress(motion.time, motion.turning_index), motion.turning_index
     return Course(scene, places, motion.states, nearest(places, progress), peak, hit, motion, **more)
 
 
 def in_motion(course, prefix, values):
-    """Lines of Python that come to the present state of an impact, and print some of its values."""
+    """Python lines that print values of the present state of an impact."""
     motion = f"{prefix}motion"
     lines = [f"{motion} = {prefix}hit.motion({INSTANTS})", f"i = {course.now}"]
     return [*lines, printed(motion, values, "[i]")]

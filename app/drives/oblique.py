@@ -12,12 +12,12 @@ from ..state.quantities import CHOICES, QUANTITIES, USED
 from ..state.units import written
 from . import arguments, impact, printed
 
-#: Most elements that are kept to be drawn, and how often steps are halved for that: errors of some 10⁻⁵.
+#: Maximum number of drawn elements, and halvings of steps for them (errors about 10⁻⁵).
 _ELEMENTS, _HALVINGS = 300, 2
 
 
 def _balls(mass):
-    """Tangential mass (kg) of each option of the choice "body"."""
+    """Tangential mass (kg) for each option of the choice "body"."""
     solid, hollow = (mdr.Ball(mass, 1.0, hollow) for hollow in (False, True))
     return {"block": mass, "solid": solid.tangential_mass, "hollow": hollow.tangential_mass}
 
@@ -41,7 +41,7 @@ class Oblique(impact.Impact):
         return mdr.FreeObliqueImpact(state.mass, *map(float, speeds), state.friction, float(body))
 
     def follow(self, scene, progress):
-        """All states; along the surface of one coarse run, as long as a move has no time for more."""
+        """States from one coarse solution of friction."""
         drive, normal = scene.drive, _normal(scene)
         given = drive.tangential_speed, drive.friction, drive.tangential_mass
         motion = along_surface(normal, *given, impact.INSTANTS, 0)
@@ -49,24 +49,24 @@ class Oblique(impact.Impact):
         return impact.along(scene, progress, normal, motion.normal, oblique=motion, pending=words)
 
     def in_time(self, scene):
-        """The same with quantities as exact as the core has them, and a motion as exact as is seen."""
+        """States from the core's solution, with elements thinned out for drawing."""
         hit = scene.solve()
         motion = oblique_motion(hit, impact.INSTANTS, _HALVINGS)
-        some = slice(None, None, -(-motion.x.size // _ELEMENTS))
-        load, sticks = (np.array(part[:, some]) for part in (motion.tangential_line_load, motion.sticks))
-        motion = replace(motion, x=motion.x[some], tangential_line_load=load, sticks=sticks)
+        thinned = slice(None, None, -(-motion.x.size // _ELEMENTS))
+        load, sticks = (np.array(part[:, thinned]) for part in (motion.tangential_line_load, motion.sticks))
+        motion = replace(motion, x=motion.x[thinned], tangential_line_load=load, sticks=sticks)
         return impact.along(scene, 1.0, hit.normal, motion.normal, oblique=motion)
 
-    def deepest(self, scene):
+    def turning_point(self, scene):
         return _normal(scene).turning_point
 
-    def alike(self, state, deepest):
-        numbers = super().alike(state, deepest)
+    def equivalent(self, state, turning_point):
+        numbers = super().equivalent(state, turning_point)
         along = numbers["speed"] / np.tan(state.attack)
         return numbers | _aimed(numbers["speed"], float(along))
 
     def snippet(self, course, given, prefix):
-        hit, told = f"{prefix}hit", ("tangential_velocity", "friction_work")
+        hit, names = f"{prefix}hit", ("tangential_velocity", "friction_work")
         values = ("time", "force", "tangential_force", "tangential_velocity", "stick_radius", "slip_radius")
         drive = course.scene.drive
         solved = f"{hit} = mdr.oblique_impact({given}, {arguments(drive)})"
@@ -77,21 +77,21 @@ class Oblique(impact.Impact):
             "from math import atan2, degrees",
             f"print(degrees(atan2({hit}.normal.rebound_speed, {body})))  # of the body, to the surface",
         ]
-        return [solved, printed(hit, told), *angle, *impact.in_motion(course, prefix, values)]
+        return [solved, printed(hit, names), *angle, *impact.in_motion(course, prefix, values)]
 
     def words(self, state):
         quantities = ((QUANTITIES[n], state[n]) for n in USED["aim"][state.aim])
-        said = (f"{q.symbol} = {written(value, q.kind, 3)}" for q, value in quantities)
-        return [*said, CHOICES["body"][state.body]]
+        texts = (f"{q.symbol} = {written(value, q.kind, 3)}" for q, value in quantities)
+        return [*texts, CHOICES["body"][state.body]]
 
 
 def _normal(scene):
-    """The impact along the normal, on which friction has no effect."""
+    """Impact along the normal, which is independent of friction."""
     return mdr.impact(scene.profile, scene.medium, scene.drive.mass, scene.drive.speed)
 
 
 def aim(state, option):
-    """The speed by its components, or as one with its angle of attack."""
+    """Speed as components, or as magnitude and angle of attack."""
     if state.drive != "oblique":
         return {}
     drive = Oblique().make(state)

@@ -1,4 +1,4 @@
-"""A path of depth or of force through some vertices; in time also ramp and hold, and creep."""
+"""A path of depth or force through vertices; in time also ramp and hold, and creep."""
 
 from functools import cached_property
 from itertools import pairwise
@@ -11,8 +11,8 @@ from mdr_core.yielding import LiveInterval
 
 from ..state.quantities import QUANTITIES
 from ..state.units import written
-from . import Course, Drive, nearest, onset, passed, printed
-from .press import most_force
+from . import Course, Drive, nearest, onset, path_progress, printed
+from .press import limited_force
 
 #: What is prescribed: its kind of quantity, its value of a scene, its unit, and what of the core follows
 #: it, infinitely slowly and in time.
@@ -24,7 +24,7 @@ _IN_TIME = {"depth": "indent_in_time", "force": "creep"}
 #: Most vertices, and about how many states are drawn: of a path without dashpots, on the chain under
 #: prescribed depths, and under forces, where every one of them takes eight steps and more.
 MOST, _SLOW, _DEPTHS, _FORCES = 60, 200, 48, 24
-#: Error allowed on the chain: less than is seen.
+#: Tolerance of the chain, below the resolution of plots.
 _TOLERANCE = 3e-3
 
 
@@ -34,7 +34,7 @@ def _drive(path, prescribed):
 
 
 def checked(path, prescribed):
-    """Vertices (SI), each a depth or force or such with its time, if they make a path within bounds."""
+    """Vertices (SI; depth or force, optional time), if they are a valid path."""
     if not 1 <= len(path) <= MOST or (len(path) == 1 and len(path[0]) == 2):
         raise ValueError(f"A path has 1 to {MOST} vertices, in time 2 at least; this one has {len(path)}.")
     if len({len(row) for row in path}) > 1:
@@ -49,24 +49,24 @@ def checked(path, prescribed):
 
 
 def _parts(drive):
-    """What is prescribed, its values, and times or None."""
+    """Prescribed quantity, its values, and times or None."""
     name = "force" if isinstance(drive, mdr.ForcePath) else "depth"
     return name, np.atleast_1d(getattr(drive, name)), drive.time and np.array(drive.time)
 
 
-def pattern(state, deepest, option):
-    """A path of some pattern whose deepest state is the present one, followed infinitely slowly."""
+def pattern(state, turning_point, option):
+    """Quasi-static path of a pattern with the present largest depth."""
     if option == "own":
         return {}
-    medium = deepest.medium
-    depth, time = float(deepest.depth), float(f"{medium.relaxation_time or 1.0:.2g}")
+    medium = turning_point.medium
+    depth, time = float(turning_point.depth), float(f"{medium.relaxation_time or 1.0:.2g}")
 
     def back(depth):
-        # Until the load is gone.
+        # Depth at loss of contact.
         return max(depth - medium.critical_depth, 0.0)
 
     if option == "creep":
-        force = most_force(deepest)
+        force = limited_force(turning_point)
         return {"prescribed": "force", "path": ((0.0, 0.0), (force, 0.1 * time), (force, 5 * time))}
     if option == "hold":
         path = [(0.0, 0.0), (depth, time), (depth, 5 * time)]
@@ -78,7 +78,7 @@ def pattern(state, deepest, option):
 
 
 def prescribed(state, scene, option):
-    """The vertices by the other quantity, as they are infinitely slowly."""
+    """Vertices converted quasi-statically to the other prescribed quantity."""
     _, values, _ = _parts(scene.drive)
     states = _slowly(scene, values)
     found = np.maximum(getattr(states, option), 0.0 if option == "force" else -np.inf).tolist()
@@ -92,10 +92,7 @@ def _slowly(scene, values):
 
 
 def _course(drive):
-    """Values of a path, without times from first contact on, and how far along it they are.
-
-    That is their times, or how much has been changed.
-    """
+    """Values of a path, without times from first contact on, and their times or cumulated changes."""
     _, values, time = _parts(drive)
     if time is not None:
         return values, time
@@ -104,22 +101,22 @@ def _course(drive):
 
 
 def _refined(scene, chain):
-    """Values and places along the path of its vertices, and of more points between them."""
+    """Prescribed values and places along the path, at the vertices and between them."""
     (name, *_), (values, along) = _parts(scene.drive), _course(scene.drive)
     most, places = 0.0, []
     states = _SLOW if not chain else _DEPTHS if name == "depth" else _FORCES
-    each = min(max(states // (len(values) - 1), 1 if chain else 4), 32)
-    critical, begun = scene.medium.critical_depth, onset(scene)
-    start = critical if name == "depth" or begun is None else float(begun.force)
+    pieces = min(max(states // (len(values) - 1), 1 if chain else 4), 32)
+    critical, first_yield = scene.medium.critical_depth, onset(scene)
+    start = critical if name == "depth" or first_yield is None else float(first_yield.force)
     for (begin, first), (end, last) in pairwise(zip(along, values, strict=True)):
-        share = _shares(each + 1, chain, chain and first == last)
+        share = _shares(pieces + 1, chain, chain and first == last)
         if first != last and not (chain and name == "force"):
-            # Just before yield begins or goes on, and on both sides of where the load is gone.
-            gone, elastic = 0.0, most
+            # Just before yield, and on both sides of the loss of contact.
+            released, elastic = 0.0, most
             if name == "depth":
-                gone, elastic = max(most - critical, 0.0), min(critical, most)
+                released, elastic = max(most - critical, 0.0), min(critical, most)
             before = 1 - 1e-12
-            events = np.array([before * start, before * most, gone, gone + 1e-9 * elastic])
+            events = np.array([before * start, before * most, released, released + 1e-9 * elastic])
             events = (events - first) / (last - first)
             share = np.append(share, events[(events > 0) & (events < 1)])
         places.append(begin + (end - begin) * share)
@@ -129,11 +126,11 @@ def _refined(scene, chain):
 
 
 def _shares(count, chain, held):
-    """Places along a piece: dense at its ends, where radii begin as a root; of a hold by powers."""
+    """Places along a piece: dense at its ends, where radii start as a root; logarithmic in a hold."""
     share = np.linspace(0, 1, count)
     if held:
         return (1e3**share - 1) / 999
-    # Dashpots change most where a piece begins.
+    # Dashpot forces change fastest at the start of a piece.
     return share**2 if chain else (1 - np.cos(np.pi * share)) / 2
 
 
@@ -147,13 +144,13 @@ def _solved(scene, progress, chain, pending):
     else:
         states = _slowly(scene, values)
     peak = int(np.argmax(states.depth))
-    places = passed(along, peak)
+    places = path_progress(along, peak)
     motion = None if time is None else _motion(states, along)
     return Course(scene, places, states, nearest(places, progress), peak, None, motion, True, pending)
 
 
 def _motion(states, time):
-    """The same in time, with a ledger of what has been put in."""
+    """Motion along a path in time, with its energies."""
     none, live = np.zeros_like(time), states.live_interval
     rate = np.append(0.0, np.diff(states.depth) / np.diff(time))
     viscous = none if isinstance(states, mdr.Indentation) else states.viscous_work
@@ -168,21 +165,17 @@ _PLACES = 300
 
 
 class ChainStates:
-    """A `TimedIndentation` whose elements are followed once for all states; `states[i]` is one of them."""
+    """States of a `TimedIndentation` whose elements are evaluated once for all states."""
 
     def __init__(self, path, at=slice(None), whole=None):
         self._path, self._at, self._whole = path, at, whole or self
-        some = path[at]
-        self.profile, self.medium, self.limits, self.error = (
-            path.profile,
-            path.medium,
-            path.limits,
-            path.error,
-        )
-        self.depth, self.force, self.viscous_work = some.depth, some.force, some.viscous_work
-        self.contact_radius, self.plastic_radius = some.contact_radius, some.plastic_radius
-        self.plastic_depth, self.stored_energy = some.plastic_depth, some.stored_energy
-        self.plastic_work = some.plastic_work
+        subset = path[at]
+        self.profile, self.medium = path.profile, path.medium
+        self.limits, self.error = path.limits, path.error
+        self.depth, self.force, self.viscous_work = subset.depth, subset.force, subset.viscous_work
+        self.contact_radius, self.plastic_radius = subset.contact_radius, subset.plastic_radius
+        self.plastic_depth, self.stored_energy = subset.plastic_depth, subset.stored_energy
+        self.plastic_work = subset.plastic_work
 
     def __getitem__(self, index):
         return ChainStates(self._path, index, self._whole)
@@ -194,7 +187,7 @@ class ChainStates:
 
     @property
     def live_interval(self):
-        """What is pressed down further than the imprint, as far as one interval of depths tells."""
+        """Equivalent live interval of the elements in contact."""
         a, lower = np.asarray(self.contact_radius), np.asarray(self.plastic_depth)
         upper = np.where(a > 0, np.maximum(self.profile.reduced(a), lower), lower)
         length = np.where(a > 0, np.maximum(upper - lower, np.finfo(float).tiny), 0.0)
@@ -202,7 +195,7 @@ class ChainStates:
 
     @cached_property
     def _elements(self):
-        """Places x, reduced heights there, line loads and elastic compressions, a row for each state."""
+        """Places, reduced heights, line loads and elastic compressions, one row a state."""
         path = self._path
         half = float(np.max(path.contact_radius)) or 1.0
         x = np.linspace(0, half, _PLACES)
@@ -210,30 +203,28 @@ class ChainStates:
         return x, path.profile.reduced(x), *path.elements(x)
 
     def line_load(self, x):
-        """Line load (N/m) of one state at x (m)."""
         return self._path[self._at].line_load(x)
 
     def relaxing(self, g):
-        """What is left (m) of the elastic compression of elements at heights g that have let go."""
+        """Remaining elastic compression (m) of released elements at heights g (m)."""
         _, heights, load, elastic = self._whole._elements
         return np.interp(g, heights, np.where(load[self._at] > 0, 0.0, elastic[self._at]), right=0.0)
 
     def surface(self, r):
-        """Elastic displacement (m) of the surface, u = (2/π) ∫ u_e dx/√(r² − x²), also of what relaxes."""
+        """Elastic displacement (m) u = (2/π) ∫ u_e dx/√(r² − x²), including released elements."""
         x, _, _, elastic = self._whole._elements
         u, r = elastic[self._at], np.asarray(r, float)[..., None]
         inside, slope = np.minimum(x, r), np.diff(u) / np.diff(x)
         with np.errstate(invalid="ignore"):
             angle = np.diff(np.where(r > 0, np.arcsin(inside / np.where(r > 0, r, 1.0)), np.pi / 2))
-        rest = np.diff(np.sqrt((r - inside) * (r + inside)))
-        return 2 / np.pi * np.sum((u[:-1] - slope * x[:-1]) * angle - slope * rest, axis=-1)
+        root = np.diff(np.sqrt((r - inside) * (r + inside)))
+        return 2 / np.pi * np.sum((u[:-1] - slope * x[:-1]) * angle - slope * root, axis=-1)
 
     def imprint(self, r):
-        """Depth (m) of the residual imprint, as at rest."""
         return mdr.Indentation(self.profile, self.medium, self.depth, self.live_interval).imprint(r)
 
     def pressure(self, r):
-        """Contact pressure (Pa) at radii r (m), from the elements followed for all states."""
+        """Contact pressure (Pa) at radii r (m), from the elements."""
         x, g, load, _ = self._whole._elements
         radius, r = float(self.contact_radius), np.asarray(r, float)
         inside = x < radius
@@ -254,7 +245,6 @@ class Path(Drive):
     form = ("pattern", "prescribed", "vertices")
 
     def owns(self, value):
-        """Whether it has vertices; what is one value is pressed."""
         return super().owns(value) and np.ndim(getattr(value, _parts(value)[0])) > 0
 
     def make(self, state):
@@ -263,7 +253,7 @@ class Path(Drive):
         return _drive(checked(state.path, state.prescribed), state.prescribed)
 
     def follow(self, scene, progress):
-        """All states; under a force in time that dashpots resist infinitely slowly at first."""
+        """States; creep of a viscous medium without dashpots at first."""
         viscous = scene.drive.time is not None and scene.medium.eta > 0
         pending = viscous and isinstance(scene.drive, mdr.ForcePath)
         return _solved(scene, progress, viscous and not pending, "so far without dashpots" * pending)
@@ -271,32 +261,31 @@ class Path(Drive):
     def in_time(self, scene):
         return _solved(scene, 1.0, True, "")
 
-    def deepest(self, scene):
+    def turning_point(self, scene):
         return _slowly(scene, float(np.max(_parts(scene.drive)[1])))
 
-    def alike(self, state, deepest):
-        """A path that was drawn by hand is kept."""
+    def equivalent(self, state, turning_point):
+        """The pattern scaled to the present depth; an own path stays."""
         own = state.pattern == "own"
         if own and state.path:
             return {}
         option = "reload" if own else state.pattern
-        return {"pattern": option} | pattern(state, deepest, option)
+        return {"pattern": option} | pattern(state, turning_point, option)
 
     def snippet(self, course, given, prefix):
-        """The vertices that have been passed, and the present state."""
         name, _, time = _parts(course.scene.drive)
         values, along = _course(course.scene.drive)
         places = _refined(course.scene, False)[1] if time is None else course.motion.time
-        here = course.force if name == "force" else course.states.depth
+        prescribed_values = course.force if name == "force" else course.states.depth
         # First contact is none of the vertices.
-        passed = (along > 0) | (time is not None)
-        passed &= along < places[course.now] - 1e-12 * (places[-1] - places[0])
+        past = (along > 0) | (time is not None)
+        past &= along < places[course.now] - 1e-12 * (places[-1] - places[0])
         chain, state = time is not None and course.scene.medium.eta > 0, f"{prefix}state"
-        given += f", {[*values[passed].tolist(), float(here[course.now])]}"
-        given += f", {[*along[passed].tolist(), float(places[course.now])]}" * chain
+        given += f", {[*values[past].tolist(), float(prescribed_values[course.now])]}"
+        given += f", {[*along[past].tolist(), float(places[course.now])]}" * chain
         solve, unit = (_IN_TIME if chain else _SLOWLY)[name], _UNIT[name] + ", s" * chain
-        told = ("depth", "force", "contact_radius", "plastic_radius")
-        return [f"{state} = mdr.{solve}({given})[-1]  # {unit}", printed(state, told)]
+        names = ("depth", "force", "contact_radius", "plastic_radius")
+        return [f"{state} = mdr.{solve}({given})[-1]  # {unit}", printed(state, names)]
 
     def words(self, state):
         sizes, time = [row[0] for row in state.path], self.duration(state, None)
@@ -304,6 +293,6 @@ class Path(Drive):
         within = f" in {written(time, 'time', 3)}" if time else ""
         return [f"path of {len(sizes)} vertices to {most}{within}"]
 
-    def duration(self, state, deepest):
+    def duration(self, state, turning_point):
         path = state.path
         return path[-1][1] - path[0][1] if path and len(path[0]) == 2 else None

@@ -1,4 +1,4 @@
-"""Pressed to a depth or to a force, and taken back, infinitely slowly."""
+"""Quasi-static loading to a depth or force, and unloading."""
 
 import numpy as np
 
@@ -7,18 +7,18 @@ from mdr_core.yielding import LiveInterval, path_intervals
 
 from . import Course, Drive, nearest, printed, rounded
 
-#: From 0 to 1, denser towards both ends, where radii begin as a root of the depth.
+#: Places from 0 to 1, dense at both ends, where radii change as a root of the depth.
 _SPREAD = (1 - np.cos(np.linspace(0, np.pi, 41))) / 2
 
 
-def most_force(deepest):
-    """The force of a state, if it is less than what a flat face carries."""
-    most = 2 * deepest.medium.yield_line_load * deepest.profile.wall
-    return min(float(deepest.force), 0.9 * most)
+def limited_force(turning_point):
+    """Force (N) of a state, limited to 90 % of the yield load of a flat face."""
+    most = 2 * turning_point.medium.yield_line_load * turning_point.profile.wall
+    return min(float(turning_point.force), 0.9 * most)
 
 
 class Press(Drive):
-    """To a largest value of what is prescribed, its `kind`, and back."""
+    """Quasi-static loading to a depth or force (`kind`), and unloading."""
 
     kind: str
     results = (
@@ -30,19 +30,18 @@ class Press(Drive):
         return self.values[0](state[f"max_{self.kind}"])
 
     def owns(self, value):
-        """Whether it is one value; what has vertices is a path."""
         return super().owns(value) and np.ndim(getattr(value, self.kind)) == 0
 
     def follow(self, scene, progress):
-        """To the deepest state, back until the load is gone, and up to the undeformed surface."""
-        deepest = scene.solve()
-        depth, critical = float(deepest.depth), scene.medium.critical_depth
+        """Loading, unloading, and lifting of the indenter to the undeformed surface."""
+        turning_point = scene.solve()
+        depth, critical = float(turning_point.depth), scene.medium.critical_depth
         share = min(critical / depth, 1.0) if depth > 0 else 1.0
         loading = np.concatenate([share * _SPREAD, share + (1 - share) * _SPREAD])
         lifted = 2 + 0.2 * np.linspace(0, 1, 9)
         places = np.unique(rounded(np.concatenate([loading, 1 + _SPREAD, lifted, [progress]])))
         live = path_intervals((np.minimum(places, 1.0) * depth)[:, None], critical)[:, 0]
-        # By its length, which is exactly zero where the load is gone.
+        # The length is exactly zero without contact.
         length = np.clip(2 - places, 0.0, 1.0) * live.length
         upper = np.where(places <= 1, live.upper, live.lower + length)
         lifted = np.where(places <= 2, upper, live.lower * np.maximum(2.2 - places, 0.0) / 0.2)
@@ -50,7 +49,7 @@ class Press(Drive):
         states = mdr.Indentation(scene.profile, scene.medium, lifted, interval)
         return Course(scene, places, states, nearest(places, progress), nearest(places, 1.0))
 
-    def deepest(self, scene):
+    def turning_point(self, scene):
         return scene.solve()
 
     def snippet(self, course, given, prefix):
@@ -68,8 +67,8 @@ class Depth(Press):
     values, solver = (mdr.DepthPath,), ("indent", "max_depth")
     results = ("force", *Press.results)
 
-    def alike(self, state, deepest):
-        return {"max_depth": float(deepest.depth)}
+    def equivalent(self, state, turning_point):
+        return {"max_depth": float(turning_point.depth)}
 
 
 class Force(Press):
@@ -79,5 +78,5 @@ class Force(Press):
     values, solver = (mdr.ForcePath,), ("indent_to_force", "max_force")
     results = ("depth", *Press.results)
 
-    def alike(self, state, deepest):
-        return {"max_force": most_force(deepest)}
+    def equivalent(self, state, turning_point):
+        return {"max_force": limited_force(turning_point)}

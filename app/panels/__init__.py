@@ -1,4 +1,4 @@
-"""What stands around the plots, and the frame of all: header, left column with its tabs, right column."""
+"""The frame of the page: header, left column with tabs, right column with plots."""
 
 from collections.abc import Callable
 from typing import Any
@@ -9,10 +9,7 @@ from ..ui import FULL, HERE, STYLE, WIDE, button, html, show, toggle, tools
 
 
 class Frame:
-    """The frame of a page: six buttons, tabs on the left, panels that lie over them, the guide above.
-
-    `panels` and `tabs` are what they show, by their names; `share` is called when that panel opens.
-    """
+    """Six buttons, tabs on the left, panels over them; `share` is called when that panel opens."""
 
     def __init__(self, preset: Any, axes: Any, panels: dict, tabs: dict, share: Callable[[], None]):
         self.undo, self.redo, self.hold = button("Undo", "z"), button("Redo", "y"), toggle("Hold", "h")
@@ -42,7 +39,6 @@ class Frame:
         self.show("explore")
 
     def framed(self, board: Any) -> pn.Column:
-        """The whole page with a board of plots."""
         title = html("<h1>Indentation explorer</h1>", "name", width=190, sizing_mode=None)
         six = (self.undo, self.redo, self.hold, *(self.open[name] for name in ("share", "guide", "menu")))
         buttons = pn.Row(*six, css_classes=["tools", "buttons"], margin=0, width=380)
@@ -60,7 +56,7 @@ class Frame:
         return pn.Column(header, columns, css_classes=["page"], **FULL)
 
     def show(self, tab: str, panel: str | None = None) -> None:
-        """Show a tab, or a panel over it; the guide stands above it."""
+        """Show a tab or a panel over it; the guide stands above the tab."""
         self.tab, free = tab, panel in (None, "guide")
         for name, each in self.tabs.items():
             show(each, value=free and name == tab)

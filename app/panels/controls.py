@@ -1,4 +1,4 @@
-"""The controls: Panel widgets over what can be set, each with its symbol, name, unit and an explanation."""
+"""The form: number fields and choices, each with symbol, name, unit and explanation."""
 
 from collections.abc import Callable
 from html import escape
@@ -11,7 +11,7 @@ import param
 from .. import changes
 from ..drives import Course
 from ..solve import DRIVES, option, options
-from ..state import PRESETS, State, altered, began, number, quantity
+from ..state import PRESETS, State, altered, number, preset_value, quantity
 from ..state.quantities import ABOUT, CHOICES, LABELS, SHAPES, USED, Quantity, Scale, shape_quantities
 from ..state.units import UNITS, digits, entry, written
 from ..ui import JS, WIDE, button, explained, field, html, linked, marked, show, symbol, tools, upload
@@ -19,7 +19,7 @@ from .readouts import sketch
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
-#: Choices of which all options are seen; others are lists.
+#: Choices shown as radio buttons; others are lists.
 _RADIO = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface", "prescribed", "aim", "body")
 #: Choices about the medium that are one click away, unless they are in use.
 _MORE = ("elasticity", "plasticity", "damping", "inertia")
@@ -40,10 +40,9 @@ def _about(known: Quantity) -> str:
 
 
 class Number(pn.custom.JSComponent):
-    """A quantity that is typed with its unit, or dragged on its scale; it can be told to be another one.
+    """A field and slider for a number.
 
-    `act` gets a function that gives a state of a state, and a mark: changes of one mark are one to undo. It
-    raises ValueError with what the person is told.
+    `apply_or_raise` takes a function from state to state, and a mark that joins steps of undo.
     """
 
     label, spoken, about = param.String(), param.String(), param.String()
@@ -52,12 +51,12 @@ class Number(pn.custom.JSComponent):
 
     _esm = JS["quantity"]
 
-    def __init__(self, act: Callable[..., None]):
-        self._act, self.key, self._like, self._scale = act, "", 0.0, None
+    def __init__(self, apply_or_raise: Callable[..., None]):
+        self._apply_or_raise, self.key, self._like, self._scale = apply_or_raise, "", 0.0, None
         super().__init__(css_classes=["number"], **WIDE)
-        self.on_msg(self._asked)
+        self.on_msg(self._on_message)
 
-    def _asked(self, event):
+    def _on_message(self, event):
         said, message = "", event.data
         with pn.io.hold():
             try:
@@ -76,25 +75,23 @@ class Number(pn.custom.JSComponent):
             return state
 
         if isinstance(message.get("text"), str):
-            self._act(type_it)
+            self._apply_or_raise(type_it)
         elif isinstance(message.get("position"), int | float):
             value = self._scale.value(message["position"])
-            self._act(lambda state: changes.put(state, self.key, value), self.key)
+            self._apply_or_raise(lambda state: changes.put(state, self.key, value), self.key)
         elif "reset" in message:
-            reset = None if self.key.startswith("sweep") else self._scale.middle
-            self._act(
-                lambda state: (
-                    state.but(**{self.key: None}) if reset is None else changes.put(state, self.key, reset)
-                )
-            )
+            if self.key.startswith("sweep"):
+                self._apply_or_raise(lambda state: state.replace(**{self.key: None}))
+            else:
+                self._apply_or_raise(lambda state: changes.put(state, self.key, self._scale.middle))
         return said[0] if said else ""
 
     def forget(self) -> None:
-        """Say no more what was refused, or how it was read."""
+        """Clear messages."""
         show(self, said="", refused=False)
 
     def show(self, state: State, name: str, like: float = 0.0) -> None:
-        """Show a number as it stands; zero in the unit that fits the value `like`."""
+        """Show a number; zero in the unit that fits the value `like`."""
         known, value = quantity(state, name), number(state, name)
         scaled = (name, state.preset, known.symbol)
         if (
@@ -103,8 +100,8 @@ class Number(pn.custom.JSComponent):
             or scaled != self._scaled
             or not self._scale.reaches(value)
         ):
-            # A value beyond the slider's reach becomes its new middle.
-            start = value if name.startswith("sweep") else began(state, name)
+            # A value outside the slider becomes its new middle.
+            start = value if name.startswith("sweep") else preset_value(state, name)
             self._scale, self._scaled = Scale(known, start), scaled
             if not self._scale.reaches(value):
                 self._scale = Scale(known, value)
@@ -118,37 +115,34 @@ class Number(pn.custom.JSComponent):
 
 
 class Numbers(pn.Column):
-    """Numbers one below the other: as many as were ever needed, of which some are shown as others."""
+    """A column of number fields, reused for different numbers."""
 
-    def __init__(self, act: Callable[..., None]):
+    def __init__(self, apply_or_raise: Callable[..., None]):
         super().__init__(css_classes=["numbers"], **WIDE)
-        self._act = act
+        self._apply_or_raise = apply_or_raise
 
     def show(self, state: State, names: list[str], likes: dict[str, float] | None = None) -> None:
-        """Show some numbers."""
-        for name, place in zip(names, range(len(names)), strict=True):
+        for place, name in enumerate(names):
             if place == len(self):
-                self.append(Number(self._act))
+                self.append(Number(self._apply_or_raise))
             self[place].show(state, name, (likes or {}).get(name, 0.0))
         for place, each in enumerate(self):
             show(each, visible=place < len(names))
 
     def forget(self) -> None:
-        """Say no more what was refused."""
         for each in self:
             each.forget()
 
 
 class Choices:
-    """Choices of a session by name: a widget each, with what it means, made when it is asked for."""
+    """Choices of a session by name, made when first used."""
 
-    def __init__(self, tell: Callable[..., None], state: Callable[[], State]):
-        self._tell, self._state = tell, state
+    def __init__(self, apply: Callable[..., None], state: Callable[[], State]):
+        self._apply, self._state = apply, state
         self.widgets: dict[str, Any] = {}
         self.rows: dict[str, Any] = {}
 
     def row(self, name: str) -> Any:
-        """The row of a choice."""
         if name not in self.rows:
             self.rows[name] = self._radio(name) if name in _RADIO else self._list(name)
         return self.rows[name]
@@ -160,7 +154,7 @@ class Choices:
         return pn.Row(legend, widget, css_classes=["fieldset", f"of-{name}"], **WIDE)
 
     def _list(self, name):
-        """A choice from a list, with a question mark beside it that says what is chosen."""
+        """Drop-down list with its explanation."""
         beside = ["beside"] * (name != "shape")
         widget = self._made(name, pn.widgets.Select, f"of-{name}", *beside, options=self._texts(name))
         look = f'class="help" aria-label="What is {LABELS[name]}?"'
@@ -178,7 +172,7 @@ class Choices:
     def _made(self, name, kind, *classes, **options):
         def choose(event):
             if event.new != option(self._state(), name):
-                self._tell(lambda state: changes.choose(state, name, event.new))
+                self._apply(lambda state: changes.choose(state, name, event.new))
             show(widget, value=option(self._state(), name))
 
         value = option(self._state(), name)
@@ -188,7 +182,6 @@ class Choices:
         return widget
 
     def show(self, state: State) -> None:
-        """Everything as it is chosen."""
         for name, widget in self.widgets.items():
             if name in ("shape", "swept", "against"):
                 show(widget, options=self._texts(name))
@@ -196,11 +189,11 @@ class Choices:
 
 
 class Controls:
-    """The form: the drive with its main number, the shape, E* and q_c; all else about the medium folds."""
+    """The form: drive, shape, E* and q_c; the rest of the medium folds."""
 
-    def __init__(self, choices: Choices, act: Callable[..., None], tell: Callable[..., None]):
+    def __init__(self, choices: Choices, apply_or_raise: Callable[..., None], apply: Callable[..., None]):
         self.choices, self._opened, self._path = choices, False, ""
-        drive, shape, first, more = (Numbers(act) for _ in range(4))
+        drive, shape, first, more = (Numbers(apply_or_raise) for _ in range(4))
         self.numbers = {"drive": drive, "shape": shape, "first": first, "more": more}
         self.parts = {
             name: choices.row(name)
@@ -209,7 +202,7 @@ class Controls:
             if name in CHOICES and name not in _MORE
         }
         self.parts["again"] = self.again = button("Hit again", width=90)
-        self.parts["vertices"] = self._vertices(tell)
+        self.parts["vertices"] = self._vertices(apply)
         self.notes = {name: html() for name in ("drive", "shape", "medium", "more", "sources", "tip")}
         self.tip = upload("tip", ".csv,.txt,text/csv")
         self.more = pn.widgets.Toggle(
@@ -229,7 +222,7 @@ class Controls:
         parts += (_head("Tip and sources"), self._tip, self.notes["sources"])
         self.view = pn.Column(*parts, css_classes=["form"], **WIDE)
 
-    def _vertices(self, tell):
+    def _vertices(self, apply):
         self.text = field(
             pn.widgets.TextAreaInput,
             "vertices",
@@ -245,13 +238,13 @@ class Controls:
             def refused(text):
                 self.said.object = f'<span class="refused">{marked(text)}</span>'
 
-            tell(lambda state: changes.type_path(state, event.new), refused=refused)
+            apply(lambda state: changes.type_path(state, event.new), refused=refused)
 
         self.text.param.watch(typed, "value")
         return pn.Column(self.text, self.said, **WIDE)
 
     def show(self, state: State) -> None:
-        """Everything that is used, with its values."""
+        """Show the numbers and choices in use."""
         form = DRIVES[state.drive].form
         for name, part in self.parts.items():
             show(part, visible=name in form)
@@ -278,8 +271,8 @@ class Controls:
         if not self.said.object:
             show(self.text, value=text)
 
-    def say(self, state: State, course: Course) -> None:
-        """What follows from what is set, in words."""
+    def show_texts(self, state: State, course: Course) -> None:
+        """Update the texts."""
         preset, made = PRESETS[state.preset], course.scene.medium
         rows = "".join(
             f"<dt>{marked(f'{what} = {value}')}</dt><dd>{escape(where)}</dd>"
@@ -298,7 +291,6 @@ class Controls:
             show(self.notes[name], object=text)
 
     def forget(self) -> None:
-        """Say no more what was refused."""
         for numbers in self.numbers.values():
             numbers.forget()
 

@@ -1,4 +1,4 @@
-"""The tab in which a measured curve is brought, its columns corrected, and a medium fitted to it."""
+"""The tab *Fit a measurement*: upload of a curve, choice of its columns, and fit of the medium."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -9,15 +9,15 @@ import panel as pn
 
 import mdr_core as mdr
 
-from ..solve import deepest
-from ..state import State, checked, medium, profile, settled
+from ..solve import turning_point
+from ..state import State, checked, medium, profile, with_derived
 from ..state.files import FITTED, SIZES, Measured, agrees, read_curve
 from ..state.quantities import QUANTITIES, USED
 from ..state.units import fitting, written
-from ..ui import WIDE, brought, button, field, html, indexed, marked, plain, show, upload
+from ..ui import WIDE, button, field, html, indexed, marked, on_upload, plain, show, upload
 from .controls import Choices, Numbers
 
-#: What the example is called, and what is said of it.
+#: Name and description of the example.
 _MADE = "A made curve, no measurement"
 _EXAMPLE = (
     "This tip on a medium of 1.3 E* and 0.8 q_c, which begins at a tenth of the depth, with 0.4 % noise."
@@ -25,14 +25,14 @@ _EXAMPLE = (
 
 
 def take(state: State, curve: Measured | None) -> State:
-    """Take a measured curve, or None, to compare with; it lies as it was measured."""
+    """Compare with a measured curve, or with none."""
     tiles = ("residual",) if curve else tuple(tile for tile in state.tiles if tile != "residual")
-    return state.but(curve=curve, contact_point=0.0, baseline=0.0, fit_note="", tiles=tiles)
+    return state.replace(curve=curve, contact_point=0.0, baseline=0.0, fit_note="", tiles=tiles)
 
 
 def example(state: State) -> Measured:
-    """A made curve as a file: the present tip on a medium other than the present one, with noise."""
-    tip, made, depth = profile(state), medium(state), float(deepest(state).depth)
+    """Synthetic curve: the present tip on another medium, with noise."""
+    tip, made, depth = profile(state), medium(state), float(turning_point(state).depth)
     other = mdr.Medium(1.3 * made.E_star, 0.8 * made.q_c)
     back = depth - 0.8 * min(depth, other.critical_depth)
     path = np.append(np.linspace(-0.05, 1, 240) * depth, np.linspace(depth, back, 160))
@@ -46,7 +46,7 @@ def example(state: State) -> Measured:
 
 
 def fit(state: State) -> State:
-    """Set the medium, and where the measured curve lies, to what is nearest to it; pressed to its depth."""
+    """Fit medium and position to the measured curve; press to its depth."""
     made = medium(state)
     fixed = {name: state[name] if name in FITTED[2:] else getattr(made, name) for name in state.fixed}
     asked = dict.fromkeys(FITTED) | fixed
@@ -64,11 +64,12 @@ def fit(state: State) -> State:
         numbers |= {"q_c": float(found.medium.q_c)} if yields else {}
     numbers = {name: checked(state, name, value) for name, value in numbers.items()}
     curve = replace(state.curve, fit=found, asked=asked)
-    return settled(state.but(curve=curve, progress=1.0, fit_note=_note(curve), **choices, **numbers))
+    state = state.replace(curve=curve, progress=1.0, fit_note=_note(curve), **choices, **numbers)
+    return with_derived(state)
 
 
 def _note(curve: Measured) -> str:
-    """What a fit has found, in a line that goes with links and reports."""
+    """Summary of a fit for links and reports."""
     found, texts = curve.fit, []
     for name, error in found.standard_errors.items():
         value = getattr(found.medium if name in FITTED[:2] else found, name)
@@ -80,25 +81,22 @@ def _note(curve: Measured) -> str:
 
 
 def result(state: State) -> str:
-    """What was fitted, as HTML."""
+    """Result of the fit as HTML."""
     curve = state.curve
     if curve is None or curve.fit is None:
-        return (
-            f"This page was made with a {marked(state.fit_note)}."
-            if state.fit_note and curve is None
-            else ""
-        )
-    said = "What is set on the page is not this fit any more."
+        note = state.fit_note if curve is None else ""
+        return f"This page was made with a {marked(note)}." if note else ""
+    text = "What is set on the page is not this fit any more."
     if agrees(state):
-        said = "Its values are those set on the page; Undo takes it back."
-    return said + indexed(plain(curve.fit._repr_html_()))
+        text = "Its values are those set on the page; Undo takes it back."
+    return text + indexed(plain(curve.fit._repr_html_()))
 
 
 class Fitting:
     """The tab *Fit a measurement*."""
 
-    def __init__(self, choices: Choices, act: Callable[..., None], tell: Callable[..., None]):
-        self._tell, select = tell, pn.widgets.Select
+    def __init__(self, choices: Choices, apply_or_raise: Callable[..., None], apply: Callable[..., None]):
+        self._apply, select = apply, pn.widgets.Select
         self.file = upload("curve", ".csv,.txt,.dat,text/csv")
         self.made, self.remove, self.fit = map(button, ("Example", "Remove", "Fit"))
         roles = ("depth", "force", "time")
@@ -110,7 +108,7 @@ class Fitting:
         names = {QUANTITIES[n].label: n for n in FITTED}
         self.fixed = field(pn.widgets.CheckBoxGroup, "fixed", options=names, inline=False)
         self.about, self.said = html(), html("", "note", "said")
-        self.place, self.noise = Numbers(act), Numbers(act)
+        self.place, self.noise = Numbers(apply_or_raise), Numbers(apply_or_raise)
         pairs = [
             pn.Row(*(part[role] for part in (self.columns, self.units) if role in part), **WIDE)
             for role in roles
@@ -128,36 +126,35 @@ class Fitting:
         self._watch()
 
     def _watch(self):
-        brought(self.file, lambda data: self._take(lambda state: read_curve(data, self.file.filename)))
+        on_upload(self.file, lambda data: self._take(lambda state: read_curve(data, self.file.filename)))
         self.made.on_click(lambda event: self._take(example))
         self.remove.on_click(lambda event: self._take(lambda state: None))
-        self.fit.on_click(lambda event: self._tell(fit, refused=lambda text: self._refuse(self.said, text)))
+        self.fit.on_click(lambda event: self._apply(fit, lambda text: self._refuse(self.said, text)))
         for part in (self.columns, self.units):
             for role, widget in part.items():
                 widget.param.watch(lambda event, role=role: self._correct(role, event.new), "value")
         self.fixed.param.watch(
-            lambda event: self._tell(lambda state: state.but(fixed=tuple(event.new))), "value"
+            lambda event: self._apply(lambda state: state.replace(fixed=tuple(event.new))), "value"
         )
 
     def _refuse(self, where, text):
         where.object = f'<span class="refused">{escape(text)}</span>'
 
     def _take(self, make):
-        self._tell(
+        self._apply(
             lambda state: take(state, make(state)), refused=lambda text: self._refuse(self.about, text)
         )
 
     def _correct(self, role, chosen):
-        def act(state):
+        def change(state):
             curve = state.curve
             if curve is None or chosen in (curve.columns[role], curve.units.get(role)):
                 return state
-            return state.but(curve=curve.corrected(role, chosen), fit_note="")
+            return state.replace(curve=curve.corrected(role, chosen), fit_note="")
 
-        self._tell(act, refused=lambda text: self._refuse(self.about, text))
+        self._apply(change, refused=lambda text: self._refuse(self.about, text))
 
     def show(self, state: State) -> None:
-        """Show the curve as it is taken, and what was fitted."""
         curve = state.curve
         show(self._rest, visible=curve is not None)
         show(self.remove, disabled=curve is None)
@@ -181,6 +178,5 @@ class Fitting:
             show(widget, value=curve.units[role])
 
     def forget(self) -> None:
-        """Say no more what was refused."""
         self.place.forget()
         self.noise.forget()

@@ -1,4 +1,4 @@
-"""Guided scenes: steps, each a state with some sentences, in a panel above the form."""
+"""Guided scenes: steps with a state and a text."""
 
 import json
 from collections.abc import Callable
@@ -20,15 +20,15 @@ _LEFT = "The page shows something else by now. Back and Next go on with the step
 
 
 def step_state(step: dict[str, Any], now: State) -> State:
-    """The state of a step; tiles stay unless it opens one, and so does the theme."""
+    """State of a step; theme, held scenes and other tiles stay."""
     pairs = {name: str(value) for name, value in step["set"].items()}
     state = link.read(link.arguments(urlencode(pairs)))
     kept = {name: now[name] for name in ("hold", "keep", "dark", "axes", "curve")}
-    return state.but(tiles=state.tiles or now.tiles, **kept)
+    return state.replace(tiles=state.tiles or now.tiles, **kept)
 
 
-def said(step: dict[str, Any], course: Course) -> str:
-    """What a step says, with the numbers of the state that is shown."""
+def step_text(step: dict[str, Any], course: Course) -> str:
+    """Text of a step, with the numbers of a course."""
     numbers = {
         each.known.symbol: text(each, values, course.now, 3) for each, values in readings(course).items()
     }
@@ -36,10 +36,10 @@ def said(step: dict[str, Any], course: Course) -> str:
 
 
 class Guide:
-    """The panel *Guide*; `go` shows the state that a function gives, and `course` is what is shown then."""
+    """The panel *Guide*; `go` applies a change, `course` returns the present course."""
 
     def __init__(self, go: Callable[..., None], course: Callable[[], Course]):
-        self._do, self._course, self.at, self._scene, self._text = go, course, -1, None, ""
+        self._apply, self._course, self.at, self._scene, self._text = go, course, -1, None, ""
         self.title = field(pn.widgets.Select, "tour", options=list(TOURS))
         self.back, self.next = (button(name, width=70) for name in ("Back", "Next"))
         self.words = html(_INTRO)
@@ -48,24 +48,23 @@ class Guide:
         self.next.on_click(lambda event: self.go(self.at + 1))
         row = pn.Row(self.back, self.next, css_classes=["tools"], **WIDE)
         self.view = pn.Column(self.title, row, self.words, css_classes=["guide"], visible=False, **WIDE)
-        self._bound()
+        self._show_buttons()
 
     def go(self, at: int) -> None:
-        """Go to a step."""
         self.at, steps = at, TOURS[self.title.value]
-        self._do(lambda state: step_state(steps[at], state))
+        self._apply(lambda state: step_state(steps[at], state))
         course = self._course()
-        self._scene, self._text = course.scene, linked(said(steps[at], course))
+        self._scene, self._text = course.scene, linked(step_text(steps[at], course))
         self.show(course)
-        self._bound()
+        self._show_buttons()
 
     def show(self, course: Course) -> None:
-        """What the step says, while the page shows its scene."""
+        """Show the text of the step while the page shows its scene."""
         if self.at >= 0:
             words = self._text if course.scene == self._scene else _LEFT
             count = len(TOURS[self.title.value])
             show(self.words, object=f'<p role="status">{self.at + 1} of {count}. {words}</p>')
 
-    def _bound(self):
+    def _show_buttons(self):
         show(self.back, disabled=self.at <= 0)
         show(self.next, disabled=self.at == len(TOURS[self.title.value]) - 1)

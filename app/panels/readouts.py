@@ -1,4 +1,4 @@
-"""The readouts, how far the assumptions hold, the sketch of the indenter, and the scene in words."""
+"""Readouts, assumptions, sketch of the indenter, and summary of the scene."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -21,10 +21,9 @@ from ..ui import explained, linked, marked, plain, symbol
 
 @dataclass(frozen=True)
 class Readout:
-    """A number that is read: its name in the core's table of quantities, and where a course has it.
+    """A readout: its name in the table of quantities of the core, and its attribute `of` a course.
 
-    `of` names what has one value, or one for each state; where it is not there, there is no such number.
-    `help` and `equation` say what it is; `own` is its symbol, unit and name where the core has none.
+    `own` is its symbol, unit and name if the core has none.
     """
 
     name: str
@@ -35,11 +34,9 @@ class Readout:
 
     @property
     def known(self) -> Quantity:
-        """Symbol, unit and name."""
         return Quantity(*self.own) if self.own else RESULTS[self.name]
 
     def values(self, course: Course) -> Any:
-        """Its values of a course, or None."""
         for name in self.of.split("."):
             course = getattr(course, name, None)
         return course
@@ -52,29 +49,29 @@ READOUTS = tuple(
 
 
 def readings(course: Course) -> dict[Readout, Any]:
-    """All that can be read of a course: one value, or one for each state."""
+    """Values of all readouts that a course has."""
     found = ((readout, readout.values(course)) for readout in READOUTS)
     return {readout: values for readout, values in found if values is not None}
 
 
-def here(values: Any, i: int) -> float:
-    """The value of a number in state i: it has one, or one for each state."""
+def value_at(values: Any, i: int) -> float:
+    """Value in state i of a scalar or an array."""
     return float(values if np.ndim(values) == 0 else values[i])
 
 
 def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
-    """A number in state i with its unit."""
-    return written(here(values, i), KINDS[readout.known.unit], count)
+    """Value in state i with its unit."""
+    return written(value_at(values, i), KINDS[readout.known.unit], count)
 
 
 def line(course: Course, found: dict[Readout, Any]) -> list[Readout]:
-    """The readouts that are always seen."""
+    """Readouts of the line above the plots."""
     names = drive_of(course.scene).line
     return [readout for readout in found if readout.name in names]
 
 
 def values(course: Course, found: dict[Readout, Any], i: int) -> str:
-    """The cells of the line in state i, as HTML."""
+    """Cells of the line in state i, as HTML."""
     cells = (
         f'<output data-name="{each.name}">{text(each, found[each], i)}</output>'
         for each in line(course, found)
@@ -83,7 +80,7 @@ def values(course: Course, found: dict[Readout, Any], i: int) -> str:
 
 
 def heads(course: Course, found: dict[Readout, Any]) -> str:
-    """What stands above the cells of the line; each says what it is."""
+    """Heads of the line, with explanations, as HTML."""
     return f'<div class="strip">{"".join(map(_head, line(course, found)))}</div>'
 
 
@@ -104,7 +101,7 @@ def _head(readout: Readout) -> str:
 
 
 def phase(course: Course, i: int) -> str:
-    """Where a state stands on its path, in words."""
+    """Position of a state on its path, in words."""
     share, rise = course.progress[i], course.states.depth[i] - course.states.depth[max(i - 1, 0)]
     if i == course.peak:
         words = "deepest"
@@ -120,7 +117,7 @@ def phase(course: Course, i: int) -> str:
 
 
 def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
-    """How far the assumptions hold, as the core says: "good", "note" or "beyond", with a sentence."""
+    """Levels ("good", "note", "beyond") and sentences of the assumptions."""
     found = list((course.states if course.hit is None else course.hit).limits)
     if course.hit is not None and state.inertia == "density":
         found.append(course.hit.speed_limit(state.density))
@@ -137,37 +134,29 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
 
 
 def _areas(hit: Any) -> str:
-    """Both areas that the fast limit may be compared with."""
+    """Comparison of the fast limit with the areas of contact and damage."""
     limit = float(hit.fast_limit.contact_area)
     area = {"πa²": float(np.pi * hit.contact_radius**2), "A = πc²": float(hit.damaged_area)}
-    texts = (
-        f"{written(value, 'area')} ({name}, {_percent(limit / value - 1)})" for name, value in area.items()
-    )
-    return f" Its area is {written(limit, 'area')}; those of contact and damage: {', '.join(texts)}."
-
-
-def _percent(share: float) -> str:
-    return f"{100 * share:+.3g} %".replace("-", "−")
+    texts = (f"{written(v, 'area')} ({name}, {100 * (limit / v - 1):+.3g} %)" for name, v in area.items())
+    text = ", ".join(texts).replace("-", "−")
+    return f" Its area is {written(limit, 'area')}; those of contact and damage: {text}."
 
 
 def warnings(course: Course, state: State) -> str:
-    """What is exceeded, as HTML; what holds is folded."""
-    said = [
+    """Exceeded assumptions as HTML; the others fold."""
+    sentences = [
         (level, f'<span class="{level}">{linked(sentence)}</span>')
         for level, sentence in limits(course, state)
     ]
-    seen = "".join(html for level, html in said if level == "beyond")
-    rest = "".join(html for level, html in said if level != "beyond")
-    return (
-        f"{seen}<details><summary>Assumptions that hold, and notes</summary>{rest}</details>"
-        if rest
-        else seen
-    )
+    exceeded = "".join(html for level, html in sentences if level == "beyond")
+    others = "".join(html for level, html in sentences if level != "beyond")
+    folded = f"<details><summary>Assumptions that hold, and notes</summary>{others}</details>"
+    return exceeded + folded * bool(others)
 
 
 def sketch(course: Course, shape: str) -> str:
-    """A small drawing of the indenter z(r), its height stretched to fit, with its formulas, as HTML."""
-    profile, a = course.scene.profile, float(course.deepest.contact_radius)
+    """Drawing of the profile z(r), stretched to fit, with its formulas, as HTML."""
+    profile, a = course.scene.profile, float(course.turning_point.contact_radius)
     width, height, half = 104, 46, min(1.5 * a, profile.known_radius)
     r = np.unique(np.append(np.linspace(0, half, 60), min(profile.wall, half)))
     z = profile.height(r)
@@ -188,7 +177,7 @@ def sketch(course: Course, shape: str) -> str:
 
 
 def summary(state: State) -> str:
-    """A scene in a line: its shape, medium and drive with their main numbers."""
+    """Shape, medium and drive of a scene in one line."""
     made, drive = medium(state), DRIVES[state.drive]
     names = [name for name, _ in shape_quantities(state.shape)]
     names += [name for name in ("E_star", "q_c", "eta") if 0 < getattr(made, name) < np.inf]

@@ -1,4 +1,4 @@
-"""The report: one file of HTML with all that the page shows, to be read and printed alone."""
+"""The report: one HTML file with everything on the page."""
 
 from datetime import UTC, datetime
 from html import escape
@@ -24,7 +24,7 @@ _SIZE = 500, 340
 
 
 def report(state: State, view: View, plots: list[Plot], snippet: str, address: str = "", held=()) -> str:
-    """All that a page shows, as HTML: some plots, the Python, its address, names of what is held."""
+    """The report as HTML."""
     course, fit = view.course, state.curve.fit if state.curve is not None else None
     plots = [plot for plot in plots if view.axes_of(plot)]
     title = PRESETS[state.preset].label + ", altered" * bool(altered(state))
@@ -59,7 +59,7 @@ def report(state: State, view: View, plots: list[Plot], snippet: str, address: s
 
 
 def _inputs(state: State, view: View):
-    """Symbol, name, value and source of all that was set, as HTML."""
+    """Symbol, name, value and source of all inputs, as HTML."""
     preset, medium, shape = PRESETS[state.preset], view.course.scene.medium, SHAPES[state.shape]
     formulas = f"{shape.height},  {shape.reduced}"
     note = state.tip_note if state.shape == "sampled" else ""
@@ -84,7 +84,6 @@ def _inputs(state: State, view: View):
 
 
 def printed(view: View, plot: Plot):
-    """A plot as it stands on the page, to be printed."""
     picture = Picture(plot, "glyph", _SIZE)
     picture.figure.html_attributes = {"role": "img", "aria-label": described(view, plot)}
     picture.show(picture.columns(view, view.course.now, False), view, False)

@@ -1,4 +1,4 @@
-"""What is taken away: the link, the report, curves as CSV in SI and the state as Python."""
+"""Exports: link, report, curves as CSV in SI, and Python."""
 
 from collections.abc import Callable
 from inspect import signature
@@ -20,15 +20,7 @@ from ..ui import WIDE, field, html, show
 from .report import report
 
 #: Columns of the states along a path, by their names in the core's table; those of a motion.
-_STATES = (
-    "depth",
-    "force",
-    "contact_radius",
-    "plastic_radius",
-    "plastic_depth",
-    "stored_energy",
-    "plastic_work",
-)
+_STATES = ("depth", "force", "contact_radius", "plastic_radius", "plastic_depth")
 _TIMED = ("velocity", "kinetic_energy", "viscous_work")
 _OBLIQUE = ("tangential_velocity", "tangential_force", "friction_work", "stick_radius", "slip_radius")
 #: How far the pressure of a measured tip can be trusted.
@@ -44,7 +36,7 @@ def _head(name: str) -> str:
 
 
 def csv(course: Course, state: State) -> str:
-    """Every state along the path as CSV in SI, with inputs, units and version in its header."""
+    """All states along the path."""
     columns = {"time": course.motion.time} if course.motion is not None else {}
     columns |= {name: getattr(course.states, name) for name in _STATES}
     columns |= {"stored_energy": course.stored_energy, "plastic_work": course.plastic_work}
@@ -58,9 +50,9 @@ def csv(course: Course, state: State) -> str:
 
 
 def pressure_csv(course: Course, state: State, points: int = 401) -> str:
-    """Pressure, line load and reduced profile of the present state as CSV in SI."""
+    """Pressure, line load and reduced profile of the present state."""
     now, profile = course.state, course.scene.profile
-    largest = 1.25 * float(course.deepest.contact_radius)
+    largest = 1.25 * float(course.turning_point.contact_radius)
     r = np.linspace(0, min(largest, profile.known_radius), points)
     columns = {
         "radius r (m)": r,
@@ -74,7 +66,7 @@ def pressure_csv(course: Course, state: State, points: int = 401) -> str:
 
 
 def fit_csv(course: Course, state: State) -> str:
-    """The measured curve as it was fitted, in SI, with all values, errors and remarks in the header."""
+    """The measured curve with its fit; values, errors and remarks are in the header."""
     found, (depth, force) = state.curve.fit, state.curve.data
     columns = {
         "measured depth z (m)": depth,
@@ -86,9 +78,9 @@ def fit_csv(course: Course, state: State) -> str:
     asked = {name: value for name, value in state.curve.asked.items() if value is not None}
     given = ", ".join(f"{name} = {value!r}" for name, value in asked.items())
     values = [f"{name} = {value!r}" for name, value in found.to_dict().items()]
-    told = ["fit, SI units:", f"  held or given: {given or 'nothing'}", *values, *repr(found).splitlines()]
+    notes = ["fit, SI units:", f"  held or given: {given or 'nothing'}", *values, *repr(found).splitlines()]
     title = f"fit to {state.curve.name}; inputs are those of the page as it stands"
-    return _table(course, state, title, columns, told)
+    return _table(course, state, title, columns, notes)
 
 
 def _table(course: Course, state: State, title: str, columns: dict, notes=()) -> str:
@@ -112,7 +104,7 @@ def _inputs(scene, state):
 
 
 def fit_python(curve: Measured) -> str:
-    """Lines that come to the fit with `mdr_core`, from what `fit_csv` writes."""
+    """Python that repeats the fit from the file of `fit_csv`."""
     usual = signature(mdr.fit_indentation).parameters
     asked = {name: value for name, value in curve.asked.items() if value != usual[name].default}
     given = ", ".join(["tip", "z", "F", *[named(asked)] * bool(asked)])
@@ -128,7 +120,7 @@ print(fit)
 
 
 def python(course: Course, held=()) -> str:
-    """A snippet that comes to the present state with `mdr_core`, and to those that are `held` beside it."""
+    """Python that reproduces the present state and those of held scenes."""
     lines = ["import mdr_core as mdr", "", *_solved(course)]
     for k, each in enumerate(held, 1):
         lines += ["", f"# Held to compare with, {k}: {' '.join(each.name.split())}"]
@@ -137,7 +129,7 @@ def python(course: Course, held=()) -> str:
 
 
 def sweep_csv(course: Course, state: State) -> str:
-    """All results of a sweep as CSV in SI, with inputs, units and version in its header."""
+    """All results of the sweep."""
     sweep = asked_sweep(state)
     names, numbers = sweep.drive.results, sweep.numbers
     if not sweep.drive.solver:
@@ -150,7 +142,7 @@ def sweep_csv(course: Course, state: State) -> str:
 
 
 def sweep_python(state: State) -> str:
-    """Lines that come to the curve of a sweep with `mdr_core`."""
+    """Python that reproduces the curve of the sweep."""
     sweep = asked_sweep(state)
     if not sweep.drive.solver:
         return ""
@@ -183,19 +175,17 @@ print({found})
 
 
 def _made(value, shown=repr):
-    """A profile or a medium in Python."""
     return f"mdr.{type(value).__name__}({arguments(value, shown)})"
 
 
 def _solved(course: Course, prefix: str = "") -> list[str]:
-    """Lines for one state, its names with a prefix."""
     scene, names = course.scene, (f"{prefix}profile", f"{prefix}medium")
     lines = [f"{names[0]} = {_made(scene.profile)}", f"{names[1]} = {_made(scene.medium)}  # Pa, N/m, Pa·s"]
     return lines + drive_of(scene).snippet(course, ", ".join(names), prefix)
 
 
 class Share:
-    """The panel *Share*; `shown` gives what the page shows: state, view, plots, held, address."""
+    """The panel *Share*; `shown` returns what the page shows."""
 
     def __init__(self, shown: Callable[[], Any]):
         self._shown = shown
@@ -212,10 +202,8 @@ class Share:
             "Fit (CSV)": ("fit.csv", curves(fit_csv)),
         }
         self.files = {label: self._file(label, *of) for label, of in files.items()}
-        self.link, self.python = (
-            field(pn.widgets.TextInput, label="Link to this page"),
-            field(pn.widgets.TextAreaInput, label="This state with mdr_core", rows=12),
-        )
+        self.link = field(pn.widgets.TextInput, label="Link to this page")
+        self.python = field(pn.widgets.TextAreaInput, label="This state with mdr_core", rows=12)
         self._note = html()
         buttons = pn.FlexBox(*self.files.values(), css_classes=["tools"], **WIDE)
         self.view = pn.Column(self.link, self._note, buttons, self.python, visible=False, **WIDE)
@@ -226,14 +214,13 @@ class Share:
         return pn.widgets.FileDownload(css_classes=["button"], margin=0, **options)
 
     def address(self) -> str:
-        """The link to what is shown; ValueError if it is too long."""
+        """Link to the page; ValueError if it is too long."""
         shown = self._shown()
-        here = pn.state.location.href.split("?")[0] if pn.state.location else ""
+        base = pn.state.location.href.split("?")[0] if pn.state.location else ""
         query = link.write(shown.state, DRIVES[shown.state.drive].form)
-        return f"{here}?{query}" if query else here
+        return f"{base}?{query}" if query else base
 
     def show(self) -> None:
-        """Link and snippet of what is seen."""
         state = self._shown().state
         try:
             address, note = self.address(), ""
@@ -247,7 +234,6 @@ class Share:
         show(self.files["Fit (CSV)"], visible=state.curve is not None and state.curve.fit is not None)
 
     def snippet(self) -> str:
-        """The Python of what is seen."""
         shown = self._shown()
         text, curve = python(shown.view.course, shown.held), shown.state.curve
         if "sweep" in shown.state.tiles:

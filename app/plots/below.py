@@ -1,4 +1,4 @@
-"""Below and beside the contact: the deformed surface with its imprint, and the stress under the tip."""
+"""The deformed surface with its imprint, and the stress below it."""
 
 from dataclasses import replace
 
@@ -25,7 +25,7 @@ _DRAWN = {
 
 
 def _axes(view: View) -> list:
-    """Radius and height of the section, as is chosen: the heights exaggerated, or to scale."""
+    """Axes of the surface plot, heights exaggerated or to scale."""
     r, z = view.axis("far r"), view.axis("far z")
     if view.heights == "exaggerated":
         return [r, z]
@@ -34,7 +34,6 @@ def _axes(view: View) -> list:
 
 
 def surface(view: View, i: int) -> dict:
-    """Rows of the section in state i."""
     state, profile = view.course.states[i], view.course.scene.profile
     across, z = _axes(view)
     half, far = 1.1 * across.end, 3 * z.end
@@ -78,21 +77,21 @@ SURFACE = Plot(
 
 
 def section(course: Course, asked):
-    """The map of a quantity over r and z, with a, c, and the place where it is largest."""
-    (quantity,), state, reach = asked, course.state, 1.6 * float(course.deepest.contact_radius)
+    """Map of a stress over r and z, with a, c and the place of the maximum."""
+    (quantity,), state, reach = asked, course.state, 1.6 * float(course.turning_point.contact_radius)
     r = axis("r", "r, radius", "length", reach)
     z = replace(axis("depth", "z, height", "length", reach, below=1.0), end=0.0)
     title, of_stress = _DRAWN[quantity]
-    said = "The load is gone." if state.contact_radius == 0 else ""
+    reason = "The load is gone." if state.contact_radius == 0 else ""
     if course.chained:
-        said = "Stresses below the surface are not known of a viscous path: its elements have a past each."
-    if said:
-        yield Found({}, [r, z, axis("stress", title, "pressure", 1.0)], said)
+        reason = "Stresses below the surface are not known of a viscous path."
+    if reason:
+        yield Found({}, [r, z, axis("stress", title, "pressure", 1.0)], reason)
         return
     down, along = ((np.arange(count) + 0.5) / count for count in _PIXELS)
     across, deep = r.end * along, -z.start * (1 - down)
     image = of_stress(state.stress(across, deep[:, None]))
-    # Where it grows without bound, most of it.
+    # A quantile, as the maximum may be infinite.
     most, place, note = float(np.quantile(image, 0.998)), NOTHING, ""
     if quantity != "zz":
         peak = state.stress_peak(quantity)
@@ -115,7 +114,7 @@ def section(course: Course, asked):
 
 
 def _contours(x, y, image, levels):
-    """Lines along which an image has some values, with gaps between them."""
+    """Level lines of an image, separated by gaps."""
     lines = [line for level in levels for line in contour_generator(x, y, image).lines(level)]
     return tuple(
         np.concatenate([[np.nan], *(np.append(line[:, k], np.nan) for line in lines)]) for k in (0, 1)

@@ -1,4 +1,4 @@
-"""The contact in one state: springs, pressure, radii over the depth, and the pressure seen obliquely."""
+"""The contact in one state: springs, pressure, radii, and an oblique view of the pressure."""
 
 import numpy as np
 
@@ -25,7 +25,7 @@ _CUTS, _POINTS, _RIGHT, _UP = 25, 61, 0.22, 0.25
 
 
 def relaxing(course: Course, i: int, g):
-    """What is left (m) of the elastic compression of elements that have let go of a viscous rebound."""
+    """Remaining elastic compression (m) of released elements."""
     tau = course.scene.medium.relaxation_time
     if course.chained:
         return course.states[i].relaxing(g)
@@ -34,14 +34,14 @@ def relaxing(course: Course, i: int, g):
     past = slice(course.peak, i + 1)
     upper, time = course.states.live_interval.upper[past], course.motion.time[past]
     ahead = course.states.depth[past] - upper
-    gone = np.minimum(np.searchsorted(-upper, -g), len(upper) - 1)
-    return np.where(g >= upper[-1], ahead[gone] * np.exp((time[gone] - time[-1]) / tau), 0.0)
+    released = np.minimum(np.searchsorted(-upper, -g), len(upper) - 1)
+    return np.where(g >= upper[-1], ahead[released] * np.exp((time[released] - time[-1]) / tau), 0.0)
 
 
 def leaning(course: Course, i: int, r):
-    """How far elements at some radii lean in state i (m), and whether they stick."""
+    """Tangential displacement (m) of elements in state i, and whether they stick."""
     m, medium = course.oblique, course.scene.medium
-    # The first element is a flat face, which most shapes have not.
+    # The first element is a flat face; most shapes have none.
     first = int(m.x[0] == 0)
     load, sticks = (
         np.interp(r, m.x[first:], part[i, first:]) for part in (m.tangential_line_load, m.sticks)
@@ -50,7 +50,7 @@ def leaning(course: Course, i: int, r):
 
 
 def springs(view: View, i: int) -> dict:
-    """Springs by what has happened to them; under friction they lean, and their feet say which stick."""
+    """Springs by their state; under friction they lean, with marks of stick and slip."""
     course, state = view.course, view.course.states[i]
     size = view.end("x"), view.end("z")
     along = None if course.oblique is None else lambda r: leaning(course, i, r)
@@ -59,12 +59,12 @@ def springs(view: View, i: int) -> dict:
 
 
 def _feet(state, rows: dict, half: float, height: float) -> dict:
-    """Leaning springs as elastic and yielded ones, and lines below those that stick or slip."""
+    """Leaning springs, and lines below those that stick or slip."""
     found, width = {}, 0.8 * half / figures.SPRINGS
     paths = [np.reshape(part, (-1, 9)) for part in (np.hstack([rows["sticks"], rows["slips"]]))]
     yielded = figures.reduced(state.profile, np.abs(paths[0][:, 0])) < state.live_interval.lower
-    for name, some in (("elastic", ~yielded), ("yielded", yielded)):
-        leaning = [part[some].ravel() for part in paths]
+    for name, subset in (("elastic", ~yielded), ("yielded", yielded)):
+        leaning = [part[subset].ravel() for part in paths]
         found[name] = tuple(np.append(part, more) for part, more in zip(rows[name], leaning, strict=True))
     for name in ("sticks", "slips"):
         foot = rows[name][0].reshape(-1, 9)[:, 0]
@@ -97,7 +97,7 @@ def _held_pressure(view: View) -> dict:
         p = np.minimum(beside("p", course.state.pressure(r)), 1e3 * view.end("p"))
         return both(beside("r", r), -1), both(p)
 
-    return view.of_held("", columns)
+    return view.held_curves("", columns)
 
 
 PRESSURE = Plot(
@@ -107,36 +107,39 @@ PRESSURE = Plot(
 
 
 def _loading(course: Course):
-    """Depths and contact radii of loading: dense where the depth begins, as its root is."""
+    """Depths and contact radii of loading, dense at the start, where a(d) is vertical."""
     depth, a = course.states.depth[: course.peak + 1], course.states.contact_radius[: course.peak + 1]
     if course.hit is None:
         return depth, a
-    fine = course.before + (depth[-1] - course.before) * np.linspace(0, 1, 81) ** 2
+    fine = (
+        course.initial_plastic_depth
+        + (depth[-1] - course.initial_plastic_depth) * np.linspace(0, 1, 81) ** 2
+    )
     return np.append(fine[:1], fine), np.append(a[:1], course.scene.profile.contact_radius(fine))
 
 
 def zone(course: Course):
-    """Loading, unloading and plastic zone: the contact radius falls by a step where the load is gone."""
+    """Loading, unloading and plastic radius over depth; a falls by a step when contact is lost."""
     depth, a, c = course.states.depth, course.states.contact_radius, course.states.plastic_radius
     deeper = depth >= np.maximum.accumulate(depth)
     if course.turns:
         rows = split(depth, a, depth, course.states.live_interval.lower)
         loading = np.concatenate([rows["elastic"], [[np.nan]] * 2, rows["yielding"]], axis=1)
         return tuple(loading), rows["unloading"], (depth[deeper], c[deeper])
-    peak, gone = course.peak, int(np.flatnonzero(course.states.live_interval.length > 0)[-1]) + 1
-    last = c[-1:] if course.states.live_interval.lower[-1] > 0 else a[gone : gone + 1]
-    back = np.append(depth[peak : gone + 1], depth[gone:])
+    peak, released = course.peak, int(np.flatnonzero(course.states.live_interval.length > 0)[-1]) + 1
+    last = c[-1:] if course.states.live_interval.lower[-1] > 0 else a[released : released + 1]
+    back = np.append(depth[peak : released + 1], depth[released:])
     past = slice(peak + 1)
-    falling = np.concatenate([a[peak:gone], last, 0 * depth[gone:]])
+    falling = np.concatenate([a[peak:released], last, 0 * depth[released:]])
     return _loading(course), (back, falling), (depth[past], c[past])
 
 
 def radii_still(view: View) -> dict:
     loading, back, (d, c) = zone(view.course)
     # From the last state on that has not yielded.
-    begun = np.flatnonzero(c > c[0])
-    some = slice(max(int(begun[0]) - 1, 0), None) if begun.size else slice(0, 0)
-    d, c = d[some], c[some]
+    yielded_states = np.flatnonzero(c > c[0])
+    subset = slice(max(int(yielded_states[0]) - 1, 0), None) if yielded_states.size else slice(0, 0)
+    d, c = d[subset], c[subset]
     rows = {"contact radius a": loading, "unloading": back, "plastic zone c": (d, c)}
     rows["zone"] = np.append(d, [*d[-1:], *d[:1]]), np.append(c, [0, 0][: 2 * len(d)])
 
@@ -149,7 +152,7 @@ def radii_still(view: View) -> dict:
         d, c = zone(course)[2]
         return beside("d", d), beside("a", c)
 
-    return rows | view.of_held(" a", held_a) | view.of_held(" c", held_c)
+    return rows | view.held_curves(" a", held_a) | view.held_curves(" c", held_c)
 
 
 def radii_marks(view: View, i: int) -> dict:
@@ -175,7 +178,7 @@ RADII = Plot(
 
 
 def relief(view: View, i: int) -> dict:
-    """Cuts through the pressure over the plane, from the back to the front, each hiding what is behind."""
+    """Cuts through the pressure over the plane, from back to front."""
     state, half, end = view.course.states[i], view.end("across"), view.end("oblique")
     r, p = view.pressure(i)
     a, c = float(state.contact_radius), float(state.plastic_radius)

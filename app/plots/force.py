@@ -1,4 +1,4 @@
-"""Force over depth, linear and logarithmic, with reference curves and measured ones; and the residual."""
+"""Force over depth, linear and logarithmic, with reference and measured curves; and the residual."""
 
 import numpy as np
 
@@ -15,42 +15,42 @@ REFERENCES = (
     line(_CLASSES["a"], "ink", 1.4, "dotted", "F"),
     line(_CLASSES["c"], "ink", 1.4, "dotdash", "F"),
 )
-#: Depths, over the largest: close where a logarithmic axis begins, too.
+#: Depths over the largest one, dense at the start of logarithmic axes.
 _SHARE = np.unique(np.append(np.linspace(0, 1, 80), np.geomspace(1e-5, 1, 60)))
 #: Most samples of a measured curve that are drawn.
 _DRAWN = 150
 
 
 def references(view: View) -> dict:
-    """Curves to compare with that are chosen, as deep as the axis reaches and the shape is known.
+    """Chosen reference curves.
 
-    Popov (2015), section 1: under a fully yielded contact the force goes as aⁱ, i = 2 where the hardness
-    is constant (a), 1 where it is as 1/a (b), this model, and 0 where it is as 1/a² (c), with the contact
-    radius a = g⁻¹(d) of (16). All of them have the hardness F/(πa²) of the deepest state of the scene.
+    Popov (2015), section 1: under a fully yielded contact F ∝ aⁱ with i = 2 for constant hardness (a), 1
+    for hardness ∝ 1/a (b), this model, and 0 for ∝ 1/a² (c). All have the hardness F/(πa²) at the largest
+    depth.
     """
     chosen, course, rows = view.references, view.course, {}
     if chosen == "none":
         return {}
-    profile, deepest = course.scene.profile, course.deepest
+    profile, turning_point = course.scene.profile, course.turning_point
     depth = _SHARE * min(view.end("d"), profile.known_depth)
     if chosen in ("elastic", "all"):
         rows[_ELASTIC] = depth, mdr.indent(profile, mdr.Medium(course.scene.medium.E_star), depth).force
-    if chosen in ("classes", "all") and deepest.live_interval.lower > 0:
-        share = profile.contact_radius(depth) / deepest.contact_radius
+    if chosen in ("classes", "all") and turning_point.live_interval.lower > 0:
+        share = profile.contact_radius(depth) / turning_point.contact_radius
         for name, row in _CLASSES.items():
-            rows[row] = depth, deepest.force * share ** mdr.ScalingLaw(name, 1.0).force
+            rows[row] = depth, turning_point.force * share ** mdr.ScalingLaw(name, 1.0).force
     return rows
 
 
 def _note(view: View) -> str:
-    """What the curves to compare with are, and why some of them are not there."""
+    """Explanation of the reference curves."""
     if view.references == "none":
         return ""
     if view.references == "elastic":
         return (
             "The same tip on the same medium if it never yielded: F = 2E* ∫ a dd, of a paraboloid Hertz's."
         )
-    if view.course.deepest.live_interval.lower == 0:
+    if view.course.turning_point.live_interval.lower == 0:
         return "Nothing has yielded: this scene has no hardness that the classes could share."
     return (
         "Fully yielded, hardness constant (a) or ∝ 1/a² (c), as hard as this scene (b) where it is deepest."
@@ -58,13 +58,12 @@ def _note(view: View) -> str:
 
 
 def _curve(course: Course, until=None) -> dict:
-    """The curve of force and depth in parts, all of it or until some state."""
+    """Parts of the force–depth curve, optionally up to a state."""
     depth, past = course.states.depth, slice(until)
     return split(depth[past], course.force[past], depth[past], course.states.live_interval.lower[past])
 
 
 def sampled(x, y):
-    """Measured samples, of not too many."""
     step = -(-len(x) // _DRAWN)
     return x[::step], y[::step]
 
@@ -76,16 +75,13 @@ def force_still(view: View) -> dict:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     if view.curve is not None:
         rows["measured"] = sampled(view.curve.depth, view.curve.force)
-    return rows | view.held_on("d", "F") | references(view)
+    return rows | view.held_on_axes("d", "F") | references(view)
 
 
 def force(view: View, i: int) -> dict:
-    """The present state, what has been passed, and areas: what is lost so far, and what is stored."""
-    course, right, lower = (
-        view.course,
-        0.02 * view.end("d"),
-        float(view.course.states.plastic_depth[i]),
-    )
+    """The present state, the path so far, and the areas of dissipated and stored energy."""
+    course, right = view.course, 0.02 * view.end("d")
+    lower = float(course.states.plastic_depth[i])
     rows = {"now": view.mark(i, "d", "F"), "dₚ": (np.nan, np.nan, "")}
     if lower > 0:
         rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end("F"), "dₚ"
@@ -94,8 +90,8 @@ def force(view: View, i: int) -> dict:
         # No live interval tells what is stored in elements that have each a memory of their own.
         return rows
     d, F = (np.asarray(part[: i + 1]) for part in (course.states.depth, course.force))
-    back_d, back_F = course.released(i)
-    elastic = lower == course.before and not course.dashpots
+    back_d, back_F = course.unloading_curve(i)
+    elastic = lower == course.initial_plastic_depth and not course.dashpots
     # The path so far, and back along what is stored: dissipated is the loop that it encloses.
     lost = np.concatenate([d[:1], d, back_d]), np.concatenate([[0.0], F, back_F])
     return rows | {
@@ -109,17 +105,21 @@ def _formula(course: Course) -> str:
     return f"(20) (22)  F = 2E* ∫ a(s) ds{dashpots},  d_p < s < d"
 
 
+_CURVES = (
+    *held_rows("F"),
+    *REFERENCES,
+    line("path ahead", "free", 1.0),
+    *parts("F"),
+    mark("measured", "measured", "measured", size=4),
+    mark("onset of yield", "paper", "yielded", "diamond", 11),
+)
+
 FORCE = Plot(
     "force", "Force and depth", _formula, ("d", "F"),
     (
         area("dissipated", "yielded", 0.13, "/"),
         area("stored", "elastic", 0.25),
-        *held_rows("F"),
-        *REFERENCES,
-        line("path ahead", "free", 1.0),
-        *parts("F"),
-        mark("measured", "measured", "measured", size=4),
-        mark("onset of yield", "paper", "yielded", "diamond", 11),
+        *_CURVES,
         mark("now", size=13),
         label("dₚ"),
     ),
@@ -128,23 +128,14 @@ FORCE = Plot(
 
 
 def _inside(view: View, d, F, *_):
-    """A curve as far as logarithmic axes reach towards zero."""
-    seen = np.minimum(d / view.axis("log d").start, F / view.axis("log F").start) >= 1
-    return np.where(seen, d, np.nan), np.where(seen, F, np.nan)
+    """The part of a curve inside logarithmic axes."""
+    inside = np.minimum(d / view.axis("log d").start, F / view.axis("log F").start) >= 1
+    return np.where(inside, d, np.nan), np.where(inside, F, np.nan)
 
 
 LOGLOG = Plot(
     "loglog", "Force and depth, logarithmic", "z ∝ rⁿ:  F ∝ d^(1 + 1/n), then d^(1/n)  § 6",
-    ("log d", "log F"),
-    (
-        *held_rows("F"),
-        *REFERENCES,
-        line("path ahead", "free", 1.0),
-        *parts("F"),
-        mark("measured", "measured", "measured", size=4),
-        mark("onset of yield", "paper", "yielded", "diamond", 11),
-        mark("now"),
-    ),
+    ("log d", "log F"), (*_CURVES, mark("now")),
     lambda view: {name: _inside(view, *row) for name, row in force_still(view).items()},
     lambda view, i: {"now": _inside(view, *view.mark(i, "d", "F"))},
     tab=("Log–log", "l"), log=True,
@@ -152,7 +143,7 @@ LOGLOG = Plot(
 
 
 def residual(view: View) -> dict:
-    """Rows of the residual, and of the noise of force and depth around it."""
+    """Residual and its standard deviation."""
     curve, ends = view.curve, np.array([0.0, view.end("d")])
     missing = "no model at these depths" * bool(np.isnan(view.residual).all())
     rows = {

@@ -1,4 +1,4 @@
-"""What has times: depth and force, energies, and of an oblique impact what is along the surface."""
+"""Depth, force and energies over time, and friction of an oblique impact."""
 
 from functools import cache
 from itertools import pairwise
@@ -12,18 +12,22 @@ from ..drives import Course
 from ..solve import Found
 from .plot import Plot, View, held_rows, maw_chi, maw_numbers
 
-#: Impacts on Maw's curve where stick and slip meet, and error allowed there: less than is seen.
+#: Points of Maw's curve in partial slip, and their tolerance.
 _PLACES, _TOLERANCE = 14, 1e-3
 
 
 def motion_still(view: View) -> dict:
-    on = view.course.on
-    return {"depth d": (on["t"], on["d"]), "force F": (on["t"], on["F"])} | view.held_on("t", "F")
+    on = view.course.on_axes
+    return {"depth d": (on["t"], on["d"]), "force F": (on["t"], on["F"])} | view.held_on_axes("t", "F")
 
 
-def motion(view: View, i: int) -> dict:
-    marks = {"now": view.mark(i, "t", "d"), "F now": view.mark(i, "t", "F")}
-    return marks | {"time": view.time(i, "d")}
+def _marks(y: str):
+    """Marks of the present state on the axis `y` and of its force."""
+    return lambda view, i: {
+        "now": view.mark(i, "t", y),
+        "F now": view.mark(i, "t", "F"),
+        "time": view.time(i, y),
+    }
 
 
 MOTION = Plot(
@@ -37,7 +41,7 @@ MOTION = Plot(
         mark("now"),
         mark("F now", marker="diamond", size=11, axis=2, legend=False),
     ),
-    motion_still, motion, tab=("In time", "v"),
+    motion_still, _marks("d"), tab=("In time", "v"),
 )  # fmt: skip
 
 
@@ -49,8 +53,8 @@ def energy_still(view: View) -> dict:
     time = np.append(m.time, m.time[::-1])
     between = [(time, np.append(upper, lower[::-1])) for lower, upper in pairwise(sums)]
     # What is nothing but rounding is not in the legend.
-    some = [part.max() > 1e-9 * sums.max() for part in parts]
-    rows = [row if there else NOTHING for row, there in zip(between, some, strict=True)]
+    relevant = [part.max() > 1e-9 * sums.max() for part in parts]
+    rows = [row if is_relevant else NOTHING for row, is_relevant in zip(between, relevant, strict=True)]
     return dict(zip(("friction", "plastic", "viscous", "stored", "kinetic"), rows, strict=True))
 
 
@@ -77,15 +81,10 @@ ENERGY = Plot(
 
 
 def forces_still(view: View) -> dict:
-    on, most = view.course.on, view.course.scene.drive.friction * view.course.force
+    on, most = view.course.on_axes, view.course.scene.drive.friction * view.course.force
     both = np.append(on["t"], [np.nan, *on["t"]]), np.append(most, [np.nan, *-most])
     rows = {"normal force F": (on["t"], on["F"]), "force along Fₓ": (on["t"], on["force"])}
-    return rows | {"most friction ±μF": both} | view.held_on("t", "force")
-
-
-def forces(view: View, i: int) -> dict:
-    marks = {"now": view.mark(i, "t", "force"), "F now": view.mark(i, "t", "F")}
-    return marks | {"time": view.time(i, "force")}
+    return rows | {"most friction ±μF": both} | view.held_on_axes("t", "force")
 
 
 FORCES = Plot(
@@ -99,7 +98,7 @@ FORCES = Plot(
         mark("now"),
         mark("F now", marker="diamond", legend=False),
     ),
-    forces_still, forces, tab=("Friction", "c"),
+    forces_still, _marks("force"), tab=("Friction", "c"),
 )  # fmt: skip
 
 
@@ -109,7 +108,7 @@ def maw_still(view: View) -> dict:
 
 
 def maw(course: Course, asked):
-    """The elastic curve of the same body, as far as it has been found: Maw's own under a paraboloid."""
+    """The elastic curve ψ₂(ψ₁) of the same body, point by point; Maw's own under a paraboloid."""
     drive, medium = course.scene.drive, course.scene.medium
     elastic = mdr.Medium(medium.E_star, poisson=medium.poisson)
     body, found = (drive.mass, drive.speed, drive.tangential_mass), [(0.0, 0.0)]
@@ -122,7 +121,7 @@ def maw(course: Course, asked):
 
 @cache
 def _after(profile, medium, mass, speed, tangential_mass, psi):
-    """ψ₂ of an elastic impact with some ψ₁."""
+    """ψ₂ of an elastic impact."""
     unit = speed / float(medium.tangential_ratio)
     hit = mdr.oblique_impact(
         profile, medium, mass, speed, psi * unit, 1.0, tangential_mass=tangential_mass, tolerance=_TOLERANCE

@@ -1,4 +1,4 @@
-"""What a plot is, and a view: one course with the axes that hold it, from which rows are drawn, in SI."""
+"""Definition of a plot, and a view: a course with axes, from which rows are drawn, in SI."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -50,14 +50,13 @@ AXES: dict[str, tuple[str, str, str, float]] = {
 
 @dataclass(frozen=True, eq=False)
 class Plot:
-    """A plot: title, formula (of a course), keys of its axes (x, y, one on the right or of colours), rows.
+    """A plot: title, formula, keys of its axes (x, y, and one on the right or of colours), and rows.
 
-    `still` gives rows that stay while a scene is played, `moving` those of one of its states: x and y of
-    each (SI), of a label its text, of an image its values. With a `tab` (its text, and a key) it is
-    shown on request, where all its axes are. `find` takes longer than a move: it gets the course and what
-    `asks` gives of the state, or the values of the `controls` above the plot, and yields what it has found
-    so far, anew for each scene, `of_state` for each state; what is `quick` is found at every move. An
-    `image` has so many rows and columns of pixels. `note` stands below.
+    `still` returns rows that stay during playback, `moving` those of one state: x and y (SI), the text of a
+    label or the values of an image. A plot with a `tab` (text, key) is optional. `find` is a slow search:
+    it gets the course and the result of `asks` (default: the `controls`), and yields results, for each
+    scene or state (`of_state`); `quick` ones run at every move. `image`: rows and columns of pixels.
+    `note`: text below.
     """
 
     name: str
@@ -83,31 +82,26 @@ class Plot:
             raise ValueError(f"plot {self.name}: no axis {', '.join(unknown)}")
 
     def asked(self, state: Any) -> Any:
-        """What is looked for in a state, beside its course."""
+        """Arguments of `find` beside the course."""
         return self.asks(state) if self.asks else tuple(state[name] for name in self.controls)
 
     def says(self, course: Course) -> str:
-        """The formula that holds for a course."""
         return self.formula if isinstance(self.formula, str) else self.formula(course)
 
     def there(self, view: "View") -> bool:
-        """Whether a view has all its axes."""
+        """Whether a view has all axes."""
         return all(AXES[name][2] in view.size for name in self.axes)
 
 
 def held_rows(
     symbol: str, axis: int = 1, what: str = "", width: float = 1.6, legend: bool = True
 ) -> list[Row]:
-    """A row for each scene that may be held."""
     rows = enumerate(DASHES, 1)
     return [line(f"held {k}{what}", "held", width, dash, symbol, axis, legend) for k, dash in rows]
 
 
 def axis(name: str, title: str, kind: str, largest: float, below: float = 0.0, scale: Any = None) -> Axis:
-    """An axis that ends at the next round number above `largest` (SI), in a unit that fits.
-
-    With a `scale` (a size and what it is) it is dimensionless.
-    """
+    """Axis up to the next round number above `largest` (SI), in a fitting unit or relative to `scale`."""
     unit = fitting(largest, kind)
     if round_up(largest / unit.factor) >= 1000:
         unit = fitting(round_up(largest / unit.factor) * unit.factor, kind)
@@ -117,15 +111,12 @@ def axis(name: str, title: str, kind: str, largest: float, below: float = 0.0, s
 
 
 def over(axis: Axis, scale: tuple[float, str] | None) -> Axis:
-    """An axis with a size (SI) of the scene, and what that is, for its unit, if there is such a size."""
+    """Axis in units of a size of the scene (SI, with its name), if given."""
     return replace(axis, unit=f"× {scale[1]}", factor=scale[0]) if scale else axis
 
 
 class View:
-    """A course and its axes, with those held beside it, what plots have found, and choices of the view.
-
-    `curve` is what was measured, if anything was.
-    """
+    """A course and its axes, with held scenes, search results and the measured curve."""
 
     def __init__(self, course: Course, state: Any, held=(), found=None, curve=None):
         self.course, self.held, self.found, self.curve = course, held, found or {}, curve
@@ -138,7 +129,7 @@ class View:
 
     @cached_property
     def size(self) -> dict[str, float]:
-        """Largest values (SI) that the axes are to hold, with all that is held."""
+        """Largest values (SI) on the axes, including held scenes."""
         size = _sizes(self.course)
         for k, held in enumerate(self.held):
             theirs = _sizes(held)
@@ -152,12 +143,11 @@ class View:
         return size
 
     def axis(self, name: str) -> Axis:
-        """An axis of the view, made when it is asked for."""
         if name not in self._axes:
             title, kind, size, below = AXES[name]
             key = name.removeprefix("log ")
             made = axis(key, title, kind, self.size[size], below, self._scales.get(key))
-            if name == "force" and np.min(self.course.on["force"]) < 0:
+            if name == "force" and np.min(self.course.on_axes["force"]) < 0:
                 made = replace(made, start=-made.end)
             elif name == "force":
                 made = replace(made, start=-min(self.course.scene.drive.friction, 1.0) * made.end)
@@ -171,60 +161,56 @@ class View:
         return self._axes[name]
 
     def end(self, name: str) -> float:
-        """Where an axis ends (SI)."""
         return self.axis(name).end
 
     def axes_of(self, plot: Plot) -> list[Axis]:
-        """The axes of a plot: those of the view, or what was found with its rows."""
+        """Axes of a plot: those of the view, or those found with its rows."""
         found = self.found.get(plot.name)
         if found and found.axes:
             return [over(each, self._scales.get(each.name)) for each in found.axes]
         return plot.fitted(self) if plot.fitted else [self.axis(key) for key in plot.axes]
 
     def _beside(self, k: int, name: str, values: Any) -> Any:
-        """Values of one that is held on an axis of this scene, a dimensionless one in units of its own."""
+        """Values of held scene k on an axis of this scene; dimensionless ones in their own units."""
         both = self._scales, self._theirs[k]
         (ours, same), (theirs, symbol) = (scale.get(name, (1.0, "")) for scale in both)
         return values * (ours / theirs) if symbol == same else values
 
-    def of_held(self, what: str, columns: Callable[..., Any]) -> dict:
-        """Rows of all that is held, `what` after their names: `columns` gets a course and its scaling."""
+    def held_curves(self, what: str, columns: Callable[..., Any]) -> dict:
+        """Rows of all held scenes; `columns` gets a course and its scaling."""
         return {
             f"held {k + 1}{what}": columns(held, partial(self._beside, k))
             for k, held in enumerate(self.held)
         }
 
-    def held_on(self, x: str, y: str) -> dict:
-        """Curves of all that is held on two axes, where it has what is on them."""
+    def held_on_axes(self, x: str, y: str) -> dict:
+        """Curves of all held scenes on two axes."""
 
         def columns(course, beside):
-            known = course.on.keys() >= {x, y}
-            return (beside(x, course.on[x]), beside(y, course.on[y])) if known else NOTHING
+            known = course.on_axes.keys() >= {x, y}
+            return (beside(x, course.on_axes[x]), beside(y, course.on_axes[y])) if known else NOTHING
 
-        return self.of_held("", columns)
+        return self.held_curves("", columns)
 
     def mark(self, i: int, x: str, y: str) -> tuple[Any, Any]:
-        """Where state i is on two axes."""
-        return self.course.on[x][[i]], self.course.on[y][[i]]
+        return self.course.on_axes[x][[i]], self.course.on_axes[y][[i]]
 
     def time(self, i: int, y: str) -> tuple[Any, Any]:
-        """A line at the time of state i, along an axis."""
-        return self.course.on["t"][[i, i]], np.array([self.axis(y).start, self.axis(y).end])
+        """Vertical line at the time of state i."""
+        return self.course.on_axes["t"][[i, i]], np.array([self.axis(y).start, self.axis(y).end])
 
     @cached_property
     def residual(self) -> np.ndarray:
-        """Measured less modelled force (N)."""
         return self.curve.residual(self.course.scene)
 
     def still(self, plot: Plot) -> dict:
-        """Rows of a plot that stay while the scene is played."""
         if plot.name not in self._drawn:
             found = self.found.get(plot.name)
             self._drawn[plot.name] = plot.still(self) | (found.rows if found else {})
         return self._drawn[plot.name]
 
     def rows(self, plot: Plot, i: int) -> dict:
-        """All rows of a plot in state i, empty where there is none; those of the present one are kept."""
+        """All rows of a plot in state i; the present ones are cached."""
         if (plot.name, i) in self._drawn:
             return self._drawn[plot.name, i]
         empty = {row.name: (*NOTHING, "") for row in plot.rows}
@@ -236,7 +222,7 @@ class View:
         return rows
 
     def pressure(self, i: int) -> tuple[Any, Any]:
-        """Radii and pressures (SI) of state i."""
+        """Radii (m) and pressures (Pa) of state i."""
         if ("r, p", i) not in self._drawn:
             state = self.course.states[i]
             r = radii(state, self.end("x"))
@@ -244,7 +230,7 @@ class View:
         return self._drawn["r, p", i]
 
     def exceeds(self, i: int) -> str:
-        """What is said of a pressure that the axis does not reach; nothing if it does."""
+        """Note on a pressure beyond its axis."""
         r, p = self.pressure(i)
         infinite, k = np.isinf(p), int(np.argmax(np.where(np.isinf(p), -1.0, p)))
         if infinite.any():
@@ -257,27 +243,24 @@ class View:
 
 
 def _sizes(course: Course) -> dict[str, float]:
-    """Largest values (SI) that the axes are to hold, by their names."""
-    states, begun = course.states, course.onset
+    """Largest values (SI) on the axes."""
+    states, first_yield = course.states, course.onset
     radius, depth = float(np.max(states.contact_radius)), float(np.max(states.depth))
-    size = {
-        "r": 1.25 * radius,
-        "a": 1.14 * radius,
-        "z": depth,
-        "d": 1.02 * depth,
-        "far": 1.75 * 1.25 * radius,
-    }
-    size["relief"] = 1.35 * 1.05 * ceiling(course.deepest, 1.25 * radius)
-    size |= {"F": 1.05 * float(np.max(course.force)), "p": 1.05 * ceiling(course.deepest, 1.25 * radius)}
-    # An onset that lies little deeper than the path is kept in the picture.
-    if begun is not None and depth < begun.depth <= 2.5 * depth:
-        size["d"] = 1.02 * max(depth, 1.02 * float(begun.depth))
-        size["F"] = max(size["F"], 1.05 * float(begun.force))
+    size = {"r": 1.25 * radius, "a": 1.14 * radius, "far": 2.1875 * radius, "z": depth, "d": 1.02 * depth}
+    size["p"], size["F"] = (
+        1.05 * ceiling(course.turning_point, 1.25 * radius),
+        1.05 * float(np.max(course.force)),
+    )
+    size["relief"] = 1.35 * size["p"]
+    # An onset slightly below the path stays visible.
+    if first_yield is not None and depth < first_yield.depth <= 2.5 * depth:
+        size["d"] = 1.02 * max(depth, 1.02 * float(first_yield.depth))
+        size["F"] = max(size["F"], 1.05 * float(first_yield.force))
     if course.motion is not None:
         size |= {"t": float(course.motion.time[-1]), "E": float(np.max(course.energy))}
     if course.oblique is not None:
         _, after, reach = maw_numbers(course)
-        size["force"] = max(size["F"], float(np.max(np.abs(course.on["force"]))))
+        size["force"] = max(size["F"], float(np.max(np.abs(course.on_axes["force"]))))
         size |= {"ψ₁": reach, "ψ₂": max(reach - 4 * maw_chi(course), abs(after), 1.2)}
     return size
 
@@ -289,7 +272,7 @@ def maw_chi(course: Course) -> float:
 
 
 def maw_numbers(course: Course) -> tuple[float, float, float]:
-    """ψ₁ and ψ₂ of an oblique impact, speeds over μv₀/κ, and how far Maw's curve goes."""
+    """ψ₁ and ψ₂ of an oblique impact, speeds over μv₀/κ, and the range of Maw's curve."""
     drive, hit = course.scene.drive, course.oblique.impact
     unit = drive.friction * drive.speed / float(course.scene.medium.tangential_ratio)
     velocity = course.oblique.tangential_velocity[-1] if hit is None else hit.tangential_velocity
@@ -299,29 +282,28 @@ def maw_numbers(course: Course) -> tuple[float, float, float]:
 
 
 def _least(course: Course) -> dict[str, float]:
-    """Depth and force (SI) where logarithmic axes begin: well before the onset of yield."""
+    """Smallest depth and force (SI) on logarithmic axes."""
     profile, medium = course.scene.profile, course.scene.medium
     depth = min(float(np.max(course.states.depth)), medium.critical_depth) / 50
     return {"d": depth, "F": float(mdr.indent(profile, mdr.Medium(medium.E_star), depth).force)}
 
 
 def _scales(course: Course) -> dict[str, tuple[float, str]]:
-    """Sizes (SI) of a scene with what they are, by the names of the axes that they are the units of.
+    """Sizes (SI) with their names, by axis, for dimensionless axes.
 
-    Depth, force and radius where yield starts, on the surface as it was at first; where that is never, or
-    the shape is not known so deep, those of the deepest state. Radii in fields, and pressures, have the
-    contact radius and the mean pressure of the deepest state.
+    Depth, force and radius are those at first yield of a virgin surface, else those at the largest depth.
     """
-    begun, deepest = onset(course.scene), course.deepest
-    at, words = (deepest, "largest {}") if begun is None else (begun, "{} at onset")
+    first_yield, turning_point = onset(course.scene), course.turning_point
+    at, words = (turning_point, "largest {}") if first_yield is None else (first_yield, "{} at onset")
     depth, force, radius = (
         (float(getattr(at, name)), words.format(symbol))
         for name, symbol in (("depth", "d"), ("force", "F"), ("contact_radius", "a"))
     )
     found = {"d": depth, "z": depth, "far z": depth, "F": force, "a": radius}
-    along = float(deepest.contact_radius), "largest a"
+    along = float(turning_point.contact_radius), "largest a"
     found |= dict.fromkeys(("x", "r", "far r", "across", "far", "depth"), along)
-    found |= dict.fromkeys(("p", "oblique", "stress"), (float(deepest.mean_pressure), "mean pressure"))
+    pressure = float(turning_point.mean_pressure), "mean pressure"
+    found |= dict.fromkeys(("p", "oblique", "stress"), pressure)
     if course.motion is not None:
         found["t"] = float(np.ptp(course.motion.time)), "duration"
         # That of a body, or what is put in along a path, which begins without any.

@@ -1,4 +1,4 @@
-"""One number of the scene over a range against a quantity of results, beside the limit of fast impacts."""
+"""Results over a range of one number, with the limit of fast impacts."""
 
 from dataclasses import dataclass, replace
 from operator import attrgetter
@@ -34,7 +34,7 @@ _SHAPES = {"cone": 1.0, "paraboloid": 2.0}
 
 @dataclass(frozen=True)
 class Sweep:
-    """What is asked for: all that is set, the number that is swept between two ends, and against what."""
+    """A sweep: fixed values, the swept number with its range, and the result."""
 
     values: dict
     swept: str
@@ -54,7 +54,7 @@ class Sweep:
 
     @property
     def together(self):
-        """Whether the core solves it all at once: forces are those on one indenter on one medium."""
+        """Whether one call of the core solves all values."""
         return self.drive.solver[:1] != ("indent_to_force",) or self.swept == "max_force"
 
     @property
@@ -63,12 +63,11 @@ class Sweep:
 
     @property
     def numbers(self):
-        """Values (SI) of the number that is swept."""
         space = np.geomspace if self.logarithmic else np.linspace
         return space(self.low, self.high, VISCOUS if self.viscous else POINTS)
 
     def parts(self, numbers):
-        """Profile, medium and arguments of the solver, by name, for some values of the number."""
+        """Profile, medium and arguments of the solver."""
         values = self.values | {self.swept: numbers}
         if self.swept == "energy":
             values["speed"] = (2 * numbers / values["mass"]) ** 0.5
@@ -79,12 +78,11 @@ class Sweep:
         return profile(state), medium(state), given
 
     def solve(self, numbers):
-        """The result of the core for a column of values of the number."""
         profile, medium, given = self.parts(numbers)
         return getattr(mdr, self.drive.solver[0])(profile, medium, **given)
 
     def columns(self, numbers, quantities):
-        """Some quantities of the results, a row each; NaN where the core refuses."""
+        """Rows of quantities; NaN where the core refuses."""
         try:
             # One at a time also what is not solved together.
             result = self.solve(numbers[:, None] if len(numbers) > 1 else float(numbers[0]))
@@ -97,7 +95,7 @@ class Sweep:
             return np.hstack([self.columns(half, quantities) for half in halves])
 
     def limits(self, numbers):
-        """Rows of the fast limit and of the classes, where there are such; their powers of the energy."""
+        """Curves of the fast limit and of the classes of hardness, and their powers of the energy."""
         values, (limit, power) = self.values, _LIMITS.get(self.against, ("", None))
         dry = "speed" in self.drive.solver and not self.viscous and values["surface"] == "virgin"
         if not (limit and dry and values["plasticity"] != "none"):
@@ -108,57 +106,56 @@ class Sweep:
             return rows, {}
         powers = {name: power(mdr.ScalingLaw(name, exponent)) for name in "abc"}
         # All through the limit at the present energy.
-        here = self.columns(np.array([self.present]), [limit])[0]
+        present = self.columns(np.array([self.present]), [limit])[0]
         energy = (numbers / self.present) ** (2 if self.swept == "speed" else 1)
-        return rows | {CLASSES[name]: here * energy ** powers[name] for name in CLASSES}, powers
+        return rows | {CLASSES[name]: present * energy ** powers[name] for name in CLASSES}, powers
 
 
 def asked(state: State) -> Sweep:
-    """The sweep that is set."""
     swept = option(state, "swept")
-    low, high = sorted(number(state.but(swept=swept), end) for end in ("sweep_low", "sweep_high"))
+    low, high = sorted(number(state.replace(swept=swept), end) for end in ("sweep_low", "sweep_high"))
     chosen = option(state, "against"), option(state, "sweep_axes")
     return Sweep(state.scene_values, swept, number(state, swept), low, high, *chosen)
 
 
 def quick(sweep: Sweep) -> bool:
-    """Whether it takes no longer than a move has time for: shapes whose depths are closed forms."""
+    """Whether the sweep is fast enough for every move: shapes with closed forms."""
     return sweep.together and not sweep.viscous and sweep.values["shape"] in (*_SHAPES, "power_law")
 
 
 def found(course, sweep: Sweep):
-    """The curve with the present value, its limits, and what they tell."""
+    """Curve of the sweep with the present value and limits."""
     if not sweep.drive.solver or sweep.low == sweep.high:
         what = (
             "the range is empty" if sweep.drive.solver else "press to a depth or a force, or let a body hit"
         )
         yield Found({}, [], f"Nothing is swept: {what}.")
         return
-    numbers, here = sweep.numbers, getattr(course.hit or course.deepest, sweep.against)
+    numbers, present = sweep.numbers, getattr(course.hit or course.turning_point, sweep.against)
     (values,) = sweep.columns(numbers, [sweep.against])
     limits, powers = sweep.limits(numbers)
     inside = sweep.low <= sweep.present <= sweep.high
     rows = {"this scene": (numbers, values)} | {name: (numbers, row) for name, row in limits.items()}
-    x, y = _axes(sweep, values, float(here))
+    x, y = _axes(sweep, values, float(present))
     if y.log:
         rows = {name: (numbers, np.where(row > 0, row, np.nan)) for name, (_, row) in rows.items()}
-    seen = inside and (here > 0 or not y.log)
-    rows["present value"] = (np.array([sweep.present]), np.array([here])) if seen else NOTHING
+    visible = inside and (present > 0 or not y.log)
+    rows["present value"] = (np.array([sweep.present]), np.array([present])) if visible else NOTHING
     yield Found(rows, [x, y], " ".join(_notes(sweep, numbers, values, powers, inside)))
 
 
-def _axes(sweep, values, here):
+def _axes(sweep, values, present):
     quantity, result = SWEPT[sweep.swept], RESULTS[sweep.against]
     x = axis("swept", lowered(f"{quantity.symbol}, {quantity.label}"), quantity.kind, sweep.high)
     x = replace(x, start=sweep.low, end=sweep.high, log=sweep.logarithmic)
-    some = np.append(values, here)
-    some = some[np.isfinite(some)]
+    sizes = np.append(values, present)
+    sizes = sizes[np.isfinite(sizes)]
     title = lowered(f"{result.symbol}, {result.long_name}")
-    y = axis("against", title, KINDS[result.unit], max(some, default=1.0))
-    if sweep.axes != "log" or not (some > 0).any():
+    y = axis("against", title, KINDS[result.unit], max(sizes, default=1.0))
+    if sweep.axes != "log" or not (sizes > 0).any():
         return x, y
-    # Six decades at most, from power to power of ten.
-    least, most = max(min(some[some > 0]), 1e-6 * max(some)), max(some)
+    # At most six decades, between powers of ten.
+    least, most = max(min(sizes[sizes > 0]), 1e-6 * max(sizes)), max(sizes)
     low, high = 10.0 ** np.floor(np.log10(least / y.factor)), 10.0 ** np.ceil(np.log10(most / y.factor))
     return x, replace(y, start=low * y.factor, end=max(high, 10 * low) * y.factor, log=True)
 

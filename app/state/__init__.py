@@ -1,9 +1,9 @@
-"""What one person has set: a frozen mapping of numbers (SI) and choices, and what it makes of them."""
+"""The state of the page: a frozen mapping of numbers (SI) and choices."""
 
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from math import inf
+from math import inf, isclose
 from types import MappingProxyType
 from typing import Any
 
@@ -26,12 +26,7 @@ from .units import written
 
 @dataclass(frozen=True)
 class Preset:
-    """What the page can open on.
-
-    `key` is its name in a link. `choices` and `values` are what the page sets (SI); `sources` says for each
-    number, by its name, what
-    it is, how large, and where it comes from.
-    """
+    """A preset: `key` in links, `choices` and `values` (SI); `sources` by name: what, value, reference."""
 
     label: str
     key: str
@@ -84,7 +79,7 @@ PRESETS = {preset.key: preset for preset in _MADE}
 #: What the page opens on.
 OPENING = next(iter(PRESETS))
 
-#: From first contact (0) over the deepest state (1) to the loss of contact (2) and the tip back at the
+#: Progress at the end: 0 first contact, 1 largest depth, 2 loss of contact, 2.2 indenter at the
 #: height of the undeformed surface.
 LAST_PROGRESS = 2.2
 #: What the view is like rather than the scene: undo leaves it alone.
@@ -102,11 +97,11 @@ _DEFAULTS |= {
 
 
 class State(Mapping[str, Any]):
-    """All that is set on the page; values are read as attributes, `but` makes another one.
+    """Everything set on the page; values are attributes, `replace` returns a copy with other values.
 
-    `path` has the vertices of a path, `samples` radii and heights of a measured tip, `hold` the scenes
-    that are held as links, `tiles` the plots that are asked for; `curve` is a measured curve, `fixed` the
-    names of what a fit leaves as it is, and `fit_note` what a fit has found, in a line.
+    `path` has vertices, `samples` radii and heights of a measured tip, `hold` held scenes as links, `tiles`
+    optional plots; `curve` is a measured curve, `fixed` the fixed parameters of a fit, `fit_note` its
+    summary.
     """
 
     __slots__ = ("_values",)
@@ -130,10 +125,10 @@ class State(Mapping[str, Any]):
         return self._values[name]
 
     def __setattr__(self, name: str, value: Any) -> None:
-        raise AttributeError(f"a state is frozen: use but({name}=…)")
+        raise AttributeError(f"a state is frozen: use replace({name}=…)")
 
-    def but(self, **changes: Any) -> "State":
-        """The same with some values changed."""
+    def replace(self, **changes: Any) -> "State":
+        """Copy with other values."""
         unknown = changes.keys() - _DEFAULTS.keys()
         if unknown:
             raise KeyError(f"a state has no {', '.join(sorted(unknown))}")
@@ -141,19 +136,18 @@ class State(Mapping[str, Any]):
 
     @property
     def scene_values(self) -> dict[str, Any]:
-        """All that undo takes back."""
+        """Values that undo restores."""
         return {name: value for name, value in self._values.items() if name not in VIEW}
 
 
-def opened(key: str = OPENING, **view: Any) -> State:
-    """The state of a preset, with the view as given."""
+def preset_state(key: str = OPENING, **view: Any) -> State:
+    """State of a preset, with a view."""
     preset = PRESETS[key]
     state = State({"preset": key, **preset.choices, **preset.values, **view})
-    return settled(state)
+    return with_derived(state)
 
 
 def profile(state: Any) -> mdr.Profile:
-    """The indenter."""
     if state.shape != "sampled":
         values = {q.name: getattr(state, name) for name, q in shape_quantities(state.shape)}
         return SHAPES[state.shape].build(**values)
@@ -163,7 +157,6 @@ def profile(state: Any) -> mdr.Profile:
 
 
 def medium(state: Any) -> mdr.Medium:
-    """The medium."""
     numbers = [getattr(state, name) for name in USED["elasticity"][state.elasticity]]
     make = mdr.Medium if state.elasticity == "modulus" else mdr.Medium.from_bodies
     made = make(*numbers)
@@ -173,22 +166,22 @@ def medium(state: Any) -> mdr.Medium:
     return replace(made, q_c=q_c, eta=eta)
 
 
-def settled(state: State) -> State:
-    """With E* and q_c as they follow from two bodies or a hardness, if these are given."""
+def with_derived(state: State) -> State:
+    """With E* and q_c derived from two bodies or a hardness."""
     made = medium(state)
     q_c = {} if state.plasticity == "none" else {"q_c": float(made.q_c)}
-    return state.but(E_star=float(made.E_star), **q_c)
+    return state.replace(E_star=float(made.E_star), **q_c)
 
 
 def used(state: State, form: tuple[str, ...]) -> list[str]:
-    """Names of the numbers that the scene is made of; `form` are the choices of its drive."""
+    """Names of the numbers in use; `form` has the choices of the drive."""
     names = [name for name, _ in shape_quantities(state.shape)]
     choices = ["elasticity", "plasticity", "damping", "drive", *(part for part in form if part in USED)]
     return names + [name for choice in choices for name in USED[choice][state[choice]]]
 
 
 def quantity(state: State, name: str) -> Quantity:
-    """What is known of a number; of an end of a range by what is swept."""
+    """Definition of a number; of an end of a range, that of the swept number."""
     if name not in ("sweep_low", "sweep_high"):
         return SWEPT[name]
     swept = SWEPT[state.swept]
@@ -198,29 +191,29 @@ def quantity(state: State, name: str) -> Quantity:
 
 
 def number(state: State, name: str) -> float:
-    """A number; an end of a range that is not set is about a third of the slider's reach away."""
+    """Value of a number; an end of a range defaults to a third of the slider's reach."""
     if name == "energy":
         return state.mass * state.speed**2 / 2
     if name not in ("sweep_low", "sweep_high") or state[name] is not None:
         return state[name]
     swept = SWEPT[state.swept]
-    scale = Scale(swept, began(state, state.swept))
+    scale = Scale(swept, preset_value(state, state.swept))
     value = scale.low if name == "sweep_low" else scale.high
     if scale.logarithmic:
         value = min(3 * value, scale.middle) if name == "sweep_low" else max(value / 3, scale.middle)
     return swept.bounded(float(f"{value:.1g}"))
 
 
-def began(state: State, name: str) -> float:
-    """What a preset has a number at; where it has none, what it is."""
+def preset_value(state: State, name: str) -> float:
+    """Value of a number in the preset, or its present value."""
     if name == "energy":
-        return began(state, "mass") * began(state, "speed") ** 2 / 2
+        return preset_value(state, "mass") * preset_value(state, "speed") ** 2 / 2
     start = PRESETS[state.preset].values.get(name)
     return number(state, name) if start is None else start
 
 
 def checked(state: State, name: str, value: float) -> float:
-    """A value of a number, in SI, if it is within bounds up to rounding; else ValueError."""
+    """Value (SI) of a number if it is within bounds; else ValueError."""
     known = quantity(state, name)
     if abs(known.bounded(value) - value) > 1e-12 * abs(value):
         shown, low, high = (written(v, known.kind) for v in (value, *known.bounds))
@@ -229,11 +222,11 @@ def checked(state: State, name: str, value: float) -> float:
 
 
 def altered(state: State) -> list[str]:
-    """Names of what a preset has set and is not so any more, and of other numbers that are in use."""
+    """Names of choices and numbers that differ from the preset."""
     preset = PRESETS[state.preset]
     loaded = preset.choices | preset.values
-    return [name for name, was in loaded.items() if state[name] != was and not _same(state[name], was)]
-
-
-def _same(now: Any, was: Any) -> bool:
-    return isinstance(now, float) and abs(now - was) <= 1e-9 * abs(was)
+    return [
+        name
+        for name, value in loaded.items()
+        if state[name] != value and not (name in QUANTITIES and isclose(state[name], value, rel_tol=1e-9))
+    ]

@@ -1,4 +1,4 @@
-"""Files that are brought: tables of numbers, measured tips and curves, with what was made of them."""
+"""Uploaded files: tables of numbers, measured tips and curves."""
 
 import re
 import tempfile
@@ -19,11 +19,11 @@ from .units import UNITS, named, written
 
 #: Most samples that are pressed without keeping everybody waiting, most that a tip is fitted to, and most
 #: rows of a file.
-MOST_SAMPLES, _FITTED, MOST_ROWS = 60, 2000, 20_000
-#: Parameters of a fit: those of the medium, and where the curve lies.
+MAX_SAMPLES, _FITTED, MAX_ROWS = 60, 2000, 20_000
+#: Parameters of a fit: medium and position of the curve.
 FITTED = ("E_star", "q_c", "contact_point", "baseline", "frame_compliance")
 #: Most samples of a curve that are taken.
-_MOST = 2000
+_CURVE_SAMPLES = 2000
 #: What the columns are called, as far as headers say it, the kind of their units, and what is guessed.
 _WORDS = {
     "depth": (r"depth|displ|indent|tiefe|weg|\b[hdz]\b", "length", "nm"),
@@ -38,7 +38,7 @@ SIZES = {
 
 
 def decoded(data: bytes) -> str:
-    """The text of a file, in the encodings in which programs for tables write it too."""
+    """Text of a file as UTF-8, UTF-16 or Windows-1252."""
     if not data.strip():
         raise ValueError("the file is empty")
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
@@ -49,11 +49,11 @@ def decoded(data: bytes) -> str:
         return data.decode("cp1252", "replace")
 
 
-# A table as instruments write it: a header, and rows of numbers with whatever stands between them.
+# Tables as instruments write them: a header and rows of numbers.
 
 
 def _cells(line: str) -> list[str]:
-    """Cells of a line; where they are separated by something else, a comma is a decimal one."""
+    """Cells of a line; a comma is decimal if something else separates the cells."""
     line = line.strip().strip('"')
     if ";" in line or "\t" in line:
         return [
@@ -74,26 +74,24 @@ def _number(cell: str) -> float:
 
 
 def table(text: str) -> tuple[list[str], np.ndarray, list[str]]:
-    """Names of the columns of a table, their numbers (rows, columns), and notes on what was left out.
+    """Names of columns, numbers (rows, columns), and notes on what was left out.
 
-    A column that is no number in most rows is left out, and so is a row with a cell that is none. Raises
-    ValueError if there are no rows of numbers.
+    Columns without numbers in most rows and incomplete rows are left out. Raises ValueError without any
+    rows.
     """
-    lines = [(n, line, _cells(line)) for n, line in enumerate(text.splitlines()[: 2 * MOST_ROWS], 1)]
+    lines = [(n, line, _cells(line)) for n, line in enumerate(text.splitlines()[: 2 * MAX_ROWS], 1)]
     lines = [each for each in lines if each[1].strip()]
     is_row = [
         np.isfinite([_number(c) for c in cells]).any() and not line.startswith("#")
         for _, line, cells in lines
     ]
     first = is_row.index(True) if any(is_row) else len(lines)
-    header, rows = (
-        [line for _, line, _ in lines[:first]],
-        [each for each in lines[first:] if each[1][0] != "#"],
-    )
+    header = [line for _, line, _ in lines[:first]]
+    rows = [each for each in lines[first:] if each[1][0] != "#"]
     if not rows:
         raise ValueError("the file has no rows of numbers")
-    if len(rows) > MOST_ROWS:
-        raise ValueError(f"the file has more than {MOST_ROWS} samples; thin them out")
+    if len(rows) > MAX_ROWS:
+        raise ValueError(f"the file has more than {MAX_ROWS} samples; thin them out")
     width = Counter(len(cells) for *_, cells in rows).most_common(1)[0][0]
     heads = _heads(header, width)
     odd = [(n, f"has {len(cells)} cells, not {width}") for n, _, cells in rows if len(cells) != width]
@@ -107,15 +105,12 @@ def table(text: str) -> tuple[list[str], np.ndarray, list[str]]:
     notes += [f"{len(odd) - 3} more lines are left out"] * (len(odd) > 3)
     if len(odd) > 0.5 * len(rows):
         raise ValueError(f"most lines of the file are no rows of numbers: line {min(odd)[0]} {min(odd)[1]}")
-    return (
-        [head for head, keep in zip(heads, kept, strict=True) if keep],
-        np.delete(values, bad, 0)[:, kept],
-        notes,
-    )
+    heads = [head for head, keep in zip(heads, kept, strict=True) if keep]
+    return heads, np.delete(values, bad, 0)[:, kept], notes
 
 
 def _heads(header: list[str], width: int) -> list[str]:
-    """Names of the columns from the last two lines of a header that have as many cells."""
+    """Names of the columns, from the last two header lines of equal width."""
     rows = []
     for line in header:
         line = line.lstrip("# ").replace('"', "")
@@ -136,23 +131,21 @@ def _heads(header: list[str], width: int) -> list[str]:
 
 
 def read_tip(text: str) -> tuple[tuple[Any, Any], str]:
-    """Radii and heights (m) of an uploaded tip, and a note on what was done to them.
+    """Radii and heights (m) of an uploaded tip, and a note; the header names the units.
 
-    A header names the units, as in "r (nm), z (nm)". What is long, noisy or has both sides becomes the
-    convex tip that is nearest to it, see `mdr.Sampled.fit`. Raises ValueError if the text is not two
-    columns of numbers, or no tip.
+    Long, noisy or two-sided data become the nearest convex tip, see `mdr.Sampled.fit`. Raises ValueError.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "tip.csv"
-        # A decimal comma is one where something else stands between the columns.
+        # A comma is decimal if columns have another separator.
         columns = text.replace(",", ".") if ";" in text or "\t" in text else text
         path.write_text(columns, encoding="utf-8")
         try:
-            r, z = read_samples(path, None, MOST_ROWS)
+            r, z = read_samples(path, None, MAX_ROWS)
         except ValueError as error:
             raise ValueError(str(error).replace(str(path), "the file")) from None
     try:
-        if len(r) <= MOST_SAMPLES:
+        if len(r) <= MAX_SAMPLES:
             return (mdr.Sampled(r, z).r, z - z[0]), f"{len(r)} samples as they are"
     except ValueError:
         # Noise makes any tip concave somewhere.
@@ -161,7 +154,7 @@ def read_tip(text: str) -> tuple[tuple[Any, Any], str]:
 
 
 def _fitted(r, z):
-    """A convex tip of few samples from many."""
+    """A convex tip of few samples, fitted to many."""
     rows = len(r)
     if min(r) < 0 < max(r):
         r = r - _axis(r, z)
@@ -169,15 +162,15 @@ def _fitted(r, z):
     parts = np.array_split(order, min(rows, _FITTED))
     tip = mdr.Sampled.fit(*(np.array([np.mean(of[part]) for part in parts]) for of in (np.abs(r), z)))
     # On a convex polygon every other one of its vertices is convex too.
-    some = np.unique(np.linspace(0, len(tip.r) - 1, MOST_SAMPLES).round().astype(int))
-    samples = np.array(tip.r)[some], np.array(tip.z)[some]
+    subset = np.unique(np.linspace(0, len(tip.r) - 1, MAX_SAMPLES).round().astype(int))
+    samples = np.array(tip.r)[subset], np.array(tip.z)[subset]
     apart = z - np.interp(np.abs(r), *samples)
     by = written(float(np.std(apart)), "length", 2)
-    return samples, f"{len(some)} samples, nearest to {rows} rows, which scatter by {by} about them"
+    return samples, f"{len(subset)} samples, nearest to {rows} rows, which scatter by {by} about them"
 
 
 def _axis(r, z):
-    """The radius about which both sides of a profile are most alike, near its lowest sample."""
+    """Radius of the axis of symmetry, near the lowest sample."""
     order = np.argsort(r, kind="stable")
     r, z, reach = r[order], z[order], np.ptp(r)
     lowest = np.clip(r[np.argmin(z)], r[0] + 0.2 * reach, r[-1] - 0.2 * reach)
@@ -191,11 +184,7 @@ def _axis(r, z):
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """A curve from a file: the names of its columns and their numbers, and what is made of them.
-
-    `columns` has the number of the column of depth, of force, and of time or −1, `units` names of
-    `SIZES`. `fit` is the fit to it, and `asked` what that was given beside the curve.
-    """
+    """A curve from a file, with the numbers of its columns (time −1: none), their units, and its fit."""
 
     name: str
     heads: tuple[str, ...]
@@ -208,7 +197,7 @@ class Measured:
 
     @cached_property
     def data(self):
-        """Depth (m) and force (N) in the order of time."""
+        """Depth (m) and force (N) in order of time."""
         time = self.columns["time"]
         order = slice(None) if time < 0 else np.argsort(self.values[:, time], kind="stable")
         return [
@@ -216,7 +205,7 @@ class Measured:
         ]
 
     def corrected(self, role, chosen):
-        """With another column or another unit of "depth", "force" or "time"; a fit is not kept."""
+        """With another column or unit of "depth", "force" or "time", without a fit."""
         columns = dict(self.columns)
         if isinstance(chosen, str):
             return replace(self, units=self.units | {role: chosen}, fit=None, asked=None)
@@ -229,16 +218,13 @@ class Measured:
 
 
 def read_curve(data: bytes, name: str) -> Measured:
-    """A measured curve from the bytes of a file; columns, units and signs are guessed.
-
-    Raises ValueError if there are no two columns of numbers in it.
-    """
+    """Measured curve from a file; columns, units and signs are guessed. Raises ValueError."""
     heads, values, left_out = table(decoded(data))
     if len(values) < 2:
         raise ValueError("the file has one row of numbers: give a curve, a sample a line")
     if values.shape[1] < 2:
         raise ValueError("the file has one column of numbers: give one of depth and one of force")
-    step = -(-len(values) // _MOST)
+    step = -(-len(values) // _CURVE_SAMPLES)
     notes = [f"{len(values)} samples" + f", one in {step} of them taken" * (step > 1), *left_out]
     columns = _columns(heads)
     named = {role: _unit(heads[columns[role]], _WORDS[role][1]) for role in SIZES}
@@ -250,21 +236,21 @@ def read_curve(data: bytes, name: str) -> Measured:
     # The largest force is that of pressing; on the way there the depth grows.
     depth, force = curve.data
     most = int(np.argmax(np.abs(force - force[0])))
-    for role, way in (("depth", depth[most] - depth[0]), ("force", force[most] - force[0])):
-        if way < 0:
+    for role, change in (("depth", depth[most] - depth[0]), ("force", force[most] - force[0])):
+        if change < 0:
             units[role] = f"−{units[role]}"
             notes.append(f"{role} turned round, as its sign would have the tip pulled")
     return replace(curve, note="; ".join(notes))
 
 
 def _unit(head, kind):
-    """The unit of some kind that the name of a column ends in, None if it has none."""
+    """Unit of a kind in the name of a column, or None."""
     parts, units = re.split(r"[\s()\[\]/,_]+", head.replace("μ", "µ")), named(kind)
     return next((units[part].name for part in reversed(parts) if part in units), None)
 
 
 def _columns(heads):
-    """The columns of depth, force and time: by their units, by their names, and in this order."""
+    """Columns of depth, force and time, guessed from units, names and order."""
     found, left = {}, dict(enumerate(heads))
     for role in ("time", "force", "depth"):
         words, kind, _ = _WORDS[role]
@@ -281,7 +267,7 @@ def _columns(heads):
 
 
 def agrees(state: State) -> bool:
-    """Whether what is set on the page is what was fitted."""
+    """Whether the page shows the result of the fit."""
     found, made = state.curve.fit, medium(state)
     pairs = [(getattr(made, name), getattr(found.medium, name)) for name in FITTED[:2]]
     pairs += [(state[name], getattr(found, name)) for name in FITTED[2:]]
@@ -292,7 +278,7 @@ def agrees(state: State) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """Depths (m) below first contact and forces (N) above the baseline; residuals of a fit that holds."""
+    """Depths (m) below first contact and forces (N) above the baseline, with the fit if it holds."""
 
     depth: np.ndarray
     force: np.ndarray
@@ -301,7 +287,7 @@ class Curve:
 
     @classmethod
     def of(cls, state: State) -> "Curve | None":
-        """The measured curve where it is set to lie; None if there is none."""
+        """The measured curve at its position on the page, or None."""
         if state.curve is None:
             return None
         depth, force = state.curve.data
@@ -311,7 +297,7 @@ class Curve:
         return cls(depth, force, found if found is not None and agrees(state) else None, state.curve.asked)
 
     def residual(self, scene):
-        """Measured less modelled force (N); nothing where the scene's tip or medium has no such path."""
+        """Measured minus modelled force (N); NaN if the scene cannot be solved."""
         if self.fit is not None:
             return self.fit.residuals
         try:
@@ -320,7 +306,7 @@ class Curve:
             return np.full_like(self.depth, np.nan)
 
     def noise(self, stiffness: Any) -> np.ndarray:
-        """Standard deviation (N) of the residual, with that of the depth at some stiffness (N/m)."""
+        """Standard deviation (N) of the residual at a stiffness (N/m)."""
         depth_noise = float(self.asked.get("depth_noise") or 0.0)
         slope = stiffness / (1 + self.fit.frame_compliance * stiffness)
         return np.hypot(float(self.fit.force_noise), slope * depth_noise)

@@ -1,4 +1,4 @@
-"""A state as the text of a link, and back: what is at its default is left out, and nothing is believed."""
+"""States as links: defaults are left out, and links are read as hostile input."""
 
 from math import inf, isfinite
 from typing import Any
@@ -7,23 +7,20 @@ from urllib.parse import parse_qs, quote, unquote, urlencode
 import mdr_core as mdr
 
 from ..drives.path import checked as checked_path
-from . import LAST_PROGRESS, OPENING, PRESETS, State, checked, opened, settled, used
-from .files import FITTED, MOST_SAMPLES
+from . import LAST_PROGRESS, OPENING, PRESETS, State, checked, preset_state, used, with_derived
+from .files import FITTED, MAX_SAMPLES
 from .quantities import CHOICES, QUANTITIES, SHAPES, USED
 
-#: Longest link, most scenes that are held, longest name of one.
-LONGEST, MOST_HELD, LONGEST_NAME = 8000, 4, 60
+#: Limits of a link: characters, held scenes, characters of a name.
+MAX_LENGTH, MAX_HELD, MAX_NAME = 8000, 4, 60
 _NAME = "&called="
-#: What a link of version 0.3 may have and this page has not any more: it is left out, and that is said.
-_GONE = {"map", "speed", "hodograph"}
+#: Plots of version 0.3 that no longer exist; they are ignored in links.
+_DROPPED_TILES = {"map", "speed", "hodograph"}
 
 
 def write(state: State, form: tuple[str, ...], view: bool = True) -> str:
-    """The state as the query of a link; `form` are the choices of its drive.
-
-    Without `view` the scene alone, as it is held. Raises ValueError if it is too long.
-    """
-    start = opened(state.preset)
+    """State as a query; without `view` the scene alone. Raises ValueError if it is too long."""
+    start = preset_state(state.preset)
     pairs = {} if state.preset == OPENING else {"preset": state.preset}
     choices = (
         "shape",
@@ -46,39 +43,36 @@ def write(state: State, form: tuple[str, ...], view: bool = True) -> str:
         pairs |= {"fixed": " ".join(state.fixed)} if state.fixed != start.fixed else {}
         pairs |= {"fit_note": state.fit_note} if state.fit_note else {}
     text = urlencode(pairs, safe=",*")
-    if len(text) > LONGEST:
+    if len(text) > MAX_LENGTH:
         raise ValueError("there are too many samples in this scene for a link")
     return text
 
 
-def named(query: str, name: str) -> str:
-    """The link of a scene with the name that it is held by."""
-    return query.partition(_NAME)[0] + _NAME + quote(name.strip()[:LONGEST_NAME], safe="")
+def with_name(query: str, name: str) -> str:
+    """Link of a scene with a name."""
+    return query.partition(_NAME)[0] + _NAME + quote(name.strip()[:MAX_NAME], safe="")
 
 
-def name_of(query: str) -> tuple[str, str]:
-    """The link of a scene without its name, and its name."""
+def split_name(query: str) -> tuple[str, str]:
+    """Link without name, and name."""
     scene, _, name = query.partition(_NAME)
-    return scene, unquote(name)[:LONGEST_NAME]
+    return scene, unquote(name)[:MAX_NAME]
 
 
 def arguments(text: str) -> dict[str, list[bytes]]:
-    """The arguments of a query: lists of bytes by name, as a request has them."""
+    """Query as a request gives it: lists of bytes by name."""
     return {name: [value.encode() for value in values] for name, values in parse_qs(text, True).items()}
 
 
 def read(arguments: dict[str, list[bytes]]) -> State:
-    """The state that a link says, from the arguments of a request, of this version or of 0.3.
-
-    Raises ValueError if anything in them is unknown, said twice, or out of bounds.
-    """
+    """State from the arguments of a request, of this version or of 0.3; ValueError if they are invalid."""
     length = sum(len(text) for texts in arguments.values() for text in texts)
-    if len(arguments) > 100 or length > LONGEST:
+    if len(arguments) > 100 or length > MAX_LENGTH:
         raise ValueError("this link is too long")
     if any(len(values) != 1 for values in arguments.values()):
         raise ValueError("this link says the same thing twice")
     pairs = {name: values[0].decode("utf-8", "replace") for name, values in arguments.items()}
-    state = opened(_preset(pairs.pop("preset", OPENING)))
+    state = preset_state(_preset(pairs.pop("preset", OPENING)))
     changes = _view(pairs) | _scene(pairs)
     known = {"shape": SHAPES} | CHOICES
     for name in known.keys() & pairs.keys():
@@ -90,7 +84,7 @@ def read(arguments: dict[str, list[bytes]]) -> State:
     elif changes.get("drive") == "path":
         raise ValueError("this link has a path without vertices")
     swept = changes.get("swept", state.swept)
-    state = state.but(**changes)
+    state = state.replace(**changes)
     for name, value in pairs.items():
         # Version 0.3 had a range for each number that can be swept.
         name = {f"{swept}_from": "sweep_low", f"{swept}_to": "sweep_high"}.get(name, name)
@@ -98,14 +92,14 @@ def read(arguments: dict[str, list[bytes]]) -> State:
             continue
         if name not in QUANTITIES and name not in ("sweep_low", "sweep_high"):
             raise ValueError(f"this link sets {name:.40}, which is not known")
-        state = state.but(**{name: checked(state, name, _number(name, value))})
+        state = state.replace(**{name: checked(state, name, _number(name, value))})
     if any(state[name] is None for name in used(state, ())):
         raise ValueError("this link has a shape without its numbers")
-    return settled(state)
+    return with_derived(state)
 
 
 def _preset(text: str) -> str:
-    """The key of a preset, which version 0.3 gave by its label."""
+    """Key of a preset; version 0.3 used labels."""
     labels = {preset.label: key for key, preset in PRESETS.items()}
     key = labels.get(text, text)
     if key not in PRESETS:
@@ -118,13 +112,13 @@ def _preset(text: str) -> str:
 
 
 def _view(pairs: dict[str, str]) -> dict[str, Any]:
-    """What is held, which plots are asked for, and how they look; taken out of the pairs."""
+    """Values of the view, removed from the pairs."""
     held = tuple(pairs.pop("hold", "").split())
-    if len(held) > MOST_HELD:
-        raise ValueError(f"more than {MOST_HELD} scenes are held in this link")
-    tiles = (pairs.pop("tiles", "") or pairs.pop("plots", "")).split()
-    pairs.pop("plots", "")
-    changes: dict[str, Any] = {"hold": held, "tiles": tuple(t for t in tiles if t not in _GONE)[:12]}
+    if len(held) > MAX_HELD:
+        raise ValueError(f"more than {MAX_HELD} scenes are held in this link")
+    plots = pairs.pop("plots", "")
+    tiles = tuple(t for t in (pairs.pop("tiles", "") or plots).split() if t not in _DROPPED_TILES)
+    changes: dict[str, Any] = {"hold": held, "tiles": tiles[:12]}
     changes |= {name: pairs.pop(name, "0") == "1" for name in ("dark", "keep")}
     fixed = tuple(pairs.pop("fixed", "baseline frame_compliance").split())
     if not set(fixed) <= set(FITTED):
@@ -133,7 +127,7 @@ def _view(pairs: dict[str, str]) -> dict[str, Any]:
 
 
 def _scene(pairs: dict[str, str]) -> dict[str, Any]:
-    """What is no number and no choice; taken out of the pairs."""
+    """Samples, path and progress, removed from the pairs."""
     changes: dict[str, Any] = {}
     if "samples" in pairs:
         points = _rows("samples", pairs.pop("samples"))
@@ -160,8 +154,7 @@ def _number(name: str, text: str) -> float:
 
 
 def _rows(name: str, text: str) -> tuple:
-    """Rows of one or two numbers."""
     rows = [row.split(",") for row in text.split()]
-    if len(rows) > MOST_SAMPLES or any(len(row) > 2 for row in rows):
+    if len(rows) > MAX_SAMPLES or any(len(row) > 2 for row in rows):
         raise ValueError(f"the {name} in this link are not pairs")
     return tuple(tuple(_number(name, each) for each in row) for row in rows)

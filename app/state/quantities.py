@@ -1,4 +1,4 @@
-"""Every number, choice and shape that can be set: their words and bounds are in assets/quantities.json."""
+"""Numbers, choices and shapes; their texts and bounds are in assets/quantities.json."""
 
 import json
 import re
@@ -16,11 +16,9 @@ ASSETS = Path(__file__).parents[2] / "assets"
 class Quantity:
     """A number that can be set.
 
-    `symbol` and `label` are as shown: "q_c", "yield constant"; `kind` is a key of `units.UNITS`. `bounds`
-    and `default` are in SI, but for a length of a shape `default` is in contact radii of what is on the
-    page, so that another shape begins at the same scale. The slider reaches the factor `span` below and
-    above the value that it is reset to; 0: from bound to bound, on a linear scale; below 0 there is
-    none. `help` says in two sentences what it is, `equation` where it stands, `typical` is a usual range.
+    `kind` is a key of `units.UNITS`. `bounds` and `default` are in SI, but a length of a shape has its
+    `default` in contact radii. The slider covers a factor `span` each way; 0: linear between bounds; below
+    0: no slider.
     """
 
     name: str
@@ -35,13 +33,12 @@ class Quantity:
     typical: str = ""
 
     def bounded(self, value):
-        """The value within the bounds next to another one."""
         return min(max(value, self.bounds[0]), self.bounds[1])
 
 
 @dataclass(frozen=True)
 class Shape:
-    """An indenter shape: its name, formulas and parameters, and how the core makes it of them."""
+    """A shape: its name, formulas, parameters and constructor."""
 
     label: str
     height: str
@@ -72,7 +69,7 @@ _LOWERED = str.maketrans("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆�
 
 
 def lowered(text):
-    """A text in which indices, as in v_0, are letters of Unicode; those it has not stay as high: qc."""
+    """Text with indices, as in v_0, as Unicode subscripts where they exist."""
     return re.sub("_([a-z0-9]+)", lambda index: index[1].translate(_LOWERED), text)
 
 
@@ -87,7 +84,7 @@ for _name, _choice in DATA["choices"].items():
 
 
 def shape_quantities(shape):
-    """Names and quantities of the numbers of a shape; a measured tip has none."""
+    """Names and quantities of the parameters of a shape."""
     return [(f"{shape}_{q.name}", q) for q in SHAPES[shape].quantities]
 
 
@@ -110,7 +107,7 @@ USED["swept"] = {name: ["sweep_low", "sweep_high"] for name in SWEPT}
 
 
 class Scale:
-    """The steps of a slider and the values they stand for, about a middle value on a logarithmic scale."""
+    """Steps of a slider and their values, logarithmic about a middle value where possible."""
 
     STEPS = 400
 
@@ -123,17 +120,14 @@ class Scale:
         self.low, self.high = low, high
 
     def reaches(self, value: float) -> bool:
-        """Whether a value lies on the slider."""
         return self.low <= value <= self.high
 
     def position(self, value: float) -> int:
-        """The step nearest to a value."""
         scaled = log if self.logarithmic else float
         low, high, at = map(scaled, (self.low, self.high, min(max(value, self.low), self.high)))
         return round(self.STEPS * (at - low) / (high - low))
 
     def value(self, position: float) -> float:
-        """The value of a step, with three digits."""
         share = min(max(position, 0), self.STEPS) / self.STEPS
         low, high = self.low, self.high
         value = low * (high / low) ** share if self.logarithmic else low + (high - low) * share

@@ -1,4 +1,4 @@
-"""Units at the edge of the app: chosen to fit, written and read back. The core knows SI only."""
+"""Units of the page. The core knows SI only."""
 
 import re
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from .quantities import DATA
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit and its size in SI: a value in SI divided by `factor` is the number shown."""
+    """A unit and its size in SI."""
 
     name: str
     factor: float
@@ -32,10 +32,9 @@ _READ = {"length": (Unit("Å", 1e-10), Unit("um", 1e-6))}
 
 
 def fitting(value: float, kind: str, like: float = 0.0) -> Unit:
-    """The unit of that kind in which a value in SI has one to three digits before the point.
+    """Unit in which a value (SI) has one to three digits before the point; areas up to four.
 
-    Of areas, whose units are further apart, up to four: 0.01 mm² from there on. Zero has the unit that
-    fits the value `like`.
+    Zero has the unit of the value `like`.
     """
     units = UNITS[kind]
     size = abs(value) if isfinite(value) and value else abs(like)
@@ -48,7 +47,7 @@ def fitting(value: float, kind: str, like: float = 0.0) -> Unit:
 
 
 def digits(value: float, count: int = 4) -> str:
-    """A number with that many significant digits, very large and very small ones as a × 10ⁿ."""
+    """A number with significant digits, very large and small ones as a × 10ⁿ."""
     if not isfinite(value):
         return "∞" if value > 0 else "–"
     if value == 0:
@@ -62,7 +61,7 @@ def digits(value: float, count: int = 4) -> str:
 
 
 def written(value: float, kind: str, count: int = 4) -> str:
-    """A value in SI as text with its unit, with that many significant digits."""
+    """A value (SI) as text with its unit."""
     if value == 0 or not isfinite(value):
         return digits(value)
     unit = fitting(value, kind)
@@ -70,7 +69,7 @@ def written(value: float, kind: str, count: int = 4) -> str:
 
 
 def entry(value: float, kind: str, like: float = 0.0) -> str:
-    """A value in SI as short text for a field to type in, which `read` understands."""
+    """A value (SI) as text for a field, readable by `read`."""
     if not isfinite(value):
         return digits(value)
     unit = fitting(value, kind, like)
@@ -81,7 +80,7 @@ _KEYBOARD = str.maketrans("µ·³²", "u*32")
 
 
 def named(kind: str) -> dict[str, Unit]:
-    """The units of a kind by their names, with u, * and 3 for µ, · and ³ as on any keyboard too."""
+    """Units of a kind by name, also with u, * and 3 for µ, · and ³."""
     units = (*UNITS[kind], *_READ.get(kind, ()))
     return {name: unit for unit in units for name in (unit.name, unit.name.translate(_KEYBOARD))}
 
@@ -90,11 +89,10 @@ _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(e[+-]?\d{1,3})?)\s*(.*)", re.IG
 
 
 def read(text: str, kind: str, shown: Unit) -> tuple[float, bool]:
-    """A value in SI from what was typed, and whether what it was read as is worth showing.
+    """Value (SI) of typed text, and whether its reading may surprise.
 
-    A bare number is in the unit that is shown, one with an exponent in SI; a comma is a decimal comma, and
-    spaces separate thousands. A slope may be given as a half-angle in degrees. Raises ValueError if the
-    text is not a finite number with a unit of that kind.
+    Bare numbers are in the displayed unit, with an exponent in SI; decimal commas, spaces between
+    thousands, and half-angles for slopes are accepted. Raises ValueError.
     """
     plain = text.strip().replace("−", "-").replace("μ", "µ")
     plain = re.sub(r"(?<=\d)\s(?=\d{3}(?!\d))", "", plain)
@@ -120,7 +118,7 @@ _ROUND = np.array([1, 1.5, 2, 3, 4, 5, 6, 8, 10])
 
 
 def round_up(value: float) -> float:
-    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8 × 10ⁿ: axes that end there keep still while a slider moves."""
+    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8 × 10ⁿ, so that axes rest while a slider moves."""
     if not value > 0 or not isfinite(value):
         return 1.0
     power = 10.0 ** floor(log10(value))

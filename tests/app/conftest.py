@@ -70,8 +70,8 @@ class Server:
     def __init__(self, *options, port=0):
         command = [sys.executable, "-m", "panel", "serve", "app", *options, "--port", str(port)]
         self.lines, self._ready = [], threading.Event()
-        told = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
-        self.process = subprocess.Popen(command, cwd=ROOT, start_new_session=True, **told)
+        output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+        self.process = subprocess.Popen(command, cwd=ROOT, start_new_session=True, **output)
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
         try:
@@ -223,9 +223,7 @@ class Explorer:
     def tooltip(self, row):
         """The lines of the tooltip that is seen, once it is that of a row."""
         text = """(row) => {
-            const all = (root) => [...root.querySelectorAll("*")].flatMap(
-                (each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
-            const tips = all(document).filter((on) => on.classList.contains("bk-Tooltip") && on.shadowRoot)
+            const tips = explorer.all().filter((on) => on.classList.contains("bk-Tooltip") && on.shadowRoot)
             const parts = tips.flatMap((tip) => [...tip.shadowRoot.querySelectorAll("div")])
             const said = parts.map((part) => part.innerText)
             return said.find((each) => each?.trim().startsWith(row)) ?? ""

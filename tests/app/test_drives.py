@@ -13,11 +13,11 @@ from app.panels import readouts, share
 from app.panels.readouts import phase, readings
 from app.plots.force import force, force_still
 from app.solve import DRIVES, drive_of, follow, scene_of
-from app.state import PRESETS, medium, opened, profile
+from app.state import PRESETS, medium, preset_state, profile
 from app.state.quantities import CHOICES
 
 from .conftest import DROP, ELASTIC, GOLD
-from .made import chosen, seen, solved, there
+from .states import linked_state, solved, state_with, view_of
 
 PATTERNS = [pattern for pattern in CHOICES["pattern"] if pattern != "own"]
 ARRAYS = (
@@ -27,7 +27,7 @@ ARRAYS = (
 
 
 def path(pattern, viscous=False, shape="cone"):
-    state = chosen(shape=shape)
+    state = state_with(shape=shape)
     state = changes.choose(state, "damping", "tau") if viscous else state
     return changes.choose(changes.choose(state, "drive", "path"), "pattern", pattern)
 
@@ -44,7 +44,7 @@ def test_every_drive_of_the_form_is_in_the_table():
 @pytest.mark.parametrize("damping", ["none", "tau"])
 @pytest.mark.parametrize("drive", DRIVES)
 def test_every_drive_gives_the_same_interface(drive, damping):
-    state = chosen(DROP, drive, damping=damping)
+    state = state_with(DROP, drive, damping=damping)
     if drive == "path" and damping == "tau":
         state = changes.choose(state, "pattern", "hold")
     course = solved(state)
@@ -68,14 +68,14 @@ def test_every_drive_gives_the_same_interface(drive, damping):
 @pytest.mark.parametrize("pattern", PATTERNS)
 def test_a_pattern_goes_as_deep_as_what_was_there_before(pattern):
     course = solved(path(pattern))
-    assert float(course.deepest.depth) == pytest.approx(opened().max_depth, rel=1e-9)
+    assert float(course.turning_point.depth) == pytest.approx(preset_state().max_depth, rel=1e-9)
 
 
 def test_hysteresis_yields_once_a_cycle_and_reloads_elastically():
-    view = seen(path("cycles"))
+    view = view_of(path("cycles"))
     rows = force(view, len(view.course) - 1)
     yielding, elastic = rows["yielding"], rows["elastic"]
-    peaks = opened().max_depth * np.arange(1, 6) / 5
+    peaks = preset_state().max_depth * np.arange(1, 6) / 5
     stretches = np.split(yielding[0], np.flatnonzero(np.isnan(yielding[0])))
     ends = [[part[~np.isnan(part)][k] for part in stretches] for k in (0, -1)]
     np.testing.assert_allclose(ends, [peaks[:-1], peaks[1:]], rtol=1e-9)
@@ -84,7 +84,7 @@ def test_hysteresis_yields_once_a_cycle_and_reloads_elastically():
 
 
 def test_the_curve_is_drawn_as_one_goes():
-    view = seen(path("reload"))
+    view = view_of(path("reload"))
     middle, end = (force(view, i) for i in (view.course.peak // 2, len(view.course) - 1))
     names = ("elastic", "yielding", "unloading")
     drawn = [sum(np.isfinite(rows[name][0]).sum() for name in names) for rows in (middle, end)]
@@ -134,9 +134,11 @@ def test_a_held_ramp_of_a_viscous_medium_is_that_of_the_core(shape):
     for i in (course.peak // 2, course.peak, len(course) - 1):
         one = course.states[i]
         r = float(one.contact_radius) * np.linspace(0.02, 0.98, 40)
-        there = mdr.indent_in_time(profile(state), made, course.states.depth[: i + 1], time[: i + 1])[-1]
+        exact_state = mdr.indent_in_time(profile(state), made, course.states.depth[: i + 1], time[: i + 1])[
+            -1
+        ]
         p = one.pressure(r)
-        np.testing.assert_allclose(p, there.pressure(r), atol=3e-3 * p.max())
+        np.testing.assert_allclose(p, exact_state.pressure(r), atol=3e-3 * p.max())
         assert np.isinf(one.pressure(float(one.contact_radius))) == (
             i <= course.peak or shape == "flat_punch"
         )
@@ -172,7 +174,7 @@ _TAKEN = [("reload", False), ("cycles", True), ("hold", False), ("hold", True)]
 @pytest.mark.parametrize(("pattern", "viscous"), _TAKEN)
 def test_a_path_is_in_the_link_and_the_snippet(pattern, viscous, capsys):
     state = path(pattern, viscous)
-    assert scene_of(there(state)) == scene_of(state)
+    assert scene_of(linked_state(state)) == scene_of(state)
     course = solved(state)
     for now in (len(course) // 3, course.peak, len(course) - 2):
         values = {}
@@ -216,7 +218,7 @@ def test_what_is_no_path_is_refused(typed, said):
 
 
 def test_a_path_drawn_by_hand_is_kept_while_other_drives_are_looked_at():
-    state = chosen(GOLD, "path").but(path=((2e-9,), (1e-9,), (3e-9,)), pattern="own")
+    state = state_with(GOLD, "path").replace(path=((2e-9,), (1e-9,), (3e-9,)), pattern="own")
     for drive in ("impact", "path"):
         state = changes.choose(state, "drive", drive)
     assert [row[0] for row in state.path] == [2e-9, 1e-9, 3e-9]
@@ -227,8 +229,8 @@ def test_a_path_drawn_by_hand_is_kept_while_other_drives_are_looked_at():
 def test_a_path_of_one_or_two_vertices_ends_there(vertices):
     state = path("reload")
     most = max(row[0] for row in state.path)
-    state = state.but(path=tuple((most * share,) for share in vertices), pattern="own")
-    depth = solved(there(state)).states.depth
+    state = state.replace(path=tuple((most * share,) for share in vertices), pattern="own")
+    depth = solved(linked_state(state)).states.depth
     assert depth[0] == 0
     assert depth[-1] == pytest.approx(most * vertices[-1], abs=1e-9 * most)
     assert max(depth) == pytest.approx(most, rel=1e-9)
@@ -237,13 +239,13 @@ def test_a_path_of_one_or_two_vertices_ends_there(vertices):
 # Oblique impacts.
 
 
-def thrown(key=ELASTIC, **numbers):
-    return chosen(key, "oblique", body="solid").but(**{"attack": 0.9, "friction": 0.5} | numbers)
+def oblique_state(key=ELASTIC, **numbers):
+    return state_with(key, "oblique", body="solid").replace(**{"attack": 0.9, "friction": 0.5} | numbers)
 
 
 @pytest.mark.parametrize("key", [ELASTIC, DROP])
 def test_a_move_is_right_to_three_digits(key):
-    state = thrown(key)
+    state = oblique_state(key)
     rough, full = follow(state), solved(state)
     assert (bool(rough.pending), bool(full.pending)) == (True, False)
     hit, size = scene_of(state).solve(), state.incoming_speed
@@ -256,7 +258,7 @@ def test_a_move_is_right_to_three_digits(key):
 
 
 def test_numbers_of_the_rebound_are_those_of_the_ball():
-    course = solved(thrown())
+    course = solved(oblique_state())
     found, drive = numbers(course), course.scene.drive
     body = mdr.Ball(drive.mass, float(course.scene.profile.body_radius))
     assert drive.tangential_mass == pytest.approx(float(body.tangential_mass))
@@ -267,13 +269,13 @@ def test_numbers_of_the_rebound_are_those_of_the_ball():
     assert found["body_angle"] == pytest.approx(np.arctan2(float(hit.normal.rebound_speed), float(speed)))
     assert found["tangential_restitution"] == pytest.approx(float(hit.tangential_restitution), rel=1e-12)
     # A tip that belongs to no ball has no radius to turn about; what cannot turn has no spin.
-    assert "spin_speed" in numbers(follow(chosen(ELASTIC, "oblique", body="solid", shape="cone")))
-    assert not {"spin", "spin_speed"} & numbers(follow(chosen(ELASTIC, "oblique", body="block"))).keys()
+    assert "spin_speed" in numbers(follow(state_with(ELASTIC, "oblique", body="solid", shape="cone")))
+    assert not {"spin", "spin_speed"} & numbers(follow(state_with(ELASTIC, "oblique", body="block"))).keys()
 
 
 def test_looking_at_the_other_impact_keeps_body_and_normal_speed():
-    before = scene_of(opened(DROP)).drive
-    state = chosen(DROP, "oblique")
+    before = scene_of(preset_state(DROP)).drive
+    state = state_with(DROP, "oblique")
     drive = scene_of(state).drive
     assert (drive.mass, drive.speed) == pytest.approx((before.mass, before.speed), rel=1e-12)
     back = scene_of(changes.choose(state, "drive", "impact")).drive
@@ -281,7 +283,7 @@ def test_looking_at_the_other_impact_keeps_body_and_normal_speed():
 
 
 def test_the_snippet_of_an_oblique_impact_has_the_angle_of_the_page(capsys):
-    course, values = replace(solved(thrown()), now=90), {}
+    course, values = replace(solved(oblique_state()), now=90), {}
     exec(share.python(course), values)
     angle = numbers(course)["body_angle"]
     assert float(capsys.readouterr().out.splitlines()[1]) == pytest.approx(np.degrees(angle), rel=1e-3)
@@ -290,5 +292,5 @@ def test_the_snippet_of_an_oblique_impact_has_the_angle_of_the_page(capsys):
 
 def test_presets_are_within_what_the_model_assumes():
     for key in PRESETS:
-        levels = [level for level, _ in readouts.limits(follow(opened(key)), opened(key))]
+        levels = [level for level, _ in readouts.limits(follow(preset_state(key)), preset_state(key))]
         assert "beyond" not in levels, key

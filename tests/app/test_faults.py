@@ -9,7 +9,7 @@ from app import changes
 from app.page import Page
 from app.plots import plot
 from app.solve import COMPUTING, FAULT
-from app.state import PRESETS, opened
+from app.state import PRESETS, preset_state
 
 from .conftest import DROP, GOLD
 
@@ -19,8 +19,8 @@ Q_C = PRESETS[GOLD].values["q_c"]
 @pytest.fixture
 def page(monkeypatch):
     """A page that tells its notices to a list."""
-    page, said = Page(), []
-    page.notify, page.said = said.append, said
+    page, notices = Page(), []
+    page.notify, page.notices = notices.append, notices
     return page
 
 
@@ -29,18 +29,18 @@ def failing(*arguments, **named):
 
 
 def put(page, name, value):
-    page.tell(lambda state: changes.put(state, name, value))
+    page.apply(lambda state: changes.put(state, name, value))
 
 
 def assert_in_use(page):
     """It said so once, and the next change is drawn."""
-    (said,) = page.said
-    assert "Everything is as it was before" in said
+    (notices,) = page.notices
+    assert "Everything is as it was before" in notices
     put(page, "q_c", 1.5 * Q_C)
     assert page.shown.view.course.scene.medium.q_c == page.state.q_c == 1.5 * Q_C
     page.frame.undo.clicks += 1
     assert page.shown.view.course.scene.medium.q_c == Q_C
-    assert len(page.said) == 1
+    assert len(page.notices) == 1
 
 
 def test_axes(page, monkeypatch):
@@ -88,12 +88,12 @@ class Typed:
 @pytest.mark.parametrize("act", ["preset", "undo", "reset"])
 def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
     (depth,), (_, q_c) = page.controls.numbers["drive"], page.controls.numbers["first"]
-    depth._asked(Typed("5 nm"))
-    q_c._asked(Typed("abc"))
+    depth._on_message(Typed("5 nm"))
+    q_c._on_message(Typed("abc"))
     words = "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m"
     assert (q_c.refused, q_c.said) == (True, words)
     # It stays to be mended while other numbers are set.
-    depth._asked(Typed("6 nm"))
+    depth._on_message(Typed("6 nm"))
     assert q_c.refused
     if act == "preset":
         page.choices.widgets["preset"].value = DROP
@@ -108,9 +108,9 @@ def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
     for position in (210, 220, 230):
         message = Typed("")
         message.data = {"position": position}
-        number._asked(message)
+        number._on_message(message)
     assert page.state.max_depth > start
-    page.tell(lambda state: state.but(progress=0.5, axes="ratio"))
+    page.apply(lambda state: state.replace(progress=0.5, axes="ratio"))
     page.frame.undo.clicks += 1
     assert (page.state.max_depth, page.state.progress, page.state.axes) == (start, 0.5, "ratio")
     assert page.frame.undo.disabled
@@ -125,23 +125,23 @@ def test_the_indenter_is_dragged_to_a_depth_and_no_further_than_it_is_known(page
     assert page.board.player.hand.tags == []
     page.frame.undo.clicks += 1
     assert page.state.max_depth == PRESETS[GOLD].values["max_depth"]
-    page.tell(lambda state: changes.choose(state, "drive", "force"))
+    page.apply(lambda state: changes.choose(state, "drive", "force"))
     page._dragged("tags", [], [5.0])
-    assert float(page.shown.view.course.deepest.depth) == pytest.approx(5e-9)
+    assert float(page.shown.view.course.turning_point.depth) == pytest.approx(5e-9)
     page._dragged("tags", [], ["<b>"])
-    assert page.said == []
+    assert page.notices == []
 
 
 def rested(page):
     """Let the input be at rest, and wait until what was looked for then has come."""
-    came, show = threading.Event(), page._show_found
+    came, show = threading.Event(), page._show_result
 
     def shown(name, what):
         show(name, what)
         came.set()
 
     page.resting._show = shown
-    page._settled()
+    page._input_rests()
     assert came.wait(60)
     return page.shown.view.found["section"]
 
@@ -154,7 +154,7 @@ def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
     assert page.shown.view.found["section"] == replace(COMPUTING, axes=first.axes)
     page.frame.undo.clicks += 1
     assert page.shown.view.found["section"] is first
-    page._stood("value_throttled", page.shown.view.course.now, 5)
+    page._state_chosen("value_throttled", page.shown.view.course.now, 5)
     assert page.shown.view.found["section"].note == "computing …"
     again = rested(page)
     assert again.rows["contact radius a"][0][0] == page.shown.view.course.state.contact_radius
@@ -173,9 +173,9 @@ def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
 
 
 def test_a_link_that_cannot_be_opened_is_a_notice(monkeypatch):
-    said = []
-    monkeypatch.setattr(Page, "notify", lambda page, text: said.append(text))
+    notices = []
+    monkeypatch.setattr(Page, "notify", lambda page, text: notices.append(text))
     page = Page({"preset": [b"none"]})
-    assert said == ["The link was not opened: this link names no preset that is known"]
-    assert page.state == opened()
+    assert notices == ["The link was not opened: this link names no preset that is known"]
+    assert page.state == preset_state()
     assert Page({"preset": [DROP.encode()], "speed": [b"3.0"]}).shown.view.course.hit.speed == 3.0

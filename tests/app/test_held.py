@@ -4,38 +4,39 @@ import numpy as np
 import pytest
 
 from app.panels import share
-from app.panels.held import Held, is_held, numbers, opened, renamed, toggled
+from app.panels.held import Held, held_scene, is_held, numbers, toggle_hold
 from app.plots import PLOTS
 from app.plots.force import force_still
 from app.plots.plot import DASHES
 from app.solve import follow
 from app.state import link
-from app.state import opened as preset
+from app.state import preset_state as preset
 from app.state.units import written
 
 from .conftest import DROP
-from .made import seen, there
+from .states import linked_state, view_of
 
 
 def holding(*depths):
     """A state that has held itself at some depths."""
     state = preset()
     for depth in depths:
-        state = toggled(state.but(max_depth=depth))
+        state = toggle_hold(state.replace(max_depth=depth))
     return state
 
 
 def test_one_gesture_holds_a_scene_and_lets_it_go():
     state = holding(6e-9, 9e-9)
-    assert [opened(query, {}).course.deepest.depth for query in state.hold] == [6e-9, 9e-9]
-    assert is_held(state.but(progress=0.4, axes="ratio"))
-    state = toggled(state)
-    assert [opened(query, {}).course.deepest.depth for query in state.hold] == [6e-9]
+    assert [held_scene(query, {}).course.turning_point.depth for query in state.hold] == [6e-9, 9e-9]
+    assert is_held(state.replace(progress=0.4, axes="ratio"))
+    state = toggle_hold(state)
+    assert [held_scene(query, {}).course.turning_point.depth for query in state.hold] == [6e-9]
     assert not is_held(state)
 
 
 def test_springs_keep_their_height_beside_a_deeper_scene():
-    alone, beside = seen(preset().but(max_depth=2e-9)), seen(preset().but(max_depth=2e-9), 1.0, preset())
+    shallow = preset().replace(max_depth=2e-9)
+    alone, beside = view_of(shallow), view_of(shallow, 1.0, preset())
     assert beside.end("z") == alone.end("z")
     assert beside.end("d") > alone.end("d")
 
@@ -44,26 +45,19 @@ def test_a_fifth_is_refused():
     state = holding(1e-9, 2e-9, 3e-9, 4e-9)
     assert len(state.hold) == len(DASHES) == 4
     with pytest.raises(ValueError, match="4 scenes are held: remove one"):
-        toggled(state.but(max_depth=5e-9))
+        toggle_hold(state.replace(max_depth=5e-9))
     with pytest.raises(ValueError, match="more than 4"):
-        there(state.but(hold=(*state.hold, state.hold[0])))
-
-
-def test_names_come_back_from_the_link():
-    state = renamed(holding(6e-9, 9e-9), 1, "50 % & <b> + 1")
-    again = there(state)
-    assert again.hold == state.hold
-    assert [opened(query, {}).name for query in again.hold] == ["d_max = 6.00 nm", "50 % & <b> + 1"]
+        linked_state(state.replace(hold=(*state.hold, state.hold[0])))
 
 
 @pytest.mark.parametrize("query", ["preset=none", "preset=x&called=1", "shape=&called="])
 def test_what_is_no_scene_is_refused(query):
     with pytest.raises(ValueError, match="link"):
-        opened(query, {})
+        held_scene(query, {})
 
 
 def test_the_numbers_are_those_of_the_deepest_state_and_of_the_impact():
-    course = follow(preset(DROP).but(progress=0.3))
+    course = follow(preset(DROP).replace(progress=0.3))
     found = numbers(course)
     assert found["e"] == written(float(course.hit.restitution), "number", 3)
     assert found["d_max"] == written(float(course.hit.max_depth), "length", 3)
@@ -72,8 +66,8 @@ def test_the_numbers_are_those_of_the_deepest_state_and_of_the_impact():
 
 
 def test_each_has_its_own_row_in_every_plot():
-    states = [preset().but(max_depth=depth) for depth in (3e-9, 6e-9, 9e-9, 12e-9)]
-    view = seen(states[0], 1.0, *states)
+    states = [preset().replace(max_depth=depth) for depth in (3e-9, 6e-9, 9e-9, 12e-9)]
+    view = view_of(states[0], 1.0, *states)
     rows = force_still(view)
     for k, course in enumerate(view.held, 1):
         np.testing.assert_array_equal(rows[f"held {k}"][1], course.force)
@@ -85,16 +79,16 @@ def test_each_has_its_own_row_in_every_plot():
 
 
 def test_the_snippet_has_all_that_is_held(capsys):
-    kept = [Held("one\nimport os", follow(preset())), Held("two", follow(preset(DROP)))]
-    text, values = share.python(kept[0].course, kept), {}
+    scenes = [Held("one\nimport os", follow(preset())), Held("two", follow(preset(DROP)))]
+    text, values = share.python(scenes[0].course, scenes), {}
     assert "\nimport os" not in text
     exec(text, values)
-    assert values["held_1_state"].force == pytest.approx(float(kept[0].course.state.force), rel=1e-12)
+    assert values["held_1_state"].force == pytest.approx(float(scenes[0].course.state.force), rel=1e-12)
     assert values["held_2_hit"].restitution == pytest.approx(
-        float(kept[1].course.hit.restitution), rel=1e-12
+        float(scenes[1].course.hit.restitution), rel=1e-12
     )
 
 
 def test_a_held_link_is_short():
-    assert len(link.named("", "a")) < 20
+    assert len(link.with_name("", "a")) < 20
     assert all(len(query) < 100 for query in holding(6e-9, 9e-9).hold)

@@ -11,10 +11,10 @@ from app.page import Page
 from app.panels import fitting, share
 from app.plots import PLOTS
 from app.solve import follow, scene_of
-from app.state import medium, opened, profile
+from app.state import medium, preset_state, profile
 from app.state.files import agrees, read_curve
 
-from .made import seen
+from .states import view_of
 from .test_page import unit as unit_of
 
 DEPTH, FORCE = [-1.0, 0.0, 2.0, 4.0, 3.0], [0.0, 0.0, 1.5, 6.0, 2.0]
@@ -100,21 +100,21 @@ def test_columns_and_units_are_corrected():
 
 
 def fitted(**changed):
-    state = fitting.take(opened(), fitting.example(opened())).but(**changed)
-    return fitting.fit(state), medium(opened())
+    state = fitting.take(preset_state(), fitting.example(preset_state())).replace(**changed)
+    return fitting.fit(state), medium(preset_state())
 
 
 def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
     page = Page()
     before = medium(page.state)
-    page.tell(lambda state: fitting.take(state, fitting.example(state)))
-    page.tell(fitting.fit)
+    page.apply(lambda state: fitting.take(state, fitting.example(state)))
+    page.apply(fitting.fit)
     state = page.state
     # Ten standard errors of 0.4 % noise in 400 samples.
     assert state.E_star == pytest.approx(1.3 * before.E_star, rel=1e-2)
     assert state.q_c == pytest.approx(0.8 * before.q_c, rel=5e-3)
-    deepest = float(np.max(state.curve.fit.path.depth))
-    assert scene_of(state).drive == mdr.DepthPath(deepest)
+    turning_point = float(np.max(state.curve.fit.path.depth))
+    assert scene_of(state).drive == mdr.DepthPath(turning_point)
     assert agrees(state)
     assert "residual" in page.board.names
     page.frame.undo.clicks += 1
@@ -137,15 +137,15 @@ def test_what_is_fixed_stays():
 def test_what_cannot_be_fitted_is_refused_as_it_was():
     curve = read_curve(file((range(6), [0] * 6), ["h (nm), F (nN)"]), "flat")
     with pytest.raises(ValueError, match="no contact"):
-        fitting.fit(fitting.take(opened(), curve))
+        fitting.fit(fitting.take(preset_state(), curve))
 
 
 def test_the_curve_lies_where_it_is_set_to_and_its_residual_is_of_what_is_set():
     state, _ = fitted()
-    np.testing.assert_allclose(seen(state).residual, state.curve.fit.residuals)
+    np.testing.assert_allclose(view_of(state).residual, state.curve.fit.residuals)
     z, F = state.curve.data
-    state = state.but(E_star=2e11, baseline=1e-8, contact_point=1e-9, frame_compliance=1e-5)
-    view = seen(state)
+    state = state.replace(E_star=2e11, baseline=1e-8, contact_point=1e-9, frame_compliance=1e-5)
+    view = view_of(state)
     d = z - 1e-9 - 1e-5 * (F - 1e-8)
     np.testing.assert_allclose((view.curve.depth, view.curve.force), (d, F - 1e-8), rtol=1e-12)
     expected = F - 1e-8 - mdr.indent(profile(state), medium(state), d).force
@@ -156,8 +156,9 @@ def test_the_curve_lies_where_it_is_set_to_and_its_residual_is_of_what_is_set():
 
 def test_a_tip_that_ends_above_the_measured_depth_says_so():
     r = np.linspace(0, 5e-9, 20)
-    state = changes.take_tip(fitting.take(opened(), fitting.example(opened())), (r, 0.1 * r), "")
-    assert seen(state).rows(PLOTS["residual"], 0)["missing"][2] == "no model at these depths"
+    state = preset_state()
+    state = changes.take_tip(fitting.take(state, fitting.example(state)), (r, 0.1 * r), "")
+    assert view_of(state).rows(PLOTS["residual"], 0)["missing"][2] == "no model at these depths"
 
 
 @pytest.mark.parametrize("fixed", [("baseline",), ("E_star", "baseline", "frame_compliance"), ()])

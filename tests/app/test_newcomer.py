@@ -8,10 +8,8 @@ from .test_report import plain
 # All elements, also within components; targets smaller than 24 pixels but links within a text, and of a
 # radio button its label; what can be scrolled sideways.
 SEEN = """() => {
-  const all = (root) => [...root.querySelectorAll("*")].flatMap(
-    (each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
   const box = (each) => each.getBoundingClientRect()
-  const within = all(document)
+  const within = explorer.all()
   const targets = within.filter((each) => each.matches(
     "button, input:not([type=radio]), label:has(input), select, summary, .button a, [role=slider]"))
   const size = (each) => Math.min(box(each).width, box(each).height)

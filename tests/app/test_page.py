@@ -10,11 +10,11 @@ from app import changes
 from app.plots import PLOTS
 from app.plots.draw import Picture
 from app.solve import follow, scene_of
-from app.state import PRESETS, State, opened
+from app.state import PRESETS, State, preset_state
 from app.state.units import UNITS
 
-from .conftest import DROP, ELASTIC, PUNCH
-from .made import chosen, seen
+from .conftest import DROP, ELASTIC, PUNCH, Explorer
+from .states import state_with, view_of
 
 
 def unit(label, kind):
@@ -32,7 +32,7 @@ def now(explorer):
 
 def assert_draws(explorer, state: State):
     """All that the page draws of the present state is what the plots have of `state`."""
-    view = seen(state, state.progress)
+    view = view_of(state, state.progress)
     course = view.course
     expected = float(course.state.depth), float(course.state.force)
     np.testing.assert_allclose(now(explorer), expected, rtol=1e-3, atol=1e-30)
@@ -61,8 +61,6 @@ FIRST = """() => {
 @pytest.mark.parametrize("size", [(1280, 720), (1440, 900)])
 def test_the_first_screen_has_what_a_person_comes_for(server, browser, size):
     """The drive with its slider first, shape, E* and q_c; one line of readouts; three plots, all whole."""
-    from .conftest import Explorer
-
     width, height = size
     with browser.new_context(viewport={"width": width, "height": height}) as context:
         explorer = Explorer(context.new_page(), server.url)
@@ -85,7 +83,7 @@ def test_the_first_screen_has_what_a_person_comes_for(server, browser, size):
 
 def test_the_page_opens_on_a_cone_that_has_yielded_and_says_what_everything_is(explorer):
     """Every control has a name and an explanation; tooltips are of the data and their own axis."""
-    assert_draws(explorer, opened())
+    assert_draws(explorer, preset_state())
     assert explorer.page.title() == "Indentation explorer"
     assert explorer.readout("force") == "4.514 µN"
     assert explorer.readout("relative_depth") == "5.000"
@@ -124,7 +122,7 @@ def test_keys_player_and_hand_move_every_plot(explorer):
     page.locator("h1").click()
     with explorer.change():
         page.keyboard.press("r")
-    assert_draws(explorer, opened())
+    assert_draws(explorer, preset_state())
     # The indenter is taken by the hand: deeper, and one change to undo.
     explorer.drag("springs", (0, 0.2))
     explorer.wait(
@@ -136,7 +134,7 @@ def test_keys_player_and_hand_move_every_plot(explorer):
     with explorer.change():
         explorer.press("Undo")
     assert now(explorer)[0] < deeper[0]
-    assert_draws(explorer, opened())
+    assert_draws(explorer, preset_state())
     page.get_by_label("State along the path").press("End")
     explorer.wait("explorer.played() && explorer.row('force', 'now')[1][0] === 0")
     assert explorer.readout("contact_radius") == "0"
@@ -160,8 +158,6 @@ def test_keys_player_and_hand_move_every_plot(explorer):
 
 def test_a_finger_drags_the_indenter(server, browser):
     """On a touch screen: the events that a finger makes, as the browser gets them."""
-    from .conftest import Explorer
-
     with browser.new_context(viewport={"width": 1000, "height": 1400}, has_touch=True) as context:
         explorer = Explorer(context.new_page(), server.url)
         page = explorer.page
@@ -214,7 +210,7 @@ def test_typed_numbers_are_read_as_they_say_refused_where_they_stand_and_undone(
         assert explorer.field("d_max").input_value() == text
         assert explorer.field("d_max").get_attribute("aria-invalid") == "true"
         assert number.locator("img").count() == 0
-    assert_draws(explorer, opened())
+    assert_draws(explorer, preset_state())
     with explorer.change():
         explorer.type("d_max", "5 nm")
     assert explorer.field("d_max").get_attribute("aria-invalid") == "false"
@@ -226,8 +222,8 @@ def test_typed_numbers_are_read_as_they_say_refused_where_they_stand_and_undone(
 def test_presets_shapes_drives_and_media_are_drawn(explorer):
     for key in (PUNCH, "berkovich-pdms"):
         explorer.choose("Preset", PRESETS[key].label)
-        assert_draws(explorer, opened(key))
-    state = opened("berkovich-pdms")
+        assert_draws(explorer, preset_state(key))
+    state = preset_state("berkovich-pdms")
     explorer.choose("Shape", "Sphere")
     state = changes.choose(state, "shape", "sphere")
     assert_draws(explorer, state)
@@ -251,7 +247,7 @@ def test_in_time_each_axis_has_its_unit_and_a_body_hits_the_same_spot_again(expl
     assert re.fullmatch(r"d = [\d.]+ [µm]m", tip[1])
     tip = explorer.hover("motion", "force F", 40)
     assert re.fullmatch(r"F = [\d.]+ kN", tip[1])
-    hit = scene_of(opened(DROP)).solve()
+    hit = scene_of(preset_state(DROP)).solve()
     with explorer.change():
         explorer.press("Hit again")
     again = mdr.impact(hit.profile, hit.medium, hit.mass, hit.speed, plastic_depth=hit.plastic_depth)
@@ -265,7 +261,7 @@ def test_an_oblique_impact_a_path_and_a_section_are_found_at_rest(explorer):
     explorer.choose("Preset", PRESETS[ELASTIC].label)
     explorer.pick("oblique impact")
     explorer.press("Friction")
-    hit = scene_of(chosen(ELASTIC, "oblique")).solve()
+    hit = scene_of(state_with(ELASTIC, "oblique")).solve()
     explorer.wait("explorer.model('forces') && !explorer.phase().includes('so far')")
     explorer.link("tiles=forces")
     _, force = explorer.row("forces", "force along Fₓ")
@@ -285,7 +281,8 @@ def test_an_oblique_impact_a_path_and_a_section_are_found_at_rest(explorer):
     explorer.wait(
         "explorer.model('section') && explorer.row('section', 'contact radius a')?.[0].length === 2"
     )
-    a = float(follow(changes.type_path(chosen(ELASTIC, "path"), "6 µm\n5 µm\n8 µm")).deepest.contact_radius)
+    state = changes.type_path(state_with(ELASTIC, "path"), "6 µm\n5 µm\n8 µm")
+    a = float(follow(state).turning_point.contact_radius)
     explorer.wait(
         "(a) => Math.abs(explorer.row('section', 'contact radius a')[0][0] - a) < 1e-3 * a", a * 1e6
     )
@@ -335,7 +332,7 @@ def test_the_sweep_moves_with_a_slider_and_one_plot_can_be_large(explorer):
         (x,), (y,) = explorer.row("sweep", "present value")
         return x * unit(labels[0], "energy"), y * unit(labels[1], "area")
 
-    hit = scene_of(opened(DROP)).solve()
+    hit = scene_of(preset_state(DROP)).solve()
     assert present() == pytest.approx((2.75, float(hit.damaged_area)), rel=1e-4)
     explorer.slider("v_0").focus()
     with explorer.change():

@@ -18,15 +18,15 @@ from app.plots.force import _SHARE, force_still, references
 from app.plots.motion import energy_still, forces_still, maw, maw_still
 from app.plots.plot import Plot, maw_chi
 from app.solve import follow, scene_of
-from app.state import PRESETS, medium, opened, profile
+from app.state import PRESETS, medium, preset_state, profile
 from app.state.quantities import SHAPES
 from app.state.units import written
 from app.ui import legend
 from mdr_core.results.figures import SPRINGS, line, mark
 
 from .conftest import DROP, ELASTIC, GOLD, PUNCH
-from .made import chosen, seen, solved, tip, viscous
-from .test_drives import thrown
+from .states import solved, state_with, tip, view_of, viscous
+from .test_drives import oblique_state
 
 SHAPED = [shape for shape in SHAPES if shape != "sampled"]
 
@@ -46,8 +46,8 @@ def assert_all_is_drawn(view, step=9):
 
 @pytest.mark.parametrize("shape", SHAPED)
 def test_loading_curve_and_pressure_are_those_of_the_core(shape):
-    state = chosen(shape=shape)
-    view = seen(state)
+    state = state_with(shape=shape)
+    view = view_of(state)
     rows = force_still(view)
     for name in ("elastic", "yielding"):
         depth, force = rows[name]
@@ -58,29 +58,22 @@ def test_loading_curve_and_pressure_are_those_of_the_core(shape):
 
 
 @pytest.mark.parametrize(
-    "made", [opened, lambda: opened(DROP), viscous, tip], ids=["press", "drop", "viscous", "tip"]
+    "made",
+    [preset_state, lambda: preset_state(DROP), viscous, tip],
+    ids=["press", "drop", "viscous", "tip"],
 )
 def test_every_plot_of_every_state_can_be_drawn(made):
-    assert_all_is_drawn(seen(made()))
+    assert_all_is_drawn(view_of(made()))
 
 
 @pytest.mark.parametrize("damping", ["none", "tau"])
 def test_every_plot_of_an_oblique_impact_beside_a_held_one_can_be_drawn(damping):
-    state = chosen(DROP, "oblique", damping=damping)
-    assert_all_is_drawn(seen(state, 1.0, state, axes="ratio"), 17)
-
-
-def test_springs_are_yielded_elastic_or_free_where_the_core_says():
-    view = seen(opened())
-    rows, state = springs(view, view.course.now), view.course.state
-    reach = {name: np.nanmax(np.abs(rows[name][0])) for name in ("yielded", "elastic")}
-    spacing = 2 * view.end("x") / SPRINGS
-    assert reach["yielded"] == pytest.approx(state.plastic_radius, abs=spacing)
-    assert reach["elastic"] == pytest.approx(state.contact_radius, abs=spacing)
+    state = state_with(DROP, "oblique", damping=damping)
+    assert_all_is_drawn(view_of(state, 1.0, state, axes="ratio"), 17)
 
 
 def test_a_measured_tip_ends_at_its_rim_without_pressure():
-    view = seen(tip())
+    view = view_of(tip())
     r, p = view.pressure(view.course.now)
     a = float(view.course.state.contact_radius)
     assert np.all(np.isfinite(p))
@@ -90,16 +83,16 @@ def test_a_measured_tip_ends_at_its_rim_without_pressure():
 
 def test_the_contact_radius_falls_by_a_step_where_the_load_is_gone():
     for key in (GOLD, DROP, PUNCH):
-        view = seen(opened(key))
+        view = view_of(preset_state(key))
         depth, radius = view.rows(RADII, 0)["unloading"]
         step = int(np.flatnonzero(radius == 0)[0])
         assert depth[step] == depth[step - 1]
-        last = view.course.states.plastic_radius[-1] or profile(opened(key)).face_radius
+        last = view.course.states.plastic_radius[-1] or profile(preset_state(key)).face_radius
         assert radius[step - 1] == pytest.approx(last)
 
 
 def test_a_peak_that_the_axis_does_not_reach_is_named():
-    view = seen(opened())
+    view = view_of(preset_state())
     tops = {i: view.pressure(i)[1] for i in range(view.course.peak)}
     cut = [i for i, p in tops.items() if np.max(p) > view.end("p")]
     assert cut
@@ -109,26 +102,26 @@ def test_a_peak_that_the_axis_does_not_reach_is_named():
     value, unit = re.search(r"= ([\d.]+) (\wPa)", view.exceeds(first)).groups()
     factor = {"GPa": 1e9, "TPa": 1e12}[unit]
     assert float(value) * factor == pytest.approx(np.max(tops[first]), rel=0.01)
-    assert "∞ at the rim" in seen(opened(PUNCH)).exceeds(50)
+    assert "∞ at the rim" in view_of(preset_state(PUNCH)).exceeds(50)
 
 
 def test_the_ledger_of_an_impact_sums_up():
-    view = seen(viscous())
+    view = view_of(viscous())
     t, top = energy_still(view)["kinetic"]
     np.testing.assert_allclose(top[: len(top) // 2], 5.5 / 2, rtol=1e-6)
     assert t.max() == pytest.approx(float(view.course.hit.contact_time))
 
 
 def test_after_another_hit_depth_and_force_of_yield_belong_together():
-    hit = scene_of(opened(DROP)).solve()
-    state = changes.hit_again(opened(DROP), hit)
+    hit = scene_of(preset_state(DROP)).solve()
+    state = changes.hit_again(preset_state(DROP), hit)
     course = follow(state)
     found = {each.name: values for each, values in readouts.readings(course).items()}
     again = float(hit.plastic_depth) + medium(state).critical_depth
     assert found["again_depth"] == pytest.approx(again)
     assert not found.keys() & {"critical_depth", "critical_force"}
     assert found["again_force"] == pytest.approx(float(course.onset.force))
-    np.testing.assert_allclose(force_still(seen(state))["onset of yield"][0], again)
+    np.testing.assert_allclose(force_still(view_of(state))["onset of yield"][0], again)
 
 
 # Limits of the model.
@@ -141,15 +134,15 @@ def limits(state):
 def test_a_viscous_impact_has_its_poisson_ratio():
     state = viscous()
     assert any(level == "beyond" and "ν = ½" in text for level, text in limits(state))
-    assert any(level == "good" and "ν = ½" in text for level, text in limits(state.but(nu_1=0.5)))
+    assert any(level == "good" and "ν = ½" in text for level, text in limits(state.replace(nu_1=0.5)))
     state = changes.choose(state, "elasticity", "modulus")
     assert any(level == "note" and "ν = ½" in text for level, text in limits(state))
 
 
 def test_only_what_is_exceeded_is_seen_and_the_rest_folds():
-    html = readouts.warnings(follow(opened()), opened())
+    html = readouts.warnings(follow(preset_state()), preset_state())
     assert html.index("<details>") == 0
-    steep = opened(DROP).but(speed=500.0)
+    steep = preset_state(DROP).replace(speed=500.0)
     html = readouts.warnings(follow(steep), steep)
     assert html[: html.index("<details>")].count('class="beyond"') >= 2
 
@@ -158,8 +151,8 @@ def test_only_what_is_exceeded_is_seen_and_the_rest_folds():
 
 
 def test_the_elastic_curve_of_a_paraboloid_is_that_of_hertz():
-    state = chosen(shape="paraboloid")
-    d, F = references(seen(state, references="elastic"))["elastic throughout"]
+    state = state_with(shape="paraboloid")
+    d, F = references(view_of(state, references="elastic"))["elastic throughout"]
     expected = 4 / 3 * medium(state).E_star * np.sqrt(profile(state).radius) * d**1.5
     np.testing.assert_allclose(F, expected, rtol=1e-12)
     assert len(d) == len(_SHARE)
@@ -168,28 +161,28 @@ def test_the_elastic_curve_of_a_paraboloid_is_that_of_hertz():
 @pytest.mark.parametrize(("shape", "power"), [("cone", 2), ("paraboloid", 1), ("flat_punch", 0)])
 def test_classes_share_the_hardness_of_the_deepest_state_and_differ_in_its_power(shape, power):
     """F ∝ a², a⁰ and z ∝ rⁿ: powers 2/n and 0 of the depth."""
-    view = seen(chosen(shape=shape), 1.6, references="classes")
-    rows, deepest = references(view), view.course.deepest
+    view = view_of(state_with(shape=shape), 1.6, references="classes")
+    rows, turning_point = references(view), view.course.turning_point
     d, constant_hardness = rows["class (a), F ∝ a²"]
     d, constant_force = (part[1:] for part in rows["class (c), F constant"])
-    share = (d / deepest.depth) ** power
-    np.testing.assert_allclose(constant_hardness[1:], deepest.force * share, rtol=1e-9)
-    np.testing.assert_allclose(constant_force, deepest.force, rtol=1e-12)
+    share = (d / turning_point.depth) ** power
+    np.testing.assert_allclose(constant_hardness[1:], turning_point.force * share, rtol=1e-9)
+    np.testing.assert_allclose(constant_force, turning_point.force, rtol=1e-12)
 
 
 def test_nothing_is_said_to_have_a_hardness_that_has_not_yielded():
-    view = seen(opened(ELASTIC), references="all")
+    view = view_of(preset_state(ELASTIC), references="all")
     assert references(view).keys() == {"elastic throughout"}
     assert "Nothing has yielded" in PLOTS["force"].note(view)
-    assert references(seen(opened())) == {}
+    assert references(view_of(preset_state())) == {}
 
 
 def test_cones_on_gold_and_pdms_are_one_dimensionless_curve():
     """Popov (2015), Eqs. (20), (22): F/F_c = 2 d/d_c − 1, whatever cone and medium."""
-    pdms = opened("berkovich-pdms")
-    ratio = opened().max_depth / medium(opened()).critical_depth
-    pdms = pdms.but(max_depth=ratio * medium(pdms).critical_depth)
-    view = seen(opened(), 1.0, pdms, axes="ratio")
+    pdms = preset_state("berkovich-pdms")
+    ratio = preset_state().max_depth / medium(preset_state()).critical_depth
+    pdms = pdms.replace(max_depth=ratio * medium(pdms).critical_depth)
+    view = view_of(preset_state(), 1.0, pdms, axes="ratio")
     course, (d, F) = view.course, (view.axis(name) for name in "dF")
     past = course.states.plastic_depth > 0
     past[course.peak + 1 :] = False
@@ -202,8 +195,8 @@ def test_cones_on_gold_and_pdms_are_one_dimensionless_curve():
 
 
 def test_beside_an_elastic_paraboloid_the_surface_is_that_of_hertz():
-    state = chosen(shape="paraboloid", plasticity="none")
-    view = seen(state)
+    state = state_with(shape="paraboloid", plasticity="none")
+    view = view_of(state)
     r, z = surface(view, view.course.now)["deformed surface"]
     a, radius = float(view.course.state.contact_radius), profile(state).radius
     r, z = (part[r > a] for part in (r, z))
@@ -214,8 +207,8 @@ def test_beside_an_elastic_paraboloid_the_surface_is_that_of_hertz():
 
 @pytest.mark.parametrize("shape", SHAPED)
 def test_the_surface_lies_on_the_tip_in_contact_and_below_it_beside(shape):
-    state = chosen(shape=shape)
-    view, made = seen(state, 1.4), profile(state)
+    state = state_with(shape=shape)
+    view, made = view_of(state, 1.4), profile(state)
     now = view.course.state
     r, z = surface(view, view.course.now)["deformed surface"]
     gap = made.height(np.minimum(np.abs(r), made.known_radius)) - now.depth - z
@@ -227,7 +220,7 @@ def test_the_surface_lies_on_the_tip_in_contact_and_below_it_beside(shape):
 
 
 def test_heights_are_to_scale_when_asked_for():
-    r, z = seen(opened(), heights="to_scale").axes_of(SURFACE)
+    r, z = view_of(preset_state(), heights="to_scale").axes_of(SURFACE)
     assert (r.unit, r.factor) == (z.unit, z.factor)
     assert z.title == "z, height to scale"
 
@@ -238,7 +231,7 @@ def test_heights_are_to_scale_when_asked_for():
 @pytest.mark.parametrize("quantity", ["max_shear", "von_mises", "zz"])
 @pytest.mark.parametrize("key", [ELASTIC, DROP])
 def test_the_section_shows_the_stress_of_the_core(key, quantity):
-    course = follow(opened(key))
+    course = follow(preset_state(key))
     (found,) = section(course, (quantity,))
     state, (r, z, colours) = course.state, found.axes
     (left, right), (bottom, top), image = found.rows["image"]
@@ -262,14 +255,14 @@ def test_the_section_shows_the_stress_of_the_core(key, quantity):
 
 
 def test_the_section_of_an_unloaded_state_is_empty():
-    (found,) = section(follow(opened().but(progress=2.2)), ("zz",))
+    (found,) = section(follow(preset_state().replace(progress=2.2)), ("zz",))
     assert found.rows == {}
     assert found.note == "The load is gone."
 
 
 def test_springs_lean_as_far_as_they_are_loaded_and_stick_where_the_core_says():
-    course = solved(thrown())
-    view, m = seen(thrown()), course.oblique
+    course = solved(oblique_state())
+    view, m = view_of(oblique_state()), course.oblique
     view.course = course
     spacing = 2 * view.end("x") / SPRINGS
     share = m.stick_radius[1:-1] / m.contact_radius[1:-1]
@@ -288,7 +281,7 @@ def test_springs_lean_as_far_as_they_are_loaded_and_stick_where_the_core_says():
 
 
 def test_forces_of_an_oblique_impact_are_bounded_by_friction_and_change_the_speed():
-    view = seen(thrown())
+    view = view_of(oblique_state())
     drive = view.course.scene.drive
     rows = forces_still(view)
     (t, along), (_, normal) = rows["force along Fₓ"], rows["normal force F"]
@@ -301,7 +294,7 @@ def test_forces_of_an_oblique_impact_are_bounded_by_friction_and_change_the_spee
 
 def test_maw_s_curve_and_the_present_impact_on_it(monkeypatch):
     monkeypatch.setattr("app.plots.motion._PLACES", 4)
-    view = seen(thrown(attack=0.3, friction=0.3))
+    view = view_of(oblique_state(attack=0.3, friction=0.3))
     *_, found = maw(view.course, ())
     x, y = found.rows["elastic (Maw)"]
     chi = maw_chi(view.course)
@@ -313,7 +306,7 @@ def test_maw_s_curve_and_the_present_impact_on_it(monkeypatch):
 
 
 def test_the_relief_has_the_pressure_on_every_cut():
-    view = seen(opened())
+    view = view_of(preset_state())
     rows = view.rows(PLOTS["relief"], view.course.now)
     x, y = rows["cut 12"]
     # The middle cut passes the axis; its top is the pressure above its own ground.
@@ -340,7 +333,7 @@ def test_a_new_plot_is_one_entry(monkeypatch):
         moving=lambda view, i: {"now": work(view, [i])},
         tab=("Work", "p"),
     )  # fmt: skip
-    view, picture = seen(opened()), Picture(plot)
+    view, picture = view_of(preset_state()), Picture(plot)
     data = {source.name: columns for source, columns in picture.columns(view, 20, True).items()}
     assert data["work lines"]["row"] == ["W_p/d_c"]
     assert data["work marks"]["x"][0] == pytest.approx(view.course.states.depth[20] * 1e9, rel=1e-3)
@@ -354,7 +347,7 @@ def test_an_unknown_axis_is_refused_when_a_plot_is_made():
 
 
 def test_another_theme_is_another_palette():
-    view = seen(opened())
+    view = view_of(preset_state())
     picture = Picture(PLOTS["force"])
     light, dark = (list(picture.columns(view, 5, theme).values()) for theme in (False, True))
     assert all(one["color"] != other["color"] for one, other in zip(light, dark, strict=True))
@@ -378,12 +371,12 @@ def test_the_models_of_a_figure_are_few():
 
 
 def test_legends_name_what_is_drawn_only():
-    shown = drawn(seen(opened()), PLOTS["force"], {50})
+    shown = drawn(view_of(preset_state()), PLOTS["force"], {50})
     assert "held 1" not in shown
-    elastic = opened(ELASTIC)
-    assert not drawn(seen(elastic), PLOTS["force"], {20, 40}) & {"yielding", "dissipated"}
+    elastic = preset_state(ELASTIC)
+    assert not drawn(view_of(elastic), PLOTS["force"], {20, 40}) & {"yielding", "dissipated"}
     elastic = changes.choose(elastic, "drive", "impact")
-    assert drawn(seen(elastic), PLOTS["energy"], {20}) == {"stored", "kinetic", "time"}
+    assert drawn(view_of(elastic), PLOTS["energy"], {20}) == {"stored", "kinetic", "time"}
 
 
 def test_numbers_along_a_logarithmic_axis_have_room():
@@ -399,7 +392,7 @@ def test_numbers_along_a_logarithmic_axis_have_room():
 
 @pytest.mark.parametrize(("key", "at"), [(GOLD, 1.0), (DROP, 1.0), (DROP, 1.7), (GOLD, 2.2), (GOLD, 0.0)])
 def test_every_plot_is_described(key, at):
-    view = seen(opened(key), at)
+    view = view_of(preset_state(key), at)
     for plot in PLOTS.values():
         if plot.there(view) and plot.name != "residual":
             text = described(view, plot)
@@ -408,7 +401,7 @@ def test_every_plot_is_described(key, at):
 
 
 def test_force_and_depth_in_words():
-    view = seen(opened())
+    view = view_of(preset_state())
     text, course = described(view, PLOTS["force"]), view.course
     assert f"now: d = {written(float(course.state.depth), 'length', 3)}" in text
     # Forces are in the unit of the axis, µN, with three digits.

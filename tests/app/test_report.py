@@ -11,16 +11,16 @@ from app.panels import share
 from app.panels.readouts import readings, text
 from app.panels.report import printed, report
 from app.plots import PLOTS
-from app.state import PRESETS, opened
+from app.state import PRESETS, preset_state
 from app.state.units import written
 
 from .conftest import DROP
-from .made import seen
+from .states import view_of
 
 SHOWN = [
     name
     for name, plot in PLOTS.items()
-    if plot.there(seen(opened())) and not plot.find and name != "residual"
+    if plot.there(view_of(preset_state())) and not plot.find and name != "residual"
 ]
 
 
@@ -37,8 +37,8 @@ def assert_names_nothing_outside(html):
 
 
 def test_the_report_says_what_the_page_says():
-    state, _ = changes.typed(opened(DROP), "speed", "2 m/s")
-    view = seen(state, 1.5)
+    state, _ = changes.typed(preset_state(DROP), "speed", "2 m/s")
+    view = view_of(state, 1.5)
     course, plots = (
         view.course,
         [PLOTS[name] for name in ("springs", "pressure", "force", "motion", "energy")],
@@ -65,8 +65,8 @@ def test_the_report_says_what_the_page_says():
 
 def test_text_of_others_is_never_markup_in_a_report():
     r = np.linspace(0, 1e-6, 20)
-    state = changes.take_tip(opened(), (r, r**2 / 1e-5), "20 rows of <img src=x>")
-    html = report(state, seen(state), [PLOTS["force"]], "")
+    state = changes.take_tip(preset_state(), (r, r**2 / 1e-5), "20 rows of <img src=x>")
+    html = report(state, view_of(state), [PLOTS["force"]], "")
     assert "<img src=x" not in html
     assert "20 rows of <img src=x>" in plain(html)
 
@@ -74,7 +74,7 @@ def test_text_of_others_is_never_markup_in_a_report():
 @pytest.mark.parametrize("name", SHOWN)
 def test_figures_hold_the_rows_of_the_page(name):
     """Every row is in the source of the figure, in the units of its axes, to a fraction of a pixel."""
-    view = seen(opened())
+    view = view_of(preset_state())
     plot, figure = PLOTS[name], printed(view, PLOTS[name])
     rows, axes = view.rows(plot, view.course.now), view.axes_of(plot)
     assert figure.x_range.end == pytest.approx(axes[0].end / axes[0].factor)

@@ -5,7 +5,7 @@ import re
 import pytest
 
 import mdr_core as mdr
-from app.state import opened
+from app.state import preset_state
 
 from .conftest import Explorer, Server
 from .deployed import Proxy, deployed
@@ -45,7 +45,7 @@ def test_page_comes_back_with_what_it_showed(proxy, context):
         server = serve(proxy)
         # It loads itself again, once the server answers.
         page.wait_for_function("!window.left && window.explorer?.idle()", timeout=60_000)
-        assert_draws(explorer, opened().but(max_depth=13.5e-9))
+        assert_draws(explorer, preset_state().replace(max_depth=13.5e-9))
         assert explorer.off_host() == []
     finally:
         page.close()
@@ -77,9 +77,9 @@ def test_text_of_others_is_never_markup(explorer, tmp_path):
         explorer.page.get_by_label("CSV file of a measured tip: r, z").set_input_files(path)
         told.filter(has_text=said).first.wait_for()
         assert explorer.page.locator("img[src=x]").count() == 0
-    assert_draws(explorer, opened())
+    assert_draws(explorer, preset_state())
     for query in (f"preset={MARKUP}", f"fit_note={MARKUP}"):
         explorer.page.goto(f"{explorer.page.url.split('?')[0]}?{query}")
         explorer.wait("window.explorer?.idle()")
         assert explorer.page.locator("img[src=x]").count() == 0
-    assert_draws(explorer, opened())
+    assert_draws(explorer, preset_state())

@@ -9,31 +9,31 @@ import pytest
 import mdr_core as mdr
 from app import changes
 from app.panels import share
-from app.solve import DRIVES, deepest, follow, numbers_of, scene_of
-from app.state import OPENING, PRESETS, State, altered, link, medium, number, opened, profile
-from app.state.files import MOST_SAMPLES, read_tip
+from app.solve import DRIVES, follow, numbers_of, scene_of, turning_point
+from app.state import OPENING, PRESETS, VIEW, State, altered, link, medium, number, preset_state, profile
+from app.state.files import MAX_SAMPLES, read_tip
 from app.state.quantities import QUANTITIES, SHAPES, Scale
 from app.state.units import entry, fitting, read, written
 
 from .conftest import DROP, PUNCH
-from .made import chosen, there
-from .made import written as link_of
+from .states import linked_state, state_with
+from .states import written as link_of
 
 
 def test_every_preset_gives_its_scene():
     for key, preset in PRESETS.items():
-        assert medium(opened(key)).q_c == preset.values["q_c"]
-        assert len(follow(opened(key))) > 50
+        assert medium(preset_state(key)).q_c == preset.values["q_c"]
+        assert len(follow(preset_state(key))) > 50
 
 
 def test_a_state_is_small_frozen_and_known():
     """About 75 values; what is not one of them is refused."""
-    state = opened()
+    state = preset_state()
     assert 60 <= len(state) <= 100
     with pytest.raises(AttributeError, match="frozen"):
         state.max_depth = 1.0
     with pytest.raises(KeyError, match="no max_deph"):
-        state.but(max_deph=1.0)
+        state.replace(max_deph=1.0)
     assert state == State(dict(state))
 
 
@@ -46,7 +46,7 @@ def test_every_number_says_what_it_is():
 
 @pytest.mark.parametrize("shape", [shape for shape in SHAPES if shape != "sampled"])
 def test_a_shape_that_was_looked_at_keeps_its_values(shape):
-    state = chosen(shape=shape)
+    state = state_with(shape=shape)
     state = changes.choose(state, "shape", "sphere" if shape == "cone" else "cone")
     assert state.cone_slope == 0.358
     state = changes.choose(state, "shape", "cone")
@@ -55,16 +55,16 @@ def test_a_shape_that_was_looked_at_keeps_its_values(shape):
 
 
 def test_a_sphere_has_the_radius_of_the_paraboloid_before():
-    state = chosen(shape="paraboloid")
+    state = state_with(shape="paraboloid")
     assert changes.choose(state, "shape", "sphere").sphere_radius == state.paraboloid_radius
 
 
 @pytest.mark.parametrize("key", PRESETS)
 def test_every_drive_can_be_chosen_from_every_preset(key):
-    state = opened(key)
+    state = preset_state(key)
     for drive in ("force", "impact", "depth", "oblique", "path"):
         state = changes.choose(state, "drive", drive)
-        assert float(deepest(state).depth) > 0
+        assert float(turning_point(state).depth) > 0
 
 
 @pytest.mark.parametrize(
@@ -90,7 +90,7 @@ def test_typed_numbers(text, kind, value, surprising):
 
 
 def test_an_angle_of_90_degrees_is_taken():
-    state, _ = changes.typed(chosen(DROP, "oblique"), "attack", "90")
+    state, _ = changes.typed(state_with(DROP, "oblique"), "attack", "90")
     assert state.attack == pi / 2
     assert scene_of(state).drive.tangential_speed == pytest.approx(0.0, abs=1e-12)
 
@@ -98,12 +98,9 @@ def test_an_angle_of_90_degrees_is_taken():
 def test_a_zero_has_the_unit_of_its_column():
     """A bare 5 typed over it is 5 nm, not 5 m."""
     assert entry(0.0, "length", 9e-9) == "0 nm"
-    state, _ = changes.typed(opened(), "contact_point", "5", like=9e-9)
-    assert state.contact_point == pytest.approx(5e-9)
-
-
-def test_what_is_not_finite_has_no_unit():
     assert written(float("inf"), "length") == "∞"
+    state, _ = changes.typed(preset_state(), "contact_point", "5", like=9e-9)
+    assert state.contact_point == pytest.approx(5e-9)
 
 
 @pytest.mark.parametrize(
@@ -116,15 +113,15 @@ def test_what_is_no_number_is_refused(text):
 
 def test_a_number_out_of_bounds_is_refused_by_name():
     with pytest.raises(ValueError, match=r"dₘₐₓ = 1000 m is out of bounds: .* to 10\.00 m"):
-        changes.typed(opened(), "max_depth", "1000 m")
+        changes.typed(preset_state(), "max_depth", "1000 m")
 
 
 def test_E_star_of_two_bodies_and_q_c_of_a_hardness_can_be_set():
-    state = changes.put(opened(), "E_star", 5e10)
+    state = changes.put(preset_state(), "E_star", 5e10)
     assert state.elasticity == "bodies"
     assert medium(state).E_star == pytest.approx(5e10, rel=1e-12)
     assert medium(state).poisson == 0.42
-    state = changes.put(chosen(plasticity="hardness"), "q_c", 50.0)
+    state = changes.put(state_with(plasticity="hardness"), "q_c", 50.0)
     assert medium(state).q_c == pytest.approx(50.0, rel=1e-12)
 
 
@@ -140,42 +137,31 @@ def test_a_slider_begins_where_the_preset_does_and_reaches_what_is_typed():
 
 
 def test_the_link_of_a_preset_is_its_name():
-    assert link_of(opened()) == ""
-    assert link_of(opened(DROP)) == f"preset={DROP}"
-    assert link_of(opened().but(max_depth=2e-9)) == "max_depth=2e-09"
+    assert link_of(preset_state()) == ""
+    assert link_of(preset_state(DROP)) == f"preset={DROP}"
+    assert link_of(preset_state().replace(max_depth=2e-9)) == "max_depth=2e-09"
 
 
 @pytest.mark.parametrize("drive", DRIVES)
 def test_a_link_holds_the_whole_page(drive):
-    state = chosen(DROP, drive, damping="tau", shape="sphere")
-    held = link.named(link.write(state, DRIVES[drive].form, view=False), "50 % & <b> + 1")
-    state = state.but(
+    state = state_with(DROP, drive, damping="tau", shape="sphere")
+    held = link.with_name(link.write(state, DRIVES[drive].form, view=False), "50 % & <b> + 1")
+    state = state.replace(
         progress=0.75, hold=(held,), tiles=("sweep", "section"), dark=True, keep=True, fit_note="a < b"
     )
-    state = state.but(axes="ratio", references="all", heights="to_scale", section="zz")
-    again = there(state)
+    state = state.replace(axes="ratio", references="all", heights="to_scale", section="zz")
+    again = linked_state(state)
     assert scene_of(again) == scene_of(state)
-    for name in (
-        "progress",
-        "hold",
-        "tiles",
-        "dark",
-        "keep",
-        "axes",
-        "references",
-        "heights",
-        "section",
-        "fit_note",
-    ):
+    for name in (*VIEW, "section", "fit_note"):
         assert again[name] == state[name], name
-    assert link.name_of(again.hold[0])[1] == "50 % & <b> + 1"
+    assert link.split_name(again.hold[0])[1] == "50 % & <b> + 1"
     assert len(link_of(state)) < 700
 
 
 def test_ranges_of_sweeps_are_in_the_link_and_begin_anew():
-    state = changes.put(chosen(DROP, swept="speed"), "sweep_low", 0.005)
-    assert number(there(state), "sweep_low") == 0.005
-    assert number(there(state), "sweep_high") == number(state, "sweep_high")
+    state = changes.put(state_with(DROP, swept="speed"), "sweep_low", 0.005)
+    assert number(linked_state(state), "sweep_low") == 0.005
+    assert number(linked_state(state), "sweep_high") == number(state, "sweep_high")
     assert changes.choose(state, "swept", "mass").sweep_low is None
 
 
@@ -192,7 +178,7 @@ def test_a_link_of_version_0_3_is_read():
     state = link.read(link.arguments(urlencode(old)))
     assert (state.speed, state.progress, state.sweep_low) == (2.0, 1.5, 0.1)
     assert (state.tiles, state.dark) == (("sweep",), True)
-    assert link.read(link.arguments(link.name_of(state.hold[0])[0])).cone_slope == 0.2
+    assert link.read(link.arguments(link.split_name(state.hold[0])[0])).cone_slope == 0.2
     with pytest.raises(ValueError, match=r"version 0\.3 took from a file"):
         link.read(link.arguments("preset="))
 
@@ -224,7 +210,7 @@ def test_measured_tips_as_instruments_write_them():
     z = 0.2 * np.abs(r) + 0.5 * np.random.default_rng(1).standard_normal(r.size)
     for text in (table(r, z), table(r, z, "; ", comma=True), table(r, z, "\t")):
         (radii, heights), note = read_tip(text)
-        assert len(radii) <= MOST_SAMPLES
+        assert len(radii) <= MAX_SAMPLES
         assert "801 rows" in note
         tip = mdr.Sampled(radii, heights)
         assert float(tip.height(100e-9)) == pytest.approx(20e-9, rel=0.1)
@@ -238,10 +224,10 @@ def test_measured_tips_as_instruments_write_them():
 @pytest.mark.parametrize("axis", [0, 20])
 def test_a_noisy_tip_is_as_hard_as_the_one_that_is_nearest_to_it(axis):
     """As `Sampled.fit` has it of the same rows, wherever the axis is; near the tip without noise."""
-    r, gold = np.linspace(-300, 300, 400), medium(opened())
+    r, gold = np.linspace(-300, 300, 400), medium(preset_state())
     z = r**2 / 2000 + 0.3 * np.random.default_rng(2).standard_normal(r.size)
     samples, note = read_tip(table(r + axis, z, "; ", comma=True))
-    assert len(samples[0]) <= MOST_SAMPLES
+    assert len(samples[0]) <= MAX_SAMPLES
     assert "which scatter by 290 pm" in note
     depths = [2e-9, 5e-9, 10e-9]
     read, fitted, smooth = (
@@ -257,11 +243,11 @@ def test_a_tip_of_many_or_of_few_rows():
     rng = np.random.default_rng(3)
     r = np.linspace(0, 300, 20_000)
     radii, heights = read_tip(table(r, r**2 / 2000 + 0.3 * rng.standard_normal(r.size)))[0]
-    assert len(radii) <= MOST_SAMPLES
+    assert len(radii) <= MAX_SAMPLES
     assert heights[-1] == pytest.approx(45e-9, rel=0.01)
     # Without noise there are more vertices than are kept; between them it is a little too high.
     radii, heights = read_tip(table(r, r**2 / 2000))[0]
-    assert len(radii) == MOST_SAMPLES
+    assert len(radii) == MAX_SAMPLES
     np.testing.assert_allclose(heights, radii**2 / 2e-6, atol=0.005e-9)
     # Few rows that noise has made concave.
     r = np.linspace(-50, 50, 41)
@@ -273,9 +259,9 @@ def test_a_tip_of_many_or_of_few_rows():
 
 def test_a_tip_is_pressed_no_deeper_than_it_reaches():
     samples, note = read_tip(table([0, 1, 2, 4], [0, 0.1, 0.3, 1]))
-    state = changes.take_tip(opened(), samples, note)
+    state = changes.take_tip(preset_state(), samples, note)
     assert state.max_depth < profile(state).known_depth
-    assert follow(state).deepest.force > 0
+    assert follow(state).turning_point.force > 0
 
 
 # What is taken away.
@@ -290,7 +276,7 @@ def test_numbers_of_other_drives_are_neither_reported_nor_taken_away_nor_swept(d
         "impact": {"mass", "speed", "density"},
         "oblique": {"mass", "friction", "incoming_speed", "attack", "density"},
     }
-    state = chosen(OPENING, drive, inertia="density")
+    state = state_with(OPENING, drive, inertia="density")
     used = {"cone_slope", "E_1", "nu_1", "E_2", "nu_2", "q_c"}
     assert set(numbers_of(state)) == used | theirs[drive]
     taken = share.csv(follow(state), state) + link_of(state)
@@ -301,7 +287,7 @@ def test_numbers_of_other_drives_are_neither_reported_nor_taken_away_nor_swept(d
 
 
 def test_exports_say_what_the_medium_was_made_of():
-    state = opened()
+    state = preset_state()
     text = share.csv(follow(state), state)
     for part in ("poisson = 0.42", "E_1 = 78000000000.0", "nu_2 = 0.07", PRESETS[OPENING].label):
         assert part in text
@@ -316,7 +302,7 @@ def test_exports_say_what_the_medium_was_made_of():
     ("drive", "progress"), [("depth", 0.5), ("depth", 1.5), ("impact", 1.0), ("impact", 1.6)]
 )
 def test_the_snippet_comes_to_the_state(drive, progress, capsys):
-    course, values = follow(chosen(OPENING, drive).but(progress=progress)), {}
+    course, values = follow(state_with(OPENING, drive).replace(progress=progress)), {}
     exec(share.python(course), values)
     capsys.readouterr()
     assert values["medium"] == course.scene.medium
@@ -327,7 +313,7 @@ def test_the_snippet_comes_to_the_state(drive, progress, capsys):
 
 
 def test_the_pressure_of_a_state_is_taken_away():
-    state = opened(PUNCH)
+    state = preset_state(PUNCH)
     rows = [
         r.split(",") for r in share.pressure_csv(follow(state), state).splitlines() if not r.startswith("#")
     ]

@@ -9,19 +9,19 @@ import pytest
 from app import changes
 from app.page import Page
 from app.panels import fitting, held, readouts
-from app.panels.guide import TOURS, said, step_state
+from app.panels.guide import TOURS, step_state, step_text
 from app.panels.report import report
 from app.panels.share import Share
 from app.plots import PLOTS
 from app.plots.contact import springs
 from app.plots.force import force, residual
 from app.solve import DRIVES, follow
-from app.state import link, opened, settled
+from app.state import link, preset_state, with_derived
 from app.state.quantities import DATA, LABELS, QUANTITIES
 
 from .conftest import DROP, GOLD
-from .made import chosen, seen, solved, viscous, written
-from .test_drives import thrown
+from .states import solved, state_with, view_of, viscous, written
+from .test_drives import oblique_state
 
 
 def plain(html):
@@ -37,7 +37,7 @@ def area(row):
 @pytest.mark.parametrize("progress", [0.6, 1.0, 1.3, 1.7])
 def test_1_areas_of_a_viscous_impact_are_its_energies(progress):
     """Hatched is what yield and dashpots have taken, blue what is stored, up to what has let go."""
-    view = seen(viscous(), progress)
+    view = view_of(viscous(), progress)
     course, i = view.course, view.course.now
     rows, m = force(view, i), view.course.motion
     contact = float(course.states.stored_energy[i])
@@ -50,8 +50,8 @@ def test_1_areas_of_a_viscous_impact_are_its_energies(progress):
 
 
 def test_2_the_fast_limit_is_compared_with_both_areas():
-    course = follow(opened(DROP))
-    text = " ".join(sentence for _, sentence in readouts.limits(course, opened(DROP)))
+    course = follow(preset_state(DROP))
+    text = " ".join(sentence for _, sentence in readouts.limits(course, preset_state(DROP)))
     assert "πa²" in text
     assert "A = πc²" in text
     assert (
@@ -63,17 +63,17 @@ def test_3_the_guide_says_of_which_shape_the_area_goes_with_the_energy():
     steps = TOURS["A fast impact, and what it destroys"]
     assert len(steps) == 6
     assert "under a cone the area is proportional to the energy" in steps[4]["says"]
-    assert step_state(steps[5], opened()).tiles == ("sweep",)
+    assert step_state(steps[5], preset_state()).tiles == ("sweep",)
     assert "ball of 5.5 kg" not in str(TOURS)
-    areas = [follow(step_state(step, opened())).hit.damaged_area for step in steps[3:5]]
+    areas = [follow(step_state(step, preset_state())).hit.damaged_area for step in steps[3:5]]
     assert areas[1] / areas[0] == pytest.approx(4, rel=0.05)
 
 
 def test_4_report_and_link_of_a_fit_have_the_fit():
-    state = fitting.take(opened(), fitting.example(opened()))
-    state = fitting.fit(state.but(noise="given", depth_noise=1e-11))
+    state = fitting.take(preset_state(), fitting.example(preset_state()))
+    state = fitting.fit(state.replace(noise="given", depth_noise=1e-11))
     found = state.curve.fit
-    text = plain(report(state, seen(state), [PLOTS["residual"]], ""))
+    text = plain(report(state, view_of(state), [PLOTS["residual"]], ""))
     assert "Fit to A made curve" in text
     assert "± " in text[text.index("The fit") :]
     for part in ("reduced χ²", "contact point", *found.remarks):
@@ -85,9 +85,9 @@ def test_4_report_and_link_of_a_fit_have_the_fit():
 
 
 def test_5_the_noise_around_a_residual_has_that_of_the_depth():
-    state = fitting.take(opened(), fitting.example(opened()))
-    state = fitting.fit(state.but(noise="given", depth_noise=5e-11))
-    found, view = state.curve.fit, seen(state)
+    state = fitting.take(preset_state(), fitting.example(preset_state()))
+    state = fitting.fit(state.replace(noise="given", depth_noise=5e-11))
+    found, view = state.curve.fit, view_of(state)
     size = residual(view)["± noise"][1][: found.residuals.size]
     expected = np.hypot(found.force_noise, found.path.stiffness * 5e-11)
     np.testing.assert_allclose(size, expected, rtol=1e-9)
@@ -99,26 +99,27 @@ def test_5_the_noise_around_a_residual_has_that_of_the_depth():
 def test_6_and_7_are_of_typed_numbers():
     """In test_state.py: zeros in the unit of their column, 90°, 10 000 nm, 5 Å, 70.3°."""
     page = Page()
-    page.tell(lambda state: fitting.take(state, fitting.example(state)))
+    page.apply(lambda state: fitting.take(state, fitting.example(state)))
     texts = [number.text for number in page.fitting.place]
     assert [text.split()[1] for text in texts] == ["nm", "µN", "nm/µN"]
 
 
 def test_8_formulas_are_those_of_the_drive():
-    dry, wet = follow(opened(DROP)), follow(viscous())
+    dry, wet = follow(preset_state(DROP)), follow(viscous())
     for name in ("force", "springs"):
         assert "η" not in PLOTS[name].says(dry)
         assert "η" in PLOTS[name].says(wet)
     assert "W_v" in PLOTS["energy"].says(wet)
     assert "W_v" not in PLOTS["energy"].says(dry)
-    assert "W_f" in PLOTS["energy"].says(follow(thrown()))
+    assert "W_f" in PLOTS["energy"].says(follow(oblique_state()))
 
 
 @pytest.mark.parametrize("progress", [0.7, 1.0, 1.5])
 def test_9_the_numbers_of_a_state_sum_up(progress):
-    course = follow(viscous().but(progress=progress))
+    course = follow(viscous().replace(progress=progress))
     found = {
-        each.name: readouts.here(values, course.now) for each, values in readouts.readings(course).items()
+        each.name: readouts.value_at(values, course.now)
+        for each, values in readouts.readings(course).items()
     }
     parts = ("stored_energy", "plastic_work", "viscous_work", "kinetic_energy")
     assert sum(found[name] for name in parts) == pytest.approx(2.75, rel=1e-6)
@@ -130,10 +131,10 @@ def test_9_the_numbers_of_a_state_sum_up(progress):
 def test_10_held_scenes_are_named_by_what_differs():
     names = []
     for state in (
-        opened(DROP),
-        opened(DROP).but(speed=2.0),
-        settled(opened(DROP).but(q_c=2e5)),
-        chosen(DROP, shape="cone").but(cone_slope=0.2),
+        preset_state(DROP),
+        preset_state(DROP).replace(speed=2.0),
+        with_derived(preset_state(DROP).replace(q_c=2e5)),
+        state_with(DROP, shape="cone").replace(cone_slope=0.2),
     ):
         names.append(held.difference(state))
     assert names == [
@@ -149,7 +150,7 @@ def test_11_small_things_are_said_right():
     with open(about, encoding="utf-8") as file:
         assert "never cut" not in file.read()
     assert "∞ m" not in str(
-        readouts.table(follow(chosen(plasticity="none")), readouts.readings(follow(opened())), 0)
+        readouts.table(follow(state_with(plasticity="none")), readouts.readings(follow(preset_state())), 0)
     )
     from app.ui import plain as said_plainly
 
@@ -160,12 +161,12 @@ def test_11_small_things_are_said_right():
 
 
 def test_12_curves_with_a_vertical_start_are_no_chords():
-    view = seen(opened(DROP))
+    view = view_of(preset_state(DROP))
     d, a = view.rows(PLOTS["radii"], 0)["contact radius a"]
     for depth in (1e-6, 5e-6, 5e-5):
         exact = float(view.course.scene.profile.contact_radius(depth))
         assert np.interp(depth, d[1:], a[1:]) == pytest.approx(exact, rel=0.03)
-    state = changes.choose(chosen(GOLD, damping="tau"), "drive", "path")
+    state = changes.choose(state_with(GOLD, damping="tau"), "drive", "path")
     course = solved(changes.choose(state, "pattern", "creep"))
     time, depth = course.motion.time, course.states.depth
     assert len(time) > 20
@@ -177,7 +178,7 @@ def test_12_curves_with_a_vertical_start_are_no_chords():
 
 
 def test_13_springs_of_an_oblique_impact_are_elastic_or_yielded():
-    view = seen(chosen(DROP, "oblique"))
+    view = view_of(state_with(DROP, "oblique"))
     rows, state = springs(view, view.course.now), view.course.state
     reach = {name: np.nanmax(np.abs(rows[name][0][::9])) for name in ("yielded", "elastic")}
     spacing = 2 * view.end("x") / 60
@@ -194,7 +195,7 @@ def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept():
     page.board.tabs["maw"].value = True
     assert page.shown.plots == [PLOTS[name] for name in ("springs", "pressure", "force")]
     assert not page.board.tabs["maw"].value
-    page.tell(lambda state: changes.put(state, "max_depth", 5e-9))
+    page.apply(lambda state: changes.put(state, "max_depth", 5e-9))
     assert page.state.max_depth == 5e-9
     assert "maw" not in link.write(page.state, DRIVES["depth"].form)
     # A measured tip can be chosen where there is one only.
@@ -204,7 +205,7 @@ def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept():
 
 def test_a_reset_stands_at_the_deepest_state():
     page = Page()
-    page.tell(lambda state: state.but(progress=0.0))
+    page.apply(lambda state: state.replace(progress=0.0))
     page.frame.reset.clicks += 1
     assert page.state.progress == 1.0
-    assert said(TOURS["First yield"][0], page.shown.view.course)
+    assert step_text(TOURS["First yield"][0], page.shown.view.course)

@@ -7,14 +7,14 @@ from app import changes
 from app.panels import share
 from app.plots import sweep
 from app.solve import follow
-from app.state import OPENING, medium, number, opened, profile
+from app.state import OPENING, medium, number, preset_state, profile
 
 from .conftest import DROP, PUNCH
-from .made import chosen, there
+from .states import linked_state, state_with
 
 
 def swept(state, **choices):
-    state = state.but(**choices)
+    state = state.replace(**choices)
     asked = sweep.asked(state)
     (found,) = sweep.found(follow(state), asked)
     return state, asked, found
@@ -24,13 +24,13 @@ def one(state, name, value, quantity):
     """A quantity of the scene with another value of one number, as the page itself would show it."""
     if name == "energy":
         name, value = "speed", (2 * value / state.mass) ** 0.5
-    course = follow(there(state.but(**{name: float(value)})))
-    return float(getattr(course.hit or course.deepest, quantity))
+    course = follow(linked_state(state.replace(**{name: float(value)})))
+    return float(getattr(course.hit or course.turning_point, quantity))
 
 
 @pytest.mark.parametrize("drive", ["impact", "depth", "force"])
 def test_every_number_is_swept_as_one_scene_at_a_time(drive):
-    state = chosen(OPENING, drive)
+    state = state_with(OPENING, drive)
     for name in changes.options(state, "swept"):
         state, asked, found = swept(state, swept=name, against="plastic_work", sweep_axes="log_x")
         numbers, values = found.rows["this scene"]
@@ -45,7 +45,7 @@ def test_every_number_is_swept_as_one_scene_at_a_time(drive):
 
 
 def test_a_viscous_impact_is_swept_over_its_relaxation_time_at_rest():
-    state = chosen(DROP, damping="tau").but(tau=1e-5)
+    state = state_with(DROP, damping="tau").replace(tau=1e-5)
     state, asked, found = swept(state, swept="tau", against="restitution")
     numbers, values = found.rows["this scene"]
     assert not sweep.quick(asked)
@@ -60,7 +60,7 @@ def test_a_viscous_impact_is_swept_over_its_relaxation_time_at_rest():
 @pytest.mark.parametrize(("shape", "power"), [("cone", 1.0), ("paraboloid", 2 / 3)])
 def test_the_damaged_area_comes_to_the_fast_limit_and_its_power_of_the_energy(shape, power):
     """Popov (2015), Eq. (24): A = 4W/(π q_c s) of a cone; class (b) in general 2/(n + 1)."""
-    state = chosen(DROP, shape=shape)
+    state = state_with(DROP, shape=shape)
     state, _, found = swept(state, swept="energy", sweep_low=1e4, sweep_high=1e6, against="damaged_area")
     (W, area), (_, fast) = found.rows["this scene"], found.rows[sweep.FAST]
     if shape == "cone":
@@ -76,7 +76,7 @@ def test_the_damaged_area_comes_to_the_fast_limit_and_its_power_of_the_energy(sh
 
 
 def test_what_cannot_be_solved_ends_the_curve_and_is_said():
-    state, _, found = swept(chosen(PUNCH, "force"), swept="max_force", against="depth")
+    state, _, found = swept(state_with(PUNCH, "force"), swept="max_force", against="depth")
     numbers, values = found.rows["this scene"]
     most = np.pi * medium(state).q_c * profile(state).radius
     np.testing.assert_array_equal(np.isfinite(values), numbers < most)
@@ -84,7 +84,7 @@ def test_what_cannot_be_solved_ends_the_curve_and_is_said():
 
 
 def test_a_range_out_of_bounds_is_refused_and_a_preset_begins_it_anew():
-    state = changes.put(chosen(DROP, swept="speed"), "sweep_low", 0.005)
+    state = changes.put(state_with(DROP, swept="speed"), "sweep_low", 0.005)
     assert sweep.asked(state).low == 0.005
     with pytest.raises(ValueError, match="out of bounds"):
         changes.typed(state, "sweep_low", "1000 km/s")
@@ -93,7 +93,7 @@ def test_a_range_out_of_bounds_is_refused_and_a_preset_begins_it_anew():
 
 
 def test_a_drive_that_is_not_swept_says_so():
-    state = chosen(OPENING, "path")
+    state = state_with(OPENING, "path")
     course = follow(state)
     (found,) = sweep.found(course, sweep.asked(state))
     assert found.rows == {}
@@ -106,7 +106,7 @@ def test_a_drive_that_is_not_swept_says_so():
     ("drive", "name"), [("impact", "energy"), ("impact", "nu_1"), ("depth", "cone_slope"), ("force", "q_c")]
 )
 def test_the_sweep_is_taken_away_as_csv_and_python(drive, name, capsys):
-    state, asked, found = swept(chosen(opened().preset, drive), swept=name)
+    state, asked, found = swept(state_with(preset_state().preset, drive), swept=name)
     text = share.sweep_csv(follow(state), state)
     rows = [line.split(",") for line in text.splitlines() if not line.startswith("#")]
     assert {len(row) for row in rows} == {len(rows[0])}

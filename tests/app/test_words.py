@@ -10,13 +10,13 @@ from app.panels.guide import TOURS, step_state
 from app.panels.readouts import READOUTS, heads, readings
 from app.plots import PLOTS
 from app.solve import follow, scene_of
-from app.state import PRESETS, medium, opened, profile
+from app.state import PRESETS, medium, preset_state, profile
 from app.state.files import read_tip
 from app.state.quantities import ABOUT, CHOICES, QUANTITIES, SHAPES
 from app.ui import linked, marked, plain
 
 from .conftest import DROP
-from .made import chosen, seen
+from .states import state_with, view_of
 
 
 def places(html):
@@ -26,7 +26,7 @@ def places(html):
 
 def test_every_number_that_is_read_says_what_it_is():
     for drive in ("depth", "impact", "oblique"):
-        course = follow(chosen(DROP, drive, damping="tau"))
+        course = follow(state_with(DROP, drive, damping="tau"))
         html = heads(course, readings(course))
         ids = re.findall(r' popover id="([^"]+)"', html)
         assert 6 <= len(set(ids)) == len(ids) == html.count("popovertarget=") <= 8
@@ -37,7 +37,7 @@ def test_every_number_that_is_read_says_what_it_is():
 
 def test_every_equation_leads_to_the_theory():
     ids = set(re.findall(r'id="((?:eq|section)-\d+)"', theory.html()))
-    courses = [follow(chosen(DROP, drive, damping="tau")) for drive in ("depth", "impact", "oblique")]
+    courses = [follow(state_with(DROP, drive, damping="tau")) for drive in ("depth", "impact", "oblique")]
     formulas = [plot.says(course) for plot in PLOTS.values() for course in courses]
     texts = formulas + list(ABOUT.values())
     texts += [part for q in (*QUANTITIES.values(), *READOUTS) for part in (q.help, q.equation)]
@@ -62,7 +62,7 @@ def test_the_theory_has_its_formulas_and_begins_where_they_are_explained():
 def test_half_angle_beside_the_slope_and_drop_height_beside_the_speed():
     page = Page()
     assert "Half-angle 70.30°, flank 19.70° to the surface" in page.controls.notes["shape"].object
-    page.tell(lambda state: changes.choose(state, "preset", DROP))
+    page.apply(lambda state: changes.choose(state, "preset", DROP))
     # 5.5 kg at 1 m/s: half a joule a kilogram; v²/2g is 1 m²/s² over 19.6133 m/s².
     said = re.sub("<[^>]+>", "", page.controls.notes["drive"].object)
     assert "= 2.750 J" in said
@@ -83,14 +83,14 @@ def test_the_form_begins_with_the_drive_and_has_what_is_used():
         ["E_star", "q_c"],
     )
     assert not page.controls.more.value
-    page.tell(lambda state: changes.choose(state, "damping", "tau"))
+    page.apply(lambda state: changes.choose(state, "damping", "tau"))
     assert page.controls.more.value
     assert "tau" in shown("more")
-    page.tell(lambda state: changes.choose(state, "drive", "impact"))
+    page.apply(lambda state: changes.choose(state, "drive", "impact"))
     assert shown("drive") == ["mass", "speed"]
     numbers = [number for region in page.controls.numbers.values() for number in region]
-    page.tell(lambda state: changes.choose(state, "drive", "oblique"))
-    page.tell(lambda state: changes.choose(state, "drive", "depth"))
+    page.apply(lambda state: changes.choose(state, "drive", "oblique"))
+    page.apply(lambda state: changes.choose(state, "drive", "depth"))
     assert shown("drive") == ["max_depth"]
     # Components stay, and are told to be others.
     assert numbers[0] is page.controls.numbers["drive"][0]
@@ -98,7 +98,7 @@ def test_the_form_begins_with_the_drive_and_has_what_is_used():
 
 def stepped(title):
     """The course of each step of a guided scene."""
-    return [follow(step_state(step, opened())) for step in TOURS[title]]
+    return [follow(step_state(step, preset_state())) for step in TOURS[title]]
 
 
 def test_guided_scenes_say_what_is_so():
@@ -140,7 +140,7 @@ def test_a_guided_scene_is_stepped_through_and_undone():
     assert "e = 1.00" in re.sub("<[^>]+>", "", page.guide.words.object)
     assert page.state.tiles == ("surface",)
     # What it says is gone while the page shows something else.
-    page.tell(lambda state: changes.put(state, "speed", 2 * state.speed))
+    page.apply(lambda state: changes.put(state, "speed", 2 * state.speed))
     assert "1 of 6. The page shows something else" in page.guide.words.object
     page.frame.undo.clicks += 1
     assert "e = 1.00" in re.sub("<[^>]+>", "", page.guide.words.object)
@@ -155,7 +155,7 @@ def test_python_and_raw_indices_are_not_on_the_page():
     shown = [text for texts in CHOICES.values() for text in texts.values()] + [ABOUT["shape"]]
     shown += [quantity.label for quantity in QUANTITIES.values()]
     for axes in ("units", "ratio"):
-        view = seen(opened(), axes=axes)
+        view = view_of(preset_state(), axes=axes)
         shown += [
             axis.label
             for plot in PLOTS.values()
@@ -166,11 +166,11 @@ def test_python_and_raw_indices_are_not_on_the_page():
     for shape in SHAPES.values():
         assert "_" not in marked(shape.height + shape.reduced)
     with pytest.raises(ValueError, match=r"E₁ = 1\.000 mPa is out of bounds"):
-        changes.put(opened(), "E_1", 1e-3)
-    state = changes.choose(chosen(opened().preset, "path", shape="flat_punch"), "prescribed", "force")
+        changes.put(preset_state(), "E_1", 1e-3)
+    state = changes.choose(state_with(drive="path", shape="flat_punch"), "prescribed", "force")
     most = 2 * medium(state).yield_line_load * profile(state).wall
     with pytest.raises(ValueError, match="of 5 entries") as refused:
-        scene_of(state.but(path=tuple((k * most / 3,) for k in range(1, 6)))).solve()
+        scene_of(state.replace(path=tuple((k * most / 3,) for k in range(1, 6)))).solve()
     said = plain(str(refused.value))
     assert "[" not in said
     assert "entries" not in said

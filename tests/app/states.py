@@ -5,27 +5,27 @@ import numpy as np
 from app import changes
 from app.plots.plot import View
 from app.solve import DRIVES, follow
-from app.state import State, link, opened
+from app.state import State, link, preset_state
 from app.state.files import Curve
 
 from .conftest import DROP, GOLD
 
 
-def chosen(key=GOLD, drive=None, /, **choices) -> State:
+def state_with(key=GOLD, drive=None, **choices) -> State:
     """A preset with a drive, and options of choices as a person takes them, one after the other."""
-    state = changes.choose(opened(key), "drive", drive) if drive else opened(key)
+    state = changes.choose(preset_state(key), "drive", drive) if drive else preset_state(key)
     for name, option in choices.items():
         state = changes.choose(state, name, option)
     return state
 
 
-def seen(state: State, progress=1.0, *held: State, **view) -> View:
+def view_of(state: State, progress=1.0, *held: State, **view) -> View:
     """The view of a state."""
-    state = state.but(progress=progress, **view)
+    state = state.replace(progress=progress, **view)
     return View(follow(state), state, [follow(each) for each in held], curve=Curve.of(state))
 
 
-def there(state: State) -> State:
+def linked_state(state: State) -> State:
     """What a link of a state says."""
     return link.read(link.arguments(written(state)))
 
@@ -41,10 +41,10 @@ def solved(state: State):
 
 
 def viscous(**more) -> State:
-    return chosen(DROP, damping="tau", **more)
+    return state_with(DROP, damping="tau", **more)
 
 
 def tip(state: State | None = None) -> State:
     """With a measured tip, a paraboloid."""
     r = np.linspace(0, 100e-9, 30)
-    return changes.take_tip(state or opened(), (r, r**2 / 200e-9), "")
+    return changes.take_tip(state or preset_state(), (r, r**2 / 200e-9), "")
