@@ -1,0 +1,20 @@
+"""Hooks of the server, run once before it starts."""
+
+from bokeh.server.urls import per_app_patterns
+from panel.io.server import WSHandler
+
+
+class PromptHandler(WSHandler):
+    """Websocket that sends each part of a message at once.
+
+    A message has three parts. With Nagle's algorithm the second one waits for the acknowledgement of the
+    first one, which browsers delay by up to 40 ms in a drag.
+    """
+
+    def open(self, *args, **kwargs):
+        self.set_nodelay(True)
+        return super().open(*args, **kwargs)
+
+
+# The first pattern that matches is used.
+per_app_patterns.insert(0, (r"/ws", PromptHandler))
