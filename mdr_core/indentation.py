@@ -163,10 +163,8 @@ class Indentation(Result):
     @_check.frozen_property
     def force(self):
         """Normal force F = 2E* ∫ a(s) ds (N) with that of the dashpots; Popov (2015), Eqs. (20), (22)."""
-        springs = 2 * self.medium.E_star * radius_integral(self.profile, self.live_interval)
-        if not np.any(self.dashpot_load):
-            return springs
-        return springs + 2 * self.dashpot_load * self.contact_radius
+        force = 2 * self.medium.E_star * radius_integral(self.profile, self.live_interval)
+        return force + 2 * self.dashpot_load * self.contact_radius if np.any(self.dashpot_load) else force
 
     @_check.frozen_property
     def contact_radius(self):
@@ -331,9 +329,8 @@ class Indentation(Result):
         >>> print(f"{largest / hit.turning_point.pressure(0.0):.3f} p0")
         0.310 p0
         """
-        return stress.largest_stress(
-            self, stress.depths(z), _check.one_of("quantity", quantity, stress.SIZES)
-        )
+        _check.one_of("quantity", quantity, stress.SIZES)
+        return stress.largest_stress(self, stress.depths(z), quantity)
 
     def plot_pressure(self) -> Any:
         """Contact pressure p(r) of one state with a, c and the mean pressure, as HoloViews elements."""
