@@ -208,7 +208,8 @@ def frozen_property(function: "Callable[[Any], Any]") -> "cached_property[Array]
 
 
 _ANGLE = (
-    "Its slope is the tangent of the angle to the surface; Cone.from_half_angle(degrees) takes the other"
+    "A slope is the tangent of the angle to the surface; Cone.from_half_angle(degrees) takes the angle "
+    "between axis and generator"
 )
 _RADIUS = "A radius is half of the diameter, in m"
 _MODULUS = "E_star is E/(1 − ν²) under a rigid indenter; Medium.from_bodies(E1, nu1) takes E and ν"

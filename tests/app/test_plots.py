@@ -44,6 +44,15 @@ def assert_all_is_drawn(view, step=9):
                     assert len({len(column) for column in data.values()}) == 1
 
 
+def test_springs_are_yielded_elastic_or_free_where_the_core_says():
+    view = view_of(preset_state())
+    rows, state = springs(view, view.course.now), view.course.state
+    reach = {name: np.nanmax(np.abs(rows[name][0])) for name in ("yielded", "elastic")}
+    spacing = 2 * view.end("x") / SPRINGS
+    assert reach["yielded"] == pytest.approx(state.plastic_radius, abs=spacing)
+    assert reach["elastic"] == pytest.approx(state.contact_radius, abs=spacing)
+
+
 @pytest.mark.parametrize("shape", SHAPED)
 def test_loading_curve_and_pressure_are_those_of_the_core(shape):
     state = state_with(shape=shape)
