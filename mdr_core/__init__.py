@@ -13,6 +13,7 @@ from .dynamics.oblique import ObliqueImpact, oblique_impact
 from .fit.hardness import fit_hardness
 from .fit.impacts import fit_impacts
 from .fit.indentation import fit_indentation
+from .fit.oliver_pharr import oliver_pharr
 from .foundation.depth_path import TimedIndentation, indent_in_time
 from .foundation.force_path import creep
 from .foundation.foundation import Foundation
@@ -73,6 +74,7 @@ __all__ = [
     "indent_in_time",
     "indent_to_force",
     "oblique_impact",
+    "oliver_pharr",
     "sweep",
     "yield_speed",
 ]

@@ -25,6 +25,9 @@ FITTED_QUANTITIES = QUANTITIES | {
     "contact_point": Quantity("z₀", "m", "contact point"),
     "baseline": Quantity("F₀", "N", "baseline"),
     "frame_compliance": Quantity("C", "m/N", "frame compliance"),
+    "contact_depth": Quantity("h_c", "m", "contact depth"),
+    "hardness": Quantity("H", "Pa", "hardness"),
+    "exponent": Quantity("m", "", "exponent"),
 }
 
 
