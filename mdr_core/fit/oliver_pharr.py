@@ -47,7 +47,7 @@ def oliver_pharr(
     Notes
     -----
     For an elastic contact and the ε of its shape E* is exact. A yielded cone in a medium of this package
-    has z(a) = 2d/π, and here z(a) → d: E* is up to π/2 times smaller than that of the medium, H (π/2)² times.
+    has z(a) = 2d/π, and here z(a) → d: E* is up to π/2 times smaller than the medium's, H (π/2)² times.
 
     Examples
     --------
