@@ -21,6 +21,7 @@ from .foundation.impact import chain_impact
 from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium
 from .onset import critical_force, yield_speed
+from .reading import read_curve
 from .results.base import Motion
 from .scaling import ScalingLaw, hardness_class
 from .scene import Scene
@@ -75,6 +76,7 @@ __all__ = [
     "indent_to_force",
     "oblique_impact",
     "oliver_pharr",
+    "read_curve",
     "sweep",
     "yield_speed",
 ]

@@ -1,23 +1,26 @@
 """The tab *Fit a measurement*: upload of a curve, choice of its columns, and fit of the medium."""
 
 from collections.abc import Callable
-from dataclasses import replace
+from contextlib import suppress
 from html import escape
+from pathlib import Path
 
 import numpy as np
 import panel as pn
 
 import mdr_core as mdr
+from mdr_core.reading import SIZES
 
 from ..solve import turning_point
 from ..state import State, checked, medium, profile, with_derived
-from ..state.files import FITTED, SIZES, Measured, agrees, read_curve
+from ..state.files import FITTED, Curve, Measured, read_curve
 from ..state.quantities import QUANTITIES, USED
 from ..state.units import fitting, written
 from ..ui import WIDE, button, field, html, indexed, marked, on_upload, plain, show, upload
 from .controls import Choices, Numbers
 
-#: Name and description of the example.
+#: The measured example, and the name and description of the made one.
+SILICA = Path(__file__).parents[2] / "assets" / "silica.csv"
 _MADE = "A made curve, no measurement"
 _EXAMPLE = (
     "This tip on a medium of 1.3 E* and 0.8 q_c, which begins at a tenth of the depth, with 0.4 % noise."
@@ -28,6 +31,14 @@ def take(state: State, curve: Measured | None) -> State:
     """Compare with a measured curve, or with none."""
     tiles = ("residual",) if curve else tuple(tile for tile in state.tiles if tile != "residual")
     return state.replace(curve=curve, contact_point=0.0, baseline=0.0, fit_note="", tiles=tiles)
+
+
+def silica(state: State) -> State:
+    """Compare with the measured example, under the cone with the area of its Berkovich tip."""
+    state = state.replace(shape="cone", cone_slope=mdr.Cone.from_half_angle(70.3).slope)
+    curve = read_curve(SILICA.read_bytes(), "Fused silica, Berkovich tip.csv")
+    depth, state = float(curve.data[0].max()), take(state, curve)
+    return state.replace(drive="depth", max_depth=checked(state, "max_depth", depth), progress=1.0)
 
 
 def example(state: State) -> Measured:
@@ -63,7 +74,7 @@ def fit(state: State) -> State:
         choices["plasticity"] = "q_c" if yields else "none"
         numbers |= {"q_c": float(found.medium.q_c)} if yields else {}
     numbers = {name: checked(state, name, value) for name, value in numbers.items()}
-    curve = replace(state.curve, fit=found, asked=asked)
+    curve = Measured(state.curve.name, state.curve.curve, found, asked)
     state = state.replace(curve=curve, progress=1.0, fit_note=_note(curve), **choices, **numbers)
     return with_derived(state)
 
@@ -81,15 +92,20 @@ def _note(curve: Measured) -> str:
 
 
 def result(state: State) -> str:
-    """Result of the fit as HTML."""
+    """Result of the fit and of the method of Oliver and Pharr as HTML."""
     curve = state.curve
-    if curve is None or curve.fit is None:
-        note = state.fit_note if curve is None else ""
-        return f"This page was made with a {marked(note)}." if note else ""
-    text = "What is set on the page is not this fit any more."
-    if agrees(state):
-        text = "Its values are those set on the page; Undo takes it back."
-    return text + indexed(plain(curve.fit._repr_html_()))
+    if curve is None:
+        return f"This page was made with a {marked(state.fit_note)}." if state.fit_note else ""
+    text, placed = "", Curve.of(state)
+    if curve.fit is not None:
+        text = "What is set on the page is not this fit any more."
+        if placed.fit is not None:
+            text = "Its values are those set on the page; Undo takes it back."
+        text += curve.fit._repr_html_()
+    # Without an unloading that is a power law.
+    with suppress(ValueError):
+        text += mdr.oliver_pharr(profile(state), placed.depth, placed.force)._repr_html_()
+    return indexed(plain(text))
 
 
 class Fitting:
@@ -97,10 +113,11 @@ class Fitting:
 
     def __init__(self, choices: Choices, apply_or_raise: Callable[..., None], apply: Callable[..., None]):
         self._apply, select = apply, pn.widgets.Select
-        self.file = upload("curve", ".csv,.txt,.dat,text/csv")
-        self.made, self.remove, self.fit = map(button, ("Example", "Remove", "Fit"))
-        roles = ("depth", "force", "time")
-        self.columns = {role: field(select, "column", label=f"Column of {role}") for role in roles}
+        self.file = upload("curve", ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx")
+        self.silica, self.made, self.remove, self.fit = map(
+            button, ("Fused silica", "Example", "Remove", "Fit")
+        )
+        self.columns = {role: field(select, "column", label=f"Column of {role}") for role in SIZES}
         self.units = {
             role: field(select, "unit", label=f"Unit of {role}", options=list(sizes))
             for role, sizes in SIZES.items()
@@ -109,50 +126,43 @@ class Fitting:
         self.fixed = field(pn.widgets.CheckBoxGroup, "fixed", options=names, inline=False)
         self.about, self.said = html(), html("", "note", "said")
         self.place, self.noise = Numbers(apply_or_raise), Numbers(apply_or_raise)
-        pairs = [
-            pn.Row(*(part[role] for part in (self.columns, self.units) if role in part), **WIDE)
-            for role in roles
-        ]
         self._rest = pn.Column(
-            *pairs, html("<h2>Where it lies</h2>", "title"), self.place,
+            *(pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES),
+            html("<h2>Where it lies</h2>", "title"), self.place,
             html("<h2>What a fit leaves as it is</h2>", "title"), self.fixed,
             choices.row("noise"), self.noise, self.fit, self.said, visible=False, **WIDE,
         )  # fmt: skip
         note = html(
-            "Depth and force as CSV, drop or choose: it lies over the model, and a medium can be fitted."
+            "Depth and force as a table, drop or choose: they lie over the model, which can be fitted."
         )
-        buttons = pn.Row(self.made, self.remove, css_classes=["tools"], **WIDE)
+        buttons = pn.Row(self.silica, self.made, self.remove, css_classes=["tools"], **WIDE)
         self.view = pn.Column(note, self.file, buttons, self.about, self._rest, visible=False, **WIDE)
-        self._watch()
-
-    def _watch(self):
         on_upload(self.file, lambda data: self._take(lambda state: read_curve(data, self.file.filename)))
+        self.silica.on_click(lambda event: apply(silica))
         self.made.on_click(lambda event: self._take(example))
         self.remove.on_click(lambda event: self._take(lambda state: None))
-        self.fit.on_click(lambda event: self._apply(fit, lambda text: self._refuse(self.said, text)))
-        for part in (self.columns, self.units):
-            for role, widget in part.items():
+        self.fit.on_click(lambda event: apply(fit, self._refuse(self.said)))
+        for role in SIZES:
+            for widget in (self.columns[role], self.units[role]):
                 widget.param.watch(lambda event, role=role: self._correct(role, event.new), "value")
         self.fixed.param.watch(
-            lambda event: self._apply(lambda state: state.replace(fixed=tuple(event.new))), "value"
+            lambda event: apply(lambda state: state.replace(fixed=tuple(event.new))), "value"
         )
 
-    def _refuse(self, where, text):
-        where.object = f'<span class="refused">{escape(text)}</span>'
+    def _refuse(self, where):
+        return lambda text: show(where, object=f'<span class="refused">{escape(text)}</span>')
 
     def _take(self, make):
-        self._apply(
-            lambda state: take(state, make(state)), refused=lambda text: self._refuse(self.about, text)
-        )
+        self._apply(lambda state: take(state, make(state)), self._refuse(self.about))
 
     def _correct(self, role, chosen):
         def change(state):
             curve = state.curve
-            if curve is None or chosen in (curve.columns[role], curve.units.get(role)):
+            if curve is None or chosen in (curve.curve.columns[role], curve.curve.units[role]):
                 return state
             return state.replace(curve=curve.corrected(role, chosen), fit_note="")
 
-        self._apply(change, refused=lambda text: self._refuse(self.about, text))
+        self._apply(change, self._refuse(self.about))
 
     def show(self, state: State) -> None:
         curve = state.curve
@@ -169,13 +179,12 @@ class Fitting:
         likes = {"contact_point": depth, "baseline": force, "frame_compliance": depth / (force or 1.0)}
         self.place.show(state, list(FITTED[2:]), likes)
         self.noise.show(state, USED["noise"][state.noise])
-        heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.heads)}
-        for role, widget in self.columns.items():
-            options = heads | ({"none, rows in order": -1} if role == "time" else {})
-            if widget.options != options or widget.value != curve.columns[role]:
-                widget.param.update(options=options, value=curve.columns[role])
-        for role, widget in self.units.items():
-            show(widget, value=curve.units[role])
+        heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.curve.table.heads)}
+        for role, column in curve.curve.columns.items():
+            options = heads | ({"none, rows in order": None} if role == "time" else {})
+            if self.columns[role].options != options or self.columns[role].value != column:
+                self.columns[role].param.update(options=options, value=column)
+            show(self.units[role], value=curve.curve.units[role])
 
     def forget(self) -> None:
         self.place.forget()

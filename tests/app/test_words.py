@@ -176,7 +176,7 @@ def test_python_and_raw_indices_are_not_on_the_page():
     assert "entries" not in said
     with pytest.raises(ValueError, match="header must name") as refused:
         read_tip("0, 0\n1, 1\n")
-    assert plain(str(refused.value)).endswith("m, mm, um, µm, μm, nm")
+    assert plain(str(refused.value)).endswith("m, mm, µm, nm, pm, Å")
     assert plain("give depth_noise, about 54 pm") == "give depth noise, about 54 pm"
 
 
