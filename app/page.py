@@ -9,6 +9,8 @@ import panel as pn
 from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS
 
+from mdr_core.shapes.tables import decoded
+
 from . import changes
 from .drives import Course
 from .panels import Frame, readouts
@@ -22,7 +24,7 @@ from .plots import NAMED, PLOTS, TILES
 from .plots.plot import Plot, View
 from .solve import DRIVES, Resting, described, follow, in_time
 from .state import VIEW, State, link, preset_state
-from .state.files import Curve, decoded, read_tip
+from .state.files import Curve, read_tip
 from .ui import JS, on_upload, plain, show
 
 _LOG = logging.getLogger(__name__)

@@ -13,7 +13,7 @@ from mdr_core.reading import SIZES
 
 from ..solve import turning_point
 from ..state import State, checked, medium, profile, with_derived
-from ..state.files import FITTED, Curve, Measured, read_curve
+from ..state.files import FITTED, Curve, Measured, agrees, read_curve
 from ..state.quantities import QUANTITIES, USED
 from ..state.units import fitting, written
 from ..ui import WIDE, button, field, html, indexed, marked, on_upload, plain, show, upload
@@ -92,20 +92,23 @@ def _note(curve: Measured) -> str:
 
 
 def result(state: State) -> str:
-    """Result of the fit and of the method of Oliver and Pharr as HTML."""
+    """Result of the fit as HTML."""
     curve = state.curve
-    if curve is None:
-        return f"This page was made with a {marked(state.fit_note)}." if state.fit_note else ""
-    text, placed = "", Curve.of(state)
-    if curve.fit is not None:
-        text = "What is set on the page is not this fit any more."
-        if placed.fit is not None:
-            text = "Its values are those set on the page; Undo takes it back."
-        text += curve.fit._repr_html_()
-    # Without an unloading that is a power law.
+    if curve is None or curve.fit is None:
+        note = state.fit_note if curve is None else ""
+        return f"This page was made with a {marked(note)}." if note else ""
+    text = "What is set on the page is not this fit any more."
+    if agrees(state):
+        text = "Its values are those set on the page; Undo takes it back."
+    return text + indexed(plain(curve.fit._repr_html_()))
+
+
+def unloading(state: State) -> str:
+    """Numbers of Oliver and Pharr for the curve where it lies, as HTML; empty without an unloading."""
+    curve = Curve.of(state)
     with suppress(ValueError):
-        text += mdr.oliver_pharr(profile(state), placed.depth, placed.force)._repr_html_()
-    return indexed(plain(text))
+        return indexed(plain(mdr.oliver_pharr(profile(state), curve.depth, curve.force)._repr_html_()))
+    return ""
 
 
 class Fitting:
@@ -125,12 +128,17 @@ class Fitting:
         names = {QUANTITIES[n].label: n for n in FITTED}
         self.fixed = field(pn.widgets.CheckBoxGroup, "fixed", options=names, inline=False)
         self.about, self.said = html(), html("", "note", "said")
+        self.unloading = html("", "note", "unloading")
+            html(),
+            html("", "note", "said"),
+            html("", "note", "unloading"),
+        )
         self.place, self.noise = Numbers(apply_or_raise), Numbers(apply_or_raise)
         self._rest = pn.Column(
             *(pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES),
             html("<h2>Where it lies</h2>", "title"), self.place,
             html("<h2>What a fit leaves as it is</h2>", "title"), self.fixed,
-            choices.row("noise"), self.noise, self.fit, self.said, visible=False, **WIDE,
+            choices.row("noise"), self.noise, self.fit, self.said, self.unloading, visible=False, **WIDE,
         )  # fmt: skip
         note = html(
             "Depth and force as a table, drop or choose: they lie over the model, which can be fitted."
@@ -173,6 +181,7 @@ class Fitting:
         if curve is None:
             show(self.about, object=result(state))
             return
+        show(self.unloading, object=unloading(state))
         made = f" {marked(_EXAMPLE)}" if curve.name == _MADE else ""
         show(self.about, object=f"<b>{escape(curve.name)}</b>: {escape(curve.note)}.{made}")
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)

@@ -147,6 +147,7 @@ class OliverPharr(Report):
     exponent: float
     standard_errors: dict[str, float]
 
+    _dimensions = ("unloading",)
     _quantities = _shown = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
 
     def to_dict(self) -> dict[str, float]:
