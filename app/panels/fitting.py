@@ -13,7 +13,7 @@ from mdr_core.reading import SIZES
 
 from ..solve import turning_point
 from ..state import State, checked, medium, profile, with_derived
-from ..state.files import FITTED, Curve, Measured, agrees, read_curve
+from ..state.files import FITTED, OF_MEDIUM, PLACED, Curve, Measured, agrees, read_curve
 from ..state.quantities import QUANTITIES, USED
 from ..state.units import fitting, written
 from ..ui import WIDE, button, field, html, indexed, marked, on_upload, plain, show, upload
@@ -59,20 +59,20 @@ def example(state: State) -> Measured:
 def fit(state: State) -> State:
     """Fit medium and position to the measured curve; press to its depth."""
     made = medium(state)
-    fixed = {name: state[name] if name in FITTED[2:] else getattr(made, name) for name in state.fixed}
+    fixed = {name: state[name] if name in PLACED else getattr(made, name) for name in state.fixed}
     asked = dict.fromkeys(FITTED) | fixed
     if state.noise == "given":
         asked["depth_noise"] = state.depth_noise
-    found = mdr.fit_indentation(profile(state), *state.curve.data, **asked)
-    numbers = {name: float(getattr(found, name)) for name in FITTED[2:]}
+    found = mdr.fit_indentation(profile(state), *state.curve.data, time=state.curve.time, **asked)
+    numbers = {name: float(getattr(found, name)) for name in PLACED}
     numbers["max_depth"] = float(np.max(found.path.depth))
     choices = {"drive": "depth"}
-    if "E_star" not in fixed:
-        choices["elasticity"], numbers["E_star"] = "modulus", float(found.medium.E_star)
-    if "q_c" not in fixed:
-        yields = bool(np.isfinite(found.medium.q_c))
-        choices["plasticity"] = "q_c" if yields else "none"
-        numbers |= {"q_c": float(found.medium.q_c)} if yields else {}
+    for name, (choice, option) in OF_MEDIUM.items():
+        if name not in fixed:
+            value = float(getattr(found.medium, name))
+            there = 0 < value < np.inf
+            choices[choice] = option if there else "none"
+            numbers |= {name: value} if there else {}
     numbers = {name: checked(state, name, value) for name, value in numbers.items()}
     curve = Measured(state.curve.name, state.curve.curve, found, asked)
     state = state.replace(curve=curve, progress=1.0, fit_note=_note(curve), **choices, **numbers)
@@ -83,7 +83,7 @@ def _note(curve: Measured) -> str:
     """Summary of a fit for links and reports."""
     found, texts = curve.fit, []
     for name, error in found.standard_errors.items():
-        value = getattr(found.medium if name in FITTED[:2] else found, name)
+        value = getattr(found.medium if name in OF_MEDIUM else found, name)
         known = QUANTITIES[name]
         texts.append(
             f"{known.symbol} = {written(float(value), known.kind)} ± {written(float(error), known.kind, 2)}"
@@ -129,10 +129,6 @@ class Fitting:
         self.fixed = field(pn.widgets.CheckBoxGroup, "fixed", options=names, inline=False)
         self.about, self.said = html(), html("", "note", "said")
         self.unloading = html("", "note", "unloading")
-            html(),
-            html("", "note", "said"),
-            html("", "note", "unloading"),
-        )
         self.place, self.noise = Numbers(apply_or_raise), Numbers(apply_or_raise)
         self._rest = pn.Column(
             *(pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES),
@@ -186,7 +182,7 @@ class Fitting:
         show(self.about, object=f"<b>{escape(curve.name)}</b>: {escape(curve.note)}.{made}")
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
         likes = {"contact_point": depth, "baseline": force, "frame_compliance": depth / (force or 1.0)}
-        self.place.show(state, list(FITTED[2:]), likes)
+        self.place.show(state, list(PLACED), likes)
         self.noise.show(state, USED["noise"][state.noise])
         heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.curve.table.heads)}
         for role, column in curve.curve.columns.items():

@@ -92,7 +92,7 @@ _DEFAULTS |= {name: next(iter(options)) for name, options in CHOICES.items()}
 _DEFAULTS |= {
     "preset": OPENING, "shape": "cone", "progress": 1.0, "path": (), "samples": (), "tip_note": "",
     "sweep_low": None, "sweep_high": None, "hold": (), "tiles": (), "keep": False, "dark": False,
-    "curve": None, "fit_note": "", "fixed": ("baseline", "frame_compliance"),
+    "curve": None, "fit_note": "", "fixed": ("eta", "baseline", "tilt", "drag", "frame_compliance"),
 }  # fmt: skip
 
 

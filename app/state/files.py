@@ -18,8 +18,10 @@ from .units import written
 #: Most samples that are pressed without keeping everybody waiting, most that a tip is fitted to or that are
 #: taken of a curve, most rows of a tip and most bytes of a curve.
 MAX_SAMPLES, _FITTED, _MAX_ROWS, _MAX_BYTES = 60, 2000, 20_000, 5_000_000
-#: Parameters of a fit: medium and position of the curve.
-FITTED = ("E_star", "q_c", "contact_point", "baseline", "frame_compliance")
+#: Parameters of a fit: those of the medium, with the choice and option of the page, and the rest.
+OF_MEDIUM = {"E_star": ("elasticity", "modulus"), "q_c": ("plasticity", "q_c"), "eta": ("damping", "eta")}
+PLACED = ("contact_point", "baseline", "tilt", "drag", "frame_compliance")
+FITTED = (*OF_MEDIUM, *PLACED)
 
 
 def read_tip(text: str) -> tuple[tuple[Any, Any], str]:
@@ -102,8 +104,8 @@ def read_curve(data: bytes, name: str) -> Measured:
 def agrees(state: State) -> bool:
     """Whether the page shows the result of the fit."""
     found, made = state.curve.fit, medium(state)
-    pairs = [(getattr(made, name), getattr(found.medium, name)) for name in FITTED[:2]]
-    pairs += [(state[name], getattr(found, name)) for name in FITTED[2:]]
+    pairs = [(getattr(made, name), getattr(found.medium, name)) for name in OF_MEDIUM]
+    pairs += [(state[name], getattr(found, name)) for name in PLACED]
     return profile(state) == found.profile and bool(
         np.allclose(*zip(*pairs, strict=True), rtol=1e-9, atol=0)
     )
@@ -123,8 +125,10 @@ class Curve:
         """The measured curve at its position on the page, or None."""
         if state.curve is None:
             return None
-        depth, force = state.curve.data
-        force = force - state.baseline
+        (depth, force), time = state.curve.data, state.curve.time
+        force = force - state.baseline - state.tilt * depth
+        if state.drag and time is not None:
+            force = force - state.drag * np.gradient(depth, time)
         depth = depth - state.contact_point - state.frame_compliance * force
         found = state.curve.fit
         return cls(depth, force, found if found is not None and agrees(state) else None, state.curve.asked)
