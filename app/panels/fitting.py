@@ -59,8 +59,10 @@ def example(state: State) -> Measured:
 def fit(state: State) -> State:
     """Fit medium and position to the measured curve; press to its depth."""
     made = medium(state)
-    fixed = {name: state[name] if name in PLACED else getattr(made, name) for name in state.fixed}
-    asked = dict.fromkeys(FITTED) | fixed
+    names = state.curve.fitted
+    held = [name for name in names if name in state.fixed]
+    fixed = {name: state[name] if name in PLACED else getattr(made, name) for name in held}
+    asked = dict.fromkeys(names) | fixed
     if state.noise == "given":
         asked["depth_noise"] = state.depth_noise
     found = mdr.fit_indentation(profile(state), *state.curve.data, time=state.curve.time, **asked)
@@ -68,7 +70,7 @@ def fit(state: State) -> State:
     numbers["max_depth"] = float(np.max(found.path.depth))
     choices = {"drive": "depth"}
     for name, (choice, option) in OF_MEDIUM.items():
-        if name not in fixed:
+        if name in asked and name not in fixed:
             value = float(getattr(found.medium, name))
             there = 0 < value < np.inf
             choices[choice] = option if there else "none"
@@ -81,13 +83,10 @@ def fit(state: State) -> State:
 
 def _note(curve: Measured) -> str:
     """Summary of a fit for links and reports."""
-    found, texts = curve.fit, []
+    found, values, texts = curve.fit, curve.fit.to_dict(), []
     for name, error in found.standard_errors.items():
-        value = getattr(found.medium if name in OF_MEDIUM else found, name)
-        known = QUANTITIES[name]
-        texts.append(
-            f"{known.symbol} = {written(float(value), known.kind)} ± {written(float(error), known.kind, 2)}"
-        )
+        symbol, kind = QUANTITIES[name].symbol, QUANTITIES[name].kind
+        texts.append(f"{symbol} = {written(values[name], kind)} ± {written(float(error), kind, 2)}")
     return f"fit to {curve.name}: {', '.join(texts)}; χ² = {float(found.reduced_chi_square):.3g}"[:300]
 
 
@@ -125,8 +124,7 @@ class Fitting:
             role: field(select, "unit", label=f"Unit of {role}", options=list(sizes))
             for role, sizes in SIZES.items()
         }
-        names = {QUANTITIES[n].label: n for n in FITTED}
-        self.fixed = field(pn.widgets.CheckBoxGroup, "fixed", options=names, inline=False)
+        self.fixed = field(pn.widgets.CheckBoxGroup, "fixed", inline=False)
         self.about, self.said = html(), html("", "note", "said")
         self.unloading = html("", "note", "unloading")
         self.place, self.noise = Numbers(apply_or_raise), Numbers(apply_or_raise)
@@ -149,9 +147,16 @@ class Fitting:
         for role in SIZES:
             for widget in (self.columns[role], self.units[role]):
                 widget.param.watch(lambda event, role=role: self._correct(role, event.new), "value")
-        self.fixed.param.watch(
-            lambda event: apply(lambda state: state.replace(fixed=tuple(event.new))), "value"
-        )
+        self.fixed.param.watch(lambda event: self._hold(event.new), "value")
+
+    def _hold(self, names):
+        """Hold parameters; those that the curve does not offer stay as they are."""
+
+        def change(state):
+            others = [name for name in state.fixed if state.curve and name not in state.curve.fitted]
+            return state.replace(fixed=tuple(name for name in FITTED if name in (*names, *others)))
+
+        self._apply(change)
 
     def _refuse(self, where):
         return lambda text: show(where, object=f'<span class="refused">{escape(text)}</span>')
@@ -172,7 +177,6 @@ class Fitting:
         curve = state.curve
         show(self._rest, visible=curve is not None)
         show(self.remove, disabled=curve is None)
-        show(self.fixed, value=list(state.fixed))
         show(self.said, object=result(state))
         if curve is None:
             show(self.about, object=result(state))
@@ -182,7 +186,9 @@ class Fitting:
         show(self.about, object=f"<b>{escape(curve.name)}</b>: {escape(curve.note)}.{made}")
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
         likes = {"contact_point": depth, "baseline": force, "frame_compliance": depth / (force or 1.0)}
-        self.place.show(state, list(PLACED), likes)
+        self.place.show(state, [name for name in PLACED if name in curve.fitted], likes)
+        options = {QUANTITIES[name].label: name for name in curve.fitted}
+        show(self.fixed, options=options, value=[name for name in state.fixed if name in curve.fitted])
         self.noise.show(state, USED["noise"][state.noise])
         heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.curve.table.heads)}
         for role, column in curve.curve.columns.items():

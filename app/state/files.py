@@ -22,6 +22,8 @@ MAX_SAMPLES, _FITTED, _MAX_ROWS, _MAX_BYTES = 60, 2000, 20_000, 5_000_000
 OF_MEDIUM = {"E_star": ("elasticity", "modulus"), "q_c": ("plasticity", "q_c"), "eta": ("damping", "eta")}
 PLACED = ("contact_point", "baseline", "tilt", "drag", "frame_compliance")
 FITTED = (*OF_MEDIUM, *PLACED)
+#: Those that need the times of the samples.
+_IN_TIME = ("eta", "drag")
 
 
 def read_tip(text: str) -> tuple[tuple[Any, Any], str]:
@@ -72,6 +74,11 @@ class Measured:
         return None if self.curve.time is None else self.curve.time[:: self._step]
 
     @property
+    def fitted(self):
+        """Names of the parameters that a fit can have."""
+        return [name for name in FITTED if self.time is not None or name not in _IN_TIME]
+
+    @property
     def note(self):
         taken = f"{len(self.curve)} samples" + f", one in {self._step} of them taken" * (self._step > 1)
         return "; ".join([taken, *self.curve.remarks])
@@ -104,8 +111,8 @@ def read_curve(data: bytes, name: str) -> Measured:
 def agrees(state: State) -> bool:
     """Whether the page shows the result of the fit."""
     found, made = state.curve.fit, medium(state)
-    pairs = [(getattr(made, name), getattr(found.medium, name)) for name in OF_MEDIUM]
-    pairs += [(state[name], getattr(found, name)) for name in PLACED]
+    values, names = found.to_dict(), state.curve.fitted
+    pairs = [(state[name] if name in PLACED else getattr(made, name), values[name]) for name in names]
     return profile(state) == found.profile and bool(
         np.allclose(*zip(*pairs, strict=True), rtol=1e-9, atol=0)
     )

@@ -95,7 +95,7 @@ def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
 
 
 def test_what_is_fixed_stays():
-    state, before = fitted(fixed=("E_star", "frame_compliance"), noise="given", depth_noise=1e-11)
+    state, before = fitted(fixed=("E_star", "tilt", "frame_compliance"), noise="given", depth_noise=1e-11)
     assert medium(state).E_star == before.E_star
     assert state.elasticity == "bodies"
     assert state.curve.fit.standard_errors.keys() == {"q_c", "contact_point", "baseline"}

@@ -101,7 +101,7 @@ def test_6_and_7_are_of_typed_numbers():
     page = Page()
     page.apply(lambda state: fitting.take(state, fitting.example(state)))
     texts = [number.text for number in page.fitting.place]
-    assert [text.split()[1] for text in texts] == ["nm", "µN", "nm/µN"]
+    assert [text.split()[1] for text in texts] == ["nm", "µN", "N/m", "nm/µN"]
 
 
 def test_8_formulas_are_those_of_the_drive():
