@@ -186,9 +186,11 @@ def _units(table, used, values):
     units |= {quantity: unit for quantity, unit in known.items() if unit}
     if guessed:
         remarks.append(f"no unit in the header: {' and '.join(guessed)} is a guess")
-    # The largest change of the force is that of pressing, in which the depth grows.
-    force = values["force"]
-    peak = np.argmax(np.abs(force - force[0]))
+    # Depth and force grow to the farther one of the largest and the smallest force: adhesion is nearer.
+    depth, force = values["depth"], values["force"]
+    apart = 0.2 * np.ptp(force)
+    ends = [end for end in (force.argmax(), force.argmin()) if abs(force[end] - force[0]) >= apart]
+    peak = max(ends, key=lambda end: abs(depth[end] - depth[0]))
     turned = [quantity for quantity in ("depth", "force") if values[quantity][peak] < values[quantity][0]]
     # Both fall in an unloading alone, from the largest force on.
     if len(turned) < 2 or abs(force[peak]) > abs(force[0]):

@@ -102,6 +102,24 @@ def test_what_is_fixed_stays():
     assert state.baseline == state.curve.fit.baseline != 0
 
 
+def test_a_drag_is_fitted_where_there_are_times():
+    """Without it the placed curve is that of the elastic medium; the file has 10⁻³ nm and nN."""
+    t = np.linspace(0, 2, 401)
+    d = 9e-9 * np.sin(np.pi * t / 2)
+    start = preset_state().replace(plasticity="none")
+    F = mdr.indent(profile(start), medium(start), d).force
+    drag = 0.05 * F.max() / (9e-9 * np.pi / 2)
+    columns = t, 1e9 * d, 1e9 * (F + drag * np.gradient(d, t))
+    curve = read_curve(file(columns, ["t (s); h (nm); F (nN)"], ";"), "run.csv")
+    held = tuple(name for name in curve.fitted if name not in ("E_star", "drag"))
+    state = fitting.fit(fitting.take(start, curve).replace(fixed=held))
+    assert state.drag == pytest.approx(drag, rel=1e-3)
+    assert state.E_star == pytest.approx(medium(start).E_star, rel=1e-3)
+    assert agrees(state)
+    np.testing.assert_allclose(view_of(state).curve.force, F, atol=1e-3 * F.max())
+    assert {"eta", "drag"} == set(curve.fitted) - set(fitting.example(start).fitted)
+
+
 def test_what_cannot_be_fitted_is_refused_as_it_was():
     curve = read_curve(file((range(6), [0] * 6), ["h (nm), F (nN)"]), "flat")
     with pytest.raises(ValueError, match=r"largest force\[0\] = 0 N above the baseline: no contact"):
