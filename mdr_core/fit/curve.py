@@ -283,9 +283,9 @@ class CurveState:
             force = force + 2 * dashpot_load * a
             # da/dd may be infinite at first contact: that at the mean distance of samples is the largest.
             inside = np.maximum(interval.upper, np.ptp(depth, axis=1, keepdims=True) / depth.shape[1])
-            slope = slope + 2 * dashpot_load * np.where(
-                contact, radius_rate(profile, np.minimum(inside, known)), 0.0
-            )
+            growing = contact & (a < profile.wall)
+            rate_of_radius = radius_rate(profile, np.minimum(inside, known))
+            slope = slope + 2 * dashpot_load * np.where(growing, rate_of_radius, 0.0)
         return cls(depth, depth, loading, interval, dashpot_load, force, slope, memory_slope, gradient)
 
     def derivatives(self, problem, values):

@@ -14,7 +14,7 @@ KINDS = (
     "class", "elastic", "hardly yields", "noisy", "inviscid", "missing",
 )  # fmt: skip
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
-_VAGUE, _VAGUE_LOADING = 0.1, 0.01
+_VAGUE, _VAGUE_LOADING = 0.2, 0.01
 #: Size of correlated residuals, as a share of the range of force, above which the model does not fit.
 _MISFIT = 0.05
 

@@ -14,7 +14,7 @@ _DEPTHS = np.geomspace(3e-3, 1 + REACH, 48)
 #: Trial critical depths, as shares of the largest depth.
 _SHARES = np.concatenate([np.geomspace(2e-3, 0.5, 13), [0.65, 0.8, 0.92, 3.0]])
 #: Trial relaxation times, as shares of the largest depth over the largest rate.
-_LAGS = np.array([0.0, 0.01, 0.03, 0.1, 0.3, 1.0])
+_LAGS = np.append(0.0, np.geomspace(0.01, 4.0, 10))
 #: Largest number of starts, and largest sum of squares of a start in units of the smallest one.
 _STARTS, _CLOSE = 4, 20.0
 
