@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from app.panels import share
-from app.panels.held import Held, held_scene, is_held, numbers, toggle_hold
+from app.panels.held import held_scene, is_held, numbers, toggle_hold
 from app.plots import PLOTS
 from app.plots.force import force_still
 from app.plots.plot import DASHES
@@ -76,17 +75,6 @@ def test_each_has_its_own_row_in_every_plot():
             assert np.isfinite(view.rows(PLOTS[name], view.course.now)[row][1]).any()
     looks = {row.look["dash"] for row in PLOTS["force"].rows if row.role == "held"}
     assert len(looks) == len(states)
-
-
-def test_the_snippet_has_all_that_is_held(capsys):
-    scenes = [Held("one\nimport os", follow(preset())), Held("two", follow(preset(DROP)))]
-    text, values = share.python(scenes[0].course, scenes), {}
-    assert "\nimport os" not in text
-    exec(text, values)
-    assert values["held_1_state"].force == pytest.approx(float(scenes[0].course.state.force), rel=1e-12)
-    assert values["held_2_hit"].restitution == pytest.approx(
-        float(scenes[1].course.hit.restitution), rel=1e-12
-    )
 
 
 def test_a_held_link_is_short():

@@ -347,14 +347,14 @@ def test_the_sweep_moves_with_a_slider_and_one_plot_can_be_large(explorer):
 
 
 def test_what_is_shared_comes_back(explorer, tmp_path):
-    """A picture with title and legend; link and snippet; a measured tip."""
+    """A picture with title and legend; link and Python; a measured tip."""
     png = explorer.save("pressure").read_bytes()
     width, height = (int.from_bytes(png[k : k + 4], "big") for k in (16, 20))
     assert min(width / 840, height / 600) >= 1
     page = explorer.page
     explorer.press("Share")
-    snippet = page.get_by_label("This state with mdr_core")
-    page.wait_for_function("(on) => on.value.includes('mdr.indent')", arg=snippet.element_handle())
+    code = page.get_by_label("This scene in Python")
+    page.wait_for_function("(on) => on.value.includes('scene.solve()')", arg=code.element_handle())
     assert page.get_by_label("Link to this page").input_value() == page.url.split("?")[0]
     explorer.press("Explore")
     path = tmp_path / "tip.csv"

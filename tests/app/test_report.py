@@ -44,7 +44,7 @@ def test_the_report_says_what_the_page_says():
         [PLOTS[name] for name in ("springs", "pressure", "force", "motion", "energy")],
     )
     html = report(
-        state, view, plots, share.python(course), "http://localhost/app?speed=2.0", ["<b>stiff</b>"]
+        state, view, plots, share.python(course.scene), "http://localhost/app?speed=2.0", ["<b>stiff</b>"]
     )
     assert_names_nothing_outside(html)
     said = plain(html)
@@ -57,7 +57,7 @@ def test_the_report_says_what_the_page_says():
     assert "2.0000 m/s set on the page" in said
     for limit in course.hit.limits:
         assert limit.sentence.rstrip(".") in said
-    assert "mdr.impact(profile, medium, mass=5.5, speed=2.0)" in said
+    assert "mdr.FreeImpact(mass=5.5, speed=2.0)" in said
     assert "http://localhost/app?speed=2.0" in said
     assert all(plot.title in said for plot in plots)
     assert written(2.0, "speed", 5) in said

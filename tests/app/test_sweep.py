@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from app import changes
-from app.panels import share
 from app.plots import sweep
 from app.solve import follow
-from app.state import OPENING, medium, number, preset_state, profile
+from app.state import OPENING, medium, number, profile
 
 from .conftest import DROP, PUNCH
 from .states import linked_state, state_with
@@ -94,30 +93,6 @@ def test_a_range_out_of_bounds_is_refused_and_a_preset_begins_it_anew():
 
 def test_a_drive_that_is_not_swept_says_so():
     state = state_with(OPENING, "path")
-    course = follow(state)
-    (found,) = sweep.found(course, sweep.asked(state))
+    (found,) = sweep.found(follow(state), sweep.asked(state))
     assert found.rows == {}
     assert "press to a depth" in found.note
-    assert share.sweep_python(state) == ""
-    assert "not swept" in share.sweep_csv(course, state)
-
-
-@pytest.mark.parametrize(
-    ("drive", "name"), [("impact", "energy"), ("impact", "nu_1"), ("depth", "cone_slope"), ("force", "q_c")]
-)
-def test_the_sweep_is_taken_away_as_csv_and_python(drive, name, capsys):
-    state, asked, found = swept(state_with(preset_state().preset, drive), swept=name)
-    text = share.sweep_csv(follow(state), state)
-    rows = [line.split(",") for line in text.splitlines() if not line.startswith("#")]
-    assert {len(row) for row in rows} == {len(rows[0])}
-    column = next(k for k, head in enumerate(rows[0]) if head.startswith(asked.against))
-    numbers, values = np.array(rows[1:], float)[:, [0, column]].T
-    shown = found.rows["this scene"]
-    np.testing.assert_array_equal(numbers, shown[0])
-    np.testing.assert_array_equal(values[np.isfinite(shown[1])], shown[1][np.isfinite(shown[1])])
-    capsys.readouterr()
-    exec("import mdr_core as mdr\n" + share.sweep_python(state), {})
-    printed = capsys.readouterr().out.replace("[", " ").replace("]", " ").replace(",", " ").split()
-    printed = [float(each.removeprefix("np.float64(").removesuffix(")")) for each in printed]
-    # Printed with eight digits.
-    np.testing.assert_allclose(printed, values, rtol=1e-7)
