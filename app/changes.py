@@ -9,9 +9,9 @@ import mdr_core as mdr
 
 from .drives import oblique, path
 from .solve import DRIVES, option, options, scene_of, turning_point
-from .state import State, checked, medium, number, preset_state, quantity, with_derived
+from .state import State, checked, medium, preset_state, with_derived
 from .state.quantities import QUANTITIES, shape_quantities
-from .state.units import fitting, read, written
+from .state.units import Unit, fitting, read, written
 
 #: Values of the view that a preset leaves as they are.
 _STAYING = ("hold", "tiles", "keep", "dark", "axes")
@@ -27,8 +27,6 @@ def choose(state: State, name: str, wanted: str) -> State:
         return state
     if name == "preset":
         return preset_state(wanted, **{each: state[each] for each in _STAYING})
-    if name == "swept":
-        return state.replace(swept=wanted, sweep_low=None, sweep_high=None)
     if name == "shape" and wanted == "sampled" and not state.samples:
         raise ValueError("load a tip first: a CSV file with radii r and heights z")
     convert = CONVERT.get(name, lambda state, wanted: {})
@@ -38,18 +36,18 @@ def choose(state: State, name: str, wanted: str) -> State:
 
 def put(state: State, name: str, value: float) -> State:
     """Set a number; E* of two bodies through their moduli, q_c of a hardness through the hardness."""
-    value = checked(state, name, value)
+    value = checked(name, value)
     if name == "E_star" and state.elasticity != "modulus":
         return with_derived(state.replace(**_elasticity(state, state.elasticity, value)))
     if name == "q_c" and state.plasticity == "hardness":
-        name, value = "hardness", checked(state, "hardness", value / state.hardness_radius)
+        name, value = "hardness", checked("hardness", value / state.hardness_radius)
     return with_derived(state.replace(**{name: value}))
 
 
 def typed(state: State, name: str, text: str, like: float = 0.0) -> tuple[State, str]:
     """Set a number from text; also returns how the text was read, if that may surprise."""
-    kind = quantity(state, name).kind
-    value, surprising = read(text, kind, fitting(number(state, name), kind, like))
+    kind = QUANTITIES[name].kind
+    value, surprising = read(text, kind, fitting(state[name], kind, like))
     reading = f"{text.strip()}{'' if kind == 'slope' else ' in SI'} is {written(value, kind)}"
     return put(state, name, value), reading if surprising else ""
 
@@ -66,7 +64,7 @@ def hit_again(state: State, hit: mdr.Impact) -> State:
     """Let the body hit its own imprint."""
     if not hit.plastic_depth_increase > 0:
         raise ValueError("nothing has yielded further: the next impact is the same as this one")
-    left = checked(state, "plastic_depth", float(hit.plastic_depth))
+    left = checked("plastic_depth", float(hit.plastic_depth))
     return state.replace(plastic_depth=left, surface="imprint")
 
 
@@ -75,7 +73,7 @@ def press_to(state: State, depth: float) -> State:
     depth = QUANTITIES["max_depth"].bounded(depth)
     pressed = mdr.indent(scene_of(state).profile, medium(state), depth)
     numbers = DRIVES[state.drive].equivalent(state, pressed)
-    numbers = {name: checked(state, name, value) for name, value in numbers.items()}
+    numbers = {name: checked(name, value) for name, value in numbers.items()}
     return state.replace(progress=1.0, **numbers)
 
 
@@ -164,40 +162,35 @@ CONVERT: dict[str, Callable[[State, str], dict[str, Any]]] = {
 # Vertices of a path as text, a line each: depth or force, and an optional time.
 
 
-def _columns(vertices: tuple, prescribed: str) -> list[tuple[str, Any]]:
-    """Kind and displayed unit of each column."""
+def _columns(vertices: tuple, prescribed: str) -> list[tuple[str, Unit]]:
+    """Kind and displayed unit of each column; of a time also where the vertices have none."""
+    sizes = [max(map(abs, column)) for column in zip(*vertices, strict=True)]
     kinds = path.KIND[prescribed], "time"
-    largest = [max(map(abs, column)) for column in zip(*vertices, strict=True)]
-    return [(kind, fitting(size, kind)) for kind, size in zip(kinds, [*largest, 0.0], strict=False)]
+    return [(kind, fitting(size, kind)) for kind, size in zip(kinds, [*sizes, 0.0], strict=False)]
 
 
 def write_path(vertices: tuple, prescribed: str) -> str:
     """Vertices as text for `read_path`, one unit a column, five digits."""
-    columns = _columns(vertices, prescribed)
-    return "\n".join(
-        ", ".join(f"{v / unit.factor:.5g} {unit.name}" for v, (_, unit) in zip(row, columns, strict=False))
-        for row in vertices
-    )
+    units = [unit for _, unit in _columns(vertices, prescribed)]
+    rows = (zip(row, units, strict=False) for row in vertices)
+    return "\n".join(", ".join(f"{v / unit.factor:.5g} {unit.name}" for v, unit in row) for row in rows)
 
 
 def read_path(text: str, prescribed: str, shown: tuple) -> tuple:
-    """Vertices (SI) from edited text of the path `shown`.
+    """Vertices (SI) from text; bare numbers are in the units of the path `shown`.
 
-    Bare numbers are in the displayed units; unchanged lines keep all digits. Raises ValueError with the
-    line.
+    Raises ValueError with the line.
     """
     vertices, columns = [], _columns(shown, prescribed)
-    kept = dict(zip(write_path(shown, prescribed).splitlines(), shown, strict=True))
     for line_number, line in enumerate(text.splitlines(), 1):
         cells = [cell for cell in _BETWEEN.split(line.strip()) if cell]
         try:
             if len(cells) > 2:
                 raise ValueError(f"“{line:.40}” is more than a {prescribed} and a time")
-            pairs = zip(cells, columns, strict=False)
-            row = kept.get(line.strip()) or tuple(read(cell, *column)[0] for cell, column in pairs)
+            row = [read(cell, *column)[0] for cell, column in zip(cells, columns, strict=False)]
         except ValueError as error:
             raise ValueError(f"Line {line_number}: {error}") from None
-        vertices += [row] if row else []
+        vertices += [tuple(row)] if row else []
     return path.checked(vertices, prescribed)
 
 

@@ -50,10 +50,16 @@ class Shown:
         return [plot for name, plot in PLOTS.items() if name in seen and plot.there(self.view)]
 
 
+def _opened(query: str) -> State:
+    """State of a link, with the plots that exist."""
+    state = link.read(query)
+    return state.replace(tiles=tuple(name for name in TILES if name in state.tiles))
+
+
 class Page:
     """The page of one session."""
 
-    def __init__(self, arguments: dict[str, list[bytes]] | None = None):
+    def __init__(self, query: str = ""):
         self.document, self.past, self.future, self._drag = pn.state.curdoc, [], [], None
         self.solved: dict[Any, Course] = {}
         self._waiting, self._ready, self.shown, self._courses_changed = None, False, None, False
@@ -70,7 +76,7 @@ class Page:
         self._show_history()
         self._watch()
         try:
-            self.draw(link.read(arguments) if arguments else self.state)
+            self.draw(_opened(query))
         except Exception as error:
             self.draw(self.state)
             self.notify(f"The link was not opened: {self._refusal(error)}")

@@ -11,8 +11,17 @@ import param
 from .. import changes
 from ..drives import Course
 from ..solve import DRIVES, option, options
-from ..state import PRESETS, State, altered, number, preset_value, quantity
-from ..state.quantities import ABOUT, CHOICES, LABELS, SHAPES, USED, Quantity, Scale, shape_quantities
+from ..state import PRESETS, State, altered
+from ..state.quantities import (
+    ABOUT,
+    CHOICES,
+    LABELS,
+    QUANTITIES,
+    SHAPES,
+    USED,
+    Scale,
+    shape_quantities,
+)
 from ..state.units import UNITS, digits, entry, written
 from ..ui import JS, WIDE, button, explained, field, html, linked, marked, show, symbol, tools, upload
 from .readouts import sketch
@@ -30,7 +39,7 @@ _VERTICES = (
 )
 
 
-def _about(known: Quantity) -> str:
+def _about(known: Any) -> str:
     low, high = (written(bound, known.kind, 2) for bound in known.bounds)
     units = ", ".join(unit.name for unit in UNITS[known.kind] if unit.name)
     rows = [linked(known.help), f"<em>{linked(known.equation)}</em>" if known.equation else ""]
@@ -51,83 +60,76 @@ class Number(pn.custom.JSComponent):
 
     _esm = JS["quantity"]
 
-    def __init__(self, apply_or_raise: Callable[..., None]):
-        self._apply_or_raise, self.key, self._like, self._scale = apply_or_raise, "", 0.0, None
-        super().__init__(css_classes=["number"], **WIDE)
+    def __init__(self, name: str, apply_or_raise: Callable[..., None]):
+        known = QUANTITIES[name]
+        self.key, self._apply_or_raise, self._like, self._preset = name, apply_or_raise, 0.0, ""
+        self._scale = Scale(known, known.default)
+        texts = {
+            "label": f"{symbol(known.symbol)} {marked(known.label)}",
+            "spoken": f"{known.symbol}, {known.label}",
+            "about": _about(known),
+        }
+        steps = Scale.STEPS if known.span >= 0 else 0
+        super().__init__(css_classes=["number"], steps=steps, **texts, **WIDE)
         self.on_msg(self._on_message)
 
     def _on_message(self, event):
-        said, message = "", event.data
+        said = ""
         with pn.io.hold():
             try:
-                said = self._change(message)
+                said = self._change(event.data)
                 self.refused = False
             except ValueError as error:
-                said, self.refused = str(error), "text" in message
+                said, self.refused = str(error), "text" in event.data
             self.param.update(said=said, answered=self.answered + 1)
 
     def _change(self, message):
-        said: list[str] = []
+        """Apply a message of the browser; returns how typed text was read, if that may surprise."""
+        said = ""
 
-        def type_it(state):
-            state, text = changes.typed(state, self.key, message["text"], self._like)
-            said.append(text)
+        def typed(state):
+            nonlocal said
+            state, said = changes.typed(state, self.key, message["text"], self._like)
             return state
 
         if isinstance(message.get("text"), str):
-            self._apply_or_raise(type_it)
+            self._apply_or_raise(typed)
         elif isinstance(message.get("position"), int | float):
             value = self._scale.value(message["position"])
             self._apply_or_raise(lambda state: changes.put(state, self.key, value), self.key)
         elif "reset" in message:
-            if self.key.startswith("sweep"):
-                self._apply_or_raise(lambda state: state.replace(**{self.key: None}))
-            else:
-                self._apply_or_raise(lambda state: changes.put(state, self.key, self._scale.middle))
-        return said[0] if said else ""
+            self._apply_or_raise(lambda state: changes.put(state, self.key, self._scale.middle))
+        return said
 
     def forget(self) -> None:
         """Clear messages."""
         show(self, said="", refused=False)
 
-    def show(self, state: State, name: str, like: float = 0.0) -> None:
+    def show(self, state: State, like: float = 0.0) -> None:
         """Show a number; zero in the unit that fits the value `like`."""
-        known, value = quantity(state, name), number(state, name)
-        scaled = (name, state.preset, known.symbol)
-        if (
-            self.key != name
-            or self._scale is None
-            or scaled != self._scaled
-            or not self._scale.reaches(value)
-        ):
-            # A value outside the slider becomes its new middle.
-            start = value if name.startswith("sweep") else preset_value(state, name)
-            self._scale, self._scaled = Scale(known, start), scaled
-            if not self._scale.reaches(value):
-                self._scale = Scale(known, value)
-            label = f"{symbol(known.symbol)} {marked(known.label)}"
-            if self.label != label or self.key != name:
-                self.forget()
-                show(self, label=label, about=_about(known), steps=Scale.STEPS if known.span >= 0 else 0)
-                show(self, spoken=", ".join(filter(None, (known.symbol, known.label))))
-        self.key, self._like = name, like
+        known, value, self._like = QUANTITIES[self.key], state[self.key], like
+        # The middle of the slider stays while it moves.
+        if self._preset != state.preset or not self._scale.reaches(value):
+            middle = PRESETS[state.preset].values.get(self.key, value)
+            self._scale, self._preset = Scale.about(known, middle, value), state.preset
         show(self, text=entry(value, known.kind, like), position=self._scale.position(value))
 
 
 class Numbers(pn.Column):
-    """A column of number fields, reused for different numbers."""
+    """A column of number fields; one is made when it is used for the first time, and stays."""
 
     def __init__(self, apply_or_raise: Callable[..., None]):
         super().__init__(css_classes=["numbers"], **WIDE)
         self._apply_or_raise = apply_or_raise
 
     def show(self, state: State, names: list[str], likes: dict[str, float] | None = None) -> None:
-        for place, name in enumerate(names):
-            if place == len(self):
-                self.append(Number(self._apply_or_raise))
-            self[place].show(state, name, (likes or {}).get(name, 0.0))
-        for place, each in enumerate(self):
-            show(each, visible=place < len(names))
+        for name in names:
+            if name not in [each.key for each in self]:
+                self.append(Number(name, self._apply_or_raise))
+        for each in self:
+            if each.key in names:
+                each.show(state, (likes or {}).get(each.key, 0.0))
+            show(each, visible=each.key in names)
 
     def forget(self) -> None:
         for each in self:
@@ -274,10 +276,7 @@ class Controls:
     def show_texts(self, state: State, course: Course) -> None:
         """Update the texts."""
         preset, made = PRESETS[state.preset], course.scene.medium
-        rows = "".join(
-            f"<dt>{marked(f'{what} = {value}')}</dt><dd>{escape(where)}</dd>"
-            for what, value, where in preset.sources.values()
-        )
+        rows = "".join(_source(name, preset.values[name], where) for name, where in preset.sources.items())
         title = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
         texts = {
             "sources": f"<details><summary>{title}</summary><dl>{rows}</dl></details>",
@@ -293,6 +292,11 @@ class Controls:
     def forget(self) -> None:
         for numbers in self.numbers.values():
             numbers.forget()
+
+
+def _source(name: str, value: float, where: str) -> str:
+    known = QUANTITIES[name]
+    return f"<dt>{marked(f'{known.symbol} = {written(value, known.kind, 3)}')}</dt><dd>{escape(where)}</dd>"
 
 
 def _head(text: str) -> Any:

@@ -62,7 +62,7 @@ def fit(state: State) -> State:
         yields = bool(np.isfinite(found.medium.q_c))
         choices["plasticity"] = "q_c" if yields else "none"
         numbers |= {"q_c": float(found.medium.q_c)} if yields else {}
-    numbers = {name: checked(state, name, value) for name, value in numbers.items()}
+    numbers = {name: checked(name, value) for name, value in numbers.items()}
     curve = replace(state.curve, fit=found, asked=asked)
     state = state.replace(curve=curve, progress=1.0, fit_note=_note(curve), **choices, **numbers)
     return with_derived(state)

@@ -74,7 +74,7 @@ def _inputs(state: State, view: View):
             else "set on the page"
         )
         if name in preset.sources and isclose(value, preset.values[name]):
-            source = preset.sources[name][2]
+            source = preset.sources[name]
         yield symbol(known.symbol), known.label, written(value, known.kind, 5), escape(source)
     yield "", "as solved, in SI", "", escape(repr(view.course.scene.drive))
     if state.elasticity != "modulus":

@@ -175,7 +175,7 @@ def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
 def test_a_link_that_cannot_be_opened_is_a_notice(monkeypatch):
     notices = []
     monkeypatch.setattr(Page, "notify", lambda page, text: notices.append(text))
-    page = Page({"preset": [b"none"]})
+    page = Page("preset=none")
     assert notices == ["The link was not opened: this link names no preset that is known"]
     assert page.state == preset_state()
-    assert Page({"preset": [DROP.encode()], "speed": [b"3.0"]}).shown.view.course.hit.speed == 3.0
+    assert Page(f"preset={DROP}&speed=3.0").shown.view.course.hit.speed == 3.0

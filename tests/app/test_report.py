@@ -53,7 +53,7 @@ def test_the_report_says_what_the_page_says():
     for each, values in readings(course).items():
         assert f"{each.known.long_name} {text(each, values, course.now, 5)}" in said
     # What the preset says has its source; what was typed says so.
-    assert PRESETS[DROP].sources["q_c"][2] in said
+    assert PRESETS[DROP].sources["q_c"] in said
     assert "2.0000 m/s set on the page" in said
     for limit in course.hit.limits:
         assert limit.sentence.rstrip(".") in said

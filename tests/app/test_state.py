@@ -10,7 +10,7 @@ import mdr_core as mdr
 from app import changes
 from app.panels import share
 from app.solve import DRIVES, follow, numbers_of, scene_of, turning_point
-from app.state import OPENING, PRESETS, VIEW, State, altered, link, medium, number, preset_state, profile
+from app.state import OPENING, PRESETS, VIEW, State, altered, link, medium, preset_state, profile
 from app.state.files import MAX_SAMPLES, read_tip
 from app.state.quantities import QUANTITIES, SHAPES, Scale
 from app.state.units import entry, fitting, read, written
@@ -145,24 +145,15 @@ def test_the_link_of_a_preset_is_its_name():
 @pytest.mark.parametrize("drive", DRIVES)
 def test_a_link_holds_the_whole_page(drive):
     state = state_with(DROP, drive, damping="tau", shape="sphere")
-    held = link.with_name(link.write(state, DRIVES[drive].form, view=False), "50 % & <b> + 1")
-    state = state.replace(
-        progress=0.75, hold=(held,), tiles=("sweep", "section"), dark=True, keep=True, fit_note="a < b"
-    )
+    state = state.replace(progress=0.75, hold=(link_of(state),), tiles=("sweep", "section"))
+    state = state.replace(dark=True, keep=True, fit_note="a < b")
     state = state.replace(axes="ratio", references="all", heights="to_scale", section="zz")
     again = linked_state(state)
     assert scene_of(again) == scene_of(state)
     for name in (*VIEW, "section", "fit_note"):
         assert again[name] == state[name], name
-    assert link.split_name(again.hold[0])[1] == "50 % & <b> + 1"
+    assert scene_of(link.read(again.hold[0])) == scene_of(state)
     assert len(link_of(state)) < 700
-
-
-def test_ranges_of_sweeps_are_in_the_link_and_begin_anew():
-    state = changes.put(state_with(DROP, swept="speed"), "sweep_low", 0.005)
-    assert number(linked_state(state), "sweep_low") == 0.005
-    assert number(linked_state(state), "sweep_high") == number(state, "sweep_high")
-    assert changes.choose(state, "swept", "mass").sweep_low is None
 
 
 def test_a_link_of_version_0_3_is_read():
@@ -175,12 +166,12 @@ def test_a_link_of_version_0_3_is_read():
         "energy_from": "0.1", "mass_to": "9.0", "at": "1.5", "plots": "map sweep", "dark": "1",
         "hold": hold,
     }  # fmt: skip
-    state = link.read(link.arguments(urlencode(old)))
-    assert (state.speed, state.progress, state.sweep_low) == (2.0, 1.5, 0.1)
-    assert (state.tiles, state.dark) == (("sweep",), True)
-    assert link.read(link.arguments(link.split_name(state.hold[0])[0])).cone_slope == 0.2
+    state = link.read(urlencode(old))
+    assert (state.speed, state.progress, state.swept) == (2.0, 1.5, "energy")
+    assert (state.tiles, state.dark) == (("map", "sweep"), True)
+    assert link.read(state.hold[0]).cone_slope == 0.2
     with pytest.raises(ValueError, match=r"version 0\.3 took from a file"):
-        link.read(link.arguments("preset="))
+        link.read("preset=")
 
 
 @pytest.mark.parametrize(
@@ -193,7 +184,7 @@ def test_a_link_of_version_0_3_is_read():
 )  # fmt: skip
 def test_a_hostile_link_is_refused(query):
     with pytest.raises(ValueError, match=r"link|bounds|samples|vertices"):
-        link.read(link.arguments(query))
+        link.read(query)
 
 
 # Measured tips.

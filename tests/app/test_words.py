@@ -1,6 +1,7 @@
 """Everything that stands on the page says what it is, and leads to the theory."""
 
 import re
+from html import unescape
 
 import pytest
 
@@ -88,12 +89,9 @@ def test_the_form_begins_with_the_drive_and_has_what_is_used():
     assert "tau" in shown("more")
     page.apply(lambda state: changes.choose(state, "drive", "impact"))
     assert shown("drive") == ["mass", "speed"]
-    numbers = [number for region in page.controls.numbers.values() for number in region]
     page.apply(lambda state: changes.choose(state, "drive", "oblique"))
     page.apply(lambda state: changes.choose(state, "drive", "depth"))
     assert shown("drive") == ["max_depth"]
-    # Components stay, and are told to be others.
-    assert numbers[0] is page.controls.numbers["drive"][0]
 
 
 def stepped(title):
@@ -182,6 +180,6 @@ def test_python_and_raw_indices_are_not_on_the_page():
 
 def test_presets_say_where_their_numbers_come_from():
     page = Page()
-    for what, value, where in PRESETS[page.state.preset].sources.values():
-        assert marked(f"{what} = {value}") in page.controls.notes["sources"].object
-        assert where
+    text = unescape(page.controls.notes["sources"].object)
+    assert marked("E_1 = 78.0 GPa") in text
+    assert all(source in text for source in PRESETS[page.state.preset].sources.values())
