@@ -34,7 +34,6 @@ def report(state: State, view: View, plots: list[Plot], snippet: str, address: s
         "held": [escape(name) for name in held],
         "made": f"{datetime.now(UTC):%d %B %Y, %H:%M} UTC, mdr_core {mdr.__version__}",
         "inputs": list(_inputs(state, view)),
-        "state": readouts.phase(course, course.now),
         "numbers": [
             (symbol(each.known.symbol), each.known.long_name, readouts.text(each, values, course.now, 5))
             for each, values in readouts.readings(course).items()

@@ -49,7 +49,6 @@ window.explorer = {
   played: () => explorer.model("frames").tags.length > 0,
   all: (root = document) => [...root.querySelectorAll("*")].flatMap(
     (each) => [each, ...(each.shadowRoot ? explorer.all(each.shadowRoot) : [])]),
-  phase: () => explorer.all().find((on) => on.classList.contains("standing")).shadowRoot.textContent,
   idle: () => Boolean(explorer.model("address")?.tags.length) &&
     Bokeh.documents.every((each) => each.is_idle) && explorer.row("force", "now")?.[0].length === 1,
   listen: () => {

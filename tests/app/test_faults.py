@@ -87,7 +87,7 @@ class Typed:
 
 @pytest.mark.parametrize("act", ["preset", "undo", "reset"])
 def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
-    (depth,), (_, q_c) = page.controls.numbers["drive"], page.controls.numbers["first"]
+    (depth,), (_, q_c) = page.controls.numbers["drive"], page.controls.numbers["medium"]
     depth._on_message(Typed("5 nm"))
     q_c._on_message(Typed("abc"))
     words = "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m"
