@@ -11,7 +11,7 @@ from .drives import oblique, path
 from .solve import DRIVES, option, options, scene_of, turning_point
 from .state import State, checked, medium, preset_state, with_derived
 from .state.quantities import QUANTITIES, shape_quantities
-from .state.units import Unit, fitting, read, written
+from .state.units import Unit, fitting, read
 
 #: Values of the view that a preset leaves as they are.
 _STAYING = ("hold", "tiles", "keep", "dark", "axes")
@@ -44,12 +44,10 @@ def put(state: State, name: str, value: float) -> State:
     return with_derived(state.replace(**{name: value}))
 
 
-def typed(state: State, name: str, text: str, like: float = 0.0) -> tuple[State, str]:
-    """Set a number from text; also returns how the text was read, if that may surprise."""
+def typed(state: State, name: str, text: str, like: float = 0.0) -> State:
+    """Set a number from text; a bare number is in the displayed unit, that of `like` for zero."""
     kind = QUANTITIES[name].kind
-    value, surprising = read(text, kind, fitting(state[name], kind, like))
-    reading = f"{text.strip()}{'' if kind == 'slope' else ' in SI'} is {written(value, kind)}"
-    return put(state, name, value), reading if surprising else ""
+    return put(state, name, read(text, kind, fitting(state[name], kind, like)))
 
 
 def take_tip(state: State, samples: tuple[Any, Any], note: str) -> State:
@@ -187,7 +185,7 @@ def read_path(text: str, prescribed: str, shown: tuple) -> tuple:
         try:
             if len(cells) > 2:
                 raise ValueError(f"“{line:.40}” is more than a {prescribed} and a time")
-            row = [read(cell, *column)[0] for cell, column in zip(cells, columns, strict=False)]
+            row = [read(cell, *column) for cell, column in zip(cells, columns, strict=False)]
         except ValueError as error:
             raise ValueError(f"Line {line_number}: {error}") from None
         vertices += [tuple(row)] if row else []

@@ -157,8 +157,6 @@ class Page:
         """Apply a change; show a refusal as a notice, or by `refused`."""
         try:
             self.apply_or_raise(change)
-            self.controls.forget()
-            self.fitting.forget()
         except ValueError as error:
             (refused or self.notify)(str(error))
             self._show_panels()

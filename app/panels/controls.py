@@ -56,8 +56,8 @@ class Number(pn.custom.JSComponent):
     """
 
     label, spoken, about = param.String(), param.String(), param.String()
-    text, said, refused = param.String(), param.String(), param.Boolean()
-    position, steps, answered = param.Integer(), param.Integer(Scale.STEPS), param.Integer()
+    text, refused = param.String(), param.String()
+    position, steps, answered = param.Integer(), param.Integer(), param.Integer()
 
     _esm = JS["quantity"]
 
@@ -75,36 +75,23 @@ class Number(pn.custom.JSComponent):
         self.on_msg(self._on_message)
 
     def _on_message(self, event):
-        said = ""
         with pn.io.hold():
+            refused = ""
             try:
-                said = self._change(event.data)
-                self.refused = False
+                self._change(event.data)
             except ValueError as error:
-                said, self.refused = str(error), "text" in event.data
-            self.param.update(said=said, answered=self.answered + 1)
+                refused = str(error)
+            self.param.update(refused=refused, answered=self.answered + 1)
 
     def _change(self, message):
-        """Apply a message of the browser; returns how typed text was read, if that may surprise."""
-        said = ""
-
-        def typed(state):
-            nonlocal said
-            state, said = changes.typed(state, self.key, message["text"], self._like)
-            return state
-
         if isinstance(message.get("text"), str):
-            self._apply_or_raise(typed)
+            text, like = message["text"], self._like
+            self._apply_or_raise(lambda state: changes.typed(state, self.key, text, like))
         elif isinstance(message.get("position"), int | float):
             value = self._scale.value(message["position"])
             self._apply_or_raise(lambda state: changes.put(state, self.key, value), self.key)
         elif "reset" in message:
             self._apply_or_raise(lambda state: changes.put(state, self.key, self._scale.middle))
-        return said
-
-    def forget(self) -> None:
-        """Clear messages."""
-        show(self, said="", refused=False)
 
     def show(self, state: State, like: float = 0.0) -> None:
         """Show a number; zero in the unit that fits the value `like`."""
@@ -113,7 +100,8 @@ class Number(pn.custom.JSComponent):
         if self._preset != state.preset or not self._scale.reaches(value):
             middle = PRESETS[state.preset].values.get(self.key, value)
             self._scale, self._preset = Scale.about(known, middle, value), state.preset
-        show(self, text=entry(value, known.kind, like), position=self._scale.position(value))
+        text, position = entry(value, known.kind, like), self._scale.position(value)
+        show(self, text=text, position=position, refused="")
 
 
 class Numbers(pn.Column):
@@ -131,10 +119,6 @@ class Numbers(pn.Column):
             if each.key in names:
                 each.show(state, (likes or {}).get(each.key, 0.0))
             show(each, visible=each.key in names)
-
-    def forget(self) -> None:
-        for each in self:
-            each.forget()
 
 
 class Choices:
@@ -257,10 +241,6 @@ class Controls:
         }
         for name, text in texts.items():
             show(self.notes[name], object=text)
-
-    def forget(self) -> None:
-        for numbers in self.numbers.values():
-            numbers.forget()
 
 
 def _vertices() -> Any:

@@ -176,7 +176,3 @@ class Fitting:
                 widget.param.update(options=options, value=curve.columns[role])
         for role, widget in self.units.items():
             show(widget, value=curve.units[role])
-
-    def forget(self) -> None:
-        self.place.forget()
-        self.noise.forget()

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 import panel as pn
 
 from ..drives import Course
@@ -13,7 +12,8 @@ from ..solve import DRIVES, follow, numbers_of, scene_of
 from ..state import PRESETS, State, altered, link, preset_state
 from ..state.quantities import CHOICES, QUANTITIES, SHAPES
 from ..state.units import written
-from ..ui import WIDE, button, html, marked, show
+from ..ui import WIDE, button, html, marked, show, symbol
+from .readouts import line, readings, text
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,21 +67,13 @@ def removed(state: State, k: int) -> State:
 
 
 def numbers(course: Course) -> dict[str, str]:
-    """Main numbers of a scene at its largest depth, by symbol."""
-    medium, turning_point = course.scene.medium, course.turning_point
-    values = {
-        "E*": ("pressure", medium.E_star),
-        "q_c": ("yield constant", medium.q_c),
-        "η": ("viscosity", medium.eta),
-        "d_max": ("length", turning_point.depth),
-        "F_max": ("force", np.max(course.force)),
-        "a_max": ("length", turning_point.contact_radius),
-        "c": ("length", turning_point.plastic_radius),
-        "p_m": ("pressure", turning_point.mean_pressure),
-        "W_p": ("energy", course.plastic_work[-1]),
-        "e": ("number", np.nan if course.hit is None else course.hit.restitution),
-    }
-    return {symbol: written(float(value), kind, 3) for symbol, (kind, value) in values.items()}
+    """Readouts of a scene at its largest depth, by symbol."""
+    values = readings(course)
+    return {each.known.symbol: text(each, values[each], course.peak, 3) for each in line(course, values)}
+
+
+def _row(name: str, texts: list[str]) -> str:
+    return f"<tr><th>{symbol(name)}</th>{''.join(f'<td>{text}</td>' for text in texts)}</tr>"
 
 
 def _dash(k: int) -> str:
@@ -94,7 +86,7 @@ class Table:
     def __init__(self, apply: Callable[..., None]):
         self._apply, self._names = apply, [html("", "key") for _ in DASHES]
         self._rows = [self._row(k, name) for k, name in enumerate(self._names)]
-        self._numbers = html("", "numbers-held")
+        self._numbers = html("", "key")
         note = html("Hold keeps the present scene to compare with; its curves are drawn in every plot.")
         parts = (note, *self._rows, self._numbers)
         self.view = pn.Column(*parts, css_classes=["held"], visible=False, **WIDE)
@@ -105,10 +97,7 @@ class Table:
             show(self._names[k], object=f"{_dash(k)}{marked(held[k].name)}" if k < len(held) else "")
         columns = [numbers(course), *(numbers(each.course) for each in held)]
         heads = "".join(f"<th>{_dash(k)}</th>" for k in range(len(held)))
-        rows = "".join(
-            f"<tr><th>{marked(symbol)}</th>" + "".join(f"<td>{each[symbol]}</td>" for each in columns)
-            for symbol in columns[0]
-        )
+        rows = "".join(_row(name, [each.get(name, "–") for each in columns]) for name in columns[0])
         table = f"<table><tr><th></th><th>now</th>{heads}</tr>{rows}</table>"
         show(self._numbers, object=table if held else "")
 

@@ -83,10 +83,9 @@ class State(Mapping[str, Any]):
     """
 
     __slots__ = ("_values",)
-    _values: Mapping[str, Any]
 
     def __init__(self, values: Mapping[str, Any]):
-        object.__setattr__(self, "_values", MappingProxyType({**_DEFAULTS, **values}))
+        self._values = MappingProxyType({**_DEFAULTS, **values})
 
     def __getitem__(self, name: str) -> Any:
         return self._values[name]
@@ -101,9 +100,6 @@ class State(Mapping[str, Any]):
         if name.startswith("_") or name not in self._values:
             raise AttributeError(name)
         return self._values[name]
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        raise AttributeError(f"a state is frozen: use replace({name}=…)")
 
     def replace(self, **changes: Any) -> "State":
         """Copy with other values."""

@@ -152,10 +152,6 @@ class Explorer:
     def field(self, symbol):
         return self.page.locator(f'input[type="text"][aria-label^="{symbol},"]')
 
-    def said(self, symbol):
-        """What is said below a field."""
-        return self.number(symbol).locator("#said").inner_text()
-
     def number(self, symbol):
         """A quantity with its field, slider and explanation."""
         return self.page.locator(".number", has=self.field(symbol))

@@ -37,7 +37,7 @@ def assert_names_nothing_outside(html):
 
 
 def test_the_report_says_what_the_page_says():
-    state, _ = changes.typed(preset_state(DROP), "speed", "2 m/s")
+    state = changes.typed(preset_state(DROP), "speed", "2 m/s")
     view = view_of(state, 1.5)
     course, plots = (
         view.course,

@@ -30,7 +30,7 @@ def test_a_state_is_small_frozen_and_known():
     """About 75 values; what is not one of them is refused."""
     state = preset_state()
     assert 60 <= len(state) <= 100
-    with pytest.raises(AttributeError, match="frozen"):
+    with pytest.raises(AttributeError, match="max_depth"):
         state.max_depth = 1.0
     with pytest.raises(KeyError, match="no max_deph"):
         state.replace(max_deph=1.0)
@@ -68,29 +68,28 @@ def test_every_drive_can_be_chosen_from_every_preset(key):
 
 
 @pytest.mark.parametrize(
-    ("text", "kind", "value", "surprising"),
+    ("text", "kind", "value"),
     [
-        ("25", "length", 25e-9, False),
-        ("2,5", "length", 2.5e-9, False),
-        ("1e-6", "length", 1e-6, True),
-        ("0.012 µm", "length", 12e-9, False),
-        ("3e-3um", "length", 3e-9, False),
-        ("10 000 nm", "length", 1e-5, False),
-        ("10\u202f000 nm", "length", 1e-5, False),
-        ("5 Å", "length", 5e-10, False),
-        ("70.3°", "slope", 1 / tan(radians(70.3)), True),
-        ("0.36", "slope", 0.36, False),
-        ("90", "angle", pi / 2, False),
+        ("25", "length", 25e-9),
+        ("2,5", "length", 2.5e-9),
+        ("1e-6", "length", 1e-6),
+        ("0.012 µm", "length", 12e-9),
+        ("3e-3um", "length", 3e-9),
+        ("10 000 nm", "length", 1e-5),
+        ("10\u202f000 nm", "length", 1e-5),
+        ("5 Å", "length", 5e-10),
+        ("70.3°", "slope", 1 / tan(radians(70.3))),
+        ("0.36", "slope", 0.36),
+        ("90", "angle", pi / 2),
     ],
 )
-def test_typed_numbers(text, kind, value, surprising):
-    read_value, told = read(text, kind, fitting(9e-9 if kind == "length" else 0.3, kind))
-    assert read_value == pytest.approx(value, rel=1e-14)
-    assert told == surprising
+def test_typed_numbers(text, kind, value):
+    shown = fitting(9e-9 if kind == "length" else 0.3, kind)
+    assert read(text, kind, shown) == pytest.approx(value, rel=1e-14)
 
 
 def test_an_angle_of_90_degrees_is_taken():
-    state, _ = changes.typed(state_with(DROP, "oblique"), "attack", "90")
+    state = changes.typed(state_with(DROP, "oblique"), "attack", "90")
     assert state.attack == pi / 2
     assert scene_of(state).drive.tangential_speed == pytest.approx(0.0, abs=1e-12)
 
@@ -99,7 +98,7 @@ def test_a_zero_has_the_unit_of_its_column():
     """A bare 5 typed over it is 5 nm, not 5 m."""
     assert entry(0.0, "length", 9e-9) == "0 nm"
     assert written(float("inf"), "length") == "∞"
-    state, _ = changes.typed(preset_state(), "contact_point", "5", like=9e-9)
+    state = changes.typed(preset_state(), "contact_point", "5", like=9e-9)
     assert state.contact_point == pytest.approx(5e-9)
 
 
