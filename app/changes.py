@@ -29,19 +29,33 @@ def choose(state: State, name: str, wanted: str) -> State:
         return preset_state(wanted, **{each: state[each] for each in _STAYING})
     if name == "shape" and wanted == "sampled" and not state.samples:
         raise ValueError("load a tip first: a CSV file with radii r and heights z")
-    convert = CONVERT.get(name, lambda state, wanted: {})
-    numbers = {k: float(v) if k in QUANTITIES else v for k, v in convert(state, wanted).items()}
-    return with_derived(state.replace(**{name: wanted}, **numbers))
+    numbers = CONVERT[name](state, wanted) if name in CONVERT else {}
+    numbers = {k: float(v) if k in QUANTITIES else v for k, v in numbers.items()}
+    changed, made = state.replace(**{name: wanted}, **numbers), medium(state)
+    if name == "elasticity":
+        return put(changed, "E_star", made.E_star)
+    if name == "plasticity" and inf not in (made.q_c, medium(changed).q_c):
+        return put(changed, "q_c", made.q_c)
+    return with_derived(changed)
 
 
 def put(state: State, name: str, value: float) -> State:
     """Set a number; E* of two bodies through their moduli, q_c of a hardness through the hardness."""
     value = checked(name, value)
     if name == "E_star" and state.elasticity != "modulus":
-        return with_derived(state.replace(**_elasticity(state, state.elasticity, value)))
+        return with_derived(state.replace(**_moduli(state, value)))
     if name == "q_c" and state.plasticity == "hardness":
         name, value = "hardness", checked("hardness", value / state.hardness_radius)
     return with_derived(state.replace(**{name: value}))
+
+
+def _moduli(state: State, E_star: float) -> dict[str, float]:
+    """Moduli with an effective modulus, Popov (2015), Eq. (2)."""
+    other = (1 - state.nu_2**2) / state.E_2 if state.elasticity == "bodies" else 0.0
+    compliance = 1 / E_star - other
+    if compliance > 0.01 / E_star:
+        return {"E_1": (1 - state.nu_1**2) / compliance}
+    return {"E_1": 2 * E_star * (1 - state.nu_1**2), "E_2": 2 * E_star * (1 - state.nu_2**2)}
 
 
 def typed(state: State, name: str, text: str, like: float = 0.0) -> State:
@@ -96,27 +110,11 @@ def _shape(state: State, shape: str) -> dict[str, Any]:
     }
 
 
-def _elasticity(state: State, wanted: str, modulus: float | None = None) -> dict[str, Any]:
-    """Moduli that give the present effective modulus, or another one, Popov (2015), Eq. (2)."""
-    modulus = modulus or medium(state).E_star
-    if wanted == "modulus":
-        return {"E_star": modulus}
-    other = (1 - state.nu_2**2) / state.E_2 if wanted == "bodies" else 0.0
-    compliance = 1 / modulus - other
-    if compliance > 0.01 / modulus:
-        return {"E_1": (1 - state.nu_1**2) / compliance}
-    return {"E_1": 2 * modulus * (1 - state.nu_1**2), "E_2": 2 * modulus * (1 - state.nu_2**2)}
-
-
 def _plasticity(state: State, wanted: str) -> dict[str, Any]:
-    """Numbers that give the present yield constant."""
-    q_c = medium(state).q_c
-    if q_c == inf:
+    """A hardness is measured at about the present contact radius."""
+    if wanted != "hardness" or medium(state).q_c == inf:
         return {}
-    if wanted == "q_c":
-        return {"q_c": q_c}
-    radius = float(f"{float(turning_point(state).contact_radius):.1g}")
-    return {"hardness": q_c / radius, "hardness_radius": radius} if wanted == "hardness" else {}
+    return {"hardness_radius": float(f"{float(turning_point(state).contact_radius):.1g}")}
 
 
 def _damping(state: State, wanted: str) -> dict[str, Any]:
@@ -146,7 +144,6 @@ def _prescribed(state: State, wanted: str) -> dict[str, Any]:
 
 CONVERT: dict[str, Callable[[State, str], dict[str, Any]]] = {
     "shape": _shape,
-    "elasticity": _elasticity,
     "plasticity": _plasticity,
     "damping": _damping,
     "drive": lambda state, wanted: DRIVES[wanted].equivalent(state, turning_point(state)),

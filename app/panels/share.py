@@ -61,22 +61,9 @@ def pressure_csv(course: Course, state: State, points: int = 401) -> str:
     return _table(course, state, title, columns)
 
 
-def fit_csv(course: Course, state: State) -> str:
-    """The measured curve with its fit, which is in the header."""
-    fit, (depth, force) = state.curve.fit, state.curve.data
-    columns = {
-        "measured depth z (m)": depth,
-        "measured force (N)": force,
-        "depth d (m)": fit.path.depth,
-        "modelled force F (N)": fit.path.force,
-        "residual (N)": fit.residuals,
-    }
-    return _table(course, state, f"fit to {state.curve.name}", columns, repr(fit))
-
-
-def _table(course: Course, state: State, title: str, columns: dict[str, Any], notes: str = "") -> str:
-    """Columns in SI, with the scene and notes in a header."""
-    head = f"mdr_core {mdr.__version__}: {title}\n{summary(state)}\n{python(course.scene)}{notes}"
+def _table(course: Course, state: State, title: str, columns: dict[str, Any]) -> str:
+    """Columns in SI, with the scene in a header."""
+    head = f"mdr_core {mdr.__version__}: {title}\n{summary(state)}\n{python(course.scene)}"
     rows = zip(*(np.asarray(column, float).tolist() for column in columns.values()), strict=True)
     lines = [*(f"# {line}".rstrip() for line in head.splitlines()), ",".join(columns)]
     return "\n".join([*lines, *(",".join(map(repr, row)) for row in rows)]) + "\n"
@@ -91,13 +78,13 @@ class Share:
             "Report": ("report.html", self._report),
             "Curves (CSV)": ("curves.csv", lambda: csv(shown().view.course, shown().state)),
             "Pressure (CSV)": ("pressure.csv", lambda: pressure_csv(shown().view.course, shown().state)),
-            "Fit (CSV)": ("fit.csv", lambda: fit_csv(shown().view.course, shown().state)),
         }
-        self.files = {label: self._file(label, *of) for label, of in files.items()}
         self.link = field(pn.widgets.TextInput, label="Link to this page")
         self.python = field(pn.widgets.TextAreaInput, label="This scene in Python", rows=12)
         self._note = html()
-        buttons = pn.FlexBox(*self.files.values(), css_classes=["tools"], **WIDE)
+        buttons = pn.FlexBox(
+            *(self._file(label, *of) for label, of in files.items()), css_classes=["tools"], **WIDE
+        )
         self.view = pn.Column(self.link, self._note, buttons, self.python, visible=False, **WIDE)
 
     @staticmethod
@@ -117,11 +104,9 @@ class Share:
 
     def show(self) -> None:
         shown, (address, note) = self._shown(), self.address()
-        curve = shown.state.curve
         show(self.link, value=address)
-        show(self._note, object=note if curve is None else f"{note} {_MEASURED}")
+        show(self._note, object=note if shown.state.curve is None else f"{note} {_MEASURED}")
         show(self.python, value=python(shown.view.course.scene))
-        show(self.files["Fit (CSV)"], visible=curve is not None and curve.fit is not None)
 
     def _report(self):
         shown = self._shown()

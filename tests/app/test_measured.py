@@ -8,9 +8,9 @@ import pytest
 import mdr_core as mdr
 from app import changes
 from app.page import Page
-from app.panels import fitting, share
+from app.panels import fitting
 from app.plots import PLOTS
-from app.solve import follow, scene_of
+from app.solve import scene_of
 from app.state import medium, preset_state, profile
 from app.state.files import agrees, read_curve
 
@@ -159,17 +159,6 @@ def test_a_tip_that_ends_above_the_measured_depth_says_so():
     state = preset_state()
     state = changes.take_tip(fitting.take(state, fitting.example(state)), (r, 0.1 * r), "")
     assert view_of(state).rows(PLOTS["residual"], 0)["missing"][2] == "no model at these depths"
-
-
-@pytest.mark.parametrize("fixed", [("baseline",), ("E_star", "baseline", "frame_compliance"), ()])
-def test_the_csv_has_the_curve_and_the_fit(fixed):
-    state, _ = fitted(fixed=fixed)
-    found = state.curve.fit
-    lines = share.fit_csv(follow(state), state).splitlines()
-    assert {f"# {line}".rstrip() for line in repr(found).splitlines()} <= set(lines)
-    rows = np.array([line.split(",") for line in lines if line[0] != "#"][1:], float)
-    np.testing.assert_array_equal(rows[:, :2].T, state.curve.data)
-    np.testing.assert_allclose(rows[:, 1] - found.baseline - rows[:, 3], rows[:, 4], atol=1e-12)
 
 
 def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
