@@ -1,21 +1,19 @@
 """Changes of a state: functions that return another state or raise ValueError."""
 
-import re
 from collections.abc import Callable
 from math import inf
 from typing import Any
 
 import mdr_core as mdr
 
-from .drives import oblique, path
+from .drives import oblique
 from .solve import DRIVES, option, options, scene_of, turning_point
 from .state import State, checked, medium, preset_state, with_derived
 from .state.quantities import QUANTITIES, shape_quantities
-from .state.units import Unit, fitting, read
+from .state.units import fitting, read
 
 #: Values of the view that a preset leaves as they are.
 _STAYING = ("hold", "tiles", "keep", "dark", "axes")
-_BETWEEN = re.compile(r"\s*(?:;|\t|,\s|\bat\b)\s*")
 
 
 def choose(state: State, name: str, wanted: str) -> State:
@@ -138,10 +136,6 @@ def _surface(state: State, wanted: str) -> dict[str, Any]:
     }
 
 
-def _prescribed(state: State, wanted: str) -> dict[str, Any]:
-    return path.prescribed(state, scene_of(state), wanted) if state.drive == "path" and state.path else {}
-
-
 CONVERT: dict[str, Callable[[State, str], dict[str, Any]]] = {
     "shape": _shape,
     "plasticity": _plasticity,
@@ -149,48 +143,5 @@ CONVERT: dict[str, Callable[[State, str], dict[str, Any]]] = {
     "drive": lambda state, wanted: DRIVES[wanted].equivalent(state, turning_point(state)),
     "surface": _surface,
     "aim": oblique.aim,
-    "pattern": lambda state, wanted: path.pattern(state, turning_point(state), wanted),
-    "prescribed": _prescribed,
+    "pattern": lambda state, wanted: DRIVES["path"].equivalent(state, turning_point(state)),
 }
-
-
-# Vertices of a path as text, a line each: depth or force, and an optional time.
-
-
-def _columns(vertices: tuple, prescribed: str) -> list[tuple[str, Unit]]:
-    """Kind and displayed unit of each column; of a time also where the vertices have none."""
-    sizes = [max(map(abs, column)) for column in zip(*vertices, strict=True)]
-    kinds = path.KIND[prescribed], "time"
-    return [(kind, fitting(size, kind)) for kind, size in zip(kinds, [*sizes, 0.0], strict=False)]
-
-
-def write_path(vertices: tuple, prescribed: str) -> str:
-    """Vertices as text for `read_path`, one unit a column, five digits."""
-    units = [unit for _, unit in _columns(vertices, prescribed)]
-    rows = (zip(row, units, strict=False) for row in vertices)
-    return "\n".join(", ".join(f"{v / unit.factor:.5g} {unit.name}" for v, unit in row) for row in rows)
-
-
-def read_path(text: str, prescribed: str, shown: tuple) -> tuple:
-    """Vertices (SI) from text; bare numbers are in the units of the path `shown`.
-
-    Raises ValueError with the line.
-    """
-    vertices, columns = [], _columns(shown, prescribed)
-    for line_number, line in enumerate(text.splitlines(), 1):
-        cells = [cell for cell in _BETWEEN.split(line.strip()) if cell]
-        try:
-            if len(cells) > 2:
-                raise ValueError(f"“{line:.40}” is more than a {prescribed} and a time")
-            row = [read(cell, *column) for cell, column in zip(cells, columns, strict=False)]
-        except ValueError as error:
-            raise ValueError(f"Line {line_number}: {error}") from None
-        vertices += [tuple(row)] if row else []
-    return path.checked(vertices, prescribed)
-
-
-def type_path(state: State, text: str) -> State:
-    """Take typed vertices as an own path."""
-    if state.path and text == write_path(state.path, state.prescribed):
-        return state
-    return state.replace(path=read_path(text, state.prescribed, state.path), pattern="own")

@@ -67,7 +67,7 @@ class Page:
         self.resting = Resting(self._show_result)
         self.choices = Choices(self.apply, lambda: self.state)
         self.board = Board(self.choices, self._toggle_tile)
-        self.controls = Controls(self.choices, self.apply_or_raise, self.apply)
+        self.controls = Controls(self.choices, self.apply_or_raise)
         self.fitting = Fitting(self.choices, self.apply_or_raise, self.apply)
         self.share = Share(lambda: self.shown)
         self.guide = Guide(self.apply, lambda: self.shown.view.course)

@@ -28,16 +28,11 @@ from ..ui import JS, WIDE, button, explained, field, html, linked, marked, show,
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
 #: Choices shown as radio buttons; others are lists.
-_RADIO = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface", "prescribed", "aim", "body")
+_RADIO = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface", "aim", "body")
 #: Choices about the medium that are one click away, unless they are in use.
 _MORE = ("elasticity", "plasticity", "damping", "inertia")
 #: Numbers that other regions of the form have.
 _ELSEWHERE = {"drive": ("density",), "more": ("E_star", "q_c")}
-_VERTICES = (
-    "One vertex a line: a depth or force with its unit, then a time after a comma and a blank, a semicolon "
-    "or a tab, at each vertex or at none. Straight in between. Without times the path is followed "
-    "infinitely slowly, from first contact on."
-)
 
 
 def _about(known: Any) -> str:
@@ -175,17 +170,13 @@ class Choices:
 class Controls:
     """The form: drive, shape, E* and q_c; the rest of the medium folds."""
 
-    def __init__(self, choices: Choices, apply_or_raise: Callable[..., None], apply: Callable[..., None]):
-        self.choices, self._in_use, self._path = choices, False, ""
+    def __init__(self, choices: Choices, apply_or_raise: Callable[..., None]):
+        self.choices, self._in_use = choices, False
         self.numbers = {name: Numbers(apply_or_raise) for name in ("drive", "shape", "medium", "more")}
         self.notes = {name: html() for name in (*self.numbers, "sources")}
         forms = {name for drive in DRIVES.values() for name in drive.form if name in CHOICES}
         self.parts = {name: choices.row(name) for name in CHOICES if name in forms - {"inertia"}}
         self.parts["again"] = self.again = button("Hit again", width=90)
-        self.parts["vertices"] = self.vertices = _vertices()
-        self.vertices.param.watch(
-            lambda event: apply(lambda state: changes.type_path(state, event.new)), "value"
-        )
         self.tip = upload("tip", ".csv,.txt,text/csv")
         look = {"css_classes": ["button", "more"], "margin": (4, 0)}
         self.more = pn.widgets.Toggle(label="More about the medium", **look)
@@ -220,11 +211,6 @@ class Controls:
         if in_use and not self._in_use:
             show(self.more, value=True)
         self._in_use = in_use
-        text = changes.write_path(state.path, state.prescribed) if state.path else ""
-        # Refused text stays, to be corrected.
-        if self._path != text:
-            self._path = text
-            show(self.vertices, value=text)
 
     def show_texts(self, state: State, course: Course) -> None:
         """Update the texts."""
@@ -241,15 +227,6 @@ class Controls:
         }
         for name, text in texts.items():
             show(self.notes[name], object=text)
-
-
-def _vertices() -> Any:
-    label, size = (
-        "Vertices: one a line, with times or without",
-        {"rows": 6, "auto_grow": True, "max_rows": 14},
-    )
-    area = pn.widgets.TextAreaInput
-    return field(area, "vertices", label=label, description=_VERTICES, **size)
 
 
 def _source(name: str, value: float, text: str) -> str:

@@ -68,7 +68,7 @@ _DEFAULTS: dict[str, Any] = {name: q.bounded(q.default) for name, q in QUANTITIE
 _DEFAULTS |= {name: None for shape in SHAPES for name, _ in shape_quantities(shape)}
 _DEFAULTS |= {name: next(iter(options)) for name, options in CHOICES.items()}
 _DEFAULTS |= {
-    "preset": OPENING, "shape": "cone", "progress": 1.0, "path": (), "samples": (), "tip_note": "",
+    "preset": OPENING, "shape": "cone", "progress": 1.0, "samples": (), "tip_note": "",
     "hold": (), "tiles": (), "keep": False, "dark": False,
     "curve": None, "fit_note": "", "fixed": ("baseline", "frame_compliance"),
 }  # fmt: skip
@@ -77,7 +77,7 @@ _DEFAULTS |= {
 class State(Mapping[str, Any]):
     """Everything set on the page; values are attributes, `replace` returns a copy with other values.
 
-    `path` has vertices, `samples` radii and heights of a measured tip, `hold` held scenes as links, `tiles`
+    `samples` has radii and heights of a measured tip, `hold` held scenes as links, `tiles`
     optional plots; `curve` is a measured curve, `fixed` the fixed parameters of a fit, `fit_note` its
     summary.
     """

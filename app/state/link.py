@@ -4,7 +4,6 @@ from math import inf, isfinite
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from ..drives.path import checked as checked_path
 from . import LAST_PROGRESS, OPENING, PRESETS, State, checked, preset_state, used, with_derived
 from .files import FITTED, MAX_SAMPLES
 from .quantities import CHOICES, QUANTITIES, SHAPES, USED
@@ -12,7 +11,7 @@ from .quantities import CHOICES, QUANTITIES, SHAPES, USED
 #: Limits of a link: characters, values, held scenes, plots.
 MAX_LENGTH, _MAX_VALUES, MAX_HELD, _MAX_TILES = 8000, 100, 4, 12
 _OPTIONS = {"shape": SHAPES} | CHOICES
-_FLAGS, _LISTS, _TABLES = ("dark", "keep"), ("hold", "tiles", "fixed"), ("path", "samples")
+_FLAGS, _LISTS = ("dark", "keep"), ("hold", "tiles", "fixed")
 #: Names of version 0.3 with their present names, and names that are ignored.
 _RENAMED, _IGNORED = {"plots": "tiles"}, ("called", "sweep_low", "sweep_high")
 
@@ -27,9 +26,7 @@ def write(state: State, form: tuple[str, ...]) -> str:
     pairs |= {name: repr(state[name]) for name in numbers if name in changed and state[name] is not None}
     pairs |= {"at": f"{state.progress:.6g}"} if state.progress != 1 else {}
     if state.shape == "sampled":
-        pairs["samples"] = _table_text(zip(*state.samples, strict=True))
-    if state.drive == "path":
-        pairs["path"] = _table_text(state.path)
+        pairs["samples"] = " ".join(f"{r!r},{z!r}" for r, z in zip(*state.samples, strict=True))
     pairs |= {name: " ".join(state[name]) for name in _LISTS if name in changed}
     pairs |= {name: "1" for name in _FLAGS if name in changed}
     pairs |= {"fit_note": state.fit_note} if "fit_note" in changed else {}
@@ -37,10 +34,6 @@ def write(state: State, form: tuple[str, ...]) -> str:
     if len(query) > MAX_LENGTH:
         raise ValueError("there are too many samples in this scene for a link")
     return query
-
-
-def _table_text(rows: Any) -> str:
-    return " ".join(",".join(map(repr, row)) for row in rows)
 
 
 def read(query: str) -> State:
@@ -62,13 +55,11 @@ def read(query: str) -> State:
         (len(state.hold) > MAX_HELD, f"more than {MAX_HELD} scenes are held in this link"),
         (not set(state.fixed) <= set(FITTED), "what a fit leaves as it is, in this link, is not known"),
         (state.shape == "sampled" and not state.samples, "this link has a measured tip without samples"),
-        (state.drive == "path" and not state.path, "this link has a path without vertices"),
         (missing, "this link has a shape without its numbers"),
     ):
         if wrong:
             raise ValueError(message)
-    path = checked_path(state.path, state.prescribed) if state.path else ()
-    return with_derived(state.replace(path=path))
+    return with_derived(state)
 
 
 def _is_ignored(name: str) -> bool:
@@ -96,12 +87,11 @@ def _value(name: str, text: str) -> tuple[str, Any]:
         return name, tuple(text.split()[:_MAX_TILES])
     if name in _FLAGS:
         return name, text == "1"
-    if name in _TABLES:
+    if name == "samples":
         rows = [[_number(name, cell) for cell in row.split(",")] for row in text.split()[: MAX_SAMPLES + 1]]
-        widths = {2} if name == "samples" else {1, 2}
-        if len(rows) > MAX_SAMPLES or not {len(row) for row in rows} <= widths:
-            raise ValueError(f"the {name} in this link are not pairs")
-        return name, tuple(zip(*rows, strict=True) if name == "samples" else map(tuple, rows))
+        if len(rows) > MAX_SAMPLES or {len(row) for row in rows} != {2}:
+            raise ValueError(f"the samples in this link are not at most {MAX_SAMPLES} pairs")
+        return name, tuple(zip(*rows, strict=True))
     if name == "at":
         return "progress", _number(name, text)
     if name == "fit_note":

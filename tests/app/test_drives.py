@@ -5,7 +5,6 @@ import pytest
 
 import mdr_core as mdr
 from app import changes
-from app.changes import read_path, write_path
 from app.drives import States
 from app.panels import readouts, share
 from app.panels.readouts import readings
@@ -14,10 +13,10 @@ from app.solve import DRIVES, drive_of, follow, scene_of
 from app.state import PRESETS, medium, preset_state, profile
 from app.state.quantities import CHOICES
 
-from .conftest import DROP, ELASTIC, GOLD
+from .conftest import DROP, ELASTIC
 from .states import linked_state, solved, state_with, view_of
 
-PATTERNS = [pattern for pattern in CHOICES["pattern"] if pattern != "own"]
+PATTERNS = CHOICES["pattern"]
 ARRAYS = (
     "depth", "force", "contact_radius", "plastic_radius", "plastic_depth", "mean_pressure", "stored_energy",
     "plastic_work",
@@ -90,10 +89,9 @@ def test_the_curve_is_drawn_as_one_goes():
     assert len(force_still(view)["path ahead"][0]) == len(view.course)
 
 
-@pytest.mark.parametrize("name", ["depth", "force"])
-def test_the_load_is_gone_at_a_step(name):
+def test_the_load_is_gone_at_a_step():
     """The contact radius comes down to that of the imprint and then falls, within a trace of depth."""
-    course = solved(changes.choose(path("reload"), "prescribed", name))
+    course = solved(path("reload"))
     a, c, depth = course.states.contact_radius, course.states.plastic_radius, course.states.depth
     gone = np.flatnonzero((a[1:] == 0) & (a[:-1] > 0))
     assert len(gone) == 2
@@ -102,13 +100,10 @@ def test_the_load_is_gone_at_a_step(name):
     assert course.states.contact_radius[-1] == 0
 
 
-def test_depth_and_force_prescribe_the_same_states():
-    state = path("cycles")
-    depth = [row[0] for row in state.path]
-    state = changes.choose(state, "prescribed", "force")
-    np.testing.assert_allclose(scene_of(state).solve().depth, depth, rtol=1e-9, atol=1e-20)
-    state = changes.choose(state, "prescribed", "depth")
-    np.testing.assert_allclose([row[0] for row in state.path], depth, rtol=1e-9, atol=1e-20)
+def test_the_drive_gives_the_pattern_its_depth():
+    """A slider moves the largest depth of each pattern, as when pressing."""
+    state = changes.put(path("cycles"), "max_depth", 5e-9)
+    np.testing.assert_allclose(scene_of(state).drive.depth[::2], 5e-9 * np.arange(1, 6) / 5, rtol=1e-12)
 
 
 @pytest.mark.parametrize("shape", ["cone", "sphere"])
@@ -174,54 +169,9 @@ def test_a_path_is_in_the_link_and_the_csv(pattern, viscous):
     state = path(pattern, viscous)
     assert scene_of(linked_state(state)) == scene_of(state)
     course = solved(state)
-    assert "vertices" in readouts.summary(state)
+    assert CHOICES["pattern"][pattern] in readouts.summary(state)
     data = [line for line in share.csv(course, state).splitlines() if not line.startswith("#")]
     assert len(data) == 1 + len(course)
-
-
-def test_vertices_are_typed_as_text():
-    shown = ((1e-8, 0.0), (5e-9, 1e-3))
-    assert write_path(shown, "depth") == "10 nm, 0 ms\n5 nm, 1 ms"
-    typed = "0 nm, 0\n10, 1\n\n10 nm; 2\n0,005 µm\t3 ms\n2.5 nm at 0.004 s"
-    expected = [(0, 0), (1e-8, 1e-3), (1e-8, 2e-3), (5e-9, 3e-3), (2.5e-9, 4e-3)]
-    np.testing.assert_allclose(read_path(typed, "depth", shown), expected, rtol=1e-14)
-
-
-@pytest.mark.parametrize(
-    ("typed", "said"),
-    [
-        ("10 nm\n5 bananas", "Line 2: “5 bananas” is not a number"),
-        ("10 nm, 1 ms, 3", "Line 1: .* more than a depth and a time"),
-        ("10 nm, 1 ms\n5 nm", "a time at each vertex, or at none"),
-        ("10 nm, 1 ms\n5 nm, 1 ms", "does not increase"),
-        ("10 nm, 1 ms", "in time 2 at least"),
-        ("0 nm\n-5 nm", "largest depth of a path is out of bounds"),
-        ("10 nm\n" * 61, "1 to 60 vertices"),
-        ("", "1 to 60 vertices"),
-    ],
-)
-def test_what_is_no_path_is_refused(typed, said):
-    with pytest.raises(ValueError, match=said):
-        read_path(typed, "depth", ((1e-8,),))
-
-
-def test_a_path_drawn_by_hand_is_kept_while_other_drives_are_looked_at():
-    state = state_with(GOLD, "path").replace(path=((2e-9,), (1e-9,), (3e-9,)), pattern="own")
-    for drive in ("impact", "path"):
-        state = changes.choose(state, "drive", drive)
-    assert [row[0] for row in state.path] == [2e-9, 1e-9, 3e-9]
-    assert changes.reset(state).path == ()
-
-
-@pytest.mark.parametrize("vertices", [(1.0,), (1.0, 0.6), (1.0, 0.0)])
-def test_a_path_of_one_or_two_vertices_ends_there(vertices):
-    state = path("reload")
-    most = max(row[0] for row in state.path)
-    state = state.replace(path=tuple((most * share,) for share in vertices), pattern="own")
-    depth = solved(linked_state(state)).states.depth
-    assert depth[0] == 0
-    assert depth[-1] == pytest.approx(most * vertices[-1], abs=1e-9 * most)
-    assert max(depth) == pytest.approx(most, rel=1e-9)
 
 
 # Oblique impacts.

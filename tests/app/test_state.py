@@ -177,8 +177,8 @@ def test_a_link_of_version_0_3_is_read():
     "query",
     [
         "preset=none", "cone_slope=1e9", "shape=ball", "at=7", "x=1", "shape=cone&shape=cone", "at=nan",
-        "shape=sampled&samples=0,0 1", "q_c=" + 9000 * "1", "drive=path", "hold=a b c d e", "shape=sphere",
-        "fixed=everything", "drive=path&path=1,2,3",
+        "shape=sampled&samples=0,0 1", "q_c=" + 9000 * "1", "hold=a b c d e", "shape=sphere",
+        "fixed=everything", "drive=path&pattern=own&path=1e-8 2e-8",
     ],
 )  # fmt: skip
 def test_a_hostile_link_is_refused(query):
@@ -262,7 +262,7 @@ def test_numbers_of_other_drives_are_neither_reported_nor_taken_away_nor_swept(d
     theirs = {
         "depth": {"max_depth"},
         "force": {"max_force"},
-        "path": set(),
+        "path": {"max_depth"},
         "impact": {"mass", "speed", "density"},
         "oblique": {"mass", "friction", "incoming_speed", "attack", "density"},
     }
