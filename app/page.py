@@ -52,10 +52,16 @@ class Shown:
         return [plot for name, plot in PLOTS.items() if name in seen and plot.there(self.view)]
 
 
+def _opened(query: str) -> State:
+    """State of a link, with the plots that exist."""
+    state = link.read(query)
+    return state.replace(tiles=tuple(name for name in TILES if name in state.tiles))
+
+
 class Page:
     """The page of one session."""
 
-    def __init__(self, arguments: dict[str, list[bytes]] | None = None):
+    def __init__(self, query: str = ""):
         self.document, self.past, self.future, self._drag = pn.state.curdoc, [], [], None
         self.solved: dict[Any, Course] = {}
         self._waiting, self._ready, self.shown, self._courses_changed = None, False, None, False
@@ -63,7 +69,7 @@ class Page:
         self.resting = Resting(self._show_result)
         self.choices = Choices(self.apply, lambda: self.state)
         self.board = Board(self.choices, self._toggle_tile)
-        self.controls = Controls(self.choices, self.apply_or_raise, self.apply)
+        self.controls = Controls(self.choices, self.apply_or_raise)
         self.fitting = Fitting(self.choices, self.apply_or_raise, self.apply)
         self.share = Share(lambda: self.shown)
         self.guide = Guide(self.apply, lambda: self.shown.view.course)
@@ -72,7 +78,7 @@ class Page:
         self._show_history()
         self._watch()
         try:
-            self.draw(link.read(arguments) if arguments else self.state)
+            self.draw(_opened(query))
         except Exception as error:
             self.draw(self.state)
             self.notify(f"The link was not opened: {self._refusal(error)}")
@@ -153,8 +159,6 @@ class Page:
         """Apply a change; show a refusal as a notice, or by `refused`."""
         try:
             self.apply_or_raise(change)
-            self.controls.forget()
-            self.fitting.forget()
         except ValueError as error:
             (refused or self.notify)(str(error))
             self._show_panels()

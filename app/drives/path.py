@@ -1,4 +1,4 @@
-"""A path of depth or force through vertices; in time also ramp and hold, and creep."""
+"""Paths of several loadings, ramp and hold, and creep."""
 
 from functools import cached_property
 from itertools import pairwise
@@ -9,43 +9,23 @@ import mdr_core as mdr
 from mdr_core import abel
 from mdr_core.yielding import LiveInterval
 
-from ..state.quantities import QUANTITIES
+from ..state import medium
+from ..state.quantities import CHOICES, QUANTITIES, USED
 from ..state.units import written
 from . import Course, Drive, nearest, onset, path_progress, printed
 from .press import limited_force
 
-#: What is prescribed: its kind of quantity, its value of a scene, its unit, and what of the core follows
-#: it, infinitely slowly and in time.
-KIND = {"depth": "length", "force": "force"}
-_VALUE = {"depth": mdr.DepthPath, "force": mdr.ForcePath}
-_UNIT = {"depth": "m", "force": "N"}
+#: Functions of the core for a prescribed quantity, infinitely slowly and in time, and its unit.
 _SLOWLY = {"depth": "indent", "force": "indent_to_force"}
 _IN_TIME = {"depth": "indent_in_time", "force": "creep"}
-#: Most vertices, and about how many states are drawn: of a path without dashpots, on the chain under
-#: prescribed depths, and under forces, where every one of them takes eight steps and more.
-MOST, _SLOW, _DEPTHS, _FORCES = 60, 200, 48, 24
+_UNIT = {"depth": "m", "force": "N"}
+#: About how many states are drawn: of a path without dashpots, on the chain under prescribed depths, and
+#: under forces, each of which takes eight steps and more.
+_SLOW, _DEPTHS, _FORCES = 200, 48, 24
+#: Patterns in time.
+_TIMED = ("hold", "creep")
 #: Tolerance of the chain, below the resolution of plots.
 _TOLERANCE = 3e-3
-
-
-def _drive(path, prescribed):
-    value, *time = zip(*path, strict=True)
-    return _VALUE[prescribed](value, *time)
-
-
-def checked(path, prescribed):
-    """Vertices (SI; depth or force, optional time), if they are a valid path."""
-    if not 1 <= len(path) <= MOST or (len(path) == 1 and len(path[0]) == 2):
-        raise ValueError(f"A path has 1 to {MOST} vertices, in time 2 at least; this one has {len(path)}.")
-    if len({len(row) for row in path}) > 1:
-        raise ValueError("Give a time at each vertex, or at none.")
-    quantity = QUANTITIES[f"max_{prescribed}"]
-    low, high = quantity.bounds
-    if not low <= max(row[0] for row in path) or max(abs(row[0]) for row in path) > high:
-        bounds = " to ".join(written(bound, quantity.kind) for bound in quantity.bounds)
-        raise ValueError(f"The largest {prescribed} of a path is out of bounds: {bounds}.")
-    _drive(path, prescribed)
-    return tuple(tuple(map(float, row)) for row in path)
 
 
 def _parts(drive):
@@ -54,36 +34,10 @@ def _parts(drive):
     return name, np.atleast_1d(getattr(drive, name)), drive.time and np.array(drive.time)
 
 
-def pattern(state, turning_point, option):
-    """Quasi-static path of a pattern with the present largest depth."""
-    if option == "own":
-        return {}
-    medium = turning_point.medium
-    depth, time = float(turning_point.depth), float(f"{medium.relaxation_time or 1.0:.2g}")
-
-    def back(depth):
-        # Depth at loss of contact.
-        return max(depth - medium.critical_depth, 0.0)
-
-    if option == "creep":
-        force = limited_force(turning_point)
-        return {"prescribed": "force", "path": ((0.0, 0.0), (force, 0.1 * time), (force, 5 * time))}
-    if option == "hold":
-        path = [(0.0, 0.0), (depth, time), (depth, 5 * time)]
-    elif option == "cycles":
-        path = [(d,) for k in range(1, 6) for peak in (depth * k / 5,) for d in (peak, back(peak))]
-    else:
-        path = [(0.7 * depth,), (back(0.7 * depth),), (depth,), (back(depth),)]
-    return {"prescribed": "depth", "path": tuple(path)}
-
-
-def prescribed(state, scene, option):
-    """Vertices converted quasi-statically to the other prescribed quantity."""
-    _, values, _ = _parts(scene.drive)
-    states = _slowly(scene, values)
-    found = np.maximum(getattr(states, option), 0.0 if option == "force" else -np.inf).tolist()
-    path = [(value, *row[1:]) for value, row in zip(found, state.path, strict=True)]
-    return {"path": checked(path, option), "pattern": "own"}
+def _cycles(state):
+    """Largest depths (m) of the cycles of a pattern."""
+    tenths = (2, 4, 6, 8, 10) if state.pattern == "cycles" else (7, 10)
+    return [state.max_depth * tenth / 10 for tenth in tenths]
 
 
 def _slowly(scene, values):
@@ -242,15 +196,20 @@ class Path(Drive):
     """Pressed along a path."""
 
     key, values = "path", (mdr.DepthPath, mdr.ForcePath)
-    form = ("pattern", "prescribed", "vertices")
+    form = ("pattern",)
 
     def owns(self, value):
         return super().owns(value) and np.ndim(getattr(value, _parts(value)[0])) > 0
 
     def make(self, state):
-        if not state.path:
-            raise ValueError("Give the path some vertices.")
-        return _drive(checked(state.path, state.prescribed), state.prescribed)
+        if state.pattern in _TIMED:
+            times = (0.0, state.ramp_time, 5 * state.ramp_time)
+            if state.pattern == "creep":
+                return mdr.ForcePath((0.0, state.max_force, state.max_force), times)
+            return mdr.DepthPath((0.0, state.max_depth, state.max_depth), times)
+        # Unloading ends at loss of contact.
+        critical = medium(state).critical_depth
+        return mdr.DepthPath([d for peak in _cycles(state) for d in (peak, max(peak - critical, 0.0))])
 
     def follow(self, scene, progress):
         """States; creep of a viscous medium without dashpots at first."""
@@ -265,12 +224,10 @@ class Path(Drive):
         return _slowly(scene, float(np.max(_parts(scene.drive)[1])))
 
     def equivalent(self, state, turning_point):
-        """The pattern scaled to the present depth; an own path stays."""
-        own = state.pattern == "own"
-        if own and state.path:
-            return {}
-        option = "reload" if own else state.pattern
-        return {"pattern": option} | pattern(state, turning_point, option)
+        """Pattern of the present depth, and a ramp of one relaxation time."""
+        numbers = {"max_depth": float(turning_point.depth), "max_force": limited_force(turning_point)}
+        time = float(f"{turning_point.medium.relaxation_time or 1.0:.2g}")
+        return numbers if state.drive == "path" else numbers | {"ramp_time": time}
 
     def snippet(self, course, given, prefix):
         name, _, time = _parts(course.scene.drive)
@@ -288,11 +245,9 @@ class Path(Drive):
         return [f"{state} = mdr.{solve}({given})[-1]  # {unit}", printed(state, names)]
 
     def words(self, state):
-        sizes, time = [row[0] for row in state.path], self.duration(state, None)
-        most = written(max(sizes), KIND[state.prescribed], 3)
-        within = f" in {written(time, 'time', 3)}" if time else ""
-        return [f"path of {len(sizes)} vertices to {most}{within}"]
+        numbers = ((QUANTITIES[n], state[n]) for n in USED["pattern"][state.pattern])
+        texts = (f"{q.symbol} = {written(value, q.kind, 3)}" for q, value in numbers)
+        return [*texts, CHOICES["pattern"][state.pattern]]
 
     def duration(self, state, turning_point):
-        path = state.path
-        return path[-1][1] - path[0][1] if path and len(path[0]) == 2 else None
+        return 5 * state.ramp_time if state.pattern in _TIMED else None

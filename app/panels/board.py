@@ -80,16 +80,13 @@ class Player:
         fixed = {"stylesheets": STYLE, "margin": 0, "sizing_mode": "stretch_width"}
         self.heads = HTML(css_classes=["readouts", "heads"], height=29, **fixed)
         self.readout = HTML(css_classes=["readouts"], height=24, **fixed)
-        self.standing = HTML(css_classes=["standing"], width=190, height=18, stylesheets=STYLE, margin=0)
         parts = {"frames": self.frames, "state": self.state, "play": self.play}
-        self.parts = parts | {"readout": self.readout, "standing": self.standing}
+        self.parts = parts | {"readout": self.readout}
         code = CustomJS(args=self.parts, code=JS["player"])
         self.state.js_on_change("value", code)
         self.frames.js_on_change("tags", code)
         self.play.js_on_change("active", code)
-        self.view = pn.Row(
-            *map(pn.pane.Bokeh, (self.play, self.state, self.standing)), css_classes=["player"], **WIDE
-        )
+        self.view = pn.Row(*map(pn.pane.Bokeh, (self.play, self.state)), css_classes=["player"], **WIDE)
 
     def stand(self, view: View, found: dict) -> None:
         """Show where a course stands, and its readouts; frames of another one are none of it."""
@@ -104,7 +101,6 @@ class Player:
         ]
         self.heads.text = escape(readouts.heads(course, found))
         self.readout.text = escape(readouts.values(course, found, i))
-        self.standing.text = escape(readouts.phase(course, i))
 
     def send(self, view: View, found: dict, pictures: list[Picture]) -> None:
         """Send all states, once."""
@@ -120,7 +116,6 @@ class Player:
         sent = {
             "pictures": [[columns for frame in each for columns in frame.values()] for each in frames],
             "words": [escape(readouts.values(course, found, i)) for i in states],
-            "phases": [escape(readouts.phase(course, i)) for i in states],
             "times": times.tolist(),
         }
         # As one text: Bokeh would look at every number of it.

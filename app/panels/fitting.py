@@ -38,7 +38,7 @@ def silica(state: State) -> State:
     state = state.replace(shape="cone", cone_slope=mdr.Cone.from_half_angle(70.3).slope)
     curve = read_curve(SILICA.read_bytes(), "Fused silica, Berkovich tip.csv")
     depth, state = float(curve.data[0].max()), take(state, curve)
-    return state.replace(drive="depth", max_depth=checked(state, "max_depth", depth), progress=1.0)
+    return state.replace(drive="depth", max_depth=checked("max_depth", depth), progress=1.0)
 
 
 def example(state: State) -> Measured:
@@ -75,7 +75,7 @@ def fit(state: State) -> State:
             there = 0 < value < np.inf
             choices[choice] = option if there else "none"
             numbers |= {name: value} if there else {}
-    numbers = {name: checked(state, name, value) for name, value in numbers.items()}
+    numbers = {name: checked(name, value) for name, value in numbers.items()}
     curve = Measured(state.curve.name, state.curve.curve, found, asked)
     state = state.replace(curve=curve, progress=1.0, fit_note=_note(curve), **choices, **numbers)
     return with_derived(state)
@@ -196,7 +196,3 @@ class Fitting:
             if self.columns[role].options != options or self.columns[role].value != column:
                 self.columns[role].param.update(options=options, value=column)
             show(self.units[role], value=curve.curve.units[role])
-
-    def forget(self) -> None:
-        self.place.forget()
-        self.noise.forget()

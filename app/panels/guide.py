@@ -21,8 +21,7 @@ _LEFT = "The page shows something else by now. Back and Next go on with the step
 
 def step_state(step: dict[str, Any], now: State) -> State:
     """State of a step; theme, held scenes and other tiles stay."""
-    pairs = {name: str(value) for name, value in step["set"].items()}
-    state = link.read(link.arguments(urlencode(pairs)))
+    state = link.read(urlencode(step["set"]))
     kept = {name: now[name] for name in ("hold", "keep", "dark", "axes", "curve")}
     return state.replace(tiles=state.tiles or now.tiles, **kept)
 

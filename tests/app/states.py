@@ -27,7 +27,7 @@ def view_of(state: State, progress=1.0, *held: State, **view) -> View:
 
 def linked_state(state: State) -> State:
     """What a link of a state says."""
-    return link.read(link.arguments(written(state)))
+    return link.read(written(state))
 
 
 def written(state: State) -> str:

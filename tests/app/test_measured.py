@@ -8,9 +8,9 @@ import pytest
 import mdr_core as mdr
 from app import changes
 from app.page import Page
-from app.panels import fitting, share
+from app.panels import fitting
 from app.plots import PLOTS
-from app.solve import follow, scene_of
+from app.solve import scene_of
 from app.state import medium, preset_state, profile
 from app.state.files import agrees, read_curve
 
@@ -145,20 +145,6 @@ def test_a_tip_that_ends_above_the_measured_depth_says_so():
     state = preset_state()
     state = changes.take_tip(fitting.take(state, fitting.example(state)), (r, 0.1 * r), "")
     assert view_of(state).rows(PLOTS["residual"], 0)["missing"][2] == "no model at these depths"
-
-
-@pytest.mark.parametrize("fixed", [("baseline",), ("E_star", "baseline", "frame_compliance"), ()])
-def test_csv_and_python_reproduce_the_fit(fixed, tmp_path, monkeypatch):
-    state, _ = fitted(fixed=fixed)
-    found = state.curve.fit
-    text = share.fit_csv(follow(state), state)
-    assert f"# q_c_error = {found.to_dict()['q_c_error']!r}" in text
-    (tmp_path / "fit.csv").write_text(text, encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
-    values = {}
-    exec(share.python(follow(state)) + share.fit_python(state.curve), values)
-    # The same data by the same way.
-    assert values["fit"].to_dict() == pytest.approx(found.to_dict(), rel=1e-9)
 
 
 def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):

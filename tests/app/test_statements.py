@@ -78,7 +78,7 @@ def test_4_report_and_link_of_a_fit_have_the_fit():
     assert "± " in text[text.index("The fit") :]
     for part in ("reduced χ²", "contact point", *found.remarks):
         assert part in text
-    again = link.read(link.arguments(written(state)))
+    again = link.read(written(state))
     assert "χ² =" in again.fit_note
     assert "E* =" in again.fit_note
     assert "made with a fit to A made curve" in plain(fitting.result(again))
