@@ -53,6 +53,7 @@ def assert_same(curve):
             "depth in m and force in N",
         ),
         ("\n\nDepth (nm)\tForce (mN)\r\n-1\t0\r\n0\t0\r\n2\t1.5\r\n\r\n4\t6\r\n3\t2\r\n", ""),
+        ("h (nm), F (mN), phase\n-1, 0.0, 1\n0, 0.0, 1\n2, 1.5, 1\n4, 6.0, 2\n3, 2.0, 2\n", ""),
         (text((DEPTH, FORCE), ["Tiefe in nm\tKraft in mN"], "\t").replace("\n0.0", "\n# hold\n0.0"), ""),
     ],
 )
@@ -161,7 +162,7 @@ def test_sheets_of_an_excel_file(tmp_path):
     assert_same(first)
     assert (first.name, first.remarks[0][:12]) == ("tests.xlsx, Test 1", "curve 0 of 2")
     np.testing.assert_allclose(second.force, 2 * first.force)
-    with pytest.raises(ValueError, match="has 2 curves: index = 2"):
+    with pytest.raises(ValueError, match="index = 2 must be from 0 to less than 2"):
         mdr.read_curve(tmp_path / "tests.xlsx", 2)
 
 
