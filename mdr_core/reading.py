@@ -242,7 +242,5 @@ def _from_afm(path, index):
 def _picked(curves, index, name):
     """One of the curves of a file, and a list with a remark if there are several."""
     if not 0 <= index < len(curves):
-        raise ValueError(
-            f"index = {index} must be 0 or more, and less than the {len(curves)} curves of {name}"
-        )
+        raise ValueError(f"index = {index} must be from 0 to less than {len(curves)}, the curves of {name}")
     return curves[index], [f"curve {index} of {len(curves)}: index= picks another one"] * (len(curves) > 1)

@@ -169,22 +169,26 @@ def test_sheets_of_an_excel_file(tmp_path):
 class Segments(dict):
     """Columns of a curve as in `afmformats.AFMData`."""
 
-    metadata = {"spring constant": 0.5}  # noqa: RUF012
+    def __init__(self, columns, stiffness):
+        super().__init__(columns)
+        self.metadata = {"spring constant": stiffness}
 
 
-@pytest.mark.parametrize("tip", [False, True])
-def test_afm_files_are_read_by_afmformats(monkeypatch, tmp_path, tip):
+@pytest.mark.parametrize(("tip", "stiffness"), [(False, 0.5), (True, 0.5), (False, np.nan)])
+def test_afm_files_are_read_by_afmformats(monkeypatch, tmp_path, tip, stiffness):
     """By a stand-in for the package, which is not among those of the tests: force/0.5 is the deflection."""
     height = -1e-9 * np.array(DEPTH) - 2e-3 * np.array(FORCE)
     data = {"force": 1e-3 * np.array(FORCE), "height (measured)": height}
     data |= {"tip position": -1e-9 * np.array(DEPTH)} if tip else {"time": np.arange(5.0)}
     module = ModuleType("afmformats")
-    module.load_data = lambda path: [Segments(data)]
+    module.load_data = lambda path: [Segments(data, stiffness)]
     module.errors = SimpleNamespace(AFMFileFormatError=KeyError, MissingMetaDataError=KeyError)
     monkeypatch.setitem(sys.modules, "afmformats", module)
     curve = mdr.read_curve(tmp_path / "map.jpk-force")
-    np.testing.assert_allclose(curve.depth, np.array(DEPTH) * 1e-9, atol=1e-18)
+    depth = -height if np.isnan(stiffness) else 1e-9 * np.array(DEPTH)
+    np.testing.assert_allclose(curve.depth, depth, atol=1e-18)
     assert (curve.time is None) == tip
+    assert np.isnan(stiffness) == bool(curve.remarks)
 
 
 def test_missing_packages_are_named(monkeypatch, tmp_path):
