@@ -109,8 +109,8 @@ def silica_sentence():
 TEXT = """# Fits of simulated measurements
 
 Of 40 random media a row: E* over two decades, d_c over 1.3, pressed 15 nm deep and back, 450 samples, \
-0.4 % noise of the force, first contact unknown. Pulls are deviations over the standard errors that a fit gives: \
-their standard deviation is to be 1, and is known to 11 % from 40.
+0.4 % noise of the force, first contact unknown. Pulls are deviations over the standard errors that a fit \
+gives: their standard deviation is to be 1, and is known to 11 % from 40.
 
 {}
 
@@ -124,8 +124,8 @@ block-wise.
 
 Approach and retract at once, as about 150 means or more, from half a depth before contact on, under the \
 paraboloid: root mean square of the residuals over the range of force, elastic, with a drag in proportion \
-to the rate, and with a viscosity of the medium besides; in brackets a search by brute force. Parameters are \
-those of the last fit.
+to the rate, and with a viscosity of the medium besides; in brackets a search by brute force. Parameters \
+are those of the last fit.
 
 {}
 
