@@ -99,7 +99,7 @@ def result(state: State) -> str:
     text = "What is set on the page is not this fit any more."
     if agrees(state):
         text = "Its values are those set on the page; Undo takes it back."
-    return text + indexed(plain(curve.fit._repr_html_()))
+    return text + indexed(plain(curve.report))
 
 
 def unloading(state: State) -> str:
@@ -114,7 +114,7 @@ class Fitting:
     """The tab *Fit a measurement*."""
 
     def __init__(self, choices: Choices, apply_or_raise: Callable[..., None], apply: Callable[..., None]):
-        self._apply, select = apply, pn.widgets.Select
+        self._apply, self._placed, select = apply, None, pn.widgets.Select
         self.file = upload("curve", ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx")
         self.silica, self.made, self.remove, self.fit = map(
             button, ("Fused silica", "Example", "Remove", "Fit")
@@ -181,7 +181,9 @@ class Fitting:
         if curve is None:
             show(self.about, object=result(state))
             return
-        show(self.unloading, object=unloading(state))
+        placed = curve, profile(state), *(state[name] for name in PLACED)
+        if placed != self._placed:
+            self._placed, self.unloading.object = placed, unloading(state)
         made = f" {marked(_EXAMPLE)}" if curve.name == _MADE else ""
         show(self.about, object=f"<b>{escape(curve.name)}</b>: {escape(curve.note)}.{made}")
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
