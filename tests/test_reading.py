@@ -64,7 +64,7 @@ def test_tables_as_instruments_write_them(read, content, remark):
     assert bool(remark) == bool(curve.remarks)
 
 
-@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "cp1252"])
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "cp1252"])
 def test_encodings(read, encoding):
     assert_same(read(text((DEPTH, 1e3 * np.array(FORCE)), ["h (nm); F (µN)"], ";"), encoding=encoding))
 
