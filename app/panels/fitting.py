@@ -34,8 +34,12 @@ def take(state: State, curve: Measured | None) -> State:
 
 
 def silica(state: State) -> State:
-    """Compare with the measured example, under the cone with the area of its Berkovich tip."""
-    state = state.replace(shape="cone", cone_slope=mdr.Cone.from_half_angle(70.3).slope)
+    """Compare with the measured example, under the cone with the area of its Berkovich tip.
+
+    Its depths count from first contact.
+    """
+    fixed = tuple(name for name in FITTED if name not in ("E_star", "q_c"))
+    state = state.replace(shape="cone", cone_slope=mdr.Cone.from_half_angle(70.3).slope, fixed=fixed)
     curve = read_curve(SILICA.read_bytes(), "Fused silica, Berkovich tip.csv")
     depth, state = float(curve.data[0].max()), take(state, curve)
     return state.replace(drive="depth", max_depth=checked(state, "max_depth", depth), progress=1.0)
@@ -106,7 +110,8 @@ def unloading(state: State) -> str:
     """Numbers of Oliver and Pharr for the curve where it lies, as HTML; empty without an unloading."""
     curve = Curve.of(state)
     with suppress(ValueError):
-        return indexed(plain(mdr.oliver_pharr(profile(state), curve.depth, curve.force)._repr_html_()))
+        text = mdr.oliver_pharr(profile(state), curve.depth, curve.force)._repr_html_()
+        return indexed(plain(text.replace("OliverPharr: one unloading", "Unloading: Oliver and Pharr")))
     return ""
 
 
