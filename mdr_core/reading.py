@@ -69,9 +69,9 @@ def read_curve(path: str | PathLike[str], index: int = 0) -> "MeasuredCurve":
     path = Path(path)
     suffix, name = path.suffix.lower(), path.name
     if suffix in (".xls", ".xlsx"):
-        return _picked(_sheets(path), index, name)
+        return _from_sheets(path, index)
     if suffix.startswith((".jpk", ".h5", ".ibw", ".nid", ".zip")):
-        return _picked(_afm_curves(path), index, name)
+        return _from_afm(path, index)
     return curve_of(read_table(decoded(path.read_bytes()), name), name)
 
 
@@ -118,12 +118,10 @@ def curve_of(table, name, columns=None, units=None):
         raise ValueError(f"{name} has one row of numbers: give a curve, a sample a line")
     if "time" in values:
         steps = np.diff(values["time"][rows])
-        if np.all(steps <= 0):
+        if np.all(steps <= 0) and np.any(steps):
             rows = rows[::-1]
-        elif np.any(steps < 0):
-            remarks.append(
-                "the time does not ascend and is left out: samples count in the order of the file"
-            )
+        elif np.any(steps < 0) or not np.any(steps):
+            remarks.append("the time does not ascend and is left out: samples are in the order of the file")
             del values["time"]
     values = {quantity: value[rows] for quantity, value in values.items()}
     if units is None:
@@ -199,8 +197,8 @@ def _units(table, used, values):
     return units, remarks
 
 
-def _sheets(path):
-    """Curves of the sheets of an Excel file that name the units of depth and force."""
+def _from_sheets(path, index):
+    """Curve of one of the sheets of an Excel file that name the units of depth and force."""
     pandas = imported("pandas", f"reading {path.name}", "mdr-core[tables]")
     curves = []
     for sheet, frame in pandas.read_excel(path, sheet_name=None, header=None).items():
@@ -212,37 +210,37 @@ def _sheets(path):
         # Sheets of results and settings have columns of numbers, too.
         if all(table.unit(curve.columns[quantity]) for quantity in ("depth", "force")):
             curves.append(curve)
-    return curves
+    curve, remarks = _picked(curves, index, path.name)
+    return replace(curve, remarks=(*remarks, *curve.remarks))
 
 
-def _afm_curves(path):
-    """Curves of a file that `afmformats` reads, approach and retract in the order of time."""
-    afmformats, curves = imported("afmformats", f"reading {path.name}", "mdr-core[afm]"), []
+def _from_afm(path, index):
+    """Curve of a file that `afmformats` reads, approach and retract in the order of time."""
+    afmformats = imported("afmformats", f"reading {path.name}", "mdr-core[afm]")
     try:
-        segments = afmformats.load_data(path)
+        data, remarks = _picked(afmformats.load_data(path), index, path.name)
     # Errors of this package are none that `except Exception` would handle.
     except (afmformats.errors.AFMFileFormatError, afmformats.errors.MissingMetaDataError) as error:
         raise ValueError(f"{path.name} is not read by afmformats: {error}") from None
-    for data in segments:
-        force, height = data["force"], data["height (measured)"]
-        stiffness = data.metadata.get("spring constant", np.inf)
-        depth = -data["tip position"] if "tip position" in data else -(height + force / stiffness)
-        time = [data["time"]] if "time" in data else []
-        heads = ("depth (m)", "force (N)", "time (s)")[: 2 + len(time)]
-        values = np.column_stack([depth, force, *time])
-        table = Table(heads, values, np.arange(1, len(values) + 1), {}, ())
-        units = {"depth": "m", "force": "N", "time": "s"}
-        curves.append(
-            curve_of(table, path.name, {"depth": 0, "force": 1, "time": 2 if time else None}, units)
-        )
-    return curves
+    if "tip position" in data:
+        depth = -data["tip position"]
+    else:
+        stiffness = data.metadata.get("spring constant", np.nan)
+        depth = -data["height (measured)"] - np.nan_to_num(data["force"] / stiffness)
+        if np.isnan(stiffness):
+            remarks.append("the stiffness of the cantilever is missing: the depth includes its deflection")
+    columns = {"depth (m)": depth, "force (N)": data["force"]}
+    columns |= {"time (s)": data["time"]} if "time" in data else {}
+    values = np.column_stack(list(columns.values()))
+    table = Table(tuple(columns), values, np.arange(1, len(values) + 1), {}, ())
+    # Signs are known here.
+    units = {"depth": "m", "force": "N", "time": "s"}
+    curve = curve_of(table, path.name, units=units)
+    return replace(curve, remarks=(*remarks, *curve.remarks))
 
 
 def _picked(curves, index, name):
-    """One of the curves of a file."""
+    """One of the curves of a file, and a list with a remark if there are several."""
     if not 0 <= index < len(curves):
-        raise ValueError(
-            f"{name} has {len(curves)} curves: index = {index} must be less than that and not negative"
-        )
-    remark = f"curve {index} of {len(curves)}: `index` picks another one"
-    return replace(curves[index], remarks=(*[remark] * (len(curves) > 1), *curves[index].remarks))
+        raise ValueError(f"index = {index} must be from 0 to less than {len(curves)}, the curves of {name}")
+    return curves[index], [f"curve {index} of {len(curves)}: index= picks another one"] * (len(curves) > 1)

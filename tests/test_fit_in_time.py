@@ -189,6 +189,14 @@ class TestSamples:
             assert fits[i].remarks == single.remarks
         assert np.isnan(fits.residuals[1, 120:]).all()
 
+    def test_remarks_are_in_the_order_of_their_importance(self):
+        """Wrong units come before all else, samples left out last; so do they of many curves."""
+        z, force, _ = self.noisy(2)
+        force[0, 5] = np.nan
+        fits = mdr.fit_indentation(self.PROFILE, [z, 1e9 * z], [force[0], 1e6 * force[1]])
+        assert "give depth in m and force in N" in fits.remarks[0]
+        assert "1 samples without a number" in fits.remarks[-1]
+
     def test_white_residuals_have_no_blocks(self):
         z, force, _ = self.noisy(50)
         fit = mdr.fit_indentation(self.PROFILE, np.broadcast_to(z, force.shape), force)

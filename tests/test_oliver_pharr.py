@@ -125,6 +125,11 @@ def test_curves_without_an_unloading_are_refused(depth, force, options, says):
         mdr.oliver_pharr(mdr.Cone(0.3), depth, force, **options)
 
 
+def test_an_ensemble_of_profiles_is_refused():
+    with pytest.raises(ValueError, match="an unloading"):
+        mdr.oliver_pharr(mdr.Cone([0.3, 0.4]), DEPTH, F_CONE)
+
+
 def test_a_profile_known_to_a_smaller_depth_is_refused():
     with pytest.raises(ValueError, match="must be positive and within the profile"):
         mdr.oliver_pharr(mdr.Sampled([0, 1e-8], [0, 3e-9]), DEPTH, F_CONE)

@@ -53,6 +53,7 @@ def assert_same(curve):
             "depth in m and force in N",
         ),
         ("\n\nDepth (nm)\tForce (mN)\r\n-1\t0\r\n0\t0\r\n2\t1.5\r\n\r\n4\t6\r\n3\t2\r\n", ""),
+        ("h (nm), F (mN), phase\n-1, 0.0, 1\n0, 0.0, 1\n2, 1.5, 1\n4, 6.0, 2\n3, 2.0, 2\n", ""),
         (text((DEPTH, FORCE), ["Tiefe in nm\tKraft in mN"], "\t").replace("\n0.0", "\n# hold\n0.0"), ""),
     ],
 )
@@ -63,7 +64,7 @@ def test_tables_as_instruments_write_them(read, content, remark):
     assert bool(remark) == bool(curve.remarks)
 
 
-@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "cp1252"])
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "cp1252"])
 def test_encodings(read, encoding):
     assert_same(read(text((DEPTH, 1e3 * np.array(FORCE)), ["h (nm); F (µN)"], ";"), encoding=encoding))
 
@@ -161,29 +162,33 @@ def test_sheets_of_an_excel_file(tmp_path):
     assert_same(first)
     assert (first.name, first.remarks[0][:12]) == ("tests.xlsx, Test 1", "curve 0 of 2")
     np.testing.assert_allclose(second.force, 2 * first.force)
-    with pytest.raises(ValueError, match="has 2 curves: index = 2"):
+    with pytest.raises(ValueError, match="index = 2 must be from 0 to less than 2"):
         mdr.read_curve(tmp_path / "tests.xlsx", 2)
 
 
 class Segments(dict):
     """Columns of a curve as in `afmformats.AFMData`."""
 
-    metadata = {"spring constant": 0.5}  # noqa: RUF012
+    def __init__(self, columns, stiffness):
+        super().__init__(columns)
+        self.metadata = {"spring constant": stiffness}
 
 
-@pytest.mark.parametrize("tip", [False, True])
-def test_afm_files_are_read_by_afmformats(monkeypatch, tmp_path, tip):
+@pytest.mark.parametrize(("tip", "stiffness"), [(False, 0.5), (True, 0.5), (False, np.nan)])
+def test_afm_files_are_read_by_afmformats(monkeypatch, tmp_path, tip, stiffness):
     """By a stand-in for the package, which is not among those of the tests: force/0.5 is the deflection."""
     height = -1e-9 * np.array(DEPTH) - 2e-3 * np.array(FORCE)
     data = {"force": 1e-3 * np.array(FORCE), "height (measured)": height}
     data |= {"tip position": -1e-9 * np.array(DEPTH)} if tip else {"time": np.arange(5.0)}
     module = ModuleType("afmformats")
-    module.load_data = lambda path: [Segments(data)]
+    module.load_data = lambda path: [Segments(data, stiffness)]
     module.errors = SimpleNamespace(AFMFileFormatError=KeyError, MissingMetaDataError=KeyError)
     monkeypatch.setitem(sys.modules, "afmformats", module)
     curve = mdr.read_curve(tmp_path / "map.jpk-force")
-    np.testing.assert_allclose(curve.depth, np.array(DEPTH) * 1e-9, atol=1e-18)
+    depth = -height if np.isnan(stiffness) else 1e-9 * np.array(DEPTH)
+    np.testing.assert_allclose(curve.depth, depth, atol=1e-18)
     assert (curve.time is None) == tip
+    assert np.isnan(stiffness) == bool(curve.remarks)
 
 
 def test_missing_packages_are_named(monkeypatch, tmp_path):

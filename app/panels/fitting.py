@@ -34,8 +34,12 @@ def take(state: State, curve: Measured | None) -> State:
 
 
 def silica(state: State) -> State:
-    """Compare with the measured example, under the cone with the area of its Berkovich tip."""
-    state = state.replace(shape="cone", cone_slope=mdr.Cone.from_half_angle(70.3).slope)
+    """Compare with the measured example, under the cone with the area of its Berkovich tip.
+
+    Its depths count from first contact.
+    """
+    fixed = tuple(name for name in FITTED if name not in ("E_star", "q_c"))
+    state = state.replace(shape="cone", cone_slope=mdr.Cone.from_half_angle(70.3).slope, fixed=fixed)
     curve = read_curve(SILICA.read_bytes(), "Fused silica, Berkovich tip.csv")
     depth, state = float(curve.data[0].max()), take(state, curve)
     return state.replace(drive="depth", max_depth=checked("max_depth", depth), progress=1.0)
@@ -99,14 +103,15 @@ def result(state: State) -> str:
     text = "What is set on the page is not this fit any more."
     if agrees(state):
         text = "Its values are those set on the page; Undo takes it back."
-    return text + indexed(plain(curve.fit._repr_html_()))
+    return text + indexed(plain(curve.report))
 
 
 def unloading(state: State) -> str:
     """Numbers of Oliver and Pharr for the curve where it lies, as HTML; empty without an unloading."""
     curve = Curve.of(state)
     with suppress(ValueError):
-        return indexed(plain(mdr.oliver_pharr(profile(state), curve.depth, curve.force)._repr_html_()))
+        text = mdr.oliver_pharr(profile(state), curve.depth, curve.force)._repr_html_()
+        return indexed(plain(text.replace("OliverPharr: one unloading", "Unloading: Oliver and Pharr")))
     return ""
 
 
@@ -114,7 +119,7 @@ class Fitting:
     """The tab *Fit a measurement*."""
 
     def __init__(self, choices: Choices, apply_or_raise: Callable[..., None], apply: Callable[..., None]):
-        self._apply, select = apply, pn.widgets.Select
+        self._apply, self._placed, select = apply, None, pn.widgets.Select
         self.file = upload("curve", ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx")
         self.silica, self.made, self.remove, self.fit = map(
             button, ("Fused silica", "Example", "Remove", "Fit")
@@ -181,7 +186,9 @@ class Fitting:
         if curve is None:
             show(self.about, object=result(state))
             return
-        show(self.unloading, object=unloading(state))
+        placed = curve, profile(state), *(state[name] for name in PLACED)
+        if placed != self._placed:
+            self._placed, self.unloading.object = placed, unloading(state)
         made = f" {marked(_EXAMPLE)}" if curve.name == _MADE else ""
         show(self.about, object=f"<b>{escape(curve.name)}</b>: {escape(curve.note)}.{made}")
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)

@@ -2,6 +2,7 @@
 
 import tempfile
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -72,6 +73,9 @@ class Measured:
     def time(self):
         """Time (s) of the same samples, or None."""
         return None if self.curve.time is None else self.curve.time[:: self._step]
+
+    #: Report of the fit as HTML.
+    report = cached_property(lambda self: self.fit._repr_html_())
 
     @property
     def fitted(self):

@@ -245,7 +245,8 @@ class CurveState:
         profile, C = problem.profile, values["frame_compliance"]
         largest, loading = problem.largest_so_far(displacement, turning_depth)
         if not C.any() and "frame_compliance" not in problem.free:
-            return cls.on_rigid_frame(profile, values, displacement, largest, loading, problem.rate)
+            rate = problem.rate if values["eta"].any() or "eta" in problem.free else 0.0
+            return cls.on_rigid_frame(profile, values, displacement, largest, loading, rate)
         largest = _depth_in_frame(profile, values, largest, largest, True)
         depth = _depth_in_frame(profile, values, displacement, largest, loading)
         depth = np.where(loading, largest, depth)

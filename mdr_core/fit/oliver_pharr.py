@@ -7,6 +7,7 @@ import numpy as np
 from .. import _check
 from .._check import ArrayLike
 from .._numeric import increasing_root
+from ..medium import Medium, check_pair
 from ..results.quantities import described
 from ..results.report import Report
 from ..shapes.profile import Profile
@@ -59,6 +60,7 @@ def oliver_pharr(
     >>> print(f"{result.E_star:.6g} {result.hardness:.6g} {result.exponent:.6g}")  # H = E* s/2
     1e+10 1.5e+09 2
     """
+    check_pair(profile, Medium(1.0), "an unloading")
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
     force = _check.finite_array("force", force, unit="N", most=_check.LARGEST)
     if depth.shape != force.shape or depth.ndim != 1 or not depth.size:

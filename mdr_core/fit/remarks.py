@@ -15,8 +15,9 @@ KINDS = (
 )  # fmt: skip
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
-#: Size of correlated residuals, as a share of the range of force, above which the model does not fit.
-_MISFIT = 0.05
+#: Root mean square of correlated residuals over the range of force above which the model does not fit, of
+#: elastic media and of those that yield, whose unloading is a small part of the curve.
+_MISFIT, _MISFIT_YIELDING = 0.05, 0.01
 
 
 def remarks_of(solved):
@@ -164,7 +165,8 @@ def _misfit(solved, i):
     correlation = autocorrelation(residual[solved.orders[i]])
     _, state = solved.values_and_states
     size = np.sqrt(np.mean((residual * problem.noise(state.slope)[i]) ** 2)) / problem.load[i, 0]
-    if size > _MISFIT and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
+    largest = _MISFIT if problem.memoryless else _MISFIT_YIELDING
+    if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
         cause = "not an elastic medium" if problem.memoryless else "not class (b)"
         held = [name for name in ("drag", "eta", "tilt") if name not in problem.free]
         remedy = f"; free {', '.join(held)}, if the curve was measured in a liquid or on a gel" * bool(held)

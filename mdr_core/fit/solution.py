@@ -112,8 +112,10 @@ def solved(profile, samples, fixed, noise, rows, turns, starts):
     """Solves the curves at `rows` of `Samples`, which have the same number of turning points."""
     depth, force, rate = samples.depth[rows], samples.force[rows], samples.rate[rows]
     fixed = {name: value[rows] for name, value in fixed.items()}
-    # Without turning points the order of time means nothing, and that of depth makes the force smooth.
-    ordered = force if starts.size else np.take_along_axis(force, np.argsort(depth, axis=1), axis=1)
+    # Without memory and rates the order of time means nothing, and that of depth makes the force smooth.
+    ordered = (
+        force if starts.size or rate.any() else np.take_along_axis(force, np.argsort(depth, axis=1), axis=1)
+    )
     given = samples.force_noise is not None
     sigma = samples.force_noise[rows] if given else _first_sigma(ordered, noise)
     sigma = np.where(samples.corner[rows], _NO_WEIGHT * sigma, sigma)

@@ -19,7 +19,7 @@ UNITS = {
     "time": {"min": 60.0, "s": 1.0, "ms": 1e-3, "µs": 1e-6},
 }
 _KNOWN = set().union(*UNITS.values())
-_DECIMAL_COMMA = re.compile(r"[+-]?(\d+,\d*|,\d+)([eE][+-]?\d+)?")
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
 # An opening bracket ends the one before it: a line of brackets would take quadratic time otherwise.
 _BRACKETS = re.compile(r"[(\[]\s*([^(\[)\]\s]+)\s*[)\]]")
 #: Largest number of characters of a line.
@@ -31,7 +31,7 @@ class Table:
     """Numbers of a text file (rows, columns), NaN for cells that are none, and the names of the columns.
 
     `lines` are the line numbers of the rows, `odd` the text of lines with another number of cells or a
-    cell that is no number, by their number, and `omitted` the columns without numbers in most rows.
+    cell that is no number, by their number, and `omitted` the named columns without numbers in most rows.
     """
 
     heads: tuple[str, ...]
@@ -57,6 +57,8 @@ def decoded(data):
     """Text of the bytes of a file in UTF-8, UTF-16 or Windows-1252."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return data.decode("utf-16", "replace")
+    if b"\0" in data[:2]:
+        return data.decode("utf-16-be" if data[0] == 0 else "utf-16-le", "replace")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -91,7 +93,7 @@ def read_table(text, name, limit=10**7):
     odd |= {number: line for number, line, row in body if any(row[i] is None for i in columns)}
     return Table(
         tuple(heads[i] for i in columns), values[:, kept], np.array([number for number, *_ in body]), odd,
-        tuple(f"{i + 1} {heads[i]}".rstrip() for i in np.flatnonzero(~kept)),
+        tuple(f"{i + 1} {heads[i]}" for i in np.flatnonzero(~kept) if heads[i]),
     )  # fmt: skip
 
 

@@ -49,7 +49,8 @@ def test_the_measured_example_lies_over_its_tip_with_the_numbers_of_oliver_and_p
     assert profile(state) == mdr.Cone.from_half_angle(70.3)
     assert "69.6" in page.fitting.unloading.object
     state = fitting.fit(state)
-    assert state.E_star == pytest.approx(72e9, rel=0.3)
+    # The literature has 72 GPa; residuals of 2 % of the force say that glass is not of this class of media.
+    assert state.E_star == pytest.approx(72e9, rel=0.05)
     # Loading alone has no unloading.
     depth = np.arange(9.0)
     curve = read_curve(file((depth, depth**2), ["h (nm), F (µN)"]), "run.csv")
