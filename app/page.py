@@ -33,8 +33,7 @@ SETTLED = 300
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
 _UNDO_STEPS = 100
 #: Accessible names of widgets, by class.
-_NAMED = {"slider": "State along the path", "tour": "Guided scene"}
-_NAMED |= {"tip": "CSV file of a measured tip: r, z", "curve": "CSV file of a measured curve: depth, force"}
+_NAMED = {"slider": "State along the path"}
 
 
 @dataclass(frozen=True)
@@ -84,10 +83,10 @@ class Page:
             self.notify(f"The link was not opened: {self._refusal(error)}")
 
     def _layout(self):
-        panels = {"share": self.share.view, "guide": self.guide.view, "menu": None}
-        tabs = {"explore": self.controls.view, "fit": self.fitting.view, "held": self.table.view}
+        parts = {"explore": self.controls.view, "fit": self.fitting.view}
+        parts |= {"held": self.table.view, "share": self.share.view}
         row = self.choices.row
-        self.frame = Frame(row("preset"), row("axes"), panels, tabs, self.share.show)
+        self.frame = Frame(row("preset"), row("axes"), self.guide.view, parts)
         self.address, self.theme = ColumnDataSource(name="address"), ColumnDataSource(name="theme")
         self.view = self.frame.framed(self.board)
 
@@ -104,7 +103,8 @@ class Page:
             lambda data: apply(lambda now: changes.take_tip(now, *read_tip(decoded(data)))),
         )
         frame.hold.param.watch(self._hold_toggled, "value")
-        frame.all.param.watch(lambda event: self._show_numbers(), "value")
+        for name in ("share", "numbers"):
+            frame.tabs[name].param.watch(lambda event: self._show_part(), "value")
         for name, each in (("dark", frame.dark), ("keep", self.board.keep)):
             each.param.watch(
                 lambda event, name=name: apply(lambda now: now.replace(**{name: event.new})), "value"
@@ -248,14 +248,12 @@ class Page:
             self._show_texts()
         show(self.frame.hold, value=bool(state.hold) and is_held(state))
         show(self.frame.tabs["held"], visible=bool(state.hold))
-        if self.frame.tab == "held" and not state.hold:
+        if self.frame.shown == "held" and not state.hold:
             self.frame.show("explore")
         show(self.frame.dark, value=state.dark)
         if self.theme.tags != [state.dark]:
             self.theme.tags = [state.dark]
-        if self.share.view.visible:
-            self.share.show()
-        self._show_numbers()
+        self._show_part()
         self._schedule()
 
     def _show_texts(self):
@@ -263,9 +261,12 @@ class Page:
         show(self.frame.warnings, object=readouts.warnings(course, state))
         self.controls.show_texts(state, course)
 
-    def _show_numbers(self):
-        if self.frame.all.value:
-            course = self.shown.view.course
+    def _show_part(self):
+        """Update the part of the side that is shown."""
+        course = self.shown.view.course
+        if self.frame.shown == "share":
+            self.share.show()
+        elif self.frame.shown == "numbers":
             show(self.frame.numbers, object=readouts.table(course, self.readings, course.now))
 
     # Player and dragging.

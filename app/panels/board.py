@@ -27,13 +27,13 @@ class Card:
 
     def __init__(self, plot: Plot, choices: Choices, scene: ColumnDataSource):
         self.plot, self.picture, self._shown = plot, Picture(plot), None
-        self.words, self.key, self.note = html("", "formula"), html("", "key"), html("", "note", "found")
+        self.head, self.key, self.note = html("", "formula"), html("", "key"), html("", "note", "found")
         save, self.large = button("Save", "none"), toggle("Large", "none")
         rows = [row.name for row in plot.rows if row.legend]
         told = {"figure": self.picture.figure, "scene": scene, "rows": rows, "title": plot.title}
         save.js_on_click(args=told, code=f"(async () => {{{JS['save']}}})()")
         self.large.param.watch(self._enlarge, "value")
-        head = pn.Row(self.words, save, self.large, css_classes=["head"], stylesheets=STYLE, **WIDE)
+        head = pn.Row(self.head, save, self.large, css_classes=["head"], stylesheets=STYLE, **WIDE)
         above = (
             [pn.Row(*map(choices.row, plot.controls), css_classes=["above"], **WIDE)]
             if plot.controls
@@ -51,7 +51,7 @@ class Card:
         """Draw columns made for a view, with what is said around them."""
         plot, course = self.plot, view.course
         self.picture.show(columns, view, dark)
-        show(self.words, object=f"<h3>{plot.title}</h3>{linked(plot.says(course))}")
+        show(self.head, object=f"<h3>{plot.title}</h3>{linked(plot.says(course))}")
         there = drawn(view, plot, {course.now, course.peak})
         if there != self._shown:
             self._shown = there

@@ -120,7 +120,9 @@ class Fitting:
 
     def __init__(self, choices: Choices, apply_or_raise: Callable[..., None], apply: Callable[..., None]):
         self._apply, self._placed, select = apply, None, pn.widgets.Select
-        self.file = upload("curve", ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx")
+        self.file = upload(
+            "CSV file of a measured curve: depth, force", ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx"
+        )
         self.silica, self.made, self.remove, self.fit = map(
             button, ("Fused silica", "Example", "Remove", "Fit")
         )
