@@ -139,10 +139,10 @@ class IndentationFit(Fit):
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve, if it has an unloading."""
         used = np.isfinite(self.residuals)
-        force = (self.force - self.baseline - self.tilt * self.depth)[used]
-        depth = self.depth[used] - self.contact_point - self.frame_compliance * force
+        # Without background and frame the measured force is that of the contact plus the residual.
+        force = (self.path.force + self.residuals)[used]
         with suppress(ValueError):
-            result = oliver_pharr(self.profile, depth, force)
+            result = oliver_pharr(self.profile, self.path.depth[used], force)
             pairs = (("E_star", "Pa"), ("hardness", "Pa"))
             errors = result.standard_errors
             E, H = (with_error(getattr(result, name), errors[name], unit) for name, unit in pairs)
