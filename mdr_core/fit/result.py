@@ -166,8 +166,8 @@ def collected(profile, measured, depth_noise, fits):
     arrays = [_arrays(fit, measured.used[fit.rows]) for fit in fits]
     joined = {name: np.concatenate([group[name] for group in arrays])[order] for name in arrays[0]}
     remarks = list(chain.from_iterable(map(remarks_of, fits)))
-    left_out = measured.lengths - np.count_nonzero(measured.used, axis=1)
-    remarks = [by_importance(remarks[i] | missing(n)) for i, n in zip(order, left_out, strict=True)]
+    counts = zip(measured.lengths - np.count_nonzero(measured.used, axis=1), measured.lengths, strict=True)
+    remarks = [by_importance(remarks[i] | missing(*pair)) for i, pair in zip(order, counts, strict=True)]
     errors = np.sqrt(np.einsum("rpp->rp", joined["covariance"]))
     media = [joined[name] for name in ("E_star", "q_c", "eta")]
     interval = LiveInterval(joined["lower"], joined["upper"], joined["length"])
