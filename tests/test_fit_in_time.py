@@ -162,7 +162,7 @@ class TestSamples:
         assert fit.to_dict() == pytest.approx(other.to_dict(), rel=1e-9)
         assert fit.residuals[keep] == pytest.approx(other.residuals, rel=1e-6)
         assert np.isnan(fit.residuals[~keep]).all()
-        assert "3 samples" in fit.remarks[-1]
+        assert "left out: 3 of 180 samples" in fit.remarks[-1]
 
     def test_weights(self):
         """A sample of half the variance counts as one that was measured twice, in errors too."""
@@ -195,7 +195,7 @@ class TestSamples:
         force[0, 5] = np.nan
         fits = mdr.fit_indentation(self.PROFILE, [z, 1e9 * z], [force[0], 1e6 * force[1]])
         assert "give depth in m and force in N" in fits.remarks[0]
-        assert "1 samples without a number" in fits.remarks[-1]
+        assert "left out: 1 of 180 samples" in fits.remarks[-1]
 
     def test_white_residuals_have_no_blocks(self):
         z, force, _ = self.noisy(50)

@@ -97,6 +97,19 @@ def test_fused_silica():
     assert 0 < result.standard_errors["E_star"] < 0.01 * result.E_star
 
 
+def test_the_report_of_a_fit_has_it_where_there_is_an_unloading():
+    """Of the contact: without contact point, background and frame, which the fit knows."""
+    profile, C, F0 = mdr.Cone(0.3), 1e-4, 1e-6
+    F = mdr.indent(profile, mdr.Medium(E), DEPTH).force
+    depth, force = DEPTH + 7e-9 + C * F, F + F0
+    held = {"q_c": np.inf, "baseline": F0, "frame_compliance": C}
+    modulus = mdr.oliver_pharr(profile, DEPTH, F).E_star
+    report = repr(mdr.fit_indentation(profile, depth, force, **held))
+    # Cut to six digits, which rounding does not reach.
+    assert f"Oliver and Pharr         E* {modulus / 1e9:.12g}"[:34] in report
+    assert "Oliver" not in repr(mdr.fit_indentation(profile, depth[:60], force[:60], **held))
+
+
 F_CONE = mdr.indent(mdr.Cone(0.3), mdr.Medium(E), DEPTH).force
 
 

@@ -113,6 +113,17 @@ def fit_indentation(
     >>> fit = fit_indentation(Cone(slope=0.3), d + 3e-9, F)
     >>> print(f"{fit.medium.E_star:.6g} {fit.medium.q_c:.6g} {fit.contact_point:.6g}")
     1e+10 100 3e-09
+
+    A viscous medium in a liquid, from approach, hold and retract:
+
+    >>> from mdr_core import indent_in_time
+    >>> t = np.linspace(0.0, 1.0, 161)
+    >>> d = np.interp(t, [0.0, 0.4, 0.6, 1.0], [-10e-9, 50e-9, 50e-9, -10e-9])
+    >>> F = indent_in_time(Cone(slope=0.3), Medium(E_star=10e9, eta=1e8), d, t).force
+    >>> F = F + 2.0 * np.gradient(d, t)
+    >>> fit = fit_indentation(Cone(slope=0.3), d, F, time=t, q_c=np.inf, eta=None, drag=None)
+    >>> print(f"{fit.medium.E_star:.3g} {fit.medium.eta:.3g} {fit.drag:.3g}")
+    1e+10 1e+08 2
     """
     check_pair(profile, Medium(1.0), "a fit")
     measured = measurement(depth, force, time, force_noise)

@@ -32,9 +32,9 @@ def by_importance(remarks):
     return dict(sorted(remarks.items(), key=lambda item: KINDS.index(item[0].partition(":")[0])))
 
 
-def missing(count):
+def missing(count, samples):
     """A remark on samples that are left out."""
-    return {"missing": f"{count} samples without a number are left out"} if count else {}
+    return {"missing": f"left out: {count} of {samples} samples, without a number"} if count else {}
 
 
 def _ambiguous(solved, i):

@@ -139,10 +139,10 @@ class IndentationFit(Fit):
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve, if it has an unloading."""
         used = np.isfinite(self.residuals)
-        force = (self.force - self.baseline - self.tilt * self.depth)[used]
-        depth = self.depth[used] - self.contact_point - self.frame_compliance * force
+        # Without background and frame the measured force is that of the contact plus the residual.
+        force = (self.path.force + self.residuals)[used]
         with suppress(ValueError):
-            result = oliver_pharr(self.profile, depth, force)
+            result = oliver_pharr(self.profile, self.path.depth[used], force)
             pairs = (("E_star", "Pa"), ("hardness", "Pa"))
             errors = result.standard_errors
             E, H = (with_error(getattr(result, name), errors[name], unit) for name, unit in pairs)
@@ -166,8 +166,8 @@ def collected(profile, measured, depth_noise, fits):
     arrays = [_arrays(fit, measured.used[fit.rows]) for fit in fits]
     joined = {name: np.concatenate([group[name] for group in arrays])[order] for name in arrays[0]}
     remarks = list(chain.from_iterable(map(remarks_of, fits)))
-    left_out = measured.lengths - np.count_nonzero(measured.used, axis=1)
-    remarks = [by_importance(remarks[i] | missing(n)) for i, n in zip(order, left_out, strict=True)]
+    counts = zip(measured.lengths - np.count_nonzero(measured.used, axis=1), measured.lengths, strict=True)
+    remarks = [by_importance(remarks[i] | missing(*pair)) for i, pair in zip(order, counts, strict=True)]
     errors = np.sqrt(np.einsum("rpp->rp", joined["covariance"]))
     media = [joined[name] for name in ("E_star", "q_c", "eta")]
     interval = LiveInterval(joined["lower"], joined["upper"], joined["length"])
