@@ -22,7 +22,7 @@ from .panels.held import Held, Table, held_scene, is_held, toggle_hold
 from .panels.share import Share
 from .plots import NAMED, PLOTS, TILES
 from .plots.plot import Plot, View
-from .solve import DRIVES, Resting, described, follow, in_time
+from .solve import Resting, described, follow, in_time
 from .state import VIEW, State, link, preset_state
 from .state.files import Curve, read_tip
 from .ui import JS, on_upload, plain, show
@@ -155,10 +155,10 @@ class Page:
             self.future, self._drag = [], mark
             self._show_history()
 
-    def apply(self, change: Any, refused: Any = None) -> None:
+    def apply(self, change: Any, refused: Any = None, mark: str | None = None) -> None:
         """Apply a change; show a refusal as a notice, or by `refused`."""
         try:
-            self.apply_or_raise(change)
+            self.apply_or_raise(change, mark)
         except ValueError as error:
             (refused or self.notify)(str(error))
             self._show_panels()
@@ -222,7 +222,7 @@ class Page:
         self.state, self.shown = state, Shown(state, view, held)
         self.readings = readouts.readings(course)
         self.board.show(columns, view, state)
-        self.board.player.stand(view, self.readings)
+        self.board.player.show(view, self.readings)
         if self.board.player.play.active:
             self._send()
         self._show_panels()
@@ -300,10 +300,7 @@ class Page:
         """Press to a depth given in the height unit of the springs plot."""
         if new and isinstance(new[0], int | float):
             depth = new[0] * self.shown.view.axis("z").factor
-            try:
-                self.apply_or_raise(lambda state: changes.press_to(state, depth), "hand")
-            except ValueError as error:
-                self.notify(str(error))
+            self.apply(lambda state: changes.press_to(state, depth), mark="hand")
             self.board.player.hand.tags = []
 
     # Updates when the input rests.
@@ -323,10 +320,7 @@ class Page:
     def _input_rests(self):
         self._waiting = None
         self._show_texts()
-        try:
-            query = link.write(self.state, DRIVES[self.state.drive].form)
-        except ValueError:
-            query = ""
+        query, _ = self.share.query()
         if self.address.tags != [f"?{query}"]:
             self.address.tags = [f"?{query}"]
         view = self.shown.view
