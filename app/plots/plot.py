@@ -39,8 +39,6 @@ AXES: dict[str, tuple[str, str, str, float]] = {
     "E": ("E, energy", "energy", "E", 0.0),
     "ΔF": ("ΔF, residual force", "force", "ΔF", 1.0),
     "force": ("F, Fₓ, force", "force", "force", 0.0),
-    "ψ₁": ("ψ₁, speed along the surface before", "number", "ψ₁", 0.0),
-    "ψ₂": ("ψ₂, speed along the surface after", "number", "ψ₂", 1.0),
     "log d": (_titled("depth"), "length", "d", 0.0),
     "log F": (_titled("force"), "force", "F", 0.0),
     "across": ("x, across the surface", "length", "r", 1.0),
@@ -259,26 +257,8 @@ def _sizes(course: Course) -> dict[str, float]:
     if course.motion is not None:
         size |= {"t": float(course.motion.time[-1]), "E": float(np.max(course.energy))}
     if course.oblique is not None:
-        _, after, reach = maw_numbers(course)
         size["force"] = max(size["F"], float(np.max(np.abs(course.on_axes["force"]))))
-        size |= {"ψ₁": reach, "ψ₂": max(reach - 4 * maw_chi(course), abs(after), 1.2)}
     return size
-
-
-def maw_chi(course: Course) -> float:
-    """χ = κm/(2m_t) of an oblique impact."""
-    drive = course.scene.drive
-    return float(course.scene.medium.tangential_ratio) * drive.mass / (2 * drive.tangential_mass)
-
-
-def maw_numbers(course: Course) -> tuple[float, float, float]:
-    """ψ₁ and ψ₂ of an oblique impact, speeds over μv₀/κ, and the range of Maw's curve."""
-    drive, hit = course.scene.drive, course.oblique.impact
-    unit = drive.friction * drive.speed / float(course.scene.medium.tangential_ratio)
-    velocity = course.oblique.tangential_velocity[-1] if hit is None else hit.tangential_velocity
-    psi, after = (drive.tangential_speed / unit, float(velocity) / unit) if unit else (0.0, 0.0)
-    # Further than where all slips throughout.
-    return psi, after, 1.15 * max(psi, 4 * maw_chi(course) + 1)
 
 
 def _least(course: Course) -> dict[str, float]:

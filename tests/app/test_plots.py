@@ -15,8 +15,8 @@ from app.plots.below import SURFACE, section, surface
 from app.plots.contact import RADII, leaning, pressure, springs
 from app.plots.draw import Picture, described, drawn, ticks
 from app.plots.force import _SHARE, force_still, references
-from app.plots.motion import energy_still, forces_still, maw, maw_still
-from app.plots.plot import Plot, maw_chi
+from app.plots.motion import energy_still, forces_still
+from app.plots.plot import Plot
 from app.solve import follow, scene_of
 from app.state import PRESETS, medium, preset_state, profile
 from app.state.quantities import SHAPES
@@ -299,19 +299,6 @@ def test_forces_of_an_oblique_impact_are_bounded_by_friction_and_change_the_spee
     W = view.course.oblique.tangential_velocity
     assert W[0] - W[-1] == pytest.approx(trapezoid(along, t) / drive.tangential_mass, rel=2e-3)
     assert view.axis("force").start < 0
-
-
-def test_maw_s_curve_and_the_present_impact_on_it(monkeypatch):
-    monkeypatch.setattr("app.plots.motion._PLACES", 4)
-    view = view_of(oblique_state(attack=0.3, friction=0.3))
-    *_, found = maw(view.course, ())
-    x, y = found.rows["elastic (Maw)"]
-    chi = maw_chi(view.course)
-    # Of a solid ball: where all slips ψ₂ = ψ₁ − 4χ, from ψ₁ = 4χ − 1 on.
-    np.testing.assert_allclose(y[-2:], x[-2:] - 4 * chi, atol=1e-6)
-    (before,), (after,) = maw_still(view)["this impact"]
-    assert before > 4 * chi - 1
-    assert after == pytest.approx(before - 4 * chi, abs=2e-3)
 
 
 def test_the_relief_has_the_pressure_on_every_cut():
