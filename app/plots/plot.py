@@ -54,7 +54,6 @@ class Plot:
     label or the values of an image. A plot with a `tab` (text, key) is optional. `find` is a slow search:
     it gets the course and the result of `asks` (default: the `controls`), and yields results, for each
     scene or state (`of_state`); `quick` ones run at every move. `image`: rows and columns of pixels.
-    `note`: text below.
     """
 
     name: str
@@ -72,7 +71,6 @@ class Plot:
     controls: tuple[str, ...] = ()
     log: bool = False
     image: tuple[int, int] | None = None
-    note: Callable[["View"], str] | None = None
     fitted: Callable[["View"], list] | None = None
 
     def __post_init__(self):
@@ -118,7 +116,7 @@ class View:
 
     def __init__(self, course: Course, state: Any, held=(), found=None, curve=None):
         self.course, self.held, self.found, self.curve = course, held, found or {}, curve
-        self.references, self.heights = state.references, state.heights
+        self.heights = state.heights
         ratio = state.axes == "ratio"
         # Sizes of the scene that are units, and those of what is held, each in its own.
         self._scales, *self._theirs = (_scales(each) if ratio else {} for each in (course, *held))

@@ -14,7 +14,7 @@ from app.plots import NAMED, PLOTS, TILES
 from app.plots.below import SURFACE, section, surface
 from app.plots.contact import RADII, leaning, pressure, springs
 from app.plots.draw import Picture, described, drawn, ticks
-from app.plots.force import _SHARE, force_still, references
+from app.plots.force import force_still
 from app.plots.motion import energy_still, forces_still
 from app.plots.plot import Plot
 from app.solve import follow, scene_of
@@ -156,34 +156,7 @@ def test_only_what_is_exceeded_is_seen_and_the_rest_folds():
     assert html[: html.index("<details>")].count('class="beyond"') >= 2
 
 
-# References, dimensionless axes, the surface.
-
-
-def test_the_elastic_curve_of_a_paraboloid_is_that_of_hertz():
-    state = state_with(shape="paraboloid")
-    d, F = references(view_of(state, references="elastic"))["elastic throughout"]
-    expected = 4 / 3 * medium(state).E_star * np.sqrt(profile(state).radius) * d**1.5
-    np.testing.assert_allclose(F, expected, rtol=1e-12)
-    assert len(d) == len(_SHARE)
-
-
-@pytest.mark.parametrize(("shape", "power"), [("cone", 2), ("paraboloid", 1), ("flat_punch", 0)])
-def test_classes_share_the_hardness_of_the_deepest_state_and_differ_in_its_power(shape, power):
-    """F ∝ a², a⁰ and z ∝ rⁿ: powers 2/n and 0 of the depth."""
-    view = view_of(state_with(shape=shape), 1.6, references="classes")
-    rows, turning_point = references(view), view.course.turning_point
-    d, constant_hardness = rows["class (a), F ∝ a²"]
-    d, constant_force = (part[1:] for part in rows["class (c), F constant"])
-    share = (d / turning_point.depth) ** power
-    np.testing.assert_allclose(constant_hardness[1:], turning_point.force * share, rtol=1e-9)
-    np.testing.assert_allclose(constant_force, turning_point.force, rtol=1e-12)
-
-
-def test_nothing_is_said_to_have_a_hardness_that_has_not_yielded():
-    view = view_of(preset_state(ELASTIC), references="all")
-    assert references(view).keys() == {"elastic throughout"}
-    assert "Nothing has yielded" in PLOTS["force"].note(view)
-    assert references(view_of(preset_state())) == {}
+# Dimensionless axes, the surface.
 
 
 def test_cones_on_gold_and_pdms_are_one_dimensionless_curve():
