@@ -85,7 +85,7 @@ class Page:
         panels = {"share": self.share.view, "guide": self.guide.view, "menu": None}
         tabs = {"explore": self.controls.view, "fit": self.fitting.view, "held": self.table.view}
         row = self.choices.row
-        self.frame = Frame(row("preset"), row("axes"), panels, tabs, self.share.show)
+        self.frame = Frame(row("preset"), panels, tabs, self.share.show)
         self.address, self.theme = ColumnDataSource(name="address"), ColumnDataSource(name="theme")
         self.view = self.frame.framed(self.board)
 

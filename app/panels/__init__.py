@@ -11,7 +11,7 @@ from ..ui import FULL, HERE, STYLE, WIDE, button, html, show, toggle, tools
 class Frame:
     """Six buttons, tabs on the left, panels over them; `share` is called when that panel opens."""
 
-    def __init__(self, preset: Any, axes: Any, panels: dict, tabs: dict, share: Callable[[], None]):
+    def __init__(self, preset: Any, panels: dict, tabs: dict, share: Callable[[], None]):
         self.undo, self.redo, self.hold = button("Undo", "z"), button("Redo", "y"), toggle("Hold", "h")
         self.reset, self.dark, self.all = (
             button("Reset", "r"),
@@ -27,7 +27,7 @@ class Frame:
         self.tabs = {name: toggle(*text) for name, text in texts.items()}
         self.numbers, self.warnings = html("", "all-numbers", visible=False), html("", "lights")
         about = html((HERE / "static" / "about.html").read_text(encoding="utf-8"))
-        menu = pn.Column(tools(self.reset, self.dark), axes, about, visible=False, **WIDE)
+        menu = pn.Column(tools(self.reset, self.dark), about, visible=False, **WIDE)
         self._panels, self._tabs = panels | {"menu": menu, "numbers": self.numbers}, tabs
         self._share, self.tab = share, "explore"
         self._preset = preset

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ import mdr_core as mdr
 from mdr_core.results.figures import NOTHING, REST, Axis, Row, ceiling, line, radii
 from mdr_core.results.quantities import QUANTITIES
 
-from ..drives import Course, onset
+from ..drives import Course
 from ..state.units import fitting, round_up, written
 
 #: Scenes that are held have each its own dashes.
@@ -96,19 +96,13 @@ def held_rows(
     return [line(f"held {k}{what}", "held", width, dash, symbol, axis, legend) for k, dash in rows]
 
 
-def axis(name: str, title: str, kind: str, largest: float, below: float = 0.0, scale: Any = None) -> Axis:
-    """Axis up to the next round number above `largest` (SI), in a fitting unit or relative to `scale`."""
+def axis(name: str, title: str, kind: str, largest: float, below: float = 0.0) -> Axis:
+    """Axis up to the next round number above `largest` (SI), in a fitting unit."""
     unit = fitting(largest, kind)
     if round_up(largest / unit.factor) >= 1000:
         unit = fitting(round_up(largest / unit.factor) * unit.factor, kind)
-    made = over(Axis(name, title, unit.name, unit.factor), scale)
-    end = round_up(largest / made.factor) * made.factor
-    return replace(made, start=0.0 - below * end, end=end)
-
-
-def over(axis: Axis, scale: tuple[float, str] | None) -> Axis:
-    """Axis in units of a size of the scene (SI, with its name), if given."""
-    return replace(axis, unit=f"× {scale[1]}", factor=scale[0]) if scale else axis
+    end = round_up(largest / unit.factor) * unit.factor
+    return Axis(name, title, unit.name, unit.factor, 0.0 - below * end, end)
 
 
 class View:
@@ -117,9 +111,6 @@ class View:
     def __init__(self, course: Course, state: Any, held=(), found=None, curve=None):
         self.course, self.held, self.found, self.curve = course, held, found or {}, curve
         self.heights = state.heights
-        ratio = state.axes == "ratio"
-        # Sizes of the scene that are units, and those of what is held, each in its own.
-        self._scales, *self._theirs = (_scales(each) if ratio else {} for each in (course, *held))
         self._axes: dict[str, Axis] = {}
         self._drawn: dict[Any, Any] = {}
 
@@ -127,11 +118,9 @@ class View:
     def size(self) -> dict[str, float]:
         """Largest values (SI) on the axes, including held scenes."""
         size = _sizes(self.course)
-        for k, held in enumerate(self.held):
-            theirs = _sizes(held)
+        for held in map(_sizes, self.held):
             # Heights are those of this scene: nothing that is held is drawn over them.
-            for name in size.keys() & theirs.keys() - {"z"}:
-                size[name] = max(size[name], self._beside(k, name, theirs[name]))
+            size |= {name: max(size[name], held[name]) for name in size.keys() & held.keys() - {"z"}}
         if self.curve is not None:
             size["d"] = max(size["d"], 1.02 * float(self.curve.depth.max()))
             size["F"] = max(size["F"], 1.05 * float(self.curve.force.max()))
@@ -142,7 +131,7 @@ class View:
         if name not in self._axes:
             title, kind, size, below = AXES[name]
             key = name.removeprefix("log ")
-            made = axis(key, title, kind, self.size[size], below, self._scales.get(key))
+            made = axis(key, title, kind, self.size[size], below)
             if name == "force" and np.min(self.course.on_axes["force"]) < 0:
                 made = replace(made, start=-made.end)
             elif name == "force":
@@ -163,28 +152,19 @@ class View:
         """Axes of a plot: those of the view, or those found with its rows."""
         found = self.found.get(plot.name)
         if found and found.axes:
-            return [over(each, self._scales.get(each.name)) for each in found.axes]
+            return found.axes
         return plot.fitted(self) if plot.fitted else [self.axis(key) for key in plot.axes]
 
-    def _beside(self, k: int, name: str, values: Any) -> Any:
-        """Values of held scene k on an axis of this scene; dimensionless ones in their own units."""
-        both = self._scales, self._theirs[k]
-        (ours, same), (theirs, symbol) = (scale.get(name, (1.0, "")) for scale in both)
-        return values * (ours / theirs) if symbol == same else values
-
-    def held_curves(self, what: str, columns: Callable[..., Any]) -> dict:
-        """Rows of all held scenes; `columns` gets a course and its scaling."""
-        return {
-            f"held {k + 1}{what}": columns(held, partial(self._beside, k))
-            for k, held in enumerate(self.held)
-        }
+    def held_curves(self, what: str, columns: Callable[[Course], Any]) -> dict:
+        """Rows of all held scenes."""
+        return {f"held {k}{what}": columns(held) for k, held in enumerate(self.held, 1)}
 
     def held_on_axes(self, x: str, y: str) -> dict:
         """Curves of all held scenes on two axes."""
 
-        def columns(course, beside):
-            known = course.on_axes.keys() >= {x, y}
-            return (beside(x, course.on_axes[x]), beside(y, course.on_axes[y])) if known else NOTHING
+        def columns(course):
+            on = course.on_axes
+            return (on[x], on[y]) if on.keys() >= {x, y} else NOTHING
 
         return self.held_curves("", columns)
 
@@ -264,28 +244,3 @@ def _least(course: Course) -> dict[str, float]:
     profile, medium = course.scene.profile, course.scene.medium
     depth = min(float(np.max(course.states.depth)), medium.critical_depth) / 50
     return {"d": depth, "F": float(mdr.indent(profile, mdr.Medium(medium.E_star), depth).force)}
-
-
-def _scales(course: Course) -> dict[str, tuple[float, str]]:
-    """Sizes (SI) with their names, by axis, for dimensionless axes.
-
-    Depth, force and radius are those at first yield of a virgin surface, else those at the largest depth.
-    """
-    first_yield, turning_point = onset(course.scene), course.turning_point
-    at, words = (turning_point, "largest {}") if first_yield is None else (first_yield, "{} at onset")
-    depth, force, radius = (
-        (float(getattr(at, name)), words.format(symbol))
-        for name, symbol in (("depth", "d"), ("force", "F"), ("contact_radius", "a"))
-    )
-    found = {"d": depth, "z": depth, "far z": depth, "F": force, "a": radius}
-    along = float(turning_point.contact_radius), "largest a"
-    found |= dict.fromkeys(("x", "r", "far r", "across", "far", "depth"), along)
-    pressure = float(turning_point.mean_pressure), "mean pressure"
-    found |= dict.fromkeys(("p", "oblique", "stress"), pressure)
-    if course.motion is not None:
-        found["t"] = float(np.ptp(course.motion.time)), "duration"
-        # That of a body, or what is put in along a path, which begins without any.
-        found["E"] = float(np.max(course.energy)), "energy put in"
-    if course.oblique is not None:
-        found["force"] = found["F"]
-    return found

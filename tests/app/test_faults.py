@@ -7,7 +7,6 @@ import pytest
 
 from app import changes
 from app.page import Page
-from app.plots import plot
 from app.solve import COMPUTING, FAULT
 from app.state import PRESETS, preset_state
 
@@ -41,13 +40,6 @@ def assert_in_use(page):
     page.frame.undo.clicks += 1
     assert page.shown.view.course.scene.medium.q_c == Q_C
     assert len(page.notices) == 1
-
-
-def test_axes(page, monkeypatch):
-    monkeypatch.setattr(plot, "_scales", failing)
-    page.choices.widgets["axes"].value = "ratio"
-    assert page.state.axes == page.choices.widgets["axes"].value == "units"
-    assert_in_use(page)
 
 
 def test_a_plot_on_request(page, monkeypatch):
@@ -107,9 +99,9 @@ def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
         message.data = {"position": position}
         number._on_message(message)
     assert page.state.max_depth > start
-    page.apply(lambda state: state.replace(progress=0.5, axes="ratio"))
+    page.apply(lambda state: state.replace(progress=0.5, heights="to_scale"))
     page.frame.undo.clicks += 1
-    assert (page.state.max_depth, page.state.progress, page.state.axes) == (start, 0.5, "ratio")
+    assert (page.state.max_depth, page.state.progress, page.state.heights) == (start, 0.5, "to_scale")
     assert page.frame.undo.disabled
     page.frame.redo.clicks += 1
     assert page.state.max_depth > start

@@ -78,7 +78,7 @@ def test_every_plot_of_every_state_can_be_drawn(made):
 @pytest.mark.parametrize("damping", ["none", "tau"])
 def test_every_plot_of_an_oblique_impact_beside_a_held_one_can_be_drawn(damping):
     state = state_with(DROP, "oblique", damping=damping)
-    assert_all_is_drawn(view_of(state, 1.0, state, axes="ratio"), 17)
+    assert_all_is_drawn(view_of(state, 1.0, state), 17)
 
 
 def test_a_measured_tip_ends_at_its_rim_without_pressure():
@@ -156,24 +156,7 @@ def test_only_what_is_exceeded_is_seen_and_the_rest_folds():
     assert html[: html.index("<details>")].count('class="beyond"') >= 2
 
 
-# Dimensionless axes, the surface.
-
-
-def test_cones_on_gold_and_pdms_are_one_dimensionless_curve():
-    """Popov (2015), Eqs. (20), (22): F/F_c = 2 d/d_c − 1, whatever cone and medium."""
-    pdms = preset_state("berkovich-pdms")
-    ratio = preset_state().max_depth / medium(preset_state()).critical_depth
-    pdms = pdms.replace(max_depth=ratio * medium(pdms).critical_depth)
-    view = view_of(preset_state(), 1.0, pdms, axes="ratio")
-    course, (d, F) = view.course, (view.axis(name) for name in "dF")
-    past = course.states.plastic_depth > 0
-    past[course.peak + 1 :] = False
-    expected = 2 * course.states.depth[past] / d.factor - 1
-    np.testing.assert_allclose(course.force[past] / F.factor, expected, rtol=1e-9)
-    assert (d.label, F.label) == ("d, indentation depth (× d at onset)", "F, normal force (× F at onset)")
-    held = force_still(view)["held 1"]
-    np.testing.assert_allclose(held[0], course.states.depth, rtol=1e-12)
-    np.testing.assert_allclose(held[1], course.force, rtol=1e-9, atol=1e-12 * course.force.max())
+# The surface.
 
 
 def test_beside_an_elastic_paraboloid_the_surface_is_that_of_hertz():

@@ -146,7 +146,7 @@ def test_a_link_holds_the_whole_page(drive):
     state = state_with(DROP, drive, damping="tau", shape="sphere")
     state = state.replace(progress=0.75, hold=(link_of(state),), tiles=("sweep", "section"))
     state = state.replace(dark=True, keep=True, fit_note="a < b")
-    state = state.replace(axes="ratio", heights="to_scale", section="zz")
+    state = state.replace(heights="to_scale", section="zz")
     again = linked_state(state)
     assert scene_of(again) == scene_of(state)
     for name in (*VIEW, "section", "fit_note"):
