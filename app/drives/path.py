@@ -12,13 +12,12 @@ from mdr_core.yielding import LiveInterval
 from ..state import medium
 from ..state.quantities import CHOICES, QUANTITIES, USED
 from ..state.units import written
-from . import Course, Drive, nearest, onset, path_progress, printed
+from . import Course, Drive, nearest, onset, path_progress
 from .press import limited_force
 
-#: Functions of the core for a prescribed quantity, infinitely slowly and in time, and its unit.
+#: Functions of the core for a prescribed quantity, infinitely slowly and in time.
 _SLOWLY = {"depth": "indent", "force": "indent_to_force"}
 _IN_TIME = {"depth": "indent_in_time", "force": "creep"}
-_UNIT = {"depth": "m", "force": "N"}
 #: About how many states are drawn: of a path without dashpots, on the chain under prescribed depths, and
 #: under forces, each of which takes eight steps and more.
 _SLOW, _DEPTHS, _FORCES = 200, 48, 24
@@ -228,21 +227,6 @@ class Path(Drive):
         numbers = {"max_depth": float(turning_point.depth), "max_force": limited_force(turning_point)}
         time = float(f"{turning_point.medium.relaxation_time or 1.0:.2g}")
         return numbers if state.drive == "path" else numbers | {"ramp_time": time}
-
-    def snippet(self, course, given, prefix):
-        name, _, time = _parts(course.scene.drive)
-        values, along = _course(course.scene.drive)
-        places = _refined(course.scene, False)[1] if time is None else course.motion.time
-        prescribed_values = course.force if name == "force" else course.states.depth
-        # First contact is none of the vertices.
-        past = (along > 0) | (time is not None)
-        past &= along < places[course.now] - 1e-12 * (places[-1] - places[0])
-        chain, state = time is not None and course.scene.medium.eta > 0, f"{prefix}state"
-        given += f", {[*values[past].tolist(), float(prescribed_values[course.now])]}"
-        given += f", {[*along[past].tolist(), float(places[course.now])]}" * chain
-        solve, unit = (_IN_TIME if chain else _SLOWLY)[name], _UNIT[name] + ", s" * chain
-        names = ("depth", "force", "contact_radius", "plastic_radius")
-        return [f"{state} = mdr.{solve}({given})[-1]  # {unit}", printed(state, names)]
 
     def words(self, state):
         numbers = ((QUANTITIES[n], state[n]) for n in USED["pattern"][state.pattern])
