@@ -1,11 +1,14 @@
 """The page of one session, a function of one state."""
 
+import asyncio
 import logging
 from dataclasses import dataclass, replace
+from functools import partial
 from html import escape
 from typing import Any
 
 import panel as pn
+from bokeh.document import without_document_lock
 from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS
 
@@ -64,7 +67,7 @@ class Page:
         self.solved: dict[Any, Course] = {}
         self._waiting, self._ready, self.shown, self._courses_changed = None, False, None, False
         self.state = preset_state()
-        self.resting = Resting(self._show_result)
+        self.resting = Resting(self._deliver)
         self.choices = Choices(self.apply, lambda: self.state)
         self.board = Board(self.choices, self._toggle_tile)
         self.controls = Controls(self.choices, self.apply_or_raise)
@@ -126,7 +129,6 @@ class Page:
         self.document.js_on_event(DocumentReady, ready)
         # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
-        self.document.on_session_destroyed(lambda context: self.resting.end())
 
     # Changes and refusals.
 
@@ -213,7 +215,7 @@ class Page:
             course,
             state,
             [each.course for each in held],
-            self.resting.found(PLOTS, state, course),
+            self.resting.found((PLOTS[name] for name in state.tiles), state, course),
             Curve.of(state),
         )
         columns = self.board.columns(view, state.tiles, state.dark)
@@ -309,9 +311,13 @@ class Page:
         self._ready = True
         self._schedule()
 
+    @property
+    def _served(self):
+        return self.document is not None and self.document.session_context is not None
+
     def _schedule(self):
         """Schedule the slow updates."""
-        if self.document is None or self.document.session_context is None or not self._ready:
+        if not (self._served and self._ready):
             return
         if self._waiting is not None:
             self.document.remove_timeout_callback(self._waiting)
@@ -328,9 +334,24 @@ class Page:
             self.address.tags = [f"?{query}"]
         view = self.shown.view
         self.board.describe(view, readouts.summary(self.state))
-        for k, each in enumerate([view.course, *(each.course for each in self.shown.held)]):
-            self.resting.follow(f"course {k}", each.scene if each.pending else None, in_time, each)
-        self.resting.look(PLOTS, {plot.name for plot in self.shown.plots}, self.state, view.course)
+        if self._served:
+            self.document.add_next_tick_callback(self.search)
+
+    @without_document_lock
+    async def search(self) -> None:
+        """Find what takes longer than a move."""
+        view = self.shown.view
+        courses = [view.course, *(each.course for each in self.shown.held)]
+        searches = self.resting.plots(self.shown.plots, self.state, view.course)
+        for k, course in enumerate(courses):
+            if course.pending:
+                searches.append(self.resting.find(f"course {k}", course.scene, in_time, course))
+        await asyncio.gather(*searches)
+
+    def _deliver(self, name, found):
+        """Show a result under the lock of the session."""
+        show = partial(self._show_result, name, found)
+        self.document.add_next_tick_callback(show) if self._served else show()
 
     @pn.io.hold()
     def _show_result(self, name, found):

@@ -12,94 +12,71 @@ from mdr_core.yielding import LiveInterval
 from ..state import medium
 from ..state.quantities import CHOICES, QUANTITIES, USED
 from ..state.units import written
-from . import Course, Drive, nearest, onset, path_progress
+from . import Course, Drive, nearest, path_progress
 from .press import limited_force
 
-#: Functions of the core for a prescribed quantity, infinitely slowly and in time.
-_SLOWLY = {"depth": "indent", "force": "indent_to_force"}
-_IN_TIME = {"depth": "indent_in_time", "force": "creep"}
-#: About how many states are drawn: of a path without dashpots, on the chain under prescribed depths, and
-#: under forces, each of which takes eight steps and more.
-_SLOW, _DEPTHS, _FORCES = 200, 48, 24
+#: Steps of a piece of a path; of creep, each of which takes eight steps of the chain and more.
+_STEPS, _CREEP_STEPS = 24, 12
 #: Patterns in time.
 _TIMED = ("hold", "creep")
 #: Tolerance of the chain, below the resolution of plots.
 _TOLERANCE = 3e-3
 
 
-def _parts(drive):
-    """Prescribed quantity, its values, and times or None."""
-    name = "force" if isinstance(drive, mdr.ForcePath) else "depth"
-    return name, np.atleast_1d(getattr(drive, name)), drive.time and np.array(drive.time)
+def _vertices(drive):
+    """Prescribed values of a drive from first contact on, and times, or changes so far."""
+    if drive.time is not None:
+        return np.array(drive.force if _by_force(drive) else drive.depth), np.array(drive.time)
+    depth = np.append(0.0, drive.depth)
+    return depth, np.append(0.0, np.cumsum(np.abs(np.diff(depth))))
 
 
-def _cycles(state):
-    """Largest depths (m) of the cycles of a pattern."""
-    tenths = (2, 4, 6, 8, 10) if state.pattern == "cycles" else (7, 10)
-    return [state.max_depth * tenth / 10 for tenth in tenths]
-
-
-def _slowly(scene, values):
-    solve = getattr(mdr, _SLOWLY[_parts(scene.drive)[0]])
-    return solve(scene.profile, scene.medium, values)
-
-
-def _course(drive):
-    """Values of a path, without times from first contact on, and their times or cumulated changes."""
-    _, values, time = _parts(drive)
-    if time is not None:
-        return values, time
-    values = np.append(0.0, values)
-    return values, np.append(0.0, np.cumsum(np.abs(np.diff(values))))
+def _by_force(drive):
+    return isinstance(drive, mdr.ForcePath)
 
 
 def _refined(scene, chain):
-    """Prescribed values and places along the path, at the vertices and between them."""
-    (name, *_), (values, along) = _parts(scene.drive), _course(scene.drive)
-    most, places = 0.0, []
-    states = _SLOW if not chain else _DEPTHS if name == "depth" else _FORCES
-    pieces = min(max(states // (len(values) - 1), 1 if chain else 4), 32)
-    critical, first_yield = scene.medium.critical_depth, onset(scene)
-    start = critical if name == "depth" or first_yield is None else float(first_yield.force)
+    """Prescribed values and their places along the path, at the vertices and between them."""
+    values, along = _vertices(scene.drive)
+    by_force, largest = _by_force(scene.drive), scene.medium.critical_depth
+    places = [along]
     for (begin, first), (end, last) in pairwise(zip(along, values, strict=True)):
-        share = _shares(pieces + 1, chain, chain and first == last)
-        if first != last and not (chain and name == "force"):
-            # Just before yield, and on both sides of the loss of contact.
-            released, elastic = 0.0, most
-            if name == "depth":
-                released, elastic = max(most - critical, 0.0), min(critical, most)
-            before = 1 - 1e-12
-            events = np.array([before * start, before * most, released, released + 1e-9 * elastic])
-            events = (events - first) / (last - first)
-            share = np.append(share, events[(events > 0) & (events < 1)])
+        share = _shares(_CREEP_STEPS if chain and by_force else _STEPS, chain, first == last)
+        if last > largest and not by_force:
+            # Just before yield.
+            share = np.append(share, (largest * (1 - 1e-12) - first) / (last - first))
+            largest = last
         places.append(begin + (end - begin) * share)
-        most = max(most, last)
-    places = np.unique(np.append(np.concatenate(places), along))
+    places = np.unique(np.concatenate(places))
     return np.interp(places, along, values), places
 
 
-def _shares(count, chain, held):
-    """Places along a piece: dense at its ends, where radii start as a root; logarithmic in a hold."""
-    share = np.linspace(0, 1, count)
-    if held:
-        return (1e3**share - 1) / 999
-    # Dashpot forces change fastest at the start of a piece.
-    return share**2 if chain else (1 - np.cos(np.pi * share)) / 2
+def _shares(steps, chain, held):
+    """Places along a piece, dense where radii start as a root of the depth, and just before its end."""
+    share = np.linspace(0, 1, steps + 1)
+    if chain:
+        # Dashpot forces change fastest at the start of a piece.
+        return (1e3**share - 1) / 999 if held else share**2
+    return np.append((1 - np.cos(np.pi * share)) / 2, 1 - 1e-9)
 
 
 def _solved(scene, progress, chain, pending):
-    name, _, time = _parts(scene.drive)
     values, along = _refined(scene, chain)
+    by_force, bodies = _by_force(scene.drive), (scene.profile, scene.medium)
     if chain:
-        solve = getattr(mdr, _IN_TIME[name])
-        path = solve(scene.profile, scene.medium, values, along, tolerance=_TOLERANCE)
-        states = ChainStates(path)
+        solve = mdr.creep if by_force else mdr.indent_in_time
+        states = ChainStates(solve(*bodies, values, along, tolerance=_TOLERANCE))
     else:
         states = _slowly(scene, values)
-    peak = int(np.argmax(states.depth))
+    peak, timed = int(np.argmax(states.depth)), scene.drive.time is not None
     places = path_progress(along, peak)
-    motion = None if time is None else _motion(states, along)
+    motion = _motion(states, along) if timed else None
     return Course(scene, places, states, nearest(places, progress), peak, None, motion, True, pending)
+
+
+def _slowly(scene, values):
+    solve = mdr.indent_to_force if _by_force(scene.drive) else mdr.indent
+    return solve(scene.profile, scene.medium, values)
 
 
 def _motion(states, time):
@@ -198,7 +175,7 @@ class Path(Drive):
     form = ("pattern",)
 
     def owns(self, value):
-        return super().owns(value) and np.ndim(getattr(value, _parts(value)[0])) > 0
+        return super().owns(value) and np.ndim(value.force if _by_force(value) else value.depth) > 0
 
     def make(self, state):
         if state.pattern in _TIMED:
@@ -206,21 +183,23 @@ class Path(Drive):
             if state.pattern == "creep":
                 return mdr.ForcePath((0.0, state.max_force, state.max_force), times)
             return mdr.DepthPath((0.0, state.max_depth, state.max_depth), times)
+        tenths = (2, 4, 6, 8, 10) if state.pattern == "cycles" else (7, 10)
+        peaks = [state.max_depth * tenth / 10 for tenth in tenths]
         # Unloading ends at loss of contact.
         critical = medium(state).critical_depth
-        return mdr.DepthPath([d for peak in _cycles(state) for d in (peak, max(peak - critical, 0.0))])
+        return mdr.DepthPath([d for peak in peaks for d in (peak, max(peak - critical, 0.0))])
 
     def follow(self, scene, progress):
         """States; creep of a viscous medium without dashpots at first."""
         viscous = scene.drive.time is not None and scene.medium.eta > 0
-        pending = viscous and isinstance(scene.drive, mdr.ForcePath)
+        pending = viscous and _by_force(scene.drive)
         return _solved(scene, progress, viscous and not pending, "so far without dashpots" * pending)
 
     def in_time(self, scene):
         return _solved(scene, 1.0, True, "")
 
     def turning_point(self, scene):
-        return _slowly(scene, float(np.max(_parts(scene.drive)[1])))
+        return _slowly(scene, float(np.max(_vertices(scene.drive)[0])))
 
     def equivalent(self, state, turning_point):
         """Pattern of the present depth, and a ramp of one relaxation time."""

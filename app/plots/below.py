@@ -86,8 +86,7 @@ def section(course: Course, asked):
     if course.chained:
         reason = "Stresses below the surface are not known of a viscous path."
     if reason:
-        yield Found({}, [r, z, axis("stress", title, "pressure", 1.0)], reason)
-        return
+        return Found({}, [r, z, axis("stress", title, "pressure", 1.0)], reason)
     down, along = ((np.arange(count) + 0.5) / count for count in _PIXELS)
     across, deep = r.end * along, -z.start * (1 - down)
     image = of_stress(state.stress(across, deep[:, None]))
@@ -110,7 +109,7 @@ def section(course: Course, asked):
         "plastic zone c": (np.full(2, state.plastic_radius), ends) if state.plastic_radius else NOTHING,
         "largest": place,
     }
-    yield Found(rows, [r, z, colours], note)
+    return Found(rows, [r, z, colours], note)
 
 
 def _contours(x, y, image, levels):

@@ -1,6 +1,6 @@
 """Definition of a plot, and a view: a course with axes, from which rows are drawn, in SI."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -52,8 +52,8 @@ class Plot:
 
     `still` returns rows that stay during playback, `moving` those of one state: x and y (SI), the text of a
     label or the values of an image. A plot with a `tab` (text, key) is optional. `find` is a slow search:
-    it gets the course and the result of `asks` (default: the `controls`), and yields results, for each
-    scene or state (`of_state`); `quick` ones run at every move. `image`: rows and columns of pixels.
+    it gets the course and the result of `asks` (default: the `controls`), and returns what is found, of
+    a scene or a state (`of_state`); `quick` ones run at every move. `image`: rows and columns of pixels.
     """
 
     name: str
@@ -63,7 +63,7 @@ class Plot:
     rows: tuple[Row, ...]
     still: Callable[["View"], dict] = lambda view: {}
     moving: Callable[["View", int], dict] = lambda view, i: {}
-    find: Callable[..., Iterator[Any]] | None = None
+    find: Callable[..., Any] | None = None
     asks: Callable[[Any], Any] | None = None
     quick: Callable[[Any], bool] = lambda asked: False
     of_state: bool = False

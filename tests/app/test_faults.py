@@ -1,6 +1,6 @@
 """What cannot be shown leaves the page as it was, and in use, wherever it fails. Without a browser."""
 
-import threading
+import asyncio
 from dataclasses import replace
 
 import pytest
@@ -122,16 +122,9 @@ def test_the_indenter_is_dragged_to_a_depth_and_no_further_than_it_is_known(page
 
 
 def rested(page):
-    """Let the input be at rest, and wait until what was looked for then has come."""
-    came, show = threading.Event(), page._show_result
-
-    def shown(name, what):
-        show(name, what)
-        came.set()
-
-    page.resting._show = shown
+    """What is found of the section when the input is at rest."""
     page._input_rests()
-    assert came.wait(60)
+    asyncio.run(page.search())
     return page.shown.view.found["section"]
 
 

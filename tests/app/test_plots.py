@@ -197,7 +197,7 @@ def test_heights_are_to_scale_when_asked_for():
 @pytest.mark.parametrize("key", [ELASTIC, DROP])
 def test_the_section_shows_the_stress_of_the_core(key, quantity):
     course = follow(preset_state(key))
-    (found,) = section(course, (quantity,))
+    found = section(course, (quantity,))
     state, (r, z, colours) = course.state, found.axes
     (left, right), (bottom, top), image = found.rows["image"]
     assert (left, right, bottom, top) == (r.start, r.end, z.start, z.end) == (0, r.end, -r.end, 0)
@@ -220,7 +220,7 @@ def test_the_section_shows_the_stress_of_the_core(key, quantity):
 
 
 def test_the_section_of_an_unloaded_state_is_empty():
-    (found,) = section(follow(preset_state().replace(progress=2.2)), ("zz",))
+    found = section(follow(preset_state().replace(progress=2.2)), ("zz",))
     assert found.rows == {}
     assert found.note == "The load is gone."
 
@@ -308,7 +308,7 @@ def test_another_theme_is_another_palette():
         # Another ground paints the axes anew, too.
         assert picture.figure.background_fill_color == ground
     bar = Picture(PLOTS["section"])
-    (found,) = section(view.course, ("zz",))
+    found = section(view.course, ("zz",))
     view.found["section"] = found
     bar.show(bar.columns(view, view.course.now, True), view, True)
     # The numbers of the colour bar can be read in the dark.
