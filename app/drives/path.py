@@ -1,6 +1,5 @@
 """Paths of several loadings, ramp and hold, and creep."""
 
-from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -97,18 +96,23 @@ _PLACES = 300
 class ChainStates:
     """States of a `TimedIndentation` whose elements are evaluated once for all states."""
 
-    def __init__(self, path, at=slice(None), whole=None):
-        self._path, self._at, self._whole = path, at, whole or self
-        subset = path[at]
-        self.profile, self.medium = path.profile, path.medium
-        self.limits, self.error = path.limits, path.error
-        self.depth, self.force, self.viscous_work = subset.depth, subset.force, subset.viscous_work
-        self.contact_radius, self.plastic_radius = subset.contact_radius, subset.plastic_radius
-        self.plastic_depth, self.stored_energy = subset.plastic_depth, subset.stored_energy
-        self.plastic_work = subset.plastic_work
+    def __init__(self, path, elements=None):
+        self.profile, self.medium, self.limits, self.error = (
+            path.profile,
+            path.medium,
+            path.limits,
+            path.error,
+        )
+        self.depth, self.force, self.contact_radius = path.depth, path.force, path.contact_radius
+        self.plastic_depth, self.plastic_radius = path.plastic_depth, path.plastic_radius
+        self.stored_energy, self.plastic_work = path.stored_energy, path.plastic_work
+        self.viscous_work, self._path = path.viscous_work, path
+        # Places, and line loads and elastic compressions of each state.
+        self._elements = elements or _elements(path)
 
     def __getitem__(self, index):
-        return ChainStates(self._path, index, self._whole)
+        x, load, elastic = self._elements
+        return ChainStates(self._path[index], (x, load[index], elastic[index]))
 
     @property
     def mean_pressure(self):
@@ -123,49 +127,41 @@ class ChainStates:
         length = np.where(a > 0, np.maximum(upper - lower, np.finfo(float).tiny), 0.0)
         return LiveInterval(lower, upper, length)
 
-    @cached_property
-    def _elements(self):
-        """Places, reduced heights, line loads and elastic compressions, one row a state."""
-        path = self._path
-        half = float(np.max(path.contact_radius)) or 1.0
-        x = np.linspace(0, half, _PLACES)
-        x = np.unique(np.concatenate([x, path.contact_radius, np.minimum(path.plastic_radius, half)]))
-        return x, path.profile.reduced(x), *path.elements(x)
-
     def line_load(self, x):
-        return self._path[self._at].line_load(x)
+        return self._path.line_load(x)
 
     def relaxing(self, g):
         """Remaining elastic compression (m) of released elements at heights g (m)."""
-        _, heights, load, elastic = self._whole._elements
-        return np.interp(g, heights, np.where(load[self._at] > 0, 0.0, elastic[self._at]), right=0.0)
+        x, load, elastic = self._elements
+        return np.interp(g, self.profile.reduced(x), np.where(load > 0, 0.0, elastic), right=0.0)
 
     def surface(self, r):
-        """Elastic displacement (m) u = (2/π) ∫ u_e dx/√(r² − x²), including released elements."""
-        x, _, _, elastic = self._whole._elements
-        u, r = elastic[self._at], np.asarray(r, float)[..., None]
-        inside, slope = np.minimum(x, r), np.diff(u) / np.diff(x)
-        with np.errstate(invalid="ignore"):
-            angle = np.diff(np.where(r > 0, np.arcsin(inside / np.where(r > 0, r, 1.0)), np.pi / 2))
-        root = np.diff(np.sqrt((r - inside) * (r + inside)))
-        return 2 / np.pi * np.sum((u[:-1] - slope * x[:-1]) * angle - slope * root, axis=-1)
+        """Elastic displacement (m), including that of released elements."""
+        x, _, elastic = self._elements
+        return abel.surface_displacement(x, elastic, r)
 
     def imprint(self, r):
         return mdr.Indentation(self.profile, self.medium, self.depth, self.live_interval).imprint(r)
 
     def pressure(self, r):
-        """Contact pressure (Pa) at radii r (m), from the elements."""
-        x, g, load, _ = self._whole._elements
-        radius, r = float(self.contact_radius), np.asarray(r, float)
-        inside = x < radius
+        """Contact pressure (Pa) at radii r (m); infinite at the rim while dashpots carry load there."""
+        x, load, _ = self._elements
+        inside = x < self.contact_radius
         if not inside.any():
-            return np.zeros(r.shape)[()]
-        x, q = np.append(x[inside], radius), load[self._at][inside]
-        # Dashpots that are pressed down end with a jump.
-        rim = q[-1] - self.medium.E_star * float(self.profile.reduced(radius) - g[inside][-1])
-        pressed = self._at > 0 and self._path.depth[self._at] > self._path.depth[self._at - 1]
-        q = np.append(q, min(max(rim, 0.0), q[-1]) if pressed else 0.0)
-        return 0.0 - abel.stress_from_line_load(x, q, r)
+            return np.zeros(np.shape(r))[()]
+        x, load = np.append(x[inside][:-1], self.contact_radius), load[inside]
+        load[-1] = load[-1] if load[-1] > 1e-6 * load.max() else 0.0
+        return 0.0 - abel.stress_from_line_load(x, load, r)
+
+
+def _elements(path):
+    """Places (m), line loads (N/m) and elastic compressions (m) of the elements in all states."""
+    a, c = path.contact_radius, path.plastic_radius
+    half = float(np.max(a)) or 1.0
+    # The load may jump at the rim.
+    x = np.concatenate([np.linspace(0, half, _PLACES), a, a * (1 - 1e-9), np.minimum(c, half)])
+    x = np.unique(x)
+    return x, *path.elements(x)
 
 
 class Path(Drive):
