@@ -213,7 +213,6 @@ class Page:
         held = self._held_scenes(state)
         view = View(
             course,
-            state,
             [each.course for each in held],
             self.resting.found((PLOTS[name] for name in state.tiles), state, course),
             Curve.of(state),

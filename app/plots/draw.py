@@ -128,9 +128,8 @@ class Picture:
 
     def __init__(self, plot: Plot, level: str = "overlay", size: tuple[int, int] | None = None):
         self.plot, self.axes, self.drawn = plot, None, None
-        kinds = {"x_axis_type": "log", "y_axis_type": "log"} if plot.log else {}
         ranges = {"x_range": bk.Range1d(0.1, 1), "y_range": bk.Range1d(0.1, 1)}
-        self.figure = figure(name=plot.name, tools="", toolbar_location=None, **kinds, **ranges)
+        self.figure = figure(name=plot.name, tools="", toolbar_location=None, **ranges)
         self.layers = [Layer(plot, g) for g in _GROUPS if any(row.group == g for row in plot.rows)]
         self.hovers: list[tuple[Any, bool]] = []
         if any(layer.right for layer in self.layers):
@@ -231,7 +230,7 @@ class Picture:
 
     def _scale(self, side, axis: Axis):
         """Make the scale along one side logarithmic, or linear again."""
-        f, log = self.figure, axis.log or self.plot.log
+        f, log = self.figure, axis.log
         name = "x_scale" if side is f.below[0] else "y_scale"
         if isinstance(getattr(f, name), bk.LogScale) != log:
             setattr(f, name, bk.LogScale() if log else bk.LinearScale())

@@ -91,7 +91,7 @@ LOGLOG = Plot(
     ("log d", "log F"), (*_CURVES, mark("now")),
     lambda view: {name: _inside(view, *row) for name, row in force_still(view).items()},
     lambda view, i: {"now": _inside(view, *view.mark(i, "d", "F"))},
-    tab=("Log–log", "l"), log=True,
+    tab=("Log–log", "l"),
 )  # fmt: skip
 
 

@@ -69,9 +69,7 @@ class Plot:
     of_state: bool = False
     tab: tuple[str, str] | None = None
     controls: tuple[str, ...] = ()
-    log: bool = False
     image: tuple[int, int] | None = None
-    fitted: Callable[["View"], list] | None = None
 
     def __post_init__(self):
         if unknown := set(self.axes) - AXES.keys():
@@ -108,9 +106,8 @@ def axis(name: str, title: str, kind: str, largest: float, below: float = 0.0) -
 class View:
     """A course and its axes, with held scenes, search results and the measured curve."""
 
-    def __init__(self, course: Course, state: Any, held=(), found=None, curve=None):
+    def __init__(self, course: Course, held=(), found=None, curve=None):
         self.course, self.held, self.found, self.curve = course, held, found or {}, curve
-        self.heights = state.heights
         self._axes: dict[str, Axis] = {}
         self._drawn: dict[Any, Any] = {}
 
@@ -153,7 +150,7 @@ class View:
         found = self.found.get(plot.name)
         if found and found.axes:
             return found.axes
-        return plot.fitted(self) if plot.fitted else [self.axis(key) for key in plot.axes]
+        return [self.axis(key) for key in plot.axes]
 
     def held_curves(self, what: str, columns: Callable[[Course], Any]) -> dict:
         """Rows of all held scenes."""

@@ -99,9 +99,9 @@ def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
         message.data = {"position": position}
         number._on_message(message)
     assert page.state.max_depth > start
-    page.apply(lambda state: state.replace(progress=0.5, heights="to_scale"))
+    page.apply(lambda state: state.replace(progress=0.5, keep=True))
     page.frame.undo.clicks += 1
-    assert (page.state.max_depth, page.state.progress, page.state.heights) == (start, 0.5, "to_scale")
+    assert (page.state.max_depth, page.state.progress, page.state.keep) == (start, 0.5, True)
     assert page.frame.undo.disabled
     page.frame.redo.clicks += 1
     assert page.state.max_depth > start

@@ -11,7 +11,7 @@ import mdr_core as mdr
 from app import changes
 from app.panels import readouts
 from app.plots import NAMED, PLOTS, TILES
-from app.plots.below import SURFACE, section, surface
+from app.plots.below import section, surface
 from app.plots.contact import RADII, leaning, pressure, springs
 from app.plots.draw import Picture, described, drawn, ticks
 from app.plots.force import force_still
@@ -182,12 +182,6 @@ def test_the_surface_lies_on_the_tip_in_contact_and_below_it_beside(shape):
     # To the rounding of a depth.
     assert np.max(np.abs(gap[inside])) < 1e-14 * scale
     assert np.all(gap[~inside] > -1e-12 * scale)
-
-
-def test_heights_are_to_scale_when_asked_for():
-    r, z = view_of(preset_state(), heights="to_scale").axes_of(SURFACE)
-    assert (r.unit, r.factor) == (z.unit, z.factor)
-    assert z.title == "z, height to scale"
 
 
 # Section, oblique impacts, the pressure seen obliquely.
