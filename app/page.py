@@ -23,7 +23,7 @@ from .panels.held import Held, Table, held_scene, is_held, toggle_hold
 from .panels.share import Share
 from .plots import NAMED, PLOTS, TILES
 from .plots.plot import Plot, View
-from .solve import DRIVES, Resting, described, follow, in_time
+from .solve import Resting, described, follow, in_time
 from .state import VIEW, State, link, preset_state
 from .state.files import Curve, decoded, read_tip
 from .ui import JS, on_upload, plain, show
@@ -34,8 +34,7 @@ SETTLED = 300
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
 _UNDO_STEPS = 100
 #: Accessible names of widgets, by class.
-_NAMED = {"slider": "State along the path", "tour": "Guided scene"}
-_NAMED |= {"tip": "CSV file of a measured tip: r, z", "curve": "CSV file of a measured curve: depth, force"}
+_NAMED = {"slider": "State along the path"}
 
 
 @dataclass(frozen=True)
@@ -85,10 +84,10 @@ class Page:
             self.notify(f"The link was not opened: {self._refusal(error)}")
 
     def _layout(self):
-        panels = {"share": self.share.view, "guide": self.guide.view, "menu": None}
-        tabs = {"explore": self.controls.view, "fit": self.fitting.view, "held": self.table.view}
+        parts = {"explore": self.controls.view, "fit": self.fitting.view}
+        parts |= {"held": self.table.view, "share": self.share.view}
         row = self.choices.row
-        self.frame = Frame(row("preset"), panels, tabs, self.share.show)
+        self.frame = Frame(row("preset"), self.guide.view, parts)
         self.address, self.theme = ColumnDataSource(name="address"), ColumnDataSource(name="theme")
         self.view = self.frame.framed(self.board)
 
@@ -105,7 +104,8 @@ class Page:
             lambda data: apply(lambda now: changes.take_tip(now, *read_tip(decoded(data)))),
         )
         frame.hold.param.watch(self._hold_toggled, "value")
-        frame.all.param.watch(lambda event: self._show_numbers(), "value")
+        for name in ("share", "numbers"):
+            frame.tabs[name].param.watch(lambda event: self._show_part(), "value")
         for name, each in (("dark", frame.dark), ("keep", self.board.keep)):
             each.param.watch(
                 lambda event, name=name: apply(lambda now: now.replace(**{name: event.new})), "value"
@@ -155,10 +155,10 @@ class Page:
             self.future, self._drag = [], mark
             self._show_history()
 
-    def apply(self, change: Any, refused: Any = None) -> None:
+    def apply(self, change: Any, refused: Any = None, mark: str | None = None) -> None:
         """Apply a change; show a refusal as a notice, or by `refused`."""
         try:
-            self.apply_or_raise(change)
+            self.apply_or_raise(change, mark)
         except ValueError as error:
             (refused or self.notify)(str(error))
             self._show_panels()
@@ -221,7 +221,7 @@ class Page:
         self.state, self.shown = state, Shown(state, view, held)
         self.readings = readouts.readings(course)
         self.board.show(columns, view, state)
-        self.board.player.stand(view, self.readings)
+        self.board.player.show(view, self.readings)
         if self.board.player.play.active:
             self._send()
         self._show_panels()
@@ -247,14 +247,12 @@ class Page:
             self._show_texts()
         show(self.frame.hold, value=bool(state.hold) and is_held(state))
         show(self.frame.tabs["held"], visible=bool(state.hold))
-        if self.frame.tab == "held" and not state.hold:
+        if self.frame.shown == "held" and not state.hold:
             self.frame.show("explore")
         show(self.frame.dark, value=state.dark)
         if self.theme.tags != [state.dark]:
             self.theme.tags = [state.dark]
-        if self.share.view.visible:
-            self.share.show()
-        self._show_numbers()
+        self._show_part()
         self._schedule()
 
     def _show_texts(self):
@@ -262,9 +260,12 @@ class Page:
         show(self.frame.warnings, object=readouts.warnings(course, state))
         self.controls.show_texts(state, course)
 
-    def _show_numbers(self):
-        if self.frame.all.value:
-            course = self.shown.view.course
+    def _show_part(self):
+        """Update the part of the side that is shown."""
+        course = self.shown.view.course
+        if self.frame.shown == "share":
+            self.share.show()
+        elif self.frame.shown == "numbers":
             show(self.frame.numbers, object=readouts.table(course, self.readings, course.now))
 
     # Player and dragging.
@@ -298,10 +299,7 @@ class Page:
         """Press to a depth given in the height unit of the springs plot."""
         if new and isinstance(new[0], int | float):
             depth = new[0] * self.shown.view.axis("z").factor
-            try:
-                self.apply_or_raise(lambda state: changes.press_to(state, depth), "hand")
-            except ValueError as error:
-                self.notify(str(error))
+            self.apply(lambda state: changes.press_to(state, depth), mark="hand")
             self.board.player.hand.tags = []
 
     # Updates when the input rests.
@@ -325,10 +323,7 @@ class Page:
     def _input_rests(self):
         self._waiting = None
         self._show_texts()
-        try:
-            query = link.write(self.state, DRIVES[self.state.drive].form)
-        except ValueError:
-            query = ""
+        query, _ = self.share.query()
         if self.address.tags != [f"?{query}"]:
             self.address.tags = [f"?{query}"]
         view = self.shown.view

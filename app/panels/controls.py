@@ -23,7 +23,21 @@ from ..state.quantities import (
     shape_quantities,
 )
 from ..state.units import UNITS, digits, entry, written
-from ..ui import JS, WIDE, button, explained, field, html, linked, marked, show, symbol, tools, upload
+from ..ui import (
+    JS,
+    WIDE,
+    button,
+    explained,
+    field,
+    html,
+    linked,
+    marked,
+    reveal,
+    show,
+    symbol,
+    tools,
+    upload,
+)
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
@@ -174,19 +188,18 @@ class Controls:
         self.choices, self._in_use = choices, False
         self.numbers = {name: Numbers(apply_or_raise) for name in ("drive", "shape", "medium", "more")}
         self.notes = {name: html() for name in (*self.numbers, "sources")}
-        forms = {name for drive in DRIVES.values() for name in drive.form if name in CHOICES}
-        self.parts = {name: choices.row(name) for name in CHOICES if name in forms - {"inertia"}}
-        self.parts["again"] = self.again = button("Hit again", width=90)
-        self.tip = upload("tip", ".csv,.txt,text/csv")
+        self.again = button("Hit again", width=90)
+        self.tip = upload("CSV file of a measured tip: r, z", ".csv,.txt,text/csv")
         look = {"css_classes": ["button", "more"], "margin": (4, 0)}
         self.more = pn.widgets.Toggle(label="More about the medium", **look)
         folded = (*map(choices.row, _MORE), self.numbers["more"], self.notes["more"])
-        self._more = pn.Column(*folded, visible=False, **WIDE)
-        self.more.param.watch(lambda event: show(self._more, visible=event.new), "value")
-        drive = (choices.row("drive"), self.numbers["drive"], self.notes["drive"], *self.parts.values())
+        more, folded = pn.Column(self.more, **WIDE), pn.Column(*folded, **WIDE)
+        self.more.param.watch(lambda event: reveal(more, folded, event.new), "value")
+        self._forms = pn.Column(**WIDE)
+        drive = (choices.row("drive"), self.numbers["drive"], self.notes["drive"], self._forms)
         shape = (choices.row("shape"), self.notes["shape"], self.numbers["shape"])
-        medium = (self.numbers["medium"], self.notes["medium"], self.more, self._more)
-        sources = (html("A measured tip, as CSV (r, z):"), self.tip, self.notes["sources"])
+        medium = (self.numbers["medium"], self.notes["medium"], more)
+        sources = (self.tip, self.notes["sources"])
         heads = [html(f"<h2>{text}</h2>", "title") for text in ("Indenter", "Medium", "Tip and sources")]
         parts = (*drive, heads[0], *shape, heads[1], *medium, heads[2], *sources)
         self.view = pn.Column(*parts, css_classes=["form"], **WIDE)
@@ -194,8 +207,10 @@ class Controls:
     def show(self, state: State) -> None:
         """Show the numbers and choices in use."""
         form = DRIVES[state.drive].form
-        for name, part in (self.parts | {"inertia": self.choices.row("inertia")}).items():
-            show(part, visible=name in form)
+        parts = [self.again if n == "again" else self.choices.row(n) for n in form if n != "inertia"]
+        for part in (*self._forms, *parts):
+            reveal(self._forms, part, part in parts)
+        show(self.choices.row("inertia"), visible="inertia" in form)
         more = [name for name in _MORE if name != "inertia" or name in form]
         numbers = {
             "drive": [n for part in ("drive", *form) if part in USED for n in USED[part][state[part]]],

@@ -97,7 +97,7 @@ class Fitting:
 
     def __init__(self, choices: Choices, apply_or_raise: Callable[..., None], apply: Callable[..., None]):
         self._apply, select = apply, pn.widgets.Select
-        self.file = upload("curve", ".csv,.txt,.dat,text/csv")
+        self.file = upload("CSV file of a measured curve: depth, force", ".csv,.txt,.dat,text/csv")
         self.made, self.remove, self.fit = map(button, ("Example", "Remove", "Fit"))
         roles = ("depth", "force", "time")
         self.columns = {role: field(select, "column", label=f"Column of {role}") for role in roles}

@@ -39,7 +39,7 @@ class Guide:
 
     def __init__(self, go: Callable[..., None], course: Callable[[], Course]):
         self._apply, self._course, self.at, self._scene, self._text = go, course, -1, None, ""
-        self.title = field(pn.widgets.Select, "tour", options=list(TOURS))
+        self.title = field(pn.widgets.Select, label="Guided scene", options=list(TOURS))
         self.back, self.next = (button(name, width=70) for name in ("Back", "Next"))
         self.words = html(_INTRO)
         self.title.param.watch(lambda event: self.go(0), "value")

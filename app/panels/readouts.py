@@ -50,8 +50,8 @@ READOUTS = tuple(
 
 def readings(course: Course) -> dict[Readout, Any]:
     """Values of all readouts that a course has."""
-    found = ((readout, readout.values(course)) for readout in READOUTS)
-    return {readout: values for readout, values in found if values is not None}
+    numbers = ((readout, readout.values(course)) for readout in READOUTS)
+    return {readout: values for readout, values in numbers if values is not None}
 
 
 def value_at(values: Any, i: int) -> float:
@@ -64,31 +64,31 @@ def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
     return written(value_at(values, i), KINDS[readout.known.unit], count)
 
 
-def line(course: Course, found: dict[Readout, Any]) -> list[Readout]:
+def line(course: Course, numbers: dict[Readout, Any]) -> list[Readout]:
     """Readouts of the line above the plots."""
     names = drive_of(course.scene).line
-    return [readout for readout in found if readout.name in names]
+    return [readout for readout in numbers if readout.name in names]
 
 
-def values(course: Course, found: dict[Readout, Any], i: int) -> str:
+def values(course: Course, numbers: dict[Readout, Any], i: int) -> str:
     """Cells of the line in state i, as HTML."""
     cells = (
-        f'<output data-name="{each.name}">{text(each, found[each], i)}</output>'
-        for each in line(course, found)
+        f'<output data-name="{each.name}">{text(each, numbers[each], i)}</output>'
+        for each in line(course, numbers)
     )
     return f'<div class="strip">{"".join(cells)}</div>'
 
 
-def heads(course: Course, found: dict[Readout, Any]) -> str:
+def heads(course: Course, numbers: dict[Readout, Any]) -> str:
     """Heads of the line, with explanations, as HTML."""
-    return f'<div class="strip">{"".join(map(_head, line(course, found)))}</div>'
+    return f'<div class="strip">{"".join(map(_head, line(course, numbers)))}</div>'
 
 
-def table(course: Course, found: dict[Readout, Any], i: int) -> str:
+def table(course: Course, numbers: dict[Readout, Any], i: int) -> str:
     """All numbers in state i, as HTML."""
     rows = (
         f'<tr data-name="{each.name}"><th>{_head(each)}</th><td>{text(each, value, i)}</td></tr>'
-        for each, value in found.items()
+        for each, value in numbers.items()
     )
     return f"<table>{''.join(rows)}</table>"
 
@@ -102,14 +102,14 @@ def _head(readout: Readout) -> str:
 
 def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
     """Levels ("good", "note", "beyond") and sentences of the assumptions."""
-    found = list((course.states if course.hit is None else course.hit).limits)
+    assumptions = list((course.states if course.hit is None else course.hit).limits)
     if course.hit is not None and state.inertia == "density":
-        found.append(course.hit.speed_limit(state.density))
-    found += friction_limits(course.scene.medium) if course.oblique is not None else ()
+        assumptions.append(course.hit.speed_limit(state.density))
+    assumptions += friction_limits(course.scene.medium) if course.oblique is not None else ()
     if course.pending:
         yield "note", course.pending
     given = state.elasticity != "modulus"
-    for limit in sorted(found, key=lambda limit: limit.concerns != "result"):
+    for limit in sorted(assumptions, key=lambda limit: limit.concerns != "result"):
         if limit.what == "Poisson ratio" and not given:
             yield "note", "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*."
         elif limit.what == "coupling" and not given:

@@ -92,15 +92,19 @@ class Share:
         options = {"callback": lambda: StringIO(write()), "filename": name, "label": label, "auto": True}
         return pn.widgets.FileDownload(css_classes=["button"], margin=0, **options)
 
-    def address(self) -> tuple[str, str]:
-        """Link to the page, and why there is none."""
+    def query(self) -> tuple[str, str]:
+        """The page as a query, or why it has none."""
         state = self._shown().state
         try:
-            query = link.write(state, DRIVES[state.drive].form)
+            return link.write(state, DRIVES[state.drive].form), ""
         except ValueError as error:
             return "", f"No link: {error}."
+
+    def address(self) -> tuple[str, str]:
+        """Link to the page, or why it has none."""
+        query, note = self.query()
         base = pn.state.location.href.split("?")[0] if pn.state.location else ""
-        return base + f"?{query}" * bool(query), ""
+        return "" if note else base + f"?{query}" * bool(query), note
 
     def show(self) -> None:
         shown, (address, note) = self._shown(), self.address()

@@ -46,7 +46,7 @@ def read(query: str) -> State:
         raise ValueError("this link is too long")
     pairs = {_RENAMED.get(name, name): text for name, text in values}
     if len(pairs) < len(values):
-        raise ValueError("this link says the same thing twice")
+        raise ValueError("this link sets a value twice")
     state = preset_state(_preset(pairs.pop("preset", OPENING)))
     state = state.replace(**dict(_value(*pair) for pair in pairs.items() if not _is_ignored(pair[0])))
     missing = [name for name in used(state, ()) if state[name] is None]
