@@ -1,14 +1,11 @@
 """The page of one session, a function of one state."""
 
-import asyncio
 import logging
 from dataclasses import dataclass, replace
-from functools import partial
 from html import escape
 from typing import Any
 
 import panel as pn
-from bokeh.document import without_document_lock
 from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS
 
@@ -23,7 +20,7 @@ from .panels.held import Held, Table, held_scene, is_held, toggle_hold
 from .panels.share import Share
 from .plots import NAMED, PLOTS, TILES
 from .plots.plot import Plot, View
-from .solve import Resting, described, follow, in_time
+from .solve import Resting, described, follow, is_served
 from .state import VIEW, State, link, preset_state
 from .state.files import Curve, decoded, read_tip
 from .ui import JS, on_upload, plain, show
@@ -66,7 +63,7 @@ class Page:
         self.solved: dict[Any, Course] = {}
         self._waiting, self._ready, self.shown, self._courses_changed = None, False, None, False
         self.state = preset_state()
-        self.resting = Resting(self._deliver)
+        self.resting = Resting(self._show_result)
         self.choices = Choices(self.apply, lambda: self.state)
         self.board = Board(self.choices, self._toggle_tile)
         self.controls = Controls(self.choices, self.apply_or_raise)
@@ -308,13 +305,9 @@ class Page:
         self._ready = True
         self._schedule()
 
-    @property
-    def _served(self):
-        return self.document is not None and self.document.session_context is not None
-
     def _schedule(self):
         """Schedule the slow updates."""
-        if not (self._served and self._ready):
+        if not (is_served(self.document) and self._ready):
             return
         if self._waiting is not None:
             self.document.remove_timeout_callback(self._waiting)
@@ -328,24 +321,8 @@ class Page:
             self.address.tags = [f"?{query}"]
         view = self.shown.view
         self.board.describe(view, readouts.summary(self.state))
-        if self._served:
-            self.document.add_next_tick_callback(self.search)
-
-    @without_document_lock
-    async def search(self) -> None:
-        """Find what takes longer than a move."""
-        view = self.shown.view
         courses = [view.course, *(each.course for each in self.shown.held)]
-        searches = self.resting.plots(self.shown.plots, self.state, view.course)
-        for k, course in enumerate(courses):
-            if course.pending:
-                searches.append(self.resting.find(f"course {k}", course.scene, in_time, course))
-        await asyncio.gather(*searches)
-
-    def _deliver(self, name, found):
-        """Show a result under the lock of the session."""
-        show = partial(self._show_result, name, found)
-        self.document.add_next_tick_callback(show) if self._served else show()
+        self.resting.begin(courses, self.shown.plots, self.state)
 
     @pn.io.hold()
     def _show_result(self, name, found):

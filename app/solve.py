@@ -2,11 +2,15 @@
 
 import asyncio
 import logging
-from collections.abc import Callable, Coroutine, Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 from importlib import import_module
 from pkgutil import iter_modules
 from typing import Any
+
+import panel as pn
+from bokeh.document import without_document_lock
 
 import mdr_core as mdr
 
@@ -95,9 +99,31 @@ class Resting:
     """Searches of a session while the input rests, in threads: the last one of each name."""
 
     def __init__(self, show: Callable[[str, Any], None]):
-        self._show, self._asked, self._found = show, {}, {}
+        self._show, self._asked, self._found, self._document = show, {}, {}, pn.state.curdoc
 
-    async def find(self, name: str, about: Any, search: Callable[..., Any], *arguments: Any) -> None:
+    def begin(self, courses: list[Course], plots: Iterable[Any], state: State) -> None:
+        """Begin the slow searches of a state: exact courses, and those of plots of the first course."""
+        searches = [
+            self._find(f"course {k}", course.scene, in_time, course)
+            for k, course in enumerate(courses)
+            if course.pending
+        ]
+        for plot in (plot for plot in plots if plot.find):
+            asked = plot.asked(state)
+            if not plot.quick(asked):
+                about = _about(plot, courses[0], asked)
+                searches.append(self._find(plot.name, about, plot.find, courses[0], asked))
+
+        @without_document_lock
+        async def search():
+            await asyncio.gather(*searches)
+
+        if is_served(self._document):
+            self._document.add_next_tick_callback(search)
+        else:
+            asyncio.run(search())
+
+    async def _find(self, name, about, search, *arguments):
         """Search unless it was asked for with the same key `about`; show the result of the last key."""
         if self._asked.get(name) == about:
             return
@@ -109,16 +135,8 @@ class Resting:
             found = FAULT
         if self._asked[name] == about:
             self._found[name] = about, found
-            self._show(name, found)
-
-    def plots(self, plots: Iterable[Any], state: State, course: Course) -> list[Coroutine]:
-        """Slow searches of some plots."""
-        asked = [(plot, plot.asked(state)) for plot in plots if plot.find]
-        return [
-            self.find(plot.name, _about(plot, course, what), plot.find, course, what)
-            for plot, what in asked
-            if not plot.quick(what)
-        ]
+            show = partial(self._show, name, found)
+            self._document.add_next_tick_callback(show) if is_served(self._document) else show()
 
     def found(self, plots: Iterable[Any], state: State, course: Course) -> dict[str, Found]:
         """Results for some plots; quick ones are computed."""
@@ -135,6 +153,11 @@ class Resting:
 
     def give_up(self, name: str) -> None:
         self._found[name] = self._asked[name], FAULT
+
+
+def is_served(document: Any) -> bool:
+    """Whether a document is that of a session of the server."""
+    return document is not None and document.session_context is not None
 
 
 def _about(plot: Any, course: Course, asked: Any) -> Any:

@@ -1,6 +1,5 @@
 """What cannot be shown leaves the page as it was, and in use, wherever it fails. Without a browser."""
 
-import asyncio
 from dataclasses import replace
 
 import pytest
@@ -124,7 +123,6 @@ def test_the_indenter_is_dragged_to_a_depth_and_no_further_than_it_is_known(page
 def rested(page):
     """What is found of the section when the input is at rest."""
     page._input_rests()
-    asyncio.run(page.search())
     return page.shown.view.found["section"]
 
 
