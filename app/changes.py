@@ -13,7 +13,7 @@ from .state.quantities import QUANTITIES, shape_quantities
 from .state.units import fitting, read
 
 #: Values of the view that a preset leaves as they are.
-_STAYING = ("hold", "tiles", "keep", "dark", "axes")
+_STAYING = ("hold", "tiles", "keep", "dark")
 
 
 def choose(state: State, name: str, wanted: str) -> State:

@@ -22,7 +22,7 @@ from .panels.held import Held, Table, held_scene, is_held, toggle_hold
 from .panels.share import Share
 from .plots import NAMED, PLOTS, TILES
 from .plots.plot import Plot, View
-from .solve import Resting, described, follow, in_time
+from .solve import Resting, described, follow, is_served
 from .state import VIEW, State, link, preset_state
 from .state.files import Curve, read_tip
 from .ui import JS, on_upload, plain, show
@@ -86,7 +86,7 @@ class Page:
         parts = {"explore": self.controls.view, "fit": self.fitting.view}
         parts |= {"held": self.table.view, "share": self.share.view}
         row = self.choices.row
-        self.frame = Frame(row("preset"), row("axes"), self.guide.view, parts)
+        self.frame = Frame(row("preset"), self.guide.view, parts)
         self.address, self.theme = ColumnDataSource(name="address"), ColumnDataSource(name="theme")
         self.view = self.frame.framed(self.board)
 
@@ -128,7 +128,6 @@ class Page:
         self.document.js_on_event(DocumentReady, ready)
         # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
-        self.document.on_session_destroyed(lambda context: self.resting.end())
 
     # Changes and refusals.
 
@@ -213,9 +212,8 @@ class Page:
         held = self._held_scenes(state)
         view = View(
             course,
-            state,
             [each.course for each in held],
-            self.resting.found(PLOTS, state, course),
+            self.resting.found((PLOTS[name] for name in state.tiles), state, course),
             Curve.of(state),
         )
         columns = self.board.columns(view, state.tiles, state.dark)
@@ -311,7 +309,7 @@ class Page:
 
     def _schedule(self):
         """Schedule the slow updates."""
-        if self.document is None or self.document.session_context is None or not self._ready:
+        if not (is_served(self.document) and self._ready):
             return
         if self._waiting is not None:
             self.document.remove_timeout_callback(self._waiting)
@@ -325,9 +323,8 @@ class Page:
             self.address.tags = [f"?{query}"]
         view = self.shown.view
         self.board.describe(view, readouts.summary(self.state))
-        for k, each in enumerate([view.course, *(each.course for each in self.shown.held)]):
-            self.resting.follow(f"course {k}", each.scene if each.pending else None, in_time, each)
-        self.resting.look(PLOTS, {plot.name for plot in self.shown.plots}, self.state, view.course)
+        courses = [view.course, *(each.course for each in self.shown.held)]
+        self.resting.begin(courses, self.shown.plots, self.state)
 
     @pn.io.hold()
     def _show_result(self, name, found):

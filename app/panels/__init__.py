@@ -20,12 +20,12 @@ _PARTS = {
 class Frame:
     """Buttons, parts of the side by name, and the guide above them."""
 
-    def __init__(self, preset: Any, axes: Any, guide: Any, parts: dict[str, Any]):
+    def __init__(self, preset: Any, guide: Any, parts: dict[str, Any]):
         self.undo, self.redo, self.reset = button("Undo", "z"), button("Redo", "y"), button("Reset", "r")
         self.hold, self.guide, self.dark = toggle("Hold", "h"), toggle("Guide", "g"), toggle("Dark", "d")
         self.numbers, self.warnings = html("", "all-numbers"), html("", "lights")
         about = html((HERE / "static" / "about.html").read_text(encoding="utf-8"))
-        menu = pn.Column(tools(self.reset, self.dark), axes, about, **WIDE)
+        menu = pn.Column(tools(self.reset, self.dark), about, **WIDE)
         self._parts = parts | {"menu": menu, "numbers": self.numbers}
         self.tabs = {name: toggle(*text) for name, text in _PARTS.items()}
         self._preset = preset

@@ -39,7 +39,7 @@ class Card:
             if plot.controls
             else []
         )
-        below = [self.note] if plot.find or plot.note else []
+        below = [self.note] if plot.find else []
         parts = [head, *above, self.key, pn.pane.Bokeh(self.picture.figure, **FULL), *below]
         self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
 
@@ -58,8 +58,6 @@ class Card:
             show(self.key, object=legend(plot, rows))
         if plot.name in view.found:
             show(self.note, object=view.found[plot.name].note)
-        elif plot.note:
-            show(self.note, object=linked(plot.note(view)))
 
     def describe(self, view: View) -> None:
         """Say what is seen, to those who do not see it."""

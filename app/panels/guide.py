@@ -22,7 +22,7 @@ _LEFT = "The page shows something else by now. Back and Next go on with the step
 def step_state(step: dict[str, Any], now: State) -> State:
     """State of a step; theme, held scenes and other tiles stay."""
     state = link.read(urlencode(step["set"]))
-    kept = {name: now[name] for name in ("hold", "keep", "dark", "axes", "curve")}
+    kept = {name: now[name] for name in ("hold", "keep", "dark", "curve")}
     return state.replace(tiles=state.tiles or now.tiles, **kept)
 
 

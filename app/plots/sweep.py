@@ -129,8 +129,7 @@ def quick(sweep: Sweep) -> bool:
 def found(course, sweep: Sweep):
     """Curve of the sweep with the present value and limits."""
     if not sweep.drive.solver:
-        yield Found({}, [], "Nothing is swept: press to a depth or a force, or let a body hit.")
-        return
+        return Found({}, [], "Nothing is swept: press to a depth or a force, or let a body hit.")
     numbers, present = sweep.numbers, getattr(course.hit or course.turning_point, sweep.against)
     (values,) = sweep.columns(numbers, [sweep.against])
     limits, powers = sweep.limits(numbers)
@@ -141,7 +140,7 @@ def found(course, sweep: Sweep):
         rows = {name: (numbers, np.where(row > 0, row, np.nan)) for name, (_, row) in rows.items()}
     visible = inside and (present > 0 or not y.log)
     rows["present value"] = (np.array([sweep.present]), np.array([present])) if visible else NOTHING
-    yield Found(rows, [x, y], " ".join(_notes(sweep, numbers, values, powers, inside)))
+    return Found(rows, [x, y], " ".join(_notes(sweep, numbers, values, powers, inside)))
 
 
 def _axes(sweep, values, present):

@@ -61,7 +61,7 @@ OPENING = next(iter(PRESETS))
 #: height of the undeformed surface.
 LAST_PROGRESS = 2.2
 #: What the view is like rather than the scene: undo leaves it alone.
-VIEW = ("progress", "hold", "tiles", "keep", "dark", "heights", "references", "axes")
+VIEW = ("progress", "hold", "tiles", "keep", "dark")
 
 # A number of a shape that has not been looked at is None: it is sized when it is.
 _DEFAULTS: dict[str, Any] = {name: q.bounded(q.default) for name, q in QUANTITIES.items()}

@@ -13,7 +13,10 @@ MAX_LENGTH, _MAX_VALUES, MAX_HELD, _MAX_TILES = 8000, 100, 4, 12
 _OPTIONS = {"shape": SHAPES} | CHOICES
 _FLAGS, _LISTS = ("dark", "keep"), ("hold", "tiles", "fixed")
 #: Names of version 0.3 with their present names, and names that are ignored.
-_RENAMED, _IGNORED = {"plots": "tiles"}, ("called", "sweep_low", "sweep_high")
+_RENAMED, _IGNORED = (
+    {"plots": "tiles"},
+    ("called", "sweep_low", "sweep_high", "references", "axes", "heights"),
+)
 
 
 def write(state: State, form: tuple[str, ...]) -> str:

@@ -22,7 +22,7 @@ def state_with(key=GOLD, drive=None, **choices) -> State:
 def view_of(state: State, progress=1.0, *held: State, **view) -> View:
     """The view of a state."""
     state = state.replace(progress=progress, **view)
-    return View(follow(state), state, [follow(each) for each in held], curve=Curve.of(state))
+    return View(follow(state), [follow(each) for each in held], curve=Curve.of(state))
 
 
 def linked_state(state: State) -> State:

@@ -1,13 +1,11 @@
 """What cannot be shown leaves the page as it was, and in use, wherever it fails. Without a browser."""
 
-import threading
 from dataclasses import replace
 
 import pytest
 
 from app import changes
 from app.page import Page
-from app.plots import plot
 from app.solve import COMPUTING, FAULT
 from app.state import PRESETS, preset_state
 
@@ -41,13 +39,6 @@ def assert_in_use(page):
     page.frame.undo.clicks += 1
     assert page.shown.view.course.scene.medium.q_c == Q_C
     assert len(page.notices) == 1
-
-
-def test_axes(page, monkeypatch):
-    monkeypatch.setattr(plot, "_scales", failing)
-    page.choices.widgets["axes"].value = "ratio"
-    assert page.state.axes == page.choices.widgets["axes"].value == "units"
-    assert_in_use(page)
 
 
 def test_a_plot_on_request(page, monkeypatch):
@@ -107,9 +98,9 @@ def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
         message.data = {"position": position}
         number._on_message(message)
     assert page.state.max_depth > start
-    page.apply(lambda state: state.replace(progress=0.5, axes="ratio"))
+    page.apply(lambda state: state.replace(progress=0.5, keep=True))
     page.frame.undo.clicks += 1
-    assert (page.state.max_depth, page.state.progress, page.state.axes) == (start, 0.5, "ratio")
+    assert (page.state.max_depth, page.state.progress, page.state.keep) == (start, 0.5, True)
     assert page.frame.undo.disabled
     page.frame.redo.clicks += 1
     assert page.state.max_depth > start
@@ -130,16 +121,8 @@ def test_the_indenter_is_dragged_to_a_depth_and_no_further_than_it_is_known(page
 
 
 def rested(page):
-    """Let the input be at rest, and wait until what was looked for then has come."""
-    came, show = threading.Event(), page._show_result
-
-    def shown(name, what):
-        show(name, what)
-        came.set()
-
-    page.resting._show = shown
+    """What is found of the section when the input is at rest."""
     page._input_rests()
-    assert came.wait(60)
     return page.shown.view.found["section"]
 
 

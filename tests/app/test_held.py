@@ -26,7 +26,7 @@ def holding(*depths):
 def test_one_gesture_holds_a_scene_and_lets_it_go():
     state = holding(6e-9, 9e-9)
     assert [held_scene(query, {}).course.turning_point.depth for query in state.hold] == [6e-9, 9e-9]
-    assert is_held(state.replace(progress=0.4, axes="ratio"))
+    assert is_held(state.replace(progress=0.4, keep=True))
     state = toggle_hold(state)
     assert [held_scene(query, {}).course.turning_point.depth for query in state.hold] == [6e-9]
     assert not is_held(state)

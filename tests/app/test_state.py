@@ -146,7 +146,7 @@ def test_a_link_holds_the_whole_page(drive):
     state = state_with(DROP, drive, damping="tau", shape="sphere")
     state = state.replace(progress=0.75, hold=(link_of(state),), tiles=("sweep", "section"))
     state = state.replace(dark=True, keep=True, fit_note="a < b")
-    state = state.replace(axes="ratio", references="all", heights="to_scale", section="zz")
+    state = state.replace(section="zz")
     again = linked_state(state)
     assert scene_of(again) == scene_of(state)
     for name in (*VIEW, "section", "fit_note"):
@@ -163,7 +163,7 @@ def test_a_link_of_version_0_3_is_read():
         "plasticity": "q_c",
         "damping": "none", "swept": "energy", "paraboloid_radius": "0.008", "E_1": "1e10", "speed": "2.0",
         "energy_from": "0.1", "mass_to": "9.0", "at": "1.5", "plots": "map sweep", "dark": "1",
-        "hold": hold,
+        "hold": hold, "axes": "ratio", "references": "all", "heights": "to_scale",
     }  # fmt: skip
     state = link.read(urlencode(old))
     assert (state.speed, state.progress, state.swept) == (2.0, 1.5, "energy")

@@ -192,12 +192,12 @@ def test_13_springs_of_an_oblique_impact_are_elastic_or_yielded():
 
 def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept():
     page = Page()
-    page.board.tabs["maw"].value = True
+    page.board.tabs["forces"].value = True
     assert page.shown.plots == [PLOTS[name] for name in ("springs", "pressure", "force")]
-    assert not page.board.tabs["maw"].value
+    assert not page.board.tabs["forces"].value
     page.apply(lambda state: changes.put(state, "max_depth", 5e-9))
     assert page.state.max_depth == 5e-9
-    assert "maw" not in link.write(page.state, DRIVES["depth"].form)
+    assert "forces" not in link.write(page.state, DRIVES["depth"].form)
     # A measured tip can be chosen where there is one only.
     assert "Measured tip" not in page.choices.widgets["shape"].options
     assert isinstance(page.share, Share)

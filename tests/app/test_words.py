@@ -152,14 +152,13 @@ def test_a_guided_scene_is_stepped_through_and_undone():
 def test_python_and_raw_indices_are_not_on_the_page():
     shown = [text for texts in CHOICES.values() for text in texts.values()] + [ABOUT["shape"]]
     shown += [quantity.label for quantity in QUANTITIES.values()]
-    for axes in ("units", "ratio"):
-        view = view_of(preset_state(), axes=axes)
-        shown += [
-            axis.label
-            for plot in PLOTS.values()
-            if plot.there(view) and not plot.find and plot.name != "residual"
-            for axis in view.axes_of(plot)
-        ]
+    view = view_of(preset_state())
+    shown += [
+        axis.label
+        for plot in PLOTS.values()
+        if plot.there(view) and not plot.find and plot.name != "residual"
+        for axis in view.axes_of(plot)
+    ]
     assert [text for text in shown if "_" in text] == []
     for shape in SHAPES.values():
         assert "_" not in marked(shape.height + shape.reduced)
