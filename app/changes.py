@@ -1,21 +1,19 @@
 """Changes of a state: functions that return another state or raise ValueError."""
 
-import re
 from collections.abc import Callable
 from math import inf
 from typing import Any
 
 import mdr_core as mdr
 
-from .drives import oblique, path
+from .drives import oblique
 from .solve import DRIVES, option, options, scene_of, turning_point
-from .state import State, checked, medium, number, preset_state, quantity, with_derived
+from .state import State, checked, medium, preset_state, with_derived
 from .state.quantities import QUANTITIES, shape_quantities
-from .state.units import fitting, read, written
+from .state.units import fitting, read
 
 #: Values of the view that a preset leaves as they are.
-_STAYING = ("hold", "tiles", "keep", "dark", "axes")
-_BETWEEN = re.compile(r"\s*(?:;|\t|,\s|\bat\b)\s*")
+_STAYING = ("hold", "tiles", "keep", "dark")
 
 
 def choose(state: State, name: str, wanted: str) -> State:
@@ -27,31 +25,41 @@ def choose(state: State, name: str, wanted: str) -> State:
         return state
     if name == "preset":
         return preset_state(wanted, **{each: state[each] for each in _STAYING})
-    if name == "swept":
-        return state.replace(swept=wanted, sweep_low=None, sweep_high=None)
     if name == "shape" and wanted == "sampled" and not state.samples:
         raise ValueError("load a tip first: a CSV file with radii r and heights z")
-    convert = CONVERT.get(name, lambda state, wanted: {})
-    numbers = {k: float(v) if k in QUANTITIES else v for k, v in convert(state, wanted).items()}
-    return with_derived(state.replace(**{name: wanted}, **numbers))
+    numbers = CONVERT[name](state, wanted) if name in CONVERT else {}
+    numbers = {k: float(v) if k in QUANTITIES else v for k, v in numbers.items()}
+    changed, made = state.replace(**{name: wanted}, **numbers), medium(state)
+    if name == "elasticity":
+        return put(changed, "E_star", made.E_star)
+    if name == "plasticity" and inf not in (made.q_c, medium(changed).q_c):
+        return put(changed, "q_c", made.q_c)
+    return with_derived(changed)
 
 
 def put(state: State, name: str, value: float) -> State:
     """Set a number; E* of two bodies through their moduli, q_c of a hardness through the hardness."""
-    value = checked(state, name, value)
+    value = checked(name, value)
     if name == "E_star" and state.elasticity != "modulus":
-        return with_derived(state.replace(**_elasticity(state, state.elasticity, value)))
+        return with_derived(state.replace(**_moduli(state, value)))
     if name == "q_c" and state.plasticity == "hardness":
-        name, value = "hardness", checked(state, "hardness", value / state.hardness_radius)
+        name, value = "hardness", checked("hardness", value / state.hardness_radius)
     return with_derived(state.replace(**{name: value}))
 
 
-def typed(state: State, name: str, text: str, like: float = 0.0) -> tuple[State, str]:
-    """Set a number from text; also returns how the text was read, if that may surprise."""
-    kind = quantity(state, name).kind
-    value, surprising = read(text, kind, fitting(number(state, name), kind, like))
-    reading = f"{text.strip()}{'' if kind == 'slope' else ' in SI'} is {written(value, kind)}"
-    return put(state, name, value), reading if surprising else ""
+def _moduli(state: State, E_star: float) -> dict[str, float]:
+    """Moduli with an effective modulus, Popov (2015), Eq. (2)."""
+    other = (1 - state.nu_2**2) / state.E_2 if state.elasticity == "bodies" else 0.0
+    compliance = 1 / E_star - other
+    if compliance > 0.01 / E_star:
+        return {"E_1": (1 - state.nu_1**2) / compliance}
+    return {"E_1": 2 * E_star * (1 - state.nu_1**2), "E_2": 2 * E_star * (1 - state.nu_2**2)}
+
+
+def typed(state: State, name: str, text: str, like: float = 0.0) -> State:
+    """Set a number from text; a bare number is in the displayed unit, that of `like` for zero."""
+    kind = QUANTITIES[name].kind
+    return put(state, name, read(text, kind, fitting(state[name], kind, like)))
 
 
 def take_tip(state: State, samples: tuple[Any, Any], note: str) -> State:
@@ -66,7 +74,7 @@ def hit_again(state: State, hit: mdr.Impact) -> State:
     """Let the body hit its own imprint."""
     if not hit.plastic_depth_increase > 0:
         raise ValueError("nothing has yielded further: the next impact is the same as this one")
-    left = checked(state, "plastic_depth", float(hit.plastic_depth))
+    left = checked("plastic_depth", float(hit.plastic_depth))
     return state.replace(plastic_depth=left, surface="imprint")
 
 
@@ -75,7 +83,7 @@ def press_to(state: State, depth: float) -> State:
     depth = QUANTITIES["max_depth"].bounded(depth)
     pressed = mdr.indent(scene_of(state).profile, medium(state), depth)
     numbers = DRIVES[state.drive].equivalent(state, pressed)
-    numbers = {name: checked(state, name, value) for name, value in numbers.items()}
+    numbers = {name: checked(name, value) for name, value in numbers.items()}
     return state.replace(progress=1.0, **numbers)
 
 
@@ -100,27 +108,11 @@ def _shape(state: State, shape: str) -> dict[str, Any]:
     }
 
 
-def _elasticity(state: State, wanted: str, modulus: float | None = None) -> dict[str, Any]:
-    """Moduli that give the present effective modulus, or another one, Popov (2015), Eq. (2)."""
-    modulus = modulus or medium(state).E_star
-    if wanted == "modulus":
-        return {"E_star": modulus}
-    other = (1 - state.nu_2**2) / state.E_2 if wanted == "bodies" else 0.0
-    compliance = 1 / modulus - other
-    if compliance > 0.01 / modulus:
-        return {"E_1": (1 - state.nu_1**2) / compliance}
-    return {"E_1": 2 * modulus * (1 - state.nu_1**2), "E_2": 2 * modulus * (1 - state.nu_2**2)}
-
-
 def _plasticity(state: State, wanted: str) -> dict[str, Any]:
-    """Numbers that give the present yield constant."""
-    q_c = medium(state).q_c
-    if q_c == inf:
+    """A hardness is measured at about the present contact radius."""
+    if wanted != "hardness" or medium(state).q_c == inf:
         return {}
-    if wanted == "q_c":
-        return {"q_c": q_c}
-    radius = float(f"{float(turning_point(state).contact_radius):.1g}")
-    return {"hardness": q_c / radius, "hardness_radius": radius} if wanted == "hardness" else {}
+    return {"hardness_radius": float(f"{float(turning_point(state).contact_radius):.1g}")}
 
 
 def _damping(state: State, wanted: str) -> dict[str, Any]:
@@ -144,65 +136,12 @@ def _surface(state: State, wanted: str) -> dict[str, Any]:
     }
 
 
-def _prescribed(state: State, wanted: str) -> dict[str, Any]:
-    return path.prescribed(state, scene_of(state), wanted) if state.drive == "path" and state.path else {}
-
-
 CONVERT: dict[str, Callable[[State, str], dict[str, Any]]] = {
     "shape": _shape,
-    "elasticity": _elasticity,
     "plasticity": _plasticity,
     "damping": _damping,
     "drive": lambda state, wanted: DRIVES[wanted].equivalent(state, turning_point(state)),
     "surface": _surface,
     "aim": oblique.aim,
-    "pattern": lambda state, wanted: path.pattern(state, turning_point(state), wanted),
-    "prescribed": _prescribed,
+    "pattern": lambda state, wanted: DRIVES["path"].equivalent(state, turning_point(state)),
 }
-
-
-# Vertices of a path as text, a line each: depth or force, and an optional time.
-
-
-def _columns(vertices: tuple, prescribed: str) -> list[tuple[str, Any]]:
-    """Kind and displayed unit of each column."""
-    kinds = path.KIND[prescribed], "time"
-    largest = [max(map(abs, column)) for column in zip(*vertices, strict=True)]
-    return [(kind, fitting(size, kind)) for kind, size in zip(kinds, [*largest, 0.0], strict=False)]
-
-
-def write_path(vertices: tuple, prescribed: str) -> str:
-    """Vertices as text for `read_path`, one unit a column, five digits."""
-    columns = _columns(vertices, prescribed)
-    return "\n".join(
-        ", ".join(f"{v / unit.factor:.5g} {unit.name}" for v, (_, unit) in zip(row, columns, strict=False))
-        for row in vertices
-    )
-
-
-def read_path(text: str, prescribed: str, shown: tuple) -> tuple:
-    """Vertices (SI) from edited text of the path `shown`.
-
-    Bare numbers are in the displayed units; unchanged lines keep all digits. Raises ValueError with the
-    line.
-    """
-    vertices, columns = [], _columns(shown, prescribed)
-    kept = dict(zip(write_path(shown, prescribed).splitlines(), shown, strict=True))
-    for line_number, line in enumerate(text.splitlines(), 1):
-        cells = [cell for cell in _BETWEEN.split(line.strip()) if cell]
-        try:
-            if len(cells) > 2:
-                raise ValueError(f"“{line:.40}” is more than a {prescribed} and a time")
-            pairs = zip(cells, columns, strict=False)
-            row = kept.get(line.strip()) or tuple(read(cell, *column)[0] for cell, column in pairs)
-        except ValueError as error:
-            raise ValueError(f"Line {line_number}: {error}") from None
-        vertices += [row] if row else []
-    return path.checked(vertices, prescribed)
-
-
-def type_path(state: State, text: str) -> State:
-    """Take typed vertices as an own path."""
-    if state.path and text == write_path(state.path, state.prescribed):
-        return state
-    return state.replace(path=read_path(text, state.prescribed, state.path), pattern="own")

@@ -1,5 +1,7 @@
 """The served page: `panel serve app` from the project root."""
 
+from urllib.parse import urlencode
+
 import panel as pn
 
 from . import theory
@@ -15,4 +17,4 @@ if _PLACE:
     theory.page(_PLACE[0].decode("utf-8", "replace")).servable(title="The theory")
 else:
     pn.extension(notifications=True, reconnect=True, **_SHEETS)
-    Page(pn.state.session_args).view.servable(title="Indentation explorer")
+    Page(urlencode(pn.state.session_args, doseq=True)).view.servable(title="Indentation explorer")

@@ -9,6 +9,8 @@ import panel as pn
 from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS
 
+from mdr_core.shapes.tables import decoded
+
 from . import changes
 from .drives import Course
 from .panels import Frame, readouts
@@ -20,9 +22,9 @@ from .panels.held import Held, Table, held_scene, is_held, toggle_hold
 from .panels.share import Share
 from .plots import NAMED, PLOTS, TILES
 from .plots.plot import Plot, View
-from .solve import DRIVES, Resting, described, follow, in_time
+from .solve import Resting, described, follow, is_served
 from .state import VIEW, State, link, preset_state
-from .state.files import Curve, decoded, read_tip
+from .state.files import Curve, read_tip
 from .ui import JS, on_upload, plain, show
 
 _LOG = logging.getLogger(__name__)
@@ -31,8 +33,7 @@ SETTLED = 300
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
 _UNDO_STEPS = 100
 #: Accessible names of widgets, by class.
-_NAMED = {"slider": "State along the path", "tour": "Guided scene"}
-_NAMED |= {"tip": "CSV file of a measured tip: r, z", "curve": "CSV file of a measured curve: depth, force"}
+_NAMED = {"slider": "State along the path"}
 
 
 @dataclass(frozen=True)
@@ -50,10 +51,16 @@ class Shown:
         return [plot for name, plot in PLOTS.items() if name in seen and plot.there(self.view)]
 
 
+def _opened(query: str) -> State:
+    """State of a link, with the plots that exist."""
+    state = link.read(query)
+    return state.replace(tiles=tuple(name for name in TILES if name in state.tiles))
+
+
 class Page:
     """The page of one session."""
 
-    def __init__(self, arguments: dict[str, list[bytes]] | None = None):
+    def __init__(self, query: str = ""):
         self.document, self.past, self.future, self._drag = pn.state.curdoc, [], [], None
         self.solved: dict[Any, Course] = {}
         self._waiting, self._ready, self.shown, self._courses_changed = None, False, None, False
@@ -61,7 +68,7 @@ class Page:
         self.resting = Resting(self._show_result)
         self.choices = Choices(self.apply, lambda: self.state)
         self.board = Board(self.choices, self._toggle_tile)
-        self.controls = Controls(self.choices, self.apply_or_raise, self.apply)
+        self.controls = Controls(self.choices, self.apply_or_raise)
         self.fitting = Fitting(self.choices, self.apply_or_raise, self.apply)
         self.share = Share(lambda: self.shown)
         self.guide = Guide(self.apply, lambda: self.shown.view.course)
@@ -70,16 +77,16 @@ class Page:
         self._show_history()
         self._watch()
         try:
-            self.draw(link.read(arguments) if arguments else self.state)
+            self.draw(_opened(query))
         except Exception as error:
             self.draw(self.state)
             self.notify(f"The link was not opened: {self._refusal(error)}")
 
     def _layout(self):
-        panels = {"share": self.share.view, "guide": self.guide.view, "menu": None}
-        tabs = {"explore": self.controls.view, "fit": self.fitting.view, "held": self.table.view}
+        parts = {"explore": self.controls.view, "fit": self.fitting.view}
+        parts |= {"held": self.table.view, "share": self.share.view}
         row = self.choices.row
-        self.frame = Frame(row("preset"), row("axes"), panels, tabs, self.share.show)
+        self.frame = Frame(row("preset"), self.guide.view, parts)
         self.address, self.theme = ColumnDataSource(name="address"), ColumnDataSource(name="theme")
         self.view = self.frame.framed(self.board)
 
@@ -96,7 +103,8 @@ class Page:
             lambda data: apply(lambda now: changes.take_tip(now, *read_tip(decoded(data)))),
         )
         frame.hold.param.watch(self._hold_toggled, "value")
-        frame.all.param.watch(lambda event: self._show_numbers(), "value")
+        for name in ("share", "numbers"):
+            frame.tabs[name].param.watch(lambda event: self._show_part(), "value")
         for name, each in (("dark", frame.dark), ("keep", self.board.keep)):
             each.param.watch(
                 lambda event, name=name: apply(lambda now: now.replace(**{name: event.new})), "value"
@@ -120,7 +128,6 @@ class Page:
         self.document.js_on_event(DocumentReady, ready)
         # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
-        self.document.on_session_destroyed(lambda context: self.resting.end())
 
     # Changes and refusals.
 
@@ -147,12 +154,10 @@ class Page:
             self.future, self._drag = [], mark
             self._show_history()
 
-    def apply(self, change: Any, refused: Any = None) -> None:
+    def apply(self, change: Any, refused: Any = None, mark: str | None = None) -> None:
         """Apply a change; show a refusal as a notice, or by `refused`."""
         try:
-            self.apply_or_raise(change)
-            self.controls.forget()
-            self.fitting.forget()
+            self.apply_or_raise(change, mark)
         except ValueError as error:
             (refused or self.notify)(str(error))
             self._show_panels()
@@ -207,16 +212,15 @@ class Page:
         held = self._held_scenes(state)
         view = View(
             course,
-            state,
             [each.course for each in held],
-            self.resting.found(PLOTS, state, course),
+            self.resting.found((PLOTS[name] for name in state.tiles), state, course),
             Curve.of(state),
         )
         columns = self.board.columns(view, state.tiles, state.dark)
         self.state, self.shown = state, Shown(state, view, held)
         self.readings = readouts.readings(course)
         self.board.show(columns, view, state)
-        self.board.player.stand(view, self.readings)
+        self.board.player.show(view, self.readings)
         if self.board.player.play.active:
             self._send()
         self._show_panels()
@@ -242,14 +246,12 @@ class Page:
             self._show_texts()
         show(self.frame.hold, value=bool(state.hold) and is_held(state))
         show(self.frame.tabs["held"], visible=bool(state.hold))
-        if self.frame.tab == "held" and not state.hold:
+        if self.frame.shown == "held" and not state.hold:
             self.frame.show("explore")
         show(self.frame.dark, value=state.dark)
         if self.theme.tags != [state.dark]:
             self.theme.tags = [state.dark]
-        if self.share.view.visible:
-            self.share.show()
-        self._show_numbers()
+        self._show_part()
         self._schedule()
 
     def _show_texts(self):
@@ -257,9 +259,12 @@ class Page:
         show(self.frame.warnings, object=readouts.warnings(course, state))
         self.controls.show_texts(state, course)
 
-    def _show_numbers(self):
-        if self.frame.all.value:
-            course = self.shown.view.course
+    def _show_part(self):
+        """Update the part of the side that is shown."""
+        course = self.shown.view.course
+        if self.frame.shown == "share":
+            self.share.show()
+        elif self.frame.shown == "numbers":
             show(self.frame.numbers, object=readouts.table(course, self.readings, course.now))
 
     # Player and dragging.
@@ -293,10 +298,7 @@ class Page:
         """Press to a depth given in the height unit of the springs plot."""
         if new and isinstance(new[0], int | float):
             depth = new[0] * self.shown.view.axis("z").factor
-            try:
-                self.apply_or_raise(lambda state: changes.press_to(state, depth), "hand")
-            except ValueError as error:
-                self.notify(str(error))
+            self.apply(lambda state: changes.press_to(state, depth), mark="hand")
             self.board.player.hand.tags = []
 
     # Updates when the input rests.
@@ -307,7 +309,7 @@ class Page:
 
     def _schedule(self):
         """Schedule the slow updates."""
-        if self.document is None or self.document.session_context is None or not self._ready:
+        if not (is_served(self.document) and self._ready):
             return
         if self._waiting is not None:
             self.document.remove_timeout_callback(self._waiting)
@@ -316,17 +318,13 @@ class Page:
     def _input_rests(self):
         self._waiting = None
         self._show_texts()
-        try:
-            query = link.write(self.state, DRIVES[self.state.drive].form)
-        except ValueError:
-            query = ""
+        query, _ = self.share.query()
         if self.address.tags != [f"?{query}"]:
             self.address.tags = [f"?{query}"]
         view = self.shown.view
         self.board.describe(view, readouts.summary(self.state))
-        for k, each in enumerate([view.course, *(each.course for each in self.shown.held)]):
-            self.resting.follow(f"course {k}", each.scene if each.pending else None, in_time, each)
-        self.resting.look(PLOTS, {plot.name for plot in self.shown.plots}, self.state, view.course)
+        courses = [view.course, *(each.course for each in self.shown.held)]
+        self.resting.begin(courses, self.shown.plots, self.state)
 
     @pn.io.hold()
     def _show_result(self, name, found):

@@ -1,15 +1,16 @@
-"""Courses of scenes: the table of drives, and slow searches in threads."""
+"""Courses of scenes: the table of drives, and slow searches."""
 
+import asyncio
 import logging
-import threading
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 from importlib import import_module
 from pkgutil import iter_modules
 from typing import Any
 
 import panel as pn
+from bokeh.document import without_document_lock
 
 import mdr_core as mdr
 
@@ -95,95 +96,81 @@ FAULT = Found({}, [], "This could not be found, because of a fault of the explor
 
 
 class Resting:
-    """Searches of a session: the latest of each name, in threads shared by all sessions."""
+    """Searches of a session while the input rests, in threads: the last one of each name."""
 
     def __init__(self, show: Callable[[str, Any], None]):
-        self._show, self._searches, self._found, self._document = show, {}, {}, pn.state.curdoc
+        self._show, self._asked, self._found, self._document = show, {}, {}, pn.state.curdoc
 
-    def follow(self, name: str, about: Any, search: Callable[..., Iterator[Any]], *arguments: Any) -> None:
-        """Start a search unless one with the same key `about` is running or done; None stops it."""
-        last, stop = self._searches.get(name, (None, None))
-        if last == about:
-            return
-        if stop is not None:
-            stop.set()
-        stop = threading.Event()
-        self._searches[name] = about, stop
-        if about is not None:
-            thread = pn.state.as_cached("resting", ThreadPoolExecutor, max_workers=2)
-            thread.submit(self._run, name, stop, search, *arguments)
-
-    def known(self, name: str, about: Any) -> Found:
-        asked, last = self._found.get(name, (None, COMPUTING))
-        return last if asked == about else replace(COMPUTING, axes=last.axes)
-
-    def found(self, plots: dict[str, Any], state: State, course: Course) -> dict[str, Found]:
-        """Results for the visible plots; quick ones are computed."""
-        known = {}
-        for plot in (plots[name] for name in state.tiles if name in plots and plots[name].find):
+    def begin(self, courses: list[Course], plots: Iterable[Any], state: State) -> None:
+        """Begin the slow searches of a state: exact courses, and those of plots of the first course."""
+        searches = [
+            self._find(f"course {k}", course.scene, in_time, course)
+            for k, course in enumerate(courses)
+            if course.pending
+        ]
+        for plot in (plot for plot in plots if plot.find):
             asked = plot.asked(state)
-            about = self._about(plot, course, asked)
-            if plot.quick(asked):
-                self._found[plot.name] = about, [*plot.find(course, asked)][-1]
-            known[plot.name] = self.known(plot.name, about)
-        return known
+            if not plot.quick(asked):
+                about = _about(plot, courses[0], asked)
+                searches.append(self._find(plot.name, about, plot.find, courses[0], asked))
 
-    def look(self, plots: dict[str, Any], seen: set[str], state: State, course: Course) -> None:
-        """Start the slow searches of visible plots."""
-        for plot in (plot for plot in plots.values() if plot.find):
-            asked = plot.asked(state) if plot.name in seen else None
-            slow = plot.name in seen and not plot.quick(asked)
-            about = self._about(plot, course, asked) if slow else None
-            self.follow(plot.name, about, plot.find, course, asked)
+        @without_document_lock
+        async def search():
+            await asyncio.gather(*searches)
 
-    @staticmethod
-    def _about(plot, course, asked):
-        """Key of a search."""
-        return course.scene, asked, course.progress[course.now] if plot.of_state else None
+        if is_served(self._document):
+            self._document.add_next_tick_callback(search)
+        else:
+            asyncio.run(search())
 
-    def give_up(self, name: str) -> None:
-        self._found[name] = self._searches[name][0], FAULT
-
-    def end(self) -> None:
-        for _, stop in self._searches.values():
-            stop.set()
-        self._searches, self._found = {}, {}
-
-    def _run(self, name, stop, search, *arguments):
-        def show(found):
-            self._inside(lambda: stop.is_set() or self._take(name, found))
-
-        if stop.is_set():
+    async def _find(self, name, about, search, *arguments):
+        """Search unless it was asked for with the same key `about`; show the result of the last key."""
+        if self._asked.get(name) == about:
             return
+        self._asked[name] = about
         try:
-            for found in search(*arguments):
-                if stop.is_set():
-                    return
-                show(found)
+            found = await asyncio.to_thread(search, *arguments)
         except Exception:
             _LOG.exception("%s could not be found, scene %s", name, arguments[0].scene.to_json())
-            show(FAULT)
+            found = FAULT
+        if self._asked[name] == about:
+            self._found[name] = about, found
+            show = partial(self._show, name, found)
+            self._document.add_next_tick_callback(show) if is_served(self._document) else show()
 
-    def _take(self, name, found):
-        if isinstance(found, Found):
-            self._found[name] = self._searches[name][0], found
-        self._show(name, found)
+    def found(self, plots: Iterable[Any], state: State, course: Course) -> dict[str, Found]:
+        """Results for some plots; quick ones are computed."""
+        results = {}
+        for plot in (plot for plot in plots if plot.find):
+            asked = plot.asked(state)
+            known, found = self._found.get(plot.name, (None, COMPUTING))
+            if plot.quick(asked):
+                found = plot.find(course, asked)
+            elif known != _about(plot, course, asked):
+                found = replace(COMPUTING, axes=found.axes)
+            results[plot.name] = found
+        return results
 
-    def _inside(self, act):
-        """Call a function under the lock of the session."""
-        if self._document is None or self._document.session_context is None:
-            act()
-        else:
-            self._document.add_next_tick_callback(act)
+    def give_up(self, name: str) -> None:
+        self._found[name] = self._asked[name], FAULT
 
 
-def in_time(course: Course) -> Iterator[Any]:
+def is_served(document: Any) -> bool:
+    """Whether a document is that of a session of the server."""
+    return document is not None and document.session_context is not None
+
+
+def _about(plot: Any, course: Course, asked: Any) -> Any:
+    """Key of the search of a plot."""
+    return course.scene, asked, course.progress[course.now] if plot.of_state else None
+
+
+def in_time(course: Course) -> Course | str:
     """Exact course of a pending one, or the reason of failure."""
-    drive = next(each for each in DRIVES.values() if each.owns(course.scene.drive))
     try:
-        yield drive.in_time(course.scene)
+        return drive_of(course.scene).in_time(course.scene)
     except ValueError as error:
-        yield str(error)
+        return str(error)
 
 
 def drive_of(scene: mdr.Scene) -> Drive:

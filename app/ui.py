@@ -91,8 +91,8 @@ def field(kind, *classes, **options):
     return kind(css_classes=["choice", *classes], **WIDE | options)
 
 
-def upload(name, accept, **options):
-    return pn.widgets.FileInput(accept=accept, css_classes=["file", name], **WIDE | options)
+def upload(label, accept):
+    return pn.widgets.FileInput(accept=accept, label=label, css_classes=["file"], **WIDE)
 
 
 def on_upload(widget, act):
@@ -109,6 +109,13 @@ def on_upload(widget, act):
 
 def tools(*parts, **options):
     return pn.Row(*parts, css_classes=["tools"], **WIDE | options)
+
+
+def reveal(column, part, visible, place=None):
+    """Show or hide a part of a column; the browser gets it when it is shown for the first time."""
+    show(part, visible=visible)
+    if visible and part not in column.objects:
+        column.insert(len(column) if place is None else place, part)
 
 
 def show(part, **values):

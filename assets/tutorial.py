@@ -3,6 +3,8 @@
 # Run it cell by cell, or as it is. It needs `pip install mdr-core xarray pandas matplotlib`.
 
 # %% A first curve: a sphere of 200 nm pressed into gold, let go, pressed again; shown, plotted, saved.
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -36,10 +38,20 @@ for limit in mdr.indent(mdr.Cone(slope=70.3), medium, 1e-9).limits:
     print(limit.what, "exceeded:" if limit.exceeded else "holds:", limit.sentence)
 
 # %% [markdown]
-# Tips as they are measured: noisy, on both sides of the axis. Files of instruments are read by pandas or
-# `afmformats` into columns, and these are the arrays to go on with:
-# `table = pandas.read_csv(name, sep=";", decimal=",")`, then
-# `mdr.Sampled.fit(1e-9 * table["r"], 1e-9 * table["z"])`.
+# A measured curve: fused silica under a Berkovich tip, which has the area of a cone of 70.3°. `read_curve`
+# reads tables as instruments write them, Excel files, and AFM files by `afmformats`, and shows how it
+# understood them. The unloading alone gives modulus and hardness; the fit of the whole curve adds the yield
+# constant, with the remark that glass is not in the class of media of this model.
+
+# %%
+curve = mdr.read_curve(Path(__file__).with_name("silica.csv"))
+print(curve)
+berkovich = mdr.Cone.from_half_angle(70.3)
+print(mdr.oliver_pharr(berkovich, curve.depth, curve.force))
+print(mdr.fit_indentation(berkovich, curve.depth, curve.force, contact_point=0.0))
+
+# %% [markdown]
+# Tips as they are measured: noisy, on both sides of the axis; `mdr.Sampled.from_csv` reads them.
 
 # %%
 noise = np.random.default_rng(1).standard_normal(401)

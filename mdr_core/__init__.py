@@ -13,6 +13,7 @@ from .dynamics.oblique import ObliqueImpact, oblique_impact
 from .fit.hardness import fit_hardness
 from .fit.impacts import fit_impacts
 from .fit.indentation import fit_indentation
+from .fit.oliver_pharr import oliver_pharr
 from .foundation.depth_path import TimedIndentation, indent_in_time
 from .foundation.force_path import creep
 from .foundation.foundation import Foundation
@@ -20,6 +21,7 @@ from .foundation.impact import chain_impact
 from .indentation import Indentation, indent, indent_to_force
 from .medium import Medium
 from .onset import critical_force, yield_speed
+from .reading import read_curve
 from .results.base import Motion
 from .scaling import ScalingLaw, hardness_class
 from .scene import Scene
@@ -73,6 +75,8 @@ __all__ = [
     "indent_in_time",
     "indent_to_force",
     "oblique_impact",
+    "oliver_pharr",
+    "read_curve",
     "sweep",
     "yield_speed",
 ]

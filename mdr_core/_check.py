@@ -153,13 +153,14 @@ def _real_array(quantity, value, what="real numbers"):
         raise ValueError(f"{quantity} must be {what}, got {shown(value)}") from None
 
 
-def finite_array(quantity, value, *, unit="", most=FARTHEST):
-    """`value` as a float array without NaN or infinity, of numbers up to `most` in size."""
+def finite_array(quantity, value, *, unit="", most=FARTHEST, missing=False):
+    """`value` as a float array of numbers up to `most` in size, without infinity; NaN where `missing`."""
     array = _real_array(quantity, in_unit(quantity, value, unit))
     large = np.isfinite(array) & (np.abs(array) > most)
     refuse(quantity, array, large, f"is beyond {most:g}", unit=unit, remedy="give it in SI units")
     remedy = "leave it out, or mend the data it comes from"
-    return refuse(quantity, array, ~np.isfinite(array), "must be finite", unit=unit, remedy=remedy)
+    bad = np.isinf(array) if missing else ~np.isfinite(array)
+    return refuse(quantity, array, bad, "must be finite", unit=unit, remedy=remedy)
 
 
 def force(quantity, value):

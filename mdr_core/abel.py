@@ -148,6 +148,42 @@ def stress_from_line_load(x: ArrayLike, q: ArrayLike, r: ArrayLike) -> Array:
     return ((_polygon_stress(x, slope, _is_even(x, slope, jump), r) + jumps) / np.pi)[()]
 
 
+def surface_displacement(x: ArrayLike, u: ArrayLike, r: ArrayLike) -> Array:
+    """Elastic displacement of the surface (m) from samples of the compression u(x) of the foundation.
+
+    (2/π) ∫ u(x)/√(r² − x²) dx over x < r, exact for a u that is linear between the samples and 0 after the
+    last one.
+
+    Parameters
+    ----------
+    x, u : array_like, shape (N,)
+        Coordinates (m), from 0 on in ascending order, and compression (m).
+    r : array_like
+        Radii (m).
+
+    Returns
+    -------
+    ndarray
+        Displacement (m), positive downward, of the shape of `r`.
+
+    Examples
+    --------
+    A flat punch of radius 1 m, pressed by 1 m, displaces the surface at r = 2 m by (2/π) arcsin(1/2) m:
+
+    >>> print(round(float(surface_displacement([0.0, 1.0], [1.0, 1.0], 2.0)), 12))
+    0.333333333333
+    """
+    x, u = _samples(x, u)
+    r = np.abs(_check.finite_array("radius r", r, unit="m"))[..., None]
+    inside, slope = np.minimum(x, r), np.diff(u) / np.diff(x)
+    # On the axis the displacement is that of its own spring.
+    ratio = np.divide(inside, r, out=np.ones_like(inside), where=r > 0)
+    angle = np.where(r > 0, np.diff(np.arcsin(ratio)), 0.0)
+    root = np.diff(np.sqrt((r - inside) * (r + inside)))
+    moved = 2 / np.pi * np.sum((u[:-1] - slope * x[:-1]) * angle - slope * root, axis=-1)
+    return np.where(r[..., 0] > 0, moved, u[0])[()]
+
+
 def _polygon_stress(x, slope, even, r):
     """∫ q′/√(x² − r²) dx (N/m²) for constant slopes; if even, of a parabola in the first interval."""
     curvature = 0.0

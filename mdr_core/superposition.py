@@ -68,7 +68,7 @@ def radius_drop(profile, interval):
     # ∫ da: the difference of the radii has few digits in a short interval. At the very tip, where it has
     # all of them, the rate may be infinite.
     with np.errstate(invalid="ignore"):
-        return np.where(narrow, _integrate(profile, interval, _radius_rate, moment=0), a - c)
+        return np.where(narrow, _integrate(profile, interval, radius_rate, moment=0), a - c)
 
 
 def tabulated(profile, known_depth):
@@ -89,7 +89,7 @@ def _radius(profile, depth):
     return profile._radius(depth)
 
 
-def _radius_rate(profile, depth):
+def radius_rate(profile, depth):
     """da/ds (dimensionless); 0 at a wall."""
     with np.errstate(divide="ignore"):
         return 1 / profile._reduced_slope(profile._radius(depth))

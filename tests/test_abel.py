@@ -131,6 +131,15 @@ class TestStressFromLineLoad:
             abel.stress_from_line_load(*arguments)
 
 
+def test_the_surface_beside_a_cone_is_that_of_its_springs():
+    """The compression under a cone is linear, so the displacement is exact to rounding."""
+    state = mdr.indent(mdr.Cone(slope=0.2), mdr.Medium(E_star=1e9), 1e-6)
+    x = np.array([0.0, 0.3, 1.0]) * state.contact_radius
+    r = np.array([0.0, 0.1, 0.5, 1.0, 1.2, 40.0]) * state.contact_radius
+    moved = abel.surface_displacement(x, state.line_load(x) / 1e9, r)
+    np.testing.assert_allclose(moved, state.surface(r), rtol=1e-12)
+
+
 class TestCallables:
     @pytest.mark.parametrize(
         ("slope", "reduced"),

@@ -14,7 +14,7 @@ PACKAGE = Path(mdr.__file__).parent
 ORDER = (
     "_check", "_numeric", "abel", "shapes.tables", "shapes.profile", "shapes.power",
     "shapes.tabulated", "shapes.rounded", "shapes.truncated", "shapes.sampled", "shapes.smooth", "medium",
-    "results.quantities", "results.limits", "results.report", "results.base",
+    "results.quantities", "results.limits", "results.report", "results.base", "reading",
     "foundation.refinement", "foundation.element", "foundation.grid", "foundation.foundation",
     "foundation.fronts", "foundation.depth_path", "foundation.force_path", "foundation.free_body",
     "foundation.impact",
@@ -23,8 +23,9 @@ ORDER = (
     "dynamics.steps", "dynamics.legs", "dynamics.course", "dynamics.motion", "dynamics.impact",
     "dynamics.levels", "dynamics.friction", "dynamics.oblique_motion", "dynamics.surface",
     "dynamics.oblique", "dynamics.ball", "sweep",
-    "fit.least_squares", "fit.curve", "fit.start", "fit.solution", "fit.remarks", "fit.indentation",
-    "fit.hardness", "fit.impacts", "drives", "scene", "results.figures", "__init__",
+    "fit.least_squares", "fit.oliver_pharr", "fit.measured", "fit.curve", "fit.start", "fit.solution",
+    "fit.remarks", "fit.figures", "fit.result", "fit.indentation", "fit.hardness", "fit.impacts", "drives",
+    "scene", "results.figures", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {
@@ -67,7 +68,7 @@ IMPORTS = {name: imports(name, path) for name, path in modules()}
 
 def test_every_module_has_its_place():
     assert set(ORDER) == KNOWN
-    assert len({name.split(".")[0] for name in KNOWN}) <= 21
+    assert len({name.split(".")[0] for name in KNOWN}) <= 22
 
 
 @pytest.mark.parametrize("name", ORDER)

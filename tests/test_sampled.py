@@ -253,11 +253,11 @@ class TestCsv:
         with pytest.raises(ValueError, match=says):
             self.read(tmp_path, text, **options)
 
-    def test_text_of_another_encoding_is_named(self, tmp_path):
+    @pytest.mark.parametrize("encoding", ["utf-16", "cp1252"])
+    def test_other_encodings(self, tmp_path, encoding):
         path = tmp_path / "tip.csv"
-        path.write_text("r (nm), z (nm)\n0,0\n1,1\n", encoding="utf-16")
-        with pytest.raises(ValueError, match=r"tip.csv is not UTF-8 text \(invalid start byte\)"):
-            mdr.Sampled.from_csv(path)
+        path.write_text("r (µm), z (µm)\n0,0\n1,1\n", encoding=encoding)
+        assert mdr.Sampled.from_csv(path).r == (0.0, 1e-6)
 
 
 class TestFit:

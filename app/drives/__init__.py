@@ -1,7 +1,7 @@
 """Base class of drives, and the states along their paths: one interface for the whole page."""
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from types import SimpleNamespace
 from typing import Any, Protocol, runtime_checkable
@@ -268,10 +268,6 @@ class Drive(ABC):
     def equivalent(self, state: Any, turning_point: mdr.Indentation) -> dict[str, Any]:
         """Numbers of this drive that lead to the same largest depth."""
 
-    @abstractmethod
-    def snippet(self, course: Course, given: str, prefix: str) -> list[str]:
-        """Python lines that reproduce the present state."""
-
     def words(self, state: Any) -> list[str]:
         """Additional parts of the summary."""
         return []
@@ -279,20 +275,3 @@ class Drive(ABC):
     def duration(self, state: Any, turning_point: mdr.Indentation) -> float | None:
         """Duration (s), if it matters."""
         return None
-
-
-def arguments(value: Any, written: Any = repr) -> str:
-    """Fields of a value of the core as Python arguments, without defaults."""
-    own = {each.name: getattr(value, each.name) for each in fields(value)}
-    usual = {each.name: each.default for each in fields(value)}
-    return named({n: own[n] for n in own if not np.array_equal(own[n], usual[n])}, written)
-
-
-def named(numbers: dict[str, Any], written: Any = repr) -> str:
-    numbers = {n: v.item() if isinstance(v, np.generic) else v for n, v in numbers.items()}
-    return ", ".join(f"{name}={written(number)}" for name, number in numbers.items())
-
-
-def printed(name: str, values: tuple[str, ...], index: str = "") -> str:
-    """Python line that prints values of a result."""
-    return f"print({', '.join(f'{name}.{value}{index}' for value in values)})"

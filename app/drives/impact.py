@@ -2,7 +2,7 @@
 
 import mdr_core as mdr
 
-from . import Course, Drive, arguments, nearest, path_progress, printed
+from . import Course, Drive, nearest, path_progress
 
 #: Instants of an impact.
 INSTANTS = 120
@@ -43,12 +43,6 @@ class Impact(Drive):
         work = float(turning_point.stored_energy + turning_point.plastic_work)
         return {"mass": mass, "speed": (2 * work / mass) ** 0.5}
 
-    def snippet(self, course, given, prefix):
-        hit, names = f"{prefix}hit", ("max_depth", "max_force", "restitution", "contact_time")
-        lines = [f"{hit} = mdr.impact({given}, {arguments(course.scene.drive)})", printed(hit, names)]
-        values = ("time", "depth", "velocity", "force", "contact_radius", "plastic_radius")
-        return lines if course.now == course.peak else lines + in_motion(course, prefix, values)
-
     def duration(self, state, turning_point):
         return float(turning_point.depth) / self.make(state).speed
 
@@ -57,10 +51,3 @@ def along(scene, progress, hit, motion, **more):
     """Course of an impact from its motion along the normal."""
     places, peak = path_progress(motion.time, motion.turning_index), motion.turning_index
     return Course(scene, places, motion.states, nearest(places, progress), peak, hit, motion, **more)
-
-
-def in_motion(course, prefix, values):
-    """Python lines that print values of the present state of an impact."""
-    motion = f"{prefix}motion"
-    lines = [f"{motion} = {prefix}hit.motion({INSTANTS})", f"i = {course.now}"]
-    return [*lines, printed(motion, values, "[i]")]

@@ -10,7 +10,7 @@ from mdr_core.dynamics.oblique_motion import along_surface, oblique_motion
 
 from ..state.quantities import CHOICES, QUANTITIES, USED
 from ..state.units import written
-from . import arguments, impact, printed
+from . import impact
 
 #: Maximum number of drawn elements, and halvings of steps for them (errors about 10⁻⁵).
 _ELEMENTS, _HALVINGS = 300, 2
@@ -64,20 +64,6 @@ class Oblique(impact.Impact):
         numbers = super().equivalent(state, turning_point)
         along = numbers["speed"] / np.tan(state.attack)
         return numbers | _aimed(numbers["speed"], float(along))
-
-    def snippet(self, course, given, prefix):
-        hit, names = f"{prefix}hit", ("tangential_velocity", "friction_work")
-        values = ("time", "force", "tangential_force", "tangential_velocity", "stick_radius", "slip_radius")
-        drive = course.scene.drive
-        solved = f"{hit} = mdr.oblique_impact({given}, {arguments(drive)})"
-        before, share = drive.tangential_speed, drive.tangential_mass / drive.mass
-        body = f"{before!r} + {share!r} * ({hit}.tangential_velocity - {before!r})"
-        # The core has the angle of the contact point from the normal.
-        angle = [
-            "from math import atan2, degrees",
-            f"print(degrees(atan2({hit}.normal.rebound_speed, {body})))  # of the body, to the surface",
-        ]
-        return [solved, printed(hit, names), *angle, *impact.in_motion(course, prefix, values)]
 
     def words(self, state):
         quantities = ((QUANTITIES[n], state[n]) for n in USED["aim"][state.aim])

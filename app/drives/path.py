@@ -1,6 +1,5 @@
-"""A path of depth or force through vertices; in time also ramp and hold, and creep."""
+"""Paths of several loadings, ramp and hold, and creep."""
 
-from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -9,144 +8,74 @@ import mdr_core as mdr
 from mdr_core import abel
 from mdr_core.yielding import LiveInterval
 
-from ..state.quantities import QUANTITIES
+from ..state import medium
+from ..state.quantities import CHOICES, QUANTITIES, USED
 from ..state.units import written
-from . import Course, Drive, nearest, onset, path_progress, printed
+from . import Course, Drive, nearest, path_progress
 from .press import limited_force
 
-#: What is prescribed: its kind of quantity, its value of a scene, its unit, and what of the core follows
-#: it, infinitely slowly and in time.
-KIND = {"depth": "length", "force": "force"}
-_VALUE = {"depth": mdr.DepthPath, "force": mdr.ForcePath}
-_UNIT = {"depth": "m", "force": "N"}
-_SLOWLY = {"depth": "indent", "force": "indent_to_force"}
-_IN_TIME = {"depth": "indent_in_time", "force": "creep"}
-#: Most vertices, and about how many states are drawn: of a path without dashpots, on the chain under
-#: prescribed depths, and under forces, where every one of them takes eight steps and more.
-MOST, _SLOW, _DEPTHS, _FORCES = 60, 200, 48, 24
+#: Steps of a piece of a path; of creep, each of which takes eight steps of the chain and more.
+_STEPS, _CREEP_STEPS = 24, 12
+#: Patterns in time.
+_TIMED = ("hold", "creep")
 #: Tolerance of the chain, below the resolution of plots.
 _TOLERANCE = 3e-3
 
 
-def _drive(path, prescribed):
-    value, *time = zip(*path, strict=True)
-    return _VALUE[prescribed](value, *time)
+def _vertices(drive):
+    """Prescribed values of a drive from first contact on, and times, or changes so far."""
+    if drive.time is not None:
+        return np.array(drive.force if _by_force(drive) else drive.depth), np.array(drive.time)
+    depth = np.append(0.0, drive.depth)
+    return depth, np.append(0.0, np.cumsum(np.abs(np.diff(depth))))
 
 
-def checked(path, prescribed):
-    """Vertices (SI; depth or force, optional time), if they are a valid path."""
-    if not 1 <= len(path) <= MOST or (len(path) == 1 and len(path[0]) == 2):
-        raise ValueError(f"A path has 1 to {MOST} vertices, in time 2 at least; this one has {len(path)}.")
-    if len({len(row) for row in path}) > 1:
-        raise ValueError("Give a time at each vertex, or at none.")
-    quantity = QUANTITIES[f"max_{prescribed}"]
-    low, high = quantity.bounds
-    if not low <= max(row[0] for row in path) or max(abs(row[0]) for row in path) > high:
-        bounds = " to ".join(written(bound, quantity.kind) for bound in quantity.bounds)
-        raise ValueError(f"The largest {prescribed} of a path is out of bounds: {bounds}.")
-    _drive(path, prescribed)
-    return tuple(tuple(map(float, row)) for row in path)
-
-
-def _parts(drive):
-    """Prescribed quantity, its values, and times or None."""
-    name = "force" if isinstance(drive, mdr.ForcePath) else "depth"
-    return name, np.atleast_1d(getattr(drive, name)), drive.time and np.array(drive.time)
-
-
-def pattern(state, turning_point, option):
-    """Quasi-static path of a pattern with the present largest depth."""
-    if option == "own":
-        return {}
-    medium = turning_point.medium
-    depth, time = float(turning_point.depth), float(f"{medium.relaxation_time or 1.0:.2g}")
-
-    def back(depth):
-        # Depth at loss of contact.
-        return max(depth - medium.critical_depth, 0.0)
-
-    if option == "creep":
-        force = limited_force(turning_point)
-        return {"prescribed": "force", "path": ((0.0, 0.0), (force, 0.1 * time), (force, 5 * time))}
-    if option == "hold":
-        path = [(0.0, 0.0), (depth, time), (depth, 5 * time)]
-    elif option == "cycles":
-        path = [(d,) for k in range(1, 6) for peak in (depth * k / 5,) for d in (peak, back(peak))]
-    else:
-        path = [(0.7 * depth,), (back(0.7 * depth),), (depth,), (back(depth),)]
-    return {"prescribed": "depth", "path": tuple(path)}
-
-
-def prescribed(state, scene, option):
-    """Vertices converted quasi-statically to the other prescribed quantity."""
-    _, values, _ = _parts(scene.drive)
-    states = _slowly(scene, values)
-    found = np.maximum(getattr(states, option), 0.0 if option == "force" else -np.inf).tolist()
-    path = [(value, *row[1:]) for value, row in zip(found, state.path, strict=True)]
-    return {"path": checked(path, option), "pattern": "own"}
-
-
-def _slowly(scene, values):
-    solve = getattr(mdr, _SLOWLY[_parts(scene.drive)[0]])
-    return solve(scene.profile, scene.medium, values)
-
-
-def _course(drive):
-    """Values of a path, without times from first contact on, and their times or cumulated changes."""
-    _, values, time = _parts(drive)
-    if time is not None:
-        return values, time
-    values = np.append(0.0, values)
-    return values, np.append(0.0, np.cumsum(np.abs(np.diff(values))))
+def _by_force(drive):
+    return isinstance(drive, mdr.ForcePath)
 
 
 def _refined(scene, chain):
-    """Prescribed values and places along the path, at the vertices and between them."""
-    (name, *_), (values, along) = _parts(scene.drive), _course(scene.drive)
-    most, places = 0.0, []
-    states = _SLOW if not chain else _DEPTHS if name == "depth" else _FORCES
-    pieces = min(max(states // (len(values) - 1), 1 if chain else 4), 32)
-    critical, first_yield = scene.medium.critical_depth, onset(scene)
-    start = critical if name == "depth" or first_yield is None else float(first_yield.force)
+    """Prescribed values and their places along the path, at the vertices and between them."""
+    values, along = _vertices(scene.drive)
+    by_force, largest = _by_force(scene.drive), scene.medium.critical_depth
+    places = [along]
     for (begin, first), (end, last) in pairwise(zip(along, values, strict=True)):
-        share = _shares(pieces + 1, chain, chain and first == last)
-        if first != last and not (chain and name == "force"):
-            # Just before yield, and on both sides of the loss of contact.
-            released, elastic = 0.0, most
-            if name == "depth":
-                released, elastic = max(most - critical, 0.0), min(critical, most)
-            before = 1 - 1e-12
-            events = np.array([before * start, before * most, released, released + 1e-9 * elastic])
-            events = (events - first) / (last - first)
-            share = np.append(share, events[(events > 0) & (events < 1)])
+        share = _shares(_CREEP_STEPS if chain and by_force else _STEPS, chain, first == last)
+        if last > largest and not by_force:
+            # Just before yield.
+            share = np.append(share, (largest * (1 - 1e-12) - first) / (last - first))
+            largest = last
         places.append(begin + (end - begin) * share)
-        most = max(most, last)
-    places = np.unique(np.append(np.concatenate(places), along))
+    places = np.unique(np.concatenate(places))
     return np.interp(places, along, values), places
 
 
-def _shares(count, chain, held):
-    """Places along a piece: dense at its ends, where radii start as a root; logarithmic in a hold."""
-    share = np.linspace(0, 1, count)
-    if held:
-        return (1e3**share - 1) / 999
-    # Dashpot forces change fastest at the start of a piece.
-    return share**2 if chain else (1 - np.cos(np.pi * share)) / 2
+def _shares(steps, chain, held):
+    """Places along a piece, dense where radii start as a root of the depth, and just before its end."""
+    share = np.linspace(0, 1, steps + 1)
+    if chain:
+        # Dashpot forces change fastest at the start of a piece.
+        return (1e3**share - 1) / 999 if held else share**2
+    return np.append((1 - np.cos(np.pi * share)) / 2, 1 - 1e-9)
 
 
 def _solved(scene, progress, chain, pending):
-    name, _, time = _parts(scene.drive)
     values, along = _refined(scene, chain)
+    by_force, bodies = _by_force(scene.drive), (scene.profile, scene.medium)
     if chain:
-        solve = getattr(mdr, _IN_TIME[name])
-        path = solve(scene.profile, scene.medium, values, along, tolerance=_TOLERANCE)
-        states = ChainStates(path)
+        solve = mdr.creep if by_force else mdr.indent_in_time
+        states = ChainStates(solve(*bodies, values, along, tolerance=_TOLERANCE))
     else:
         states = _slowly(scene, values)
-    peak = int(np.argmax(states.depth))
+    peak, timed = int(np.argmax(states.depth)), scene.drive.time is not None
     places = path_progress(along, peak)
-    motion = None if time is None else _motion(states, along)
+    motion = _motion(states, along) if timed else None
     return Course(scene, places, states, nearest(places, progress), peak, None, motion, True, pending)
+
+
+def _slowly(scene, values):
+    solve = mdr.indent_to_force if _by_force(scene.drive) else mdr.indent
+    return solve(scene.profile, scene.medium, values)
 
 
 def _motion(states, time):
@@ -167,18 +96,23 @@ _PLACES = 300
 class ChainStates:
     """States of a `TimedIndentation` whose elements are evaluated once for all states."""
 
-    def __init__(self, path, at=slice(None), whole=None):
-        self._path, self._at, self._whole = path, at, whole or self
-        subset = path[at]
-        self.profile, self.medium = path.profile, path.medium
-        self.limits, self.error = path.limits, path.error
-        self.depth, self.force, self.viscous_work = subset.depth, subset.force, subset.viscous_work
-        self.contact_radius, self.plastic_radius = subset.contact_radius, subset.plastic_radius
-        self.plastic_depth, self.stored_energy = subset.plastic_depth, subset.stored_energy
-        self.plastic_work = subset.plastic_work
+    def __init__(self, path, elements=None):
+        self.profile, self.medium, self.limits, self.error = (
+            path.profile,
+            path.medium,
+            path.limits,
+            path.error,
+        )
+        self.depth, self.force, self.contact_radius = path.depth, path.force, path.contact_radius
+        self.plastic_depth, self.plastic_radius = path.plastic_depth, path.plastic_radius
+        self.stored_energy, self.plastic_work = path.stored_energy, path.plastic_work
+        self.viscous_work, self._path = path.viscous_work, path
+        # Places, and line loads and elastic compressions of each state.
+        self._elements = elements or _elements(path)
 
     def __getitem__(self, index):
-        return ChainStates(self._path, index, self._whole)
+        x, load, elastic = self._elements
+        return ChainStates(self._path[index], (x, load[index], elastic[index]))
 
     @property
     def mean_pressure(self):
@@ -193,106 +127,86 @@ class ChainStates:
         length = np.where(a > 0, np.maximum(upper - lower, np.finfo(float).tiny), 0.0)
         return LiveInterval(lower, upper, length)
 
-    @cached_property
-    def _elements(self):
-        """Places, reduced heights, line loads and elastic compressions, one row a state."""
-        path = self._path
-        half = float(np.max(path.contact_radius)) or 1.0
-        x = np.linspace(0, half, _PLACES)
-        x = np.unique(np.concatenate([x, path.contact_radius, np.minimum(path.plastic_radius, half)]))
-        return x, path.profile.reduced(x), *path.elements(x)
-
     def line_load(self, x):
-        return self._path[self._at].line_load(x)
+        return self._path.line_load(x)
 
     def relaxing(self, g):
         """Remaining elastic compression (m) of released elements at heights g (m)."""
-        _, heights, load, elastic = self._whole._elements
-        return np.interp(g, heights, np.where(load[self._at] > 0, 0.0, elastic[self._at]), right=0.0)
+        x, load, elastic = self._elements
+        return np.interp(g, self.profile.reduced(x), np.where(load > 0, 0.0, elastic), right=0.0)
 
     def surface(self, r):
-        """Elastic displacement (m) u = (2/π) ∫ u_e dx/√(r² − x²), including released elements."""
-        x, _, _, elastic = self._whole._elements
-        u, r = elastic[self._at], np.asarray(r, float)[..., None]
-        inside, slope = np.minimum(x, r), np.diff(u) / np.diff(x)
-        with np.errstate(invalid="ignore"):
-            angle = np.diff(np.where(r > 0, np.arcsin(inside / np.where(r > 0, r, 1.0)), np.pi / 2))
-        root = np.diff(np.sqrt((r - inside) * (r + inside)))
-        return 2 / np.pi * np.sum((u[:-1] - slope * x[:-1]) * angle - slope * root, axis=-1)
+        """Elastic displacement (m), including that of released elements."""
+        x, _, elastic = self._elements
+        return abel.surface_displacement(x, elastic, r)
 
     def imprint(self, r):
         return mdr.Indentation(self.profile, self.medium, self.depth, self.live_interval).imprint(r)
 
     def pressure(self, r):
-        """Contact pressure (Pa) at radii r (m), from the elements."""
-        x, g, load, _ = self._whole._elements
-        radius, r = float(self.contact_radius), np.asarray(r, float)
-        inside = x < radius
+        """Contact pressure (Pa) at radii r (m); infinite at the rim while dashpots carry load there."""
+        x, load, _ = self._elements
+        inside = x < self.contact_radius
         if not inside.any():
-            return np.zeros(r.shape)[()]
-        x, q = np.append(x[inside], radius), load[self._at][inside]
-        # Dashpots that are pressed down end with a jump.
-        rim = q[-1] - self.medium.E_star * float(self.profile.reduced(radius) - g[inside][-1])
-        pressed = self._at > 0 and self._path.depth[self._at] > self._path.depth[self._at - 1]
-        q = np.append(q, min(max(rim, 0.0), q[-1]) if pressed else 0.0)
-        return 0.0 - abel.stress_from_line_load(x, q, r)
+            return np.zeros(np.shape(r))[()]
+        x, load = np.append(x[inside][:-1], self.contact_radius), load[inside]
+        load[-1] = load[-1] if load[-1] > 1e-6 * load.max() else 0.0
+        return 0.0 - abel.stress_from_line_load(x, load, r)
+
+
+def _elements(path):
+    """Places (m), line loads (N/m) and elastic compressions (m) of the elements in all states."""
+    a, c = path.contact_radius, path.plastic_radius
+    half = float(np.max(a)) or 1.0
+    # The load may jump at the rim.
+    x = np.concatenate([np.linspace(0, half, _PLACES), a, a * (1 - 1e-9), np.minimum(c, half)])
+    x = np.unique(x)
+    return x, *path.elements(x)
 
 
 class Path(Drive):
     """Pressed along a path."""
 
     key, values = "path", (mdr.DepthPath, mdr.ForcePath)
-    form = ("pattern", "prescribed", "vertices")
+    form = ("pattern",)
 
     def owns(self, value):
-        return super().owns(value) and np.ndim(getattr(value, _parts(value)[0])) > 0
+        return super().owns(value) and np.ndim(value.force if _by_force(value) else value.depth) > 0
 
     def make(self, state):
-        if not state.path:
-            raise ValueError("Give the path some vertices.")
-        return _drive(checked(state.path, state.prescribed), state.prescribed)
+        if state.pattern in _TIMED:
+            times = (0.0, state.ramp_time, 5 * state.ramp_time)
+            if state.pattern == "creep":
+                return mdr.ForcePath((0.0, state.max_force, state.max_force), times)
+            return mdr.DepthPath((0.0, state.max_depth, state.max_depth), times)
+        tenths = (2, 4, 6, 8, 10) if state.pattern == "cycles" else (7, 10)
+        peaks = [state.max_depth * tenth / 10 for tenth in tenths]
+        # Unloading ends at loss of contact.
+        critical = medium(state).critical_depth
+        return mdr.DepthPath([d for peak in peaks for d in (peak, max(peak - critical, 0.0))])
 
     def follow(self, scene, progress):
         """States; creep of a viscous medium without dashpots at first."""
         viscous = scene.drive.time is not None and scene.medium.eta > 0
-        pending = viscous and isinstance(scene.drive, mdr.ForcePath)
+        pending = viscous and _by_force(scene.drive)
         return _solved(scene, progress, viscous and not pending, "so far without dashpots" * pending)
 
     def in_time(self, scene):
         return _solved(scene, 1.0, True, "")
 
     def turning_point(self, scene):
-        return _slowly(scene, float(np.max(_parts(scene.drive)[1])))
+        return _slowly(scene, float(np.max(_vertices(scene.drive)[0])))
 
     def equivalent(self, state, turning_point):
-        """The pattern scaled to the present depth; an own path stays."""
-        own = state.pattern == "own"
-        if own and state.path:
-            return {}
-        option = "reload" if own else state.pattern
-        return {"pattern": option} | pattern(state, turning_point, option)
-
-    def snippet(self, course, given, prefix):
-        name, _, time = _parts(course.scene.drive)
-        values, along = _course(course.scene.drive)
-        places = _refined(course.scene, False)[1] if time is None else course.motion.time
-        prescribed_values = course.force if name == "force" else course.states.depth
-        # First contact is none of the vertices.
-        past = (along > 0) | (time is not None)
-        past &= along < places[course.now] - 1e-12 * (places[-1] - places[0])
-        chain, state = time is not None and course.scene.medium.eta > 0, f"{prefix}state"
-        given += f", {[*values[past].tolist(), float(prescribed_values[course.now])]}"
-        given += f", {[*along[past].tolist(), float(places[course.now])]}" * chain
-        solve, unit = (_IN_TIME if chain else _SLOWLY)[name], _UNIT[name] + ", s" * chain
-        names = ("depth", "force", "contact_radius", "plastic_radius")
-        return [f"{state} = mdr.{solve}({given})[-1]  # {unit}", printed(state, names)]
+        """Pattern of the present depth, and a ramp of one relaxation time."""
+        numbers = {"max_depth": float(turning_point.depth), "max_force": limited_force(turning_point)}
+        time = float(f"{turning_point.medium.relaxation_time or 1.0:.2g}")
+        return numbers if state.drive == "path" else numbers | {"ramp_time": time}
 
     def words(self, state):
-        sizes, time = [row[0] for row in state.path], self.duration(state, None)
-        most = written(max(sizes), KIND[state.prescribed], 3)
-        within = f" in {written(time, 'time', 3)}" if time else ""
-        return [f"path of {len(sizes)} vertices to {most}{within}"]
+        numbers = ((QUANTITIES[n], state[n]) for n in USED["pattern"][state.pattern])
+        texts = (f"{q.symbol} = {written(value, q.kind, 3)}" for q, value in numbers)
+        return [*texts, CHOICES["pattern"][state.pattern]]
 
     def duration(self, state, turning_point):
-        path = state.path
-        return path[-1][1] - path[0][1] if path and len(path[0]) == 2 else None
+        return 5 * state.ramp_time if state.pattern in _TIMED else None

@@ -5,7 +5,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.yielding import LiveInterval, path_intervals
 
-from . import Course, Drive, nearest, printed, rounded
+from . import Course, Drive, nearest, rounded
 
 #: Places from 0 to 1, dense at both ends, where radii change as a root of the depth.
 _SPREAD = (1 - np.cos(np.linspace(0, np.pi, 41))) / 2
@@ -51,13 +51,6 @@ class Press(Drive):
 
     def turning_point(self, scene):
         return scene.solve()
-
-    def snippet(self, course, given, prefix):
-        turned = course.now > course.peak
-        path = course.states.depth[[course.peak, course.now] if turned else [course.now]].tolist()
-        state = f"{prefix}state"
-        solved = f"{state} = mdr.indent({given}, {path})[-1]  # m"
-        return [solved, printed(state, ("force", "contact_radius", "plastic_radius"))]
 
 
 class Depth(Press):

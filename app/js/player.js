@@ -4,10 +4,9 @@ const sent = () => {
   return frames.sent
 }
 const stand = (k) => {
-  const { pictures, words, phases } = sent()
+  const { pictures, words } = sent()
   frames.tags[0].forEach((source, n) => { source.data = { ...source.data, ...pictures[k][n] } })
   readout.setv({ text: words[k] }, { sync: false })
-  standing.setv({ text: phases[k] }, { sync: false })
 }
 if (cb_obj !== play) return void (frames.tags.length && stand(state.value))
 play.label = play.active ? "❚❚ Pause" : "▶ Play"

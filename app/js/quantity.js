@@ -15,10 +15,10 @@ export function render({ model, el }) {
     if (label.innerHTML !== model.label) [label.innerHTML, about.innerHTML] = [model.label, model.about]
     ;[text.ariaLabel, range.ariaLabel, help.ariaLabel] = [model.spoken, `${model.spoken}, slider`, `What is ${model.spoken}?`]
     ;[range.max, range.hidden] = [model.steps, !model.steps]
-    // What was refused stays in its field, to be mended.
+    // What was refused stays in its field, to be corrected.
     if (!model.refused) text.value = model.text
-    text.setAttribute("aria-invalid", String(model.refused))
-    said.textContent = model.said
+    text.setAttribute("aria-invalid", String(model.refused !== ""))
+    said.textContent = model.refused
     if (wish === null) range.value = model.position
     range.style.setProperty("--share", range.value / range.max)
     range.setAttribute("aria-valuetext", model.text)
@@ -28,7 +28,7 @@ export function render({ model, el }) {
     ;[busy, wish] = [false, null]
     show(next && ask(next))
   })
-  model.on(["text", "position", "refused", "said", "spoken", "steps"].map((what) => `change:${what}`), () => busy || show())
+  model.on(["text", "position", "refused"].map((what) => `change:${what}`), () => busy || show())
   range.addEventListener("input", () => {
     range.style.setProperty("--share", range.value / range.max)
     ask({ position: range.valueAsNumber })

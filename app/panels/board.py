@@ -26,20 +26,20 @@ class Card:
     """A plot in its frame: title, formula, legend, controls above and a note below."""
 
     def __init__(self, plot: Plot, choices: Choices, scene: ColumnDataSource):
-        self.plot, self.picture, self._shown = plot, Picture(plot), None
-        self.words, self.key, self.note = html("", "formula"), html("", "key"), html("", "note", "found")
+        self.plot, self.picture, self._rows = plot, Picture(plot), None
+        self.head, self.key, self.note = html("", "formula"), html("", "key"), html("", "note", "found")
         save, self.large = button("Save", "none"), toggle("Large", "none")
         rows = [row.name for row in plot.rows if row.legend]
         told = {"figure": self.picture.figure, "scene": scene, "rows": rows, "title": plot.title}
         save.js_on_click(args=told, code=f"(async () => {{{JS['save']}}})()")
         self.large.param.watch(self._enlarge, "value")
-        head = pn.Row(self.words, save, self.large, css_classes=["head"], stylesheets=STYLE, **WIDE)
+        head = pn.Row(self.head, save, self.large, css_classes=["head"], stylesheets=STYLE, **WIDE)
         above = (
             [pn.Row(*map(choices.row, plot.controls), css_classes=["above"], **WIDE)]
             if plot.controls
             else []
         )
-        below = [self.note] if plot.find or plot.note else []
+        below = [self.note] if plot.find else []
         parts = [head, *above, self.key, pn.pane.Bokeh(self.picture.figure, **FULL), *below]
         self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
 
@@ -51,15 +51,13 @@ class Card:
         """Draw columns made for a view, with what is said around them."""
         plot, course = self.plot, view.course
         self.picture.show(columns, view, dark)
-        show(self.words, object=f"<h3>{plot.title}</h3>{linked(plot.says(course))}")
-        there = drawn(view, plot, {course.now, course.peak})
-        if there != self._shown:
-            self._shown = there
-            show(self.key, object=legend(plot, there))
+        show(self.head, object=f"<h3>{plot.title}</h3>{linked(plot.says(course))}")
+        rows = drawn(view, plot, {course.now, course.peak})
+        if rows != self._rows:
+            self._rows = rows
+            show(self.key, object=legend(plot, rows))
         if plot.name in view.found:
             show(self.note, object=view.found[plot.name].note)
-        elif plot.note:
-            show(self.note, object=linked(plot.note(view)))
 
     def describe(self, view: View) -> None:
         """Say what is seen, to those who do not see it."""
@@ -80,19 +78,16 @@ class Player:
         fixed = {"stylesheets": STYLE, "margin": 0, "sizing_mode": "stretch_width"}
         self.heads = HTML(css_classes=["readouts", "heads"], height=29, **fixed)
         self.readout = HTML(css_classes=["readouts"], height=24, **fixed)
-        self.standing = HTML(css_classes=["standing"], width=190, height=18, stylesheets=STYLE, margin=0)
         parts = {"frames": self.frames, "state": self.state, "play": self.play}
-        self.parts = parts | {"readout": self.readout, "standing": self.standing}
+        self.parts = parts | {"readout": self.readout}
         code = CustomJS(args=self.parts, code=JS["player"])
         self.state.js_on_change("value", code)
         self.frames.js_on_change("tags", code)
         self.play.js_on_change("active", code)
-        self.view = pn.Row(
-            *map(pn.pane.Bokeh, (self.play, self.state, self.standing)), css_classes=["player"], **WIDE
-        )
+        self.view = pn.Row(*map(pn.pane.Bokeh, (self.play, self.state)), css_classes=["player"], **WIDE)
 
-    def stand(self, view: View, found: dict) -> None:
-        """Show where a course stands, and its readouts; frames of another one are none of it."""
+    def show(self, view: View, numbers: dict) -> None:
+        """Show the present state of a course and its readouts; frames of another course are dropped."""
         course, i = view.course, view.course.now
         if self.frames.tags:
             self.frames.tags = []
@@ -102,11 +97,10 @@ class Player:
         self.state.tags = [
             path | {"unit": d.factor / z.factor, "pressing": course.motion is None and not course.turns}
         ]
-        self.heads.text = escape(readouts.heads(course, found))
-        self.readout.text = escape(readouts.values(course, found, i))
-        self.standing.text = escape(readouts.phase(course, i))
+        self.heads.text = escape(readouts.heads(course, numbers))
+        self.readout.text = escape(readouts.values(course, numbers, i))
 
-    def send(self, view: View, found: dict, pictures: list[Picture]) -> None:
+    def send(self, view: View, numbers: dict, pictures: list[Picture]) -> None:
         """Send all states, once."""
         if self.frames.tags:
             return
@@ -119,8 +113,7 @@ class Player:
             times = (course.motion.time - course.motion.time[0]) / np.ptp(course.motion.time)
         sent = {
             "pictures": [[columns for frame in each for columns in frame.values()] for each in frames],
-            "words": [escape(readouts.values(course, found, i)) for i in states],
-            "phases": [escape(readouts.phase(course, i)) for i in states],
+            "words": [escape(readouts.values(course, numbers, i)) for i in states],
             "times": times.tolist(),
         }
         # As one text: Bokeh would look at every number of it.
@@ -198,8 +191,8 @@ class Board:
     def show_tabs(self, view: View, state: Any) -> None:
         """The tabs of plots that the scene has, of which some are asked for."""
         for name, tab in self.tabs.items():
-            there = PLOTS[name].there(view)
-            show(tab, visible=there, value=there and name in state.tiles)
+            possible = PLOTS[name].there(view)
+            show(tab, visible=possible, value=possible and name in state.tiles)
         show(self.keep, value=state.keep)
 
     def pictures(self) -> list[Picture]:

@@ -11,26 +11,45 @@ import param
 from .. import changes
 from ..drives import Course
 from ..solve import DRIVES, option, options
-from ..state import PRESETS, State, altered, number, preset_value, quantity
-from ..state.quantities import ABOUT, CHOICES, LABELS, SHAPES, USED, Quantity, Scale, shape_quantities
+from ..state import PRESETS, State, altered
+from ..state.quantities import (
+    ABOUT,
+    CHOICES,
+    LABELS,
+    QUANTITIES,
+    SHAPES,
+    USED,
+    Scale,
+    shape_quantities,
+)
 from ..state.units import UNITS, digits, entry, written
-from ..ui import JS, WIDE, button, explained, field, html, linked, marked, show, symbol, tools, upload
-from .readouts import sketch
+from ..ui import (
+    JS,
+    WIDE,
+    button,
+    explained,
+    field,
+    html,
+    linked,
+    marked,
+    reveal,
+    show,
+    symbol,
+    tools,
+    upload,
+)
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
 #: Choices shown as radio buttons; others are lists.
-_RADIO = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface", "prescribed", "aim", "body")
+_RADIO = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface", "aim", "body")
 #: Choices about the medium that are one click away, unless they are in use.
 _MORE = ("elasticity", "plasticity", "damping", "inertia")
-_VERTICES = (
-    "One vertex a line: a depth or force with its unit, then a time after a comma and a blank, a semicolon "
-    "or a tab, at each vertex or at none. Straight in between. Without times the path is followed "
-    "infinitely slowly, from first contact on."
-)
+#: Numbers that other regions of the form have.
+_ELSEWHERE = {"drive": ("density",), "more": ("E_star", "q_c")}
 
 
-def _about(known: Quantity) -> str:
+def _about(known: Any) -> str:
     low, high = (written(bound, known.kind, 2) for bound in known.bounds)
     units = ", ".join(unit.name for unit in UNITS[known.kind] if unit.name)
     rows = [linked(known.help), f"<em>{linked(known.equation)}</em>" if known.equation else ""]
@@ -46,92 +65,69 @@ class Number(pn.custom.JSComponent):
     """
 
     label, spoken, about = param.String(), param.String(), param.String()
-    text, said, refused = param.String(), param.String(), param.Boolean()
-    position, steps, answered = param.Integer(), param.Integer(Scale.STEPS), param.Integer()
+    text, refused = param.String(), param.String()
+    position, steps, answered = param.Integer(), param.Integer(), param.Integer()
 
     _esm = JS["quantity"]
 
-    def __init__(self, apply_or_raise: Callable[..., None]):
-        self._apply_or_raise, self.key, self._like, self._scale = apply_or_raise, "", 0.0, None
-        super().__init__(css_classes=["number"], **WIDE)
+    def __init__(self, name: str, apply_or_raise: Callable[..., None]):
+        known = QUANTITIES[name]
+        self.key, self._apply_or_raise, self._like, self._preset = name, apply_or_raise, 0.0, ""
+        self._scale = Scale(known, known.default)
+        texts = {
+            "label": f"{symbol(known.symbol)} {marked(known.label)}",
+            "spoken": f"{known.symbol}, {known.label}",
+            "about": _about(known),
+        }
+        steps = Scale.STEPS if known.span >= 0 else 0
+        super().__init__(css_classes=["number"], steps=steps, **texts, **WIDE)
         self.on_msg(self._on_message)
 
     def _on_message(self, event):
-        said, message = "", event.data
         with pn.io.hold():
+            refused = ""
             try:
-                said = self._change(message)
-                self.refused = False
+                self._change(event.data)
             except ValueError as error:
-                said, self.refused = str(error), "text" in message
-            self.param.update(said=said, answered=self.answered + 1)
+                refused = str(error)
+            self.param.update(refused=refused, answered=self.answered + 1)
 
     def _change(self, message):
-        said: list[str] = []
-
-        def type_it(state):
-            state, text = changes.typed(state, self.key, message["text"], self._like)
-            said.append(text)
-            return state
-
         if isinstance(message.get("text"), str):
-            self._apply_or_raise(type_it)
+            text, like = message["text"], self._like
+            self._apply_or_raise(lambda state: changes.typed(state, self.key, text, like))
         elif isinstance(message.get("position"), int | float):
             value = self._scale.value(message["position"])
             self._apply_or_raise(lambda state: changes.put(state, self.key, value), self.key)
         elif "reset" in message:
-            if self.key.startswith("sweep"):
-                self._apply_or_raise(lambda state: state.replace(**{self.key: None}))
-            else:
-                self._apply_or_raise(lambda state: changes.put(state, self.key, self._scale.middle))
-        return said[0] if said else ""
+            self._apply_or_raise(lambda state: changes.put(state, self.key, self._scale.middle))
 
-    def forget(self) -> None:
-        """Clear messages."""
-        show(self, said="", refused=False)
-
-    def show(self, state: State, name: str, like: float = 0.0) -> None:
+    def show(self, state: State, like: float = 0.0) -> None:
         """Show a number; zero in the unit that fits the value `like`."""
-        known, value = quantity(state, name), number(state, name)
-        scaled = (name, state.preset, known.symbol)
-        if (
-            self.key != name
-            or self._scale is None
-            or scaled != self._scaled
-            or not self._scale.reaches(value)
-        ):
-            # A value outside the slider becomes its new middle.
-            start = value if name.startswith("sweep") else preset_value(state, name)
-            self._scale, self._scaled = Scale(known, start), scaled
-            if not self._scale.reaches(value):
-                self._scale = Scale(known, value)
-            label = f"{symbol(known.symbol)} {marked(known.label)}"
-            if self.label != label or self.key != name:
-                self.forget()
-                show(self, label=label, about=_about(known), steps=Scale.STEPS if known.span >= 0 else 0)
-                show(self, spoken=", ".join(filter(None, (known.symbol, known.label))))
-        self.key, self._like = name, like
-        show(self, text=entry(value, known.kind, like), position=self._scale.position(value))
+        known, value, self._like = QUANTITIES[self.key], state[self.key], like
+        # The middle of the slider stays while it moves.
+        if self._preset != state.preset or not self._scale.reaches(value):
+            middle = PRESETS[state.preset].values.get(self.key, value)
+            self._scale, self._preset = Scale.about(known, middle, value), state.preset
+        text, position = entry(value, known.kind, like), self._scale.position(value)
+        show(self, text=text, position=position, refused="")
 
 
 class Numbers(pn.Column):
-    """A column of number fields, reused for different numbers."""
+    """A column of number fields; one is made when it is used for the first time, and stays."""
 
     def __init__(self, apply_or_raise: Callable[..., None]):
         super().__init__(css_classes=["numbers"], **WIDE)
         self._apply_or_raise = apply_or_raise
 
     def show(self, state: State, names: list[str], likes: dict[str, float] | None = None) -> None:
-        for place, name in enumerate(names):
-            if place == len(self):
-                self.append(Number(self._apply_or_raise))
-            self[place].show(state, name, (likes or {}).get(name, 0.0))
-        for place, each in enumerate(self):
-            show(each, visible=place < len(names))
-
-    def forget(self) -> None:
+        for name in names:
+            if name not in [each.key for each in self]:
+                self.append(Number(name, self._apply_or_raise))
         for each in self:
-            each.forget()
+            if each.key in names:
+                each.show(state, (likes or {}).get(each.key, 0.0))
+            show(each, visible=each.key in names)
 
 
 class Choices:
@@ -143,31 +139,22 @@ class Choices:
         self.rows: dict[str, Any] = {}
 
     def row(self, name: str) -> Any:
+        """A choice with its explanation: radio buttons or a list."""
         if name not in self.rows:
             self.rows[name] = self._radio(name) if name in _RADIO else self._list(name)
         return self.rows[name]
 
     def _radio(self, name):
-        texts = {text: option for option, text in CHOICES[name].items()}
-        widget = self._made(name, pn.widgets.RadioBoxGroup, options=texts, inline=True)
+        widget = self._made(name, pn.widgets.RadioBoxGroup, inline=True)
         legend = html(explained("about", LABELS[name], linked(ABOUT[name])), "legend")
         return pn.Row(legend, widget, css_classes=["fieldset", f"of-{name}"], **WIDE)
 
     def _list(self, name):
-        """Drop-down list with its explanation."""
         beside = ["beside"] * (name != "shape")
-        widget = self._made(name, pn.widgets.Select, f"of-{name}", *beside, options=self._texts(name))
+        widget = self._made(name, pn.widgets.Select, f"of-{name}", *beside, label=LABELS[name])
         look = f'class="help" aria-label="What is {LABELS[name]}?"'
         about = explained("about", "?", linked(ABOUT[name]), look)
         return tools(widget, pn.pane.HTML(about, width=26, margin=0))
-
-    def _texts(self, name):
-        state = self._state()
-        if name == "preset":
-            return {preset.label: key for key, preset in PRESETS.items()}
-        if name == "shape":
-            return {shape.label: key for key, shape in SHAPES.items() if key != "sampled" or state.samples}
-        return {CHOICES[name][option]: option for option in options(state, name)}
 
     def _made(self, name, kind, *classes, **options):
         def choose(event):
@@ -175,160 +162,117 @@ class Choices:
                 self._apply(lambda state: changes.choose(state, name, event.new))
             show(widget, value=option(self._state(), name))
 
-        value = option(self._state(), name)
-        label = {"label": LABELS[name]} if kind is pn.widgets.Select else {}
-        widget = self.widgets[name] = field(kind, *classes, value=value, **label, **options)
+        chosen = {"options": self._texts(name), "value": option(self._state(), name)}
+        widget = self.widgets[name] = field(kind, *classes, **chosen, **options)
         widget.param.watch(choose, "value")
         return widget
 
+    def _texts(self, name):
+        """Options by their texts."""
+        state = self._state()
+        if name == "preset":
+            return {preset.label: key for key, preset in PRESETS.items()}
+        if name == "shape":
+            return {shape.label: key for key, shape in SHAPES.items() if key != "sampled" or state.samples}
+        return {CHOICES[name][option]: option for option in options(state, name)}
+
     def show(self, state: State) -> None:
         for name, widget in self.widgets.items():
-            if name in ("shape", "swept", "against"):
-                show(widget, options=self._texts(name))
-            show(widget, value=option(state, name))
+            show(widget, options=self._texts(name), value=option(state, name))
 
 
 class Controls:
     """The form: drive, shape, E* and q_c; the rest of the medium folds."""
 
-    def __init__(self, choices: Choices, apply_or_raise: Callable[..., None], apply: Callable[..., None]):
-        self.choices, self._opened, self._path = choices, False, ""
-        drive, shape, first, more = (Numbers(apply_or_raise) for _ in range(4))
-        self.numbers = {"drive": drive, "shape": shape, "first": first, "more": more}
-        self.parts = {
-            name: choices.row(name)
-            for drive in DRIVES.values()
-            for name in drive.form
-            if name in CHOICES and name not in _MORE
-        }
-        self.parts["again"] = self.again = button("Hit again", width=90)
-        self.parts["vertices"] = self._vertices(apply)
-        self.notes = {name: html() for name in ("drive", "shape", "medium", "more", "sources", "tip")}
-        self.tip = upload("tip", ".csv,.txt,text/csv")
-        self.more = pn.widgets.Toggle(
-            label="More about the medium", css_classes=["button", "more"], margin=(4, 0)
-        )
-        self._more = pn.Column(
-            *map(choices.row, _MORE), self.numbers["more"], self.notes["more"], visible=False, **WIDE
-        )
-        self._forms = pn.Column(*self.parts.values(), **WIDE)
-        self._tip = pn.Column(
-            html("or a measured tip, as CSV (r, z):"), self.tip, self.notes["tip"], **WIDE
-        )
-        self.more.param.watch(lambda event: show(self._more, visible=event.new), "value")
-        parts = (choices.row("drive"), drive, self.notes["drive"], self._forms)
-        parts += (_head("Indenter"), choices.row("shape"), self.notes["shape"], shape)
-        parts += (_head("Medium"), first, self.notes["medium"], self.more, self._more)
-        parts += (_head("Tip and sources"), self._tip, self.notes["sources"])
+    def __init__(self, choices: Choices, apply_or_raise: Callable[..., None]):
+        self.choices, self._in_use = choices, False
+        self.numbers = {name: Numbers(apply_or_raise) for name in ("drive", "shape", "medium", "more")}
+        self.notes = {name: html() for name in (*self.numbers, "sources")}
+        self.again = button("Hit again", width=90)
+        self.tip = upload("CSV file of a measured tip: r, z", ".csv,.txt,text/csv")
+        look = {"css_classes": ["button", "more"], "margin": (4, 0)}
+        self.more = pn.widgets.Toggle(label="More about the medium", **look)
+        folded = (*map(choices.row, _MORE), self.numbers["more"], self.notes["more"])
+        more, folded = pn.Column(self.more, **WIDE), pn.Column(*folded, **WIDE)
+        self.more.param.watch(lambda event: reveal(more, folded, event.new), "value")
+        self._forms = pn.Column(**WIDE)
+        drive = (choices.row("drive"), self.numbers["drive"], self.notes["drive"], self._forms)
+        shape = (choices.row("shape"), self.notes["shape"], self.numbers["shape"])
+        medium = (self.numbers["medium"], self.notes["medium"], more)
+        sources = (self.tip, self.notes["sources"])
+        heads = [html(f"<h2>{text}</h2>", "title") for text in ("Indenter", "Medium", "Tip and sources")]
+        parts = (*drive, heads[0], *shape, heads[1], *medium, heads[2], *sources)
         self.view = pn.Column(*parts, css_classes=["form"], **WIDE)
-
-    def _vertices(self, apply):
-        self.text = field(
-            pn.widgets.TextAreaInput,
-            "vertices",
-            label="Vertices: one a line, with times or without",
-            description=_VERTICES,
-            rows=6,
-            auto_grow=True,
-            max_rows=14,
-        )
-        self.said = html()
-
-        def typed(event):
-            def refused(text):
-                self.said.object = f'<span class="refused">{marked(text)}</span>'
-
-            apply(lambda state: changes.type_path(state, event.new), refused=refused)
-
-        self.text.param.watch(typed, "value")
-        return pn.Column(self.text, self.said, **WIDE)
 
     def show(self, state: State) -> None:
         """Show the numbers and choices in use."""
         form = DRIVES[state.drive].form
-        for name, part in self.parts.items():
-            show(part, visible=name in form)
-        extra = [n for part in form if part in USED and part not in _MORE for n in USED[part][state[part]]]
-        self.numbers["drive"].show(state, [*USED["drive"][state.drive], *extra])
-        self.numbers["shape"].show(state, [name for name, _ in shape_quantities(state.shape)])
-        self.numbers["first"].show(state, ["E_star", *["q_c"] * (state.plasticity != "none")])
-        more = [name for name in _MORE if name != "inertia" or name in form]
+        parts = [self.again if n == "again" else self.choices.row(n) for n in form if n != "inertia"]
+        for part in (*self._forms, *parts):
+            reveal(self._forms, part, part in parts)
         show(self.choices.row("inertia"), visible="inertia" in form)
-        given = [n for choice in more for n in USED[choice][state[choice]] if n not in ("E_star", "q_c")]
-        self.numbers["more"].show(state, given)
-        in_use = bool({*more, *given} & set(altered(state))) or state.damping != "none"
-        if in_use and not self._opened:
+        more = [name for name in _MORE if name != "inertia" or name in form]
+        numbers = {
+            "drive": [n for part in ("drive", *form) if part in USED for n in USED[part][state[part]]],
+            "shape": [name for name, _ in shape_quantities(state.shape)],
+            "medium": ["E_star", *["q_c"] * (state.plasticity != "none")],
+            "more": [n for choice in more for n in USED[choice][state[choice]]],
+        }
+        for region in ("drive", "more"):
+            numbers[region] = [n for n in numbers[region] if n not in _ELSEWHERE[region]]
+        for region, names in numbers.items():
+            self.numbers[region].show(state, names)
+        in_use = bool({*more, *numbers["more"]} & set(altered(state)))
+        if in_use and not self._in_use:
             show(self.more, value=True)
-        self._opened = in_use
-        if state.path and form == DRIVES["path"].form:
-            self._write(state)
-
-    def _write(self, state):
-        text = changes.write_path(state.path, state.prescribed)
-        # What was refused stays in the table, to be mended.
-        if self._path != text:
-            self._path, self.said.object = text, ""
-        if not self.said.object:
-            show(self.text, value=text)
+        self._in_use = in_use
 
     def show_texts(self, state: State, course: Course) -> None:
         """Update the texts."""
-        preset, made = PRESETS[state.preset], course.scene.medium
-        rows = "".join(
-            f"<dt>{marked(f'{what} = {value}')}</dt><dd>{escape(where)}</dd>"
-            for what, value, where in preset.sources.values()
-        )
+        preset, shape = PRESETS[state.preset], SHAPES[state.shape]
+        sources = "".join(_source(name, preset.values[name], text) for name, text in preset.sources.items())
         title = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
+        formulas = f"<figcaption>{marked(shape.height)}<br>{marked(shape.reduced)}</figcaption>"
         texts = {
-            "sources": f"<details><summary>{title}</summary><dl>{rows}</dl></details>",
-            "tip": escape(state.tip_note if state.shape == "sampled" else ""),
-            "shape": sketch(course, state.shape) + marked(_half_angle(state)),
             "drive": marked(_drop(state)),
-            "medium": linked(_yield(state, made)),
-            "more": linked(_damping(state, made, course.dashpots)),
+            "shape": formulas + marked(_half_angle(state)),
+            "medium": linked(_yield(state, course)),
+            "more": linked(_damping(state, course)),
+            "sources": f"<details><summary>{title}</summary><dl>{sources}</dl></details>",
         }
         for name, text in texts.items():
             show(self.notes[name], object=text)
 
-    def forget(self) -> None:
-        for numbers in self.numbers.values():
-            numbers.forget()
 
-
-def _head(text: str) -> Any:
-    return html(f"<h2>{text}</h2>", "title")
+def _source(name: str, value: float, text: str) -> str:
+    known = QUANTITIES[name]
+    return f"<dt>{marked(f'{known.symbol} = {written(value, known.kind, 3)}')}</dt><dd>{escape(text)}</dd>"
 
 
 def _half_angle(state: State) -> str:
+    if state.shape == "sampled":
+        return state.tip_note
     slope = state.get(f"{state.shape}_slope")
-    if slope is None:
-        return ""
-    angle = degrees(atan(slope))
-    return f"Half-angle {digits(90 - angle)}°, flank {digits(angle)}° to the surface"
+    return "" if slope is None else f"Half-angle {digits(90 - degrees(atan(slope)))}°"
 
 
 def _drop(state: State) -> str:
     if state.drive != "impact":
         return ""
     energy, height = state.mass * state.speed**2 / 2, state.speed**2 / (2 * _GRAVITY)
-    fallen = written(height, "length")
-    return f"Energy m v_0²/2 = {written(energy, 'energy')}; fallen from v_0²/(2 g) = {fallen} without drag"
+    return f"Energy {written(energy, 'energy')}; speed of a fall from {written(height, 'length')}"
 
 
-def _yield(state: State, made: Any) -> str:
+def _yield(state: State, course: Course) -> str:
     if state.plasticity == "none":
         return "Nothing yields: q_c = ∞"
-    depth = written(made.critical_depth, "length")
-    if state.plasticity == "hardness":
-        return f"q_c = σ_c a_c (11); d_c = {depth} (19)"
+    depth = written(course.scene.medium.critical_depth, "length")
     return f"Yield starts at d_c = π q_c/(2E*) = {depth} (19)"
 
 
-def _damping(state: State, made: Any, timed: bool) -> str:
+def _damping(state: State, course: Course) -> str:
     if state.damping == "none":
         return ""
-    if state.damping == "tau":
-        text = f"η = {written(made.eta, 'viscosity')}"
-    else:
-        text = f"τ = 4η/E* = {written(made.relaxation_time, 'time')} (1)"
-    return text if timed else f"{text}; no effect here: pressing is infinitely slow"
+    made = course.scene.medium
+    text = f"η = {written(made.eta, 'viscosity')}, τ = 4η/E* = {written(made.relaxation_time, 'time')} (1)"
+    return text if course.dashpots else f"{text}; no effect here: pressing is infinitely slow"

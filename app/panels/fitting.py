@@ -1,23 +1,26 @@
 """The tab *Fit a measurement*: upload of a curve, choice of its columns, and fit of the medium."""
 
 from collections.abc import Callable
-from dataclasses import replace
+from contextlib import suppress
 from html import escape
+from pathlib import Path
 
 import numpy as np
 import panel as pn
 
 import mdr_core as mdr
+from mdr_core.reading import SIZES
 
 from ..solve import turning_point
 from ..state import State, checked, medium, profile, with_derived
-from ..state.files import FITTED, SIZES, Measured, agrees, read_curve
+from ..state.files import FITTED, OF_MEDIUM, PLACED, Curve, Measured, agrees, read_curve
 from ..state.quantities import QUANTITIES, USED
 from ..state.units import fitting, written
 from ..ui import WIDE, button, field, html, indexed, marked, on_upload, plain, show, upload
 from .controls import Choices, Numbers
 
-#: Name and description of the example.
+#: The measured example, and the name and description of the made one.
+SILICA = Path(__file__).parents[2] / "assets" / "silica.csv"
 _MADE = "A made curve, no measurement"
 _EXAMPLE = (
     "This tip on a medium of 1.3 E* and 0.8 q_c, which begins at a tenth of the depth, with 0.4 % noise."
@@ -28,6 +31,18 @@ def take(state: State, curve: Measured | None) -> State:
     """Compare with a measured curve, or with none."""
     tiles = ("residual",) if curve else tuple(tile for tile in state.tiles if tile != "residual")
     return state.replace(curve=curve, contact_point=0.0, baseline=0.0, fit_note="", tiles=tiles)
+
+
+def silica(state: State) -> State:
+    """Compare with the measured example, under the cone with the area of its Berkovich tip.
+
+    Its depths count from first contact.
+    """
+    fixed = tuple(name for name in FITTED if name not in ("E_star", "q_c"))
+    state = state.replace(shape="cone", cone_slope=mdr.Cone.from_half_angle(70.3).slope, fixed=fixed)
+    curve = read_curve(SILICA.read_bytes(), "Fused silica, Berkovich tip.csv")
+    depth, state = float(curve.data[0].max()), take(state, curve)
+    return state.replace(drive="depth", max_depth=checked("max_depth", depth), progress=1.0)
 
 
 def example(state: State) -> Measured:
@@ -48,35 +63,34 @@ def example(state: State) -> Measured:
 def fit(state: State) -> State:
     """Fit medium and position to the measured curve; press to its depth."""
     made = medium(state)
-    fixed = {name: state[name] if name in FITTED[2:] else getattr(made, name) for name in state.fixed}
-    asked = dict.fromkeys(FITTED) | fixed
+    names = state.curve.fitted
+    held = [name for name in names if name in state.fixed]
+    fixed = {name: state[name] if name in PLACED else getattr(made, name) for name in held}
+    asked = dict.fromkeys(names) | fixed
     if state.noise == "given":
         asked["depth_noise"] = state.depth_noise
-    found = mdr.fit_indentation(profile(state), *state.curve.data, **asked)
-    numbers = {name: float(getattr(found, name)) for name in FITTED[2:]}
+    found = mdr.fit_indentation(profile(state), *state.curve.data, time=state.curve.time, **asked)
+    numbers = {name: float(getattr(found, name)) for name in PLACED}
     numbers["max_depth"] = float(np.max(found.path.depth))
     choices = {"drive": "depth"}
-    if "E_star" not in fixed:
-        choices["elasticity"], numbers["E_star"] = "modulus", float(found.medium.E_star)
-    if "q_c" not in fixed:
-        yields = bool(np.isfinite(found.medium.q_c))
-        choices["plasticity"] = "q_c" if yields else "none"
-        numbers |= {"q_c": float(found.medium.q_c)} if yields else {}
-    numbers = {name: checked(state, name, value) for name, value in numbers.items()}
-    curve = replace(state.curve, fit=found, asked=asked)
+    for name, (choice, option) in OF_MEDIUM.items():
+        if name in asked and name not in fixed:
+            value = float(getattr(found.medium, name))
+            there = 0 < value < np.inf
+            choices[choice] = option if there else "none"
+            numbers |= {name: value} if there else {}
+    numbers = {name: checked(name, value) for name, value in numbers.items()}
+    curve = Measured(state.curve.name, state.curve.curve, found, asked)
     state = state.replace(curve=curve, progress=1.0, fit_note=_note(curve), **choices, **numbers)
     return with_derived(state)
 
 
 def _note(curve: Measured) -> str:
     """Summary of a fit for links and reports."""
-    found, texts = curve.fit, []
+    found, values, texts = curve.fit, curve.fit.to_dict(), []
     for name, error in found.standard_errors.items():
-        value = getattr(found.medium if name in FITTED[:2] else found, name)
-        known = QUANTITIES[name]
-        texts.append(
-            f"{known.symbol} = {written(float(value), known.kind)} ± {written(float(error), known.kind, 2)}"
-        )
+        symbol, kind = QUANTITIES[name].symbol, QUANTITIES[name].kind
+        texts.append(f"{symbol} = {written(values[name], kind)} ± {written(float(error), kind, 2)}")
     return f"fit to {curve.name}: {', '.join(texts)}; χ² = {float(found.reduced_chi_square):.3g}"[:300]
 
 
@@ -89,94 +103,105 @@ def result(state: State) -> str:
     text = "What is set on the page is not this fit any more."
     if agrees(state):
         text = "Its values are those set on the page; Undo takes it back."
-    return text + indexed(plain(curve.fit._repr_html_()))
+    return text + indexed(plain(curve.report))
+
+
+def unloading(state: State) -> str:
+    """Numbers of Oliver and Pharr for the curve where it lies, as HTML; empty without an unloading."""
+    curve = Curve.of(state)
+    with suppress(ValueError):
+        text = mdr.oliver_pharr(profile(state), curve.depth, curve.force)._repr_html_()
+        return indexed(plain(text.replace("OliverPharr: one unloading", "Unloading: Oliver and Pharr")))
+    return ""
 
 
 class Fitting:
     """The tab *Fit a measurement*."""
 
     def __init__(self, choices: Choices, apply_or_raise: Callable[..., None], apply: Callable[..., None]):
-        self._apply, select = apply, pn.widgets.Select
-        self.file = upload("curve", ".csv,.txt,.dat,text/csv")
-        self.made, self.remove, self.fit = map(button, ("Example", "Remove", "Fit"))
-        roles = ("depth", "force", "time")
-        self.columns = {role: field(select, "column", label=f"Column of {role}") for role in roles}
+        self._apply, self._placed, select = apply, None, pn.widgets.Select
+        self.file = upload(
+            "CSV file of a measured curve: depth, force", ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx"
+        )
+        self.silica, self.made, self.remove, self.fit = map(
+            button, ("Fused silica", "Example", "Remove", "Fit")
+        )
+        self.columns = {role: field(select, "column", label=f"Column of {role}") for role in SIZES}
         self.units = {
             role: field(select, "unit", label=f"Unit of {role}", options=list(sizes))
             for role, sizes in SIZES.items()
         }
-        names = {QUANTITIES[n].label: n for n in FITTED}
-        self.fixed = field(pn.widgets.CheckBoxGroup, "fixed", options=names, inline=False)
+        self.fixed = field(pn.widgets.CheckBoxGroup, "fixed", inline=False)
         self.about, self.said = html(), html("", "note", "said")
+        self.unloading = html("", "note", "unloading")
         self.place, self.noise = Numbers(apply_or_raise), Numbers(apply_or_raise)
-        pairs = [
-            pn.Row(*(part[role] for part in (self.columns, self.units) if role in part), **WIDE)
-            for role in roles
-        ]
         self._rest = pn.Column(
-            *pairs, html("<h2>Where it lies</h2>", "title"), self.place,
+            *(pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES),
+            html("<h2>Where it lies</h2>", "title"), self.place,
             html("<h2>What a fit leaves as it is</h2>", "title"), self.fixed,
-            choices.row("noise"), self.noise, self.fit, self.said, visible=False, **WIDE,
+            choices.row("noise"), self.noise, self.fit, self.said, self.unloading, visible=False, **WIDE,
         )  # fmt: skip
         note = html(
-            "Depth and force as CSV, drop or choose: it lies over the model, and a medium can be fitted."
+            "Depth and force as a table, drop or choose: they lie over the model, which can be fitted."
         )
-        buttons = pn.Row(self.made, self.remove, css_classes=["tools"], **WIDE)
+        buttons = pn.Row(self.silica, self.made, self.remove, css_classes=["tools"], **WIDE)
         self.view = pn.Column(note, self.file, buttons, self.about, self._rest, visible=False, **WIDE)
-        self._watch()
-
-    def _watch(self):
         on_upload(self.file, lambda data: self._take(lambda state: read_curve(data, self.file.filename)))
+        self.silica.on_click(lambda event: apply(silica))
         self.made.on_click(lambda event: self._take(example))
         self.remove.on_click(lambda event: self._take(lambda state: None))
-        self.fit.on_click(lambda event: self._apply(fit, lambda text: self._refuse(self.said, text)))
-        for part in (self.columns, self.units):
-            for role, widget in part.items():
+        self.fit.on_click(lambda event: apply(fit, self._refuse(self.said)))
+        for role in SIZES:
+            for widget in (self.columns[role], self.units[role]):
                 widget.param.watch(lambda event, role=role: self._correct(role, event.new), "value")
-        self.fixed.param.watch(
-            lambda event: self._apply(lambda state: state.replace(fixed=tuple(event.new))), "value"
-        )
+        self.fixed.param.watch(lambda event: self._hold(event.new), "value")
 
-    def _refuse(self, where, text):
-        where.object = f'<span class="refused">{escape(text)}</span>'
+    def _hold(self, names):
+        """Hold parameters; those that the curve does not offer stay as they are."""
+
+        def change(state):
+            others = [name for name in state.fixed if state.curve and name not in state.curve.fitted]
+            return state.replace(fixed=tuple(name for name in FITTED if name in (*names, *others)))
+
+        self._apply(change)
+
+    def _refuse(self, where):
+        return lambda text: show(where, object=f'<span class="refused">{escape(text)}</span>')
 
     def _take(self, make):
-        self._apply(
-            lambda state: take(state, make(state)), refused=lambda text: self._refuse(self.about, text)
-        )
+        self._apply(lambda state: take(state, make(state)), self._refuse(self.about))
 
     def _correct(self, role, chosen):
         def change(state):
             curve = state.curve
-            if curve is None or chosen in (curve.columns[role], curve.units.get(role)):
+            if curve is None or chosen in (curve.curve.columns[role], curve.curve.units[role]):
                 return state
             return state.replace(curve=curve.corrected(role, chosen), fit_note="")
 
-        self._apply(change, refused=lambda text: self._refuse(self.about, text))
+        self._apply(change, self._refuse(self.about))
 
     def show(self, state: State) -> None:
         curve = state.curve
         show(self._rest, visible=curve is not None)
         show(self.remove, disabled=curve is None)
-        show(self.fixed, value=list(state.fixed))
         show(self.said, object=result(state))
         if curve is None:
             show(self.about, object=result(state))
             return
+        placed = curve, profile(state), *(state[name] for name in PLACED)
+        if placed != self._placed:
+            self._placed, self.unloading.object = placed, unloading(state)
         made = f" {marked(_EXAMPLE)}" if curve.name == _MADE else ""
         show(self.about, object=f"<b>{escape(curve.name)}</b>: {escape(curve.note)}.{made}")
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
         likes = {"contact_point": depth, "baseline": force, "frame_compliance": depth / (force or 1.0)}
-        self.place.show(state, list(FITTED[2:]), likes)
+        self.place.show(state, [name for name in PLACED if name in curve.fitted], likes)
+        options = {QUANTITIES[name].label: name for name in curve.fitted}
+        show(self.fixed, options=options, value=[name for name in state.fixed if name in curve.fitted])
         self.noise.show(state, USED["noise"][state.noise])
-        heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.heads)}
-        for role, widget in self.columns.items():
-            options = heads | ({"none, rows in order": -1} if role == "time" else {})
-            if widget.options != options or widget.value != curve.columns[role]:
-                widget.param.update(options=options, value=curve.columns[role])
-        for role, widget in self.units.items():
-            show(widget, value=curve.units[role])
-
-    def forget(self) -> None:
-        self.place.forget()
-        self.noise.forget()
+        heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.curve.table.heads)}
+        for role, column in curve.curve.columns.items():
+            options = heads | ({"none, rows in order": None} if role == "time" else {})
+            if self.columns[role].options != options or self.columns[role].value != column:
+                self.columns[role].param.update(options=options, value=column)
+            show(self.units[role], value=curve.curve.units[role])

@@ -21,9 +21,8 @@ _LEFT = "The page shows something else by now. Back and Next go on with the step
 
 def step_state(step: dict[str, Any], now: State) -> State:
     """State of a step; theme, held scenes and other tiles stay."""
-    pairs = {name: str(value) for name, value in step["set"].items()}
-    state = link.read(link.arguments(urlencode(pairs)))
-    kept = {name: now[name] for name in ("hold", "keep", "dark", "axes", "curve")}
+    state = link.read(urlencode(step["set"]))
+    kept = {name: now[name] for name in ("hold", "keep", "dark", "curve")}
     return state.replace(tiles=state.tiles or now.tiles, **kept)
 
 
@@ -40,7 +39,7 @@ class Guide:
 
     def __init__(self, go: Callable[..., None], course: Callable[[], Course]):
         self._apply, self._course, self.at, self._scene, self._text = go, course, -1, None, ""
-        self.title = field(pn.widgets.Select, "tour", options=list(TOURS))
+        self.title = field(pn.widgets.Select, label="Guided scene", options=list(TOURS))
         self.back, self.next = (button(name, width=70) for name in ("Back", "Next"))
         self.words = html(_INTRO)
         self.title.param.watch(lambda event: self.go(0), "value")

@@ -1,19 +1,19 @@
-"""Held scenes: links with names, and a table of their numbers."""
+"""Held scenes: links, named by what differs from the preset, and a table of their numbers."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 import panel as pn
 
 from ..drives import Course
 from ..plots.plot import DASHES
-from ..solve import DRIVES, follow
-from ..state import PRESETS, State, altered, link, used
+from ..solve import DRIVES, follow, numbers_of, scene_of
+from ..state import PRESETS, State, altered, link, preset_state
 from ..state.quantities import CHOICES, QUANTITIES, SHAPES
 from ..state.units import written
-from ..ui import WIDE, button, field, html, marked, show
+from ..ui import WIDE, button, html, marked, show, symbol
+from .readouts import line, readings, text
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,55 +26,40 @@ class Held:
 
 def held_scene(query: str, known: dict) -> Held:
     """Held scene of a link; ValueError if the link is invalid."""
-    scene, name = link.split_name(query)
-    return Held(name, follow(link.read(link.arguments(scene)), known))
+    state = link.read(query)
+    return Held(difference(state), follow(state, known))
 
 
-def _query(state: State) -> str:
-    return link.write(state, DRIVES[state.drive].form, view=False)
-
-
-def _same(query: str, state: State) -> bool:
-    """Whether a link has the scene of a state, at any progress."""
-    scene = link.read(link.arguments(link.split_name(query)[0]))
-    return scene.replace(progress=1.0).scene_values == link.read(link.arguments(_query(state))).scene_values
+def _others(state: State) -> tuple[str, ...]:
+    """Links of held scenes that are not the present one."""
+    scene = scene_of(state)
+    return tuple(query for query in state.hold if scene_of(link.read(query)) != scene)
 
 
 def is_held(state: State) -> bool:
-    return any(_same(query, state) for query in state.hold)
+    return len(_others(state)) < len(state.hold)
 
 
 def toggle_hold(state: State) -> State:
     """Hold the present scene, or remove it; ValueError if there is no room."""
-    others = tuple(query for query in state.hold if not _same(query, state))
+    others = _others(state)
     if len(others) < len(state.hold):
         return state.replace(hold=others)
     if len(others) == len(DASHES):
         raise ValueError(f"{len(DASHES)} scenes are held: remove one of them first")
-    return state.replace(hold=(*others, link.with_name(_query(state), difference(state))))
+    scene = preset_state(state.preset, **state.scene_values, progress=state.progress)
+    return state.replace(hold=(*others, link.write(scene, DRIVES[state.drive].form)))
 
 
 def difference(state: State) -> str:
     """Name of a scene: its differences from the preset, or the preset."""
-    changed, names = altered(state), used(state, DRIVES[state.drive].form)
+    changed, preset = altered(state), PRESETS[state.preset]
     words = [SHAPES[state.shape].label] if "shape" in changed else []
     words += [CHOICES[name][state[name]] for name in changed if name in CHOICES and name != "elasticity"]
-    preset = PRESETS[state.preset].values
-    numbers = [name for name in names if name in changed or name not in preset]
-    numbers.sort(key=lambda name: name not in changed)
-    words += [
-        f"{QUANTITIES[n].symbol} = {written(state[n], QUANTITIES[n].kind, 3)}"
-        for n in numbers
-        if n != "density"
-    ]
-    return ", ".join(words) or PRESETS[state.preset].label
-
-
-def renamed(state: State, k: int, name: str) -> State:
-    hold = state.hold
-    if k >= len(hold) or link.split_name(hold[k])[1] == name:
-        return state
-    return state.replace(hold=(*hold[:k], link.with_name(hold[k], name), *hold[k + 1 :]))
+    numbers = [name for name in numbers_of(state) if name in changed or name not in preset.values]
+    for name in sorted(numbers, key=lambda name: name not in changed):
+        words.append(f"{QUANTITIES[name].symbol} = {written(state[name], QUANTITIES[name].kind, 3)}")
+    return ", ".join(words) or preset.label
 
 
 def removed(state: State, k: int) -> State:
@@ -82,21 +67,13 @@ def removed(state: State, k: int) -> State:
 
 
 def numbers(course: Course) -> dict[str, str]:
-    """Main numbers of a scene at its largest depth, by symbol."""
-    medium, turning_point = course.scene.medium, course.turning_point
-    found = {
-        "E*": ("pressure", medium.E_star),
-        "q_c": ("yield constant", medium.q_c),
-        "η": ("viscosity", medium.eta),
-        "d_max": ("length", turning_point.depth),
-        "F_max": ("force", np.max(course.force)),
-        "a_max": ("length", turning_point.contact_radius),
-        "c": ("length", turning_point.plastic_radius),
-        "p_m": ("pressure", turning_point.mean_pressure),
-        "W_p": ("energy", course.plastic_work[-1]),
-    }
-    texts = {symbol: written(float(value), kind, 3) for symbol, (kind, value) in found.items()}
-    return texts | {"e": "–" if course.hit is None else written(float(course.hit.restitution), "number", 3)}
+    """Readouts of a scene at its largest depth, by symbol."""
+    values = readings(course)
+    return {each.known.symbol: text(each, values[each], course.peak, 3) for each in line(course, values)}
+
+
+def _row(name: str, texts: list[str]) -> str:
+    return f"<tr><th>{symbol(name)}</th>{''.join(f'<td>{text}</td>' for text in texts)}</tr>"
 
 
 def _dash(k: int) -> str:
@@ -107,35 +84,24 @@ class Table:
     """The tab *Held*: held scenes, and their numbers beside the present ones."""
 
     def __init__(self, apply: Callable[..., None]):
-        self._apply, self._names, self._rows = apply, [], []
-        self._list, self._numbers = pn.Column(**WIDE), html("", "numbers-held")
+        self._apply, self._names = apply, [html("", "key") for _ in DASHES]
+        self._rows = [self._row(k, name) for k, name in enumerate(self._names)]
+        self._numbers = html("", "key")
         note = html("Hold keeps the present scene to compare with; its curves are drawn in every plot.")
-        self.view = pn.Column(note, self._list, self._numbers, css_classes=["held"], visible=False, **WIDE)
+        parts = (note, *self._rows, self._numbers)
+        self.view = pn.Column(*parts, css_classes=["held"], visible=False, **WIDE)
 
     def show(self, course: Course, held: list[Held]) -> None:
-        while len(self._rows) < len(held):
-            self._rows.append(self._made(len(self._rows)))
-            self._list.append(self._rows[-1])
         for k, row in enumerate(self._rows):
             show(row, visible=k < len(held))
-            if k < len(held):
-                show(self._names[k], value=held[k].name)
+            show(self._names[k], object=f"{_dash(k)}{marked(held[k].name)}" if k < len(held) else "")
         columns = [numbers(course), *(numbers(each.course) for each in held)]
         heads = "".join(f"<th>{_dash(k)}</th>" for k in range(len(held)))
-        rows = "".join(
-            f"<tr><th>{marked(symbol)}</th>" + "".join(f"<td>{each[symbol]}</td>" for each in columns)
-            for symbol in columns[0]
-        )
+        rows = "".join(_row(name, [each.get(name, "–") for each in columns]) for name in columns[0])
         table = f"<table><tr><th></th><th>now</th>{heads}</tr>{rows}</table>"
         show(self._numbers, object=table if held else "")
 
-    def _made(self, k: int) -> Any:
-        name = field(
-            pn.widgets.TextInput, "called", "beside", label=f"held {k + 1}", width=164, sizing_mode=None
-        )
-        name.param.watch(lambda event: self._apply(lambda state: renamed(state, k, event.new)), "value")
-        dash = html(_dash(k), "key", width=44, sizing_mode=None)
+    def _row(self, k: int, name: Any) -> pn.Row:
         remove = button(f"Remove {k + 1}", width=76)
         remove.on_click(lambda event: self._apply(lambda state: removed(state, k)))
-        self._names.append(name)
-        return pn.Row(dash, name, remove, css_classes=["head"], **WIDE)
+        return pn.Row(name, remove, css_classes=["head"], visible=False, **WIDE)

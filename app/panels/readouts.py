@@ -1,4 +1,4 @@
-"""Readouts, assumptions, sketch of the indenter, and summary of the scene."""
+"""Readouts, assumptions, and summary of the scene."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,8 +15,8 @@ from ..drives import Course
 from ..solve import DRIVES, drive_of
 from ..state import State, medium
 from ..state.quantities import DATA, QUANTITIES, SHAPES, USED, shape_quantities
-from ..state.units import KINDS, digits, fitting, written
-from ..ui import explained, linked, marked, plain, symbol
+from ..state.units import KINDS, written
+from ..ui import explained, linked, plain, symbol
 
 
 @dataclass(frozen=True)
@@ -50,8 +50,8 @@ READOUTS = tuple(
 
 def readings(course: Course) -> dict[Readout, Any]:
     """Values of all readouts that a course has."""
-    found = ((readout, readout.values(course)) for readout in READOUTS)
-    return {readout: values for readout, values in found if values is not None}
+    numbers = ((readout, readout.values(course)) for readout in READOUTS)
+    return {readout: values for readout, values in numbers if values is not None}
 
 
 def value_at(values: Any, i: int) -> float:
@@ -64,33 +64,33 @@ def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
     return written(value_at(values, i), KINDS[readout.known.unit], count)
 
 
-def line(course: Course, found: dict[Readout, Any]) -> list[Readout]:
+def line(course: Course, numbers: dict[Readout, Any]) -> list[Readout]:
     """Readouts of the line above the plots."""
     names = drive_of(course.scene).line
-    return [readout for readout in found if readout.name in names]
+    return [readout for readout in numbers if readout.name in names]
 
 
-def values(course: Course, found: dict[Readout, Any], i: int) -> str:
+def values(course: Course, numbers: dict[Readout, Any], i: int) -> str:
     """Cells of the line in state i, as HTML."""
     cells = (
-        f'<output data-name="{each.name}">{text(each, found[each], i)}</output>'
-        for each in line(course, found)
+        f'<output data-name="{each.name}">{text(each, numbers[each], i)}</output>'
+        for each in line(course, numbers)
     )
     return f'<div class="strip">{"".join(cells)}</div>'
 
 
-def heads(course: Course, found: dict[Readout, Any]) -> str:
+def heads(course: Course, numbers: dict[Readout, Any]) -> str:
     """Heads of the line, with explanations, as HTML."""
-    return f'<div class="strip">{"".join(map(_head, line(course, found)))}</div>'
+    return f'<div class="strip">{"".join(map(_head, line(course, numbers)))}</div>'
 
 
-def table(course: Course, found: dict[Readout, Any], i: int) -> str:
+def table(course: Course, numbers: dict[Readout, Any], i: int) -> str:
     """All numbers in state i, as HTML."""
     rows = (
         f'<tr data-name="{each.name}"><th>{_head(each)}</th><td>{text(each, value, i)}</td></tr>'
-        for each, value in found.items()
+        for each, value in numbers.items()
     )
-    return f'<p class="phase">{phase(course, i)}</p><table>{"".join(rows)}</table>'
+    return f"<table>{''.join(rows)}</table>"
 
 
 @cache
@@ -100,30 +100,16 @@ def _head(readout: Readout) -> str:
     return explained(f"about-{readout.name}", f"{symbol(known.symbol)} {known.long_name}", about)
 
 
-def phase(course: Course, i: int) -> str:
-    """Position of a state on its path, in words."""
-    share, rise = course.progress[i], course.states.depth[i] - course.states.depth[max(i - 1, 0)]
-    if i == course.peak:
-        words = "deepest"
-    elif i and (course.states.contact_radius[i] == 0 or (share >= 2 and not course.turns)):
-        words = "load gone"
-    else:
-        words = "unloading" if rise < 0 else "holding" if i and rise == 0 else "loading"
-    words += f", {course.pending}" if course.pending else ""
-    if course.motion is None:
-        return words
-    unit = fitting(float(course.motion.time[-1]), "time")
-    return f"{words}, t = {digits(float(course.motion.time[i]) / unit.factor, 3)} {unit.name}"
-
-
 def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
     """Levels ("good", "note", "beyond") and sentences of the assumptions."""
-    found = list((course.states if course.hit is None else course.hit).limits)
+    assumptions = list((course.states if course.hit is None else course.hit).limits)
     if course.hit is not None and state.inertia == "density":
-        found.append(course.hit.speed_limit(state.density))
-    found += friction_limits(course.scene.medium) if course.oblique is not None else ()
+        assumptions.append(course.hit.speed_limit(state.density))
+    assumptions += friction_limits(course.scene.medium) if course.oblique is not None else ()
+    if course.pending:
+        yield "note", course.pending
     given = state.elasticity != "modulus"
-    for limit in sorted(found, key=lambda limit: limit.concerns != "result"):
+    for limit in sorted(assumptions, key=lambda limit: limit.concerns != "result"):
         if limit.what == "Poisson ratio" and not given:
             yield "note", "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*."
         elif limit.what == "coupling" and not given:
@@ -152,28 +138,6 @@ def warnings(course: Course, state: State) -> str:
     others = "".join(html for level, html in sentences if level != "beyond")
     folded = f"<details><summary>Assumptions that hold, and notes</summary>{others}</details>"
     return exceeded + folded * bool(others)
-
-
-def sketch(course: Course, shape: str) -> str:
-    """Drawing of the profile z(r), stretched to fit, with its formulas, as HTML."""
-    profile, a = course.scene.profile, float(course.turning_point.contact_radius)
-    width, height, half = 104, 46, min(1.5 * a, profile.known_radius)
-    r = np.unique(np.append(np.linspace(0, half, 60), min(profile.wall, half)))
-    z = profile.height(r)
-    finite = np.isfinite(z)
-    top = z[finite].max() or 1.0
-    x, y = r[finite] / half * (width / 2 - 4), height - 8 - z[finite] / top * (height - 14)
-    if not finite.all():
-        x, y = np.append(x, x[-1]), np.append(y, 4)
-    x, y = np.concatenate([-x[::-1], x]) + width / 2, np.concatenate([y[::-1], y])
-    points = " ".join(f"{px:.1f},{py:.1f}" for px, py in zip(x, y, strict=True))
-    words, size = SHAPES[shape], f'width="{width}" height="{height}"'
-    ground = f'<line x1="0" y1="{height - 7}" x2="{width}" y2="{height - 7}"/>'
-    drawing = (
-        f'<svg {size} role="img" aria-label="{words.label}">{ground}<polygon points="{points}"/></svg>'
-    )
-    formulas = f"{marked(words.height)}<br>{marked(words.reduced)}"
-    return f"<figure>{drawing}<figcaption>{formulas}</figcaption></figure>"
 
 
 def summary(state: State) -> str:

@@ -34,7 +34,6 @@ def report(state: State, view: View, plots: list[Plot], snippet: str, address: s
         "held": [escape(name) for name in held],
         "made": f"{datetime.now(UTC):%d %B %Y, %H:%M} UTC, mdr_core {mdr.__version__}",
         "inputs": list(_inputs(state, view)),
-        "state": readouts.phase(course, course.now),
         "numbers": [
             (symbol(each.known.symbol), each.known.long_name, readouts.text(each, values, course.now, 5))
             for each, values in readouts.readings(course).items()
@@ -60,27 +59,20 @@ def report(state: State, view: View, plots: list[Plot], snippet: str, address: s
 
 def _inputs(state: State, view: View):
     """Symbol, name, value and source of all inputs, as HTML."""
-    preset, medium, shape = PRESETS[state.preset], view.course.scene.medium, SHAPES[state.shape]
-    formulas = f"{shape.height},  {shape.reduced}"
-    note = state.tip_note if state.shape == "sampled" else ""
-    yield "", "indenter", escape(shape.label), marked(note) or marked(formulas)
+    preset, shape, fit = PRESETS[state.preset], SHAPES[state.shape], state.curve and state.curve.fit
+    note = state.tip_note if state.shape == "sampled" else f"{shape.height},  {shape.reduced}"
+    yield "", "indenter", escape(shape.label), marked(note)
     for choice in ("elasticity", "plasticity", "damping", "drive"):
         yield "", LABELS[choice].lower(), CHOICES[choice][state[choice]], ""
-    for name in numbers_of(state):
+    given = numbers_of(state)
+    for name in dict.fromkeys([*given, "E_star", *["q_c"] * (state.plasticity != "none")]):
         known, value = QUANTITIES[name], state[name]
-        source = (
-            "fitted"
-            if state.curve is not None and state.curve.fit and name in ("E_star", "q_c")
-            else "set on the page"
-        )
-        if name in preset.sources and isclose(value, preset.values[name]):
-            source = preset.sources[name][2]
+        source = "set on the page" if name in given else "from the numbers above"
+        if fit and name in ("E_star", "q_c"):
+            source = "fitted"
+        elif name in preset.sources and isclose(value, preset.values[name]):
+            source = preset.sources[name]
         yield symbol(known.symbol), known.label, written(value, known.kind, 5), escape(source)
-    yield "", "as solved, in SI", "", escape(repr(view.course.scene.drive))
-    if state.elasticity != "modulus":
-        yield symbol("E*"), "effective modulus", written(medium.E_star, "pressure", 5), marked("from (2)")
-    if state.plasticity == "hardness":
-        yield symbol("q_c"), "yield constant", written(medium.q_c, "yield constant", 5), marked("from (11)")
 
 
 def printed(view: View, plot: Plot):

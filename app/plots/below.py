@@ -24,18 +24,9 @@ _DRAWN = {
 }
 
 
-def _axes(view: View) -> list:
-    """Axes of the surface plot, heights exaggerated or to scale."""
-    r, z = view.axis("far r"), view.axis("far z")
-    if view.heights == "exaggerated":
-        return [r, z]
-    reach = max(0.9 * r.end, -z.start)
-    return [r, replace(r, title="z, height to scale", start=-reach, end=reach)]
-
-
 def surface(view: View, i: int) -> dict:
     state, profile = view.course.states[i], view.course.scene.profile
-    across, z = _axes(view)
+    across, z = view.axis("far r"), view.axis("far z")
     half, far = 1.1 * across.end, 3 * z.end
     a, c = float(state.contact_radius), float(state.plastic_radius)
     edges = {0.0, c, a, profile.face_radius, profile.wall, np.nextafter(profile.wall, np.inf), half}
@@ -72,7 +63,7 @@ SURFACE = Plot(
         line("residual imprint", "yielded", 2.0, "dotted", symbol="z"),
         *RADII,
     ),
-    moving=surface, tab=("Surface", "u"), controls=("heights",), fitted=_axes,
+    moving=surface, tab=("Surface", "u"),
 )  # fmt: skip
 
 
@@ -86,8 +77,7 @@ def section(course: Course, asked):
     if course.chained:
         reason = "Stresses below the surface are not known of a viscous path."
     if reason:
-        yield Found({}, [r, z, axis("stress", title, "pressure", 1.0)], reason)
-        return
+        return Found({}, [r, z, axis("stress", title, "pressure", 1.0)], reason)
     down, along = ((np.arange(count) + 0.5) / count for count in _PIXELS)
     across, deep = r.end * along, -z.start * (1 - down)
     image = of_stress(state.stress(across, deep[:, None]))
@@ -110,7 +100,7 @@ def section(course: Course, asked):
         "plastic zone c": (np.full(2, state.plastic_radius), ends) if state.plastic_radius else NOTHING,
         "largest": place,
     }
-    yield Found(rows, [r, z, colours], note)
+    return Found(rows, [r, z, colours], note)
 
 
 def _contours(x, y, image, levels):

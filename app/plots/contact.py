@@ -92,10 +92,9 @@ def pressure(view: View, i: int) -> dict:
 
 
 def _held_pressure(view: View) -> dict:
-    def columns(course, beside):
-        r = figures.radii(course.state, view.end("x") / beside("r", 1.0))
-        p = np.minimum(beside("p", course.state.pressure(r)), 1e3 * view.end("p"))
-        return both(beside("r", r), -1), both(p)
+    def columns(course):
+        r = figures.radii(course.state, view.end("x"))
+        return both(r, -1), both(np.minimum(course.state.pressure(r), 1e3 * view.end("p")))
 
     return view.held_curves("", columns)
 
@@ -143,16 +142,10 @@ def radii_still(view: View) -> dict:
     rows = {"contact radius a": loading, "unloading": back, "plastic zone c": (d, c)}
     rows["zone"] = np.append(d, [*d[-1:], *d[:1]]), np.append(c, [0, 0][: 2 * len(d)])
 
-    def held_a(course, beside):
-        loading, back, _ = zone(course)
-        d, a = map(np.append, loading, back)
-        return beside("d", d), beside("a", a)
+    def held_a(course):
+        return tuple(map(np.append, *zone(course)[:2]))
 
-    def held_c(course, beside):
-        d, c = zone(course)[2]
-        return beside("d", d), beside("a", c)
-
-    return rows | view.held_curves(" a", held_a) | view.held_curves(" c", held_c)
+    return rows | view.held_curves(" a", held_a) | view.held_curves(" c", lambda course: zone(course)[2])
 
 
 def radii_marks(view: View, i: int) -> dict:

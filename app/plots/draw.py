@@ -1,6 +1,7 @@
 """Plots as Bokeh figures: one source for the rows of a kind, drawn by `source.data = …`; frames."""
 
 from functools import lru_cache
+from itertools import chain
 from typing import Any
 
 import bokeh.models as bk
@@ -17,69 +18,83 @@ FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
 COLOURS = ROLES | {"cut": ("#e3edf5", "#1f2f3c")}
 #: Rows that are drawn together, from the back to the front.
 _GROUPS = ("areas", "lines", "lines right", "marks", "marks right", "labels")
-#: What the pointer is told: the point of the curve that is nearest.
-_TIP = "<b>@row</b><br>@symbol = $snap_y{{%.4g}} {y.unit}<br>{symbol} = $snap_x{{%.4g}} {x.unit}"
+#: Glyphs of each kind of row, and the columns of their source.
+_LINE = {"line_color": "color", "line_width": "width", "line_dash": "dash"}
+_MARK = {"fill_color": "color", "line_color": "edge", "marker": "marker", "size": "size", "line_width": 1.6}
 _TEXT = {
     "text_font_size": "12px",
     "text_font_style": "italic",
     "text_baseline": "top",
     "text_color": "color",
 }
-_TEXT |= {"background_fill_color": "ground", "background_fill_alpha": 0.8}
+_GROUND = {"background_fill_color": "ground", "background_fill_alpha": 0.8}
+_GLYPHS: dict[str, tuple[str, dict[str, Any]]] = {
+    "areas": ("patches", {"xs": "xs", "ys": "ys", "fill_color": "color", "fill_alpha": "alpha"}),
+    "lines": ("multi_line", {"xs": "xs", "ys": "ys"} | _LINE),
+    "marks": ("scatter", {"x": "x", "y": "y"} | _MARK),
+    "labels": ("text", {"x": "x", "y": "y", "text": "text"} | _TEXT | _GROUND),
+}
+_HATCH = {"hatch_pattern": "hatch", "hatch_color": "color", "hatch_alpha": 0.35}
+_PLACES = ("xs", "ys", "x", "y", "text")
+#: What the pointer is told: the point of the curve that is nearest.
+_TIP = "<b>@row</b><br>@symbol = $snap_y{{%.4g}} {y.unit}<br>{symbol} = $snap_x{{%.4g}} {x.unit}"
 
 
 class Layer:
-    """The rows of a plot that share a source, and how they look."""
+    """Rows of a plot that share a source."""
 
     def __init__(self, plot: Plot, group: str):
         self.kind, _, right = group.partition(" ")
-        self.name, self.right = group, bool(right)
+        self.name, self.right, self.connected = group, bool(right), self.kind in ("areas", "lines")
         self.rows = [row for row in plot.rows if row.group == group]
-        places = (
-            ("xs", "ys")
-            if self.kind in ("areas", "lines")
-            else ("x", "y", *["text"] * (self.kind == "labels"))
-        )
-        empty = {name: [] for name in (*self.look(False, [0] * len(self.rows)), *places)}
+        places = [name for name in _GLYPHS[self.kind][1] if name in _PLACES]
+        empty = {name: [] for name in (*self._look(self.rows, False), *places)}
         self.source = bk.ColumnDataSource(empty, name=f"{plot.name} {group}")
         # Columns come from the server, or from the frames it has sent: never the other way.
         self.source.syncable = False
 
-    def look(self, dark: bool, sizes: list[int]) -> dict[str, list]:
-        """Columns of the look, one value for each row, or for each point of marks."""
-        rows = [row for row, size in zip(self.rows, sizes, strict=True) for _ in range(size)]
+    def _look(self, rows: list[Row], dark: bool) -> dict[str, list]:
+        """Columns of the look of rows."""
         found = {"row": [row.name for row in rows], "color": [COLOURS[row.role][dark] for row in rows]}
         if self.kind == "labels":
             return found | {"ground": [COLOURS["paper"][dark]] * len(rows)}
-        for key in self.rows[0].look:
-            found[key] = [row.look[key] for row in rows]
+        found |= {key: [row.look[key] for row in rows] for key in self.rows[0].look}
         if self.kind == "lines":
             found["dash"] = [DASHES[dash] for dash in found["dash"]]
             found["symbol"] = [row.symbol or row.name for row in rows]
         elif self.kind == "marks":
             found["edge"] = [COLOURS[edge][dark] for edge in found["edge"]]
-        elif self.kind == "areas":
+        else:
             found["edge"] = [COLOURS["elastic"][dark] if row.role == "cut" else None for row in rows]
         return found
 
-    def places(self, rows: dict, axes: list[Axis]) -> tuple[dict[str, list], list[int]]:
-        """Columns of the places of all rows in the units of their axes, and how many points a row has."""
+    def columns(self, rows: dict, axes: list[Axis], dark: bool) -> dict[str, list]:
+        """Columns of the source: look, and places in the units of the axes."""
         x_axis, y_axis = axes[0], axes[2] if self.right else axes[1]
-        xs, ys, sizes = [], [], []
-        for row in self.rows:
-            x, y = _inside(row, x_axis, y_axis, *rows[row.name][:2])
-            xs.append(_short(x, x_axis))
-            ys.append(_short(y, y_axis))
-            sizes.append(len(xs[-1]))
-        if self.kind in ("areas", "lines"):
-            return {"xs": xs, "ys": ys}, [1] * len(xs)
-        found: dict[str, list] = {
-            "x": [x for part in xs for x in part],
-            "y": [y for part in ys for y in part],
-        }
-        if self.kind == "labels":
-            found["text"] = [rows[row.name][2] for row in self.rows]
-        return found, sizes
+        parts = [rows[row.name] for row in self.rows]
+        if self.connected:
+            pairs = zip(self.rows, parts, strict=True)
+            parts = [_inside(row, x_axis, y_axis, *part[:2]) for row, part in pairs]
+        xs, ys = ([_short(part[k], axis) for part in parts] for k, axis in ((0, x_axis), (1, y_axis)))
+        if self.connected:
+            return self._look(self.rows, dark) | {"xs": xs, "ys": ys}
+        points = [row for row, x in zip(self.rows, xs, strict=True) for _ in x]
+        found = self._look(points, dark) | {"x": [*chain(*xs)], "y": [*chain(*ys)]}
+        return found | {"text": [part[2] for part in parts]} if self.kind == "labels" else found
+
+    def draw(self, figure: Any, level: str) -> Any:
+        """Renderer of the rows on a figure."""
+        method, look = _GLYPHS[self.kind]
+        if self.kind == "areas":
+            look = look | {"line_color": "edge"}
+            look |= _HATCH if any(row.look["hatch"] != " " for row in self.rows) else {}
+        drawn = getattr(figure, method)(source=self.source, **look)
+        only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
+        # Above the axes, on a canvas of its own: they are not painted again with the data.
+        drawn.update(name=self.name, level=level, **only)
+        if self.right:
+            drawn.y_range_name = "right"
+        return drawn
 
 
 def _short(values: Any, axis: Axis) -> list[float]:
@@ -96,8 +111,6 @@ def _decimals(axis: Axis) -> int:
 
 def _inside(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, Any]:
     """A line or area as far as it is within its axes, for a canvas that does not clip."""
-    if row.kind not in ("areas", "lines"):
-        return parts[0], parts[1]
     for k, sign, bound in ((1, 1, y.end), (0, 1, x.end), (0, -1, -x.start)):
         outside = sign * parts[k] > bound + 1e-9 * abs(bound)
         if not outside.any():
@@ -115,9 +128,8 @@ class Picture:
 
     def __init__(self, plot: Plot, level: str = "overlay", size: tuple[int, int] | None = None):
         self.plot, self.axes, self.drawn = plot, None, None
-        kinds = {"x_axis_type": "log", "y_axis_type": "log"} if plot.log else {}
         ranges = {"x_range": bk.Range1d(0.1, 1), "y_range": bk.Range1d(0.1, 1)}
-        self.figure = figure(name=plot.name, tools="", toolbar_location=None, **kinds, **ranges)
+        self.figure = figure(name=plot.name, tools="", toolbar_location=None, **ranges)
         self.layers = [Layer(plot, g) for g in _GROUPS if any(row.group == g for row in plot.rows)]
         self.hovers: list[tuple[Any, bool]] = []
         if any(layer.right for layer in self.layers):
@@ -125,7 +137,12 @@ class Picture:
             self.figure.add_layout(bk.LinearAxis(y_range_name="right"), "right")
         self.image = self._image() if plot.image else None
         for layer in self.layers:
-            self._add(layer, level)
+            renderer = layer.draw(self.figure, level)
+            if layer.kind == "lines" and any(row.symbol for row in layer.rows):
+                told = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
+                hover = bk.HoverTool(renderers=[renderer], line_policy="nearest", visible=False, **told)
+                self.figure.add_tools(hover)
+                self.hovers.append((hover, layer.right))
         self._dress(size)
 
     def _image(self):
@@ -139,60 +156,16 @@ class Picture:
         self.figure.add_layout(self.bar, "right")
         return source
 
-    def _add(self, layer: Layer, level: str):
-        f, source, kind = self.figure, layer.source, layer.kind
-        if kind == "areas":
-            hatched = any(row.look["hatch"] != " " for row in layer.rows)
-            hatch = (
-                {"hatch_pattern": "hatch", "hatch_color": "color", "hatch_alpha": 0.35} if hatched else {}
-            )
-            glyph = f.patches(
-                "xs",
-                "ys",
-                source=source,
-                fill_color="color",
-                fill_alpha="alpha",
-                line_color="edge",
-                **hatch,
-            )
-        elif kind == "lines":
-            glyph = f.multi_line(
-                "xs", "ys", source=source, line_color="color", line_width="width", line_dash="dash"
-            )
-        elif kind == "marks":
-            look = {
-                "fill_color": "color",
-                "line_color": "edge",
-                "marker": "marker",
-                "size": "size",
-                "line_width": 1.6,
-            }
-            glyph = f.scatter("x", "y", source=source, **look)
-        else:
-            glyph = f.text("x", "y", "text", source=source, **_TEXT)
-        only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
-        # Above the axes, on a canvas of its own: they are not painted again with the data.
-        glyph.update(name=layer.name, level=level, **only)
-        if layer.right:
-            glyph.y_range_name = "right"
-        if kind == "lines" and any(row.symbol for row in layer.rows):
-            told = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
-            hover = bk.HoverTool(renderers=[glyph], line_policy="nearest", visible=False, **told)
-            self.figure.add_tools(hover)
-            self.hovers.append((hover, layer.right))
-
     def _dress(self, size):
         f = self.figure
         f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None, title=None)
         # The outermost pixels of a canvas keep a trace of the colour before the last one.
         f.styles = {"clip-path": "inset(1px)"}
         f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
-        fixed = (
-            {"sizing_mode": "fixed", "width": size[0], "height": size[1], "output_backend": "svg"}
-            if size
-            else {}
-        )
-        f.update(**fixed or {"sizing_mode": "stretch_both", "min_height": 150})
+        if size:
+            f.update(sizing_mode="fixed", width=size[0], height=size[1], output_backend="svg")
+        else:
+            f.update(sizing_mode="stretch_both", min_height=150)
         for axis in f.axis:
             axis.update(minor_tick_line_color=None, major_tick_in=0, axis_label_text_font_style="normal")
             axis.update(axis_label_text_font=FONT, axis_label_text_font_size="12px")
@@ -203,14 +176,9 @@ class Picture:
         axes, rows = view.axes_of(self.plot), view.rows(self.plot, i)
         if not axes:
             return {}
-        found = {}
-        for layer in self.layers:
-            places, sizes = layer.places(rows, axes)
-            found[layer.source] = layer.look(dark, sizes) | places
+        found = {layer.source: layer.columns(rows, axes, dark) for layer in self.layers}
         if self.image is not None:
-            (left, right), (low, high) = (
-                np.asarray(part) / axes[k].factor for k, part in enumerate(rows["image"][:2])
-            )
+            (left, right), (low, high) = (rows["image"][k] / axes[k].factor for k in (0, 1))
             corner = {"x": [left], "y": [low], "dw": [right - left], "dh": [high - low]}
             found[self.image] = corner | {"image": [np.float32(rows["image"][2] / axes[2].factor)]}
         return found
@@ -219,8 +187,12 @@ class Picture:
         """Places of what moves in state i; the rest of its columns is as it is drawn."""
         axes, rows = view.axes_of(self.plot), view.rows(self.plot, i)
         moving = self.plot.moving(view, view.course.now).keys()
-        some = [layer for layer in self.layers if any(row.name in moving for row in layer.rows)]
-        return {layer.source: layer.places(rows, axes)[0] for layer in some}
+        found = {}
+        for layer in self.layers:
+            if any(row.name in moving for row in layer.rows):
+                columns = layer.columns(rows, axes, False)
+                found[layer.source] = {name: columns[name] for name in _PLACES if name in columns}
+        return found
 
     def show(self, columns: dict, view: View, dark: bool) -> None:
         """Draw columns that were made for a view."""
@@ -258,7 +230,7 @@ class Picture:
 
     def _scale(self, side, axis: Axis):
         """Make the scale along one side logarithmic, or linear again."""
-        f, log = self.figure, axis.log or self.plot.log
+        f, log = self.figure, axis.log
         name = "x_scale" if side is f.below[0] else "y_scale"
         if isinstance(getattr(f, name), bk.LogScale) != log:
             setattr(f, name, bk.LogScale() if log else bk.LinearScale())

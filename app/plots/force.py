@@ -1,60 +1,14 @@
-"""Force over depth, linear and logarithmic, with reference and measured curves; and the residual."""
+"""Force over depth, linear and logarithmic, with a measured curve and its residual."""
 
 import numpy as np
 
-import mdr_core as mdr
 from mdr_core.results.figures import NOTHING, area, label, line, mark, parts, split
 
 from ..drives import Course
 from .plot import Plot, View, held_rows
 
-_ELASTIC = "elastic throughout"
-_CLASSES = {"a": "class (a), F ∝ a²", "c": "class (c), F constant"}
-REFERENCES = (
-    line(_ELASTIC, "free", 1.6, "dashed", "F"),
-    line(_CLASSES["a"], "ink", 1.4, "dotted", "F"),
-    line(_CLASSES["c"], "ink", 1.4, "dotdash", "F"),
-)
-#: Depths over the largest one, dense at the start of logarithmic axes.
-_SHARE = np.unique(np.append(np.linspace(0, 1, 80), np.geomspace(1e-5, 1, 60)))
 #: Most samples of a measured curve that are drawn.
 _DRAWN = 150
-
-
-def references(view: View) -> dict:
-    """Chosen reference curves.
-
-    Popov (2015), section 1: under a fully yielded contact F ∝ aⁱ with i = 2 for constant hardness (a), 1
-    for hardness ∝ 1/a (b), this model, and 0 for ∝ 1/a² (c). All have the hardness F/(πa²) at the largest
-    depth.
-    """
-    chosen, course, rows = view.references, view.course, {}
-    if chosen == "none":
-        return {}
-    profile, turning_point = course.scene.profile, course.turning_point
-    depth = _SHARE * min(view.end("d"), profile.known_depth)
-    if chosen in ("elastic", "all"):
-        rows[_ELASTIC] = depth, mdr.indent(profile, mdr.Medium(course.scene.medium.E_star), depth).force
-    if chosen in ("classes", "all") and turning_point.live_interval.lower > 0:
-        share = profile.contact_radius(depth) / turning_point.contact_radius
-        for name, row in _CLASSES.items():
-            rows[row] = depth, turning_point.force * share ** mdr.ScalingLaw(name, 1.0).force
-    return rows
-
-
-def _note(view: View) -> str:
-    """Explanation of the reference curves."""
-    if view.references == "none":
-        return ""
-    if view.references == "elastic":
-        return (
-            "The same tip on the same medium if it never yielded: F = 2E* ∫ a dd, of a paraboloid Hertz's."
-        )
-    if view.course.turning_point.live_interval.lower == 0:
-        return "Nothing has yielded: this scene has no hardness that the classes could share."
-    return (
-        "Fully yielded, hardness constant (a) or ∝ 1/a² (c), as hard as this scene (b) where it is deepest."
-    )
 
 
 def _curve(course: Course, until=None) -> dict:
@@ -75,7 +29,7 @@ def force_still(view: View) -> dict:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     if view.curve is not None:
         rows["measured"] = sampled(view.curve.depth, view.curve.force)
-    return rows | view.held_on_axes("d", "F") | references(view)
+    return rows | view.held_on_axes("d", "F")
 
 
 def force(view: View, i: int) -> dict:
@@ -107,7 +61,6 @@ def _formula(course: Course) -> str:
 
 _CURVES = (
     *held_rows("F"),
-    *REFERENCES,
     line("path ahead", "free", 1.0),
     *parts("F"),
     mark("measured", "measured", "measured", size=4),
@@ -123,7 +76,7 @@ FORCE = Plot(
         mark("now", size=13),
         label("dₚ"),
     ),
-    force_still, force, controls=("references",), note=_note,
+    force_still, force,
 )  # fmt: skip
 
 
@@ -138,7 +91,7 @@ LOGLOG = Plot(
     ("log d", "log F"), (*_CURVES, mark("now")),
     lambda view: {name: _inside(view, *row) for name, row in force_still(view).items()},
     lambda view, i: {"now": _inside(view, *view.mark(i, "d", "F"))},
-    tab=("Log–log", "l"), log=True,
+    tab=("Log–log", "l"),
 )  # fmt: skip
 
 

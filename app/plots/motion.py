@@ -1,19 +1,13 @@
 """Depth, force and energies over time, and friction of an oblique impact."""
 
-from functools import cache
 from itertools import pairwise
 
 import numpy as np
 
-import mdr_core as mdr
 from mdr_core.results.figures import NOTHING, area, line, mark
 
 from ..drives import Course
-from ..solve import Found
-from .plot import Plot, View, held_rows, maw_chi, maw_numbers
-
-#: Points of Maw's curve in partial slip, and their tolerance.
-_PLACES, _TOLERANCE = 14, 1e-3
+from .plot import Plot, View, held_rows
 
 
 def motion_still(view: View) -> dict:
@@ -99,38 +93,4 @@ FORCES = Plot(
         mark("F now", marker="diamond", legend=False),
     ),
     forces_still, _marks("force"), tab=("Friction", "c"),
-)  # fmt: skip
-
-
-def maw_still(view: View) -> dict:
-    psi, after, _ = maw_numbers(view.course)
-    return {"this impact": (np.array([psi]), np.array([after]))} if psi else {}
-
-
-def maw(course: Course, asked):
-    """The elastic curve ψ₂(ψ₁) of the same body, point by point; Maw's own under a paraboloid."""
-    drive, medium = course.scene.drive, course.scene.medium
-    elastic = mdr.Medium(medium.E_star, poisson=medium.poisson)
-    body, found = (drive.mass, drive.speed, drive.tangential_mass), [(0.0, 0.0)]
-    last, reach = max(4 * maw_chi(course) - 1, 1.0), maw_numbers(course)[2]
-    for psi in [*np.linspace(0, last, _PLACES)[1:], reach]:
-        found.append((psi, _after(course.scene.profile, elastic, *body, float(psi))))
-        note = "" if psi > last else "finding the curve …"
-        yield Found({"elastic (Maw)": tuple(np.array(found).T)}, [], note)
-
-
-@cache
-def _after(profile, medium, mass, speed, tangential_mass, psi):
-    """ψ₂ of an elastic impact."""
-    unit = speed / float(medium.tangential_ratio)
-    hit = mdr.oblique_impact(
-        profile, medium, mass, speed, psi * unit, 1.0, tangential_mass=tangential_mass, tolerance=_TOLERANCE
-    )
-    return float(hit.tangential_velocity) / unit
-
-
-MAW = Plot(
-    "maw", "Speed along the surface, after over before", "ψ = κ W/(μ v_0),  § 13", ("ψ₁", "ψ₂"),
-    (line("elastic (Maw)", "elastic", 2.2, symbol="ψ₂"), mark("this impact", "slip", "ink", "diamond", 12)),
-    maw_still, find=maw, tab=("ψ", "o"),
 )  # fmt: skip

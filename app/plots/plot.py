@@ -1,8 +1,8 @@
 """Definition of a plot, and a view: a course with axes, from which rows are drawn, in SI."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ import mdr_core as mdr
 from mdr_core.results.figures import NOTHING, REST, Axis, Row, ceiling, line, radii
 from mdr_core.results.quantities import QUANTITIES
 
-from ..drives import Course, onset
+from ..drives import Course
 from ..state.units import fitting, round_up, written
 
 #: Scenes that are held have each its own dashes.
@@ -39,8 +39,6 @@ AXES: dict[str, tuple[str, str, str, float]] = {
     "E": ("E, energy", "energy", "E", 0.0),
     "ΔF": ("ΔF, residual force", "force", "ΔF", 1.0),
     "force": ("F, Fₓ, force", "force", "force", 0.0),
-    "ψ₁": ("ψ₁, speed along the surface before", "number", "ψ₁", 0.0),
-    "ψ₂": ("ψ₂, speed along the surface after", "number", "ψ₂", 1.0),
     "log d": (_titled("depth"), "length", "d", 0.0),
     "log F": (_titled("force"), "force", "F", 0.0),
     "across": ("x, across the surface", "length", "r", 1.0),
@@ -54,9 +52,8 @@ class Plot:
 
     `still` returns rows that stay during playback, `moving` those of one state: x and y (SI), the text of a
     label or the values of an image. A plot with a `tab` (text, key) is optional. `find` is a slow search:
-    it gets the course and the result of `asks` (default: the `controls`), and yields results, for each
-    scene or state (`of_state`); `quick` ones run at every move. `image`: rows and columns of pixels.
-    `note`: text below.
+    it gets the course and the result of `asks` (default: the `controls`), and returns what is found, of
+    a scene or a state (`of_state`); `quick` ones run at every move. `image`: rows and columns of pixels.
     """
 
     name: str
@@ -66,16 +63,13 @@ class Plot:
     rows: tuple[Row, ...]
     still: Callable[["View"], dict] = lambda view: {}
     moving: Callable[["View", int], dict] = lambda view, i: {}
-    find: Callable[..., Iterator[Any]] | None = None
+    find: Callable[..., Any] | None = None
     asks: Callable[[Any], Any] | None = None
     quick: Callable[[Any], bool] = lambda asked: False
     of_state: bool = False
     tab: tuple[str, str] | None = None
     controls: tuple[str, ...] = ()
-    log: bool = False
     image: tuple[int, int] | None = None
-    note: Callable[["View"], str] | None = None
-    fitted: Callable[["View"], list] | None = None
 
     def __post_init__(self):
         if unknown := set(self.axes) - AXES.keys():
@@ -100,30 +94,20 @@ def held_rows(
     return [line(f"held {k}{what}", "held", width, dash, symbol, axis, legend) for k, dash in rows]
 
 
-def axis(name: str, title: str, kind: str, largest: float, below: float = 0.0, scale: Any = None) -> Axis:
-    """Axis up to the next round number above `largest` (SI), in a fitting unit or relative to `scale`."""
+def axis(name: str, title: str, kind: str, largest: float, below: float = 0.0) -> Axis:
+    """Axis up to the next round number above `largest` (SI), in a fitting unit."""
     unit = fitting(largest, kind)
     if round_up(largest / unit.factor) >= 1000:
         unit = fitting(round_up(largest / unit.factor) * unit.factor, kind)
-    made = over(Axis(name, title, unit.name, unit.factor), scale)
-    end = round_up(largest / made.factor) * made.factor
-    return replace(made, start=0.0 - below * end, end=end)
-
-
-def over(axis: Axis, scale: tuple[float, str] | None) -> Axis:
-    """Axis in units of a size of the scene (SI, with its name), if given."""
-    return replace(axis, unit=f"× {scale[1]}", factor=scale[0]) if scale else axis
+    end = round_up(largest / unit.factor) * unit.factor
+    return Axis(name, title, unit.name, unit.factor, 0.0 - below * end, end)
 
 
 class View:
     """A course and its axes, with held scenes, search results and the measured curve."""
 
-    def __init__(self, course: Course, state: Any, held=(), found=None, curve=None):
+    def __init__(self, course: Course, held=(), found=None, curve=None):
         self.course, self.held, self.found, self.curve = course, held, found or {}, curve
-        self.references, self.heights = state.references, state.heights
-        ratio = state.axes == "ratio"
-        # Sizes of the scene that are units, and those of what is held, each in its own.
-        self._scales, *self._theirs = (_scales(each) if ratio else {} for each in (course, *held))
         self._axes: dict[str, Axis] = {}
         self._drawn: dict[Any, Any] = {}
 
@@ -131,11 +115,9 @@ class View:
     def size(self) -> dict[str, float]:
         """Largest values (SI) on the axes, including held scenes."""
         size = _sizes(self.course)
-        for k, held in enumerate(self.held):
-            theirs = _sizes(held)
+        for held in map(_sizes, self.held):
             # Heights are those of this scene: nothing that is held is drawn over them.
-            for name in size.keys() & theirs.keys() - {"z"}:
-                size[name] = max(size[name], self._beside(k, name, theirs[name]))
+            size |= {name: max(size[name], held[name]) for name in size.keys() & held.keys() - {"z"}}
         if self.curve is not None:
             size["d"] = max(size["d"], 1.02 * float(self.curve.depth.max()))
             size["F"] = max(size["F"], 1.05 * float(self.curve.force.max()))
@@ -146,7 +128,7 @@ class View:
         if name not in self._axes:
             title, kind, size, below = AXES[name]
             key = name.removeprefix("log ")
-            made = axis(key, title, kind, self.size[size], below, self._scales.get(key))
+            made = axis(key, title, kind, self.size[size], below)
             if name == "force" and np.min(self.course.on_axes["force"]) < 0:
                 made = replace(made, start=-made.end)
             elif name == "force":
@@ -167,28 +149,19 @@ class View:
         """Axes of a plot: those of the view, or those found with its rows."""
         found = self.found.get(plot.name)
         if found and found.axes:
-            return [over(each, self._scales.get(each.name)) for each in found.axes]
-        return plot.fitted(self) if plot.fitted else [self.axis(key) for key in plot.axes]
+            return found.axes
+        return [self.axis(key) for key in plot.axes]
 
-    def _beside(self, k: int, name: str, values: Any) -> Any:
-        """Values of held scene k on an axis of this scene; dimensionless ones in their own units."""
-        both = self._scales, self._theirs[k]
-        (ours, same), (theirs, symbol) = (scale.get(name, (1.0, "")) for scale in both)
-        return values * (ours / theirs) if symbol == same else values
-
-    def held_curves(self, what: str, columns: Callable[..., Any]) -> dict:
-        """Rows of all held scenes; `columns` gets a course and its scaling."""
-        return {
-            f"held {k + 1}{what}": columns(held, partial(self._beside, k))
-            for k, held in enumerate(self.held)
-        }
+    def held_curves(self, what: str, columns: Callable[[Course], Any]) -> dict:
+        """Rows of all held scenes."""
+        return {f"held {k}{what}": columns(held) for k, held in enumerate(self.held, 1)}
 
     def held_on_axes(self, x: str, y: str) -> dict:
         """Curves of all held scenes on two axes."""
 
-        def columns(course, beside):
-            known = course.on_axes.keys() >= {x, y}
-            return (beside(x, course.on_axes[x]), beside(y, course.on_axes[y])) if known else NOTHING
+        def columns(course):
+            on = course.on_axes
+            return (on[x], on[y]) if on.keys() >= {x, y} else NOTHING
 
         return self.held_curves("", columns)
 
@@ -259,26 +232,8 @@ def _sizes(course: Course) -> dict[str, float]:
     if course.motion is not None:
         size |= {"t": float(course.motion.time[-1]), "E": float(np.max(course.energy))}
     if course.oblique is not None:
-        _, after, reach = maw_numbers(course)
         size["force"] = max(size["F"], float(np.max(np.abs(course.on_axes["force"]))))
-        size |= {"ψ₁": reach, "ψ₂": max(reach - 4 * maw_chi(course), abs(after), 1.2)}
     return size
-
-
-def maw_chi(course: Course) -> float:
-    """χ = κm/(2m_t) of an oblique impact."""
-    drive = course.scene.drive
-    return float(course.scene.medium.tangential_ratio) * drive.mass / (2 * drive.tangential_mass)
-
-
-def maw_numbers(course: Course) -> tuple[float, float, float]:
-    """ψ₁ and ψ₂ of an oblique impact, speeds over μv₀/κ, and the range of Maw's curve."""
-    drive, hit = course.scene.drive, course.oblique.impact
-    unit = drive.friction * drive.speed / float(course.scene.medium.tangential_ratio)
-    velocity = course.oblique.tangential_velocity[-1] if hit is None else hit.tangential_velocity
-    psi, after = (drive.tangential_speed / unit, float(velocity) / unit) if unit else (0.0, 0.0)
-    # Further than where all slips throughout.
-    return psi, after, 1.15 * max(psi, 4 * maw_chi(course) + 1)
 
 
 def _least(course: Course) -> dict[str, float]:
@@ -286,28 +241,3 @@ def _least(course: Course) -> dict[str, float]:
     profile, medium = course.scene.profile, course.scene.medium
     depth = min(float(np.max(course.states.depth)), medium.critical_depth) / 50
     return {"d": depth, "F": float(mdr.indent(profile, mdr.Medium(medium.E_star), depth).force)}
-
-
-def _scales(course: Course) -> dict[str, tuple[float, str]]:
-    """Sizes (SI) with their names, by axis, for dimensionless axes.
-
-    Depth, force and radius are those at first yield of a virgin surface, else those at the largest depth.
-    """
-    first_yield, turning_point = onset(course.scene), course.turning_point
-    at, words = (turning_point, "largest {}") if first_yield is None else (first_yield, "{} at onset")
-    depth, force, radius = (
-        (float(getattr(at, name)), words.format(symbol))
-        for name, symbol in (("depth", "d"), ("force", "F"), ("contact_radius", "a"))
-    )
-    found = {"d": depth, "z": depth, "far z": depth, "F": force, "a": radius}
-    along = float(turning_point.contact_radius), "largest a"
-    found |= dict.fromkeys(("x", "r", "far r", "across", "far", "depth"), along)
-    pressure = float(turning_point.mean_pressure), "mean pressure"
-    found |= dict.fromkeys(("p", "oblique", "stress"), pressure)
-    if course.motion is not None:
-        found["t"] = float(np.ptp(course.motion.time)), "duration"
-        # That of a body, or what is put in along a path, which begins without any.
-        found["E"] = float(np.max(course.energy)), "energy put in"
-    if course.oblique is not None:
-        found["force"] = found["F"]
-    return found

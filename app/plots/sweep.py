@@ -11,8 +11,8 @@ from mdr_core.results.figures import NOTHING, line, mark
 from mdr_core.results.quantities import QUANTITIES as RESULTS
 
 from ..solve import DRIVES, Found, option
-from ..state import State, medium, number, profile
-from ..state.quantities import SWEPT, lowered
+from ..state import PRESETS, State, medium, profile
+from ..state.quantities import SWEPT, Scale, lowered
 from ..state.units import KINDS, digits, written
 from ..ui import marked, plain
 from .plot import Plot, axis
@@ -112,10 +112,13 @@ class Sweep:
 
 
 def asked(state: State) -> Sweep:
+    """The sweep of a state, over the range of a slider about the value of the preset."""
     swept = option(state, "swept")
-    low, high = sorted(number(state.replace(swept=swept), end) for end in ("sweep_low", "sweep_high"))
+    states = state, state.replace(**PRESETS[state.preset].values)
+    values, preset = ({**each, "energy": each.mass * each.speed**2 / 2} for each in states)
+    scale = Scale.about(SWEPT[swept], preset[swept], values[swept])
     chosen = option(state, "against"), option(state, "sweep_axes")
-    return Sweep(state.scene_values, swept, number(state, swept), low, high, *chosen)
+    return Sweep(state.scene_values, swept, values[swept], scale.low, scale.high, *chosen)
 
 
 def quick(sweep: Sweep) -> bool:
@@ -125,12 +128,8 @@ def quick(sweep: Sweep) -> bool:
 
 def found(course, sweep: Sweep):
     """Curve of the sweep with the present value and limits."""
-    if not sweep.drive.solver or sweep.low == sweep.high:
-        what = (
-            "the range is empty" if sweep.drive.solver else "press to a depth or a force, or let a body hit"
-        )
-        yield Found({}, [], f"Nothing is swept: {what}.")
-        return
+    if not sweep.drive.solver:
+        return Found({}, [], "Nothing is swept: press to a depth or a force, or let a body hit.")
     numbers, present = sweep.numbers, getattr(course.hit or course.turning_point, sweep.against)
     (values,) = sweep.columns(numbers, [sweep.against])
     limits, powers = sweep.limits(numbers)
@@ -141,7 +140,7 @@ def found(course, sweep: Sweep):
         rows = {name: (numbers, np.where(row > 0, row, np.nan)) for name, (_, row) in rows.items()}
     visible = inside and (present > 0 or not y.log)
     rows["present value"] = (np.array([sweep.present]), np.array([present])) if visible else NOTHING
-    yield Found(rows, [x, y], " ".join(_notes(sweep, numbers, values, powers, inside)))
+    return Found(rows, [x, y], " ".join(_notes(sweep, numbers, values, powers, inside)))
 
 
 def _axes(sweep, values, present):

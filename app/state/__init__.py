@@ -14,10 +14,7 @@ from .quantities import (
     CHOICES,
     QUANTITIES,
     SHAPES,
-    SWEPT,
     USED,
-    Quantity,
-    Scale,
     lowered,
     shape_quantities,
 )
@@ -26,48 +23,29 @@ from .units import written
 
 @dataclass(frozen=True)
 class Preset:
-    """A preset: `key` in links, `choices` and `values` (SI); `sources` by name: what, value, reference."""
+    """A preset: its key in links, choices, values (SI), and sources of values, by name."""
 
     label: str
     key: str
     choices: dict[str, str]
     values: dict[str, float]
-    sources: dict[str, tuple[str, str, str]]
+    sources: dict[str, str]
 
 
-def _preset(scene, media, indenters):
-    medium, indenter = media[scene["medium"]], indenters[scene["indenter"]]
-    shape, drive = indenter["shape"], "depth" if "depth" in scene else "impact"
-    # Symbol, owner, name and number of everything that has a source.
-    given = [
-        *(("E", medium, "E_1", medium["E"]), ("ν", medium, "nu_1", medium["nu"])),
-        *((QUANTITIES[name].symbol, medium, name, medium[name]) for name in ("q_c", "density")),
-        *(
-            (QUANTITIES[f"{shape}_{name}"].symbol, indenter, f"{shape}_{name}", number)
-            for name, number in indenter["parameters"].items()
-        ),
-        *(("E", indenter, "E_2", indenter["E"]), ("ν", indenter, "nu_2", indenter["nu"])),
-    ]
-    impact = {"label": "the impact"}
-    given += [(QUANTITIES[n].symbol, impact, n, scene[n]) for n in USED["drive"]["impact"] if n in scene]
-    values = {name: number["value"] for _, _, name, number in given}
-    bodies = (values[name] for name in USED["elasticity"]["bodies"])
-    made = mdr.Medium.from_bodies(*bodies, q_c=values["q_c"])
+def _preset(scene: dict, media: dict, indenters: dict) -> Preset:
+    medium, indenter, remark = media[scene["medium"]], indenters[scene["indenter"]], scene.get("remark", "")
+    given = {k: v for part in (medium, indenter, scene) for k, v in part.items() if k in QUANTITIES}
+    values = {name: each["value"] for name, each in given.items()}
+    sources = {name: each["source"] for name, each in given.items()}
+    made = mdr.Medium.from_bodies(*(values[n] for n in USED["elasticity"]["bodies"]), q_c=values["q_c"])
     values["E_star"] = made.E_star
-    if drive == "depth":
-        values["max_depth"] = float(scene["depth"] * made.critical_depth)
-    choices = {"shape": shape, "elasticity": "bodies", "plasticity": "q_c", "damping": "none"}
-    choices |= {"drive": drive, "inertia": "density", "surface": "virgin"}
-    sources = {
-        name: (f"{symbol} of {owner['label']}", written(n["value"], QUANTITIES[name].kind, 3), n["source"])
-        for symbol, owner, name, n in given
-    }
-    if drive == "depth":
-        times = f"{scene['depth']:g} times the depth at which yield begins"
-        sources["max_depth"] = ("d_max", written(values["max_depth"], "length", 3), times)
-    remark = f", {scene['remark']}" if "remark" in scene else ""
-    label = f"{indenter['label']} on {medium['label']}{remark}"
-    key = "-".join([scene["indenter"], scene["medium"], *scene.get("remark", "").split()])
+    choices = {"shape": indenter["shape"], "elasticity": "bodies", "plasticity": "q_c", "damping": "none"}
+    choices |= {"drive": "impact", "inertia": "density", "surface": "virgin"}
+    if "depth" in scene:
+        choices["drive"], values["max_depth"] = "depth", float(scene["depth"] * made.critical_depth)
+        sources["max_depth"] = f"{scene['depth']:g} times the depth at which yield begins"
+    label = f"{indenter['label']} on {medium['label']}" + f", {remark}" * bool(remark)
+    key = "-".join([scene["indenter"], scene["medium"], *remark.split()])
     return Preset(label[0].upper() + label[1:], key, choices, values, sources)
 
 
@@ -83,32 +61,31 @@ OPENING = next(iter(PRESETS))
 #: height of the undeformed surface.
 LAST_PROGRESS = 2.2
 #: What the view is like rather than the scene: undo leaves it alone.
-VIEW = ("progress", "hold", "tiles", "keep", "dark", "heights", "references", "axes")
+VIEW = ("progress", "hold", "tiles", "keep", "dark")
 
 # A number of a shape that has not been looked at is None: it is sized when it is.
 _DEFAULTS: dict[str, Any] = {name: q.bounded(q.default) for name, q in QUANTITIES.items()}
 _DEFAULTS |= {name: None for shape in SHAPES for name, _ in shape_quantities(shape)}
 _DEFAULTS |= {name: next(iter(options)) for name, options in CHOICES.items()}
 _DEFAULTS |= {
-    "preset": OPENING, "shape": "cone", "progress": 1.0, "path": (), "samples": (), "tip_note": "",
-    "sweep_low": None, "sweep_high": None, "hold": (), "tiles": (), "keep": False, "dark": False,
-    "curve": None, "fit_note": "", "fixed": ("baseline", "frame_compliance"),
+    "preset": OPENING, "shape": "cone", "progress": 1.0, "samples": (), "tip_note": "",
+    "hold": (), "tiles": (), "keep": False, "dark": False,
+    "curve": None, "fit_note": "", "fixed": ("eta", "baseline", "tilt", "drag", "frame_compliance"),
 }  # fmt: skip
 
 
 class State(Mapping[str, Any]):
     """Everything set on the page; values are attributes, `replace` returns a copy with other values.
 
-    `path` has vertices, `samples` radii and heights of a measured tip, `hold` held scenes as links, `tiles`
+    `samples` has radii and heights of a measured tip, `hold` held scenes as links, `tiles`
     optional plots; `curve` is a measured curve, `fixed` the fixed parameters of a fit, `fit_note` its
     summary.
     """
 
     __slots__ = ("_values",)
-    _values: Mapping[str, Any]
 
     def __init__(self, values: Mapping[str, Any]):
-        object.__setattr__(self, "_values", MappingProxyType({**_DEFAULTS, **values}))
+        self._values = MappingProxyType({**_DEFAULTS, **values})
 
     def __getitem__(self, name: str) -> Any:
         return self._values[name]
@@ -123,9 +100,6 @@ class State(Mapping[str, Any]):
         if name.startswith("_") or name not in self._values:
             raise AttributeError(name)
         return self._values[name]
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        raise AttributeError(f"a state is frozen: use replace({name}=…)")
 
     def replace(self, **changes: Any) -> "State":
         """Copy with other values."""
@@ -180,41 +154,9 @@ def used(state: State, form: tuple[str, ...]) -> list[str]:
     return names + [name for choice in choices for name in USED[choice][state[choice]]]
 
 
-def quantity(state: State, name: str) -> Quantity:
-    """Definition of a number; of an end of a range, that of the swept number."""
-    if name not in ("sweep_low", "sweep_high"):
-        return SWEPT[name]
-    swept = SWEPT[state.swept]
-    return replace(
-        swept, name=name, symbol=f"{swept.symbol} {'from' if name == 'sweep_low' else 'to'}", label=""
-    )
-
-
-def number(state: State, name: str) -> float:
-    """Value of a number; an end of a range defaults to a third of the slider's reach."""
-    if name == "energy":
-        return state.mass * state.speed**2 / 2
-    if name not in ("sweep_low", "sweep_high") or state[name] is not None:
-        return state[name]
-    swept = SWEPT[state.swept]
-    scale = Scale(swept, preset_value(state, state.swept))
-    value = scale.low if name == "sweep_low" else scale.high
-    if scale.logarithmic:
-        value = min(3 * value, scale.middle) if name == "sweep_low" else max(value / 3, scale.middle)
-    return swept.bounded(float(f"{value:.1g}"))
-
-
-def preset_value(state: State, name: str) -> float:
-    """Value of a number in the preset, or its present value."""
-    if name == "energy":
-        return preset_value(state, "mass") * preset_value(state, "speed") ** 2 / 2
-    start = PRESETS[state.preset].values.get(name)
-    return number(state, name) if start is None else start
-
-
-def checked(state: State, name: str, value: float) -> float:
+def checked(name: str, value: float) -> float:
     """Value (SI) of a number if it is within bounds; else ValueError."""
-    known = quantity(state, name)
+    known = QUANTITIES[name]
     if abs(known.bounded(value) - value) > 1e-12 * abs(value):
         shown, low, high = (written(v, known.kind) for v in (value, *known.bounds))
         raise ValueError(f"{lowered(known.symbol)} = {shown} is out of bounds: {low} to {high}")

@@ -2,145 +2,104 @@
 
 from math import inf, isfinite
 from typing import Any
-from urllib.parse import parse_qs, quote, unquote, urlencode
+from urllib.parse import parse_qsl, urlencode
 
-import mdr_core as mdr
-
-from ..drives.path import checked as checked_path
 from . import LAST_PROGRESS, OPENING, PRESETS, State, checked, preset_state, used, with_derived
 from .files import FITTED, MAX_SAMPLES
 from .quantities import CHOICES, QUANTITIES, SHAPES, USED
 
-#: Limits of a link: characters, held scenes, characters of a name.
-MAX_LENGTH, MAX_HELD, MAX_NAME = 8000, 4, 60
-_NAME = "&called="
-#: Plots of version 0.3 that no longer exist; they are ignored in links.
-_DROPPED_TILES = {"map", "speed", "hodograph"}
+#: Limits of a link: characters, values, held scenes, plots.
+MAX_LENGTH, _MAX_VALUES, MAX_HELD, _MAX_TILES = 8000, 100, 4, 12
+_OPTIONS = {"shape": SHAPES} | CHOICES
+_FLAGS, _LISTS = ("dark", "keep"), ("hold", "tiles", "fixed")
+#: Names of version 0.3 with their present names, and names that are ignored.
+_RENAMED, _IGNORED = (
+    {"plots": "tiles"},
+    ("called", "sweep_low", "sweep_high", "references", "axes", "heights"),
+)
 
 
-def write(state: State, form: tuple[str, ...], view: bool = True) -> str:
-    """State as a query; without `view` the scene alone. Raises ValueError if it is too long."""
+def write(state: State, form: tuple[str, ...]) -> str:
+    """State as a query; `form` has the choices of the drive. Raises ValueError if it is too long."""
     start = preset_state(state.preset)
-    pairs = {} if state.preset == OPENING else {"preset": state.preset}
-    choices = (
-        "shape",
-        *(each for each in CHOICES if view or each not in ("heights", "references", "axes")),
-    )
-    pairs |= {name: state[name] for name in choices if state[name] != start[name]}
-    numbers = used(state, form)
-    if view:
-        numbers += [*FITTED[2:], *USED["noise"][state.noise], "sweep_low", "sweep_high"]
-    pairs |= {name: repr(state[name]) for name in numbers if state[name] not in (None, start[name])}
-    if state.progress != 1:
-        pairs["at"] = f"{state.progress:.6g}"
+    numbers = [*used(state, form), *FITTED[2:], *USED["noise"][state.noise]]
+    changed = {n for n in (*_OPTIONS, *numbers, *_FLAGS, *_LISTS, "fit_note") if state[n] != start[n]}
+    pairs = {"preset": state.preset} if state.preset != OPENING else {}
+    pairs |= {name: state[name] for name in _OPTIONS if name in changed}
+    pairs |= {name: repr(state[name]) for name in numbers if name in changed and state[name] is not None}
+    pairs |= {"at": f"{state.progress:.6g}"} if state.progress != 1 else {}
     if state.shape == "sampled":
-        pairs["samples"] = " ".join(f"{x!r},{y!r}" for x, y in zip(*state.samples, strict=True))
-    if state.drive == "path":
-        pairs["path"] = " ".join(",".join(map(repr, row)) for row in state.path)
-    if view:
-        pairs |= {name: " ".join(state[name]) for name in ("tiles", "hold") if state[name]}
-        pairs |= {name: "1" for name in ("dark", "keep") if state[name]}
-        pairs |= {"fixed": " ".join(state.fixed)} if state.fixed != start.fixed else {}
-        pairs |= {"fit_note": state.fit_note} if state.fit_note else {}
-    text = urlencode(pairs, safe=",*")
-    if len(text) > MAX_LENGTH:
+        pairs["samples"] = " ".join(f"{r!r},{z!r}" for r, z in zip(*state.samples, strict=True))
+    pairs |= {name: " ".join(state[name]) for name in _LISTS if name in changed}
+    pairs |= {name: "1" for name in _FLAGS if name in changed}
+    pairs |= {"fit_note": state.fit_note} if "fit_note" in changed else {}
+    query = urlencode(pairs, safe=",*")
+    if len(query) > MAX_LENGTH:
         raise ValueError("there are too many samples in this scene for a link")
-    return text
+    return query
 
 
-def with_name(query: str, name: str) -> str:
-    """Link of a scene with a name."""
-    return query.partition(_NAME)[0] + _NAME + quote(name.strip()[:MAX_NAME], safe="")
-
-
-def split_name(query: str) -> tuple[str, str]:
-    """Link without name, and name."""
-    scene, _, name = query.partition(_NAME)
-    return scene, unquote(name)[:MAX_NAME]
-
-
-def arguments(text: str) -> dict[str, list[bytes]]:
-    """Query as a request gives it: lists of bytes by name."""
-    return {name: [value.encode() for value in values] for name, values in parse_qs(text, True).items()}
-
-
-def read(arguments: dict[str, list[bytes]]) -> State:
-    """State from the arguments of a request, of this version or of 0.3; ValueError if they are invalid."""
-    length = sum(len(text) for texts in arguments.values() for text in texts)
-    if len(arguments) > 100 or length > MAX_LENGTH:
+def read(query: str) -> State:
+    """State of a query, of this version or an earlier one; ValueError if it is invalid."""
+    values = parse_qsl(query[: 3 * MAX_LENGTH + 1], keep_blank_values=True)
+    if len(values) > _MAX_VALUES or sum(len(text) for _, text in values) > MAX_LENGTH:
         raise ValueError("this link is too long")
-    if any(len(values) != 1 for values in arguments.values()):
-        raise ValueError("this link says the same thing twice")
-    pairs = {name: values[0].decode("utf-8", "replace") for name, values in arguments.items()}
+    pairs = {_RENAMED.get(name, name): text for name, text in values}
+    if len(pairs) < len(values):
+        raise ValueError("this link sets a value twice")
     state = preset_state(_preset(pairs.pop("preset", OPENING)))
-    changes = _view(pairs) | _scene(pairs)
-    known = {"shape": SHAPES} | CHOICES
-    for name in known.keys() & pairs.keys():
-        changes[name] = wanted = pairs.pop(name)
-        if wanted not in known[name] or (wanted == "sampled" and "samples" not in changes):
-            raise ValueError(f"{name} = {wanted:.40} in this link is not known")
-    if "path" in changes:
-        changes["path"] = checked_path(changes["path"], changes.get("prescribed", state.prescribed))
-    elif changes.get("drive") == "path":
-        raise ValueError("this link has a path without vertices")
-    swept = changes.get("swept", state.swept)
-    state = state.replace(**changes)
-    for name, value in pairs.items():
-        # Version 0.3 had a range for each number that can be swept.
-        name = {f"{swept}_from": "sweep_low", f"{swept}_to": "sweep_high"}.get(name, name)
-        if name.removesuffix("_from").removesuffix("_to") != name:
-            continue
-        if name not in QUANTITIES and name not in ("sweep_low", "sweep_high"):
-            raise ValueError(f"this link sets {name:.40}, which is not known")
-        state = state.replace(**{name: checked(state, name, _number(name, value))})
-    if any(state[name] is None for name in used(state, ())):
-        raise ValueError("this link has a shape without its numbers")
+    state = state.replace(**dict(_value(*pair) for pair in pairs.items() if not _is_ignored(pair[0])))
+    missing = [name for name in used(state, ()) if state[name] is None]
+    for wrong, message in (
+        (
+            not 0 <= state.progress <= LAST_PROGRESS,
+            f"at in this link is not in 0 to {LAST_PROGRESS}",
+        ),
+        (len(state.hold) > MAX_HELD, f"more than {MAX_HELD} scenes are held in this link"),
+        (not set(state.fixed) <= set(FITTED), "what a fit leaves as it is, in this link, is not known"),
+        (state.shape == "sampled" and not state.samples, "this link has a measured tip without samples"),
+        (missing, "this link has a shape without its numbers"),
+    ):
+        if wrong:
+            raise ValueError(message)
     return with_derived(state)
+
+
+def _is_ignored(name: str) -> bool:
+    # Version 0.3 had a range for each number that can be swept.
+    return name in _IGNORED or name.endswith(("_from", "_to"))
 
 
 def _preset(text: str) -> str:
     """Key of a preset; version 0.3 used labels."""
-    labels = {preset.label: key for key, preset in PRESETS.items()}
-    key = labels.get(text, text)
+    key = {preset.label: key for key, preset in PRESETS.items()}.get(text, text)
+    if not key:
+        raise ValueError("a scene that version 0.3 took from a file has to be set anew")
     if key not in PRESETS:
-        raise ValueError(
-            "this link names no preset that is known"
-            if key
-            else "a scene that version 0.3 took from a file has to be set anew"
-        )
+        raise ValueError("this link names no preset that is known")
     return key
 
 
-def _view(pairs: dict[str, str]) -> dict[str, Any]:
-    """Values of the view, removed from the pairs."""
-    held = tuple(pairs.pop("hold", "").split())
-    if len(held) > MAX_HELD:
-        raise ValueError(f"more than {MAX_HELD} scenes are held in this link")
-    plots = pairs.pop("plots", "")
-    tiles = tuple(t for t in (pairs.pop("tiles", "") or plots).split() if t not in _DROPPED_TILES)
-    changes: dict[str, Any] = {"hold": held, "tiles": tiles[:12]}
-    changes |= {name: pairs.pop(name, "0") == "1" for name in ("dark", "keep")}
-    fixed = tuple(pairs.pop("fixed", "baseline frame_compliance").split())
-    if not set(fixed) <= set(FITTED):
-        raise ValueError("what a fit leaves as it is, in this link, is not known")
-    return changes | {"fixed": fixed, "fit_note": pairs.pop("fit_note", "")[:300]}
-
-
-def _scene(pairs: dict[str, str]) -> dict[str, Any]:
-    """Samples, path and progress, removed from the pairs."""
-    changes: dict[str, Any] = {}
-    if "samples" in pairs:
-        points = _rows("samples", pairs.pop("samples"))
-        if any(len(point) != 2 for point in points):
-            raise ValueError("the samples in this link are not pairs")
-        tip = mdr.Sampled(*zip(*points, strict=True))
-        changes["samples"] = (tip.r, tip.z)
-    if path := _rows("path", pairs.pop("path", "")):
-        changes["path"] = path
-    changes["progress"] = _number("at", pairs.pop("at", "1"))
-    if not 0 <= changes["progress"] <= LAST_PROGRESS:
-        raise ValueError(f"at in this link is out of bounds: 0 to {LAST_PROGRESS}")
-    return changes
+def _value(name: str, text: str) -> tuple[str, Any]:
+    """Name and value of a state from a pair of a link."""
+    if name in _OPTIONS and text in _OPTIONS[name]:
+        return name, text
+    if name in QUANTITIES:
+        return name, checked(name, _number(name, text))
+    if name in _LISTS:
+        return name, tuple(text.split()[:_MAX_TILES])
+    if name in _FLAGS:
+        return name, text == "1"
+    if name == "samples":
+        rows = [[_number(name, cell) for cell in row.split(",")] for row in text.split()[: MAX_SAMPLES + 1]]
+        if len(rows) > MAX_SAMPLES or {len(row) for row in rows} != {2}:
+            raise ValueError(f"the samples in this link are not at most {MAX_SAMPLES} pairs")
+        return name, tuple(zip(*rows, strict=True))
+    if name == "at":
+        return "progress", _number(name, text)
+    if name == "fit_note":
+        return name, text[:300]
+    raise ValueError(f"{name:.40} = {text:.40} in this link is not known")
 
 
 def _number(name: str, text: str) -> float:
@@ -151,10 +110,3 @@ def _number(name: str, text: str) -> float:
     if not isfinite(value):
         raise ValueError(f"{name:.40} = {text:.40} in this link is not a number")
     return value
-
-
-def _rows(name: str, text: str) -> tuple:
-    rows = [row.split(",") for row in text.split()]
-    if len(rows) > MAX_SAMPLES or any(len(row) > 2 for row in rows):
-        raise ValueError(f"the {name} in this link are not pairs")
-    return tuple(tuple(_number(name, each) for each in row) for row in rows)

@@ -103,7 +103,6 @@ ABOUT |= {
     "shape": "What is pressed or hits: a body of revolution, which touches with its tip.",
 }
 CHOICES["swept"] = {name: lowered(f"{q.symbol}, {q.label}") for name, q in SWEPT.items()}
-USED["swept"] = {name: ["sweep_low", "sweep_high"] for name in SWEPT}
 
 
 class Scale:
@@ -118,6 +117,12 @@ class Scale:
         if self.logarithmic:
             low, high = max(low, middle / quantity.span), min(high, middle * quantity.span)
         self.low, self.high = low, high
+
+    @classmethod
+    def about(cls, quantity: Quantity, middle: float, value: float) -> "Scale":
+        """Scale about a middle value, or about another value that it does not reach."""
+        scale = cls(quantity, middle)
+        return scale if scale.reaches(value) else cls(quantity, value)
 
     def reaches(self, value: float) -> bool:
         return self.low <= value <= self.high

@@ -88,30 +88,28 @@ def named(kind: str) -> dict[str, Unit]:
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
 
 
-def read(text: str, kind: str, shown: Unit) -> tuple[float, bool]:
-    """Value (SI) of typed text, and whether its reading may surprise.
+def read(text: str, kind: str, shown: Unit) -> float:
+    """Value (SI) of typed text; ValueError if it is no number.
 
     Bare numbers are in the displayed unit, with an exponent in SI; decimal commas, spaces between
-    thousands, and half-angles for slopes are accepted. Raises ValueError.
+    thousands, and half-angles for slopes are accepted.
     """
     plain = text.strip().replace("−", "-").replace("μ", "µ")
     plain = re.sub(r"(?<=\d)\s(?=\d{3}(?!\d))", "", plain)
     if plain.count(",") == 1 and "." not in plain:
         plain = plain.replace(",", ".")
-    match = _NUMBER.fullmatch(plain) if len(plain) <= 40 else None
-    units = named(kind)
+    match, units = _NUMBER.fullmatch(plain) if len(plain) <= 40 else None, named(kind)
     if match and kind == "slope" and match[3] == "°" and 0 < float(match[1]) < 90:
-        return 1 / tan(radians(float(match[1]))), True
+        return 1 / tan(radians(float(match[1])))
     if match is None or (match[3] and match[3] not in units):
         known = ", ".join(unit.name for unit in UNITS[kind] if unit.name) or "°" * (kind == "slope")
         raise ValueError(f"“{text:.40}” is not a number" + f" with one of the units {known}" * bool(known))
-    in_si = bool(match[2]) and not match[3] and shown.factor != 1
-    factor = units[match[3]].factor if match[3] else 1.0 if in_si else shown.factor
+    factor = units[match[3]].factor if match[3] else 1.0 if match[2] else shown.factor
     # 15 nm as 1.5e-08, not as 1.5000000000000002e-08.
     value = float(f"{float(match[1]) * factor:.15g}")
     if not isfinite(value):
         raise ValueError(f"“{text}” is too large")
-    return value, in_si
+    return value
 
 
 _ROUND = np.array([1, 1.5, 2, 3, 4, 5, 6, 8, 10])

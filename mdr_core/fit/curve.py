@@ -2,7 +2,10 @@
 
     ∂F/∂ln E* = F − 2E* c d_c,   ∂F/∂ln q_c = 2E* c d_c,   ∂F/∂d = 2E* a,   ∂F/∂d_max = −2E* c
 
-with d_max the largest depth so far; on a first loading it is d itself, and the last two add up.
+with d_max the largest depth so far; on a first loading it is d itself, and the last two add up. A viscous
+medium has the force of an elastic one at the depth e = d + min(τḋ, 0), at which elements are released, and
+that of the dashpots, 8η a max(ḋ, 0), so that ∂F/∂η = 8 a(e) ḋ. The measured force is F + F₀ + F₁ z + ζ ż at
+the measured depth z.
 
 A running maximum of noisy depths would grow with every jitter. With depth noise the d_max of each turning
 point is therefore a parameter, and each sample is assigned to the nearest point of its branch, in units of
@@ -16,13 +19,18 @@ from functools import cached_property
 import numpy as np
 
 from ..medium import critical_depth
-from ..superposition import radius_integral
+from ..superposition import radius_integral, radius_rate
 from ..yielding import LiveInterval, interval_at
 
-#: All parameters in the order of a fit, those fitted as logarithms, and those of springs and frame.
-PARAMETERS = ("E_star", "q_c", "contact_point", "baseline", "frame_compliance")
+#: All parameters in the order of a fit, those of the background, those fitted as logarithms, those that are
+#: not negative, and those of foundation and frame.
+PARAMETERS = (
+    "E_star", "q_c", "eta", "contact_point", "baseline", "tilt", "drag", "frame_compliance",
+)  # fmt: skip
+BACKGROUND = ("baseline", "tilt", "drag")
 LOGARITHMIC = ("E_star", "q_c", "contact_point")
-_OF_FORCE = ("E_star", "q_c", "frame_compliance")
+NOT_NEGATIVE = ("eta", "frame_compliance")
+_OF_FORCE = ("E_star", "q_c", "eta", "frame_compliance")
 #: The contact point is searched down to so many ranges of depth below the record.
 REACH = 30.0
 
@@ -31,14 +39,16 @@ REACH = 30.0
 class CurveProblem:
     """Least-squares problem of R curves of N samples with K turning points each, one curve a row.
 
-    `fixed` holds the fixed parameters by name (R,); `depth_noise` and `sigma` (R, N) are the standard
-    deviations of depth (m) and force (N); `turning_points` (R, K) and `loading_starts` are indices. Scaled
-    parameters x are logarithms of E*, q_c and `top` − z₀, otherwise shares of `length` (m) and `load` (N).
+    `rate` is ż (m/s); `fixed` holds the fixed parameters by name (R,); `depth_noise` and `sigma` (R, N) are
+    the standard deviations of depth (m) and force (N); `turning_points` (R, K) and `loading_starts` are
+    indices. Scaled parameters x are logarithms of E*, q_c and `top` − z₀, otherwise shares of `length` (m),
+    `load` (N) and `speed` (m/s).
     """
 
     profile: object
     depth: np.ndarray
     force: np.ndarray
+    rate: np.ndarray
     fixed: dict
     depth_noise: float
     sigma: np.ndarray
@@ -47,13 +57,15 @@ class CurveProblem:
 
     def rows(self, rows):
         fixed = {name: value[rows] for name, value in self.fixed.items()}
-        names = "depth", "force", "sigma", "turning_points", "loading_starts"
+        names = "depth", "force", "rate", "sigma", "turning_points", "loading_starts"
         return replace(self, fixed=fixed, **{name: getattr(self, name)[rows] for name in names})
 
-    #: Largest depth (m), ranges of depth (m) and force (N) of each curve (R, 1); names of free parameters.
+    #: Largest depth (m), ranges of depth (m) and force (N) and largest speed (m/s) of each curve (R, 1);
+    #: names of free parameters.
     top = cached_property(lambda self: self.depth.max(axis=1, keepdims=True))
     length = cached_property(lambda self: np.ptp(self.depth, axis=1, keepdims=True))
     load = cached_property(lambda self: np.ptp(self.force, axis=1, keepdims=True))
+    speed = cached_property(lambda self: np.abs(self.rate).max(axis=1, keepdims=True))
     free = cached_property(lambda self: tuple(name for name in PARAMETERS if name not in self.fixed))
 
     @property
@@ -75,7 +87,12 @@ class CurveProblem:
     def scale(self):
         """Unit of each scaled parameter, 1 for a logarithm (R, P)."""
         units = dict.fromkeys(LOGARITHMIC, np.ones_like(self.length))
-        units |= {"baseline": self.load, "frame_compliance": self.length / self.load}
+        units |= {"baseline": self.load, "tilt": self.load / self.length}
+        units |= {"frame_compliance": self.length / self.load}
+        if {"eta", "drag"} & set(self.free):
+            units["drag"] = self.load / self.speed
+            radius = self.profile._radius(np.minimum(self.length, self.profile.known_depth))
+            units["eta"] = units["drag"] / (8 * radius)
         return self._columns(units, np.repeat(self.length, self.turning_points.shape[1], axis=1))
 
     @cached_property
@@ -133,6 +150,17 @@ class CurveProblem:
         loading = loading & (depth >= largest)
         return np.where(loading, depth, largest), loading
 
+    def background(self, values):
+        """Force F₀ + F₁ z + ζ ż (N) that is not of the contact."""
+        columns = self.background_columns
+        used = (name for name in BACKGROUND if name in self.free or values[name].any())
+        return sum((values[name] * columns[name] for name in used), 0.0)
+
+    @cached_property
+    def background_columns(self):
+        """Derivatives of the background by its parameters."""
+        return {"baseline": np.ones_like(self.depth), "tilt": self.depth, "drag": self.rate}
+
     def states(self, x):
         """Parameters, distance (m) of each sample from the nearest state of its branch, and that state."""
         values, turning_depth = self.parameters(x)
@@ -145,7 +173,7 @@ class CurveProblem:
 
     def _nearest(self, values, measured, turning_depth, state):
         """The state of each branch that is nearest to its sample."""
-        load, noise = self.force - values["baseline"], self.depth_noise
+        load, noise = self.force - self.background(values), self.depth_noise
 
         def distance(state):
             return ((measured - state.displacement) / noise) ** 2 + ((load - state.force) / self.sigma) ** 2
@@ -168,7 +196,7 @@ class CurveProblem:
         """Residuals in units of their noise (R, N), and derivatives by the scaled parameters (R, N, P)."""
         values, distance, state = self.states(x)
         noise = self.noise(state.slope)
-        residual = self.force - values["baseline"] - state.force - state.slope * distance
+        residual = self.force - self.background(values) - state.force - state.slope * distance
         return residual / noise, state.derivatives(self, values) / noise[..., None] * self.scale[:, None, :]
 
     def noise(self, slope):
@@ -197,13 +225,15 @@ class CurveState:
     """States of the model at all samples, arrays (R, N).
 
     `displacement` is u = d + C F with the frame's share (m), `loading` whether it is the largest so far,
-    `slope` ∂F/∂u, `memory_slope` ∂F/∂u_max where it is not, `gradient` ∂F by the parameters of `_OF_FORCE`.
+    `dashpot_load` the line load 4ηḋ (N/m) in contact on pressing, `slope` ∂F/∂u, `memory_slope` ∂F/∂u_max
+    where it is not, `gradient` ∂F by the parameters of `_OF_FORCE`.
     """
 
     displacement: np.ndarray
     depth: np.ndarray
     loading: np.ndarray
     live_interval: LiveInterval
+    dashpot_load: np.ndarray
     force: np.ndarray
     slope: np.ndarray
     memory_slope: np.ndarray
@@ -215,7 +245,8 @@ class CurveState:
         profile, C = problem.profile, values["frame_compliance"]
         largest, loading = problem.largest_so_far(displacement, turning_depth)
         if not C.any() and "frame_compliance" not in problem.free:
-            return cls.on_rigid_frame(profile, values, displacement, largest, loading)
+            rate = problem.rate if values["eta"].any() or "eta" in problem.free else 0.0
+            return cls.on_rigid_frame(profile, values, displacement, largest, loading, rate)
         largest = _depth_in_frame(profile, values, largest, largest, True)
         depth = _depth_in_frame(profile, values, displacement, largest, loading)
         depth = np.where(loading, largest, depth)
@@ -231,27 +262,40 @@ class CurveState:
         )  # fmt: skip
 
     @classmethod
-    def on_rigid_frame(cls, profile, values, depth, largest, loading):
-        """States at depths (m), the largest ones so far given; above the known depth those at it."""
+    def on_rigid_frame(cls, profile, values, depth, largest, loading, rate=0.0):
+        """States at depths (m) and rates (m/s), the largest depths so far given.
+
+        Above the known depth they are those at it.
+        """
         d_c, modulus = critical_depth(values["E_star"], values["q_c"]), 2 * values["E_star"]
-        known = profile.known_depth
-        interval = interval_at(np.minimum(largest, known), np.minimum(depth, known), d_c)
+        known, lag = profile.known_depth, 4 * values["eta"] / values["E_star"] * rate
+        ahead = np.minimum(lag, 0.0)
+        interval = interval_at(np.minimum(largest, known), np.minimum(depth + ahead, known), d_c)
         contact = interval.length > 0
         a = np.where(contact, profile._radius(interval.upper), 0.0)
         c = np.where(contact & (interval.lower > 0), profile._radius(interval.lower), 0.0)
         force, memory_slope = modulus * radius_integral(profile, interval), -modulus * c
         yielded = np.where(c > 0, -memory_slope * d_c, 0.0)
+        gradient = np.stack([force - yielded - modulus * a * ahead, yielded, 8 * a * rate])
         slope = modulus * a + np.where(loading, memory_slope, 0.0)
         memory_slope = np.where(loading, 0.0, memory_slope)
-        gradient = np.stack([force - yielded, yielded])
-        return cls(depth, depth, loading, interval, force, slope, memory_slope, gradient)
+        dashpot_load = np.where(contact, values["E_star"] * np.maximum(lag, 0.0), 0.0)
+        if dashpot_load.any():
+            force = force + 2 * dashpot_load * a
+            # da/dd may be infinite at first contact: that at the mean distance of samples is the largest.
+            inside = np.maximum(interval.upper, np.ptp(depth, axis=1, keepdims=True) / depth.shape[1])
+            growing = contact & (a < profile.wall)
+            rate_of_radius = radius_rate(profile, np.minimum(inside, known))
+            slope = slope + 2 * dashpot_load * np.where(growing, rate_of_radius, 0.0)
+        return cls(depth, depth, loading, interval, dashpot_load, force, slope, memory_slope, gradient)
 
     def derivatives(self, problem, values):
         """−∂F by the free parameters, in logarithms, and by turning depths (R, N, P)."""
         columns = dict(zip(_OF_FORCE, -self.gradient, strict=False))
         shift = values["contact_point"] - problem.top
         columns["contact_point"] = shift * (self.slope + self.memory_slope)
-        columns["baseline"] = np.full_like(self.force, -1.0)
+        background = problem.background_columns.items()
+        columns |= {name: -column for name, column in background if name in problem.free}
         last, _ = problem.branches
         turning = [np.where(last == k, -self.memory_slope, 0.0) for k in range(problem.free_turning_points)]
         free = [columns[name] for name in problem.free]

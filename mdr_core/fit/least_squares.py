@@ -20,11 +20,18 @@ LEAST_SQUARES = Model("least squares", "the medium whose model has the least squ
 
 #: Singular values below this share of the largest one leave their combination of parameters undetermined.
 SINGULAR = 1e-11
+#: Number of standard errors above which a trend or a correlation is significant.
+SIGNIFICANT = 4.0
 #: Quantities of results, and further parameters of fits.
 FITTED_QUANTITIES = QUANTITIES | {
     "contact_point": Quantity("z₀", "m", "contact point"),
     "baseline": Quantity("F₀", "N", "baseline"),
+    "tilt": Quantity("F₁", "N/m", "tilt of the baseline"),
+    "drag": Quantity("ζ", "N·s/m", "drag"),
     "frame_compliance": Quantity("C", "m/N", "frame compliance"),
+    "contact_depth": Quantity("h_c", "m", "contact depth"),
+    "hardness": Quantity("H", "Pa", "hardness"),
+    "exponent": Quantity("m", "", "exponent"),
 }
 
 
@@ -98,6 +105,43 @@ def autocorrelation(residual):
     return np.sum(residual[..., 1:] * residual[..., :-1], axis=-1) / np.maximum(power, 1e-300)
 
 
+def autocorrelations(residual):
+    """Correlation of residuals (N,) with those 0 to N − 1 samples later."""
+    count = residual.size
+    products = np.fft.irfft(np.abs(np.fft.rfft(residual, 2 * count)) ** 2, 2 * count)[:count]
+    return products / max(products[0], 1e-300)
+
+
+def block_length(residual):
+    """Number of samples over which residuals (N,) are correlated, 1 for noise.
+
+    The first lag at which the autocorrelation is not positive, at most a fifth of the samples.
+    """
+    correlation = autocorrelations(residual)
+    if not np.any(correlation[1:2] > SIGNIFICANT / np.sqrt(residual.size)):
+        return 1
+    return min(int(np.argmax(correlation <= 0)) or residual.size, max(residual.size // 5, 1))
+
+
+def block_factors(residual, jacobian, length):
+    """Standard errors with correlated residuals over those with independent ones, at least 1 (P,).
+
+    The variance of a parameter is the sum of (1 − k/length) ψ_i ψ_j r_i r_j over all pairs of samples that
+    are k = |i − j| < `length` apart, ψ the influence of a residual r on it (Newey & West, Econometrica 55,
+    1987, 703): the mean square of sums over overlapping blocks. Where few blocks determine a parameter
+    this is too small. With the mean of r_i r_j over all pairs instead it is not; the larger one counts.
+    """
+    u, s, vt = np.linalg.svd(jacobian, full_matrices=False)
+    influence = (u * np.where(s > SINGULAR * s[0], 1 / np.maximum(s, 1e-300), 0.0)) @ vt
+    single = np.maximum(np.sum(influence**2, axis=0), 1e-300)
+    sums = np.cumsum(np.pad(influence * residual[:, None], ((length, length), (0, 0))), axis=0)
+    blocks = np.sum((sums[length:] - sums[:-length]) ** 2, axis=0) / length / np.mean(residual**2)
+    products = np.fft.irfft(np.abs(np.fft.rfft(influence, 2 * len(u), axis=0)) ** 2, 2 * len(u), axis=0)
+    weights = (2 - 2 * np.arange(length) / length) * autocorrelations(residual)[:length]
+    weights[0] = 1.0
+    return np.sqrt(np.maximum(1.0, np.maximum(blocks, weights @ products[:length]) / single))
+
+
 def with_error(value, error, unit):
     """A number and its standard error as text, with one prefix and two digits of the error."""
     if not np.isfinite(value) or not np.isfinite(error) or error == 0:
@@ -141,6 +185,8 @@ class Fit(Report):
     #: Names of all parameters, free or fixed: attributes of the medium, and of the fit itself.
     _medium_parameters: ClassVar[tuple[str, ...]] = ("E_star", "q_c")
     _further_parameters: ClassVar[tuple[str, ...]] = ()
+    #: Parameters that are not shown where they are held at 0.
+    _zero_unless_asked: ClassVar[tuple[str, ...]] = ()
 
     def _values(self):
         """Values of all parameters by name."""
@@ -177,6 +223,8 @@ class Fit(Report):
         for name, value in self._values().items():
             quantity, error = FITTED_QUANTITIES[name], self.standard_errors.get(name)
             unit = quantity.unit
+            if error is None and name in self._zero_unless_asked and not np.any(value):
+                continue
             if error is None:
                 text = f"{engineering(value, unit)} (held)"
             elif np.ndim(value):

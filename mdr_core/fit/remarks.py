@@ -6,12 +6,18 @@ import numpy as np
 
 from ..medium import critical_depth
 from ..results.quantities import engineering
-from .least_squares import SINGULAR, autocorrelation, roughness
+from .least_squares import SIGNIFICANT, SINGULAR, autocorrelation, roughness
 
+#: All kinds of remarks, the most important first.
+KINDS = (
+    "units", "bound", "frame", "second minimum", "undetermined", "misfit", "jitter", "loading", "vague",
+    "class", "elastic", "hardly yields", "noisy", "inviscid", "missing",
+)  # fmt: skip
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
-_VAGUE, _VAGUE_LOADING = 0.1, 0.01
-#: Number of standard errors above which a trend is significant.
-_SIGNIFICANT = 4.0
+_VAGUE, _VAGUE_LOADING = 0.2, 0.01
+#: Root mean square of correlated residuals over the range of force above which the model does not fit, of
+#: elastic media and of those that yield, whose unloading is a small part of the curve.
+_MISFIT, _MISFIT_YIELDING = 0.05, 0.01
 
 
 def remarks_of(solved):
@@ -19,6 +25,16 @@ def remarks_of(solved):
     checks = _ambiguous, _undetermined, _jitter, _class_b, _misfit
     curves = range(len(solved.rows))
     return [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in curves]
+
+
+def by_importance(remarks):
+    """Remarks in the order of `KINDS`."""
+    return dict(sorted(remarks.items(), key=lambda item: KINDS.index(item[0].partition(":")[0])))
+
+
+def missing(count, samples):
+    """A remark on samples that are left out."""
+    return {"missing": f"left out: {count} of {samples} samples, without a number"} if count else {}
 
 
 def _ambiguous(solved, i):
@@ -29,10 +45,12 @@ def _ambiguous(solved, i):
         text = f"E* = {engineering(E, 'Pa')} is that of no material: give depth in m and force in N"
         yield "units", text
     for name, at_bound in zip(problem.free, solved.at_bound[i], strict=False):
-        if at_bound:
-            yield f"bound {name}", f"{name} is at the bound of its search: hold it, or check the data"
+        if at_bound and name == "eta":
+            yield "inviscid", "no viscosity within the noise: η = 0; hold eta = 0"
+        elif at_bound:
+            yield f"bound:{name}", f"{name} is at the bound of its search: hold it, or check the data"
     noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
-    if solved.rival_squares[i] - squares <= _SIGNIFICANT**2 * noise:
+    if solved.rival_squares[i] - squares <= SIGNIFICANT**2 * noise:
         rival, _ = problem.rows([i]).parameters(solved.rival[[i]])
         E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
         text = f"E* = {E} with contact at {point} fits about as well: hold contact_point or E_star"
@@ -85,7 +103,7 @@ def _undetermined(solved, i):
     for name, error in errors.items():
         if error == np.inf:
             text = f"the data do not determine {name}: hold it, or a parameter that it is correlated with"
-            yield f"undetermined {name}", text
+            yield f"undetermined:{name}", text
 
 
 def _jitter(solved, i):
@@ -132,7 +150,7 @@ def _class_b(solved, i):
         return
     variance = residual @ residual / max(residual.size - jacobian.shape[1] - 1, 1)
     trend, error = independent @ residual / power, np.sqrt(variance / power)
-    if abs(trend) > max(_SIGNIFICANT * error, 0.05):
+    if abs(trend) > max(SIGNIFICANT * error, 0.05):
         yield (
             "class",
             f"the recovered depth {'grows' if trend > 0 else 'falls'} with depth (about as its power "
@@ -144,20 +162,22 @@ def _misfit(solved, i):
     """Residuals that are not noise."""
     problem, residual = solved.problem, solved.residual[i]
     freedom, chi = max(residual.size - solved.x.shape[1], 1), solved.reduced_chi_square[i]
-    correlation, cause = autocorrelation(residual), "not class (b)"
-    if problem.memoryless:
-        # Samples are in any order: that of depth is as good as that of time.
-        correlation = max(correlation, autocorrelation(residual[np.argsort(problem.depth[i])]))
-        cause = "not an elastic medium"
+    correlation = autocorrelation(residual[solved.orders[i]])
     _, state = solved.values_and_states
     size = np.sqrt(np.mean((residual * problem.noise(state.slope)[i]) ** 2)) / problem.load[i, 0]
-    if size < 1e-7:
-        return
-    if correlation > max(0.3, _SIGNIFICANT / np.sqrt(freedom)):
+    largest = _MISFIT if problem.memoryless else _MISFIT_YIELDING
+    if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
+        cause = "not an elastic medium" if problem.memoryless else "not class (b)"
+        held = [name for name in ("drag", "eta", "tilt") if name not in problem.free]
+        remedy = f"; free {', '.join(held)}, if the curve was measured in a liquid or on a gel" * bool(held)
         yield (
             "misfit",
-            f"the residuals ({100 * size:.2g} % of the force) are not noise but correlated with their "
-            f"neighbours ({correlation:.2f}): {cause}, or another profile; errors are underestimated",
+            f"the residuals ({100 * size:.2g} % of the force) follow a curve (correlation of neighbours "
+            f"{correlation:.2f}): {cause}, or another profile{remedy}",
         )
-    elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom):
-        yield "noisy", f"χ² per degree of freedom is {chi:.3g}: the noise is larger than given"
+    elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom) and size > 1e-7:
+        yield (
+            "noisy",
+            f"χ² per degree of freedom is {chi:.3g}: the residuals ({100 * size:.2g} % of the force) are "
+            "larger than the noise that is given",
+        )

@@ -7,9 +7,19 @@ import numpy as np
 
 from .._numeric import chunks
 from ..medium import critical_depth
-from .curve import LOGARITHMIC, REACH, CurveProblem
-from .least_squares import covariances, least_squares, roughness
+from .curve import LOGARITHMIC, NOT_NEGATIVE, REACH, CurveProblem
+from .least_squares import (
+    autocorrelation,
+    block_factors,
+    block_length,
+    covariances,
+    least_squares,
+    roughness,
+)
 from .start import first_guesses, turning_points
+
+#: Standard deviations of samples that are not to weigh, in units of those they would have.
+_NO_WEIGHT = 1e6
 
 
 @dataclass(frozen=True)
@@ -44,11 +54,33 @@ class SolvedCurves:
         return np.sum(self.residual**2, axis=1) / freedom
 
     @cached_property
+    def orders(self):
+        """Indices in the order, of time or (elastic) of depth, in which residuals are more correlated."""
+        orders = np.broadcast_to(np.arange(self.residual.shape[1]), self.residual.shape).copy()
+        if self.problem.memoryless:
+            by_depth = np.argsort(self.problem.depth, axis=1)
+            sorted_residual = np.take_along_axis(self.residual, by_depth, axis=1)
+            closer = autocorrelation(sorted_residual) > autocorrelation(self.residual)
+            orders[closer] = by_depth[closer]
+        return orders
+
+    @cached_property
+    def block_length(self):
+        """Number of samples over which residuals are correlated (R,), 1 for noise."""
+        residuals = zip(self.residual, self.orders, strict=True)
+        return np.array([block_length(residual[order]) for residual, order in residuals])
+
+    @cached_property
     def covariance(self):
-        """Covariance of the scaled free parameters (R, P, P)."""
+        """Covariance of the scaled free parameters (R, P, P), by blocks if residuals are correlated."""
         free = len(self.problem.free)
         variance = 1.0 if self.noise_known else self.reduced_chi_square
-        return covariances(self.jacobian, variance)[:, :free, :free]
+        covariance = covariances(self.jacobian, variance)[:, :free, :free]
+        for i in np.flatnonzero(self.block_length > 1) if free else ():
+            order, length = self.orders[i], self.block_length[i]
+            factors = block_factors(self.residual[i, order], self.jacobian[i, order], length)[:free]
+            covariance[i] *= factors[:, None] * factors
+        return covariance
 
 
 def grouped(depth, force, fixed, noise):
@@ -76,34 +108,36 @@ def grouped(depth, force, fixed, noise):
             yield subset, np.array(turns, int), np.array(starts, int)
 
 
-def solved(profile, depth, force, fixed, noise, force_noise, rows, turns, starts):
-    """Solves curves with the same number of turning points."""
-    depth, force = depth[rows], force[rows]
+def solved(profile, samples, fixed, noise, rows, turns, starts):
+    """Solves the curves at `rows` of `Samples`, which have the same number of turning points."""
+    depth, force, rate = samples.depth[rows], samples.force[rows], samples.rate[rows]
     fixed = {name: value[rows] for name, value in fixed.items()}
-    # Without turning points the order of time means nothing, and that of depth makes the force smooth.
-    ordered = force if starts.size else np.take_along_axis(force, np.argsort(depth, axis=1), axis=1)
-    sigma = _first_sigma(ordered, noise, force_noise)
-    problem = CurveProblem(profile, depth, force, fixed, noise, sigma, turns, starts)
+    # Without memory and rates the order of time means nothing, and that of depth makes the force smooth.
+    ordered = (
+        force if starts.size or rate.any() else np.take_along_axis(force, np.argsort(depth, axis=1), axis=1)
+    )
+    given = samples.force_noise is not None
+    sigma = samples.force_noise[rows] if given else _first_sigma(ordered, noise)
+    sigma = np.where(samples.corner[rows], _NO_WEIGHT * sigma, sigma)
+    problem = CurveProblem(profile, depth, force, rate, fixed, noise, sigma, turns, starts)
     solution, rival = _best_minimum(problem)
     for _ in range(5 if noise and turns.size else 0):
         before, problem = problem, problem.with_best_turning_points(solution[0])
         if np.array_equal(before.turning_points, problem.turning_points):
             break
         solution = _minimum(problem, solution[0])
-    noise_known = force_noise is not None or noise > 0
+    noise_known = given or noise > 0
     if "q_c" in fixed:
         elastic, hardly_yields = np.isinf(fixed["q_c"]), np.zeros(len(rows), bool)
     else:
         solution, elastic, hardly_yields = _compared_with_elastic(problem, solution, noise_known)
-    return SolvedCurves(rows, problem, *solution, *rival, elastic, hardly_yields, noise_known)
+    return SolvedCurves(samples.rows[rows], problem, *solution, *rival, elastic, hardly_yields, noise_known)
 
 
-def _first_sigma(force, noise, force_noise):
-    """Standard deviation of the force (R, N): given, estimated, or its range where it is not known."""
+def _first_sigma(force, noise):
+    """Standard deviation of the force (R, N): estimated, or its range where it is not known."""
     size = np.ptp(force, axis=1, keepdims=True)
-    if force_noise is not None:
-        size = np.full_like(size, force_noise)
-    elif noise:
+    if noise:
         size = np.maximum(roughness(force), 1e-6 * size)
     return np.repeat(size, force.shape[1], axis=1)
 
@@ -117,7 +151,7 @@ def _minimum(problem, start):
             lower[:, i], upper[:, i] = np.log(1e-4 * problem.length[:, 0]), np.log(longest)
         elif name in LOGARITHMIC:
             lower[:, i], upper[:, i] = start[:, i] - 16, start[:, i] + 16
-        elif name == "frame_compliance":
+        elif name in NOT_NEGATIVE:
             lower[:, i] = 0.0
     solution = least_squares(lambda x, rows: problem.rows(rows).residuals(x), start, lower, upper)
     return *solution, (solution[0] <= lower) | (solution[0] >= upper)

@@ -5,7 +5,7 @@ import numpy as np
 from ..medium import critical_depth, yield_constant
 from ..superposition import radius_integral
 from ..yielding import elastic_interval, interval_at
-from .curve import PARAMETERS, REACH
+from .curve import BACKGROUND, PARAMETERS, REACH
 
 #: Trial frame compliances, in units of the range of depth over the range of force.
 _COMPLIANCES = np.array([0.0, 0.05, 0.15, 0.3, 0.5])
@@ -13,6 +13,8 @@ _COMPLIANCES = np.array([0.0, 0.05, 0.15, 0.3, 0.5])
 _DEPTHS = np.geomspace(3e-3, 1 + REACH, 48)
 #: Trial critical depths, as shares of the largest depth.
 _SHARES = np.concatenate([np.geomspace(2e-3, 0.5, 13), [0.65, 0.8, 0.92, 3.0]])
+#: Trial relaxation times, as shares of the largest depth over the largest rate.
+_LAGS = np.append(0.0, np.geomspace(0.01, 4.0, 10))
 #: Largest number of starts, and largest sum of squares of a start in units of the smallest one.
 _STARTS, _CLOSE = 4, 20.0
 
@@ -42,12 +44,14 @@ def turning_points(depth, threshold):
 def first_guesses(problem):
     """Starts of a search, the best first, each with its rows and their scaled parameters.
 
-    They are the minima over a grid of contact points, with the best critical depth and frame compliance of
-    grids. The force is E* times a function of these: E* and baseline follow by linear regression.
+    They are the minima over a grid of contact points, with the best critical depth, relaxation time and
+    frame compliance of grids. The force is E* times a function of these, and a background: E* and the
+    parameters of the background follow by linear regression.
     """
     largest = min((1 + REACH) * float(problem.length.max()), problem.profile.known_depth)
     depths = largest * np.append(0.0, np.geomspace(1e-7, 1, 600))
-    table = depths, radius_integral(problem.profile, elastic_interval(depths))
+    radius = problem.profile._radius(depths)
+    table = depths, radius_integral(problem.profile, elastic_interval(depths)), radius
     turning_depth = _turning_depth(problem)
     count = len(problem.depth)
     guesses = [_guesses(problem.rows([row]), turning_depth[[row]], table) for row in range(count)]
@@ -78,7 +82,7 @@ def _guesses(curve, turning_depth, table):
 
 
 def _grid(curve, fixed, turning_depth, table, compliance):
-    """Parameters by name and sum of squares of the best critical depth for each contact point."""
+    """Parameters by name and sum of squares of the best medium for each contact point."""
     force, depth = curve.force[0], curve.depth[0]
     count = min(depth.size, 512 if curve.memoryless else 64)
     subset = np.union1d(np.linspace(0, depth.size - 1, count).astype(int), np.argmax(depth))
@@ -87,38 +91,73 @@ def _grid(curve, fixed, turning_depth, table, compliance):
     top, length = float(depth.max()), float(curve.length[0, 0])
     points = top - np.minimum(length * _DEPTHS, curve.profile.known_depth)
     points = np.array([fixed["contact_point"]]) if "contact_point" in fixed else points
-    known = curve.memoryless or {"E_star", "q_c"} <= set(fixed)
-    points, shares = points[:, None, None], np.ones(1) if known else _SHARES
-    d_c = shares[:, None] * np.maximum(top - points, 1e-3 * length)
-    if known:
-        d_c[:] = critical_depth(fixed.get("E_star", 1.0), fixed["q_c"])
-    interval = interval_at(largest[:, subset] - points, depth[subset] - points, d_c)
-    unit_force = 2 * (np.interp(interval.upper, *table) - np.interp(interval.lower, *table))
-    modulus, baseline = _regression(unit_force, force[subset], fixed, d_c)
-    squares = np.sum((force[subset] - baseline - modulus * unit_force) ** 2, axis=-1)
-    squares = np.where(np.isfinite(squares), squares, np.finfo(float).max)
-    for i, j in enumerate(squares.argmin(axis=1)):
-        E, depth = float(modulus[i, j, 0]), float(d_c[i, j, 0])
+    d_c, tau = _media(curve, fixed, np.maximum(top - points, 1e-3 * length)[:, None])
+    samples = largest[:, subset], depth[subset], curve.rate[0, subset]
+    unit_force = _unit_force(*samples, points[:, None, None], d_c[..., None], tau[..., None], table)
+    best, moduli, squares, background = _regression(curve, fixed, subset, unit_force, d_c)
+    for i, (j, E) in enumerate(zip(best.tolist(), moduli.tolist(), strict=True)):
         yield {
-            "E_star": E, "q_c": yield_constant(E, depth), "contact_point": float(points[i, 0, 0]),
-            "baseline": float(baseline[i, j, 0]), "frame_compliance": compliance,
-            "squares": squares[i, j], **fixed,
+            "E_star": E, "q_c": yield_constant(E, float(d_c[i, j])), "eta": E * float(tau[i, j]) / 4,
+            "contact_point": float(points[i]), "frame_compliance": compliance, "squares": squares[i],
+            **{name: float(values[i]) for name, values in background.items()}, **fixed,
         }  # fmt: skip
 
 
-def _regression(unit_force, force, fixed, d_c):
-    """E* and baseline of the line E* × unit force + baseline that is nearest to the force."""
-    mean, centre = unit_force.mean(axis=-1, keepdims=True), force.mean()
-    if "baseline" in fixed:
-        mean, centre = 0.0, fixed["baseline"]
-    if "E_star" in fixed:
-        modulus = np.full_like(d_c, fixed["E_star"])
-    elif fixed.get("q_c", np.inf) < np.inf:
-        modulus = fixed["q_c"] / yield_constant(1.0, d_c)
+def _media(curve, fixed, depth):
+    """Trial critical depths (m) and relaxation times (s) at trial largest depths (m), arrays (Z, M)."""
+    if curve.memoryless or {"E_star", "q_c"} <= set(fixed):
+        d_c = np.full_like(depth, critical_depth(fixed.get("E_star", 1.0), fixed["q_c"]))
     else:
-        deviation = unit_force - mean
-        power = np.sum(deviation**2, axis=-1, keepdims=True)
-        product = np.sum(deviation * (force - centre), axis=-1, keepdims=True)
+        d_c = depth * _SHARES
+    tau = depth * _LAGS / max(float(curve.speed[0, 0]), 1e-300)
+    if fixed.get("eta") == 0:
+        tau = np.zeros_like(depth)
+    elif {"E_star", "eta"} <= set(fixed):
+        tau = np.full_like(depth, 4 * fixed["eta"] / fixed["E_star"])
+    count = d_c.shape[1], tau.shape[1]
+    return np.repeat(d_c, count[1], axis=1), np.tile(tau, (1, count[0]))
+
+
+def _unit_force(largest, depth, rate, point, d_c, tau, table):
+    """Force over E* (m²) of media with critical depths (m) and relaxation times (s), from a table."""
+    depths, area, radius = table
+    lag = tau * rate
+    interval = interval_at(largest - point, depth - point + np.minimum(lag, 0.0), d_c)
+    force = 2 * (np.interp(interval.upper, depths, area) - np.interp(interval.lower, depths, area))
+    if tau.any():
+        contact_radius = np.interp(interval.upper, depths, radius)
+        force += 2 * np.where(interval.length > 0, np.maximum(lag, 0.0) * contact_radius, 0.0)
+    return force
+
+
+def _regression(curve, fixed, subset, unit_force, d_c):
+    """The line E* × unit force + background that is nearest to the force, of the best medium of each row.
+
+    The free parameters of the background are projected out. Returns the index of that medium, E*, the sum
+    of squares, and these parameters by name.
+    """
+    force, weight = curve.force[0, subset], curve.sigma[0].min() / curve.sigma[0, subset]
+    columns = {name: column[0, subset] for name, column in curve.background_columns.items()}
+    force = force - sum(fixed[name] * columns[name] for name in BACKGROUND if name in fixed)
+    free = [name for name in BACKGROUND if name in curve.free]
+    used = np.reshape([weight * columns[name] for name in free], (len(free), subset.size))
+    basis, triangle = np.linalg.qr(used.T)
+    weighted = weight * unit_force
+    deviation, projected = weight * force - basis @ (basis.T @ (weight * force)), weighted
+    if free:
+        projected = weighted - (weighted @ basis) @ basis.T
+    if "E_star" in fixed:
+        E_star = np.full_like(d_c, fixed["E_star"])
+    elif fixed.get("q_c", np.inf) < np.inf:
+        E_star = fixed["q_c"] / yield_constant(1.0, d_c)
+    else:
+        power = np.einsum("zmn,zmn->zm", projected, projected)
         smallest = 1e-6 * np.ptp(force) / np.maximum(np.ptp(unit_force), 1e-300)
-        modulus = np.maximum(product / np.maximum(power, 1e-300), smallest)
-    return modulus, centre - modulus * mean
+        E_star = np.maximum(projected @ deviation / np.maximum(power, 1e-300), smallest)
+    squares = np.sum((deviation - E_star[..., None] * projected) ** 2, axis=-1)
+    squares = np.where(np.isfinite(squares), squares, np.finfo(float).max)
+    row, best = np.arange(len(squares)), squares.argmin(axis=1)
+    E_star, squares = E_star[row, best], squares[row, best]
+    remainder = weight * force - E_star[:, None] * weighted[row, best]
+    values = np.linalg.lstsq(triangle, (remainder @ basis).T, rcond=None)[0] if free else ()
+    return best, E_star, squares, dict(zip(free, values, strict=True))

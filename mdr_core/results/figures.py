@@ -255,6 +255,8 @@ def _styled(row):
         return {"color": colour, "line_width": row.look["width"], "line_dash": DASHES[row.look["dash"]]}
     if row.kind == "areas":
         return {"fill_color": colour, "fill_alpha": row.look["alpha"], "line_alpha": 0}
+    if row.kind == "marks":
+        return {"color": colour, "size": row.look["size"], "line_alpha": 0}
     return {"text_color": colour, "text_font_style": "italic", "text_font_size": "12px"}
 
 
@@ -273,6 +275,8 @@ def overlay(title, rows, columns, axes):
         named = {"label": row.name} if row.legend else {}
         if row.kind == "lines":
             element = hv.Curve((x, y), dims[0], dims[1], **named)
+        elif row.kind == "marks":
+            element = hv.Scatter((x, y), dims[0], dims[1], **named)
         elif row.kind == "areas":
             element = hv.Polygons([{dims[0].name: x, dims[1].name: y}], dims, **named)
         else:

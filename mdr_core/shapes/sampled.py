@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
+from pathlib import Path
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from .. import _check
 from .._check import ArrayLike, Parameter
 from .._numeric import chunks, root
 from .profile import Profile
-from .tables import area_samples, convex_fit, read_samples
+from .tables import area_samples, convex_fit, decoded, samples_of
 
 #: Largest number of samples: time and memory grow with its square.
 _MOST_SAMPLES = 5000
@@ -73,15 +74,15 @@ class Sampled(Profile):
             File with one sample a row, its numbers separated by commas, semicolons, tabs or blanks. The
             decimal sign may be a comma where commas do not separate. Other columns, and lines that start
             with #, are ignored. A header may name the units: ``r (nm), z (nm)`` or ``r/nm; z/nm``.
-        unit : {"m", "mm", "um", "µm", "nm"}, optional
+        unit : {"m", "mm", "um", "µm", "nm", "pm", "Å"}, optional
             Unit of both columns, if the header does not name them.
 
         Raises
         ------
         ValueError
-            If the file is not in UTF-8, a row is not two numbers, or no unit is given, or two that differ.
+            If a row is not two numbers, or no unit is given, or two that differ.
         """
-        return cls(*read_samples(path, unit, _MOST_SAMPLES))
+        return cls(*samples_of(decoded(Path(path).read_bytes()), str(path), unit, _MOST_SAMPLES))
 
     @classmethod
     def fit(cls, r: ArrayLike, z: ArrayLike) -> "Sampled":

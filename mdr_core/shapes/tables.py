@@ -1,136 +1,188 @@
-"""Samples of a profile from text files, from noisy measurements and from an area function."""
+"""Tables of numbers from text files, and samples of a profile from heights or an area function."""
 
-import os
 import re
+from collections import Counter
+from dataclasses import dataclass
+from itertools import pairwise
+from math import isfinite
 
 import numpy as np
 import scipy
 
 from .. import _check
+from .._check import Array
 
-_UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9}
-# As in "height/nm".
-_SLASHED = re.compile(r"/\s*(mm|um|µm|μm|nm|m)\b")
-_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?|[+-]?\d+,([eE][+-]?\d+)?")
+#: Sizes of units (SI) by their kind.
+UNITS = {
+    "length": {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "Å": 1e-10},
+    "force": {"kN": 1e3, "N": 1.0, "mN": 1e-3, "µN": 1e-6, "nN": 1e-9, "pN": 1e-12},
+    "time": {"min": 60.0, "s": 1.0, "ms": 1e-3, "µs": 1e-6},
+}
+_KNOWN = set().union(*UNITS.values())
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
+# An opening bracket ends the one before it: a line of brackets would take quadratic time otherwise.
+_BRACKETS = re.compile(r"[(\[]\s*([^(\[)\]\s]+)\s*[)\]]")
 #: Largest number of characters of a line.
 _LONGEST_LINE = 10_000
 
 
-def read_samples(path, unit, limit):
-    """Radii and heights (m) in a CSV file, at most `limit` of them; `unit` if its header names none."""
-    # An integer would be taken for the descriptor of an open file.
-    path = os.fspath(path)
-    name = str(path)
-    with open(path, encoding="utf-8-sig", newline="") as file:
-        try:
-            return _read(_lines(file, name), unit, limit, name)
-        except UnicodeDecodeError as error:
-            raise ValueError(f"{name} is not UTF-8 text ({error.reason}); save it as such") from None
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Numbers of a text file (rows, columns), NaN for cells that are none, and the names of the columns.
 
-
-def _lines(file, name):
-    """Lines of a file of limited length."""
-    while line := file.readline(_LONGEST_LINE + 1):
-        if len(line) > _LONGEST_LINE:
-            raise ValueError(
-                f"{name}: a line is longer than {_LONGEST_LINE} characters; use a line a sample"
-            )
-        yield line
-
-
-def _read(lines, unit, limit, name):
-    """Radii and heights (m) in a CSV file."""
-    if unit is not None:
-        _check.one_of("unit", unit, _UNITS)
-
-    def width(header, cells):
-        return max(len(_named(header)) or (2 if unit is None else cells), 2)
-
-    header, rows = _rows(lines, limit, name, width)
-    named = _named(header)
-    units = [unit, unit] if unit else named[:2]
-    if len(units) != 2 or not set(units) <= set(_UNITS):
-        raise ValueError(
-            f"{name}: the header must name the units of r and z, as in 'r (nm), z (nm)', out of "
-            f"{', '.join(_UNITS)}; or give unit='nm'"
-        )
-    if unit and named and set(named[:2]) != {unit}:
-        raise ValueError(f"{name}: unit={unit!r} was given, but the header says {', '.join(named)}")
-    if not rows:
-        raise ValueError(f"{name}: no samples; expected rows of two numbers r, z")
-    r, z = np.array(rows)[:, :2].T
-    return r * _UNITS[units[0]], z * _UNITS[units[1]]
-
-
-def _named(header):
-    """Units in brackets, or after a slash, in the last line of a header with units."""
-    for line in reversed(header):
-        # An opening bracket ends the one before it: a line of brackets would take quadratic time otherwise.
-        if named := re.findall(r"[(\[]\s*([^(\[)\]\s]+)\s*[)\]]", line) or _SLASHED.findall(line):
-            return named
-    return []
-
-
-def read_columns(file, limit, name):
-    """Names of the columns of an open text file, and their numbers (rows, columns), at most `limit` rows.
-
-    A name joins the words of the last two lines of the header with as many cells; it is empty without such.
+    `lines` are the line numbers of the rows, `odd` the text of lines with another number of cells or a
+    cell that is no number, by their number, and `omitted` the named columns without numbers in most rows.
     """
-    header, rows = _rows(_lines(file, name), limit, name, lambda header, cells: cells, "")
-    if not rows:
-        raise ValueError(f"{name}: no rows of numbers")
-    width, units = len(rows[0]), _named(header)
-    heads = [cells for line in header if len(cells := _heads(line)) == width]
-    if not heads and len(units) == width:
-        heads = [units]
-    elif not heads and len(units) > 1:
-        raise ValueError(
-            f"{name}: the header names {len(units)} units, the rows have {width} columns: where commas are "
-            "decimal ones, separate columns by semicolons"
-        )
-    names = [" ".join(words).strip() for words in zip(*heads[-2:], strict=True)] or [""] * width
-    return names, np.array(rows)
+
+    heads: tuple[str, ...]
+    values: Array
+    lines: Array
+    odd: dict[int, str]
+    omitted: tuple[str, ...]
+
+    def unit(self, column):
+        """Known unit in the name of a column, in brackets, after a slash or last; else None.
+
+        The empty text stands for another unit in brackets.
+        """
+        head = self.heads[column]
+        before, _, last = re.split(r"[\s,_]+", head)[-1].rpartition("/")
+        # "N/m" is the unit of a stiffness.
+        brackets = _BRACKETS.findall(head)[-1:]
+        names = (*brackets, "" if _unit(before) else last)
+        return next(filter(None, map(_unit, names)), "" if brackets else None)
 
 
-def _heads(line):
-    """Cells of a line of a header, which may contain spaces."""
-    line = line.strip().lstrip("#").replace('"', "")
-    return [cell.strip() for cell in re.split(next((s for s in ";\t," if s in line), r"\s{2,}"), line)]
+def decoded(data):
+    """Text of the bytes of a file in UTF-8, UTF-16 or Windows-1252."""
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return data.decode("utf-16", "replace")
+    if b"\0" in data[:2]:
+        return data.decode("utf-16-be" if data[0] == 0 else "utf-16-le", "replace")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("cp1252", "replace")
 
 
-def _rows(lines, limit, name, width_of, what=", r and z first"):
-    """Lines of the header, and rows of numbers; `width_of` gives their count from header and first row."""
-    header, rows, width = [], [], 0
-    for number, line in enumerate(lines, start=1):
-        cells = _cells(line)
-        try:
-            values = [float(cell) for cell in cells]
-        except ValueError:
-            values = None
-        if not rows and (values is None or line.startswith("#")):
-            header.append(line)
-        elif cells and not line.startswith("#"):
-            width = width or width_of(header, len(cells))
-            if values is None or len(values) != width:
-                expected = "two numbers r, z" if width == 2 and what else f"{width} numbers{what}"
-                raise ValueError(f"{name}, line {number}: expected {expected}, found {line.strip()!r:.60}")
-            rows.append(values)
-            if len(rows) > limit:
-                raise ValueError(f"{name}: more than {limit} samples; thin them out")
-    return header, rows
+def read_table(text, name, limit=10**7):
+    """`Table` of a text: a header, and rows of numbers separated by commas, semicolons, tabs or blanks.
+
+    Lines that start with # belong to the header, or are comments. More samples than `limit` are refused.
+    """
+    lines = [pair for pair in enumerate(text.splitlines()[: 2 * limit], 1) if pair[1].strip()]
+    if any(len(line) > _LONGEST_LINE for _, line in lines):
+        raise ValueError(f"{name}: a line is longer than {_LONGEST_LINE} characters; use a line a sample")
+    rows = [[] if line.startswith("#") else [_number(cell) for cell in _cells(line)] for _, line in lines]
+    # Rows have numbers in half of their cells; a header may have some in one of its lines.
+    counts = [len(row) if 2 * sum(map(_is_finite, row)) >= len(row) else 0 for row in rows]
+    if not any(counts):
+        raise ValueError(f"{name}: no samples; expected rows of numbers")
+    width = Counter(filter(None, counts)).most_common(1)[0][0]
+    pairs = pairwise([i for i, (_, line) in enumerate(lines) if not line.startswith("#")])
+    first = next((i for i, j in pairs if counts[i] == counts[j] == width), counts.index(width))
+    heads = _heads([line for _, line in lines[:first]], width, f"{name}, line {lines[first][0]}")
+    body = [(*line, row) for line, row in zip(lines, rows, strict=True)][first:]
+    odd = {number: line for number, line, row in body if row and len(row) != width}
+    body = [(number, line, row) for number, line, row in body if len(row) == width]
+    if len(body) > limit:
+        raise ValueError(f"{name}: more than {limit} samples; thin them out")
+    values = np.array([row for *_, row in body], dtype=float)
+    kept = 2 * np.count_nonzero(np.isfinite(values), axis=0) >= len(values)
+    columns = np.flatnonzero(kept).tolist()
+    odd |= {number: line for number, line, row in body if any(row[i] is None for i in columns)}
+    return Table(
+        tuple(heads[i] for i in columns), values[:, kept], np.array([number for number, *_ in body]), odd,
+        tuple(f"{i + 1} {heads[i]}" for i in np.flatnonzero(~kept) if heads[i]),
+    )  # fmt: skip
 
 
 def _cells(line):
     """Cells of a line; a comma is a decimal sign where the cells are separated otherwise."""
-    line = line.strip().replace('"', "")
-    cells = re.split(r"\s*[;\t]\s*", line) if ";" in line or "\t" in line else line.split()
-    if any(map(_COMMA.fullmatch, cells)) and len(cells) > 1:
-        cells = [cell.replace(",", ".") for cell in cells]
-    else:
-        cells = re.split(r"[;,\s]+", line)
-    while cells and not cells[-1]:
-        cells.pop()
-    return cells
+    line = line.replace('"', "")
+    separated = ";" in line or "\t" in line
+    cells = re.split(r" *[;\t] *", line.strip(" ")) if separated else line.split()
+    if len(cells) > 1 and any(map(_DECIMAL_COMMA.fullmatch, cells)):
+        return [cell.replace(",", ".") for cell in cells]
+    return cells if separated or "," not in line else line.split(",")
+
+
+def _number(cell):
+    try:
+        return float(cell)
+    except ValueError:
+        return None
+
+
+def _unit(text):
+    """Name of a known unit as in `UNITS`, or None."""
+    text = re.sub(r"^[uμ](?=[mNs]$)", "µ", text)
+    return text if text in _KNOWN else None
+
+
+def _is_finite(value):
+    return value is not None and isfinite(value)
+
+
+def _heads(header, width, place):
+    """Names of the columns: the last line of that width in a header, and the one above a line of units."""
+    rows = []
+    for line in header:
+        line = re.sub(r"^#\s*(\w+:\s)?", "", line).replace('"', "").strip(" ")
+        separator = next((s for s in ";\t," if s in line), None)
+        cells = line.split(separator) if separator else re.split(r"\s{2,}", line)
+        # Rows or header may end in a separator.
+        splits = [cells, cells[:-1], *[[*cells, ""]] * (separator in (";", "\t"))]
+        splits += [line.split()] * (separator is None)
+        rows += [cells for cells in splits if len(cells) == width][:1]
+    units = _BRACKETS.findall(header[-1]) if header else []
+    if not rows and len(units) not in (0, 1, width):
+        count = "two" if len(units) == 2 else len(units)
+        raise ValueError(
+            f"{place}: expected {count} numbers, as the header names {count} units, found {width}; where "
+            "commas are decimal ones, separate columns by semicolons"
+        )
+    rows = rows or [units if len(units) == width else [""] * width]
+    last = 2 if any(_unit(cell.strip(" ()[]")) for cell in rows[-1]) else 1
+    return [" ".join(words).strip() for words in zip(*rows[-last:], strict=True)]
+
+
+def samples_of(text, name, unit, limit):
+    """Radii and heights (m) in a text, at most `limit` of them; `unit` if its header names none."""
+    if unit is not None:
+        _check.one_of("unit", unit, (*UNITS["length"], "um"))
+    table = read_table(text, name, limit)
+    count = table.values.shape[1]
+    if table.odd or count < 2:
+        number = min(table.odd, default=table.lines[0])
+        expected = "two numbers r, z" if count <= 2 else f"{count} numbers, r and z first"
+        line = f", found {table.odd[number].strip()!r:.60}" if table.odd else ""
+        raise ValueError(f"{name}, line {number}: expected {expected}{line}")
+    named = [u if u in UNITS["length"] else None for u in map(table.unit, (0, 1))]
+    if unit is None and None in named:
+        raise ValueError(
+            f"{name}: the header must name the units of r and z, as in 'r (nm), z (nm)', out of "
+            f"{', '.join(UNITS['length'])}; or give unit='nm'"
+        )
+    units = named if unit is None else [_unit(unit)] * 2
+    if any(named) and named != units:
+        given = ", ".join(filter(None, named))
+        raise ValueError(f"{name}: unit={unit!r} was given, but the header says {given}")
+    r, z = table.values[:, :2].T
+    return r * UNITS["length"][units[0]], z * UNITS["length"][units[1]]
+
+
+def axis_of_symmetry(r, z):
+    """Radius (m) of the axis of noisy samples on both of its sides, near the lowest one."""
+    order = np.argsort(r, kind="stable")
+    r, z, width = r[order], z[order], np.ptp(r)
+    lowest = np.clip(r[np.argmin(z)], r[0] + 0.2 * width, r[-1] - 0.2 * width)
+    axes = lowest + 0.1 * width * np.linspace(-1, 1, 41)
+    distance = np.linspace(0, min(axes[0] - r[0], r[-1] - axes[-1]), 400)
+    sides = (np.interp(axes[:, None] + side * distance, r, z) for side in (1, -1))
+    # Their difference grows as a square; with noise it has many minima.
+    a, b, _ = np.polyfit(axes - lowest, np.mean(np.subtract(*sides) ** 2, axis=1), 2)
+    return float(lowest + np.clip(-b / (2 * a), axes[0] - lowest, axes[-1] - lowest)) if a > 0 else lowest
 
 
 def convex_fit(r, z):

@@ -49,7 +49,6 @@ window.explorer = {
   played: () => explorer.model("frames").tags.length > 0,
   all: (root = document) => [...root.querySelectorAll("*")].flatMap(
     (each) => [each, ...(each.shadowRoot ? explorer.all(each.shadowRoot) : [])]),
-  phase: () => explorer.all().find((on) => on.classList.contains("standing")).shadowRoot.textContent,
   idle: () => Boolean(explorer.model("address")?.tags.length) &&
     Bokeh.documents.every((each) => each.is_idle) && explorer.row("force", "now")?.[0].length === 1,
   listen: () => {
@@ -152,10 +151,6 @@ class Explorer:
 
     def field(self, symbol):
         return self.page.locator(f'input[type="text"][aria-label^="{symbol},"]')
-
-    def said(self, symbol):
-        """What is said below a field."""
-        return self.number(symbol).locator("#said").inner_text()
 
     def number(self, symbol):
         """A quantity with its field, slider and explanation."""

@@ -22,12 +22,12 @@ def state_with(key=GOLD, drive=None, **choices) -> State:
 def view_of(state: State, progress=1.0, *held: State, **view) -> View:
     """The view of a state."""
     state = state.replace(progress=progress, **view)
-    return View(follow(state), state, [follow(each) for each in held], curve=Curve.of(state))
+    return View(follow(state), [follow(each) for each in held], curve=Curve.of(state))
 
 
 def linked_state(state: State) -> State:
     """What a link of a state says."""
-    return link.read(link.arguments(written(state)))
+    return link.read(written(state))
 
 
 def written(state: State) -> str:

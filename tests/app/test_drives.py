@@ -1,25 +1,22 @@
 """Every drive gives states along its path through one interface, and what it says is what the core says."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 import mdr_core as mdr
 from app import changes
-from app.changes import read_path, write_path
 from app.drives import States
 from app.panels import readouts, share
-from app.panels.readouts import phase, readings
+from app.panels.readouts import readings
 from app.plots.force import force, force_still
 from app.solve import DRIVES, drive_of, follow, scene_of
 from app.state import PRESETS, medium, preset_state, profile
 from app.state.quantities import CHOICES
 
-from .conftest import DROP, ELASTIC, GOLD
+from .conftest import DROP, ELASTIC
 from .states import linked_state, solved, state_with, view_of
 
-PATTERNS = [pattern for pattern in CHOICES["pattern"] if pattern != "own"]
+PATTERNS = CHOICES["pattern"]
 ARRAYS = (
     "depth", "force", "contact_radius", "plastic_radius", "plastic_depth", "mean_pressure", "stored_energy",
     "plastic_work",
@@ -92,25 +89,21 @@ def test_the_curve_is_drawn_as_one_goes():
     assert len(force_still(view)["path ahead"][0]) == len(view.course)
 
 
-@pytest.mark.parametrize("name", ["depth", "force"])
-def test_the_load_is_gone_at_a_step(name):
+def test_the_load_is_gone_at_a_step():
     """The contact radius comes down to that of the imprint and then falls, within a trace of depth."""
-    course = solved(changes.choose(path("reload"), "prescribed", name))
+    course = solved(path("reload"))
     a, c, depth = course.states.contact_radius, course.states.plastic_radius, course.states.depth
     gone = np.flatnonzero((a[1:] == 0) & (a[:-1] > 0))
     assert len(gone) == 2
     np.testing.assert_allclose(a[gone], c[gone], rtol=1e-6)
     assert np.all(np.abs(depth[gone] - depth[gone + 1]) < 1e-6 * depth.max())
-    assert phase(course, len(course) - 1) == "load gone"
+    assert course.states.contact_radius[-1] == 0
 
 
-def test_depth_and_force_prescribe_the_same_states():
-    state = path("cycles")
-    depth = [row[0] for row in state.path]
-    state = changes.choose(state, "prescribed", "force")
-    np.testing.assert_allclose(scene_of(state).solve().depth, depth, rtol=1e-9, atol=1e-20)
-    state = changes.choose(state, "prescribed", "depth")
-    np.testing.assert_allclose([row[0] for row in state.path], depth, rtol=1e-9, atol=1e-20)
+def test_the_drive_gives_the_pattern_its_depth():
+    """A slider moves the largest depth of each pattern, as when pressing."""
+    state = changes.put(path("cycles"), "max_depth", 5e-9)
+    np.testing.assert_allclose(scene_of(state).drive.depth[::2], 5e-9 * np.arange(1, 6) / 5, rtol=1e-12)
 
 
 @pytest.mark.parametrize("shape", ["cone", "sphere"])
@@ -160,7 +153,7 @@ def test_creep_is_first_shown_without_dashpots_and_then_in_time():
     state = path("creep", viscous=True)
     first, course = follow(state), solved(state)
     assert first.pending
-    assert "without dashpots" in phase(first, first.now)
+    assert "without dashpots" in first.pending
     assert not course.pending
     assert np.all(np.diff(course.states.depth) > 0)
     assert course.force[-1] == pytest.approx(first.force[-1])
@@ -172,68 +165,13 @@ _TAKEN = [("reload", False), ("cycles", True), ("hold", False), ("hold", True)]
 
 
 @pytest.mark.parametrize(("pattern", "viscous"), _TAKEN)
-def test_a_path_is_in_the_link_and_the_snippet(pattern, viscous, capsys):
+def test_a_path_is_in_the_link_and_the_csv(pattern, viscous):
     state = path(pattern, viscous)
     assert scene_of(linked_state(state)) == scene_of(state)
     course = solved(state)
-    for now in (len(course) // 3, course.peak, len(course) - 2):
-        values = {}
-        exec(share.python(replace(course, now=now)), values)
-        # Another chain, of the tolerance of its own.
-        tolerance = (3e-3 if viscous and pattern == "hold" else 1e-9) * course.force.max()
-        assert float(values["state"].force) == pytest.approx(float(course.force[now]), abs=tolerance)
-    capsys.readouterr()
-    assert "vertices" in readouts.summary(state)
+    assert CHOICES["pattern"][pattern] in readouts.summary(state)
     data = [line for line in share.csv(course, state).splitlines() if not line.startswith("#")]
     assert len(data) == 1 + len(course)
-
-
-def test_vertices_are_typed_as_text():
-    shown = ((1e-8, 0.0), (5e-9, 1e-3))
-    assert write_path(shown, "depth") == "10 nm, 0 ms\n5 nm, 1 ms"
-    typed = "0 nm, 0\n10, 1\n\n10 nm; 2\n0,005 µm\t3 ms\n2.5 nm at 0.004 s"
-    expected = [(0, 0), (1e-8, 1e-3), (1e-8, 2e-3), (5e-9, 3e-3), (2.5e-9, 4e-3)]
-    np.testing.assert_allclose(read_path(typed, "depth", shown), expected, rtol=1e-14)
-    # A line that is left alone keeps the digits that are not shown.
-    third = ((1e-8 / 3,), (1e-8,))
-    assert read_path(write_path(third, "depth") + "\n5 nm", "depth", third) == (*third, (5e-9,))
-
-
-@pytest.mark.parametrize(
-    ("typed", "said"),
-    [
-        ("10 nm\n5 bananas", "Line 2: “5 bananas” is not a number"),
-        ("10 nm, 1 ms, 3", "Line 1: .* more than a depth and a time"),
-        ("10 nm, 1 ms\n5 nm", "a time at each vertex, or at none"),
-        ("10 nm, 1 ms\n5 nm, 1 ms", "does not increase"),
-        ("10 nm, 1 ms", "in time 2 at least"),
-        ("0 nm\n-5 nm", "largest depth of a path is out of bounds"),
-        ("10 nm\n" * 61, "1 to 60 vertices"),
-        ("", "1 to 60 vertices"),
-    ],
-)
-def test_what_is_no_path_is_refused(typed, said):
-    with pytest.raises(ValueError, match=said):
-        read_path(typed, "depth", ((1e-8,),))
-
-
-def test_a_path_drawn_by_hand_is_kept_while_other_drives_are_looked_at():
-    state = state_with(GOLD, "path").replace(path=((2e-9,), (1e-9,), (3e-9,)), pattern="own")
-    for drive in ("impact", "path"):
-        state = changes.choose(state, "drive", drive)
-    assert [row[0] for row in state.path] == [2e-9, 1e-9, 3e-9]
-    assert changes.reset(state).path == ()
-
-
-@pytest.mark.parametrize("vertices", [(1.0,), (1.0, 0.6), (1.0, 0.0)])
-def test_a_path_of_one_or_two_vertices_ends_there(vertices):
-    state = path("reload")
-    most = max(row[0] for row in state.path)
-    state = state.replace(path=tuple((most * share,) for share in vertices), pattern="own")
-    depth = solved(linked_state(state)).states.depth
-    assert depth[0] == 0
-    assert depth[-1] == pytest.approx(most * vertices[-1], abs=1e-9 * most)
-    assert max(depth) == pytest.approx(most, rel=1e-9)
 
 
 # Oblique impacts.
@@ -280,14 +218,6 @@ def test_looking_at_the_other_impact_keeps_body_and_normal_speed():
     assert (drive.mass, drive.speed) == pytest.approx((before.mass, before.speed), rel=1e-12)
     back = scene_of(changes.choose(state, "drive", "impact")).drive
     assert back.speed == pytest.approx(before.speed, rel=1e-12)
-
-
-def test_the_snippet_of_an_oblique_impact_has_the_angle_of_the_page(capsys):
-    course, values = replace(solved(oblique_state()), now=90), {}
-    exec(share.python(course), values)
-    angle = numbers(course)["body_angle"]
-    assert float(capsys.readouterr().out.splitlines()[1]) == pytest.approx(np.degrees(angle), rel=1e-3)
-    assert values["hit"].friction_work == course.oblique.impact.friction_work
 
 
 def test_presets_are_within_what_the_model_assumes():

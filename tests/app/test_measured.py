@@ -8,9 +8,9 @@ import pytest
 import mdr_core as mdr
 from app import changes
 from app.page import Page
-from app.panels import fitting, share
+from app.panels import fitting
 from app.plots import PLOTS
-from app.solve import follow, scene_of
+from app.solve import scene_of
 from app.state import medium, preset_state, profile
 from app.state.files import agrees, read_curve
 
@@ -26,66 +26,35 @@ def file(columns, header, between=", ", comma=False):
     return "\n".join([*header, text.replace(".", ",") if comma else text]).encode()
 
 
-@pytest.mark.parametrize(
-    ("data", "note"),
-    [
-        (file((DEPTH, FORCE), ["Depth (nm), Load (mN)"]), "5 samples"),
-        (file((FORCE, DEPTH), ["Load [mN];Displacement [nm]"], ";", comma=True), "5 samples"),
-        (file((range(5), DEPTH, FORCE), ["# run 7", "Time\th\tP", "s\tnm\tmN"], "\t"), "5 samples"),
-        (file((range(5, 0, -1), FORCE[::-1], DEPTH[::-1]), ["t/s,F/mN,d/nm"]), "5 samples"),
-        (file((DEPTH, 1e3 * np.array(FORCE)), ["Weg (nm);Kraft (µN)"], ";"), "5 samples"),
-        (file((DEPTH, 1e3 * np.array(FORCE)), [""]), "depth in nm and force in µN is a guess"),
-        (file((DEPTH, [-f for f in FORCE]), ["h (nm), F (mN)"]), "force turned round"),
-        (file(([-d for d in DEPTH], FORCE), ["z (nm) F (mN)"], " "), "depth turned round"),
-        (file((DEPTH, 1e3 * np.array(FORCE)), ["h (nm); F (\u03bcN)"], "; "), "5 samples"),
-    ],
-)
-def test_curves_as_instruments_write_them(data, note):
-    curve = read_curve(data, "run.csv")
-    depth, force = curve.data
-    np.testing.assert_allclose(depth, np.array(DEPTH) * 1e-9, rtol=1e-12)
-    np.testing.assert_allclose(force, np.array(FORCE) * 1e-3, rtol=1e-12)
-    assert note in curve.note
-
-
-def test_old_encodings_and_long_files():
-    rows = 5000
-    depth = np.linspace(0, 10, rows)
+def test_long_files_are_thinned_and_refused_in_words_of_the_page():
+    """What the core reads and refuses is in its own tests."""
+    depth = np.linspace(0, 10, 5000)
     data = file((depth, depth**2), ["h (µm), F (µN)"]).decode()
-    for encoding in ("utf-16", "cp1252"):
-        curve = read_curve(data.encode(encoding), "run.csv")
-    assert "5000 samples, one in 3 of them taken" in curve.note
+    curve = read_curve(data.encode("cp1252"), "a/run  7.csv")
+    assert curve.note == "5000 samples, one in 3 of them taken"
+    assert curve.name == "a/run 7.csv"
     assert curve.data[0][-1] == pytest.approx(10e-6, rel=1e-3)
     assert len(curve.data[0]) <= 2000
+    with pytest.raises(ValueError, match=r"the file\.csv has one column of numbers"):
+        read_curve(b"h (nm)\n1\n2\n", "../run.csv")
+    with pytest.raises(ValueError, match="more than 5 MB"):
+        read_curve(b"1, 2\n" * 10**6 + b"3", "run.csv")
 
 
-@pytest.mark.parametrize(
-    ("data", "says"),
-    [
-        (b"h (nm)\n1\n2\n", "one column"),
-        (b"h (nm), F (nN)\n1,5,2,3\n", "separate columns by semicolons"),
-        (b"nothing", "no rows of numbers"),
-        (b"h (nm), F (nN)\n1, 2\n", "one row of numbers"),
-        (b" \n", "the file is empty"),
-        (b"h (nm), F (nN)\n1, 2\nx, 3\ny, 4\nz\n", "most lines|column of numbers"),
-    ],
-)
-def test_what_is_no_curve_is_refused(data, says):
-    with pytest.raises(ValueError, match=says):
-        read_curve(data, "run.csv")
-
-
-def test_a_column_of_text_and_an_empty_cell_are_left_out_and_said():
-    lines = [
-        "phase; h (nm); F (nN)",
-        *(f"load; {k}; {k * k}" for k in range(8)),
-        "load; ; 9",
-        "hold; 9; 81",
-    ]
-    curve = read_curve("\n".join(lines).encode(), "run.csv")
-    np.testing.assert_allclose(curve.data[0], np.array([*range(8), 9]) * 1e-9, rtol=1e-12)
-    assert "column 1 is no number and is left out" in curve.note
-    assert "line 10 has a cell that is no finite number and is left out" in curve.note
+def test_the_measured_example_lies_over_its_tip_with_the_numbers_of_oliver_and_pharr():
+    """E* by the unloading beside the fit, 69.6 GPa: its own numbers are tested in the core."""
+    page = Page()
+    page.apply(fitting.silica)
+    state = page.state
+    assert profile(state) == mdr.Cone.from_half_angle(70.3)
+    assert "69.6" in page.fitting.unloading.object
+    state = fitting.fit(state)
+    # The literature has 72 GPa; residuals of 2 % of the force say that glass is not of this class of media.
+    assert state.E_star == pytest.approx(72e9, rel=0.05)
+    # Loading alone has no unloading.
+    depth = np.arange(9.0)
+    curve = read_curve(file((depth, depth**2), ["h (nm), F (µN)"]), "run.csv")
+    assert fitting.unloading(fitting.take(preset_state(), curve)) == ""
 
 
 def test_columns_and_units_are_corrected():
@@ -93,8 +62,8 @@ def test_columns_and_units_are_corrected():
     deeper = curve.corrected("depth", "µm").data[0]
     np.testing.assert_allclose(deeper, 1e3 * curve.data[0])
     np.testing.assert_allclose(curve.corrected("depth", "−nm").data[0], -curve.data[0])
-    assert curve.corrected("depth", 1).columns == {"depth": 1, "force": 0, "time": -1}
-    assert curve.corrected("time", 2).columns["time"] == 2
+    assert curve.corrected("depth", 1).curve.columns == {"depth": 1, "force": 0, "time": None}
+    assert curve.corrected("time", 2).curve.columns["time"] == 2
     with pytest.raises(ValueError, match="that is the column of force"):
         curve.corrected("time", 1)
 
@@ -127,11 +96,29 @@ def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
 
 
 def test_what_is_fixed_stays():
-    state, before = fitted(fixed=("E_star", "frame_compliance"), noise="given", depth_noise=1e-11)
+    state, before = fitted(fixed=("E_star", "tilt", "frame_compliance"), noise="given", depth_noise=1e-11)
     assert medium(state).E_star == before.E_star
     assert state.elasticity == "bodies"
     assert state.curve.fit.standard_errors.keys() == {"q_c", "contact_point", "baseline"}
     assert state.baseline == state.curve.fit.baseline != 0
+
+
+def test_a_drag_is_fitted_where_there_are_times():
+    """Without it the placed curve is that of the elastic medium; the file has 10⁻³ nm and nN."""
+    t = np.linspace(0, 2, 401)
+    d = 9e-9 * np.sin(np.pi * t / 2)
+    start = preset_state().replace(plasticity="none")
+    F = mdr.indent(profile(start), medium(start), d).force
+    drag = 0.05 * F.max() / (9e-9 * np.pi / 2)
+    columns = t, 1e9 * d, 1e9 * (F + drag * np.gradient(d, t))
+    curve = read_curve(file(columns, ["t (s); h (nm); F (nN)"], ";"), "run.csv")
+    held = tuple(name for name in curve.fitted if name not in ("E_star", "drag"))
+    state = fitting.fit(fitting.take(start, curve).replace(fixed=held))
+    assert state.drag == pytest.approx(drag, rel=1e-3)
+    assert state.E_star == pytest.approx(medium(start).E_star, rel=1e-3)
+    assert agrees(state)
+    np.testing.assert_allclose(view_of(state).curve.force, F, atol=1e-3 * F.max())
+    assert {"eta", "drag"} == set(curve.fitted) - set(fitting.example(start).fitted)
 
 
 def test_what_cannot_be_fitted_is_refused_as_it_was():
@@ -159,20 +146,6 @@ def test_a_tip_that_ends_above_the_measured_depth_says_so():
     state = preset_state()
     state = changes.take_tip(fitting.take(state, fitting.example(state)), (r, 0.1 * r), "")
     assert view_of(state).rows(PLOTS["residual"], 0)["missing"][2] == "no model at these depths"
-
-
-@pytest.mark.parametrize("fixed", [("baseline",), ("E_star", "baseline", "frame_compliance"), ()])
-def test_csv_and_python_reproduce_the_fit(fixed, tmp_path, monkeypatch):
-    state, _ = fitted(fixed=fixed)
-    found = state.curve.fit
-    text = share.fit_csv(follow(state), state)
-    assert f"# q_c_error = {found.to_dict()['q_c_error']!r}" in text
-    (tmp_path / "fit.csv").write_text(text, encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
-    values = {}
-    exec(share.python(follow(state)) + share.fit_python(state.curve), values)
-    # The same data by the same way.
-    assert values["fit"].to_dict() == pytest.approx(found.to_dict(), rel=1e-9)
 
 
 def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):

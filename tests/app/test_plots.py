@@ -11,12 +11,12 @@ import mdr_core as mdr
 from app import changes
 from app.panels import readouts
 from app.plots import NAMED, PLOTS, TILES
-from app.plots.below import SURFACE, section, surface
+from app.plots.below import section, surface
 from app.plots.contact import RADII, leaning, pressure, springs
 from app.plots.draw import Picture, described, drawn, ticks
-from app.plots.force import _SHARE, force_still, references
-from app.plots.motion import energy_still, forces_still, maw, maw_still
-from app.plots.plot import Plot, maw_chi
+from app.plots.force import force_still
+from app.plots.motion import energy_still, forces_still
+from app.plots.plot import Plot
 from app.solve import follow, scene_of
 from app.state import PRESETS, medium, preset_state, profile
 from app.state.quantities import SHAPES
@@ -78,7 +78,7 @@ def test_every_plot_of_every_state_can_be_drawn(made):
 @pytest.mark.parametrize("damping", ["none", "tau"])
 def test_every_plot_of_an_oblique_impact_beside_a_held_one_can_be_drawn(damping):
     state = state_with(DROP, "oblique", damping=damping)
-    assert_all_is_drawn(view_of(state, 1.0, state, axes="ratio"), 17)
+    assert_all_is_drawn(view_of(state, 1.0, state), 17)
 
 
 def test_a_measured_tip_ends_at_its_rim_without_pressure():
@@ -156,51 +156,7 @@ def test_only_what_is_exceeded_is_seen_and_the_rest_folds():
     assert html[: html.index("<details>")].count('class="beyond"') >= 2
 
 
-# References, dimensionless axes, the surface.
-
-
-def test_the_elastic_curve_of_a_paraboloid_is_that_of_hertz():
-    state = state_with(shape="paraboloid")
-    d, F = references(view_of(state, references="elastic"))["elastic throughout"]
-    expected = 4 / 3 * medium(state).E_star * np.sqrt(profile(state).radius) * d**1.5
-    np.testing.assert_allclose(F, expected, rtol=1e-12)
-    assert len(d) == len(_SHARE)
-
-
-@pytest.mark.parametrize(("shape", "power"), [("cone", 2), ("paraboloid", 1), ("flat_punch", 0)])
-def test_classes_share_the_hardness_of_the_deepest_state_and_differ_in_its_power(shape, power):
-    """F ∝ a², a⁰ and z ∝ rⁿ: powers 2/n and 0 of the depth."""
-    view = view_of(state_with(shape=shape), 1.6, references="classes")
-    rows, turning_point = references(view), view.course.turning_point
-    d, constant_hardness = rows["class (a), F ∝ a²"]
-    d, constant_force = (part[1:] for part in rows["class (c), F constant"])
-    share = (d / turning_point.depth) ** power
-    np.testing.assert_allclose(constant_hardness[1:], turning_point.force * share, rtol=1e-9)
-    np.testing.assert_allclose(constant_force, turning_point.force, rtol=1e-12)
-
-
-def test_nothing_is_said_to_have_a_hardness_that_has_not_yielded():
-    view = view_of(preset_state(ELASTIC), references="all")
-    assert references(view).keys() == {"elastic throughout"}
-    assert "Nothing has yielded" in PLOTS["force"].note(view)
-    assert references(view_of(preset_state())) == {}
-
-
-def test_cones_on_gold_and_pdms_are_one_dimensionless_curve():
-    """Popov (2015), Eqs. (20), (22): F/F_c = 2 d/d_c − 1, whatever cone and medium."""
-    pdms = preset_state("berkovich-pdms")
-    ratio = preset_state().max_depth / medium(preset_state()).critical_depth
-    pdms = pdms.replace(max_depth=ratio * medium(pdms).critical_depth)
-    view = view_of(preset_state(), 1.0, pdms, axes="ratio")
-    course, (d, F) = view.course, (view.axis(name) for name in "dF")
-    past = course.states.plastic_depth > 0
-    past[course.peak + 1 :] = False
-    expected = 2 * course.states.depth[past] / d.factor - 1
-    np.testing.assert_allclose(course.force[past] / F.factor, expected, rtol=1e-9)
-    assert (d.label, F.label) == ("d, indentation depth (× d at onset)", "F, normal force (× F at onset)")
-    held = force_still(view)["held 1"]
-    np.testing.assert_allclose(held[0], course.states.depth, rtol=1e-12)
-    np.testing.assert_allclose(held[1], course.force, rtol=1e-9, atol=1e-12 * course.force.max())
+# The surface.
 
 
 def test_beside_an_elastic_paraboloid_the_surface_is_that_of_hertz():
@@ -228,12 +184,6 @@ def test_the_surface_lies_on_the_tip_in_contact_and_below_it_beside(shape):
     assert np.all(gap[~inside] > -1e-12 * scale)
 
 
-def test_heights_are_to_scale_when_asked_for():
-    r, z = view_of(preset_state(), heights="to_scale").axes_of(SURFACE)
-    assert (r.unit, r.factor) == (z.unit, z.factor)
-    assert z.title == "z, height to scale"
-
-
 # Section, oblique impacts, the pressure seen obliquely.
 
 
@@ -241,7 +191,7 @@ def test_heights_are_to_scale_when_asked_for():
 @pytest.mark.parametrize("key", [ELASTIC, DROP])
 def test_the_section_shows_the_stress_of_the_core(key, quantity):
     course = follow(preset_state(key))
-    (found,) = section(course, (quantity,))
+    found = section(course, (quantity,))
     state, (r, z, colours) = course.state, found.axes
     (left, right), (bottom, top), image = found.rows["image"]
     assert (left, right, bottom, top) == (r.start, r.end, z.start, z.end) == (0, r.end, -r.end, 0)
@@ -264,7 +214,7 @@ def test_the_section_shows_the_stress_of_the_core(key, quantity):
 
 
 def test_the_section_of_an_unloaded_state_is_empty():
-    (found,) = section(follow(preset_state().replace(progress=2.2)), ("zz",))
+    found = section(follow(preset_state().replace(progress=2.2)), ("zz",))
     assert found.rows == {}
     assert found.note == "The load is gone."
 
@@ -299,19 +249,6 @@ def test_forces_of_an_oblique_impact_are_bounded_by_friction_and_change_the_spee
     W = view.course.oblique.tangential_velocity
     assert W[0] - W[-1] == pytest.approx(trapezoid(along, t) / drive.tangential_mass, rel=2e-3)
     assert view.axis("force").start < 0
-
-
-def test_maw_s_curve_and_the_present_impact_on_it(monkeypatch):
-    monkeypatch.setattr("app.plots.motion._PLACES", 4)
-    view = view_of(oblique_state(attack=0.3, friction=0.3))
-    *_, found = maw(view.course, ())
-    x, y = found.rows["elastic (Maw)"]
-    chi = maw_chi(view.course)
-    # Of a solid ball: where all slips ψ₂ = ψ₁ − 4χ, from ψ₁ = 4χ − 1 on.
-    np.testing.assert_allclose(y[-2:], x[-2:] - 4 * chi, atol=1e-6)
-    (before,), (after,) = maw_still(view)["this impact"]
-    assert before > 4 * chi - 1
-    assert after == pytest.approx(before - 4 * chi, abs=2e-3)
 
 
 def test_the_relief_has_the_pressure_on_every_cut():
@@ -365,7 +302,7 @@ def test_another_theme_is_another_palette():
         # Another ground paints the axes anew, too.
         assert picture.figure.background_fill_color == ground
     bar = Picture(PLOTS["section"])
-    (found,) = section(view.course, ("zz",))
+    found = section(view.course, ("zz",))
     view.found["section"] = found
     bar.show(bar.columns(view, view.course.now, True), view, True)
     # The numbers of the colour bar can be read in the dark.

@@ -37,14 +37,14 @@ def assert_names_nothing_outside(html):
 
 
 def test_the_report_says_what_the_page_says():
-    state, _ = changes.typed(preset_state(DROP), "speed", "2 m/s")
+    state = changes.typed(preset_state(DROP), "speed", "2 m/s")
     view = view_of(state, 1.5)
     course, plots = (
         view.course,
         [PLOTS[name] for name in ("springs", "pressure", "force", "motion", "energy")],
     )
     html = report(
-        state, view, plots, share.python(course), "http://localhost/app?speed=2.0", ["<b>stiff</b>"]
+        state, view, plots, share.python(course.scene), "http://localhost/app?speed=2.0", ["<b>stiff</b>"]
     )
     assert_names_nothing_outside(html)
     said = plain(html)
@@ -53,11 +53,11 @@ def test_the_report_says_what_the_page_says():
     for each, values in readings(course).items():
         assert f"{each.known.long_name} {text(each, values, course.now, 5)}" in said
     # What the preset says has its source; what was typed says so.
-    assert PRESETS[DROP].sources["q_c"][2] in said
+    assert PRESETS[DROP].sources["q_c"] in said
     assert "2.0000 m/s set on the page" in said
     for limit in course.hit.limits:
         assert limit.sentence.rstrip(".") in said
-    assert "mdr.impact(profile, medium, mass=5.5, speed=2.0)" in said
+    assert "mdr.FreeImpact(mass=5.5, speed=2.0)" in said
     assert "http://localhost/app?speed=2.0" in said
     assert all(plot.title in said for plot in plots)
     assert written(2.0, "speed", 5) in said

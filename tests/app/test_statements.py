@@ -78,7 +78,7 @@ def test_4_report_and_link_of_a_fit_have_the_fit():
     assert "± " in text[text.index("The fit") :]
     for part in ("reduced χ²", "contact point", *found.remarks):
         assert part in text
-    again = link.read(link.arguments(written(state)))
+    again = link.read(written(state))
     assert "χ² =" in again.fit_note
     assert "E* =" in again.fit_note
     assert "made with a fit to A made curve" in plain(fitting.result(again))
@@ -101,7 +101,7 @@ def test_6_and_7_are_of_typed_numbers():
     page = Page()
     page.apply(lambda state: fitting.take(state, fitting.example(state)))
     texts = [number.text for number in page.fitting.place]
-    assert [text.split()[1] for text in texts] == ["nm", "µN", "nm/µN"]
+    assert [text.split()[1] for text in texts] == ["nm", "µN", "N/m", "nm/µN"]
 
 
 def test_8_formulas_are_those_of_the_drive():
@@ -192,12 +192,12 @@ def test_13_springs_of_an_oblique_impact_are_elastic_or_yielded():
 
 def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept():
     page = Page()
-    page.board.tabs["maw"].value = True
+    page.board.tabs["forces"].value = True
     assert page.shown.plots == [PLOTS[name] for name in ("springs", "pressure", "force")]
-    assert not page.board.tabs["maw"].value
+    assert not page.board.tabs["forces"].value
     page.apply(lambda state: changes.put(state, "max_depth", 5e-9))
     assert page.state.max_depth == 5e-9
-    assert "maw" not in link.write(page.state, DRIVES["depth"].form)
+    assert "forces" not in link.write(page.state, DRIVES["depth"].form)
     # A measured tip can be chosen where there is one only.
     assert "Measured tip" not in page.choices.widgets["shape"].options
     assert isinstance(page.share, Share)

@@ -1,0 +1,164 @@
+"""Modulus and hardness from an unloading, by the method of Oliver and Pharr."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import _check
+from .._check import ArrayLike
+from .._numeric import increasing_root
+from ..medium import Medium, check_pair
+from ..results.quantities import described
+from ..results.report import Report
+from ..shapes.profile import Profile
+from .least_squares import FITTED_QUANTITIES, least_squares, with_error
+
+#: Bounds of force and stiffness, in units of those of the samples, and of the exponent.
+_LOWER, _UPPER = np.array([[0.1, 1e-3, 0.5]]), np.array([[10.0, 1e3, 50.0]])
+
+
+@_check.keywords_explained
+def oliver_pharr(
+    profile: Profile, depth: ArrayLike, force: ArrayLike, *, epsilon: float = 0.75, beta: float = 1.0
+) -> "OliverPharr":
+    """Modulus and hardness from the unloading of one force–depth curve: Oliver and Pharr (1992).
+
+    F = α (h − h_f)^m is fitted to the upper half of the unloading: samples after the largest depth, from
+    the last one with 99 % of the force, so that a hold is left out, to the first one below half of it. F
+    and its slope S at the largest depth h give the contact depth h_c = h − ε F/S. With the radius a of the
+    profile at that height, z(a) = h_c, and A = π a², E* = S √π/(2β √A) and H = F/A.
+
+    Parameters
+    ----------
+    profile : Profile
+        The indenter.
+    depth, force : array_like
+        Depths (m) from first contact on and forces (N) above the baseline, (N,), in the order of time.
+    epsilon : float, optional
+        Constant ε: 1 for a flat punch, 3/4 for a paraboloid, 2 − 4/π for a cone.
+    beta : float, optional
+        Correction β of the stiffness, 1 for axisymmetric indenters.
+
+    Raises
+    ------
+    ValueError
+        If there are no five samples of the upper half of an unloading, or they follow no power law; if the
+        contact depth is not positive, or the profile is not known to it.
+
+    Notes
+    -----
+    For an elastic contact and the ε of its shape E* is exact. A yielded cone in a medium of this package
+    has z(a) = 2d/π, and here z(a) → d: E* is up to π/2 times smaller than the medium's, H (π/2)² times.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mdr_core import Cone, Medium, indent
+    >>> d = np.append(np.linspace(0, 60e-9, 100), np.linspace(60e-9, 0, 100))
+    >>> F = indent(Cone(slope=0.3), Medium(E_star=10e9), d).force
+    >>> result = oliver_pharr(Cone(slope=0.3), d, F, epsilon=2 - 4 / np.pi)
+    >>> print(f"{result.E_star:.6g} {result.hardness:.6g} {result.exponent:.6g}")  # H = E* s/2
+    1e+10 1.5e+09 2
+    """
+    check_pair(profile, Medium(1.0), "an unloading")
+    depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
+    force = _check.finite_array("force", force, unit="N", most=_check.LARGEST)
+    if depth.shape != force.shape or depth.ndim != 1 or not depth.size:
+        raise ValueError(f"depth {depth.shape} and force {force.shape} must be of one curve, (N,) both")
+    epsilon = _check.positive_number("epsilon", epsilon, zero=True)
+    beta = _check.positive_number("beta", beta)
+
+    def results(F, S, m):
+        contact_depth = depth.max() - epsilon * F / S
+        a = _radius_at_height(profile, contact_depth)
+        return np.stack([S, contact_depth, S / (2 * beta * a), F / (np.pi * a**2), m])
+
+    solution, deviations = _power_law(*_upper_half(depth, force))
+    with np.errstate(all="ignore"):
+        values, *others = results(*np.column_stack([solution, solution[:, None] + deviations])).T
+    # A contact radius of 0 or ∞ makes the modulus or the hardness so.
+    if not np.all((values[2:] > 0) & (values[2:] < np.inf)):
+        raise ValueError(
+            f"the contact depth h − ε F/S = {values[1]:g} m must be positive and within the profile: depth "
+            "counts from first contact, force from the baseline"
+        )
+    errors = np.linalg.norm(np.array(others) - values, axis=0)
+    names = OliverPharr._quantities
+    return OliverPharr(profile, *values.tolist(), dict(zip(names, errors.tolist(), strict=True)))
+
+
+def _upper_half(depth, force):
+    """Depths (m) minus the largest one, and forces (N), of the upper half of the unloading."""
+    start = int(np.flatnonzero(depth == depth.max())[-1])
+    h, F = depth[start:] - depth[start], force[start:]
+    share = F / np.abs(F).max()
+    below = np.flatnonzero(share < 0.5)
+    end = below[0] if below.size else np.argmin(F) + 1
+    first = np.flatnonzero(share[:end] >= 0.99)
+    h, F = (values[first[-1] if first.size else end : end] for values in (h, F))
+    if h.size < 5 or h.min() == 0:
+        raise ValueError(
+            f"{h.size} samples of the upper half of an unloading, 5 or more are needed: after the largest "
+            f"depth, {depth[start]:g} m (sample {start + 1} of {depth.size}), depth and force must fall"
+        )
+    return h, F
+
+
+def _power_law(h, force):
+    """Force, stiffness and exponent at h = 0 of F (1 + S h/(m F))^m, and their independent deviations."""
+    size = np.array([force[0], force[0] / -h.min(), 1.0])
+    x, y = h / -h.min(), force / force[0]
+
+    def function(parameters, _):
+        F, S, m = parameters.T[:, :, None]
+        u = np.maximum(1 + S * x / (m * F), 1e-9)
+        power = u ** (m - 1)
+        columns = power * (u - S * x / F), power * x, F * power * (u * np.log(u) + 1 - u)
+        return F * u * power - y, np.stack(columns, axis=-1)
+
+    start = np.array([[1.0, np.polyfit(x, y, 1)[0], 1.5]])
+    x, residual, jacobian = least_squares(function, start, _LOWER, _UPPER)
+    if np.any((x <= _LOWER) | (x >= _UPPER)):
+        raise ValueError("the upper half of the unloading is no power law: check the order of the samples")
+    _, s, vt = np.linalg.svd(jacobian[0], full_matrices=False)
+    scatter = np.sqrt(np.sum(residual**2) / (h.size - 3))
+    return x[0] * size, size[:, None] * vt.T * scatter / s
+
+
+def _radius_at_height(profile, height):
+    """Radius (m) of the profile at heights (m): 0 below its tip, infinite where it is not known."""
+    known = np.minimum(profile.wall, profile.known_radius)
+    # Without a slope the search is by bisection.
+    radius = increasing_root(lambda r: (profile._height(r), np.inf), height, np.abs(height), known)
+    return np.maximum(np.minimum(radius, profile.wall), profile.face_radius)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OliverPharr(Report):
+    """Results for one unloading, returned by `oliver_pharr`, and their standard errors by name.
+
+    The errors are those of the scatter about the power law.
+    """
+
+    profile: Profile
+    #: Stiffness S (N/m), contact depth h_c (m), modulus E* (Pa), hardness H (Pa) and exponent m.
+    stiffness: float
+    contact_depth: float
+    E_star: float
+    hardness: float
+    exponent: float
+    standard_errors: dict[str, float]
+
+    _dimensions = ("unloading",)
+    _quantities = _shown = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
+
+    def to_dict(self) -> dict[str, float]:
+        """Values by name, in SI units, and their standard errors, whose names end in `_error`."""
+        return super().to_dict() | {f"{name}_error": error for name, error in self.standard_errors.items()}
+
+    def _rows(self):
+        yield "indenter", described(self.profile)
+        for name, error in self.standard_errors.items():
+            quantity = FITTED_QUANTITIES[name]
+            text = with_error(getattr(self, name), error, quantity.unit)
+            yield f"{quantity.long_name} {quantity.symbol}", text

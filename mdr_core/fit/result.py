@@ -1,0 +1,209 @@
+"""Results of `fit_indentation`: parameters, states and residuals of all curves."""
+
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import _check
+from .._check import Array
+from ..indentation import Indentation
+from ..medium import Medium
+from ..results.quantities import described, engineering
+from ..results.report import imported
+from ..yielding import LiveInterval
+from .curve import PARAMETERS
+from .least_squares import FITTED_QUANTITIES, Fit, with_error
+from .oliver_pharr import oliver_pharr
+from .remarks import by_importance, missing, remarks_of
+
+if TYPE_CHECKING:
+    import xarray
+
+#: Parameters besides those of the medium; arrays with one entry per curve, and per sample.
+_FURTHER = ("contact_point", "baseline", "tilt", "drag", "frame_compliance")
+_OF_CURVES = (*_FURTHER, "covariance", "reduced_chi_square", "block_length")
+_OF_SAMPLES = ("depth", "force", "time", "residuals")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class IndentationFit(Fit):
+    """Media fitted to one or many curves, a `Fit` returned by `fit_indentation`; `fit[i]` is one curve's.
+
+    Parameters and errors are arrays (R,) for many curves, `covariance` is (R, P, P). q_c is infinite where
+    nothing has yielded. Residuals are those of the force (N) at the measured depth. Curves of different
+    numbers of samples are filled with NaN up to the longest; `fit[i]` is not.
+    """
+
+    #: Measured depth (m), force (N), and time (s), None where it was not given.
+    depth: Array
+    force: Array
+    time: Array | None
+    #: Fitted or held values (m, N, N/m, N·s/m, m/N).
+    contact_point: Array
+    baseline: Array
+    tilt: Array
+    drag: Array
+    frame_compliance: Array
+    #: Sum of squares in units of the noise over the degrees of freedom, NaN for noise from the residuals.
+    reduced_chi_square: Array
+    #: Number of samples in a block of the standard errors, 1 where residuals are not correlated.
+    block_length: Array
+    #: Standard deviation of the force (N), given or estimated; of each sample if an array was given.
+    force_noise: Array
+    #: Standard deviation of the measured depth (m), as given.
+    depth_noise: float
+    #: States of the fitted model, with depth noise at the most probable depths; where a sample is left out,
+    #: that of the sample before.
+    path: Indentation
+    #: Remarks on each curve by their kind, and numbers of samples given.
+    _remarks: tuple[dict[str, str], ...]
+    _lengths: np.ndarray
+
+    _medium_parameters = ("E_star", "q_c", "eta")
+    _further_parameters = _FURTHER
+    _zero_unless_asked = ("eta", "tilt", "drag")
+    _dimensions = ("curve",)
+
+    def __getitem__(self, index: Any) -> "IndentationFit":
+        if not self.shape:
+            return super().__getitem__(index)
+        longest = np.max(self._lengths[index], initial=0)
+        noise = self.force_noise[index]
+        samples = {name: getattr(self, name) for name in _OF_SAMPLES}
+        return replace(
+            self,
+            medium=self.medium.entries(index),
+            standard_errors={name: error[index] for name, error in self.standard_errors.items()},
+            path=self.path[index][..., :longest],
+            force_noise=noise[..., :longest] if self.force_noise.ndim > 1 else noise,
+            _remarks=self._remarks[index] if isinstance(index, slice) else (self._remarks[index],),
+            _lengths=self._lengths[index],
+            **{name: getattr(self, name)[index] for name in _OF_CURVES},
+            **{name: v if v is None else v[index][..., :longest] for name, v in samples.items()},
+        )
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Remarks, the most important first; of many curves one of each kind, with their number."""
+        if not self.shape:
+            return tuple(self._remarks[0].values())
+        kinds: dict[str, dict[int, str]] = {}
+        for i, remarks in enumerate(self._remarks):
+            for kind, text in remarks.items():
+                kinds.setdefault(kind, {})[i] = text
+        return tuple(
+            f"curve {min(texts)} ({len(texts)} of {len(self)} curves): {texts[min(texts)]}"
+            for texts in by_importance(kinds).values()
+        )
+
+    def plot(self) -> Any:
+        """Measured and fitted force over depth, and the residuals, of one curve as HoloViews elements.
+
+        The band of the residuals is one standard deviation of their noise, √(σ_F² + (S σ_d)²), S the
+        stiffness. Drawn are measured depths and forces, with offsets, background and frame.
+        """
+        from .figures import plot_fit
+
+        self._one("plot")
+        return plot_fit(self)
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Everything as a dataset: parameters, errors and covariance, and of each sample what was measured,
+        the model and the residual; `attrs` has the remarks.
+        """
+        xarray = imported("xarray", "to_xarray()")
+        dims, parameters = self._dims(), list(self.standard_errors)
+        variables = {
+            name: (dims, value, FITTED_QUANTITIES[name.removesuffix("_error")].attributes)
+            for name, value in self.to_dict().items()
+        }
+        variables["reduced_chi_square"] = dims, self.reduced_chi_square
+        variables["block_length"] = dims, self.block_length
+        noise = (*dims, "sample") if self.force_noise.ndim > len(dims) else dims
+        variables["force_noise"] = noise, self.force_noise, {"units": "N"}
+        samples = {name: getattr(self, name) for name in _OF_SAMPLES}
+        samples["model"] = self.force - self.residuals
+        units = {"depth": "m", "time": "s"}
+        for name, values in samples.items():
+            if values is not None:
+                variables[name] = (*dims, "sample"), values, {"units": units.get(name, "N")}
+        variables["covariance"] = (*dims, "parameter", "other_parameter"), self.covariance
+        attributes = self._attributes() | {"indenter": described(self.profile), "model": str(self.model)}
+        attributes["remarks"] = "\n".join(self.remarks)
+        names = {"parameter": parameters, "other_parameter": parameters}
+        return xarray.Dataset(variables, names, attributes | {"depth_noise": self.depth_noise})
+
+    def _unloading(self):
+        """Row with the results of Oliver and Pharr for one curve, if it has an unloading."""
+        used = np.isfinite(self.residuals)
+        # Without background and frame the measured force is that of the contact plus the residual.
+        force = (self.path.force + self.residuals)[used]
+        with suppress(ValueError):
+            result = oliver_pharr(self.profile, self.path.depth[used], force)
+            pairs = (("E_star", "Pa"), ("hardness", "Pa"))
+            errors = result.standard_errors
+            E, H = (with_error(getattr(result, name), errors[name], unit) for name, unit in pairs)
+            yield "Oliver and Pharr", f"E* {E}, H {H}"
+
+    def _quality(self):
+        noise = np.asarray(self.force_noise)
+        yield "force noise σ_F", engineering(noise[np.isfinite(noise)], "N")
+        if np.isfinite(self.reduced_chi_square).all():
+            yield "reduced χ²", engineering(self.reduced_chi_square, "")
+        if not self.shape:
+            yield from self._unloading()
+        if np.any(self.block_length > 1):
+            text = f"block-wise (Newey–West), blocks of {engineering(self.block_length, '')} samples"
+            yield "standard errors", text
+
+
+def collected(profile, measured, depth_noise, fits):
+    """One result of all `SolvedCurves`, in the order of the curves."""
+    order = np.argsort(np.concatenate([fit.rows for fit in fits]))
+    arrays = [_arrays(fit, measured.used[fit.rows]) for fit in fits]
+    joined = {name: np.concatenate([group[name] for group in arrays])[order] for name in arrays[0]}
+    remarks = list(chain.from_iterable(map(remarks_of, fits)))
+    counts = zip(measured.lengths - np.count_nonzero(measured.used, axis=1), measured.lengths, strict=True)
+    remarks = [by_importance(remarks[i] | missing(*pair)) for i, pair in zip(order, counts, strict=True)]
+    errors = np.sqrt(np.einsum("rpp->rp", joined["covariance"]))
+    media = [joined[name] for name in ("E_star", "q_c", "eta")]
+    interval = LiveInterval(joined["lower"], joined["upper"], joined["length"])
+    path = Indentation(
+        profile, Medium(*(value[:, None] for value in media)), joined["path_depth"], interval,
+        joined["dashpot_load"], bool(np.any(joined["eta"])),
+    )  # fmt: skip
+    noise = joined["force_noise"] if measured.force_noise is None else measured.force_noise
+    measurements = {name: getattr(measured, name) for name in ("depth", "force", "time")}
+    names = (*_OF_CURVES, "residuals")
+    values = {name: joined[name] for name in names} | measurements | {"force_noise": noise}
+    return IndentationFit(
+        profile=profile, medium=Medium(*media), path=path, depth_noise=depth_noise,
+        standard_errors={name: _check.frozen(errors[:, i]) for i, name in enumerate(fits[0].problem.free)},
+        **{name: value if value is None else _check.frozen(value) for name, value in values.items()},
+        _remarks=tuple(remarks), _lengths=measured.lengths,
+    )  # fmt: skip
+
+
+def _arrays(fit, used):
+    """Arrays of `SolvedCurves` by name, one row a curve, one column a sample that was given."""
+    problem, (values, state) = fit.problem, fit.values_and_states
+    units = problem.units(values)
+    values = {name: np.broadcast_to(values[name], (len(fit.rows), 1))[:, 0] for name in PARAMETERS}
+    chi, sigma = fit.reduced_chi_square, np.median(problem.sigma, axis=1)
+    states = {
+        "residuals": fit.residual * problem.noise(state.slope), "path_depth": state.depth,
+        "lower": state.live_interval.lower, "upper": state.live_interval.upper,
+        "length": state.live_interval.length, "dashpot_load": state.dashpot_load,
+    }  # fmt: skip
+    before = np.maximum(np.cumsum(used, axis=1) - 1, 0)
+    states = {name: np.take_along_axis(array, before, axis=1) for name, array in states.items()}
+    states["residuals"][~used] = np.nan
+    return values | states | {
+        "covariance": fit.covariance * (units[:, :, None] * units[:, None, :]),
+        "reduced_chi_square": chi if fit.noise_known else np.full_like(chi, np.nan),
+        "force_noise": sigma if fit.noise_known else sigma * np.sqrt(chi),
+        "block_length": fit.block_length,
+    }  # fmt: skip

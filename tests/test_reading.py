@@ -1,0 +1,198 @@
+"""Measured curves from files as instruments write them."""
+
+import sys
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+
+SILICA = Path(__file__).parents[1] / "assets" / "silica.csv"
+DEPTH, FORCE, TIME = [-1.0, 0.0, 2.0, 4.0, 3.0], [0.0, 0.0, 1.5, 6.0, 2.0], range(5)
+
+
+def text(columns, header, between=", ", comma=False):
+    rows = "\n".join(between.join(f"{x:.3f}" for x in row) for row in zip(*columns, strict=True))
+    return "\n".join([*header, rows.replace(".", ",") if comma else rows])
+
+
+@pytest.fixture
+def read(tmp_path):
+    def read(content, name="run.csv", encoding="utf-8"):
+        (tmp_path / name).write_text(content, encoding=encoding)
+        return mdr.read_curve(tmp_path / name)
+
+    return read
+
+
+def assert_same(curve):
+    np.testing.assert_allclose(curve.depth, np.array(DEPTH) * 1e-9, rtol=1e-12)
+    np.testing.assert_allclose(curve.force, np.array(FORCE) * 1e-3, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("content", "remark"),
+    [
+        (text((DEPTH, FORCE), ["Depth (nm), Load (mN)"]), ""),
+        (text((FORCE, DEPTH), ["force [mN];Displacement [nm]"], ";", comma=True), ""),
+        (text((TIME, DEPTH, FORCE), ["# run 7", "Time\th\tP", "s\tnm\tmN"], "\t"), ""),
+        (text((TIME, DEPTH, FORCE), ["# columns: time height load", "# units: s nm mN"], " "), ""),
+        (text((DEPTH, FORCE), ["Operator, A. B.", "Date, 2020", "", "depth_nm, force_mN"]), ""),
+        (text((DEPTH, FORCE, FORCE), ["h (nm), F (mN), Stiffness (N/m)"]), ""),
+        (text((FORCE, DEPTH, FORCE), ["Loading rate (mN/s); Depth (nm); Load (mN)"], ";"), ""),
+        (text((TIME[::-1], FORCE[::-1], DEPTH[::-1]), ["t/s,F/mN,d/nm"]), ""),
+        (text((DEPTH, 1e3 * np.array(FORCE)), ["Weg (nm);Kraft (\u03bcN)"], ";"), ""),
+        (text((DEPTH, 1e3 * np.array(FORCE)), ["h (nm); F (uN)"], "; "), ""),
+        (text((DEPTH, 1e3 * np.array(FORCE)), [""]), "depth in nm and force in µN is a guess"),
+        (text((DEPTH, [-f for f in FORCE]), ["h (nm), F (mN)"]), "force turned round"),
+        (text(([-d for d in DEPTH], FORCE), ["z (nm) F (mN)"], " "), "depth turned round"),
+        (
+            "h; F; \n-1e-9; 0;\n0; 0;\n2e-9; 1.5e-3;\n4e-9; 6e-3;\n3e-9; 2e-3;\n",
+            "depth in m and force in N",
+        ),
+        ("\n\nDepth (nm)\tForce (mN)\r\n-1\t0\r\n0\t0\r\n2\t1.5\r\n\r\n4\t6\r\n3\t2\r\n", ""),
+        ("h (nm), F (mN), phase\n-1, 0.0, 1\n0, 0.0, 1\n2, 1.5, 1\n4, 6.0, 2\n3, 2.0, 2\n", ""),
+        (text((DEPTH, FORCE), ["Tiefe in nm\tKraft in mN"], "\t").replace("\n0.0", "\n# hold\n0.0"), ""),
+    ],
+)
+def test_tables_as_instruments_write_them(read, content, remark):
+    curve = read(content)
+    assert_same(curve)
+    assert remark in " ".join(curve.remarks)
+    assert bool(remark) == bool(curve.remarks)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "cp1252"])
+def test_encodings(read, encoding):
+    assert_same(read(text((DEPTH, 1e3 * np.array(FORCE)), ["h (nm); F (µN)"], ";"), encoding=encoding))
+
+
+def test_time_is_read_in_its_unit_and_left_out_where_it_starts_again(read):
+    curve = read(text((DEPTH, FORCE, TIME), ["h (nm), F (mN), t (ms)"]))
+    np.testing.assert_allclose(curve.time, 1e-3 * np.arange(5))
+    assert curve.to_dict().keys() == {"depth", "force", "time"}
+    again = read(text((DEPTH, FORCE, [0, 1, 2, 0, 1]), ["h (nm), F (mN), t (ms)"]))
+    assert_same(again)
+    assert again.time is None
+    assert "the time does not ascend" in again.remarks[0]
+
+
+def test_an_unloading_alone_keeps_its_signs(read):
+    """Depth and force fall from the start on; where both are reversed the force is larger at the end."""
+    down = read("h (nm), F (mN)\n9, 5\n8, 3\n7, 1\n")
+    assert down.force.tolist() == pytest.approx([5e-3, 3e-3, 1e-3])
+    reversed_ = read("h (nm), F (mN)\n0, 0\n-8, -3\n-9, -5\n")
+    assert reversed_.depth.tolist() == pytest.approx([0, 8e-9, 9e-9])
+    assert reversed_.units["force"] == "−mN"
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_adhesion_does_not_turn_the_force_round(read, sign):
+    """The force is smallest where contact ends, at a smaller depth than that of the largest force."""
+    depth, force = [-90, -50, 0, 9, 2, -1, -80, -99], [0.1, 0, 0, 5, -3, -9, 0, 0]
+    curve = read(text((sign * np.array(depth), force), ["z (nm), F (nN)"]))
+    np.testing.assert_allclose(curve.depth, 1e-9 * np.array(depth))
+    np.testing.assert_allclose(curve.force, 1e-9 * np.array(force))
+
+
+def test_what_is_left_out_is_said_with_its_line(read):
+    lines = [
+        "phase; h (nm); F (nN)",
+        *(f"load; {k}; {k * k}" for k in range(8)),
+        "load; ; 9",
+        "hold; 9; 81",
+    ]
+    curve = read("\n".join([*lines, "end"]))
+    np.testing.assert_allclose(curve.depth, np.array([*range(8), 9]) * 1e-9, rtol=1e-12)
+    assert curve.remarks == (
+        "column 1 phase, which has no numbers, is left out",
+        "left out lines 10, 12: a cell is missing or no number",
+    )
+    assert "h (nm)" in repr(curve)
+    # A gap in a column that is not used leaves out nothing.
+    assert len(read("h (nm); F (nN); Temp\n1; 1; 20\n2; 2;\n3; 3; 20\n").depth) == 3
+
+
+@pytest.mark.parametrize(
+    ("content", "says"),
+    [
+        ("h (nm)\n1\n2\n", "run.csv has one column"),
+        ("h (nm), F (nN)\n1,5,2,3\n", "line 2: expected two numbers.* separate columns by semicolons"),
+        ("nothing", "run.csv: no samples"),
+        (" \n", "run.csv: no samples"),
+        ("h (nm), F (nN)\n1, 2\n", "one row of numbers"),
+        ("h (nm), F (nN)\n1, 2\nx, 3\ny, 4\nz\n", "one column of numbers"),
+        ("h (nm), F (nN)\n1, 2\n3, 4\nx, y\n5, z\nend\n", "most lines of run.csv are no rows .* 4, 5, 6"),
+        ("h (nm), A (nm)\n1, 2\n3, 4\n", r"no column of force among h \(nm\), A \(nm\)"),
+        ("h (nm), T-B (V)\n1, 2\n3, 4\n", "no column of force"),
+    ],
+)
+def test_tables_without_a_curve_are_refused(read, content, says):
+    with pytest.raises(ValueError, match=says):
+        read(content)
+
+
+def test_the_measured_example():
+    """1220 rows of which the first and the last are as in the file."""
+    curve = mdr.read_curve(SILICA)
+    assert curve.shape == (1220,)
+    assert (curve.depth[-1], curve.force[-1], curve.time[-1]) == pytest.approx(
+        (-793.566e-9, -1.532953e-3, 341.88)
+    )
+    assert curve.remarks == ()
+
+
+def test_sheets_of_an_excel_file(tmp_path):
+    """Sheets of results are passed over; labels in front and at the end of a test are no numbers."""
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("openpyxl")
+    head = [["Segment", "Displacement", "Load", "Time"], [None, "nm", "mN", "s"]]
+    rows = [[None, *row] for row in zip(DEPTH, FORCE, TIME, strict=True)]
+    results = [["Test", "E", "Drift"], [None, "GPa", "nm/s"], [1, 72.0, 0.1], [2, 73.0, 0.2]]
+    with pandas.ExcelWriter(tmp_path / "tests.xlsx") as file:
+        tests = (
+            [*head, *rows, ["END", None, None, None]],
+            [*head, *[[None, *[2 * x for x in row[1:]]] for row in rows]],
+        )
+        for name, cells in zip(("Results", "Test 1", "Test 2"), (results, *tests), strict=True):
+            pandas.DataFrame(cells).to_excel(file, sheet_name=name, header=False, index=False)
+    first, second = (mdr.read_curve(tmp_path / "tests.xlsx", index) for index in (0, 1))
+    assert_same(first)
+    assert (first.name, first.remarks[0][:12]) == ("tests.xlsx, Test 1", "curve 0 of 2")
+    np.testing.assert_allclose(second.force, 2 * first.force)
+    with pytest.raises(ValueError, match="index = 2 must be from 0 to less than 2"):
+        mdr.read_curve(tmp_path / "tests.xlsx", 2)
+
+
+class Segments(dict):
+    """Columns of a curve as in `afmformats.AFMData`."""
+
+    def __init__(self, columns, stiffness):
+        super().__init__(columns)
+        self.metadata = {"spring constant": stiffness}
+
+
+@pytest.mark.parametrize(("tip", "stiffness"), [(False, 0.5), (True, 0.5), (False, np.nan)])
+def test_afm_files_are_read_by_afmformats(monkeypatch, tmp_path, tip, stiffness):
+    """By a stand-in for the package, which is not among those of the tests: force/0.5 is the deflection."""
+    height = -1e-9 * np.array(DEPTH) - 2e-3 * np.array(FORCE)
+    data = {"force": 1e-3 * np.array(FORCE), "height (measured)": height}
+    data |= {"tip position": -1e-9 * np.array(DEPTH)} if tip else {"time": np.arange(5.0)}
+    module = ModuleType("afmformats")
+    module.load_data = lambda path: [Segments(data, stiffness)]
+    module.errors = SimpleNamespace(AFMFileFormatError=KeyError, MissingMetaDataError=KeyError)
+    monkeypatch.setitem(sys.modules, "afmformats", module)
+    curve = mdr.read_curve(tmp_path / "map.jpk-force")
+    depth = -height if np.isnan(stiffness) else 1e-9 * np.array(DEPTH)
+    np.testing.assert_allclose(curve.depth, depth, atol=1e-18)
+    assert (curve.time is None) == tip
+    assert np.isnan(stiffness) == bool(curve.remarks)
+
+
+def test_missing_packages_are_named(monkeypatch, tmp_path):
+    for package, suffix in (("afmformats", "jpk-force"), ("pandas", "xlsx")):
+        monkeypatch.setitem(sys.modules, package, None)
+        with pytest.raises(ImportError, match=f"needs {package}"):
+            mdr.read_curve(tmp_path / f"run.{suffix}")
