@@ -81,6 +81,17 @@ def test_the_first_screen_has_what_a_person_comes_for(server, browser, size):
         assert explorer.problems == []
 
 
+def assert_pointer_reads_both(explorer):
+    """The pointer over the pressure reads the same radius in the springs."""
+    x, y = explorer.row("pressure", "−σzz(r)")
+    k = int(np.searchsorted(x, 5.0))
+    explorer.hover("pressure", "−σzz(r)", k)
+    text = "() => explorer.model('springs').center.find((each) => each.type === 'Label').text"
+    explorer.wait(f"() => ({text})().includes('σzz')")
+    r, p = map(float, re.findall(r"= ([\d.]+)", explorer.page.evaluate(text)))
+    assert p == pytest.approx(np.interp(r, x, y), rel=1e-2)
+
+
 def test_the_page_opens_on_a_cone_that_has_yielded_and_says_what_everything_is(explorer):
     """Every control has a name and an explanation; tooltips are of the data and their own axis."""
     assert_draws(explorer, preset_state())
@@ -88,6 +99,7 @@ def test_the_page_opens_on_a_cone_that_has_yielded_and_says_what_everything_is(e
     assert explorer.readout("force") == "4.514 µN"
     assert explorer.readout("relative_depth") == "5.000"
     assert explorer.axis("springs")["x"] == explorer.axis("pressure")["x"]
+    assert_pointer_reads_both(explorer)
     page = explorer.page
     for each in page.locator("input:visible, select:visible, textarea:visible").all():
         named = each.evaluate(
@@ -177,16 +189,6 @@ def test_a_finger_drags_the_indenter(server, browser):
         explorer.wait("explorer.row('force', 'now')[0][0] > 9.2")
 
 
-def test_the_pointer_reads_springs_and_pressure_at_once(explorer):
-    x, y = explorer.row("pressure", "−σzz(r)")
-    k = int(np.searchsorted(x, 5.0))
-    explorer.hover("pressure", "−σzz(r)", k)
-    text = "() => explorer.model('springs').center.find((each) => each.type === 'Label').text"
-    explorer.wait(f"() => ({text})().includes('σzz')")
-    r, p = map(float, re.findall(r"= ([\d.]+)", explorer.page.evaluate(text)))
-    assert p == pytest.approx(np.interp(r, x, y), rel=1e-2)
-
-
 def test_typed_numbers_are_read_as_they_say_refused_where_they_stand_and_undone(explorer):
     """What is refused stays in its field, which says why."""
     with explorer.change():
@@ -195,10 +197,9 @@ def test_typed_numbers_are_read_as_they_say_refused_where_they_stand_and_undone(
     with explorer.change():
         explorer.type("d_max", "1e-6")
     assert explorer.field("d_max").input_value() == "1 µm"
-    with explorer.change():
-        explorer.press("Undo")
-    with explorer.change():
-        explorer.press("Undo")
+    for _ in range(2):
+        with explorer.change():
+            explorer.press("Undo")
     number = explorer.number("d_max")
     for text, why in (
         ("abc", "is not a number"),
