@@ -210,12 +210,8 @@ class Page:
         """Show a state; everything is computed before anything is changed."""
         course = follow(state, self.solved)
         held = self._held_scenes(state)
-        view = View(
-            course,
-            [each.course for each in held],
-            self.resting.found((PLOTS[name] for name in state.tiles), state, course),
-            Curve.of(state),
-        )
+        found = self.resting.found((PLOTS[name] for name in state.tiles), state, course)
+        view = View(course, [each.course for each in held], found, Curve.of(state))
         columns = self.board.columns(view, state.tiles, state.dark)
         self.state, self.shown = state, Shown(state, view, held)
         self.readings = readouts.readings(course)

@@ -100,6 +100,7 @@ class Resting:
 
     def __init__(self, show: Callable[[str, Any], None]):
         self._show, self._asked, self._found, self._document = show, {}, {}, pn.state.curdoc
+        self._served = is_served(self._document)
 
     def begin(self, courses: list[Course], plots: Iterable[Any], state: State) -> None:
         """Begin the slow searches of a state: exact courses, and those of plots of the first course."""
@@ -118,7 +119,7 @@ class Resting:
         async def search():
             await asyncio.gather(*searches)
 
-        if is_served(self._document):
+        if self._served:
             self._document.add_next_tick_callback(search)
         else:
             asyncio.run(search())
@@ -136,7 +137,7 @@ class Resting:
         if self._asked[name] == about:
             self._found[name] = about, found
             show = partial(self._show, name, found)
-            self._document.add_next_tick_callback(show) if is_served(self._document) else show()
+            self._document.add_next_tick_callback(show) if self._served else show()
 
     def found(self, plots: Iterable[Any], state: State, course: Course) -> dict[str, Found]:
         """Results for some plots; quick ones are computed."""

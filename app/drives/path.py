@@ -67,9 +67,9 @@ def _solved(scene, progress, chain, pending):
         states = ChainStates(solve(*bodies, values, along, tolerance=_TOLERANCE))
     else:
         states = _slowly(scene, values)
-    peak, timed = int(np.argmax(states.depth)), scene.drive.time is not None
+    peak = int(np.argmax(states.depth))
     places = path_progress(along, peak)
-    motion = _motion(states, along) if timed else None
+    motion = None if scene.drive.time is None else _motion(states, along)
     return Course(scene, places, states, nearest(places, progress), peak, None, motion, True, pending)
 
 
@@ -159,8 +159,7 @@ def _elements(path):
     a, c = path.contact_radius, path.plastic_radius
     half = float(np.max(a)) or 1.0
     # The load may jump at the rim.
-    x = np.concatenate([np.linspace(0, half, _PLACES), a, a * (1 - 1e-9), np.minimum(c, half)])
-    x = np.unique(x)
+    x = np.unique(np.concatenate([np.linspace(0, half, _PLACES), a, a * (1 - 1e-9), np.minimum(c, half)]))
     return x, *path.elements(x)
 
 

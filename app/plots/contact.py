@@ -191,13 +191,12 @@ def relief(view: View, i: int) -> dict:
     return rows
 
 
-def _cut_rows():
-    for k in range(_CUTS):
-        yield area(f"cut {k}", "cut", 1.0, legend=False)
-        yield area(f"zone {k}", "yielded", 0.35, legend=False)
-
-
+_CUT_ROWS = tuple(
+    area(f"{name} {k}", role, alpha, legend=False)
+    for k in range(_CUTS)
+    for name, role, alpha in (("cut", "cut", 1.0), ("zone", "yielded", 0.35))
+)
 RELIEF = Plot(
     "relief", "Pressure over the plane, seen obliquely", "(10)  −σ_zz(√(x² + y²));  zone: orange",
-    ("across", "oblique"), tuple(_cut_rows()), moving=relief, tab=("Relief", "i"),
+    ("across", "oblique"), _CUT_ROWS, moving=relief, tab=("Relief", "i"),
 )  # fmt: skip

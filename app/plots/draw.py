@@ -43,13 +43,13 @@ _TIP = "<b>@row</b><br>@symbol = $snap_y{{%.4g}} {y.unit}<br>{symbol} = $snap_x{
 class Layer:
     """Rows of a plot that share a source."""
 
-    def __init__(self, plot: Plot, group: str):
+    def __init__(self, plot: Plot, group: str, shared: dict[str, Any]):
         self.kind, _, right = group.partition(" ")
         self.name, self.right, self.connected = group, bool(right), self.kind in ("areas", "lines")
         self.rows = [row for row in plot.rows if row.group == group]
         places = [name for name in _GLYPHS[self.kind][1] if name in _PLACES]
         empty = {name: [] for name in (*self._look(self.rows, False), *places)}
-        self.source = bk.ColumnDataSource(empty, name=f"{plot.name} {group}")
+        self.source = bk.ColumnDataSource(empty, name=f"{plot.name} {group}", **shared)
         # Columns come from the server, or from the frames it has sent: never the other way.
         self.source.syncable = False
 
@@ -130,7 +130,10 @@ class Picture:
         self.plot, self.axes, self.drawn = plot, None, None
         ranges = {"x_range": bk.Range1d(0.1, 1), "y_range": bk.Range1d(0.1, 1)}
         self.figure = figure(name=plot.name, tools="", toolbar_location=None, **ranges)
-        self.layers = [Layer(plot, g) for g in _GROUPS if any(row.group == g for row in plot.rows)]
+        # Nothing is selected: the sources of a figure share what Bokeh has for it.
+        shared = {"selected": bk.Selection(), "selection_policy": bk.UnionRenderers()}
+        groups = [group for group in _GROUPS if any(row.group == group for row in plot.rows)]
+        self.layers = [Layer(plot, group, shared) for group in groups]
         self.hovers: list[tuple[Any, bool]] = []
         if any(layer.right for layer in self.layers):
             self.figure.extra_y_ranges = {"right": bk.Range1d(0, 1)}

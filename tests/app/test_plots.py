@@ -18,7 +18,7 @@ from app.plots.force import force_still
 from app.plots.motion import energy_still, forces_still
 from app.plots.plot import Plot
 from app.solve import follow, scene_of
-from app.state import PRESETS, medium, preset_state, profile
+from app.state import medium, preset_state, profile
 from app.state.quantities import SHAPES
 from app.state.units import written
 from app.ui import legend
@@ -42,15 +42,6 @@ def assert_all_is_drawn(view, step=9):
                 assert rows.keys() == {row.name for row in plot.rows} | ({"image"} if plot.image else set())
                 for data in picture.columns(view, i, False).values():
                     assert len({len(column) for column in data.values()}) == 1
-
-
-def test_springs_are_yielded_elastic_or_free_where_the_core_says():
-    view = view_of(preset_state())
-    rows, state = springs(view, view.course.now), view.course.state
-    reach = {name: np.nanmax(np.abs(rows[name][0])) for name in ("yielded", "elastic")}
-    spacing = 2 * view.end("x") / SPRINGS
-    assert reach["yielded"] == pytest.approx(state.plastic_radius, abs=spacing)
-    assert reach["elastic"] == pytest.approx(state.contact_radius, abs=spacing)
 
 
 @pytest.mark.parametrize("shape", SHAPED)
@@ -354,7 +345,3 @@ def test_force_and_depth_in_words():
     said = float(re.search(r"now: d = [^F]*F = ([\d.]+)", text)[1])
     assert said == pytest.approx(float(course.state.force) * 1e6, rel=1e-2)
     assert "held" not in text
-
-
-def test_presets_are_named_apart():
-    assert len({preset.label for preset in PRESETS.values()}) == len(PRESETS)

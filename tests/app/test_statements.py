@@ -18,6 +18,7 @@ from app.plots.force import force, residual
 from app.solve import DRIVES, follow
 from app.state import link, preset_state, with_derived
 from app.state.quantities import DATA, LABELS, QUANTITIES
+from mdr_core.results.figures import SPRINGS
 
 from .conftest import DROP, GOLD
 from .states import solved, state_with, view_of, viscous, written
@@ -26,6 +27,18 @@ from .test_drives import oblique_state
 
 def plain(html):
     return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())
+
+
+def assert_springs_reach_the_radii_of_the_core(view, vertices=1):
+    """Yielded springs reach to c, elastic ones to a, within the distance of two."""
+    rows, state = springs(view, view.course.now), view.course.state
+    spacing = 2 * view.end("x") / SPRINGS
+    for name, radius in (("yielded", state.plastic_radius), ("elastic", state.contact_radius)):
+        assert np.nanmax(np.abs(rows[name][0][::vertices])) == pytest.approx(radius, abs=spacing)
+
+
+def test_springs_are_yielded_elastic_or_free_where_the_core_says():
+    assert_springs_reach_the_radii_of_the_core(view_of(preset_state()))
 
 
 def area(row):
@@ -179,13 +192,8 @@ def test_12_curves_with_a_vertical_start_are_no_chords():
 
 def test_13_springs_of_an_oblique_impact_are_elastic_or_yielded():
     view = view_of(state_with(DROP, "oblique"))
-    rows, state = springs(view, view.course.now), view.course.state
-    reach = {name: np.nanmax(np.abs(rows[name][0][::9])) for name in ("yielded", "elastic")}
-    spacing = 2 * view.end("x") / 60
-    assert reach["yielded"] == pytest.approx(state.plastic_radius, abs=spacing)
-    assert reach["elastic"] == pytest.approx(state.contact_radius, abs=spacing)
+    assert_springs_reach_the_radii_of_the_core(view, 9)
     assert "speed" not in PLOTS
-    assert LABELS["drive"] == "Drive"
     assert "Speed" not in LABELS.values()
     assert DATA["choices"]["drive"]["options"]["depth"]["label"] == "depth"
 
