@@ -71,6 +71,8 @@ def read_table(text, name, limit=10**7):
     Lines that start with # belong to the header, or are comments. More samples than `limit` are refused.
     """
     lines = [pair for pair in enumerate(text.splitlines()[: 2 * limit], 1) if pair[1].strip()]
+    if not lines:
+        raise ValueError(f"{name} is empty")
     if any(len(line) > _LONGEST_LINE for _, line in lines):
         raise ValueError(f"{name}: a line is longer than {_LONGEST_LINE} characters; use a line a sample")
     rows = [[] if line.startswith("#") else [_number(cell) for cell in _cells(line)] for _, line in lines]

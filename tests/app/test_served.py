@@ -70,7 +70,7 @@ def test_text_of_others_is_never_markup(explorer, tmp_path):
     told = explorer.page.locator(".notyf__message")
     for text, said in (
         ("", "the file is empty"),
-        (f"{MARKUP} (nm), z (nm)\n0, 0\n1, {MARKUP}\n", "expected 3 numbers"),
+        (f"{MARKUP} (nm), z (nm)\n0, 0\n1, {MARKUP}\n", "expected two numbers"),
     ):
         path = tmp_path / f"brought {len(text)}"
         path.write_text(text, encoding="utf-8")
