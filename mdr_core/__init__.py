@@ -7,6 +7,7 @@ V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 
 from . import abel, sweep
 from .drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
+from .dynamics.adhesive_impact import capture_speeds
 from .dynamics.ball import Ball, at_angle
 from .dynamics.impact import Impact, impact
 from .dynamics.oblique import ObliqueImpact, oblique_impact
@@ -18,9 +19,10 @@ from .foundation.depth_path import TimedIndentation, indent_in_time
 from .foundation.force_path import creep
 from .foundation.foundation import Foundation
 from .foundation.impact import chain_impact
-from .indentation import Indentation, indent, indent_to_force
+from .indentation import Indentation
 from .medium import Medium
 from .onset import critical_force, yield_speed
+from .paths import indent, indent_to_force
 from .reading import read_curve
 from .results.base import Motion
 from .scaling import ScalingLaw, hardness_class
@@ -63,6 +65,7 @@ __all__ = [
     "TruncatedParaboloid",
     "abel",
     "at_angle",
+    "capture_speeds",
     "chain_impact",
     "creep",
     "critical_force",

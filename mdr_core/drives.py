@@ -13,8 +13,9 @@ from .dynamics.oblique import FRICTION, oblique_impact
 from .foundation.depth_path import TimedIndentation, check_times, indent_in_time
 from .foundation.force_path import creep
 from .foundation.impact import chain_impact
-from .indentation import Indentation, indent, indent_to_force
+from .indentation import Indentation
 from .medium import Medium
+from .paths import indent, indent_to_force
 from .results.base import CHAIN, CLOSED_FORM, SCALAR_ODE, Model
 
 
@@ -40,6 +41,8 @@ class _Path:
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
         """Names of the models for this drive, the cheapest exact one first."""
+        if medium.work_of_adhesion > 0:
+            return (CLOSED_FORM,)
         return (CHAIN,) if self.time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
 
     def solve(self, profile, medium, model):
@@ -114,6 +117,8 @@ class FreeImpact:
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
         """Names of the models for this drive, the cheapest exact one first."""
+        if medium.work_of_adhesion > 0:
+            return (CLOSED_FORM,)
         # The state of a chain with an imprint is more than the plastic depth: `chain_impact(start=…)`.
         models = (SCALAR_ODE, CHAIN) if medium.eta > 0 else (CLOSED_FORM, SCALAR_ODE, CHAIN)
         return models[:-1] if self.plastic_depth > 0 else models

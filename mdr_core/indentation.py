@@ -1,4 +1,4 @@
-"""Indentation along a prescribed path of depth or force, infinitely slowly: functions and states."""
+"""States of an indentation, with all quantities and fields of the contact."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -6,110 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from . import _check, fields, stress
+from . import _check, adhesion, fields, stress
 from ._check import Array, ArrayLike
 from ._numeric import root
-from .medium import Medium, check_pair, paths_on
+from .medium import Medium
 from .results.base import CLOSED_FORM, Result
 from .results.limits import Limit, contact_limits
 from .shapes.profile import Profile
 from .stress import Stress, StressPeak
-from .superposition import energy_integral, live_length, loading_depth, radius_drop, radius_integral
-from .yielding import LiveInterval, elastic_interval, first_loading, path_intervals
-
-
-@_check.keywords_explained
-def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> "Indentation":
-    """Press an indenter along a path of depths: loading, unloading and reloading in any order.
-
-    The path is followed infinitely slowly, so that the dashpots of a viscous medium carry nothing; for a
-    path in time see `indent_in_time`.
-
-    Parameters
-    ----------
-    profile : Profile
-        The indenter.
-    medium : Medium
-        The medium.
-    depth : float or array_like
-        Indentation depth d (m), one number or a path along the last axis; negative out of contact. Each
-        row of a larger array is a path of its own on a virgin medium. Parameters of medium and profile may
-        be arrays of shape (…, 1), for one path each.
-
-    Returns
-    -------
-    Indentation
-        Quantities of the shape of `depth`, computed when they are first read.
-
-    Raises
-    ------
-    ValueError
-        If a depth is not finite, or larger than the known depth of the profile.
-
-    Examples
-    --------
-    A cone at twice the critical depth, F = 3 F_c (Popov 2015, Eqs. (20), (22)):
-
-    >>> from mdr_core import Cone, Medium, critical_force
-    >>> cone, medium = Cone(slope=1.0), Medium(E_star=1.0, q_c=2.0)
-    >>> state = indent(cone, medium, 2 * medium.critical_depth)
-    >>> print(round(state.force / critical_force(cone, medium), 12))
-    3.0
-    """
-    check_pair(profile, medium)
-    depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
-    depth = profile._known(paths_on(profile, medium, depth))
-    return Indentation(profile, medium, depth, path_intervals(depth, medium.critical_depth))
-
-
-@_check.keywords_explained
-def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> "Indentation":
-    """Press an indenter along a path of forces, infinitely slowly: the inverse of `indent`.
-
-    For a viscous medium under a force in time see `creep`.
-
-    Parameters
-    ----------
-    profile, medium
-        As for `indent`.
-    force : float or array_like
-        Normal force (N), not negative; one number or a path along the last axis. At 0 the indenter
-        rests on the bottom of the imprint.
-
-    Returns
-    -------
-    Indentation
-        Quantities of the shape of `force`.
-
-    Raises
-    ------
-    ValueError
-        If a force is negative or not finite, larger than a flat face carries before all of it yields
-        (π q_c b, Popov 2015, Eq. (11)), or presses deeper than the known depth of the profile.
-
-    Examples
-    --------
-    >>> from mdr_core import Cone, Medium
-    >>> cone, medium = Cone(slope=1.0), Medium(E_star=1.0, q_c=1.0)
-    >>> print(round(indent_to_force(cone, medium, indent(cone, medium, 5.0).force).depth, 12))
-    5.0
-    """
-    check_pair(profile, medium, "an indentation")
-    force = _check.force("force", force)
-    limit = 2 * medium.yield_line_load * profile.wall
-    bound = f"must be less than the {limit:g} N at which the whole flat face yields"
-    _check.refuse("force", force, force >= limit, bound, unit="N", remedy="press to a depth instead")
-    integral = force / (2 * medium.E_star)
-    largest = np.maximum.accumulate(integral, axis=-1) if integral.ndim else integral
-    with np.errstate(all="ignore"):
-        largest_depth = loading_depth(profile, medium.critical_depth, largest)
-    known = largest_depth <= min(profile.known_depth, _check.LARGEST)
-    bound = f"presses {profile._too_deep()}"
-    _check.refuse("force", force, ~known, bound, unit="N", remedy="press less")
-    loaded = first_loading(largest_depth, medium.critical_depth)
-    length = np.where(integral == largest, loaded.length, live_length(profile, loaded, integral))
-    depth = np.where(integral == largest, largest_depth, loaded.lower + length)
-    return Indentation(profile, medium, depth, LiveInterval(loaded.lower, depth, length))
+from .superposition import energy_integral, radius_drop, radius_integral
+from .yielding import LiveInterval, elastic_interval
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -119,22 +25,23 @@ class Indentation(Result):
     Every quantity has the shape of `depth` (m); `result[i]` is one state. Pressure, line load, surface,
     imprint and stress are fields of one state. `live_interval` is [d_p, d_p + ℓ]; its end is d, except on
     unloading from a viscous medium, where elements are released before their springs are relaxed.
-    `dashpot_load` is the line load 4ηḋ (N/m) of the dashpots in contact on loading, 0 on an infinitely slow
-    path; `in_time` says whether the states belong to a motion.
+    `uniform_load` is a line load (N/m) over the contact besides that of the live interval: 4ηḋ of the
+    dashpots on loading, and with adhesion −E*Δl, where [d_p, D] with D = d + Δl is the live interval;
+    `in_time` says whether the states belong to a motion.
     """
 
     profile: Profile
     medium: Medium
     depth: Array
     live_interval: LiveInterval
-    dashpot_load: np.ndarray | float = 0.0
+    uniform_load: np.ndarray | float = 0.0
     in_time: bool = False
 
     #: Name of the model.
     model = CLOSED_FORM
     _quantities = (
         "depth", "force", "stiffness", "contact_radius", "contact_area", "plastic_radius", "plastic_depth",
-        "mean_pressure", "stored_energy", "plastic_work",
+        "mean_pressure", "stored_energy", "plastic_work", "surface_energy", "pull_off_force",
     )  # fmt: skip
     _shown = ("depth", "force", "contact_radius", "plastic_radius", "plastic_depth", "mean_pressure")
     _dimensions = ("path", "state")
@@ -146,7 +53,7 @@ class Indentation(Result):
     def __getitem__(self, index: Any) -> "Indentation":
         shape = np.shape(self.depth)
         profile, medium = self.profile.entries(index, shape), self.medium.entries(index, shape)
-        load = self.dashpot_load[index] if np.ndim(self.dashpot_load) else self.dashpot_load
+        load = self.uniform_load[index] if np.ndim(self.uniform_load) else self.uniform_load
         depth, interval = np.asarray(self.depth[index]), self.live_interval[index]
         return Indentation(profile, medium, depth, interval, load, self.in_time)
 
@@ -156,20 +63,29 @@ class Indentation(Result):
         return contact_limits(self.profile, self.medium, self.contact_radius, slow=not self.in_time)
 
     @property
+    def _adhesive(self):
+        return np.any(np.asarray(self.medium.work_of_adhesion) > 0)
+
+    @property
     def _ahead(self):
-        """Elastic compression −τḋ (m) that the dashpots of elements in contact balance on unloading."""
+        """Elastic compression (m) of all elements in contact besides that of the live interval.
+
+        −τḋ on unloading, which the dashpots balance, and −Δl with adhesion.
+        """
+        if self._adhesive:
+            return self.uniform_load / self.medium.E_star
         return np.where(self.live_interval.length > 0, self.depth - self.live_interval.upper, 0.0)
 
     @_check.frozen_property
     def force(self):
-        """Normal force F = 2E* ∫ a(s) ds (N) with that of the dashpots; Popov (2015), Eqs. (20), (22)."""
+        """Normal force F = 2E* ∫ a(s) ds (N) and of the uniform load; Popov (2015), Eqs. (20), (22)."""
         force = 2 * self.medium.E_star * radius_integral(self.profile, self.live_interval)
-        return force + 2 * self.dashpot_load * self.contact_radius if np.any(self.dashpot_load) else force
+        return force + 2 * self.uniform_load * self.contact_radius if np.any(self.uniform_load) else force
 
     @_check.frozen_property
     def contact_radius(self):
         """Contact radius a (m), Popov (2015), Eq. (16); 0 without contact."""
-        touching = (self.live_interval.length > 0) | (self.dashpot_load > 0)
+        touching = (self.live_interval.length > 0) | (self.uniform_load != 0)
         return np.where(touching, self.profile._radius(np.asarray(self.live_interval.upper)), 0.0)
 
     @_check.frozen_property
@@ -199,7 +115,7 @@ class Indentation(Result):
     def stored_energy(self):
         """Elastic energy of the springs in contact, U = 2E* ∫ (d − s) a(s) ds (J)."""
         energy, ahead = energy_integral(self.profile, self.live_interval), self._ahead
-        if np.any(ahead > 0):
+        if np.any(ahead != 0):
             area = radius_integral(self.profile, self.live_interval)
             energy = energy + ahead * (area + ahead / 2 * self.contact_radius)
         return 2 * self.medium.E_star * energy
@@ -213,8 +129,35 @@ class Indentation(Result):
         return yield_load * radius_integral(self.profile, elastic_interval(depth))
 
     @_check.frozen_property
+    def surface_energy(self):
+        """Energy −w π a² (J) of the surfaces that adhesion has joined."""
+        return -self.medium.work_of_adhesion * self.contact_area
+
+    @_check.frozen_property
+    def pull_off_force(self):
+        """Pull-off force (N), positive: the largest tension that the contact carries on unloading.
+
+        3/2 π w R for a paraboloid and √(8π w E* b³) for a flat punch (Popov and Heß 2015, ch. 4); from the
+        imprint of a deep indentation that of a punch of its radius, √(8π w E* c³). 0 without adhesion.
+
+        Examples
+        --------
+        >>> from mdr_core import Medium, Paraboloid, indent
+        >>> medium = Medium(E_star=1e9, work_of_adhesion=0.05)
+        >>> state = indent(Paraboloid(radius=1e-6), medium, 0.0)
+        >>> print(round(state.pull_off_force * 1e9, 6))  # 3/2 π w R, in nN
+        235.619449
+        """
+        if not self._adhesive:
+            return np.zeros(np.shape(self.depth))
+        tension = adhesion.pull_off_integral(self.profile, self.medium, self.live_interval)
+        return np.broadcast_to(2 * self.medium.E_star * tension, np.shape(self.depth))
+
+    @_check.frozen_property
     def stiffness(self):
         """Stiffness dF/dd (N/m): 2E* a, and 2E* (a − c) for loading beyond the largest depth so far."""
+        if self._adhesive:
+            return adhesion.stiffness(self)
         width, interval = self.contact_radius, self.live_interval
         yielding = (interval.lower > 0) & (interval.length == self.medium.critical_depth)
         if np.any(yielding):
@@ -225,12 +168,12 @@ class Indentation(Result):
         """Contact pressure p = −σ_zz (Pa) at radii r (m), of the shape of `r`.
 
         p(r) = (E*/π) ∫ ds/√(a(s)² − r²), from Popov (2015), Eq. (10), with that of a flat punch for the
-        dashpots. Zero outside the contact. Infinite at the rim of a flat face, at any rim while dashpots
-        carry load, and under a sharp tip that has not yielded.
+        uniform load. Zero outside the contact. Infinite at the rim of a flat face, at any rim while
+        dashpots carry load, −∞ there with adhesion, and infinite under a sharp tip that has not yielded.
 
         Examples
         --------
-        >>> from mdr_core import Medium, Paraboloid
+        >>> from mdr_core import Medium, Paraboloid, indent
         >>> state = indent(Paraboloid(radius=1.0), Medium(E_star=1.0), 0.01)
         >>> print(round(state.pressure(0.0), 12))  # Hertz: (2/π) E* √(d/R)
         0.063661977237
@@ -238,10 +181,14 @@ class Indentation(Result):
         self._one("pressure")
         interval, r = self.live_interval, self._radii(r)
         pressure = self.medium.E_star / np.pi * fields.pressure_integral(self.profile, interval, r.ravel())
-        if self.dashpot_load > 0:
-            with np.errstate(divide="ignore"):
-                punch = self.dashpot_load / np.pi / root(self.contact_radius, r.ravel())
-            pressure += np.where(r.ravel() <= self.contact_radius, punch, 0.0)
+        if self.uniform_load != 0:
+            a, flat = self.contact_radius, r.ravel()
+            with np.errstate(divide="ignore", invalid="ignore"):
+                punch = self.uniform_load / np.pi / root(a, flat)
+                pressure += np.where(flat <= a, punch, 0.0)
+                # At the rim of a wall both are infinite: the sign is that of the load inside.
+                rim = self.line_load(np.nextafter(a, 0.0)) / 0.0
+            pressure = np.where(flat == a, rim, pressure)
         return pressure.reshape(r.shape)[()]
 
     def line_load(self, x: ArrayLike) -> Array:
@@ -251,7 +198,7 @@ class Indentation(Result):
         ring = interval.upper - self.profile._reduced(np.minimum(x, self.contact_radius))
         # For x < c the compression is the length of the interval, which has no rounding of a difference.
         inside = np.where(x < self.plastic_radius, interval.length, np.clip(ring, 0.0, interval.length))
-        load = self.medium.E_star * inside + self.dashpot_load
+        load = self.medium.E_star * inside + self.uniform_load
         return np.where(x < self.contact_radius, load, 0.0)[()]
 
     def surface(self, r: ArrayLike) -> Array:
@@ -263,7 +210,7 @@ class Indentation(Result):
         self._one("surface")
         r, radius = self._radii(r), self.contact_radius
         surface = self._displacement(self.live_interval, r)
-        if self._ahead > 0:
+        if self._ahead != 0:
             with np.errstate(divide="ignore"):
                 surface += self._ahead * 2 / np.pi * np.arcsin(np.minimum(radius / r, 1.0))
         return surface
@@ -280,14 +227,14 @@ class Indentation(Result):
     def stress(self, r: ArrayLike, z: ArrayLike) -> Stress:
         """Stress tensor (Pa) at radii r and depths z ≥ 0 below the surface (m), which broadcast.
 
-        The integral over the live interval of the stress of a flat punch, with one more for the dashpots;
-        residual stresses of the imprint are not included. Even in r; σ_zz = −p at z = 0. Accurate to 10⁻⁸
-        of the largest stress, to 10⁻⁶ for z < 10⁻³ a, and to 10⁻⁴ next to the axis of a profile of exponent
-        n < 1/2 that has not yielded.
+        The integral over the live interval of the stress of a flat punch, with one more for the uniform
+        load; residual stresses of the imprint are not included. Even in r; σ_zz = −p at z = 0. Accurate to
+        10⁻⁸ of the largest stress, to 10⁻⁶ for z < 10⁻³ a, and to 10⁻⁴ next to the axis of a profile of
+        exponent n < 1/2 that has not yielded.
 
         Examples
         --------
-        >>> from mdr_core import Medium, Paraboloid
+        >>> from mdr_core import Medium, Paraboloid, indent
         >>> state = indent(Paraboloid(radius=1.0), Medium(E_star=1.0), 0.01)
         >>> print(round(state.stress(0.0, state.contact_radius).zz / state.pressure(0.0), 9))  # Huber: −1/2
         -0.5
@@ -301,12 +248,12 @@ class Indentation(Result):
         """Largest shear stress of one state, or of `quantity="von_mises"`, and its position.
 
         A `StressPeak` with `value` (Pa), accurate to 10⁻⁸, and position `r`, `z` (m), accurate to 10⁻⁴ a.
-        Infinite at the rim of a flat face and at any rim while dashpots carry load; for ν < 1/2 also at an
-        edge and at a sharp tip that have not yielded.
+        Infinite at the rim of a flat face and at any rim while dashpots or adhesion carry load; for
+        ν < 1/2 also at an edge and at a sharp tip that have not yielded.
 
         Examples
         --------
-        >>> from mdr_core import Medium, Paraboloid
+        >>> from mdr_core import Medium, Paraboloid, indent
         >>> state = indent(Paraboloid(radius=1.0), Medium(E_star=1.0, poisson=0.3), 0.01)
         >>> peak = state.stress_peak()
         >>> print(f"{peak.value / state.pressure(0.0):.3f} p0 at {peak.z / state.contact_radius:.3f} a")
@@ -322,7 +269,7 @@ class Indentation(Result):
 
         Examples
         --------
-        >>> from mdr_core import Medium, Paraboloid, impact
+        >>> from mdr_core import Medium, Paraboloid, impact, indent
         >>> medium = Medium(E_star=1.0, poisson=0.3)
         >>> hit = impact(Paraboloid(radius=1.0), medium, 1.0, 0.01)
         >>> largest = hit.motion(9).states.largest_stress(0.481 * hit.contact_radius)

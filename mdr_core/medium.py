@@ -1,4 +1,4 @@
-"""The medium: modulus, yield constant, viscosity and Poisson ratio."""
+"""The medium: modulus, yield constant, viscosity, Poisson ratio and work of adhesion."""
 
 from dataclasses import dataclass
 
@@ -23,6 +23,12 @@ def check_pair(profile, medium, what=None):
             f"{what} is that of one indenter on one medium, but their parameters are arrays of shape "
             f"{profile.shape or medium.shape}; take one at a time, as in profile.entries(i)"
         )
+
+
+def refuse_adhesion(medium, what):
+    """Refuses a medium with adhesion for a calculation `what` that has none."""
+    if np.any(np.asarray(medium.work_of_adhesion) > 0):
+        raise ValueError(f"{what} is not computed with adhesion; set work_of_adhesion = 0")
 
 
 def paths_on(profile, medium, depth):
@@ -81,13 +87,17 @@ class Medium(_check.Parameters):
     poisson : float, optional
         Poisson ratio ν of the half-space, −1 < ν ≤ 1/2, for the stress below the surface and for friction.
         The dashpots are exact for 1/2.
+    work_of_adhesion : float, optional
+        Work of adhesion w (J/m²), not negative: the energy that separates a unit area of the surfaces.
+        0 (the default) means no adhesion. It excludes viscosity.
 
     Parameters may be arrays that broadcast, for many impacts at once; properties are then arrays.
 
     Raises
     ------
     ValueError
-        If a parameter is not a number or out of its range, or arrays do not broadcast.
+        If a parameter is not a number or out of its range, arrays do not broadcast, or both `eta` and
+        `work_of_adhesion` are positive.
 
     Examples
     --------
@@ -100,6 +110,7 @@ class Medium(_check.Parameters):
     q_c: Parameter = np.inf
     eta: Parameter = 0.0
     poisson: Parameter = 0.5
+    work_of_adhesion: Parameter = 0.0
 
     def __post_init__(self):
         set_ = object.__setattr__
@@ -109,7 +120,16 @@ class Medium(_check.Parameters):
         set_(self, "eta", _check.positive("viscosity eta", self.eta, unit="Pa·s", zero=True))
         poisson = _poisson("Poisson ratio poisson", self.poisson).copy()
         set_(self, "poisson", _check.frozen(poisson) if poisson.ndim else float(poisson))
+        w = _check.positive(
+            "work of adhesion work_of_adhesion", self.work_of_adhesion, unit="J/m²", zero=True
+        )
+        set_(self, "work_of_adhesion", w)
         _check.common_shape("medium", **self.__getstate__())
+        both = np.logical_and(np.asarray(self.eta) > 0, np.asarray(w) > 0)
+        if np.any(both):
+            raise ValueError(
+                "adhesion is not modelled on a viscous medium; set eta or work_of_adhesion to 0"
+            )
 
     @classmethod
     def from_hardness(
@@ -126,7 +146,7 @@ class Medium(_check.Parameters):
         radius : float
             Contact radius a (m) at which it was measured.
         **other
-            `eta` and `poisson`, as in `Medium`.
+            `eta`, `poisson` and `work_of_adhesion`, as in `Medium`.
 
         Examples
         --------
@@ -153,7 +173,7 @@ class Medium(_check.Parameters):
         critical_depth : float
             Indentation depth d_c (m) at which yield starts; also the depth that is recovered on unloading.
         **other
-            `eta` and `poisson`, as in `Medium`.
+            `eta`, `poisson` and `work_of_adhesion`, as in `Medium`.
 
         Examples
         --------
@@ -177,6 +197,7 @@ class Medium(_check.Parameters):
         nu2: ArrayLike = 0.0,
         q_c: ArrayLike = np.inf,
         eta: ArrayLike = 0.0,
+        work_of_adhesion: ArrayLike = 0.0,
     ) -> "Medium":
         """The medium equivalent to two elastic bodies in contact.
 
@@ -188,7 +209,7 @@ class Medium(_check.Parameters):
             Young's moduli (Pa), positive; infinite for a rigid body. Not both infinite.
         nu1, nu2 : float
             Poisson ratios, −1 < ν ≤ 1/2. The first is the medium's `poisson`: stresses are in body 1.
-        q_c, eta : float
+        q_c, eta, work_of_adhesion : float
             As in `Medium`.
 
         Examples
@@ -206,7 +227,7 @@ class Medium(_check.Parameters):
         if np.any(compliance == 0):
             raise ValueError("E1 and E2 are both infinite; at least one body must be elastic")
         with np.errstate(over="ignore"):
-            return cls(1 / compliance, q_c, eta, nu1)
+            return cls(1 / compliance, q_c, eta, nu1, work_of_adhesion)
 
     @property
     def critical_depth(self) -> Array:

@@ -25,7 +25,7 @@ _PROFILES = (
 )  # fmt: skip
 _DRIVES = (DepthPath, ForcePath, FreeImpact, FreeObliqueImpact)
 #: Values of entries that are optional in a file.
-_OPTIONAL = {"time": None, "poisson": 0.5, "plastic_depth": 0.0}
+_OPTIONAL = {"time": None, "poisson": 0.5, "work_of_adhesion": 0.0, "plastic_depth": 0.0}
 _FORMAT, _VERSION = "mdr-scene", 1
 
 

@@ -109,12 +109,12 @@ def stress(state, r, z):
     J[surface] = state.pressure(r.ravel()[surface])
     K[surface] = T[surface] = M[surface] = 0.0
     sharp = np.isinf(J)
-    J[sharp] = 0.0
+    size, J[sharp] = J[sharp], 0.0
     tt = M - 2 * nu * J - (1 - 2 * nu) * L
     parts = K - (1 + 2 * nu) * J - tt, tt, -J - K, -T
     # Where the pressure is infinite the limits of the other stresses depend on the direction.
     for part in parts[:3]:
-        part[sharp] = -np.inf
+        part[sharp] = -size
     return Stress(*(part.reshape(r.shape)[()] for part in parts))
 
 
@@ -192,8 +192,8 @@ def _integrals(state, unit, r, z):
     """∫ of J, K, r z Im(1/S³), L and z M over the load of a state, at points in units of a length (m)."""
     profile, interval = state.profile, state.live_interval
     total, order = np.zeros((5, r.size)), np.argsort(r, kind="stable")
-    if state.dashpot_load > 0:
-        width = np.array([state.dashpot_load / state.medium.E_star])
+    if state.uniform_load != 0:
+        width = np.array([state.uniform_load / state.medium.E_star])
         _add(total, order, np.array([state.contact_radius]), width, unit, r, z)
     if interval.length == 0:
         return total

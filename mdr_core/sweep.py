@@ -33,6 +33,7 @@ import numpy as np
 
 from . import _check
 from ._numeric import chunks
+from .adhesion import first_contacts
 from .dynamics.energy_balance import loading_interval
 from .dynamics.impact import Impact, impact
 from .dynamics.oblique import ObliqueImpact, oblique_impact
@@ -67,6 +68,7 @@ def impacts(
     E_star: "Given",
     q_c: "Given" = np.inf,
     eta: "Given" = 0.0,
+    work_of_adhesion: "Given" = 0.0,
     mass: "Given",
     speed: "Given",
     quantities: str | Iterable[str] = ("restitution",),
@@ -78,8 +80,9 @@ def impacts(
     ----------
     shape : type or Profile
         Class of the indenters, whose parameters follow by name, or a single indenter.
-    E_star, q_c, eta : float or DataArray
-        Effective modulus (Pa), yield constant (N/m), viscosity (Pa·s) of the `Medium`.
+    E_star, q_c, eta, work_of_adhesion : float or DataArray
+        Effective modulus (Pa), yield constant (N/m), viscosity (Pa·s) and work of adhesion (J/m²) of the
+        `Medium`.
     mass, speed : float or DataArray
         Mass (kg) and speed (m/s) at first contact.
     quantities : sequence of str
@@ -108,7 +111,8 @@ def impacts(
     >>> dict(table.sizes), table.restitution.round(4).values.tolist()[1]
     ({'radius': 2, 'speed': 3}, [1.0, 0.5426, 0.1184])
     """
-    parameters = {"E_star": E_star, "q_c": q_c, "eta": eta, "mass": mass, "speed": speed}
+    parameters = {"E_star": E_star, "q_c": q_c, "eta": eta, "work_of_adhesion": work_of_adhesion}
+    parameters |= {"mass": mass, "speed": speed}
     return _sweep(Impact, _hit, shape, parameters, shape_parameters, quantities)
 
 
@@ -153,6 +157,7 @@ def indentations(
     *,
     E_star: "Given",
     q_c: "Given" = np.inf,
+    work_of_adhesion: "Given" = 0.0,
     depth: "Given",
     quantities: str | Iterable[str] = ("force",),
     **shape_parameters: "Given",
@@ -170,7 +175,7 @@ def indentations(
     >>> print(indentations(Cone, slope=slope, E_star=1e9, depth=1e-6).force.round(6).values)  # N
     [0.006366 0.003183]
     """
-    parameters = {"E_star": E_star, "q_c": q_c, "depth": depth}
+    parameters = {"E_star": E_star, "q_c": q_c, "work_of_adhesion": work_of_adhesion, "depth": depth}
     return _sweep(Indentation, _press, shape, parameters, shape_parameters, quantities)
 
 
@@ -295,18 +300,21 @@ def _in_blocks(solve, shape, values, own, names):
     return tuple(results) if len(names) > 1 else results[0]
 
 
-def _hit(profile, E_star, q_c, eta, mass, speed):
-    return impact(profile, Medium(E_star, q_c, eta), mass, speed)
+def _hit(profile, E_star, q_c, eta, work_of_adhesion, mass, speed):
+    return impact(profile, Medium(E_star, q_c, eta, work_of_adhesion=work_of_adhesion), mass, speed)
 
 
 def _hit_at_angle(profile, E_star, q_c, eta, poisson, **given):
     return oblique_impact(profile, Medium(E_star, q_c, eta, poisson), **given)
 
 
-def _press(profile, E_star, q_c, depth):
-    medium, depth = Medium(E_star, q_c), _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
+def _press(profile, E_star, q_c, work_of_adhesion, depth):
+    medium = Medium(E_star, q_c, work_of_adhesion=work_of_adhesion)
+    depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
     shape = np.broadcast_shapes(profile.shape, medium.shape, depth.shape)
     depth = profile._known(np.broadcast_to(depth, shape))
+    if np.any(np.asarray(work_of_adhesion) > 0):
+        return Indentation(profile, medium, depth, *first_contacts(profile, medium, depth))
     interval, _ = loading_interval(np.maximum(depth, 0.0), medium.critical_depth, np.zeros(shape))
     return Indentation(profile, medium, depth, interval)
 

@@ -15,11 +15,18 @@ from .. import _check
 from .._check import Array, ArrayLike
 from .._numeric import chunks
 from ..indentation import Indentation
-from ..medium import Medium, check_pair, shape_with
+from ..medium import Medium, check_pair, refuse_adhesion, shape_with
 from ..results.base import CLOSED_FORM, SCALAR_ODE, ImpactResult, Model, Motion
 from ..results.limits import Limit, contact_limits
 from ..scaling import FastLimit, fast_limit, how_fast
 from ..shapes.profile import Profile
+from .adhesive_impact import (
+    adhesive_contact_time,
+    adhesive_turning_interval,
+    pull_off,
+    rebound_energy,
+    touching,
+)
 from .contact_time import contact_time
 from .course import Course
 from .energy_balance import (
@@ -45,7 +52,8 @@ def impact(
 ) -> "Impact":
     """Let a body of given mass hit the medium at given speed, with no other force acting.
 
-    Contact starts at the bottom of the imprint (depth 0 on a virgin medium), and ends at zero force.
+    Contact starts at the bottom of the imprint (depth 0 on a virgin medium), and ends at zero force, with
+    adhesion at the pull-off.
 
     Parameters
     ----------
@@ -95,9 +103,17 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
     outside, too_deep = imprint_depth > profile.known_depth, profile._too_deep()
     _check.refuse("plastic_depth", imprint_depth, outside, f"is {too_deep}", unit="m")
     # The search may start far from the root, where powers leave double precision.
+    adhesive = np.any(np.asarray(medium.work_of_adhesion) > 0)
+    if adhesive and in_time:
+        refuse_adhesion(medium, "an equation of motion")
+    load = 0.0
     with np.errstate(all="ignore"):
         energy = np.broadcast_to(mass * speed**2 / (4 * medium.E_star), shape)
-        interval, increase = turning_interval(profile, energy, medium.critical_depth, imprint_depth)
+        if adhesive:
+            interval, stretched = adhesive_turning_interval(profile, medium, energy, imprint_depth)
+            increase, load = interval.lower - imprint_depth, -medium.E_star * stretched
+        else:
+            interval, increase = turning_interval(profile, energy, medium.critical_depth, imprint_depth)
         integrated = None
         if in_time or np.any(np.asarray(medium.eta) > 0):
             penetration = np.where(interval.upper < np.inf, interval.length + increase, np.inf)
@@ -107,7 +123,8 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
     known = np.minimum(profile.known_depth, _check.LARGEST)
     bound = f"m/s presses {too_deep}"
     _check.refuse("speed", speed, ~(interval.upper <= known), bound, remedy="hit less hard")
-    turning_point = Indentation(profile, medium, interval.upper, interval, in_time=True)
+    depth = interval.upper if not adhesive else _depth(medium, interval, stretched, increase)
+    turning_point = Indentation(profile, medium, depth, interval, load, in_time=True)
     return Impact(profile, medium, mass[()], speed[()], turning_point, increase, integrated)
 
 
@@ -134,6 +151,12 @@ def _integrated(bodies, penetration, mass, E_star, in_time):
         "max_force": deceleration.reshape(shape) * mass,
     }
     return penetration.reshape(shape), {name: _check.frozen(values) for name, values in quantities.items()}
+
+
+def _depth(medium, interval, stretched, increase):
+    """Depth (m) at a turning point with adhesion."""
+    yielding = interval.lower + medium.critical_depth
+    return np.where(increase > 0, yielding, interval.upper - stretched)
 
 
 def quantity_of(path: str, doc: str) -> "cached_property[Array]":
@@ -211,18 +234,50 @@ class Impact(ImpactResult):
         """Energy (J) dissipated by viscosity, during the contact and by relaxation after it."""
         return self._merged("viscous_work", lambda: np.zeros(self.mass.shape)[()])
 
+    @cached_property
+    def _adhesive(self):
+        return np.any(np.asarray(self.medium.work_of_adhesion) > 0)
+
+    @_check.frozen_property
+    def _rebound_energy(self):
+        """Energy over 2E* (m³) after the pull-off, negative for a captured body."""
+        return rebound_energy(self.profile, self.medium, self.turning_point.live_interval)
+
+    @_check.frozen_property
+    def captured(self):
+        """Whether adhesion holds the body, so that it does not rebound."""
+        return self._rebound_energy <= 0 if self._adhesive else np.zeros(self.mass.shape, bool)
+
+    @_check.frozen_property
+    def adhesive_work(self):
+        """Energy (J) that adhesion takes: the work between touching and pull-off.
+
+        Of a captured body all that yielding leaves of its kinetic energy.
+        """
+        if not self._adhesive:
+            return np.zeros(self.mass.shape)
+        lower = self.turning_point.live_interval.lower
+        first = touching(self.profile, self.medium, lower - self.plastic_depth_increase)[1]
+        work = 2 * self.medium.E_star * (pull_off(self.profile, self.medium, lower)[1] - first)
+        return np.where(self.captured, self.mass * self.speed**2 / 2 - self.plastic_work, work)
+
     @_check.frozen_property
     def restitution(self):
-        """Coefficient of restitution e, speed after over speed before."""
+        """Coefficient of restitution e, speed after over speed before; 0 for a captured body."""
+        if self._adhesive:
+            kinetic = self.mass * self.speed**2 / (4 * self.medium.E_star)
+            return np.sqrt(np.maximum(self._rebound_energy, 0.0) / kinetic)
         interval, d_c = self.turning_point.live_interval, self.medium.critical_depth
         arguments = self.profile, interval, d_c, self.plastic_depth_increase
         return self._merged("restitution", lambda: dry_restitution(*arguments))
 
     @_check.frozen_property
     def contact_time(self):
-        """Time (s) from first contact to the loss of contact."""
+        """Time (s) from first contact to the loss of contact; infinite for a captured body."""
         inertia, interval = self.mass / (2 * self.medium.E_star), self.turning_point.live_interval
         arguments = self.profile, inertia, self.speed, interval, self.plastic_depth_increase
+        if self._adhesive:
+            return adhesive_contact_time(self.profile, self.medium, *arguments[1:])
         return self._merged("contact_time", lambda: contact_time(*arguments))
 
     @property
@@ -247,4 +302,5 @@ class Impact(ImpactResult):
         >>> print(round(hit.motion(101).time[-1] / (hit.max_depth / 0.01), 6))  # Hertz
         2.943275
         """
+        refuse_adhesion(self.medium, "the motion of an impact")
         return motion(self, n)

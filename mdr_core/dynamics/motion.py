@@ -13,8 +13,8 @@ def motion(hit, n):
     course, medium, modulus = hit._course, hit.medium, 2 * hit.medium.E_star
     time = instants(n, course.turning_time, course.end_time)
     state, released = course.at(time), _released_energy(hit, course, time)
-    dashpot_load = 4 * medium.eta * np.maximum(state.velocity, 0.0)
-    states = Indentation(hit.profile, medium, state.depth, state.interval, dashpot_load, in_time=True)
+    uniform_load = 4 * medium.eta * np.maximum(state.velocity, 0.0)
+    states = Indentation(hit.profile, medium, state.depth, state.interval, uniform_load, in_time=True)
     # Energy of the elements at the rim at their release, by parts: dissipated, or still stored in them.
     elastic = -medium.relaxation_time * np.minimum(state.velocity, 0.0)
     rim = elastic**2 * states.contact_radius / 2

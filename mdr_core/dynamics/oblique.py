@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
-from ..medium import Medium, check_pair, shape_with
+from ..medium import Medium, check_pair, refuse_adhesion, shape_with
 from ..results.base import Entries, Model, Result
 from ..results.limits import Limit, friction_limits
 from ..shapes.profile import Profile
@@ -82,6 +82,7 @@ def oblique_impact(
     -0.666666667
     """
     check_pair(profile, medium)
+    refuse_adhesion(medium, "an oblique impact")
     mass = _check.positive("mass", mass, unit="kg")
     speed = _check.positive("speed", speed, unit="m/s")
     tangential_mass = mass if tangential_mass is None else tangential_mass

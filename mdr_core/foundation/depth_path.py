@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import _check, abel
 from .._check import Array, ArrayLike
-from ..medium import Medium, check_pair, plastic_depth
+from ..medium import Medium, check_pair, plastic_depth, refuse_adhesion
 from ..results.base import CHAIN, Result
 from ..results.limits import Limit, contact_limits
 from ..shapes.profile import Profile
@@ -79,6 +79,7 @@ def indent_in_time(
     [0.0, 22.0, 6.0] 11.0
     """
     check_pair(profile, medium, "a path in time")
+    refuse_adhesion(medium, "a path in time")
     depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LARGEST))
     time = check_times(time, depth, "depth")
     tolerance = _check.positive_number("tolerance", tolerance)

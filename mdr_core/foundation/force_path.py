@@ -9,7 +9,7 @@ import scipy
 from .. import _check
 from .._check import ArrayLike
 from .._numeric import root_in_bracket
-from ..medium import Medium, check_pair, plastic_depth
+from ..medium import Medium, check_pair, plastic_depth, refuse_adhesion
 from ..shapes.profile import Profile
 from .depth_path import TimedIndentation, check_times, follow
 from .foundation import Foundation
@@ -68,6 +68,7 @@ def creep(
     0.7675
     """
     check_pair(profile, medium, "a path in time")
+    refuse_adhesion(medium, "a path in time")
     force = _check.force("force", force)
     time = check_times(time, force, "force")
     tolerance = _check.positive_number("tolerance", tolerance)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from .. import _check
-from ..medium import Medium, check_pair
+from ..medium import Medium, check_pair, refuse_adhesion
 from ..results.quantities import described, engineering
 from ..shapes.profile import Profile
 from . import element
@@ -94,6 +94,7 @@ class Foundation:
             # A copy in another state has been checked before.
             return
         check_pair(self.profile, self.medium, "a foundation")
+        refuse_adhesion(self.medium, "a foundation")
         n, known = element_count(self.n), self.profile.known_radius
         half_width = _check.positive_number("half_width", self.half_width, unit="m")
         if half_width > known:

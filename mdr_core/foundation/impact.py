@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import _check
-from ..medium import Medium, check_pair
+from ..medium import Medium, check_pair, refuse_adhesion
 from ..results.base import CHAIN, ImpactResult, Motion, instants
 from ..results.limits import Limit, contact_limits
 from ..shapes.profile import Profile
@@ -78,6 +78,7 @@ def chain_impact(
     0.29844
     """
     check_pair(profile, medium, "an impact on the chain")
+    refuse_adhesion(medium, "an impact on the chain")
     mass = _check.positive_number("mass", mass, unit="kg")
     speed = _check.positive_number("speed", speed, unit="m/s")
     tolerance = _check.positive_number("tolerance", tolerance)

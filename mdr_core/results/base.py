@@ -90,7 +90,7 @@ class ImpactResult(Result):
     _quantities = (
         "mass", "speed", "restitution", "rebound_speed", "contact_time", "max_depth", "max_force",
         "contact_radius", "plastic_radius", "plastic_depth", "damaged_area", "stored_energy",
-        "plastic_work", "viscous_work",
+        "plastic_work", "viscous_work", "adhesive_work",
     )  # fmt: skip
     _shown = (
         "speed", "restitution", "max_depth", "max_force", "contact_time", "stored_energy", "plastic_work",
@@ -107,6 +107,16 @@ class ImpactResult(Result):
     def rebound_speed(self) -> Array:
         """Rebound speed e v₀ (m/s)."""
         return self.restitution * self.speed
+
+    @property
+    def captured(self) -> Any:
+        """Whether adhesion holds the body, so that it does not rebound."""
+        return np.zeros(np.shape(self.speed), bool)[()]
+
+    @property
+    def adhesive_work(self) -> Array:
+        """Energy (J) that adhesion takes."""
+        return np.zeros(np.shape(self.speed))[()]
 
     @property
     def damaged_area(self) -> Array:

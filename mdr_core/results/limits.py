@@ -9,8 +9,9 @@ from ..shapes.power import Cone
 from .quantities import engineering
 
 #: Slope up to which results are good, above which they are estimates, and above which the slope is
-#: probably a mistake; contact radius over the radius of the body; share of the wave speed.
-_SMALL, _STEEP, _NEEDLE, _BODY, _SLOW = 0.3, 0.5, 3.0, 0.5, 0.1
+#: probably a mistake; contact radius over the radius of the body; share of the wave speed;
+#: Tabor's parameter from which adhesion is that of the rim alone, and the range (m) of surface forces.
+_SMALL, _STEEP, _NEEDLE, _BODY, _SLOW, _TABOR, _RANGE = 0.3, 0.5, 3.0, 0.5, 0.1, 5.0, 0.3e-9
 
 
 @dataclass(frozen=True)
@@ -21,7 +22,8 @@ class Limit:
     ----------
     what : str
         Quantity that is bounded: "slope", "contact radius", "Poisson ratio", "viscosity", "speed", "fast
-        limit", and for friction "coupling" and "slip direction".
+        limit", "Tabor's parameter", which must be larger than its bound, and for friction "coupling" and
+        "slip direction".
     value, bound : float
         Its largest value over all states, and the largest one for which the assumption is good.
     exceeded : bool
@@ -60,7 +62,7 @@ def contact_limits(profile, medium, radius, *, slow=False):
     limits = [_slope_limit(profile, radius), *_body_limit(profile, radius)]
     if np.any(np.asarray(medium.eta) > 0):
         limits.append(_viscosity_limit(medium) if slow else _poisson_limit(medium))
-    return tuple(limits)
+    return (*limits, *_tabor_limit(profile, medium))
 
 
 def _slope_limit(profile, radius):
@@ -95,6 +97,29 @@ def _body_limit(profile, radius):
         f"; a half-space is good up to about {_BODY:g} R, the equator is at R." if value > _BODY else "."
     )
     yield Limit("contact radius", value, _BODY, value > _BODY, text)
+
+
+def _tabor_limit(profile, medium):
+    """Tabor's parameter, if there is adhesion and the tip has a radius of curvature."""
+    w = np.asarray(medium.work_of_adhesion)
+    curvature = _tip_radius(profile) if np.any(w > 0) else None
+    if curvature is None:
+        return
+    with np.errstate(divide="ignore"):
+        tabor = np.min(np.where(w > 0, np.cbrt(curvature * (w / medium.E_star) ** 2 / _RANGE**3), np.inf))
+    text = (
+        f"Tabor's parameter (R w²/(E*² z₀³))^(1/3) is {tabor:.3g} for surface forces of range z₀ = 0.3 nm"
+    )
+    text += ": forces outside the contact count below 5." if tabor < _TABOR else "."
+    yield Limit("Tabor's parameter", float(tabor), _TABOR, bool(tabor < _TABOR), text)
+
+
+def _tip_radius(profile):
+    """Radius of curvature (m) at the tip, None where it is flat or sharp."""
+    radius = getattr(profile, "tip_radius", None)
+    if radius is not None:
+        return radius
+    return profile.body_radius if np.all(profile.body_radius < np.inf) else None
 
 
 def _poisson_limit(medium):

@@ -1,0 +1,113 @@
+"""Indentation along a prescribed path of depth or force, infinitely slowly."""
+
+import numpy as np
+
+from . import _check, adhesion
+from ._check import ArrayLike
+from .indentation import Indentation
+from .medium import Medium, check_pair, paths_on
+from .shapes.profile import Profile
+from .superposition import live_length, loading_depth
+from .yielding import LiveInterval, first_loading, path_intervals
+
+
+@_check.keywords_explained
+def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
+    """Press an indenter along a path of depths: loading, unloading and reloading in any order.
+
+    The path is followed infinitely slowly, so that the dashpots of a viscous medium carry nothing; for a
+    path in time see `indent_in_time`.
+
+    Parameters
+    ----------
+    profile : Profile
+        The indenter.
+    medium : Medium
+        The medium.
+    depth : float or array_like
+        Indentation depth d (m), one number or a path along the last axis; negative out of contact, or
+        where adhesion holds the contact. Contact begins at d_p, the bottom of the imprint, also on
+        reloading, and with adhesion is lost at the pull-off. Each
+        row of a larger array is a path of its own on a virgin medium. Parameters of medium and profile may
+        be arrays of shape (…, 1), for one path each.
+
+    Returns
+    -------
+    Indentation
+        Quantities of the shape of `depth`, computed when they are first read.
+
+    Raises
+    ------
+    ValueError
+        If a depth is not finite, or larger than the known depth of the profile.
+
+    Examples
+    --------
+    A cone at twice the critical depth, F = 3 F_c (Popov 2015, Eqs. (20), (22)):
+
+    >>> from mdr_core import Cone, Medium, critical_force
+    >>> cone, medium = Cone(slope=1.0), Medium(E_star=1.0, q_c=2.0)
+    >>> state = indent(cone, medium, 2 * medium.critical_depth)
+    >>> print(round(state.force / critical_force(cone, medium), 12))
+    3.0
+    """
+    check_pair(profile, medium)
+    depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
+    depth = profile._known(paths_on(profile, medium, depth))
+    if np.any(np.asarray(medium.work_of_adhesion) > 0):
+        return Indentation(profile, medium, depth, *adhesion.depth_path(profile, medium, depth))
+    return Indentation(profile, medium, depth, path_intervals(depth, medium.critical_depth))
+
+
+@_check.keywords_explained
+def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Indentation:
+    """Press an indenter along a path of forces, infinitely slowly: the inverse of `indent`.
+
+    For a viscous medium under a force in time see `creep`.
+
+    Parameters
+    ----------
+    profile, medium
+        As for `indent`.
+    force : float or array_like
+        Normal force (N); one number or a path along the last axis. At 0 the indenter rests on the bottom
+        of the imprint. Negative only with adhesion: under more than the pull-off force the contact is
+        lost, the force is 0 and the depth that of the imprint, until a force ≥ 0 closes it again.
+
+    Returns
+    -------
+    Indentation
+        Quantities of the shape of `force`.
+
+    Raises
+    ------
+    ValueError
+        If a force is not finite, negative without adhesion, larger than a flat face carries before all of
+        it yields (π q_c b, Popov 2015, Eq. (11)), or presses deeper than the known depth of the profile.
+
+    Examples
+    --------
+    >>> from mdr_core import Cone, Medium
+    >>> cone, medium = Cone(slope=1.0), Medium(E_star=1.0, q_c=1.0)
+    >>> print(round(indent_to_force(cone, medium, indent(cone, medium, 5.0).force).depth, 12))
+    5.0
+    """
+    check_pair(profile, medium, "an indentation")
+    adhesive = medium.work_of_adhesion > 0
+    force = _check.finite_array("force", force, unit="N") if adhesive else _check.force("force", force)
+    limit = 2 * medium.yield_line_load * profile.wall
+    bound = f"must be less than the {limit:g} N at which the whole flat face yields"
+    _check.refuse("force", force, force >= limit, bound, unit="N", remedy="press to a depth instead")
+    if adhesive:
+        return Indentation(profile, medium, *adhesion.force_path(profile, medium, force))
+    integral = force / (2 * medium.E_star)
+    largest = np.maximum.accumulate(integral, axis=-1) if integral.ndim else integral
+    with np.errstate(all="ignore"):
+        largest_depth = loading_depth(profile, medium.critical_depth, largest)
+    known = largest_depth <= min(profile.known_depth, _check.LARGEST)
+    bound = f"presses {profile._too_deep()}"
+    _check.refuse("force", force, ~known, bound, unit="N", remedy="press less")
+    loaded = first_loading(largest_depth, medium.critical_depth)
+    length = np.where(integral == largest, loaded.length, live_length(profile, loaded, integral))
+    depth = np.where(integral == largest, largest_depth, loaded.lower + length)
+    return Indentation(profile, medium, depth, LiveInterval(loaded.lower, depth, length))
