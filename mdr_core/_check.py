@@ -171,16 +171,30 @@ def force(quantity, value):
     return refuse(quantity, array, tiny, f"must be 0 or at least {SMALLEST:g}", unit="N")
 
 
+class InvalidEntries(ValueError):
+    """The error of `refuse`: `bad` says which entries of the `values` of a quantity are invalid."""
+
+    def __init__(self, quantity, values, bad, bound, unit, remedy):
+        super().__init__(quantity, values, bad, bound, unit, remedy)
+        self.quantity, self.values, self.bad = quantity, values, np.broadcast_to(bad, values.shape)
+        self._bound, self._unit, self._remedy = bound, unit and f" {unit}", remedy and f"; {remedy}"
+
+    def message(self, entry, index, others=0):
+        """Text on one entry of the flat values, at an index by which it is known."""
+        where = f"[{', '.join(map(str, index))}]" if len(index) else ""
+        more = f" (and {others} more of {self.values.size} entries)" if others else ""
+        value = f"{self.values.flat[entry]:g}{self._unit}"
+        return f"{self.quantity}{where} = {value} {self._bound}{more}{self._remedy}"
+
+    def __str__(self):
+        entry = np.argmax(self.bad)
+        return self.message(entry, np.unravel_index(entry, self.bad.shape), np.count_nonzero(self.bad) - 1)
+
+
 def refuse(quantity, array, bad, bound, *, unit="", remedy=""):
     """`array`, if no entry is `bad`; else an error that names the first one and counts the others."""
     if np.any(bad):
-        index = np.unravel_index(np.argmax(bad), array.shape)
-        where = f"[{', '.join(map(str, index))}]" if array.ndim else ""
-        unit = f" {unit}" if unit else ""
-        others = np.count_nonzero(bad) - 1
-        more = f" (and {others} more of {array.size} entries)" if others else ""
-        remedy = f"; {remedy}" if remedy else ""
-        raise ValueError(f"{quantity}{where} = {array[index]:g}{unit} {bound}{more}{remedy}")
+        raise InvalidEntries(quantity, array, bad, bound, unit, remedy)
     return array
 
 

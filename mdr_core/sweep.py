@@ -22,9 +22,10 @@ missing has not been computed:
 Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; the regions on disk remain.
 """
 
-import re
 from collections.abc import Callable, Iterable
 from dataclasses import MISSING, fields
+from functools import partial
+from importlib import import_module
 from inspect import isclass
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -39,6 +40,7 @@ from .dynamics.impact import Impact, impact
 from .dynamics.oblique import ObliqueImpact, oblique_impact
 from .indentation import Indentation
 from .medium import Medium
+from .results.labels import InvalidParticles, check_alignment, indices, labelled
 from .results.quantities import QUANTITIES, described
 from .results.report import imported
 from .shapes.profile import Profile
@@ -71,7 +73,9 @@ def impacts(
     work_of_adhesion: "Given" = 0.0,
     mass: "Given",
     speed: "Given",
+    plastic_depth: "Given" = 0.0,
     quantities: str | Iterable[str] = ("restitution",),
+    invalid: str = "raise",
     **shape_parameters: "Given",
 ) -> "xarray.Dataset":
     """Impacts of free bodies (`mdr_core.impact`) over named dimensions.
@@ -85,8 +89,16 @@ def impacts(
         `Medium`.
     mass, speed : float or DataArray
         Mass (kg) and speed (m/s) at first contact.
+    plastic_depth : float or DataArray
+        Plastic depth (m) of the imprint before the impact.
     quantities : sequence of str
         Names of quantities of `Impact`: "restitution", "max_depth", "damaged_area", "contact_time", …
+    invalid : {"raise", "nan"}
+        Particles with parameters outside the range of `impact` raise an error with their index, or have
+        NaN for results. The attributes then have the number of these particles,
+        ``invalid_count``, and the first ones with index, value and reason, ``invalid``. Results of dask
+        arrays have no such attributes: count the NaN. A number that is out of range, and a solver that
+        does not converge, raise an error in any case.
     **shape_parameters : float or DataArray
         Parameters of the class, such as ``radius=`` of a `Sphere`.
 
@@ -98,8 +110,9 @@ def impacts(
     Raises
     ------
     ValueError
-        If a parameter or a quantity is unknown or missing, an array has no names of dimensions, coordinates
-        differ, or a value is outside the range of `impact`; for lazy arrays when they are computed.
+        If a parameter or a quantity is unknown or missing, an array has no names of dimensions, sizes or
+        coordinates differ, or a value is outside the range of `impact`; for lazy arrays when they are
+        computed.
 
     Examples
     --------
@@ -112,8 +125,8 @@ def impacts(
     ({'radius': 2, 'speed': 3}, [1.0, 0.5426, 0.1184])
     """
     parameters = {"E_star": E_star, "q_c": q_c, "eta": eta, "work_of_adhesion": work_of_adhesion}
-    parameters |= {"mass": mass, "speed": speed}
-    return _sweep(Impact, _hit, shape, parameters, shape_parameters, quantities)
+    parameters |= {"mass": mass, "speed": speed, "plastic_depth": plastic_depth}
+    return _sweep(Impact, _hit, shape, parameters, shape_parameters, quantities, invalid)
 
 
 def oblique_impacts(
@@ -129,6 +142,7 @@ def oblique_impacts(
     friction: "Given",
     tangential_mass: "Given | None" = None,
     quantities: str | Iterable[str] = ("friction_work", "plastic_work"),
+    invalid: str = "raise",
     **shape_parameters: "Given",
 ) -> "xarray.Dataset":
     """Oblique impacts (`mdr_core.oblique_impact`) over named dimensions.
@@ -149,7 +163,7 @@ def oblique_impacts(
     parameters = {"E_star": E_star, "q_c": q_c, "eta": eta, "poisson": poisson, "mass": mass}
     parameters |= {"speed": speed, "tangential_speed": tangential_speed, "friction": friction}
     parameters["tangential_mass"] = mass if tangential_mass is None else tangential_mass
-    return _sweep(ObliqueImpact, _hit_at_angle, shape, parameters, shape_parameters, quantities)
+    return _sweep(ObliqueImpact, _hit_at_angle, shape, parameters, shape_parameters, quantities, invalid)
 
 
 def indentations(
@@ -160,6 +174,7 @@ def indentations(
     work_of_adhesion: "Given" = 0.0,
     depth: "Given",
     quantities: str | Iterable[str] = ("force",),
+    invalid: str = "raise",
     **shape_parameters: "Given",
 ) -> "xarray.Dataset":
     """First loadings (`mdr_core.indent`) over named dimensions: each depth on a virgin medium.
@@ -176,7 +191,7 @@ def indentations(
     [0.006366 0.003183]
     """
     parameters = {"E_star": E_star, "q_c": q_c, "work_of_adhesion": work_of_adhesion, "depth": depth}
-    return _sweep(Indentation, _press, shape, parameters, shape_parameters, quantities)
+    return _sweep(Indentation, _press, shape, parameters, shape_parameters, quantities, invalid)
 
 
 def cost(solve: Callable[..., "xarray.Dataset"], shape: "Shape", **arguments: Any) -> float:
@@ -223,25 +238,32 @@ def _timed(solve, shape, arguments):
     return perf_counter() - start, float(np.prod(list(sizes.values())))
 
 
-def _sweep(kind, solve, shape, parameters, shape_parameters, quantities):
+def _sweep(kind, solve, shape, parameters, shape_parameters, quantities, invalid):
     """Dataset of quantities of a class of results, which `solve` returns for arrays of parameters."""
     xarray = imported("xarray", "mdr_core.sweep")
     names = [quantities] if isinstance(quantities, str) else list(quantities)
-    known = [name for name in kind._quantities if name not in parameters]
+    # The plastic depth is one before the impact as a parameter, one after it as a quantity.
+    known = [name for name in kind._quantities if name not in parameters or name == "plastic_depth"]
     for name in names or [""]:
         _check.one_of("quantity", name, known)
+    _check.one_of("invalid", invalid, ("raise", "nan"))
     _check_shape(shape, shape_parameters)
     parameters = shape_parameters | parameters
-    given = {name: _labelled(xarray, name, value) for name, value in parameters.items()}
+    given = {name: labelled(xarray, name, value) for name, value in parameters.items()}
+    check_alignment(xarray, given)
+    refused = InvalidParticles(given, invalid)
 
     def block(*values):
-        return _in_blocks(solve, shape, dict(zip(given, values, strict=True)), shape_parameters, names)
+        values, places = dict(zip(given, values, strict=False)), values[len(given) :]
+        return _in_blocks(solve, shape, values, shape_parameters, names, partial(refused.add, places))
 
     lazily = {"dask": "parallelized", "output_dtypes": [float] * len(names)}
-    dims = [[] for _ in names]
-    results = xarray.apply_ufunc(block, *given.values(), output_core_dims=dims, keep_attrs=False, **lazily)
+    dims, arrays = [[] for _ in names], (*given.values(), *indices(xarray, given))
+    results = xarray.apply_ufunc(block, *arrays, output_core_dims=dims, keep_attrs=False, **lazily)
     results = results if len(names) > 1 else [results]
     dataset = xarray.Dataset(dict(zip(names, results, strict=True)), attrs=_attributes(kind, shape, given))
+    if invalid == "nan" and not dataset.chunks:
+        dataset.attrs |= {"invalid_count": refused.count, "invalid": refused.listed}
     for name in names:
         dataset[name].attrs = QUANTITIES[name].attributes
     return dataset
@@ -265,43 +287,39 @@ def _check_shape(shape, given):
             raise ValueError(f"{name} needs its {missing}")
 
 
-def _labelled(xarray, name, value):
-    """A parameter as a DataArray of numbers in the SI unit."""
-    unit = QUANTITIES[name].unit if name in QUANTITIES else ""
-    if not isinstance(value, xarray.DataArray):
-        value = _check.in_unit(name, value, unit)
-        if np.ndim(value):
-            raise ValueError(f"{name} is an array without names of dimensions: give an xarray.DataArray")
-        return xarray.DataArray(_check.number(name, value))
-    # The attribute may be inherited from another array in a computation: only prefixed units are refused.
-    stated = getattr(value.data, "units", value.attrs.get("units", unit))
-    factors, own = (re.split("[/·* ]", text.replace("kg", "g")) for text in (str(stated), unit))
-    multiple = str(stated) != unit and len(factors) == len(own) and all(map(str.endswith, factors, own))
-    if hasattr(value.data, "units") or (unit and multiple):
-        raise ValueError(
-            f"{name} is given in {stated}: give numbers in {unit or 'no unit'}, with these units in .attrs"
-        )
-    return value
+def _in_blocks(solve, shape, values, own, names, refused):
+    """Arrays of the named quantities for arrays of parameters, `own` ones of the shape, in blocks.
 
-
-def _in_blocks(solve, shape, values, own, names):
-    """Arrays of the named quantities for arrays of parameters, `own` ones of the shape, in blocks."""
+    Entries that a check refuses are given to `refused`, and are NaN if that returns.
+    """
     size = np.broadcast_shapes(*(np.shape(value) for value in values.values()))
     # Scalars are not repeated.
     varied = {k: np.broadcast_to(v, size).flat for k, v in values.items() if np.size(v) > 1}
-    results = np.empty((len(names), *size))
+    results = np.full((len(names), *size), np.nan)
     flat = results.reshape(len(names), -1)
     for rows in chunks(flat.shape[1], _BLOCK):
         block = {k: varied[k][rows] if k in varied else np.ravel(v)[0] for k, v in values.items()}
-        own_values = {name: block.pop(name) for name in own}
-        result = solve(shape(**own_values) if isclass(shape) else shape, **block)
-        for row, name in zip(flat, names, strict=True):
-            row[rows] = getattr(result, name)
+        valid = np.arange(flat.shape[1])[rows]
+        while valid.size:
+            others = {name: value for name, value in block.items() if name not in own}
+            try:
+                profile = shape(**{name: block[name] for name in own}) if isclass(shape) else shape
+                result = solve(profile, **others)
+                for row, name in zip(flat, names, strict=True):
+                    row[valid] = getattr(result, name)
+                break
+            except _check.InvalidEntries as error:
+                bad = np.broadcast_to(error.bad, valid.shape)
+                refused(error, np.unravel_index(valid[bad], size))
+            flat[:, valid[bad]] = np.nan
+            valid = valid[~bad]
+            block = {name: value[~bad] if np.ndim(value) else value for name, value in block.items()}
     return tuple(results) if len(names) > 1 else results[0]
 
 
-def _hit(profile, E_star, q_c, eta, work_of_adhesion, mass, speed):
-    return impact(profile, Medium(E_star, q_c, eta, work_of_adhesion=work_of_adhesion), mass, speed)
+def _hit(profile, E_star, q_c, eta, work_of_adhesion, mass, speed, plastic_depth):
+    medium = Medium(E_star, q_c, eta, work_of_adhesion=work_of_adhesion)
+    return impact(profile, medium, mass, speed, plastic_depth=plastic_depth)
 
 
 def _hit_at_angle(profile, E_star, q_c, eta, poisson, **given):
@@ -325,4 +343,6 @@ def _attributes(kind, shape, given):
     varied = {name: "over " + " × ".join(value.dims) for name, value in given.items() if np.ndim(value)}
     fixed = {name: float(value) for name, value in given.items() if name not in varied}
     about = {"result": kind.__name__, "model": "MDR, V. L. Popov 2015", "indenter": profile}
+    # The package imports this module first.
+    about["version"] = f"mdr_core {import_module(__package__).__version__}"
     return about | fixed | varied

@@ -13,6 +13,7 @@ xr = pytest.importorskip("xarray")
 SPEED = xr.DataArray(np.geomspace(1e-2, 1.0, 5), dims="speed")
 RADIUS = xr.DataArray([1e-6, 1e-5, 1e-4], dims="radius", coords={"radius": [1, 10, 100]})
 SPHERES = {"E_star": 1e9, "q_c": 10.0, "mass": 1e-12, "radius": RADIUS, "speed": SPEED}
+REST = {"radius": 1e-5, "E_star": 1e9, "q_c": 10.0, "mass": 1e-12}
 ALL = [name for name in mdr.Impact._quantities if name not in ("mass", "speed")]
 
 
@@ -34,8 +35,10 @@ def test_dimensions_are_matched_by_name():
     table = sweep.impacts(mdr.Sphere, **SPHERES | {"mass": both.T})
     again = sweep.impacts(mdr.Sphere, **SPHERES | {"mass": both})
     xr.testing.assert_allclose(table.transpose(*again.dims), again, rtol=1e-12)
-    with pytest.raises(ValueError, match="radius"):
+    with pytest.raises(ValueError, match=r"radius and mass are not aligned: .*radius"):
         sweep.impacts(mdr.Sphere, **SPHERES | {"mass": both.assign_coords(radius=[1, 2, 3])})
+    with pytest.raises(ValueError, match=r"mass and speed are not aligned: .*speed"):
+        sweep.impacts(mdr.Sphere, **SPHERES | {"mass": both[:, :4]})
 
 
 def test_erosion_over_the_angle_of_attack():
@@ -88,6 +91,7 @@ def test_results_say_what_they_are():
     assert table.attrs["indenter"] == "Sphere"
     assert table.attrs["E_star"] == 1e9
     assert table.attrs["speed"] == "over speed"
+    assert table.attrs["version"] == f"mdr_core {mdr.__version__}"
     assert table.radius.values.tolist() == [1, 10, 100]
 
 
@@ -135,6 +139,87 @@ def test_units_are_converted_told_or_not_touched():
         sweep.impacts(mdr.Sphere, **SPHERES | {"speed": SPEED * ureg("mm/s")})
 
 
+def test_imprints_before_the_impact():
+    """Repeated impacts: each one meets the imprint of the last one."""
+    first = sweep.impacts(mdr.Sphere, **SPHERES, quantities=["plastic_depth"])
+    table = sweep.impacts(
+        mdr.Sphere,
+        **SPHERES,
+        plastic_depth=first.plastic_depth,
+        quantities=["restitution", "plastic_depth"],
+    )
+    medium, imprint = mdr.Medium(1e9, 10.0), first.plastic_depth[1, 4]
+    hit = mdr.impact(mdr.Sphere(1e-5), medium, 1e-12, 1.0, plastic_depth=float(imprint))
+    assert float(table.restitution[1, 4]) == pytest.approx(hit.restitution, rel=1e-12)
+    assert float(table.plastic_depth[1, 4]) == pytest.approx(hit.plastic_depth, rel=1e-12)
+
+
+class TestInvalid:
+    """Particles that a check refuses, at the third and the seventh place."""
+
+    SPEED = xr.DataArray([0.1, 0.2, -1.0, 0.3, 0.4, 0.5, np.nan, 1e9], dims="particle")
+
+    @pytest.mark.parametrize("size", [2**17, 3])
+    def test_an_error_has_the_index_in_the_stream(self, monkeypatch, size):
+        monkeypatch.setattr(sweep, "_BLOCK", size)
+        for start, says in ((0, r"speed\[2\] = -1 m/s must be"), (3, r"speed\[3\] = nan m/s must be")):
+            with pytest.raises(ValueError, match=says):
+                sweep.impacts(mdr.Sphere, **REST, speed=self.SPEED[start:])
+        with pytest.raises(ValueError, match=r"speed\[0\] = 1e\+09 m/s presses deeper"):
+            sweep.impacts(mdr.Sphere, **REST, speed=self.SPEED[7:])
+
+    @pytest.mark.parametrize("size", [2**17, 3])
+    def test_nan_counted_and_listed(self, monkeypatch, size):
+        monkeypatch.setattr(sweep, "_BLOCK", size)
+        radius = xr.DataArray([1e-5, -1.0], dims="radius")
+        given = REST | {"radius": radius, "speed": self.SPEED}
+        table = sweep.impacts(mdr.Sphere, **given, invalid="nan", quantities=("restitution", "max_depth"))
+        valid = [0, 1, 3, 4, 5]
+        alone = sweep.impacts(mdr.Sphere, **REST, speed=self.SPEED[valid])
+        np.testing.assert_allclose(table.restitution[0, valid], alone.restitution, rtol=1e-13)
+        for name in ("restitution", "max_depth"):
+            assert table[name].isnull().sum() == table.attrs["invalid_count"] == 11
+        assert len(table.attrs["invalid"]) == 5
+        reasons = " | ".join(table.attrs["invalid"])
+        assert "Sphere radius[1] = -1 m must be finite and positive" in reasons
+        assert "(at radius 1, particle 0)" in reasons
+        xr.testing.assert_identical(
+            sweep.impacts(mdr.Sphere, **REST, speed=0.1 + 0 * radius, invalid="nan").restitution[0],
+            sweep.impacts(mdr.Sphere, **REST, speed=0.1).restitution,
+        )
+
+    def test_every_ensemble(self):
+        depth = xr.DataArray([1e-9, np.inf], dims="depth")
+        table = sweep.indentations(mdr.Cone(0.3), E_star=1e9, depth=depth, invalid="nan")
+        assert table.attrs["invalid"] == [
+            "depth[1] = inf m must be finite; leave it out, or mend the data it comes from"
+        ]
+        friction = xr.DataArray([0.1, -0.1], dims="particle")
+        given = {"E_star": 1e9, "mass": 1e-12, "speed": 1.0, "tangential_speed": 10.0, "friction": friction}
+        table = sweep.oblique_impacts(mdr.Paraboloid(1e-5), **given, invalid="nan")
+        assert table.friction_work.isnull().values.tolist() == [False, True]
+        assert table.attrs["invalid"] == ["friction[1] = -0.1 must be not negative; check it"]
+
+    def test_what_is_no_particle_raises(self, monkeypatch):
+        """A number that is out of range, an unknown choice, and a solver that fails."""
+        speed = self.SPEED[:2]
+        with pytest.raises(ValueError, match="E_star = -1 Pa must be finite"):
+            sweep.impacts(mdr.Sphere, **REST | {"E_star": -1.0}, speed=speed, invalid="nan")
+        with pytest.raises(ValueError, match="invalid = 'drop' must be one of 'raise', 'nan'"):
+            sweep.impacts(mdr.Sphere, **REST, speed=speed, invalid="drop")
+
+        def fails(*_, **__):
+            raise ValueError("no convergence")
+
+        monkeypatch.setattr(sweep, "impact", fails)
+        with pytest.raises(ValueError, match="no convergence"):
+            sweep.impacts(mdr.Sphere, **REST, speed=speed, invalid="nan")
+
+
+def test_an_ensemble_of_none():
+    assert sweep.impacts(mdr.Sphere, **REST, speed=SPEED[:0]).restitution.shape == (0,)
+
+
 def test_blocks_do_not_show(monkeypatch):
     whole = sweep.impacts(mdr.Sphere, **SPHERES)
     monkeypatch.setattr(sweep, "_BLOCK", 4)
@@ -168,7 +253,9 @@ class TestLazily:
 
     def test_nothing_is_solved_before_it_is_asked_for(self, monkeypatch):
         solved = []
-        monkeypatch.setattr(sweep, "impact", lambda *given: solved.append(1) or mdr.impact(*given))
+        monkeypatch.setattr(
+            sweep, "impact", lambda *given, **more: solved.append(1) or mdr.impact(*given, **more)
+        )
         stream = self.stream()
         assert stream.chunks == {"particle": (1000,) * 4}
         assert not solved
@@ -179,6 +266,22 @@ class TestLazily:
         hits = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, 10.0), 1e-12, speeds)
         np.testing.assert_allclose(found.restitution, hits.restitution, rtol=1e-12)
         np.testing.assert_allclose(found.max_depth, hits.max_depth, rtol=1e-12)
+
+    def test_invalid_particles(self):
+        """Errors have the index in the stream, not the one in a chunk."""
+        speed = xr.DataArray(np.geomspace(1e-2, 1.0, 4000), dims="particle")
+        speed[2345] = -1.0
+        lazy = sweep.impacts(mdr.Sphere, **REST, speed=speed[1000:].chunk(particle=1000))
+        with pytest.raises(ValueError, match=r"speed\[1345\] = -1 m/s must be"):
+            lazy.compute(scheduler="synchronous")
+        slope = xr.DataArray([0.2, 0.3], dims="cone")
+        given = {"E_star": 1e9, "mass": 1e-12, "speed": speed.chunk(particle=1000), "slope": slope}
+        lazy = sweep.impacts(mdr.Cone, **given)
+        with pytest.raises(ValueError, match=r"speed\[2345\] = -1 m/s .*\(at cone 0, particle 2345\)"):
+            lazy.compute(scheduler="synchronous")
+        table = sweep.impacts(mdr.Cone, **given, invalid="nan").compute()
+        assert table.restitution.isnull().any("cone").values.nonzero()[0].tolist() == [2345]
+        assert "invalid" not in table.attrs
 
     def test_an_interrupted_run_goes_on_where_it_was(self, tmp_path):
         pytest.importorskip("zarr")
