@@ -1,5 +1,7 @@
 """Ensembles over named dimensions: the numbers of single impacts, lazily, on two processes, to disk."""
 
+import os
+import signal
 import warnings
 
 import numpy as np
@@ -303,6 +305,31 @@ class TestLazily:
             assert int(xr.open_zarr(store).restitution.isnull().sum()) == 2000
             assert fill(4000) == 2
             xr.testing.assert_allclose(xr.open_zarr(store).load(), stream.compute(), rtol=1e-13)
+
+    def test_a_lost_worker_changes_nothing(self):
+        """One of two workers is killed in the middle: its chunks are solved again by the other."""
+        distributed = pytest.importorskip("distributed")
+        speed = xr.DataArray(np.geomspace(0.1, 1.0, 4000), dims="particle")
+        given = REST | {"eta": 1.0}
+        stream = sweep.impacts(mdr.Sphere, **given, speed=speed.chunk(particle=100))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            with (
+                distributed.LocalCluster(
+                    n_workers=2, threads_per_worker=1, dashboard_address=None
+                ) as cluster,
+                distributed.Client(cluster) as client,
+            ):
+                chunks = client.persist(stream.restitution)
+                futures = distributed.futures_of(chunks)
+                distributed.wait(futures, return_when="FIRST_COMPLETED")
+                os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
+                assert sum(future.done() for future in futures) < len(futures)
+                restitution = chunks.compute()
+        # Viscous impacts come in steps of their own, and chunks are the same.
+        xr.testing.assert_allclose(
+            restitution, sweep.impacts(mdr.Sphere, **given, speed=speed).restitution, rtol=1e-9
+        )
 
     def test_on_two_processes(self):
         distributed = pytest.importorskip("distributed")
