@@ -121,7 +121,7 @@ def test_what_is_left_out_is_said_with_its_line(read):
         ("h (nm)\n1\n2\n", "run.csv has one column"),
         ("h (nm), F (nN)\n1,5,2,3\n", "line 2: expected two numbers.* separate columns by semicolons"),
         ("nothing", "run.csv: no samples"),
-        (" \n", "run.csv: no samples"),
+        (" \n", "run.csv is empty"),
         ("h (nm), F (nN)\n1, 2\n", "one row of numbers"),
         ("h (nm), F (nN)\n1, 2\nx, 3\ny, 4\nz\n", "one column of numbers"),
         ("h (nm), F (nN)\n1, 2\n3, 4\nx, y\n5, z\nend\n", "most lines of run.csv are no rows .* 4, 5, 6"),
