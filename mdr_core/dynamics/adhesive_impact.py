@@ -73,7 +73,7 @@ def adhesive_turning_interval(profile, medium, target, before):
     """Live interval (m) and stretch Δl (m) at the turning point for kinetic energies `target` (m³)."""
     shape, profile = target.shape, tabulated_for(profile, target.size)
     start, energy = touching(profile, medium, before)
-    # The springs at the rim take about as much again as the jump into contact gives: four steps instead of ten.
+    # The springs at the rim take some more than the jump into contact gives: four steps instead of ten.
     guess, _ = turning_interval(profile, target - 3 * energy, medium.critical_depth, before)
     guess = guess.upper + stretch(medium, profile._radius(np.minimum(guess.upper, profile.known_depth)))
     arrays = (target + energy, np.maximum(guess, start.upper), start.upper, before)
@@ -112,20 +112,22 @@ def adhesive_contact_time(profile, medium, inertia, speed, interval, increase):
     turn, (node, weight) = interval.upper, gauss_legendre(64)
     total, time = inertia * speed**2 / 2 + touching(profile, medium, before)[1], 0.0
     last = _energy(profile, medium, interval)
-    cut = np.where(increase > 0, np.sqrt((turn - yielding.upper) / (turn - start.upper)), 0.0)
+    # D = D₁ e^(−u²): the speed goes as u next to the turning point D₁, and a(D) is a power of D at the tip.
+    first, end, cut = (
+        np.sqrt(np.log(turn / np.maximum(low, 1e-13 * turn)))
+        for low in (start.upper, end.upper, np.where(increase > 0, yielding.upper, turn))
+    )
     for share, load in zip(node, weight, strict=True):
-        for first, width in ((0.0 * cut, cut), (cut, 1 - cut)):
-            # The speed goes as the root of the distance from the turning point.
-            u = first + share * width
-            upper = turn - (turn - start.upper) * u**2
+        for low, width in ((0.0, cut), (cut, first - cut)):
+            u = low + share * width
+            upper = turn * np.exp(-(u**2))
             energy, _ = _loading(profile, medium, upper, before)
-            time = time + _step(profile, medium, upper, total - energy, inertia) * (
-                load * width * 2 * u * (turn - start.upper)
-            )
-        upper = turn - (turn - end.upper) * share**2
-        held = last_interval(interval.lower, upper)
-        left = last - _energy(profile, medium, held)
-        time = time + _step(profile, medium, upper, left, inertia) * load * 2 * share * (turn - end.upper)
+            rate = _step(profile, medium, upper, total - energy, inertia)
+            time = time + load * width * 2 * u * upper * rate
+        upper = turn * np.exp(-((share * end) ** 2))
+        left = last - _energy(profile, medium, last_interval(interval.lower, upper))
+        rate = _step(profile, medium, upper, left, inertia)
+        time = time + load * end * 2 * share * end * upper * rate
     return np.where(last > lost, time, np.inf)
 
 
