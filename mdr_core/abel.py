@@ -36,7 +36,7 @@ def reduce_slope(slope: Callable[[Array], Array], x: ArrayLike) -> Array:
     Raises
     ------
     ValueError
-        If the slope is not finite on [0, |x|], or the rule does not converge with 760 nodes.
+        If the slope is not finite between 0 and x, or the rule does not converge with 760 nodes.
 
     Examples
     --------

@@ -2,7 +2,7 @@
 
 Parameters are numbers or DataArrays, which broadcast by the names of their dimensions. Results of dask
 arrays are lazy: `compute` solves them chunk by chunk, on the cores of a machine or, with a
-``dask.distributed.Client``, on a cluster. The sum over a stream that does not fit in memory:
+``dask.distributed.Client``, on a cluster. The sum over a stream that does not fit in memory::
 
     speed = xr.DataArray(0.1 * dask.array.random.weibull(2.0, 10**9, chunks=10**6), dims="particle")
     stream = sweep.impacts(Sphere, radius=1e-5, E_star=1e9, q_c=10.0, mass=1e-12, speed=speed,
@@ -10,7 +10,7 @@ arrays are lazy: `compute` solves them chunk by chunk, on the cores of a machine
     total = stream.damaged_area.sum().compute()
 
 A long run to disk that can be interrupted and continued, region by region; a region whose last number is
-missing has not been computed:
+missing has not been computed::
 
     encoding = {name: {"_FillValue": numpy.nan} for name in stream}
     stream.to_zarr("stream.zarr", compute=False, encoding=encoding)  # once

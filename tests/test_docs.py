@@ -1,18 +1,40 @@
-"""What the docstrings and the README show is true."""
+"""Examples in docstrings, in the README and on the site run, and the site is complete."""
 
 import doctest
 import importlib
 import pkgutil
 import re
+import subprocess
+import sys
+from html.parser import HTMLParser
 from pathlib import Path
+from urllib.parse import unquote
 
 import pytest
 
 import mdr_core as mdr
 
 ROOT = Path(__file__).parents[1]
-README = (ROOT / "README.md").read_text(encoding="utf-8")
-ROWS = [row for row in README.splitlines() if re.match(r"\| \(\d", row)]
+DOCS = ROOT / "assets" / "docs"
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.rglob("*.md"))]
+EXAMPLES = sorted((DOCS / "examples").glob("*.py"))
+BLOCKS = [
+    pytest.param(block, id=f"{page.stem}-{number}")
+    for page in PAGES[1:]
+    for number, block in enumerate(re.findall(r"```python\n(.*?)```", page.read_text("utf-8"), re.DOTALL))
+    if ">>>" not in block
+]
+ROWS = [row for row in (DOCS / "equations.md").read_text("utf-8").splitlines() if re.match(r"\| \(\d", row)]
+#: Optional packages that a block needs besides those that it imports.
+NEEDED = {"to_pandas": "pandas", "to_xarray": "xarray", "import app": "panel", "from app": "panel"}
+
+
+def run(code, name="example"):
+    """Run the text of a script, or skip it where an optional package is missing."""
+    packages = re.findall(r"^(?:import|from) (\w+)", code, re.MULTILINE)
+    for package in [*packages, *(package for text, package in NEEDED.items() if text in code)]:
+        pytest.importorskip(package)
+    exec(compile(code, name, "exec"), {"__name__": "__main__"})
 
 
 @pytest.mark.parametrize("module", [m.name for m in pkgutil.walk_packages(mdr.__path__, "mdr_core.")])
@@ -35,15 +57,94 @@ def test_examples_in_the_readme():
     assert result.failed == 0
 
 
+@pytest.mark.parametrize("block", BLOCKS)
+def test_blocks_of_code(block, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    run(block)
+
+
 def test_the_curve_of_the_readme_is_plotted_and_saved(tmp_path, monkeypatch):
-    for package in ("holoviews", "pandas"):
-        pytest.importorskip(package)
-    (block,) = re.findall(r"```python\n(import holoviews.*?)```", README, re.DOTALL)
+    blocks = re.findall(r"```python\n(.*?)```", PAGES[0].read_text("utf-8"), re.DOTALL)
+    (block,) = (block for block in blocks if ">>>" not in block)
     assert len([line for line in block.splitlines() if line]) <= 10
     monkeypatch.chdir(tmp_path)
-    exec(block, {})
+    run(block)
     assert "d, indentation depth (nm)" in (tmp_path / "curve.html").read_text(encoding="utf-8")
     assert (tmp_path / "curve.csv").read_text(encoding="utf-8").count("\n") == 202
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_example_of_the_gallery(path, monkeypatch):
+    """It is short, it runs without a warning, and it draws one figure or more."""
+    plt = pytest.importorskip("matplotlib.pyplot")
+    plt.switch_backend("Agg")
+    code = path.read_text(encoding="utf-8")
+    assert len(code.splitlines()) <= 40
+    monkeypatch.chdir(path.parent)
+    run(code, path.name)
+    assert plt.get_fignums()
+    plt.close("all")
+
+
+def test_the_gallery_is_large_and_the_readme_short():
+    assert len(EXAMPLES) >= 14
+    assert len(PAGES[0].read_text(encoding="utf-8").splitlines()) <= 130
+
+
+def test_the_reference_has_all_public_names():
+    text = "".join(page.read_text(encoding="utf-8") for page in (DOCS / "reference").glob("*.md"))
+    documented = set(re.findall(r"^\.\. auto\w+:: (?:mdr_core\.)?(\w+)$", text, re.MULTILINE))
+    assert set(mdr.__all__) <= documented
+
+
+class Links(HTMLParser):
+    """Links, anchors, and addresses of what a page loads."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.links, self.anchors, self.loaded = [], set(), []
+        self.feed(page.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        self.anchors |= {attrs.get("id"), attrs.get("name")}
+        if tag == "a" and attrs.get("href"):
+            self.links.append(attrs["href"])
+        address = attrs.get("src") or (attrs.get("href") if tag == "link" else None)
+        if address and not address.startswith("data:"):
+            self.loaded.append(address)
+
+
+def test_the_site_is_built_without_warnings_and_its_links_lead_somewhere(tmp_path):
+    """Built without the pictures of the gallery. Nothing is loaded from other servers."""
+    for package in ("sphinx", "numpydoc", "myst_parser", "pydata_sphinx_theme", "sphinx_gallery"):
+        pytest.importorskip(package)
+    build = [
+        sys.executable,
+        "-m",
+        "sphinx",
+        "-W",
+        "-q",
+        "-D",
+        "plot_gallery=0",
+        "-d",
+        str(tmp_path / "tree"),
+    ]
+    done = subprocess.run([*build, str(DOCS), str(tmp_path / "site")], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    # A template of the theme is in _static.
+    files = [page for page in (tmp_path / "site").rglob("*.html") if "_static" not in page.parts]
+    pages = {page.resolve(): Links(page) for page in files}
+    assert len(pages) > len(EXAMPLES)
+    for page, found in pages.items():
+        for link in found.links + found.loaded:
+            target, _, anchor = unquote(link).partition("#")
+            if re.match(r"https?:|mailto:", target):
+                assert link not in found.loaded, f"{page.name} loads {link}"
+                continue
+            path = (page.parent / target.partition("?")[0]).resolve() if target else page
+            assert path.exists(), f"{page.name}: {link}"
+            assert not anchor or path not in pages or anchor in pages[path].anchors, f"{page.name}: {link}"
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.split("|")[1].strip())

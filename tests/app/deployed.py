@@ -1,4 +1,4 @@
-"""A server as the README says it is run for others, and what stands between it and a person."""
+"""A server as the documentation says it is run for others, and what stands between it and a person."""
 
 import asyncio
 import contextlib
@@ -14,8 +14,8 @@ PERSON = "203.0.113.7"
 
 
 def deployed(host):
-    """Options of the README's line, to be answered as `host`, but for its port."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    """Options of the line in assets/docs/explorer.md, to be answered as `host`, but for its port."""
+    text = (ROOT / "assets/docs/explorer.md").read_text(encoding="utf-8")
     line = re.search(r"panel serve app (--address.*?)\n```", text, re.DOTALL)[1].replace("\\\n", " ")
     options = shlex.split(line.replace(HOST, host))
     at = options.index("--port")

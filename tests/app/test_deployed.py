@@ -1,4 +1,4 @@
-"""The line that the README gives for serving others, in two processes, behind a proxy on loopback."""
+"""The documented line for serving others, in two processes, behind a proxy on loopback."""
 
 import asyncio
 import re

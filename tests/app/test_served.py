@@ -7,7 +7,7 @@ import pytest
 import mdr_core as mdr
 from app.state import preset_state
 
-from .conftest import Explorer, Server
+from .conftest import ROOT, Explorer, Server
 from .deployed import Proxy, deployed
 from .test_page import assert_draws, now
 
@@ -83,3 +83,13 @@ def test_text_of_others_is_never_markup(explorer, tmp_path):
         explorer.wait("window.explorer?.idle()")
         assert explorer.page.locator("img[src=x]").count() == 0
     assert_draws(explorer, preset_state())
+
+
+def test_the_page_is_embedded_as_documented(server, context):
+    """In a frame of a page from elsewhere it connects to its server and draws."""
+    text = (ROOT / "assets/docs/how_do_i.md").read_text(encoding="utf-8")
+    (frame,) = re.findall(r"<iframe.*</iframe>", text)
+    page = context.new_page()
+    page.set_content(frame.replace("http://localhost:5006/app", server.url))
+    page.frame_locator("iframe").locator("canvas").first.wait_for()
+    page.close()

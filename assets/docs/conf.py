@@ -1,0 +1,60 @@
+"""Configuration of the documentation, which the README has the command for."""
+
+from docutils import nodes
+from latex2mathml.converter import convert
+
+import mdr_core
+
+project = "mdr-core"
+author = "The mdr-core authors"
+copyright = author
+release = version = mdr_core.__version__
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "numpydoc",
+    "sphinx_gallery.gen_gallery",
+]
+exclude_patterns = ["examples"]
+html_theme = "pydata_sphinx_theme"
+html_theme_options = {"show_prev_next": False, "header_links_before_dropdown": 8}
+html_context = {"default_mode": "auto"}
+html_sidebars = {"*": []}
+html_title = project
+html_show_sourcelink = False
+html_math_renderer = "mathml"
+
+myst_enable_extensions = ["dollarmath"]
+myst_fence_as_directive = ["math"]
+myst_heading_anchors = 3
+
+default_role = "autolink"
+autodoc_default_options = {"members": True, "show-inheritance": True}
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+autosummary_generate = False
+numpydoc_show_class_members = False
+
+sphinx_gallery_conf = {
+    "examples_dirs": "examples",
+    "gallery_dirs": "gallery",
+    "filename_pattern": r"\.py$",
+    "within_subsection_order": "FileNameSortKey",
+    "show_signature": False,
+    "capture_repr": (),
+    "write_computation_times": False,
+    "abort_on_example_error": True,
+}
+
+
+def mathml(writer, node):
+    """Write a formula as MathML, which browsers show without a script or a network."""
+    display = "block" if isinstance(node, nodes.math_block) else "inline"
+    writer.body.append(convert(node.astext(), display=display))
+    raise nodes.SkipNode
+
+
+def setup(app):
+    app.add_html_math_renderer("mathml", (mathml, None), (mathml, None))

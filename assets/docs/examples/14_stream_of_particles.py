@@ -1,0 +1,30 @@
+"""
+A stream of particles
+=====================
+
+Ten thousand spheres of random radius and speed hit a composite. ``sweep.impacts`` takes arrays with
+named dimensions and returns a dataset; ``assets/erosion.py`` does the same for 10⁹ particles on a cluster.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import xarray as xr
+
+import mdr_core as mdr
+
+random, number = np.random.default_rng(1), 10**4
+radius = xr.DataArray(25e-6 * np.exp(0.4 * random.standard_normal(number)), dims="particle")
+speed = xr.DataArray(30.0 * random.weibull(2.0, number) + 1e-3, dims="particle")
+hits = mdr.sweep.impacts(
+    mdr.Paraboloid,
+    radius=radius,
+    E_star=8e9,
+    q_c=2000.0,
+    mass=2650.0 * 4 / 3 * np.pi * radius**3,  # quartz
+    speed=speed,
+    quantities=("restitution", "damaged_area"),
+)
+figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")
+hits.restitution.plot.hist(ax=left, bins=100)
+(hits.damaged_area * 1e12).plot.hist(ax=right, bins=np.geomspace(1, 1e4, 100), xscale="log")
+right.set(xlabel="damaged area (µm²)")
