@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from mpmath import mp, mpf
 
 import mdr_core as mdr
 
+mpmath = pytest.importorskip("mpmath")
+mp, mpf = mpmath.mp, mpmath.mpf
 E_STAR, Q_C, W, R, SLOPE, B = 1e9, 8.0, 2e-3, 1e-6, 0.2, 1e-7
 ELASTIC, YIELDING = mdr.Medium(E_STAR, work_of_adhesion=W), mdr.Medium(E_STAR, Q_C, work_of_adhesion=W)
 D_C = float(YIELDING.critical_depth)

@@ -154,7 +154,8 @@ def _minimum(problem, start):
         elif name in NOT_NEGATIVE:
             lower[:, i] = 0.0
     solution = least_squares(lambda x, rows: problem.rows(rows).residuals(x), start, lower, upper)
-    return *solution, (solution[0] <= lower) | (solution[0] >= upper)
+    # Steps across a bound may end next to it.
+    return *solution, (solution[0] <= lower + 1e-9) | (solution[0] >= upper - 1e-9)
 
 
 def _best_minimum(problem):
