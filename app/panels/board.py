@@ -95,7 +95,11 @@ class Player:
         d, F, z = (view.axis(name) for name in ("d", "F", "z"))
         path = {"d": _rounded(course.states.depth / d.factor), "F": _rounded(course.force / F.factor)}
         self.state.tags = [
-            path | {"unit": d.factor / z.factor, "pressing": course.motion is None and not course.turns}
+            path
+            | {
+                "unit": d.factor / z.factor,
+                "pressing": course.hit is None and course.motion is None and not course.turns,
+            }
         ]
         self.heads.text = escape(readouts.heads(course, numbers))
         self.readout.text = escape(readouts.values(course, numbers, i))

@@ -45,16 +45,18 @@ def force(view: View, i: int) -> dict:
         return rows
     d, F = (np.asarray(part[: i + 1]) for part in (course.states.depth, course.force))
     back_d, back_F = course.unloading_curve(i)
-    elastic = lower == course.initial_plastic_depth and not course.dashpots
+    elastic = lower == course.initial_plastic_depth and not (course.dashpots or course.adhesive)
     # The path so far, and back along what is stored: dissipated is the loop that it encloses.
     lost = np.concatenate([d[:1], d, back_d]), np.concatenate([[0.0], F, back_F])
     return rows | {
         "dissipated": NOTHING if elastic else lost,
-        "stored": (np.append(back_d[:1], back_d), np.append(0.0, back_F)),
+        "stored": (np.pad(back_d, 1, "edge"), np.pad(back_F, 1)),
     }
 
 
 def _formula(course: Course) -> str:
+    if course.adhesive:
+        return "F = 2E* [∫ a(s) ds − a Δl],  d_p < s < d + Δl  § 19"
     dashpots = " + 8η a dd/dt" * course.dashpots
     return f"(20) (22)  F = 2E* ∫ a(s) ds{dashpots},  d_p < s < d"
 
