@@ -151,14 +151,8 @@ def with_derived(state: State) -> State:
 def used(state: State, form: tuple[str, ...]) -> list[str]:
     """Names of the numbers in use; `form` has the choices of the drive."""
     names = [name for name, _ in shape_quantities(state.shape)]
-    choices = [
-        "elasticity",
-        "plasticity",
-        "damping",
-        "adhesion",
-        "drive",
-        *(part for part in form if part in USED),
-    ]
+    of_medium = ("elasticity", "plasticity", "damping", "adhesion")
+    choices = [*of_medium, "drive", *(part for part in form if part in USED)]
     return names + [name for choice in choices for name in USED[choice][state[choice]]]
 
 
