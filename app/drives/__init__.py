@@ -197,7 +197,7 @@ class Course:
     def unloading_curve(self, index: int) -> tuple[Array, Array]:
         """Depths (m) and forces (N) of elastic unloading; the area below is the stored energy.
 
-        With adhesion, less the energy that separates the surfaces.
+        With adhesion it is less by what separates the surfaces up to the pull-off.
 
         Elements held back by dashpots are compressed further than their load indicates.
         """

@@ -5,6 +5,7 @@ import numpy as np
 from mdr_core.results.figures import NOTHING, area, label, line, mark, parts, split
 
 from ..drives import Course
+from ..state.units import written
 from .plot import Plot, View, held_rows
 
 #: Most samples of a measured curve that are drawn.
@@ -39,6 +40,10 @@ def force(view: View, i: int) -> dict:
     rows = {"now": view.mark(i, "d", "F"), "dₚ": (np.nan, np.nan, "")}
     if lower > 0:
         rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end("F"), "dₚ"
+    if course.adhesive:
+        last = int(np.argmin(course.force))
+        text = f"Fₐ = {written(course.pull_off_force[last], 'force', 3)}"
+        rows["Fₐ"] = course.states.depth[last] + right, course.force[last], text
     rows |= _curve(course, i + 1) if course.turns else {}
     if course.chained:
         # No live interval tells what is stored in elements that have each a memory of their own.
@@ -47,10 +52,11 @@ def force(view: View, i: int) -> dict:
     back_d, back_F = course.unloading_curve(i)
     elastic = lower == course.initial_plastic_depth and not (course.dashpots or course.adhesive)
     # The path so far, and back along what is stored: dissipated is the loop that it encloses.
-    lost = np.concatenate([d[:1], d, back_d]), np.concatenate([[0.0], F, back_F])
+    lost = np.concatenate([d[:1], d, back_d, back_d[-1:]]), np.concatenate([[0.0], F, back_F, [0.0]])
     return rows | {
         "dissipated": NOTHING if elastic else lost,
-        "stored": (np.pad(back_d, 1, "edge"), np.pad(back_F, 1)),
+        # Tension takes work.
+        "stored": (np.append(back_d[:1], back_d), np.append(0.0, np.maximum(back_F, 0.0))),
     }
 
 
@@ -77,6 +83,7 @@ FORCE = Plot(
         *_CURVES,
         mark("now", size=13),
         label("dₚ"),
+        label("Fₐ"),
     ),
     force_still, force,
 )  # fmt: skip

@@ -225,6 +225,7 @@ def test_adhesion_is_drawn_below_zero_to_the_pull_off(drive):
     pull_off = 1.5 * np.pi * 0.05 * state.paraboloid_radius
     read = {each.name: values for each, values in readouts.readings(course).items()}
     np.testing.assert_allclose(read["pull_off_force"], pull_off, rtol=1e-12)
+    assert view.rows(PLOTS["force"], course.now)["Fₐ"][2] == "Fₐ = 11.8 µN"
     # The largest tension is between two states; it is flat there.
     assert -np.min(course.force) == pytest.approx(pull_off, rel=1e-2)
     assert axis.start <= -pull_off
