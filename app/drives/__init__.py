@@ -222,6 +222,8 @@ def unloaded(scene: mdr.Scene, live: LiveInterval, share: Array, touching: Any) 
     """States on unloading from live intervals, at shares (1 to 0) of the way to the pull-off."""
     profile, medium, end = scene.profile, scene.medium, 0.0
     if medium.work_of_adhesion > 0:
+        # Weak adhesion is seen only just before the pull-off.
+        share = share**3
         low = adhesion.stable_ranges(profile, medium, adhesion.AT_DEPTH)[0][0]
         end = adhesion.last_interval(live.lower, low).length
     length = np.where(touching, end + share * (live.length - end), 0.0)
