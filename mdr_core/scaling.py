@@ -200,7 +200,10 @@ def fast_limit(hit):
     a = profile._radius(depth)
     area, restitution = np.pi * a**2, np.sqrt(medium.E_star * a * d_c**2 / energy)
     exact = hit.max_depth, np.pi * hit.contact_radius**2, hit.restitution
-    errors = (limit / value - 1 for limit, value in zip((depth, area, restitution), exact, strict=True))
+    # A body that adhesion holds has no restitution.
+    with np.errstate(divide="ignore"):
+        pairs = zip((depth, area, restitution), exact, strict=True)
+        errors = [limit / value - 1 for limit, value in pairs]
     return FastLimit(*(_check.frozen(values) for values in (depth, area, restitution, *errors)))
 
 

@@ -9,6 +9,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core import adhesion
 from mdr_core.dynamics.oblique_motion import ObliqueMotion
 from mdr_core.yielding import LiveInterval
 
@@ -97,6 +98,14 @@ class Course:
         return self.motion is not None and self.scene.medium.eta > 0
 
     @property
+    def adhesive(self) -> bool:
+        return self.scene.medium.work_of_adhesion > 0
+
+    @property
+    def pull_off_force(self) -> Array | None:
+        return self.states.pull_off_force if self.adhesive else None
+
+    @property
     def chained(self) -> bool:
         """Whether elements have separate memories, which one live interval does not describe."""
         return not isinstance(self.states, mdr.Indentation)
@@ -117,7 +126,7 @@ class Course:
 
     @property
     def kinetic_energy(self) -> Array | None:
-        return None if self.hit is None else self.ledger.kinetic_energy
+        return None if self.hit is None or self.motion is None else self.ledger.kinetic_energy
 
     @property
     def stored_energy(self) -> Array:
@@ -188,13 +197,14 @@ class Course:
     def unloading_curve(self, index: int) -> tuple[Array, Array]:
         """Depths (m) and forces (N) of elastic unloading; the area below is the stored energy.
 
+        With adhesion it is less by what separates the surfaces up to the pull-off.
+
         Elements held back by dashpots are compressed further than their load indicates.
         """
         live, depth = self.states.live_interval[index], float(self.states.depth[index])
-        length = live.length * _RELEASE
-        interval = LiveInterval(np.full_like(length, live.lower), live.lower + length, length)
-        states = mdr.Indentation(self.scene.profile, self.scene.medium, interval.upper, interval)
-        d, force = interval.upper, states.force
+        touching = self.states.contact_radius[index] > 0
+        states = unloaded(self.scene, live, _RELEASE, touching)
+        d, force = states.depth, states.force
         if live.length > 0 and depth > live.upper * (1 + 1e-9):
             stiff = 2 * self.scene.medium.E_star * self.states.contact_radius[index]
             d, force = np.append(depth, d), np.append(force[0] + stiff * (depth - d[0]), force)
@@ -206,6 +216,21 @@ def onset(scene: mdr.Scene, before: float = 0.0) -> mdr.Indentation | None:
     depth = before + scene.medium.critical_depth
     reached = depth <= min(scene.profile.known_depth, 1e300)
     return mdr.indent(scene.profile, scene.medium, depth) if reached else None
+
+
+def unloaded(scene: mdr.Scene, live: LiveInterval, share: Array, touching: Any) -> mdr.Indentation:
+    """States on unloading from live intervals, at shares (1 to 0) of the way to the pull-off."""
+    profile, medium, end = scene.profile, scene.medium, 0.0
+    if medium.work_of_adhesion > 0:
+        # Weak adhesion is seen only just before the pull-off.
+        share = share**3
+        low = adhesion.stable_ranges(profile, medium, adhesion.AT_DEPTH)[0][0]
+        end = adhesion.last_interval(live.lower, low).length
+    length = np.where(touching, end + share * (live.length - end), 0.0)
+    interval = LiveInterval(*np.broadcast_arrays(live.lower, live.lower + length, length))
+    stretched = np.where(touching, adhesion.stretch(medium, profile.contact_radius(interval.upper)), 0.0)
+    load = -medium.E_star * stretched
+    return mdr.Indentation(profile, medium, interval.upper - stretched, interval, load)
 
 
 def nearest(progress: Array, at: float) -> int:

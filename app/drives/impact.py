@@ -3,6 +3,7 @@
 import mdr_core as mdr
 
 from . import Course, Drive, nearest, path_progress
+from .press import slow
 
 #: Instants of an impact.
 INSTANTS = 120
@@ -28,7 +29,10 @@ class Impact(Drive):
         return mdr.FreeImpact(state.mass, state.speed, before)
 
     def follow(self, scene, progress):
+        """Motion of the body; with adhesion states without times, as if pressed and pulled off."""
         hit = scene.solve()
+        if scene.medium.work_of_adhesion > 0 and not scene.drive.plastic_depth:
+            return slow(scene, progress, hit.turning_point, hit)
         return along(scene, progress, hit, hit.motion(INSTANTS))
 
     def turning_point(self, scene):

@@ -93,10 +93,9 @@ class Player:
             self.frames.tags = []
         self.state.update(end=len(course) - 1, value=i)
         d, F, z = (view.axis(name) for name in ("d", "F", "z"))
+        pressing = course.hit is None and course.motion is None and not course.turns
         path = {"d": _rounded(course.states.depth / d.factor), "F": _rounded(course.force / F.factor)}
-        self.state.tags = [
-            path | {"unit": d.factor / z.factor, "pressing": course.motion is None and not course.turns}
-        ]
+        self.state.tags = [path | {"unit": d.factor / z.factor, "pressing": pressing}]
         self.heads.text = escape(readouts.heads(course, numbers))
         self.readout.text = escape(readouts.values(course, numbers, i))
 

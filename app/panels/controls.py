@@ -42,9 +42,9 @@ from ..ui import (
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
 #: Choices shown as radio buttons; others are lists.
-_RADIO = ("elasticity", "plasticity", "damping", "drive", "inertia", "surface", "aim", "body")
+_RADIO = ("elasticity", "plasticity", "damping", "adhesion", "drive", "inertia", "surface", "aim", "body")
 #: Choices about the medium that are one click away, unless they are in use.
-_MORE = ("elasticity", "plasticity", "damping", "inertia")
+_MORE = ("elasticity", "plasticity", "damping", "adhesion", "inertia")
 #: Numbers that other regions of the form have.
 _ELSEWHERE = {"drive": ("density",), "more": ("E_star", "q_c")}
 

@@ -15,7 +15,7 @@ from .readouts import readings, text
 
 #: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
 TOURS = json.loads((ASSETS / "tours.json").read_text(encoding="utf-8"))
-_INTRO = "Three scenes, each of a few steps. Next begins; Undo takes back what a step has set."
+_INTRO = "Guided scenes, each of a few steps. Next begins; Undo takes back what a step has set."
 _LEFT = "The page shows something else by now. Back and Next go on with the steps."
 
 

@@ -106,6 +106,8 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
     if course.hit is not None and state.inertia == "density":
         assumptions.append(course.hit.speed_limit(state.density))
     assumptions += friction_limits(course.scene.medium) if course.oblique is not None else ()
+    if course.hit is not None and course.hit.captured:
+        yield "note", "Adhesion holds the body: e = 0. Unloading is drawn as if it were pulled off."
     if course.pending:
         yield "note", course.pending
     given = state.elasticity != "modulus"
@@ -144,11 +146,12 @@ def summary(state: State) -> str:
     """Shape, medium and drive of a scene in one line."""
     made, drive = medium(state), DRIVES[state.drive]
     names = [name for name, _ in shape_quantities(state.shape)]
-    names += [name for name in ("E_star", "q_c", "eta") if 0 < getattr(made, name) < np.inf]
+    of_medium = ("E_star", "q_c", "eta", "work_of_adhesion")
+    names += [name for name in of_medium if 0 < getattr(made, name) < np.inf]
     names += USED["drive"][state.drive]
     names += ["plastic_depth"] * ("surface" in drive.form and state.surface == "imprint")
     words = [SHAPES[state.shape].label]
     for name in names:
-        value = float(getattr(made, name)) if name in ("E_star", "q_c", "eta") else state[name]
+        value = float(getattr(made, name)) if name in of_medium else state[name]
         words.append(f"{QUANTITIES[name].symbol} = {written(value, QUANTITIES[name].kind, 3)}")
     return ", ".join([*words, *drive.words(state)])

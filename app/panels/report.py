@@ -62,7 +62,7 @@ def _inputs(state: State, view: View):
     preset, shape, fit = PRESETS[state.preset], SHAPES[state.shape], state.curve and state.curve.fit
     note = state.tip_note if state.shape == "sampled" else f"{shape.height},  {shape.reduced}"
     yield "", "indenter", escape(shape.label), marked(note)
-    for choice in ("elasticity", "plasticity", "damping", "drive"):
+    for choice in ("elasticity", "plasticity", "damping", "adhesion", "drive"):
         yield "", LABELS[choice].lower(), CHOICES[choice][state[choice]], ""
     given = numbers_of(state)
     for name in dict.fromkeys([*given, "E_star", *["q_c"] * (state.plasticity != "none")]):

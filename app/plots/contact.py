@@ -74,6 +74,8 @@ def _feet(state, rows: dict, half: float, height: float) -> dict:
 
 
 def _spring_formula(course: Course) -> str:
+    if course.adhesive:
+        return "q = E* (u − Δl),  Δl = √(2π a w/E*)  § 19"
     law = "(1) (17) (18)  q = E* u + 4η du/dt" if course.dashpots else "(17) (18)  q = E* u"
     return f"{law},  u ≤ d_c the elastic part" + (";  |q_x| ≤ μ q  § 13" if course.oblique else "")
 
@@ -94,7 +96,7 @@ def pressure(view: View, i: int) -> dict:
 def _held_pressure(view: View) -> dict:
     def columns(course):
         r = figures.radii(course.state, view.end("x"))
-        return both(r, -1), both(np.minimum(course.state.pressure(r), 1e3 * view.end("p")))
+        return both(r, -1), both(figures.cut(course.state.pressure(r), view.end("p")))
 
     return view.held_curves("", columns)
 
@@ -108,7 +110,7 @@ PRESSURE = Plot(
 def _loading(course: Course):
     """Depths and contact radii of loading, dense at the start, where a(d) is vertical."""
     depth, a = course.states.depth[: course.peak + 1], course.states.contact_radius[: course.peak + 1]
-    if course.hit is None:
+    if course.motion is None:
         return depth, a
     fine = (
         course.initial_plastic_depth
@@ -184,7 +186,7 @@ def relief(view: View, i: int) -> dict:
                 np.append(np.linspace(-reach, reach, _POINTS), [s * e for e in edges for s in (-1, 1)])
             )
             x = x[np.abs(x) <= reach]
-            over = np.interp(np.hypot(x, y), r, np.minimum(p, view.end("p")), right=0.0)
+            over = np.interp(np.hypot(x, y), r, np.clip(p, 0.0, view.end("p")), right=0.0)
             at = (1 - _RIGHT) * x + _RIGHT * half * (2 * back - 1)
             closed = np.append(at, at[::-1]), _UP * end * back + np.append(over, 0 * x)
             rows[f"{name} {k}"] = closed if reach > 0 else NOTHING

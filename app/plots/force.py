@@ -5,6 +5,7 @@ import numpy as np
 from mdr_core.results.figures import NOTHING, area, label, line, mark, parts, split
 
 from ..drives import Course
+from ..state.units import written
 from .plot import Plot, View, held_rows
 
 #: Most samples of a measured curve that are drawn.
@@ -39,22 +40,29 @@ def force(view: View, i: int) -> dict:
     rows = {"now": view.mark(i, "d", "F"), "dₚ": (np.nan, np.nan, "")}
     if lower > 0:
         rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end("F"), "dₚ"
+    if course.adhesive:
+        last = int(np.argmin(course.force))
+        text = f"Fₐ = {written(course.pull_off_force[last], 'force', 3)}"
+        rows["Fₐ"] = course.states.depth[last] + right, course.force[last], text
     rows |= _curve(course, i + 1) if course.turns else {}
     if course.chained:
         # No live interval tells what is stored in elements that have each a memory of their own.
         return rows
     d, F = (np.asarray(part[: i + 1]) for part in (course.states.depth, course.force))
     back_d, back_F = course.unloading_curve(i)
-    elastic = lower == course.initial_plastic_depth and not course.dashpots
+    elastic = lower == course.initial_plastic_depth and not (course.dashpots or course.adhesive)
     # The path so far, and back along what is stored: dissipated is the loop that it encloses.
-    lost = np.concatenate([d[:1], d, back_d]), np.concatenate([[0.0], F, back_F])
+    lost = np.concatenate([d[:1], d, back_d, back_d[-1:]]), np.concatenate([[0.0], F, back_F, [0.0]])
     return rows | {
         "dissipated": NOTHING if elastic else lost,
-        "stored": (np.append(back_d[:1], back_d), np.append(0.0, back_F)),
+        # Tension takes work.
+        "stored": (np.append(back_d[:1], back_d), np.append(0.0, np.maximum(back_F, 0.0))),
     }
 
 
 def _formula(course: Course) -> str:
+    if course.adhesive:
+        return "F = 2E* [∫ a(s) ds − a Δl],  d_p < s < d + Δl  § 19"
     dashpots = " + 8η a dd/dt" * course.dashpots
     return f"(20) (22)  F = 2E* ∫ a(s) ds{dashpots},  d_p < s < d"
 
@@ -75,6 +83,7 @@ FORCE = Plot(
         *_CURVES,
         mark("now", size=13),
         label("dₚ"),
+        label("Fₐ"),
     ),
     force_still, force,
 )  # fmt: skip

@@ -135,12 +135,22 @@ class View:
                 made = replace(made, start=-min(self.course.scene.drive.friction, 1.0) * made.end)
             elif name == "t":
                 made = replace(made, start=min(float(self.course.motion.time[0]), 0.0))
+            elif name == "p" and any(each.adhesive for each in (self.course, *self.held)):
+                made = replace(made, start=-made.end)
+            elif name in ("d", "F"):
+                made = replace(made, start=0.0 - self._below(name, made))
             elif name != key:
                 least = _least(self.course)[key]
                 power = np.floor(np.log10(max(least, 1e-8 * made.end) / made.factor))
                 made = replace(made, start=float(10.0**power) * made.factor, log=True)
             self._axes[name] = made
         return self._axes[name]
+
+    def _below(self, name: str, made: Axis) -> float:
+        """Length (SI) of an axis of depth or force below zero, which adhesion needs."""
+        adhesive = (each.on_axes[name] for each in (self.course, *self.held) if each.adhesive)
+        least = min((np.min(values) for values in adhesive), default=0.0)
+        return round_up(-least / made.factor) * made.factor if least < 0 else 0.0
 
     def end(self, name: str) -> float:
         return self.axis(name).end
@@ -208,7 +218,9 @@ class View:
         infinite, k = np.isinf(p), int(np.argmax(np.where(np.isinf(p), -1.0, p)))
         if infinite.any():
             # A sharp tip that has not yielded is infinite on the axis, a flat face at its rim.
-            return "↑ −σzz → ∞ at the " + ("axis" if r[np.argmax(infinite)] == 0 else "rim")
+            at = np.argmax(infinite)
+            sign = "↑ −σzz → ∞" if p[at] > 0 else "↓ −σzz → −∞"
+            return f"{sign} at the " + ("axis" if r[at] == 0 else "rim")
         if p[k] <= self.end("p"):
             return ""
         where = "on the axis" if r[k] == 0 else f"at r = {written(r[k], 'length', 3)}"
@@ -219,9 +231,12 @@ def _sizes(course: Course) -> dict[str, float]:
     """Largest values (SI) on the axes."""
     states, first_yield = course.states, course.onset
     radius, depth = float(np.max(states.contact_radius)), float(np.max(states.depth))
+    # Twice the tension on the axis from adhesion alone.
+    state = course.turning_point
+    tension = -2 / np.pi * float(state.uniform_load / state.contact_radius) if course.adhesive else 0.0
     size = {"r": 1.25 * radius, "a": 1.14 * radius, "far": 2.1875 * radius, "z": depth, "d": 1.02 * depth}
     size["p"], size["F"] = (
-        1.05 * ceiling(course.turning_point, 1.25 * radius),
+        1.05 * max(ceiling(course.turning_point, 1.25 * radius), tension),
         1.05 * float(np.max(course.force)),
     )
     size["relief"] = 1.35 * size["p"]

@@ -40,7 +40,7 @@ def _preset(scene: dict, media: dict, indenters: dict) -> Preset:
     made = mdr.Medium.from_bodies(*(values[n] for n in USED["elasticity"]["bodies"]), q_c=values["q_c"])
     values["E_star"] = made.E_star
     choices = {"shape": indenter["shape"], "elasticity": "bodies", "plasticity": "q_c", "damping": "none"}
-    choices |= {"drive": "impact", "inertia": "density", "surface": "virgin"}
+    choices |= {"drive": "impact", "inertia": "density", "surface": "virgin", "adhesion": "none"}
     if "depth" in scene:
         choices["drive"], values["max_depth"] = "depth", float(scene["depth"] * made.critical_depth)
         sources["max_depth"] = f"{scene['depth']:g} times the depth at which yield begins"
@@ -137,7 +137,8 @@ def medium(state: Any) -> mdr.Medium:
     hardness = state.hardness * state.hardness_radius
     q_c = {"q_c": state.q_c, "hardness": hardness, "none": inf}[state.plasticity]
     eta = {"none": 0.0, "eta": state.eta, "tau": state.tau * made.E_star / 4}[state.damping]
-    return replace(made, q_c=q_c, eta=eta)
+    w = state.work_of_adhesion if state.adhesion == "work" else 0.0
+    return replace(made, q_c=q_c, eta=eta, work_of_adhesion=w)
 
 
 def with_derived(state: State) -> State:
@@ -150,7 +151,8 @@ def with_derived(state: State) -> State:
 def used(state: State, form: tuple[str, ...]) -> list[str]:
     """Names of the numbers in use; `form` has the choices of the drive."""
     names = [name for name, _ in shape_quantities(state.shape)]
-    choices = ["elasticity", "plasticity", "damping", "drive", *(part for part in form if part in USED)]
+    of_medium = ("elasticity", "plasticity", "damping", "adhesion")
+    choices = [*of_medium, "drive", *(part for part in form if part in USED)]
     return names + [name for choice in choices for name in USED[choice][state[choice]]]
 
 

@@ -192,7 +192,7 @@ def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
     x = half * (2 * (np.arange(SPRINGS) + 0.5) / SPRINGS - 1)
     g = reduced(profile, np.abs(x))
     left = np.fmax(interval.lower - g, 0.0)
-    contact = (interval.length > 0) & (g < interval.upper)
+    contact = (state.contact_radius > 0) & (g < interval.upper)
     top = np.where(contact, g - state.depth, -left - np.where(contact, 0.0, relaxing(g)))
     lean, stick = (0.0 * x, None) if along is None else along(np.abs(x))
     lean = np.where(contact, lean, 0.0)[:, None] * (half / 2 / height) * _ALONG
@@ -230,13 +230,18 @@ def ceiling(state, half):
     """Largest pressure (Pa) of a plot; where it is infinite, at most four times the mean."""
     p = state.pressure(radii(state, half))
     largest = float(np.max(p[np.isfinite(p)], initial=0.0))
-    return largest if np.isfinite(p).all() else min(largest, 4 * float(state.mean_pressure))
+    return largest if not np.isposinf(p).any() else min(largest, 4 * float(state.mean_pressure))
+
+
+def cut(p, top):
+    """Pressures (Pa) within an axis that ends at `top`, and at −`top` with adhesion."""
+    return np.clip(p, -top, 1e3 * top)
 
 
 def pressure(state, r, p, half, top):
     """Rows of the pressures p (Pa) at radii r (m), for axes that end at ±`half` and `top`."""
     a, c, mean = (float(v) for v in (state.contact_radius, state.plastic_radius, state.mean_pressure))
-    curve = both(r, -1), both(np.minimum(p, 1e3 * top))
+    curve = both(r, -1), both(cut(p, top))
     return at_radii(a, c, half, 0.0, top) | {
         "plastic zone r < c": (np.array([-c, c, c, -c]), np.array([0, 0, top, top])) if c else NOTHING,
         "below": curve,

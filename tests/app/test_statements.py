@@ -211,6 +211,68 @@ def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept():
     assert isinstance(page.share, Share)
 
 
+def adhesive(drive="depth", **more):
+    """A glass ball on rubber, w = 50 mJ/m², pressed to many times the critical depth."""
+    state = state_with("microsphere-pdms", drive, adhesion="work")
+    return changes.put(state, "work_of_adhesion", 0.05).replace(**more)
+
+
+@pytest.mark.parametrize("drive", ["depth", "force", "impact"])
+def test_adhesion_is_drawn_below_zero_to_the_pull_off(drive):
+    state = adhesive(drive, plasticity="none")
+    view = view_of(state, 2.0)
+    course, axis = view.course, view.axis("F")
+    pull_off = 1.5 * np.pi * 0.05 * state.paraboloid_radius
+    read = {each.name: values for each, values in readouts.readings(course).items()}
+    np.testing.assert_allclose(read["pull_off_force"], pull_off, rtol=1e-12)
+    assert view.rows(PLOTS["force"], course.now)["Fₐ"][2] == "Fₐ = 11.8 µN"
+    # The largest tension is between two states; it is flat there.
+    assert -np.min(course.force) == pytest.approx(pull_off, rel=1e-2)
+    assert axis.start <= -pull_off
+    assert view.axis("d").start <= np.min(course.states.depth) < 0
+    assert course.force[-1] == 0
+
+
+def test_after_yield_the_whole_imprint_is_pulled_off():
+    view = view_of(adhesive(), 2.0)
+    course = view.course
+    c = float(course.state.plastic_radius)
+    kendall = np.sqrt(8 * np.pi * 0.05 * course.scene.medium.E_star * c**3)
+    assert float(course.state.force) == pytest.approx(-kendall, rel=1e-12)
+    # All springs reach above the flat bottom of the imprint, to the lifted indenter.
+    x, z = springs(view, course.now)["yielded"]
+    stretch = np.sqrt(2 * np.pi * c * 0.05 / course.scene.medium.E_star)
+    tops = z.reshape(-1, 9)[np.abs(x.reshape(-1, 9)[:, 0]) < c, 7]
+    left = course.states.plastic_depth[-1] - course.scene.profile.reduced(np.abs(x.reshape(-1, 9)[:, 0]))
+    np.testing.assert_allclose(tops + left, stretch, rtol=1e-9)
+    row = view.rows(PLOTS["pressure"], course.now)["−σzz(r)"][1]
+    assert np.min(row) == view.axis("p").start == -view.axis("p").end
+    assert "−∞ at the rim" in view.exceeds(course.now)
+
+
+def test_adhesion_has_a_link_and_is_refused_where_it_is_not_computed():
+    state = adhesive()
+    again = link.read(written(state))
+    assert (again.adhesion, again.work_of_adhesion) == ("work", 0.05)
+    assert "w = 50.0 mJ/m²" in readouts.summary(again)
+    assert "adhesion" not in written(preset_state())
+    for choices in ({"drive": "oblique"}, {"damping": "eta"}, {"drive": "impact", "surface": "imprint"}):
+        with pytest.raises(ValueError, match="adhesion"):
+            follow(adhesive().replace(**choices))
+
+
+def test_the_guide_shows_between_which_speeds_a_body_bounces():
+    courses = [
+        follow(step_state(each, preset_state())) for each in TOURS["It bounces only between two speeds"]
+    ]
+    assert [bool(course.hit.captured) for course in courses] == [False, True, True]
+    forces = [
+        float(follow(step_state(each, preset_state())).states.pull_off_force[-1])
+        for each in TOURS["Harder pressed, harder to pull off"]
+    ]
+    assert forces[0] < forces[1] == forces[2] < forces[3]
+
+
 def test_a_reset_stands_at_the_deepest_state():
     page = Page()
     page.apply(lambda state: state.replace(progress=0.0))
