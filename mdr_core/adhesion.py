@@ -334,12 +334,13 @@ def stiffness(state):
 
 def pull_off_integral(profile, medium, interval):
     """Pull-off force over 2E* (m²): the largest tension on unloading a state with the live interval."""
-    result = 0.0
+    radius = profile._radius(interval.upper)
+    result = -tension_integral(profile, interval, radius, stretch(medium, radius))
     for number, low in enumerate(stable_ranges(profile, medium, AT_FORCE)[0]):
         end = last_interval(interval.lower, low)
         radius = profile._radius(end.upper)
         tension = -tension_integral(profile, end, radius, stretch(medium, radius))
-        # The rim has been in a further range only if it is now.
+        # The rim has been in a further range only if it is now; held by the depth, it pulls most at once.
         result = np.where((number == 0) | (low <= interval.upper), np.maximum(tension, result), result)
     return result
 

@@ -320,3 +320,11 @@ def test_limits_say_tabors_parameter():
 def test_what_is_not_modelled_is_refused(call, words):
     with pytest.raises(ValueError, match=words):
         call()
+
+
+def test_pull_off_of_a_rim_that_only_a_given_depth_holds():
+    """Outside the edge of the face the tension falls on unloading: the present one is the largest."""
+    medium = mdr.Medium(1e6, work_of_adhesion=0.05)
+    path = mdr.indent(mdr.TruncatedCone(1e-6, 0.05), medium, [0.0, 1e-7, 0.5e-7, 0.0])
+    assert (np.diff(path.force[1:]) > 0).all()
+    np.testing.assert_allclose(path.pull_off_force[1:], -path.force[1:], rtol=1e-12)
