@@ -72,6 +72,17 @@ def stable_ranges(profile, medium, share):
     return np.moveaxis(ends, -1, 0)[:, None] * depth
 
 
+def single_range(profile, medium, share):
+    """Start D (m) of the stable range, if there is only one."""
+    low, _ = stable_ranges(profile, medium, share)
+    if len(low) > 1:
+        raise ValueError(
+            "the rim of this contact jumps, which only indent follows, along one path of depths; over "
+            "samples of a smooth tip it jumps from facet to facet: take Smooth with the slope of a fit"
+        )
+    return low[0]
+
+
 def _power_range(profile, threshold, exponent):
     """Start D (m) of the stable range of g ∝ xⁿ, in which √a g′(a) grows as a^(n − 1/2)."""
     bound = "is 1/2 or less: with adhesion the contact spreads without limit"
@@ -160,31 +171,25 @@ def contact_interval(profile, medium, lower, live_depth, low, high):
 
 def depth_path(profile, medium, depth):
     """Live intervals and line loads −E*Δl (N/m) along paths of depths (m), 0 out of contact."""
-    shape = np.shape(depth)
-    paths = np.reshape(depth, (*shape[:-1], -1)) if shape else np.reshape(depth, 1)
+    paths = np.atleast_1d(depth)
     results = np.zeros((4, *paths.shape))
     for row in np.ndindex(paths.shape[:-1]):
         one = tuple(each.entries((*row, 0), (*paths.shape[:-1], 1)) for each in (profile, medium))
         results[(slice(None), *row)] = _one_path(*one, paths[row])
-    *interval, load = results.reshape(4, *shape)
+    *interval, load = results.reshape(4, *np.shape(depth))
     return LiveInterval(*interval), load
 
 
 def first_contacts(profile, medium, depth):
     """Live intervals and line loads (N/m) of first loadings to depths (m), elementwise."""
-    low, _ = stable_ranges(profile, medium, AT_DEPTH)
-    if len(low) > 1:
-        raise ValueError("the rim of this contact jumps; press it along a path by indent")
+    low = single_range(profile, medium, AT_DEPTH)
     lower, touching = plastic_depth(depth, medium.critical_depth), depth >= 0
     live_depth = np.maximum(np.where(lower > 0, medium.critical_depth, depth), 0.0)
-    interval, stretched = contact_interval(profile, medium, lower, live_depth, low[0], profile.known_depth)
+    interval, stretched = contact_interval(profile, medium, lower, live_depth, low, profile.known_depth)
     _check.refuse("depth", depth, np.isnan(stretched), f"presses {profile._too_deep()}", unit="m")
-    parts = (
-        interval.lower,
-        np.where(touching, interval.upper, lower),
-        np.where(touching, interval.length, 0.0),
-    )
-    return LiveInterval(*parts), np.where(touching, -medium.E_star * stretched, 0.0)
+    pairs = (interval.upper, lower), (interval.length, 0.0), (-medium.E_star * stretched, 0.0)
+    upper, length, load = (np.where(touching, *pair) for pair in pairs)
+    return LiveInterval(interval.lower, upper, length), load
 
 
 def _one_path(profile, medium, depth):
@@ -226,8 +231,6 @@ def _ranges_along(live_depth, first, last):
             number = next(i for i, each in enumerate(begin) if each < np.inf)
         while number >= 0 and depth < begin[number]:
             number -= 1
-            while number >= 0 and begin[number] == np.inf:
-                number -= 1
         while 0 <= number < len(end) - 1 and depth > end[number]:
             number += 1
         numbers.append(number)
@@ -240,12 +243,11 @@ def force_path(profile, medium, force):
     Under tension that is larger than the pull-off force the contact is lost: the depth is then that of
     the bottom of the imprint. A force that is not negative closes the contact again.
     """
-    low = _single_range(profile, medium)
+    low = single_range(profile, medium, AT_FORCE)
     target, d_c, touches = force / (2 * medium.E_star), medium.critical_depth, force >= 0
-    axis = {"axis": -1} if force.ndim else {}
-    largest = np.where(touches, target, 0.0)
-    largest = np.maximum.accumulate(largest, **axis) if force.ndim else largest
-    known = profile.known_depth
+    largest, ever, known = np.where(touches, target, 0.0), touches, profile.known_depth
+    if force.ndim:
+        largest, ever = (np.maximum.accumulate(each, axis=-1) for each in (largest, ever))
 
     def loading(upper):
         interval, stretched = loaded_interval(profile, medium, upper)
@@ -261,9 +263,7 @@ def force_path(profile, medium, force):
         "force", force, ~((upper <= known) & rises), bound, unit="N", remedy="press to a depth instead"
     )
     loaded, _ = loaded_interval(profile, medium, upper)
-    lower, limit = loaded.lower, loaded.length
-    ever = np.maximum.accumulate(touches, **axis) if force.ndim else touches
-    lower = np.where(ever, lower, 0.0)
+    lower, limit = np.where(ever, loaded.lower, 0.0), loaded.length
 
     def unloading(length):
         interval = LiveInterval(lower, lower + length, length)
@@ -276,25 +276,13 @@ def force_path(profile, medium, force):
         last = [np.maximum.accumulate(np.where(each, order, -1), axis=-1) for each in (touches, lost)]
         touches = ever & (last[0] > last[1])
     length = np.where(target == largest, limit, crossing(unloading, limit, bottom, limit))
+    # Without contact the depth is that of the bottom.
     length = np.where(touches, length, 0.0)
     stretched = np.where(touches, stretch(medium, profile._radius(lower + length)), 0.0)
     yielding = touches & (target == largest) & (lower > 0)
     depth = lower + np.where(yielding, d_c, length - stretched)
     length = np.where(yielding, d_c + stretched, length)
-    # Without contact the depth is that of the bottom.
-    return (
-        np.where(touches, depth, lower),
-        LiveInterval(lower, lower + length, length),
-        -medium.E_star * stretched,
-    )
-
-
-def _single_range(profile, medium):
-    """Start D (m) of the stable range at given force, if there is only one."""
-    low, _ = stable_ranges(profile, medium, AT_FORCE)
-    if len(low) > 1:
-        raise ValueError("under a given force the rim of this contact jumps; prescribe the depth instead")
-    return low[0]
+    return depth, LiveInterval(lower, lower + length, length), -medium.E_star * stretched
 
 
 def loaded_interval(profile, medium, upper, before=0.0):
@@ -334,14 +322,16 @@ def stiffness(state):
 
 def pull_off_integral(profile, medium, interval):
     """Pull-off force over 2E* (m²): the largest tension on unloading a state with the live interval."""
-    radius = profile._radius(interval.upper)
-    result = -tension_integral(profile, interval, radius, stretch(medium, radius))
+
+    def tension(interval):
+        radius = profile._radius(interval.upper)
+        return -tension_integral(profile, interval, radius, stretch(medium, radius))
+
+    result = tension(interval)
     for number, low in enumerate(stable_ranges(profile, medium, AT_FORCE)[0]):
-        end = last_interval(interval.lower, low)
-        radius = profile._radius(end.upper)
-        tension = -tension_integral(profile, end, radius, stretch(medium, radius))
+        largest = np.maximum(tension(last_interval(interval.lower, low)), result)
         # The rim has been in a further range only if it is now; held by the depth, it pulls most at once.
-        result = np.where((number == 0) | (low <= interval.upper), np.maximum(tension, result), result)
+        result = np.where((number == 0) | (low <= interval.upper), largest, result)
     return result
 
 

@@ -54,7 +54,7 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     check_pair(profile, medium)
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
     depth = profile._known(paths_on(profile, medium, depth))
-    if np.any(np.asarray(medium.work_of_adhesion) > 0):
+    if np.any(medium.work_of_adhesion):
         return Indentation(profile, medium, depth, *adhesion.depth_path(profile, medium, depth))
     return Indentation(profile, medium, depth, path_intervals(depth, medium.critical_depth))
 

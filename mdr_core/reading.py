@@ -18,6 +18,8 @@ _WORDS = {
     "force": r"force|load|deflection|kraft|last|\b[fp]\b",
     "time": r"time|zeit|\bt\b",
 }
+#: Names of columns of the depth itself, not of the position of a piezo or of the depth below the contact.
+_DEPTH = re.compile("(?!.*(piezo|displ|height|contact)).*(depth|indent|tiefe)", re.I)
 #: Sizes of the units of each quantity (SI); a minus turns the sign of a column.
 SIZES = {
     name: UNITS[kind] | {f"−{unit}": -size for unit, size in UNITS[kind].items()}
@@ -109,11 +111,11 @@ class MeasuredCurve(Report):
 
 def curve_of(table, name, columns=None, units=None):
     """`MeasuredCurve` of a table, with given columns and units, or those of its names and numbers."""
-    columns = columns or _columns(table, name)
+    columns, remarks = (columns, []) if columns else _columns(table, name)
     used = {quantity: column for quantity, column in columns.items() if column is not None}
     values = {quantity: table.values[:, column] for quantity, column in used.items()}
     rows = np.flatnonzero(np.isfinite(list(values.values())).all(axis=0))
-    remarks = _omissions(table, rows, name)
+    remarks = _omissions(table, rows, name) + remarks
     if rows.size < 2:
         raise ValueError(f"{name} has one row of numbers: give a curve, a sample a line")
     if "time" in values:
@@ -135,20 +137,30 @@ def curve_of(table, name, columns=None, units=None):
 
 
 def _columns(table, name):
-    """Columns of depth, force and time by their units, names and order."""
+    """Columns of depth, force and time by their units, names and order, and remarks on the choice."""
     units, count = [table.unit(column) for column in range(len(table.heads))], len(table.heads)
     if count < 2:
         raise ValueError(f"{name} has one column of numbers: give one of depth and one of force")
-    columns, left = {}, list(range(count))
+    columns, left, remarks = {}, list(range(count)), []
+    named_at_all = any(units) or re.search("|".join(_WORDS.values()), "\n".join(table.heads), re.I)
     for quantity in ("time", "force", "depth"):
         kind, score = UNITS[_KINDS[quantity]], {}
         for column in left:
-            unit, named = units[column], bool(re.search(_WORDS[quantity], table.heads[column], re.I))
+            unit, head = units[column], table.heads[column]
+            named = bool(re.search(_WORDS[quantity], head, re.I))
             # Units of other kinds exclude a column, unknown ones if it is not named either.
             if unit is None or unit in kind or (unit == "" and named):
                 score[column] = 2 * (unit in kind) + named
-        best = max(score, key=score.get, default=None)
-        if quantity == "time" and (count < 3 or not score.get(best)):
+        best = max(score, key=lambda i: (score[i], *_preference(table.heads[i])), default=None)
+        others = [i for i in score if i != best and score[i] >= max(1, min(2, score[best]))]
+        if others:
+            text = ", ".join(repr(table.heads[i]) for i in others)
+            remarks.append(f"{quantity} is taken from {table.heads[best]!r}, not from {text}")
+        if quantity == "time" and count > 2 and not named_at_all:
+            best = _ascending_column(table.values)
+            if best is not None:
+                remarks.append(f"no names: column {best + 1} is taken as time, as it grows in equal steps")
+        elif quantity == "time" and (count < 3 or not score.get(best)):
             best = None
         elif quantity == "force" and score.get(best) == 0 and len(score) > 1:
             # Without names depth stands first.
@@ -160,7 +172,25 @@ def _columns(table, name):
             )
         columns[quantity] = best
         left = [column for column in left if column != best]
-    return {quantity: columns[quantity] for quantity in _KINDS}
+    return {quantity: columns[quantity] for quantity in _KINDS}, remarks
+
+
+def _preference(head):
+    """Whether a column is no raw one, and says that it is the depth; of those that fit otherwise."""
+    return "raw" not in head.lower(), _DEPTH.match(head) is not None
+
+
+def _ascending_column(values):
+    """The first column that grows in equal steps, if two others turn round by a fifth; else None."""
+    values = values[np.isfinite(values).all(axis=1)]
+    if len(values) < 3:
+        return None
+    steps, (first, last) = np.diff(values, axis=0), values[[0, -1]]
+    even = np.all((steps > 0) & (steps > 0.5 * steps.mean(axis=0)), axis=0)
+    high, low = values.max(axis=0), values.min(axis=0)
+    turn = np.maximum(high - np.maximum(first, last), np.minimum(first, last) - low)
+    turns = np.count_nonzero(turn > 0.2 * (high - low)) >= 2
+    return int(np.argmax(even)) if turns and even.any() else None
 
 
 def _omissions(table, rows, name):

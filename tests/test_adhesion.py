@@ -303,6 +303,46 @@ def test_limits_say_tabors_parameter():
     assert not any("Tabor" in each.what for each in mdr.indent(mdr.Cone(SLOPE), ELASTIC, 1e-9).limits)
 
 
+@pytest.mark.parametrize(("count", "exceeded"), [(20, True), (50, True), (200, False), (1000, False)])
+def test_limits_say_what_facets_change(count, exceeded):
+    """The pull-off of a paraboloid is 3π w R/2; the facets here reach 20 of its contact radii."""
+    r = np.linspace(0, 20 * (9 * math.pi * W * R**2 / (8 * E_STAR)) ** (1 / 3), count)
+    tip = mdr.Sampled(r, r**2 / (2 * R))
+    state = mdr.indent(tip, ELASTIC, 1e-9)
+    (limit,) = (each for each in state.limits if each.what == "facets")
+    error = state.pull_off_force / (1.5 * math.pi * W * R) - 1
+    assert limit.exceeded == exceeded == (error > limit.bound)
+    if not exceeded:
+        # With many facets in the contact the estimate is good to its leading term.
+        assert limit.value == pytest.approx(error, rel=0.3)
+
+
+def test_samples_of_a_cone_have_no_facets():
+    """Their slope is one; neither have samples without adhesion."""
+    r = np.linspace(0, 1e-6, 50)
+    for tip, medium in (((r, SLOPE * r), ELASTIC), ((r, r**2 / R), mdr.Medium(E_STAR))):
+        limits = mdr.indent(mdr.Sampled(*tip), medium, 1e-9).limits
+        assert "facets" not in {each.what for each in limits}
+    media = mdr.Medium(E_STAR, work_of_adhesion=np.array([[0.0], [W]]))
+    limits = mdr.indent(mdr.Sampled(r[::9], r[::9] ** 2 / R), media, [[0.0]]).limits
+    assert "facets" in {each.what for each in limits}
+
+
+def test_a_rim_that_jumps_from_facet_to_facet_names_the_way_out():
+    """A smooth tip of the same shape bounces as the paraboloid does, to the rounding of the fit."""
+    r = np.linspace(0, 1e-7, 200)
+    fit = np.polynomial.Polynomial.fit(r**2, r**2 / (2 * R), 1, domain=[0, 1e-14])
+    samples, smooth = mdr.Sampled(r, r**2 / (2 * R)), mdr.Smooth(lambda x: 2 * x * fit.deriv()(x**2), 1e-6)
+    for call in (
+        lambda tip: mdr.impact(tip, ELASTIC, 1e-15, 0.1).restitution,
+        lambda tip: mdr.capture_speeds(tip, ELASTIC, 1e-15)[0],
+        lambda tip: mdr.indent_to_force(tip, ELASTIC, 1e-9).depth,
+    ):
+        with pytest.raises(ValueError, match="from facet to facet: take Smooth"):
+            call(samples)
+        assert call(smooth) == pytest.approx(call(mdr.Paraboloid(R)), rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("call", "words"),
     [

@@ -195,6 +195,10 @@ class TestIndentation:
             ({"depth": [], "force": []}, "are empty"),
             ({"force": np.ma.masked_less(OUT, 0.0)}, "force has masked samples"),
             ({"depth": OUT[:3], "force": OUT[:3]}, "hold some"),
+            ({"depth": [OUT, OUT], "force": [OUT, OUT[:-1]]}, r"curve 1: depth\[1\] \d+, force\[1\] \d+"),
+            ({"depth": [OUT, OUT[:0]], "force": [OUT, OUT[:0]]}, "curve 1: 0 samples do not determine"),
+            ({"depth": [OUT, OUT], "force": [OUT, OUT * np.nan]}, "curve 1: 0 samples do not determine"),
+            ({"force": 1e-200 * curve(mdr.Cone(0.3))}, "range of force.* N must be at least 1e-60"),
         ],
     )
     def test_refusals(self, change, message):

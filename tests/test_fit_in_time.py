@@ -188,6 +188,12 @@ class TestSamples:
             assert fits[i].residuals == pytest.approx(single.residuals, rel=1e-6)
             assert fits[i].remarks == single.remarks
         assert np.isnan(fits.residuals[1, 120:]).all()
+        for chosen in ([False, True, True], [1, 2], np.array([1, 2]), slice(1, None)):
+            assert fits[chosen].medium == fits[1:].medium
+            assert fits[chosen].depth.shape == fits[chosen].path.shape == (2, 150)
+            assert fits[chosen][1].remarks == fits[2].remarks
+        with pytest.raises(IndexError, match="one axis, the curves"):
+            fits[np.zeros((2, 2), int)]
 
     def test_remarks_are_in_the_order_of_their_importance(self):
         """Wrong units come before all else, samples left out last; so do they of many curves."""
@@ -212,7 +218,7 @@ class TestSamples:
             ({"eta": -1.0, "time": np.arange(180.0)}, "eta"),
             ({"time": np.arange(179.0)}, "of one shape"),
             ({"force_noise": np.zeros(180)}, "force_noise"),
-            ({"depth": [DEPTH, DEPTH[:9]], "force": [DEPTH, DEPTH[:8]]}, "of one shape"),
+            ({"depth": [DEPTH, DEPTH[:9]], "force": [DEPTH, DEPTH[:8]]}, "curve 1: depth"),
             ({"force": np.full(180, np.inf)}, "finite"),
         ],
     )

@@ -127,15 +127,25 @@ F_CONE = mdr.indent(mdr.Cone(0.3), mdr.Medium(E), DEPTH).force
         (DEPTH, -F_CONE, {}, "depth and force must fall"),
         (DEPTH, F_CONE[:-1], {}, "must be of one curve"),
         (DEPTH[None], F_CONE[None], {}, "must be of one curve"),
-        (DEPTH, np.where(DEPTH > 5e-8, np.nan, F_CONE), {}, "must be finite"),
+        (DEPTH, np.where(DEPTH > 5e-8, np.inf, F_CONE), {}, "must be finite"),
+        (DEPTH, np.full(DEPTH.size, np.nan), {}, "have no samples"),
         (DEPTH, F_CONE, {"epsilon": -1.0}, "epsilon"),
         (DEPTH, F_CONE, {"beta": 0.0}, "beta"),
-        ([], [], {}, "must be of one curve"),
+        ([], [], {}, "have no samples"),
     ],
 )
 def test_curves_without_an_unloading_are_refused(depth, force, options, says):
     with pytest.raises(ValueError, match=says):
         mdr.oliver_pharr(mdr.Cone(0.3), depth, force, **options)
+
+
+def test_samples_with_nan_are_left_out():
+    """As by `fit_indentation`; every seventh sample has one here, in depth or force."""
+    depth, force = DEPTH.copy(), F_CONE.copy()
+    depth[::14], force[7::14] = np.nan, np.nan
+    used = np.arange(DEPTH.size) % 7 > 0
+    left_out = mdr.oliver_pharr(mdr.Cone(0.3), DEPTH[used], F_CONE[used])
+    assert mdr.oliver_pharr(mdr.Cone(0.3), depth, force).to_dict() == left_out.to_dict()
 
 
 def test_an_ensemble_of_profiles_is_refused():

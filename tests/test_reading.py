@@ -79,6 +79,43 @@ def test_time_is_read_in_its_unit_and_left_out_where_it_starts_again(read):
     assert "the time does not ascend" in again.remarks[0]
 
 
+@pytest.mark.parametrize(
+    ("heads", "other"),
+    [
+        ("Piezo displacement (nm), Indentation depth (nm)", 0),
+        ("depth (nm), Contact depth (nm)", 1),
+        ("Height measured (nm), Indentation (nm)", 0),
+        ("displacement, depth", 0),
+        ("h (nm), h corrected (nm)", 1),
+        ("Raw Displacement (nm), Displacement Into Surface (nm)", 0),
+    ],
+)
+def test_of_two_depths_the_one_that_says_depth_is_taken_and_said(read, heads, other):
+    columns = [DEPTH, DEPTH, FORCE]
+    columns[other] = 2 * np.array(DEPTH)
+    curve = read(text(columns, [f"{heads}, Load (mN)"]))
+    taken, left = (heads.split(", ")[i] for i in (1 - other, other))
+    assert curve.columns["depth"] == 1 - other
+    assert f"depth is taken from {taken!r}, not from {left!r}" in curve.remarks
+
+
+@pytest.mark.parametrize("place", [0, 1, 2])
+def test_a_time_without_a_name_is_no_depth(read, place):
+    """It grows in equal steps while depth and force turn round; here it is 0.5 s a sample."""
+    depth, force = [0, 2, 4, 3, 2], [0, 1, 4, 2, 0]
+    columns = [depth, force]
+    columns.insert(place, 0.5 * np.arange(5))
+    assert read(text(columns, ["a, b, c"])).columns["time"] == place
+    curve = read(text(columns, [""]))
+    np.testing.assert_allclose(curve.depth, 1e-9 * np.array(depth))
+    np.testing.assert_allclose(curve.force, 1e-6 * np.array(force))
+    np.testing.assert_allclose(curve.time, 0.5 * np.arange(5))
+    assert any(f"column {place + 1} is taken as time" in remark for remark in curve.remarks)
+    # Where nothing turns round the steps of a depth may be equal, too: the order counts.
+    loading = read(text([column[:3] for column in columns], [""]))
+    assert (loading.columns["depth"], loading.time) == (0, None)
+
+
 def test_an_unloading_alone_keeps_its_signs(read):
     """Depth and force fall from the start on; where both are reversed the force is larger at the end."""
     down = read("h (nm), F (mN)\n9, 5\n8, 3\n7, 1\n")

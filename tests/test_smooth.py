@@ -59,6 +59,13 @@ def test_shapes_that_cannot_be_solved_are_refused(slope, says):
         _ = mdr.indent(mdr.Smooth(slope), MEDIUM, 200 * D_C).force
 
 
+def test_a_polynomial_is_a_slope():
+    """NumPy's polynomials are not hashable, profiles are: the slope r/R is that of the paraboloid."""
+    tip, medium = mdr.Smooth(np.polynomial.Polynomial([0.0, 1 / R])), mdr.Medium(1e9, work_of_adhesion=0.01)
+    force = mdr.indent(tip, medium, 1e-9).force
+    assert force == pytest.approx(mdr.indent(mdr.Paraboloid(R), medium, 1e-9).force, rel=1e-12)
+
+
 @pytest.mark.parametrize(("radius", "depth"), [(10.0, 1e9), (np.inf, 1e50)])
 def test_depths_beyond_the_end_are_refused_far_out_too(radius, depth):
     """Where the search for the contact radius has passed from 1 m to the end of the shape."""

@@ -17,7 +17,7 @@ from ..adhesion import (
     crossing,
     last_interval,
     loaded_interval,
-    stable_ranges,
+    single_range,
     stretch,
     stretch_rate,
     tension_and_energy,
@@ -25,14 +25,6 @@ from ..adhesion import (
 from ..medium import Medium, check_pair
 from ..shapes.profile import Profile
 from .energy_balance import plastic_integral, tabulated_for, turning_interval
-
-
-def _stable_start(profile, medium):
-    """Start D (m) of the only stable range at given depth."""
-    low, _ = stable_ranges(profile, medium, AT_DEPTH)
-    if len(low) > 1:
-        raise ValueError("the rim of this contact jumps during an impact, which is not computed")
-    return low[0]
 
 
 def _energy(profile, medium, interval):
@@ -43,14 +35,14 @@ def _energy(profile, medium, interval):
 def touching(profile, medium, before):
     """Live interval (m) and energy (m³) after the jump into contact at an imprint's depth `before` (m)."""
     before = np.asarray(before) if np.any(before) else np.zeros(())
-    low = _stable_start(profile, medium)
+    low = single_range(profile, medium, AT_DEPTH)
     interval, _ = contact_interval(profile, medium, before, np.zeros_like(before), low, np.inf)
     return interval, _energy(profile, medium, interval)
 
 
 def pull_off(profile, medium, lower):
     """Live interval (m) and energy (m³) where the contact is lost over an imprint of depth `lower` (m)."""
-    interval = last_interval(np.asarray(lower), _stable_start(profile, medium))
+    interval = last_interval(np.asarray(lower), single_range(profile, medium, AT_DEPTH))
     return interval, _energy(profile, medium, interval)
 
 
@@ -62,11 +54,6 @@ def _loading(profile, medium, upper, before):
     plastic = plastic_integral(profile, interval, medium.critical_depth, interval.lower - before)
     rate = 1 - stretch_rate(profile, radius, stretched) / (2 * radius)
     return energy + plastic, tension * rate
-
-
-def entries_of(thing, rows, shape):
-    """A profile or a medium at rows (a slice) of the flattened `shape` of an ensemble."""
-    return thing if not thing.shape else Profile.flat_entries(thing, rows, shape)
 
 
 def adhesive_turning_interval(profile, medium, target, before):
@@ -81,7 +68,7 @@ def adhesive_turning_interval(profile, medium, target, before):
     upper = np.empty(target.size)
     for rows in chunks(target.size, LONG):
         goal, first, least, imprint = (array[rows] for array in arrays)
-        entries, own = (entries_of(thing, rows, shape) for thing in (profile, medium))
+        entries, own = (Profile.flat_entries(thing, rows, shape) for thing in (profile, medium))
 
         def work(x, goal=goal, imprint=imprint, entries=entries, own=own):
             value, slope = _loading(entries, own, x, imprint)
@@ -105,7 +92,7 @@ def adhesive_contact_time(profile, medium, inertia, speed, interval, increase):
     before = interval.lower - increase
     start, _ = touching(profile, medium, before)
     end, lost = pull_off(profile, medium, interval.lower)
-    low = _stable_start(profile, medium)
+    low = single_range(profile, medium, AT_DEPTH)
     yielding, _ = contact_interval(
         profile, medium, before, np.where(increase > 0, medium.critical_depth, 0.0), low, np.inf
     )

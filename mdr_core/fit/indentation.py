@@ -174,9 +174,13 @@ def _fixed(name, value, count):
 def _refuse_empty(measured, fixed):
     depth, force = (np.where(measured.used, values, np.nan) for values in (measured.depth, measured.force))
     free = [name for name in PARAMETERS if name not in fixed]
-    count, names = np.count_nonzero(measured.used, axis=1).min(), ", ".join(free)
-    if count <= len(free):
-        raise ValueError(f"{count} samples do not determine {names}: hold some of these, or give more")
+    counts, names = np.count_nonzero(measured.used, axis=1), ", ".join(free) or "a residual"
+    i = int(counts.argmin())
+    if counts[i] <= len(free):
+        which = "" if measured.single else f"curve {i}: "
+        raise ValueError(
+            f"{which}{counts[i]} samples do not determine {names}: hold some of these, or give more"
+        )
     lowest, highest = np.nanmin(force, axis=1), np.nanmax(force, axis=1)
     width = np.nanmax(depth, axis=1) - np.nanmin(depth, axis=1)
     _check.refuse("range of depth", width, width == 0, "m: the indenter does not move", remedy="check it")
@@ -184,7 +188,8 @@ def _refuse_empty(measured, fixed):
     bound, remedy = "above the baseline: no contact", "forces are positive in compression; or free baseline"
     _check.refuse("largest force", rise, rise <= 0, bound, unit="N", remedy=remedy)
     height = highest - lowest
-    _check.refuse("range of force", height, height == 0, "N: it is constant", remedy="check it")
+    bound = f"must be at least {_check.SMALLEST:g}"
+    _check.refuse("range of force", height, height < _check.SMALLEST, bound, unit="N", remedy="check it")
 
 
 def _table_depth(profile, depth, fixed):

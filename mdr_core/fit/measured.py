@@ -72,6 +72,10 @@ def measurement(depth, force, time, force_noise):
     ndim = len(shapes["depth"])
     lengths = [tuple(map(np.size, rows)) for rows, _ in given.values()] if ndim > 1 else [shapes["depth"]]
     if len(set(shapes.values())) > 1 or len(set(lengths)) > 1 or not 1 <= ndim <= 2:
+        for i, counts in enumerate(zip(*lengths, strict=False) if ndim == 2 else ()):
+            if len(set(counts)) > 1:
+                shown = ", ".join(f"{name}[{i}] {n}" for name, n in zip(given, counts, strict=True))
+                raise ValueError(f"curve {i}: {shown} samples must be equally many")
         shown = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
         raise ValueError(f"{shown} must be of one shape, (N,) for a curve or (R, N) for many")
     if not values["depth"].size:

@@ -34,6 +34,7 @@ def oliver_pharr(
         The indenter.
     depth, force : array_like
         Depths (m) from first contact on and forces (N) above the baseline, (N,), in the order of time.
+        Samples with NaN are left out.
     epsilon : float, optional
         Constant ε: 1 for a flat punch, 3/4 for a paraboloid, 2 − 4/π for a cone.
     beta : float, optional
@@ -61,10 +62,14 @@ def oliver_pharr(
     1e+10 1.5e+09 2
     """
     check_pair(profile, Medium(1.0), "an unloading")
-    depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
-    force = _check.finite_array("force", force, unit="N", most=_check.LARGEST)
-    if depth.shape != force.shape or depth.ndim != 1 or not depth.size:
+    depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST, missing=True)
+    force = _check.finite_array("force", force, unit="N", most=_check.LARGEST, missing=True)
+    if depth.shape != force.shape or depth.ndim != 1:
         raise ValueError(f"depth {depth.shape} and force {force.shape} must be of one curve, (N,) both")
+    used = np.isfinite(depth) & np.isfinite(force)
+    depth, force = depth[used], force[used]
+    if not depth.size:
+        raise ValueError("depth and force have no samples: five or more of an unloading are needed")
     epsilon = _check.positive_number("epsilon", epsilon, zero=True)
     beta = _check.positive_number("beta", beta)
 

@@ -70,6 +70,10 @@ class IndentationFit(Fit):
     def __getitem__(self, index: Any) -> "IndentationFit":
         if not self.shape:
             return super().__getitem__(index)
+        curves = np.arange(len(self))[index]
+        if curves.ndim > 1:
+            raise IndexError("a fit has one axis, the curves: its index is a number, a slice or a list")
+        index = index if isinstance(index, slice) else curves
         longest = np.max(self._lengths[index], initial=0)
         noise = self.force_noise[index]
         samples = {name: getattr(self, name) for name in _OF_SAMPLES}
@@ -79,7 +83,7 @@ class IndentationFit(Fit):
             standard_errors={name: error[index] for name, error in self.standard_errors.items()},
             path=self.path[index][..., :longest],
             force_noise=noise[..., :longest] if self.force_noise.ndim > 1 else noise,
-            _remarks=self._remarks[index] if isinstance(index, slice) else (self._remarks[index],),
+            _remarks=tuple(self._remarks[i] for i in curves.ravel()),
             _lengths=self._lengths[index],
             **{name: getattr(self, name)[index] for name in _OF_CURVES},
             **{name: v if v is None else v[index][..., :longest] for name, v in samples.items()},
@@ -138,11 +142,9 @@ class IndentationFit(Fit):
 
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve, if it has an unloading."""
-        used = np.isfinite(self.residuals)
         # Without background and frame the measured force is that of the contact plus the residual.
-        force = (self.path.force + self.residuals)[used]
         with suppress(ValueError):
-            result = oliver_pharr(self.profile, self.path.depth[used], force)
+            result = oliver_pharr(self.profile, self.path.depth, self.path.force + self.residuals)
             pairs = (("E_star", "Pa"), ("hardness", "Pa"))
             errors = result.standard_errors
             E, H = (with_error(getattr(result, name), errors[name], unit) for name, unit in pairs)

@@ -6,12 +6,15 @@ import numpy as np
 
 from .. import _check
 from ..shapes.power import Cone
+from ..shapes.sampled import Sampled
 from .quantities import engineering
 
 #: Slope up to which results are good, above which they are estimates, and above which the slope is
 #: probably a mistake; contact radius over the radius of the body; share of the wave speed;
-#: Tabor's parameter from which adhesion is that of the rim alone, and the range (m) of surface forces.
+#: Tabor's parameter from which adhesion is that of the rim alone, and the range (m) of surface forces;
+#: relative error of a pull-off from facets.
 _SMALL, _STEEP, _NEEDLE, _BODY, _SLOW, _TABOR, _RANGE = 0.3, 0.5, 3.0, 0.5, 0.1, 5.0, 0.3e-9
+_FACETS = 0.02
 
 
 @dataclass(frozen=True)
@@ -22,8 +25,8 @@ class Limit:
     ----------
     what : str
         Quantity that is bounded: "slope", "contact radius", "Poisson ratio", "viscosity", "speed", "fast
-        limit", "Tabor's parameter", which must be larger than its bound, and for friction "coupling" and
-        "slip direction".
+        limit", "Tabor's parameter", which must be larger than its bound, "facets" of samples with
+        adhesion, and for friction "coupling" and "slip direction".
     value, bound : float
         Its largest value over all states, and the largest one for which the assumption is good.
     exceeded : bool
@@ -62,7 +65,7 @@ def contact_limits(profile, medium, radius, *, slow=False):
     limits = [_slope_limit(profile, radius), *_body_limit(profile, radius)]
     if np.any(np.asarray(medium.eta) > 0):
         limits.append(_viscosity_limit(medium) if slow else _poisson_limit(medium))
-    return (*limits, *_tabor_limit(profile, medium))
+    return (*limits, *_tabor_limit(profile, medium), *_facet_limit(profile, medium))
 
 
 def _slope_limit(profile, radius):
@@ -112,6 +115,34 @@ def _tabor_limit(profile, medium):
     )
     text += ": forces outside the contact count below 5." if tabor < _TABOR else "."
     yield Limit("Tabor's parameter", float(tabor), _TABOR, bool(tabor < _TABOR), text)
+
+
+def _facet_limit(profile, medium):
+    """About the relative error of the pull-off from samples of a smooth tip, if there is adhesion.
+
+    There a ḡ′ = 3Δl/2 with the mean slope ḡ′ of a facet. Its inner vertex, of radius r and bend β, bows g
+    by up to β √(2rh)/4 over its length h; times a this is a force over 2E*, and that of the pull-off is
+    about a Δl/2.
+    """
+    ratio = np.ravel(medium.work_of_adhesion / medium.E_star)
+    ratio = ratio[ratio > 0]
+    if not isinstance(profile, Sampled) or not ratio.size:
+        return
+    vertices = np.append(profile._bend != 0, True)
+    r, g, bend = profile._r[vertices], profile._g[vertices], profile._bend[vertices[:-1]]
+    # A polygon with one bend or none is a shape of its own.
+    if r.size < 4:
+        return
+    length = np.diff(r)
+    slope = np.diff(g) / length
+    # Within the first facet the tip is sharp: the second one says whether it is rounded.
+    facet = np.clip(np.searchsorted(r[1:] * slope**2 / (4.5 * np.pi), ratio), 1, slope.size - 1)
+    error = 0.75 * bend * np.sqrt(2 * r[:-1] * length) / (r[1:] * slope)
+    value = float(error[facet].max())
+    text = f"The facets between the samples change the pull-off by about {100 * value:.2g} %"
+    remedy = " or more: of a smooth tip take finer samples, or Smooth with the slope of a fit."
+    text += remedy if value > _FACETS else "."
+    yield Limit("facets", value, _FACETS, value > _FACETS, text, severe=value > 5 * _FACETS)
 
 
 def _tip_radius(profile):

@@ -1,6 +1,6 @@
 """A smooth profile given by its slope."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -47,6 +47,9 @@ class Smooth(Profile):
         if not callable(self.slope_function):
             given = _check.shown(self.slope_function)
             raise ValueError(f"Smooth slope_function must be a function of the radius, got {given}")
+        if not isinstance(self.slope_function, Hashable):
+            # As those of NumPy's polynomials, whose methods are hashable.
+            object.__setattr__(self, "slope_function", self.slope_function.__call__)
         radius = _check.positive_number("Smooth radius", self.radius, unit="m", infinite=True)
         object.__setattr__(self, "radius", radius)
 

@@ -1,11 +1,11 @@
 r"""
-Hardness classes of real materials
-==================================
+Classes of hardness
+===================
 
-The hardness of copper falls with the depth as :math:`H = H_0 \sqrt{1 + h^*/h}` (Nix and Gao 1998, for the
-measurements of McElhaney et al.: cold-worked :math:`H_0` = 0.834 GPa, :math:`h^*` = 0.464 µm; (111) single
-crystal 0.581 GPa, 1.60 µm). The hardness of fused silica is taken as constant, 9.4 GPa. ``fit_hardness``
-compares the power of the radius with the three classes; copper on this scale lies between (a) and (b).
+The hardness of many metals falls with the depth of a sharp tip as :math:`H = H_0 \sqrt{1 + h^*/h}` (the
+form of Nix and Gao 1998), that of a glass is nearly constant. The numbers here are made up, not measured.
+``fit_hardness`` compares the power of the radius with the three classes, and finds both metals between (a)
+and (b), the nearer to (b) the larger :math:`h^*` is.
 """
 
 import matplotlib.pyplot as plt
@@ -17,9 +17,9 @@ tip = mdr.Cone.berkovich()
 h = np.geomspace(0.15e-6, 2e-6, 12)
 a = h / tip.slope
 materials = {
-    "copper, cold-worked": (0.834e9 * np.sqrt(1 + 0.464e-6 / h), 130e9),
-    "copper, (111)": (0.581e9 * np.sqrt(1 + 1.60e-6 / h), 130e9),
-    "fused silica": (np.full(h.size, 9.4e9), 72e9),
+    "made metal, h* = 0.5 µm": (0.8e9 * np.sqrt(1 + 0.5e-6 / h), 130e9),
+    "made metal, h* = 2 µm": (0.5e9 * np.sqrt(1 + 2e-6 / h), 130e9),
+    "made glass": (np.full(h.size, 9e9), 70e9),
 }
 for name, (hardness, E_star) in materials.items():
     fit = mdr.fit_hardness(tip, hardness, a, E_star=E_star)
