@@ -143,11 +143,13 @@ def oblique_impacts(
     tangential_mass: "Given | None" = None,
     quantities: str | Iterable[str] = ("friction_work", "plastic_work"),
     invalid: str = "raise",
+    tolerance: float = 2e-4,
     **shape_parameters: "Given",
 ) -> "xarray.Dataset":
     """Oblique impacts (`mdr_core.oblique_impact`) over named dimensions.
 
-    As in `impacts`, with the Poisson ratio, and the further arguments and quantities of `oblique_impact`.
+    As in `impacts`, with the Poisson ratio, and the further arguments and quantities of `oblique_impact`;
+    viscous ones are solved one by one.
 
     Examples
     --------
@@ -163,7 +165,8 @@ def oblique_impacts(
     parameters = {"E_star": E_star, "q_c": q_c, "eta": eta, "poisson": poisson, "mass": mass}
     parameters |= {"speed": speed, "tangential_speed": tangential_speed, "friction": friction}
     parameters["tangential_mass"] = mass if tangential_mass is None else tangential_mass
-    return _sweep(ObliqueImpact, _hit_at_angle, shape, parameters, shape_parameters, quantities, invalid)
+    solve = partial(_hit_at_angle, tolerance=tolerance)
+    return _sweep(ObliqueImpact, solve, shape, parameters, shape_parameters, quantities, invalid)
 
 
 def indentations(

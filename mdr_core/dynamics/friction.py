@@ -1,4 +1,4 @@
-"""Friction along the surface under a given normal motion: stick and slip, element by element.
+"""Friction along the surface of a viscous medium under a given normal motion, element by element.
 
 Every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν) times as stiff (Mindlin).
 Per κE* its load is Q = s + τṡ, and the normal load allows |Q| ≤ B = (μ/κ)(ℓ − (g − p)₊), with the live
@@ -22,13 +22,16 @@ import numpy as np
 from ..superposition import radius_integral
 from ..yielding import LiveInterval
 
+#: κW₀/μ over the normal speed below which everything sticks.
+SLOWEST = 1e-7
+
 
 def bound_ratio(hit, speed, friction):
     """(μ/κ)/W₀ (s/m) at a tangential speed: the ratio of B to the normal load, for a speed of 1.
 
     A body without speed has the largest ratio, at which everything sticks.
     """
-    largest = 1e10 / float(hit.speed)
+    largest = 1 / (SLOWEST * float(hit.speed))
     return min(friction / float(hit.medium.tangential_ratio) / abs(speed), largest) if speed else largest
 
 
@@ -168,14 +171,11 @@ class FrictionRun:
         load = np.minimum(np.maximum(trial, -bound), bound)
         displacement = dt * ((self.velocity + velocity) / 2)
         self.rate = (velocity - self.velocity) / h if h else 0.0
-        work, end_s, remaining = (width * mean) @ displacement, load, 1.0
-        if self.tau:
-            end_s, slip_work = self._relaxed(
-                dt, s, displacement, slip_share, start_load, trial, load, velocity - self.velocity
-            )
-            remaining = np.exp(-2 * h / self.tau)
-        gain = width @ (end_s**2 - s**2) / 2
-        friction = width @ slip_work if self.tau else work - gain
+        work, remaining = (width * mean) @ displacement, np.exp(-2 * h / self.tau)
+        end_s, slip_work = self._relaxed(
+            dt, s, displacement, slip_share, start_load, trial, load, velocity - self.velocity
+        )
+        gain, friction = width @ (end_s**2 - s**2) / 2, width @ slip_work
         viscous = work - friction - gain + (1 - remaining) * self.released
         self.released *= remaining
         self.velocity, self.load[:n], self.s[:n], self.bound[:n] = velocity, load, end_s, bound

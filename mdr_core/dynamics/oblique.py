@@ -98,11 +98,7 @@ def oblique_impact(
     shape = shape_with("oblique_impact", profile, medium, mass=mass, speed=speed, **surface)
     surface = {name: _check.frozen(np.broadcast_to(value, shape)) for name, value in surface.items()}
     hit = impact(profile, medium, np.broadcast_to(mass, shape)[()], np.broadcast_to(speed, shape)[()])
-    solutions = []
-    for index in np.ndindex(shape):
-        values = {name: float(value[index]) for name, value in surface.items()}
-        solutions.append(solve_surface(hit[index] if shape else hit, tolerance, **values))
-    return ObliqueImpact(normal=hit, **surface, _surface=SurfaceSolution.of(solutions, shape))
+    return ObliqueImpact(normal=hit, **surface, _surface=solve_surface(hit, tolerance, **surface))
 
 
 class ObliqueErrors(NamedTuple):

@@ -1,12 +1,14 @@
 """The motion of one oblique impact over time: the normal motion, and one run along the surface."""
 
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .._check import Array
 from ..results.base import Motion, MotionResult
+from .dry_friction import DryRun, first_counts
+from .dry_levels import NormalMotions
 from .friction import bound_ratio, slide
 from .impact import quantity_of
 from .levels import levels
@@ -84,29 +86,72 @@ def oblique_motion(hit, n, halvings):
 def along_surface(hit, speed, friction, mass, n, halvings, impact=None):
     """The `ObliqueMotion` under a normal `Impact` from one run; errors are known of an `impact` only."""
     normal, stiffness = hit.motion(n), 2 * float(hit.medium.tangential_ratio) * float(hit.medium.E_star)
-    grid = levels(hit, stiffness / mass, halvings, normal.time)
-    run = slide(hit, grid, stiffness / mass, bound_ratio(hit, speed, friction), normal.time)
-    at, edges = run.instants, np.append(0.0, run.elements.edge[: run.elements.width.size])
-    load, sticks = np.zeros((n, edges.size - 1)), np.zeros((n, edges.size - 1), bool)
-    for k, i in enumerate(at):
-        count = run.element_states[i][0].size
-        load[k, :count], sticks[k, :count] = run.element_states[i]
-    sticks &= run.elements.width > 0
-    stuck = sticks.any(axis=1)
-    first, last = sticks.argmax(axis=1), sticks.shape[1] - sticks[:, ::-1].argmax(axis=1)
-    velocity, energy = run.velocities[at] * speed, stiffness * speed**2
+    inertia, ratio = stiffness / mass, bound_ratio(hit, speed, friction)
+    records = (_viscous_records if hit.medium.eta > 0 else _dry_records)(
+        hit, normal, inertia, ratio, halvings
+    )
+    stuck, edges = records.sticks.any(axis=1), records.edges
+    first = records.sticks.argmax(axis=1)
+    last = records.sticks.shape[1] - records.sticks[:, ::-1].argmax(axis=1)
+    velocity, energy = records.velocity * speed, stiffness * speed**2
     return ObliqueMotion(
         tangential_velocity=velocity,
-        tangential_force=stiffness * speed * run.forces[at],
+        tangential_force=stiffness * speed * records.force,
         stick_radius=np.where(stuck, edges[last], 0.0),
         slip_radius=np.where(stuck, edges[first], 0.0),
         kinetic_energy=normal.kinetic_energy + mass * velocity**2 / 2,
-        stored_energy=normal.stored_energy + energy * run.energies[at],
-        viscous_work=normal.viscous_work + energy * run.viscous[at],
-        friction_work=energy * run.friction[at],
+        stored_energy=normal.stored_energy + energy * records.stored,
+        viscous_work=normal.viscous_work + energy * records.viscous,
+        friction_work=energy * records.friction,
         x=(edges[1:] + edges[:-1]) / 2,
-        tangential_line_load=stiffness / 2 * speed * load,
-        sticks=sticks,
+        tangential_line_load=stiffness / 2 * speed * records.load,
+        sticks=records.sticks,
         normal=normal,
         impact=impact,
     )
+
+
+class _Records(NamedTuple):
+    """A run along the surface at the instants of a motion, for an initial speed of 1.
+
+    Velocity, force over 2κE* (m s), stored energy and works over 2κE* (m s²), edges of elements (m), their
+    loads over κE* (s), and whether they stick.
+    """
+
+    velocity: np.ndarray
+    force: np.ndarray
+    stored: np.ndarray
+    viscous: np.ndarray
+    friction: np.ndarray
+    edges: np.ndarray
+    load: np.ndarray
+    sticks: np.ndarray
+
+    @classmethod
+    def of(cls, *quantities, width, states):
+        """From quantities, widths of elements, and loads and stick of the elements in contact."""
+        load, sticks = np.zeros((len(states), width.size)), np.zeros((len(states), width.size), bool)
+        for row, (loads, sticking) in enumerate(states):
+            load[row, : loads.size], sticks[row, : loads.size] = loads, sticking
+        return cls(*quantities, np.append(0.0, np.cumsum(width)), load, sticks & (width > 0))
+
+
+def _viscous_records(hit, normal, inertia, ratio, halvings):
+    run = slide(hit, levels(hit, inertia, halvings, normal.time), inertia, ratio, normal.time)
+    quantities = run.velocities, run.forces, run.energies, run.viscous, run.friction
+    states = [run.element_states[i] for i in run.instants]
+    return _Records.of(*(x[run.instants] for x in quantities), width=run.elements.width, states=states)
+
+
+def _dry_records(hit, normal, inertia, ratio, halvings):
+    motions, inertia = NormalMotions.of(hit, np.array([0])), np.array([inertia])
+    counts = first_counts(motions, inertia)[:, 0] * 2 ** int(halvings)
+    run = DryRun(motions, inertia, np.array([1 / ratio]), counts, normal.depth[:, None])
+    at = [int(np.argmin(np.abs(run.time[:, 0] - time))) for time in normal.time]
+    run.solve(recorded=at)
+    states = [(ratio * load[:, 0], sticks[:, 0]) for load, sticks in map(run.element_states.get, at)]
+    velocity, width = ratio * run.velocities[at, 0], run.width[:, 0]
+    stored = np.array([width[: load.size] @ load**2 / 2 for load, _ in states])
+    friction = (1 - velocity**2) / (2 * inertia) - stored
+    quantities = velocity, ratio * run.forces[at, 0], stored, np.zeros(len(at)), friction
+    return _Records.of(*quantities, width=width, states=states)

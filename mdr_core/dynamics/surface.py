@@ -1,7 +1,8 @@
 """Motion along the surface of one oblique impact.
 
 The normal motion does not depend on the tangential one, which has a closed form where all elements slip
-throughout. Else it is solved by runs of `friction`, each with steps half as long as the last one.
+throughout. Else it is solved by runs, each with steps half as long as the last one: many impacts without
+viscosity at a time by `dry_friction`, viscous ones one by one by `friction`.
 """
 
 from dataclasses import dataclass, fields
@@ -11,7 +12,9 @@ import numpy as np
 from .. import _check
 from .._check import Array
 from ..results.base import Entries
-from .friction import RunQuantities, bound_ratio, slide, stick_instants
+from .dry_friction import solve_dry
+from .dry_levels import NormalMotions
+from .friction import SLOWEST, RunQuantities, bound_ratio, slide, stick_instants
 from .levels import MOST_LEVELS, levels
 
 #: Relative error of the normal motion, and of closed forms that follow from it.
@@ -37,43 +40,114 @@ class SurfaceSolution(Entries):
     halvings: Array
     slips_throughout: Array
 
-    @classmethod
-    def of(cls, solutions, shape):
-        """Solutions of single impacts as arrays of a shape."""
-        names = [field.name for field in fields(cls)]
-        columns = {name: np.array([getattr(solution, name) for solution in solutions]) for name in names}
-        return cls(**{name: _check.frozen(column.reshape(shape)) for name, column in columns.items()})
-
 
 def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
-    """The `SurfaceSolution` of one impact, in closed form where all elements slip throughout."""
-    speed, kappa = abs(tangential_speed), float(hit.medium.tangential_ratio)
-    stiffness, energy = 2 * kappa * float(hit.medium.E_star), tangential_mass * speed**2 / 2
-    inertia, ratio = stiffness / tangential_mass, bound_ratio(hit, tangential_speed, friction)
-    max_force = friction * float(hit.max_force)
-    change = -friction * float(hit.mass) / tangential_mass * (1 + float(hit.restitution)) * float(hit.speed)
-    slowest = friction / kappa * float(hit.speed)
-    fast = speed >= slowest and speed + change >= -slowest * float(hit.restitution)
-    slips = friction == 0 or (speed > 0 and fast)
-    limit = error = RunQuantities(0.0, 0.0, 0.0, 0.0)
-    halvings, viscous = 0, friction**2 / kappa * float(hit.viscous_work) if slips else 0.0
-    if not slips or (hit.medium.eta > 0 and hit.plastic_work > 0 and friction > 0):
-        limit, error, halvings = _limits(hit, inertia, ratio, tolerance)
-        viscous = limit.viscous * stiffness * speed**2
+    """The `SurfaceSolution` of impacts, in closed form where all elements slip throughout.
+
+    The arguments are arrays of the shape of the normal `Impact`.
+    """
+    shape, names = hit.shape, [field.name for field in fields(SurfaceSolution)]
+    given = np.abs(tangential_speed), friction, tangential_mass
+    speed, friction, tangential_mass = (np.ravel(value) for value in given)
+    eta, plastic_work = (
+        np.broadcast_to(value, shape).ravel() for value in (hit.medium.eta, hit.plastic_work)
+    )
+    columns = _slip_throughout(hit, speed, friction, tangential_mass)
+    slips = columns["slips_throughout"]
+    viscous = (eta > 0) & (~slips | ((plastic_work > 0) & (friction > 0)))
+    for row in np.flatnonzero(viscous):
+        one = hit[np.unravel_index(row, shape)] if shape else hit
+        values = _viscous(one, tolerance, speed[row], friction[row], tangential_mass[row])
+        if slips[row]:
+            # Only how much of the work is viscous is not known in closed form.
+            values = {name: values[name] for name in ("viscous_work", "viscous_error", "halvings")}
+            values["friction_work"] = (
+                columns["friction_work"][row] + columns["viscous_work"][row] - values["viscous_work"]
+            )
+            values["friction_error"] = values["viscous_error"] = values["viscous_error"] + EXACT
+        for name, value in values.items():
+            columns[name][row] = value
+    rows = np.flatnonzero((eta == 0) & ~slips)
+    if rows.size:
+        values = _dry(hit, rows, tolerance, speed[rows], friction[rows], tangential_mass[rows])
+        for name, value in values.items():
+            columns[name][rows] = value
+    return SurfaceSolution(**{name: _check.frozen(columns[name].reshape(shape)) for name in names})
+
+
+def _slip_throughout(hit, speed, friction, tangential_mass):
+    """Fields of a `SurfaceSolution` as flat arrays, right where all elements slip throughout."""
+    given = hit.speed, hit.restitution, hit.mass, hit.max_force, hit.viscous_work
+    given = (np.broadcast_to(x, hit.shape).ravel() for x in (*given, hit.medium.tangential_ratio))
+    normal_speed, restitution, mass, max_force, viscous_work, kappa = given
+    with np.errstate(invalid="ignore"):
+        change = -friction * mass / tangential_mass * (1 + restitution) * normal_speed
+        slowest = friction / kappa * normal_speed
+        fast = (speed >= slowest) & (speed + change >= -slowest * restitution)
+        slips = (friction == 0) | ((speed > 0) & fast)
+        share = np.where(slips, change / np.where(speed > 0, speed, 1.0), 0.0)
+        viscous = np.where(slips, friction**2 / kappa * viscous_work, 0.0)
+    exact = np.full(speed.size, EXACT)
+    return {
+        "relative_change": share,
+        "max_force": friction * max_force,
+        "friction_work": np.abs(share) * (2 + share) * tangential_mass * speed**2 / 2 - viscous,
+        "viscous_work": viscous,
+        "change_error": EXACT * np.abs(share),
+        "force_error": exact,
+        "friction_error": exact.copy(),
+        "viscous_error": exact.copy(),
+        "halvings": np.zeros(speed.size, int),
+        "slips_throughout": slips,
+    }
+
+
+def _dry(hit, rows, tolerance, speed, friction, tangential_mass):
+    """Fields of impacts at flat rows without viscosity, in which some elements stick."""
+    shape, medium = hit.shape, hit.medium
+    given = medium.tangential_ratio, medium.E_star, hit.speed, hit.max_force
+    kappa, E_star, normal_speed, max_force = (
+        np.broadcast_to(value, shape).ravel()[rows] for value in given
+    )
+    motions = NormalMotions.of(hit, rows)
+    # Without speed as with the friction at which everything sticks.
+    slowest = SLOWEST * normal_speed
+    velocity = np.maximum(kappa * speed / friction, slowest)
+    inertia = 2 * kappa * E_star / tangential_mass
+    after, force, change_error, force_error, halvings = solve_dry(motions, inertia, velocity, tolerance)
+    remaining = after / velocity
+    force = np.minimum(2 * kappa * E_star * speed / velocity * force, friction * max_force)
+    return {
+        "relative_change": remaining - 1,
+        "max_force": np.where(speed > 0, force, 0.0),
+        "friction_work": tangential_mass * speed**2 / 2 * np.maximum(1 - remaining**2, 0.0),
+        "change_error": change_error,
+        "force_error": force_error,
+        "friction_error": 2 * change_error,
+        "viscous_error": np.zeros(rows.size),
+        "halvings": halvings,
+    }
+
+
+def _viscous(hit, tolerance, speed, friction, tangential_mass):
+    """Fields of one viscous impact, in which some elements stick."""
+    stiffness = 2 * float(hit.medium.tangential_ratio) * float(hit.medium.E_star)
+    inertia, ratio = stiffness / tangential_mass, bound_ratio(hit, speed, friction)
+    limit, error, halvings = _limits(hit, inertia, ratio, tolerance)
     # The energy along the surface is 1/(2C) in the units of a run.
-    viscous_error = error.viscous * 2 * inertia
-    if slips:
-        change = change / (speed or 1.0)
-        friction_work = abs(change) * (2 + change) * energy - viscous
-        change_error, force_error = EXACT * abs(change), EXACT
-        friction_error = viscous_error = viscous_error + EXACT
-    else:
-        change, max_force = limit.change, min(limit.force * stiffness * speed, max_force) if speed else 0.0
-        friction_work = limit.friction * stiffness * speed**2
-        change_error, force_error = error.change, error.force / limit.force
-        friction_error = error.friction * 2 * inertia
-    errors = change_error, force_error, friction_error, viscous_error
-    return SurfaceSolution(change, max_force, friction_work, viscous, *errors, halvings, slips)
+    return {
+        "relative_change": limit.change,
+        "max_force": min(limit.force * stiffness * speed, friction * float(hit.max_force))
+        if speed
+        else 0.0,
+        "friction_work": limit.friction * stiffness * speed**2,
+        "viscous_work": limit.viscous * stiffness * speed**2,
+        "change_error": error.change,
+        "force_error": error.force / limit.force,
+        "friction_error": error.friction * 2 * inertia,
+        "viscous_error": error.viscous * 2 * inertia,
+        "halvings": halvings,
+    }
 
 
 def _limits(hit, inertia, ratio, tolerance):
