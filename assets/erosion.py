@@ -1,10 +1,14 @@
 """Erosion of a composite by a stream of particles: damage, its spread, and what a million of them cost.
 
     python assets/erosion.py --particles 1e7 --workers 2
+    python assets/erosion.py --attack
 
 Radii are lognormal, speeds Weibull: random numbers are drawn chunk by chunk on the workers, every impact is
 solved, and sums and histograms are all that is kept, so that memory does not grow with the number. It needs
 `pip install mdr-core[sweep] matplotlib`.
+
+With `--attack` one particle comes at all angles of attack: plastic and friction work on the composite, and
+beside it on a medium of constant hardness, which gives nothing back and has closed forms.
 """
 
 import argparse
@@ -91,13 +95,51 @@ def picture(kept, particles, name):
     figure.savefig(name, dpi=110)
 
 
+def at_all_angles(radius=25e-6, speed=30.0, friction=0.2, number=90):
+    """Plastic and friction work (J) over the angle of attack, of the composite and at constant hardness.
+
+    Without rebound, the contact point slips until the normal motion ends, or sticks before: with its speed W
+    and m_t = 2m/7, W_f = μ m v (W − μ (m/m_t) v/2), at most ½ m_t W². Where it slips throughout, this is
+    largest at tan 2α = 2 m_t/(μ m).
+    """
+    attack = xr.DataArray(np.radians(np.linspace(1.0, 90.0, number)), dims="attack")
+    mass = DENSITY * 4 / 3 * np.pi * radius**3
+    v, along = speed * np.sin(attack), (speed * np.cos(attack)).round(9)
+    ball = {"mass": mass, "friction": friction, "tangential_mass": 2 * mass / 7}
+    hits = sweep.oblique_impacts(
+        mdr.Sphere, radius=radius, speed=v, tangential_speed=along, **COMPOSITE, **ball,
+        quantities=("plastic_work", "friction_work"),
+    )  # fmt: skip
+    slides = friction * mass * v * (along - 3.5 * friction * v / 2)
+    hits["hard_plastic_work"] = mass * v**2 / 2
+    hits["hard_friction_work"] = xr.where(along > 3.5 * friction * v, slides, mass * along**2 / 7)
+    return hits.assign_coords(attack=np.degrees(attack.values)) * 1e9
+
+
+def attack_picture(works, name):
+    """Works (nJ) over the angle of attack, as a picture; their maxima in words."""
+    figure, axes = plt.subplots(1, 2, figsize=(9, 3.2), layout="constrained", sharex=True)
+    for panel, kind in zip(axes, ("plastic_work", "friction_work"), strict=True):
+        for medium, key in (("composite", kind), ("constant hardness", "hard_" + kind)):
+            best = int(np.argmax(works[key].values))
+            print(f"{kind.replace('_', ' ')}, {medium}: at most {float(works[key][best]):.3g} nJ,", end=" ")
+            print(f"at {float(works.attack[best]):.0f}°")
+            panel.plot(works.attack, works[key], label=medium)
+        panel.set(xlabel="angle of attack (°)", ylabel=kind.replace("_", " ") + " (nJ)")
+    axes[0].legend()
+    figure.savefig(name, dpi=110)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--particles", type=float, default=1e6)
     parser.add_argument("--chunk", type=float, default=1e6)
     parser.add_argument("--workers", type=int, default=0, help="processes; 0 is this one")
     parser.add_argument("--picture", default="erosion.png")
+    parser.add_argument("--attack", action="store_true", help="one particle at all angles of attack")
     options = parser.parse_args()
+    if options.attack:
+        return attack_picture(at_all_angles(), options.picture)
     particles, chunk = int(options.particles), int(min(options.chunk, options.particles))
     with cluster(options.workers) as client:
         given = stream(particles, chunk)

@@ -30,11 +30,34 @@ def test_the_example_prints_and_paints(tmp_path):
     assert (tmp_path / "erosion.png").stat().st_size > 1000
 
 
-def test_its_sums_are_those_of_the_impacts(monkeypatch):
+@pytest.fixture
+def erosion(monkeypatch):
     monkeypatch.setenv("MPLBACKEND", "Agg")
     spec = importlib.util.spec_from_file_location("erosion", SCRIPT)
-    erosion = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(erosion)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_over_the_angle_of_attack(erosion, tmp_path, capsys):
+    """Of constant hardness the maximum is where tan 2α = 2 m_t/(μ m); shallow impacts slip throughout."""
+    works = erosion.at_all_angles(friction=0.2)
+    best = float(works.attack[np.argmax(works.hard_friction_work.values)])
+    assert best == pytest.approx(np.degrees(np.arctan(4 / 7 / 0.2)) / 2, abs=0.5)
+    i, mass = 19, erosion.DENSITY * 4 / 3 * np.pi * 25e-6**3
+    v, along = 30 * np.sin(np.radians(20.0)), 30 * np.cos(np.radians(20.0))
+    hit = mdr.impact(mdr.Sphere(25e-6), mdr.Medium(**erosion.COMPOSITE), mass, v)
+    impulse = 0.2 * mass * v * (1 + hit.restitution)
+    assert works.friction_work[i] == pytest.approx(1e9 * impulse * (along - 3.5 * impulse / mass / 2))
+    assert works.plastic_work[i] == pytest.approx(1e9 * hit.plastic_work)
+    erosion.attack_picture(works, tmp_path / "attack.png")
+    assert re.search(
+        r"friction work, constant hardness: at most [\d.]+ nJ, at 35°", capsys.readouterr().out
+    )
+    assert (tmp_path / "attack.png").stat().st_size > 1000
+
+
+def test_its_sums_are_those_of_the_impacts(erosion):
     given = erosion.stream(3000, chunk=1000)
     hits = mdr.sweep.impacts(mdr.Sphere, **given, quantities=erosion.QUANTITIES)
     kept = erosion.statistics(hits)
