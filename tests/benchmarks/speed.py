@@ -50,6 +50,7 @@ def rows(count=10**6):
             _ratio(taken, book["paraboloid"]),
         )
     yield from _ensembles(count)
+    yield from _oblique(count // 10)
     for shape in SHAPES:
         taken = seconds(lambda s=shape: mdr.impact(s, WET, 1e-9, 0.1).restitution, runs=runs)
         yield f"one viscous impact, {name(shape)}", time(taken), ""
@@ -82,6 +83,37 @@ def _ensembles(count):
             ("depth, restitution, area", "contact time"), taken, units, strict=True
         ):
             yield f"{count} {what}: {asked}", time(own), f"{own / unit:.2g} × paraboloids"
+
+
+def _oblique(count):
+    """Balls at random angles of attack, d/d_c up to some 50, together and one by one."""
+    random = np.random.default_rng(1)
+    radius, friction = random.uniform(1e-5, 5e-5, count), random.uniform(0.1, 0.5, count)
+    speed, along = mdr.at_angle(random.uniform(5, 50, count), np.radians(random.uniform(0, 85, count)))
+    mass, q_c = 2650 * 4 / 3 * np.pi * radius**3, 10 ** random.uniform(2.5, 3.5, count)
+    given = mass, speed, along, friction
+
+    def solved(i, tolerance):
+        profile, medium = mdr.Paraboloid(radius[i]), mdr.Medium(4e9, q_c[i])
+        own = (value[i] for value in given)
+        return mdr.oblique_impact(
+            profile, medium, *own, tangential_mass=2 / 7 * mass[i], tolerance=tolerance
+        )
+
+    hits = solved(slice(None), 2e-4)
+    taken = seconds(lambda: solved(slice(None), 2e-4), runs=1)
+    some = np.arange(0, count, max(1, count // 100))
+    singles = [solved(i, 1e-5) for i in some]
+    one = np.median([seconds(lambda i=i: solved(i, 1e-5), runs=1) for i in some])
+    miss = [
+        abs(hit.velocity_change - hits.velocity_change[i]) / along[i]
+        for i, hit in zip(some, singles, strict=True)
+    ]
+    slips = f"{np.mean(hits.slips_throughout):.0%} slip throughout"
+    deepest = np.max(hits.max_depth / hits.medium.critical_depth)
+    error = f"error of the velocity {np.median(miss):.1g}, 99 % below {np.quantile(miss, 0.99):.1g}"
+    yield f"{count} oblique impacts, Paraboloid, d/d_c to {deepest:.2g}", time(taken), f"{slips}; {error}"
+    yield "one oblique impact, the median of these, to 10⁻⁵", time(one), ""
 
 
 def _damage(hits):
