@@ -1,4 +1,4 @@
-"""Contact time of a dry impact: quadrature of dd/v, without time stepping."""
+"""Contact time of a dry impact: quadrature of dd/v, without time stepping, or a table made by it."""
 
 from functools import lru_cache, partial
 
@@ -10,6 +10,7 @@ from .._numeric import chunks, cube_rise, cube_way, gauss_integrals, gauss_legen
 from ..closed_forms import closed_forms
 from ..superposition import energy_integral, radius_integral, tabulated
 from ..yielding import LiveInterval, elastic_interval
+from . import time_table
 
 #: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
 #: transition depth; and in units of the length of the live interval, whose lower end is close to the tip.
@@ -43,11 +44,25 @@ def contact_time(profile, inertia, speed, interval, increase):
         profile = tabulated(profile, upper[remainder].max())
     unit, radius, depth = profile.unit or (profile, 1.0, 1.0)
     root, depth = (np.broadcast_to(scale, shape).ravel() for scale in (np.sqrt(radius), depth))
-    for chunk in chunks(remainder.size, max(32, 2048 // (1 + len(unit.kinks)))):
-        rows = remainder[chunk]
+    if remainder.size > time_table.MANY and profile.unit:
+        first = virgin[remainder]
+        rows, remainder = remainder[first], remainder[~first]
+        depths, X = upper[rows] / depth[rows], lower[rows] / length[rows]
+        ratio = time_table.tabulated_ratio(unit, _ratio, depths, X)
+        time[rows] = ratio * passage[rows]
+        remainder = np.append(remainder, rows[np.isnan(ratio)])
+    # In ascending order, impacts that reach few kinks are together.
+    depths = upper[remainder] / depth[remainder]
+    order = np.argsort(depths)
+    kinks, start = np.sort([np.min(kink) for kink in unit.kinks]), 0
+    inside = np.searchsorted(kinks, depths[order])
+    while start < order.size:
+        stop = start + max(32, 2048 // (1 + inside[start]))
+        rows = remainder[order[start:stop]]
         turning = LiveInterval(lower[rows], upper[rows], length[rows]).in_units_of(depth[rows])
         ratio = time_over_root(unit.flat_entries(rows, shape), turning, increase[rows] / depth[rows])
         time[rows] = ratio / root[rows] * factor[rows]
+        start = stop
     return time.reshape(shape)[()]
 
 
@@ -73,11 +88,17 @@ def _table(profile):
 
     def time(place):
         X = ((1 + place) / (1 - place)) ** 2
-        interval = LiveInterval(X, X + 1, np.ones_like(X))
-        energy = energy_integral(profile, interval) + radius_integral(profile, elastic_interval(X))
-        return time_over_root(profile, interval, X) * np.sqrt(energy) / interval.upper
+        return _ratio(profile, X + 1, X)
 
     return chebyshev.chebtrim(chebyshev.chebinterpolate(time, 71), 1e-15)
+
+
+def _ratio(profile, depth, X):
+    """Contact time over d_max/v₀ of impacts on a virgin medium, from d_max (m) and X = d_p/d_c."""
+    interval = LiveInterval(depth * X / (1 + X), depth, depth / (1 + X))
+    plastic = interval.length * radius_integral(profile, elastic_interval(interval.lower))
+    energy = energy_integral(profile, interval) + plastic
+    return time_over_root(profile, interval, interval.lower) * np.sqrt(energy) / depth
 
 
 def time_over_root(profile, interval, increase):
@@ -90,6 +111,7 @@ def time_over_root(profile, interval, increase):
     lower, length, increase = interval.lower[:, None], interval.length[:, None], increase[:, None]
     before, stretch = lower - increase, partial(_stretch, profile)
     kinks = np.column_stack(profile.kinks) if profile.kinks else np.empty((1, 0))
+    kinks = kinks[:, (kinks < interval.upper.max()).any(axis=0)]
     breaks = np.empty((1, 0))
     if profile.transition_depth is not None:
         breaks = np.atleast_2d(np.multiply.outer(profile.transition_depth, _TRANSITIONS))
