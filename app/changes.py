@@ -6,14 +6,13 @@ from typing import Any
 
 import mdr_core as mdr
 
-from .drives import oblique
-from .solve import DRIVES, option, options, scene_of, turning_point
+from .solve import DRIVES, follow, option, options, scene_of, turning_point
 from .state import State, checked, medium, preset_state, with_derived
 from .state.quantities import QUANTITIES, shape_quantities
 from .state.units import fitting, read
 
 #: Values of the view that a preset leaves as they are.
-_STAYING = ("hold", "tiles", "keep", "dark")
+_STAYING = ("hold", "tiles", "dark")
 
 
 def choose(state: State, name: str, wanted: str) -> State:
@@ -74,8 +73,7 @@ def hit_again(state: State, hit: mdr.Impact) -> State:
     """Let the body hit its own imprint."""
     if not hit.plastic_depth_increase > 0:
         raise ValueError("nothing has yielded further: the next impact is the same as this one")
-    left = checked("plastic_depth", float(hit.plastic_depth))
-    return state.replace(plastic_depth=left, surface="imprint")
+    return state.replace(plastic_depth=checked("plastic_depth", float(hit.plastic_depth)))
 
 
 def press_to(state: State, depth: float) -> State:
@@ -116,24 +114,10 @@ def _plasticity(state: State, wanted: str) -> dict[str, Any]:
 
 
 def _damping(state: State, wanted: str) -> dict[str, Any]:
-    """Viscosity and relaxation time of the present medium."""
-    made = medium(state)
-    if state.damping == "none":
-        # A relaxation time that shows, and does not rule, at the time scale of an impact.
-        lasting = DRIVES[state.drive].duration(state, turning_point(state))
-        tau = float(f"{(lasting or 1e-3) / 10:.1g}")
-        return {"tau": tau, "eta": tau * made.E_star / 4}
-    return {"eta": made.eta, "tau": made.relaxation_time} if wanted != "none" else {}
-
-
-def _surface(state: State, wanted: str) -> dict[str, Any]:
-    """Plastic depth of the imprint of the present impact; a shallow imprint if there is none."""
-    if wanted == "virgin" or state.drive != "impact":
-        return {}
-    pressed = turning_point(state)
-    return {
-        "plastic_depth": float(pressed.live_interval.lower) or float(f"{0.1 * float(pressed.depth):.2g}")
-    }
+    """Viscosity with a relaxation time that shows, and does not rule, over the course."""
+    motion = follow(state).motion if wanted == "eta" else None
+    tau = 1e-4 if motion is None else float(motion.time[-1]) / 30
+    return {"eta": float(f"{tau * medium(state).E_star / 4:.2g}")}
 
 
 CONVERT: dict[str, Callable[[State, str], dict[str, Any]]] = {
@@ -141,7 +125,5 @@ CONVERT: dict[str, Callable[[State, str], dict[str, Any]]] = {
     "plasticity": _plasticity,
     "damping": _damping,
     "drive": lambda state, wanted: DRIVES[wanted].equivalent(state, turning_point(state)),
-    "surface": _surface,
-    "aim": oblique.aim,
     "pattern": lambda state, wanted: DRIVES["path"].equivalent(state, turning_point(state)),
 }

@@ -16,5 +16,5 @@ if _PLACE:
     pn.extension("katex", **_SHEETS)
     theory.page(_PLACE[0].decode("utf-8", "replace")).servable(title="The theory")
 else:
-    pn.extension(notifications=True, reconnect=True, **_SHEETS)
+    pn.extension(notifications=True, **_SHEETS)
     Page(urlencode(pn.state.session_args, doseq=True)).view.servable(title="Indentation explorer")

@@ -1,7 +1,7 @@
 """The page of one session, a function of one state."""
 
 import logging
-from dataclasses import dataclass, replace
+from contextlib import suppress
 from html import escape
 from typing import Any
 
@@ -18,13 +18,13 @@ from .panels.board import Board
 from .panels.controls import Choices, Controls
 from .panels.fitting import Fitting
 from .panels.guide import Guide
-from .panels.held import Held, Table, held_scene, is_held, toggle_hold
+from .panels.held import Table, held_scene, is_held, toggle_hold
 from .panels.share import Share
-from .plots import NAMED, PLOTS, TILES
-from .plots.plot import Plot, View
-from .solve import Resting, described, follow, is_served
+from .plots import PLOTS, visible
+from .plots.plot import View
+from .solve import Resting, follow, is_served, scene_of
 from .state import VIEW, State, link, preset_state
-from .state.files import Curve, read_tip
+from .state.files import read_tip
 from .ui import JS, on_upload, plain, show
 
 _LOG = logging.getLogger(__name__)
@@ -36,59 +36,34 @@ _UNDO_STEPS = 100
 _NAMED = {"slider": "State along the path"}
 
 
-@dataclass(frozen=True)
-class Shown:
-    """State of a page with its view and held scenes."""
-
-    state: State
-    view: View
-    held: list[Held]
-
-    @property
-    def plots(self) -> list[Plot]:
-        """Visible plots."""
-        seen = (*NAMED, *self.state.tiles)
-        return [plot for name, plot in PLOTS.items() if name in seen and plot.there(self.view)]
-
-
-def _opened(query: str) -> State:
-    """State of a link, with the plots that exist."""
-    state = link.read(query)
-    return state.replace(tiles=tuple(name for name in TILES if name in state.tiles))
-
-
 class Page:
     """The page of one session."""
 
     def __init__(self, query: str = ""):
         self.document, self.past, self.future, self._drag = pn.state.curdoc, [], [], None
         self.solved: dict[Any, Course] = {}
-        self._waiting, self._ready, self.shown, self._courses_changed = None, False, None, False
+        self._waiting, self._ready, self.shown = None, False, None
         self.state = preset_state()
         self.resting = Resting(self._show_result)
         self.choices = Choices(self.apply, lambda: self.state)
         self.board = Board(self.choices, self._toggle_tile)
         self.controls = Controls(self.choices, self.apply_or_raise)
-        self.fitting = Fitting(self.choices, self.apply_or_raise, self.apply)
+        self.fitting = Fitting(self.apply_or_raise, self.apply)
         self.share = Share(lambda: self.shown)
-        self.guide = Guide(self.apply, lambda: self.shown.view.course)
+        self.guide = Guide(self.apply, lambda: self.shown.course)
         self.table = Table(self.apply)
-        self._layout()
+        parts = {"explore": self.controls.view, "fit": self.fitting.view}
+        parts |= {"held": self.table.view, "share": self.share.view}
+        self.frame = Frame(self.choices.row("preset"), self.guide.view, self.board, parts)
+        self.view = self.frame.view
+        self.address, self.theme = ColumnDataSource(name="address"), ColumnDataSource(name="theme")
         self._show_history()
         self._watch()
         try:
-            self.draw(_opened(query))
+            self.draw(link.read(query))
         except Exception as error:
             self.draw(self.state)
             self.notify(f"The link was not opened: {self._refusal(error)}")
-
-    def _layout(self):
-        parts = {"explore": self.controls.view, "fit": self.fitting.view}
-        parts |= {"held": self.table.view, "share": self.share.view}
-        row = self.choices.row
-        self.frame = Frame(row("preset"), self.guide.view, parts)
-        self.address, self.theme = ColumnDataSource(name="address"), ColumnDataSource(name="theme")
-        self.view = self.frame.framed(self.board)
 
     def _watch(self):
         frame, apply = self.frame, self.apply
@@ -96,19 +71,14 @@ class Page:
         frame.redo.on_click(lambda event: self._step(self.future, self.past))
         frame.reset.on_click(lambda event: apply(changes.reset))
         self.controls.again.on_click(
-            lambda event: apply(lambda now: changes.hit_again(now, self.shown.view.course.hit))
+            lambda event: apply(lambda state: changes.hit_again(state, self.shown.course.hit))
         )
-        on_upload(
-            self.controls.tip,
-            lambda data: apply(lambda now: changes.take_tip(now, *read_tip(decoded(data)))),
-        )
+        tip = self.controls.tip
+        on_upload(tip, lambda data: apply(lambda now: changes.take_tip(now, *read_tip(decoded(data)))))
         frame.hold.param.watch(self._hold_toggled, "value")
         for name in ("share", "numbers"):
             frame.tabs[name].param.watch(lambda event: self._show_part(), "value")
-        for name, each in (("dark", frame.dark), ("keep", self.board.keep)):
-            each.param.watch(
-                lambda event, name=name: apply(lambda now: now.replace(**{name: event.new})), "value"
-            )
+        frame.dark.param.watch(lambda event: apply(lambda now: now.replace(dark=event.new)), "value")
         player = self.board.player
         player.state.on_change("value_throttled", self._state_chosen)
         player.state.on_change("value", self._slider_moved)
@@ -116,11 +86,8 @@ class Page:
         player.hand.on_change("tags", self._dragged)
         for source in (self.theme, self.address):
             source.js_on_change("tags", CustomJS(args={}, code=JS["tell"]))
-        if self.document is not None:
-            self._connect()
-
-    def _connect(self):
-        """Connect events of the browser and of the session."""
+        if self.document is None:
+            return
         for source in (self.theme, self.address):
             self.document.add_root(source)
         self.document.on_event(DocumentReady, self._browser_ready)
@@ -179,10 +146,9 @@ class Page:
 
     def _toggle_tile(self, name, on):
         def change(state):
-            if on == (name in state.tiles) or name not in TILES:
+            if on == (name in state.tiles):
                 return state
-            kept = state.tiles if state.keep or not on else ()
-            return state.replace(tiles=tuple(t for t in TILES if t in {*kept, name} and (on or t != name)))
+            return state.replace(tiles=(name,) if on else tuple(t for t in state.tiles if t != name))
 
         self.apply(change)
 
@@ -200,40 +166,41 @@ class Page:
         """Message for an error; a fault is logged with its scene."""
         if isinstance(error, ValueError):
             return plain(str(error))
-        _LOG.error("a change could not be shown, scene %s", described(state or self.state), exc_info=error)
+        scene = state or self.state
+        with suppress(Exception):
+            scene = scene_of(scene).to_json()
+        _LOG.error("a change could not be shown, scene %s", scene, exc_info=error)
         return _FAULT
 
     # Drawing.
 
     @pn.io.hold()
-    def draw(self, state: State) -> None:
-        """Show a state; everything is computed before anything is changed."""
+    def draw(self, state: State, again: bool = False, moved: bool = False) -> None:
+        """Show a state; everything is computed before anything is changed.
+
+        `again`: exact courses have been found; `moved`: only the present state has changed.
+        """
         course = follow(state, self.solved)
-        held = self._held_scenes(state)
-        found = self.resting.found((PLOTS[name] for name in state.tiles), state, course)
-        view = View(course, [each.course for each in held], found, Curve.of(state))
-        columns = self.board.columns(view, state.tiles, state.dark)
-        self.state, self.shown = state, Shown(state, view, held)
-        self.readings = readouts.readings(course)
-        self.board.show(columns, view, state)
-        self.board.player.show(view, self.readings)
+        if again or self.shown is None or self.state.hold != state.hold:
+            held = [held_scene(query, self.solved) for query in state.hold]
+        else:
+            held = self.shown.held
+        tiles = [plot for plot in PLOTS.values() if plot.name in state.tiles]
+        view = View(state, course, held, self.resting.found(tiles, state, course))
+        columns = self.board.columns(view)
+        self.state, self.shown = state, view
+        self.board.show(columns, view)
+        self.board.player.show(view, moved)
         if self.board.player.play.active:
             self._send()
         self._show_panels()
 
-    def _held_scenes(self, state):
-        """Held scenes, solved once each."""
-        if self.shown is not None and self.shown.state.hold == state.hold and not self._courses_changed:
-            return self.shown.held
-        self._courses_changed = False
-        return [held_scene(query, self.solved) for query in state.hold]
-
     def _show_panels(self):
         """Update everything beside the plots."""
-        state, course = self.state, self.shown.view.course
+        state, course = self.state, self.shown.course
         self.choices.show(state)
-        self.board.show_tabs(self.shown.view, state)
-        self.controls.show(state)
+        self.board.show_tabs(self.shown)
+        self.controls.show(state, course)
         self.fitting.show(state)
         self.table.show(course, self.shown.held)
         self.guide.show(course)
@@ -251,49 +218,39 @@ class Page:
         self._schedule()
 
     def _show_texts(self):
-        state, course = self.state, self.shown.view.course
+        state, course = self.state, self.shown.course
         show(self.frame.warnings, object=readouts.warnings(course, state))
         self.controls.show_texts(state, course)
 
     def _show_part(self):
         """Update the part of the side that is shown."""
-        course = self.shown.view.course
+        course = self.shown.course
         if self.frame.shown == "share":
             self.share.show()
         elif self.frame.shown == "numbers":
-            show(self.frame.numbers, object=readouts.table(course, self.readings, course.now))
+            show(self.frame.numbers, object=readouts.table(course, readouts.readings(course), course.now))
 
     # Player and dragging.
 
     def _slider_moved(self, attr, old, new):
-        if int(new) != self.shown.view.course.now:
+        if int(new) != self.shown.course.now:
             self._send()
 
     def _send(self):
-        self.board.player.send(self.shown.view, self.readings, self.board.pictures())
+        self.board.player.send(self.shown, self.board.pictures())
 
     @pn.io.hold()
     def _state_chosen(self, attr, old, new):
-        """Accept the state chosen with the player, which the browser has drawn if it has frames."""
-        view = self.shown.view
-        now = min(int(new), len(view.course) - 1)
-        if now == view.course.now:
-            return
-        if not self.board.player.frames.tags:
-            self.draw(self.state.replace(progress=float(view.course.progress[now])))
-            return
-        view.course = course = replace(view.course, now=now)
-        self.state = self.state.replace(progress=float(course.progress[now]))
-        self.shown = replace(self.shown, state=self.state)
-        if any(plot.of_state for plot in self.shown.plots):
-            self.draw(self.state)
-            return
-        self._show_panels()
+        """Accept the state chosen with the player; frames that the browser has stay."""
+        course = self.shown.course
+        now = min(int(new), len(course) - 1)
+        if now != course.now:
+            self.draw(self.state.replace(progress=float(course.progress[now])), moved=True)
 
     def _dragged(self, attr, old, new):
         """Press to a depth given in the height unit of the springs plot."""
         if new and isinstance(new[0], int | float):
-            depth = new[0] * self.shown.view.axis("z").factor
+            depth = new[0] * self.shown.axis("z").factor
             self.apply(lambda state: changes.press_to(state, depth), mark="hand")
             self.board.player.hand.tags = []
 
@@ -317,10 +274,9 @@ class Page:
         query, _ = self.share.query()
         if self.address.tags != [f"?{query}"]:
             self.address.tags = [f"?{query}"]
-        view = self.shown.view
-        self.board.describe(view, readouts.summary(self.state))
-        courses = [view.course, *(each.course for each in self.shown.held)]
-        self.resting.begin(courses, self.shown.plots, self.state)
+        view = self.shown
+        self.board.scene.tags = [readouts.summary(self.state)]
+        self.resting.begin([view.course, *view.held], visible(view), self.state)
 
     @pn.io.hold()
     def _show_result(self, name, found):
@@ -329,13 +285,10 @@ class Page:
         try:
             if isinstance(found, str):
                 self.notify(plain(found))
-            else:
-                if isinstance(found, Course):
-                    self.solved, self._courses_changed = (
-                        dict([*solved.items(), (found.scene, found)][-4:]),
-                        True,
-                    )
-                self.draw(self.state)
+                return
+            if isinstance(found, Course):
+                self.solved = dict([*solved.items(), (found.scene, found)][-4:])
+            self.draw(self.state, again=isinstance(found, Course))
         except Exception as error:
             self.solved = solved
             self.resting.give_up(name)

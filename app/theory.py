@@ -10,15 +10,8 @@ from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from .state.quantities import ASSETS
-from .ui import STYLE
+from .ui import JS, STYLE
 
-_SHOW = """
-const all = (root) => [...root.querySelectorAll("*")].flatMap(within)
-const within = (each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])]
-setTimeout(() => all(document).find(({ id }) => id === place)?.scrollIntoView(), 100)
-document.documentElement.lang = "en"
-if (matchMedia("(prefers-color-scheme: dark)").matches) document.documentElement.classList.add("dark")
-"""
 #: Equations that a text names, (4) or (4)–(8).
 _NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
 
@@ -46,5 +39,5 @@ def html():
 
 def page(place):
     """The page, starting at an id such as "eq-11" or "section-4"."""
-    pn.state.curdoc.js_on_event(DocumentReady, CustomJS(args={"place": place}, code=_SHOW))
+    pn.state.curdoc.js_on_event(DocumentReady, CustomJS(args={"place": place}, code=JS["theory"]))
     return pn.pane.LaTeX(html(), stylesheets=STYLE, css_classes=["theory"], renderer="katex")

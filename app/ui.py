@@ -63,16 +63,13 @@ def explained(key, label, about, look='class="word"'):
 
 def legend(plot, shown):
     """Legend of the visible rows of a plot, as HTML."""
-    return "".join(
-        f'<span class="{row.role}"><i class="{row.kind} {_style(row.look)}"></i>{row.name}</span>'
-        for row in plot.rows
-        if row.legend and row.name in shown
-    )
-
-
-def _style(look):
-    hatch = "hatch" * (look.get("hatch", " ") != " ")
-    return " ".join((hatch, look.get("dash", ""), look.get("marker", "")))
+    text = ""
+    for row in plot.rows:
+        if row.legend and row.name in shown:
+            hatch = "hatch" * (row.look.get("hatch", " ") != " ")
+            look = " ".join((row.kind, hatch, row.look.get("dash", ""), row.look.get("marker", "")))
+            text += f'<span class="{row.role}"><i class="{look}"></i>{row.name}</span>'
+    return text
 
 
 def html(text="", *classes, **options):

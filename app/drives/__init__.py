@@ -1,10 +1,10 @@
-"""Base class of drives, and the states along their paths: one interface for the whole page."""
+"""Base class of drives, and the course of a scene: one interface for the whole page."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from types import SimpleNamespace
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import numpy as np
 
@@ -13,56 +13,21 @@ from mdr_core import adhesion
 from mdr_core.dynamics.oblique_motion import ObliqueMotion
 from mdr_core.yielding import LiveInterval
 
-Array = Any
-#: Points of an unloading curve from one state.
-_RELEASE = np.linspace(1, 0, 25)
-
-
-@runtime_checkable
-class States(Protocol):
-    """States of contact along a path, one value (SI) each; `states[i]` is a single state."""
-
-    profile: mdr.Profile
-    medium: mdr.Medium
-    depth: Array
-    force: Array
-    contact_radius: Array
-    plastic_radius: Array
-    plastic_depth: Array
-    mean_pressure: Array
-    stored_energy: Array
-    plastic_work: Array
-    live_interval: LiveInterval
-    limits: tuple
-
-    def __getitem__(self, index: Any) -> "States": ...
-
-    def pressure(self, r: Array) -> Array:
-        """Contact pressure (Pa) of one state at radii r (m)."""
-
-    def line_load(self, x: Array) -> Array:
-        """Line load (N/m) of the foundation at x (m)."""
-
-    def surface(self, r: Array) -> Array:
-        """Elastic displacement (m) of the surface."""
-
-    def imprint(self, r: Array) -> Array:
-        """Depth (m) of the residual imprint."""
-
 
 @dataclass(frozen=True, eq=False)
 class Course:
     """States of a scene along its path; every array has one value (SI) for each state.
 
+    `states` are an `mdr.Indentation`, or `PathStates` with the same quantities; `states[i]` is one state.
     `progress` is 0 at first contact, 1 at the largest depth, 2 at loss of contact and 2.2 with the indenter
     at the undeformed surface. `now` and `peak` are the indices of the present state and of the largest
     depth. `turns`: the path may reverse several times. `pending` describes the approximation used until the
-    exact solution.
+    exact solution. `drive` is the key of the drive, `name` that of a held scene.
     """
 
     scene: mdr.Scene
-    progress: Array
-    states: States
+    progress: Any
+    states: Any
     now: int
     peak: int
     hit: mdr.Impact | None = None
@@ -70,21 +35,18 @@ class Course:
     turns: bool = False
     pending: str = ""
     oblique: ObliqueMotion | None = None
+    drive: str = ""
+    name: str = ""
 
     def __len__(self) -> int:
         return len(self.progress)
 
     @property
-    def force(self) -> Array:
-        """Normal force (N), including the dashpots."""
-        return self.states.force
-
-    @property
-    def state(self) -> States:
+    def state(self) -> Any:
         return self.states[self.now]
 
     @cached_property
-    def turning_point(self) -> States:
+    def turning_point(self) -> Any:
         return self.states[self.peak]
 
     @property
@@ -102,7 +64,7 @@ class Course:
         return self.scene.medium.work_of_adhesion > 0
 
     @property
-    def pull_off_force(self) -> Array | None:
+    def pull_off_force(self) -> Any:
         return self.states.pull_off_force if self.adhesive else None
 
     @property
@@ -116,34 +78,35 @@ class Course:
         return self.motion if self.oblique is None else self.oblique
 
     @property
-    def plastic_work(self) -> Array:
+    def plastic_work(self) -> Any:
         """Work (J) of yield; of an impact without earlier ones."""
         return self.states.plastic_work if self.motion is None else self.motion.plastic_work
 
     @property
-    def viscous_work(self) -> Array | None:
+    def viscous_work(self) -> Any:
         return self.ledger.viscous_work if self.dashpots else None
 
     @property
-    def kinetic_energy(self) -> Array | None:
+    def kinetic_energy(self) -> Any:
         return None if self.hit is None or self.motion is None else self.ledger.kinetic_energy
 
     @property
-    def stored_energy(self) -> Array:
+    def stored_energy(self) -> Any:
         """Energy (J) of all springs, including released elements."""
         return self.states.stored_energy if self.motion is None else self.ledger.stored_energy
 
     @property
-    def energy(self) -> Array:
-        """Sum (J) of stored energy and losses."""
+    def energies(self) -> dict[str, Any]:
+        """Losses (J) so far, stored and kinetic energy, by the names of their areas."""
         m = self.ledger
-        energy = m.kinetic_energy + m.stored_energy + m.plastic_work + m.viscous_work
-        return energy if self.oblique is None else energy + m.friction_work
+        friction = 0 * m.time if self.oblique is None else m.friction_work
+        parts = friction, m.plastic_work, m.viscous_work, m.stored_energy, m.kinetic_energy
+        return dict(zip(("friction", "plastic", "viscous", "stored", "kinetic"), parts, strict=True))
 
     @cached_property
-    def on_axes(self) -> dict[str, Array]:
+    def on_axes(self) -> dict[str, Any]:
         """Values of all states by the names of their axes."""
-        values = {"d": self.states.depth, "F": self.force, "a": self.states.contact_radius}
+        values = {"d": self.states.depth, "F": self.states.force, "a": self.states.contact_radius}
         if self.motion is not None:
             values["t"] = self.motion.time
         if self.oblique is not None:
@@ -151,27 +114,14 @@ class Course:
         return values
 
     @cached_property
-    def onset(self) -> States | None:
-        return onset(self.scene, self.initial_plastic_depth)
+    def onset(self) -> mdr.Indentation | None:
+        """State at which yield begins, or goes on below an earlier imprint; None if it is not reached."""
+        profile, medium = self.scene.profile, self.scene.medium
+        depth = self.initial_plastic_depth + medium.critical_depth
+        return mdr.indent(profile, medium, depth) if depth <= min(profile.known_depth, 1e300) else None
 
     @property
-    def first_onset(self) -> States | None:
-        """State at first yield of a virgin surface."""
-        return None if self.initial_plastic_depth else self.onset
-
-    @property
-    def next_onset(self) -> States | None:
-        """State at first yield below an imprint."""
-        return self.onset if self.initial_plastic_depth else None
-
-    @property
-    def critical_depth(self) -> float | None:
-        """Critical depth (m) of a virgin surface that yields."""
-        critical = self.scene.medium.critical_depth
-        return None if self.initial_plastic_depth or critical == np.inf else critical
-
-    @property
-    def relative_depth(self) -> Array | None:
+    def relative_depth(self) -> Any:
         critical = self.scene.medium.critical_depth
         return self.states.depth / critical if critical < np.inf else None
 
@@ -194,16 +144,15 @@ class Course:
             found |= {"spin_speed": spin} if radius == np.inf else {"spin": spin / radius}
         return SimpleNamespace(**found)
 
-    def unloading_curve(self, index: int) -> tuple[Array, Array]:
+    def unloading_curve(self, index: int) -> tuple[Any, Any]:
         """Depths (m) and forces (N) of elastic unloading; the area below is the stored energy.
 
         With adhesion it is less by what separates the surfaces up to the pull-off.
-
         Elements held back by dashpots are compressed further than their load indicates.
         """
         live, depth = self.states.live_interval[index], float(self.states.depth[index])
         touching = self.states.contact_radius[index] > 0
-        states = unloaded(self.scene, live, _RELEASE, touching)
+        states = unloaded(self.scene, live, np.linspace(1, 0, 25), touching)
         d, force = states.depth, states.force
         if live.length > 0 and depth > live.upper * (1 + 1e-9):
             stiff = 2 * self.scene.medium.E_star * self.states.contact_radius[index]
@@ -211,20 +160,14 @@ class Course:
         return d, force
 
 
-def onset(scene: mdr.Scene, before: float = 0.0) -> mdr.Indentation | None:
-    """State at first yield above a plastic depth (m); None if it is not reached."""
-    depth = before + scene.medium.critical_depth
-    reached = depth <= min(scene.profile.known_depth, 1e300)
-    return mdr.indent(scene.profile, scene.medium, depth) if reached else None
-
-
-def unloaded(scene: mdr.Scene, live: LiveInterval, share: Array, touching: Any) -> mdr.Indentation:
-    """States on unloading from live intervals, at shares (1 to 0) of the way to the pull-off."""
+def unloaded(scene: mdr.Scene, live: LiveInterval, share: Any, touching: Any) -> mdr.Indentation:
+    """States on unloading from live intervals, at shares (1 to 0) of the distance to the pull-off."""
     profile, medium, end = scene.profile, scene.medium, 0.0
     if medium.work_of_adhesion > 0:
         # Weak adhesion is seen only just before the pull-off.
         share = share**3
-        low = adhesion.stable_ranges(profile, medium, adhesion.AT_DEPTH)[0][0]
+        held = adhesion.AT_FORCE if isinstance(scene.drive, mdr.ForcePath) else adhesion.AT_DEPTH
+        low = adhesion.stable_ranges(profile, medium, held)[0][0]
         end = adhesion.last_interval(live.lower, low).length
     length = np.where(touching, end + share * (live.length - end), 0.0)
     interval = LiveInterval(*np.broadcast_arrays(live.lower, live.lower + length, length))
@@ -233,17 +176,17 @@ def unloaded(scene: mdr.Scene, live: LiveInterval, share: Array, touching: Any) 
     return mdr.Indentation(profile, medium, interval.upper - stretched, interval, load)
 
 
-def nearest(progress: Array, at: float) -> int:
+def nearest(progress: Any, at: float) -> int:
     """Index of the state nearest to a progress."""
     return int(np.argmin(np.abs(progress - at)))
 
 
-def rounded(progress: Array) -> Array:
+def rounded(progress: Any) -> Any:
     """Progress rounded to six digits, the precision of links."""
     return np.array([float(f"{p:.6g}") for p in progress])
 
 
-def path_progress(along: Array, peak: int) -> Array:
+def path_progress(along: Any, peak: int) -> Any:
     """Progress of places along a path: 1 at the index `peak`, 2 at the end."""
     share = (along - along[0]) / ((along[-1] - along[0]) or 1.0)
     turn = share[peak]
@@ -255,26 +198,14 @@ def path_progress(along: Array, peak: int) -> Array:
 class Drive(ABC):
     """A drive of the indenter, as set on the page and as in `mdr.Scene`.
 
-    `key`: option of the choice "drive"; `values`: types in a scene; `form`: its choices and parts of the
-    form; `line`: readouts above the plots; `solver`: function of the core and its arguments; `results`: its
-    results.
+    `solver`: function of the core and its arguments, if it can be swept. Its choices, numbers, readouts and
+    results are in assets/quantities.json.
     """
 
-    key: str = ""
-    values: tuple[type, ...] = ()
-    form: tuple[str, ...] = ()
-    line: tuple[str, ...] = (
-        "force", "depth", "relative_depth", "contact_radius", "plastic_radius", "mean_pressure",
-        "stored_energy", "plastic_work",
-    )  # fmt: skip
     solver: tuple[str, ...] = ()
-    results: tuple[str, ...] = ()
-
-    def owns(self, value: Any) -> bool:
-        return isinstance(value, self.values)
 
     @abstractmethod
-    def make(self, state: Any) -> Any:
+    def make(self, state: Any, medium: mdr.Medium) -> Any:
         """Drive of a scene, from the state of the page."""
 
     @abstractmethod
@@ -292,11 +223,3 @@ class Drive(ABC):
     @abstractmethod
     def equivalent(self, state: Any, turning_point: mdr.Indentation) -> dict[str, Any]:
         """Numbers of this drive that lead to the same largest depth."""
-
-    def words(self, state: Any) -> list[str]:
-        """Additional parts of the summary."""
-        return []
-
-    def duration(self, state: Any, turning_point: mdr.Indentation) -> float | None:
-        """Duration (s), if it matters."""
-        return None

@@ -1,16 +1,16 @@
 """Paths of several loadings, ramp and hold, and creep."""
 
+from dataclasses import dataclass, fields, replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
 import mdr_core as mdr
 from mdr_core import abel
+from mdr_core.medium import refuse_adhesion
 from mdr_core.yielding import LiveInterval
 
-from ..state import medium
-from ..state.quantities import CHOICES, QUANTITIES, USED
-from ..state.units import written
 from . import Course, Drive, nearest, path_progress
 from .press import limited_force
 
@@ -64,7 +64,7 @@ def _solved(scene, progress, chain, pending):
     by_force, bodies = _by_force(scene.drive), (scene.profile, scene.medium)
     if chain:
         solve = mdr.creep if by_force else mdr.indent_in_time
-        states = ChainStates(solve(*bodies, values, along, tolerance=_TOLERANCE))
+        states = PathStates.of(solve(*bodies, values, along, tolerance=_TOLERANCE))
     else:
         states = _slowly(scene, values)
     peak = int(np.argmax(states.depth))
@@ -93,26 +93,32 @@ def _motion(states, time):
 _PLACES = 300
 
 
-class ChainStates:
-    """States of a `TimedIndentation` whose elements are evaluated once for all states."""
+@dataclass(frozen=True, eq=False, repr=False)
+class PathStates(mdr.TimedIndentation):
+    """States along a path in time, whose elements are evaluated once for all states.
 
-    def __init__(self, path, elements=None):
-        self.profile, self.medium, self.limits, self.error = (
-            path.profile,
-            path.medium,
-            path.limits,
-            path.error,
-        )
-        self.depth, self.force, self.contact_radius = path.depth, path.force, path.contact_radius
-        self.plastic_depth, self.plastic_radius = path.plastic_depth, path.plastic_radius
-        self.stored_energy, self.plastic_work = path.stored_energy, path.plastic_work
-        self.viscous_work, self._path = path.viscous_work, path
-        # Places, and line loads and elastic compressions of each state.
-        self._elements = elements or _elements(path)
+    `x`: places (m) of the elements; `load`, `compression`: their line loads (N/m) and elastic
+    compressions (m) in every state.
+    """
+
+    x: Any
+    load: Any
+    compression: Any
+
+    @classmethod
+    def of(cls, path):
+        a, c = path.contact_radius, path.plastic_radius
+        half = float(np.max(a)) or 1.0
+        # The load may jump at the rim.
+        x = [np.linspace(0, half, _PLACES), a, a * (1 - 1e-9), np.minimum(c, half)]
+        x = np.unique(np.concatenate(x))
+        known = {each.name: getattr(path, each.name) for each in fields(path)}
+        return cls(**known, x=x, **dict(zip(("load", "compression"), path.elements(x), strict=True)))
 
     def __getitem__(self, index):
-        x, load, elastic = self._elements
-        return ChainStates(self._path[index], (x, load[index], elastic[index]))
+        return replace(
+            super().__getitem__(index), load=self.load[index], compression=self.compression[index]
+        )
 
     @property
     def mean_pressure(self):
@@ -127,53 +133,34 @@ class ChainStates:
         length = np.where(a > 0, np.maximum(upper - lower, np.finfo(float).tiny), 0.0)
         return LiveInterval(lower, upper, length)
 
-    def line_load(self, x):
-        return self._path.line_load(x)
-
     def relaxing(self, g):
         """Remaining elastic compression (m) of released elements at heights g (m)."""
-        x, load, elastic = self._elements
-        return np.interp(g, self.profile.reduced(x), np.where(load > 0, 0.0, elastic), right=0.0)
+        compression = np.where(self.load > 0, 0.0, self.compression)
+        return np.interp(g, self.profile.reduced(self.x), compression, right=0.0)
 
     def surface(self, r):
         """Elastic displacement (m), including that of released elements."""
-        x, _, elastic = self._elements
-        return abel.surface_displacement(x, elastic, r)
+        return abel.surface_displacement(self.x, self.compression, r)
 
     def imprint(self, r):
         return mdr.Indentation(self.profile, self.medium, self.depth, self.live_interval).imprint(r)
 
     def pressure(self, r):
         """Contact pressure (Pa) at radii r (m); infinite at the rim while dashpots carry load there."""
-        x, load, _ = self._elements
-        inside = x < self.contact_radius
+        inside = self.x < self.contact_radius
         if not inside.any():
             return np.zeros(np.shape(r))[()]
-        x, load = np.append(x[inside][:-1], self.contact_radius), load[inside]
+        x, load = np.append(self.x[inside][:-1], self.contact_radius), self.load[inside]
         load[-1] = load[-1] if load[-1] > 1e-6 * load.max() else 0.0
         return 0.0 - abel.stress_from_line_load(x, load, r)
-
-
-def _elements(path):
-    """Places (m), line loads (N/m) and elastic compressions (m) of the elements in all states."""
-    a, c = path.contact_radius, path.plastic_radius
-    half = float(np.max(a)) or 1.0
-    # The load may jump at the rim.
-    x = np.unique(np.concatenate([np.linspace(0, half, _PLACES), a, a * (1 - 1e-9), np.minimum(c, half)]))
-    return x, *path.elements(x)
 
 
 class Path(Drive):
     """Pressed along a path."""
 
-    key, values = "path", (mdr.DepthPath, mdr.ForcePath)
-    form = ("pattern",)
-
-    def owns(self, value):
-        return super().owns(value) and np.ndim(value.force if _by_force(value) else value.depth) > 0
-
-    def make(self, state):
+    def make(self, state, medium):
         if state.pattern in _TIMED:
+            refuse_adhesion(medium, "a path in time")
             times = (0.0, state.ramp_time, 5 * state.ramp_time)
             if state.pattern == "creep":
                 return mdr.ForcePath((0.0, state.max_force, state.max_force), times)
@@ -181,8 +168,8 @@ class Path(Drive):
         tenths = (2, 4, 6, 8, 10) if state.pattern == "cycles" else (7, 10)
         peaks = [state.max_depth * tenth / 10 for tenth in tenths]
         # Unloading ends at loss of contact.
-        critical = medium(state).critical_depth
-        return mdr.DepthPath([d for peak in peaks for d in (peak, max(peak - critical, 0.0))])
+        unloaded = (max(peak - medium.critical_depth, 0.0) for peak in peaks)
+        return mdr.DepthPath([depth for pair in zip(peaks, unloaded, strict=True) for depth in pair])
 
     def follow(self, scene, progress):
         """States; creep of a viscous medium without dashpots at first."""
@@ -201,11 +188,3 @@ class Path(Drive):
         numbers = {"max_depth": float(turning_point.depth), "max_force": limited_force(turning_point)}
         time = float(f"{turning_point.medium.relaxation_time or 1.0:.2g}")
         return numbers if state.drive == "path" else numbers | {"ramp_time": time}
-
-    def words(self, state):
-        numbers = ((QUANTITIES[n], state[n]) for n in USED["pattern"][state.pattern])
-        texts = (f"{q.symbol} = {written(value, q.kind, 3)}" for q, value in numbers)
-        return [*texts, CHOICES["pattern"][state.pattern]]
-
-    def duration(self, state, turning_point):
-        return 5 * state.ramp_time if state.pattern in _TIMED else None

@@ -37,19 +37,7 @@ def slow(scene, progress, turning_point, hit=None):
 
 
 class Press(Drive):
-    """Quasi-static loading to a depth or force (`kind`), and unloading."""
-
-    kind: str
-    results = (
-        "contact_radius", "plastic_radius", "plastic_depth", "mean_pressure", "stiffness", "stored_energy",
-        "plastic_work",
-    )  # fmt: skip
-
-    def make(self, state):
-        return self.values[0](state[f"max_{self.kind}"])
-
-    def owns(self, value):
-        return super().owns(value) and np.ndim(getattr(value, self.kind)) == 0
+    """Quasi-static loading to a depth or force, and unloading."""
 
     def follow(self, scene, progress):
         """Loading, unloading, and lifting of the indenter to the undeformed surface."""
@@ -62,9 +50,10 @@ class Press(Drive):
 class Depth(Press):
     """Pressed to a depth."""
 
-    key = kind = "depth"
-    values, solver = (mdr.DepthPath,), ("indent", "max_depth")
-    results = ("force", *Press.results)
+    solver = ("indent", "max_depth")
+
+    def make(self, state, medium):
+        return mdr.DepthPath(state.max_depth)
 
     def equivalent(self, state, turning_point):
         return {"max_depth": float(turning_point.depth)}
@@ -73,9 +62,10 @@ class Depth(Press):
 class Force(Press):
     """Pressed to a force."""
 
-    key = kind = "force"
-    values, solver = (mdr.ForcePath,), ("indent_to_force", "max_force")
-    results = ("depth", *Press.results)
+    solver = ("indent_to_force", "max_force")
+
+    def make(self, state, medium):
+        return mdr.ForcePath(state.max_force)
 
     def equivalent(self, state, turning_point):
         return {"max_force": limited_force(turning_point)}

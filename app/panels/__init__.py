@@ -18,41 +18,34 @@ _PARTS = {
 
 
 class Frame:
-    """Buttons, parts of the side by name, and the guide above them."""
+    """The whole page: buttons, parts of the side by name, the guide above them, and the board."""
 
-    def __init__(self, preset: Any, guide: Any, parts: dict[str, Any]):
+    def __init__(self, preset: Any, guide: Any, board: Any, parts: dict[str, Any]):
         self.undo, self.redo, self.reset = button("Undo", "z"), button("Redo", "y"), button("Reset", "r")
         self.hold, self.guide, self.dark = toggle("Hold", "h"), toggle("Guide", "g"), toggle("Dark", "d")
         self.numbers, self.warnings = html("", "all-numbers"), html("", "lights")
         about = html((HERE / "static" / "about.html").read_text(encoding="utf-8"))
         menu = pn.Column(tools(self.reset, self.dark), about, **WIDE)
         self._parts = parts | {"menu": menu, "numbers": self.numbers}
-        self.tabs = {name: toggle(*text) for name, text in _PARTS.items()}
-        self._preset = preset
-        for name, tab in self.tabs.items():
-            tab.param.watch(lambda event, name=name: self._switched(name, event.new), "value")
-        self.guide.param.watch(lambda event: reveal(self._side, guide, event.new, 1), "value")
-
-    def framed(self, board: Any) -> pn.Column:
-        """The whole page."""
+        self.tabs = tabs = {name: toggle(*text) for name, text in _PARTS.items()}
         title = html("<h1>Indentation explorer</h1>", "name", width=190, sizing_mode=None)
-        six = (self.undo, self.redo, self.hold, self.tabs["share"], self.guide, self.tabs["menu"])
+        six = (self.undo, self.redo, self.hold, tabs["share"], self.guide, tabs["menu"])
         buttons = pn.Row(*six, css_classes=["tools", "buttons"], margin=0, width=380)
-        header = pn.Row(title, self._preset, buttons, css_classes=["header"], stylesheets=STYLE, **WIDE)
+        header = pn.Row(title, preset, buttons, css_classes=["header"], stylesheets=STYLE, **WIDE)
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
-        tabs = pn.Row(
-            *(self.tabs[name] for name in ("explore", "fit", "held")), css_classes=["tools"], **WIDE
-        )
         # The buttons of the menu have keys.
-        self._side = pn.Column(tabs, self._parts["menu"], **look)
-        self.show("explore")
+        self._side = pn.Column(tools(tabs["explore"], tabs["fit"], tabs["held"]), menu, **look)
         texts = map(pn.pane.Bokeh, (board.player.heads, board.player.readout))
         line = pn.Column(*texts, css_classes=["line"], **WIDE)
-        top = pn.Row(line, self.tabs["numbers"], css_classes=["head", "top"], stylesheets=STYLE, **WIDE)
-        parts = (top, board.player.view, self.warnings, board.grid, board.tab_row)
-        results = pn.Column(*parts, css_classes=["results"], **FULL)
+        top = pn.Row(line, tabs["numbers"], css_classes=["head", "top"], stylesheets=STYLE, **WIDE)
+        plots = (top, board.player.view, self.warnings, board.grid, board.tab_row)
+        results = pn.Column(*plots, css_classes=["results"], **FULL)
         columns = pn.Row(self._side, results, css_classes=["columns"], **FULL)
-        return pn.Column(header, columns, css_classes=["page"], **FULL)
+        self.view = pn.Column(header, columns, css_classes=["page"], **FULL)
+        for name, tab in tabs.items():
+            tab.param.watch(lambda event, name=name: self._switched(name, event.new), "value")
+        self.guide.param.watch(lambda event: reveal(self._side, guide, event.new, 1), "value")
+        self.show("explore")
 
     def show(self, name: str) -> None:
         """Show a part of the side."""

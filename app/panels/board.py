@@ -3,16 +3,15 @@
 import json
 from collections.abc import Callable
 from html import escape
-from typing import Any
 
 import numpy as np
 import panel as pn
-from bokeh.events import MouseLeave, MouseMove, Pan, PanEnd, PanStart
-from bokeh.models import ColumnDataSource, CustomJS, Label, Slider, Span, Toggle
+from bokeh.events import Pan, PanEnd, PanStart
+from bokeh.models import ColumnDataSource, CustomJS, Slider, Toggle
 from panel.models.markup import HTML
 
-from ..plots import NAMED, PLOTS, TILES
-from ..plots.draw import Picture, described, drawn
+from ..plots import NAMED, PLOTS, TILES, visible
+from ..plots.draw import Picture, drawn
 from ..plots.plot import Plot, View
 from ..ui import FULL, JS, STYLE, WIDE, button, html, legend, linked, show, toggle
 from . import readouts
@@ -34,34 +33,27 @@ class Card:
         save.js_on_click(args=told, code=f"(async () => {{{JS['save']}}})()")
         self.large.param.watch(self._enlarge, "value")
         head = pn.Row(self.head, save, self.large, css_classes=["head"], stylesheets=STYLE, **WIDE)
-        above = (
-            [pn.Row(*map(choices.row, plot.controls), css_classes=["above"], **WIDE)]
-            if plot.controls
-            else []
-        )
-        below = [self.note] if plot.find else []
-        parts = [head, *above, self.key, pn.pane.Bokeh(self.picture.figure, **FULL), *below]
+        parts = [head, self.key, pn.pane.Bokeh(self.picture.figure, **FULL)]
+        if plot.find:
+            above = pn.Row(*map(choices.row, plot.controls), css_classes=["above"], **WIDE)
+            parts = [head, above, *parts[1:], self.note]
         self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
 
     def _enlarge(self, event):
         self.view.css_classes = ["card", self.plot.name, *["large"] * event.new]
         self.large.label = "Small" if event.new else "Large"
 
-    def show(self, columns: dict, view: View, dark: bool) -> None:
-        """Draw columns made for a view, with what is said around them."""
+    def show(self, columns: dict, view: View) -> None:
+        """Draw columns made for a view, with the texts around them."""
         plot, course = self.plot, view.course
-        self.picture.show(columns, view, dark)
-        show(self.head, object=f"<h3>{plot.title}</h3>{linked(plot.says(course))}")
+        self.picture.show(columns, view, view.state.dark)
+        show(self.head, object=f"<h3>{plot.title}</h3>{linked(plot.formula_of(course))}")
         rows = drawn(view, plot, {course.now, course.peak})
         if rows != self._rows:
             self._rows = rows
             show(self.key, object=legend(plot, rows))
         if plot.name in view.found:
             show(self.note, object=view.found[plot.name].note)
-
-    def describe(self, view: View) -> None:
-        """Say what is seen, to those who do not see it."""
-        self.picture.figure.html_attributes = {"role": "img", "aria-label": described(view, self.plot)}
 
 
 class Player:
@@ -86,20 +78,22 @@ class Player:
         self.play.js_on_change("active", code)
         self.view = pn.Row(*map(pn.pane.Bokeh, (self.play, self.state)), css_classes=["player"], **WIDE)
 
-    def show(self, view: View, numbers: dict) -> None:
-        """Show the present state of a course and its readouts; frames of another course are dropped."""
+    def show(self, view: View, moved: bool) -> None:
+        """Show the present state of a course and its readouts; drop frames unless it has only moved."""
         course, i = view.course, view.course.now
-        if self.frames.tags:
+        self._numbers = numbers = readouts.readings(course)
+        if self.frames.tags and not moved:
             self.frames.tags = []
         self.state.update(end=len(course) - 1, value=i)
         d, F, z = (view.axis(name) for name in ("d", "F", "z"))
         pressing = course.hit is None and course.motion is None and not course.turns
-        path = {"d": _rounded(course.states.depth / d.factor), "F": _rounded(course.force / F.factor)}
+        path = {"d": course.states.depth / d.factor, "F": course.states.force / F.factor}
+        path = {name: [float(f"{value:.6g}") for value in values] for name, values in path.items()}
         self.state.tags = [path | {"unit": d.factor / z.factor, "pressing": pressing}]
         self.heads.text = escape(readouts.heads(course, numbers))
         self.readout.text = escape(readouts.values(course, numbers, i))
 
-    def send(self, view: View, numbers: dict, pictures: list[Picture]) -> None:
+    def send(self, view: View, pictures: list[Picture]) -> None:
         """Send all states, once."""
         if self.frames.tags:
             return
@@ -112,15 +106,11 @@ class Player:
             times = (course.motion.time - course.motion.time[0]) / np.ptp(course.motion.time)
         sent = {
             "pictures": [[columns for frame in each for columns in frame.values()] for each in frames],
-            "words": [escape(readouts.values(course, numbers, i)) for i in states],
+            "words": [escape(readouts.values(course, self._numbers, i)) for i in states],
             "times": times.tolist(),
         }
         # As one text: Bokeh would look at every number of it.
         self.frames.tags = [sources, json.dumps(sent).replace("NaN", "null")]
-
-
-def _rounded(values: Any) -> list[float]:
-    return [float(f"{value:.6g}") for value in values]
 
 
 class Board:
@@ -130,21 +120,19 @@ class Board:
         self.player, self._choices = Player(), choices
         self.cards: dict[str, Card] = {}
         self.names: list[str] = []
-        self._scene = ColumnDataSource(name="scene")
+        # Its tags are the scene, which stands below a picture that is saved.
+        self.scene = ColumnDataSource(name="scene")
         self.tabs = {name: toggle(*PLOTS[name].tab) for name in TILES}
-        self.keep = toggle("Keep", "k")
         for name, tab in self.tabs.items():
             tab.param.watch(lambda event, name=name: asked(name, event.new), "value")
-        row = pn.Row(*self.tabs.values(), self.keep, css_classes=["tools", "tabs"], **WIDE)
-        self.tab_row = row
+        self.tab_row = pn.Row(*self.tabs.values(), css_classes=["tools", "tabs"], **WIDE)
         self.grid = pn.Column(css_classes=["plots"], **FULL)
         drag = {"hand": self.player.hand, **self.player.parts}
         for name in NAMED:
             self._make(name, drag)
-        self._link_pointer()
 
     def _make(self, name, drag=None):
-        card = self.cards[name] = Card(PLOTS[name], self._choices, self._scene)
+        card = self.cards[name] = Card(PLOTS[name], self._choices, self.scene)
         figure = card.picture.figure
         if name in _SAME_X:
             figure.x_range = self.cards[_SAME_X[name]].picture.figure.x_range
@@ -154,52 +142,31 @@ class Board:
                 figure.js_on_event(event, code)
         self.grid.append(card.view)
 
-    def _link_pointer(self):
-        pair = [self.cards[name].picture for name in ("springs", "pressure")]
-        look = {"dimension": "height", "visible": False, "line_color": "#848c97", "line_width": 1}
-        spans = [Span(location=0, **look) for _ in pair]
-        read = Label(
-            x=0, y=6, y_units="screen", text="", visible=False, text_font_size="11px", text_color="#848c97"
-        )
-        lines = next(layer.source for layer in pair[1].layers if layer.name == "lines")
-        told = {"spans": spans, "read": read, "lines": lines}
-        for picture, span in zip(pair, spans, strict=True):
-            picture.figure.add_layout(span)
-            picture.figure.js_on_event(MouseMove, CustomJS(args=told, code=JS["point"]))
-            picture.figure.js_on_event(MouseLeave, CustomJS(args=told, code=JS["point"]))
-        pair[0].figure.add_layout(read)
-
-    def columns(self, view: View, tiles: tuple[str, ...], dark: bool) -> dict[str, dict]:
+    def columns(self, view: View) -> dict[str, dict]:
         """Columns of all plots that are seen, by their names; nothing on the page is changed."""
-        names = [*NAMED, *(name for name in tiles if name in PLOTS and PLOTS[name].there(view))]
+        names = [plot.name for plot in visible(view)]
         for name in names:
             if name not in self.cards:
                 self._make(name)
-        return {name: self.cards[name].picture.columns(view, view.course.now, dark) for name in names}
+        now, dark = view.course.now, view.state.dark
+        return {name: self.cards[name].picture.columns(view, now, dark) for name in names}
 
-    def show(self, columns: dict[str, dict], view: View, state: Any) -> None:
+    def show(self, columns: dict[str, dict], view: View) -> None:
         """Draw columns made for a view, on the plots that they are of."""
         self.names = list(columns)
         for name, data in columns.items():
-            self.cards[name].show(data, view, state.dark)
+            self.cards[name].show(data, view)
         for name, card in self.cards.items():
             show(card.view, visible=name in columns)
         count = len(columns) - len(NAMED)
         show(self.grid, css_classes=["plots", f"with-{min(count, 2)}"])
 
-    def show_tabs(self, view: View, state: Any) -> None:
-        """The tabs of plots that the scene has, of which some are asked for."""
+    def show_tabs(self, view: View) -> None:
+        """Show the tabs of plots that apply to a view."""
         for name, tab in self.tabs.items():
-            possible = PLOTS[name].there(view)
-            show(tab, visible=possible, value=possible and name in state.tiles)
-        show(self.keep, value=state.keep)
+            applies = PLOTS[name].applies(view)
+            show(tab, visible=applies, value=applies and name in view.state.tiles)
 
     def pictures(self) -> list[Picture]:
         """The pictures that are seen."""
         return [self.cards[name].picture for name in self.names]
-
-    def describe(self, view: View, summary: str) -> None:
-        """Say what is seen in the plots, and below pictures that are saved what the scene is."""
-        self._scene.tags = [summary]
-        for name in self.names:
-            self.cards[name].describe(view)

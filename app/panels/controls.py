@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from html import escape
-from math import atan, degrees
+from math import atan, degrees, inf
 from typing import Any
 
 import panel as pn
@@ -10,43 +10,16 @@ import param
 
 from .. import changes
 from ..drives import Course
-from ..solve import DRIVES, option, options
-from ..state import PRESETS, State, altered
-from ..state.quantities import (
-    ABOUT,
-    CHOICES,
-    LABELS,
-    QUANTITIES,
-    SHAPES,
-    USED,
-    Scale,
-    shape_quantities,
-)
+from ..solve import option, options
+from ..state import MEDIUM_CHOICES, PRESETS, State, altered, regions
+from ..state.quantities import ABOUT, CHOICES, LABELS, OF_DRIVE, QUANTITIES, SHAPES, Scale
 from ..state.units import UNITS, digits, entry, written
-from ..ui import (
-    JS,
-    WIDE,
-    button,
-    explained,
-    field,
-    html,
-    linked,
-    marked,
-    reveal,
-    show,
-    symbol,
-    tools,
-    upload,
-)
+from ..ui import JS, WIDE, button, explained, field, html, linked, marked, reveal, show, symbol, upload
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
 #: Choices shown as radio buttons; others are lists.
-_RADIO = ("elasticity", "plasticity", "damping", "adhesion", "drive", "inertia", "surface", "aim", "body")
-#: Choices about the medium that are one click away, unless they are in use.
-_MORE = ("elasticity", "plasticity", "damping", "adhesion", "inertia")
-#: Numbers that other regions of the form have.
-_ELSEWHERE = {"drive": ("density",), "more": ("E_star", "q_c")}
+_RADIO = (*MEDIUM_CHOICES, "drive", "body")
 
 
 def _about(known: Any) -> str:
@@ -74,12 +47,8 @@ class Number(pn.custom.JSComponent):
         known = QUANTITIES[name]
         self.key, self._apply_or_raise, self._like, self._preset = name, apply_or_raise, 0.0, ""
         self._scale = Scale(known, known.default)
-        texts = {
-            "label": f"{symbol(known.symbol)} {marked(known.label)}",
-            "spoken": f"{known.symbol}, {known.label}",
-            "about": _about(known),
-        }
-        steps = Scale.STEPS if known.span >= 0 else 0
+        steps, label = Scale.STEPS * (known.span >= 0), f"{symbol(known.symbol)} {marked(known.label)}"
+        texts = {"label": label, "spoken": f"{known.symbol}, {known.label}", "about": _about(known)}
         super().__init__(css_classes=["number"], steps=steps, **texts, **WIDE)
         self.on_msg(self._on_message)
 
@@ -154,7 +123,7 @@ class Choices:
         widget = self._made(name, pn.widgets.Select, f"of-{name}", *beside, label=LABELS[name])
         look = f'class="help" aria-label="What is {LABELS[name]}?"'
         about = explained("about", "?", linked(ABOUT[name]), look)
-        return tools(widget, pn.pane.HTML(about, width=26, margin=0))
+        return pn.Row(widget, pn.pane.HTML(about, width=26, margin=0), css_classes=["tools"], **WIDE)
 
     def _made(self, name, kind, *classes, **options):
         def choose(event):
@@ -170,11 +139,10 @@ class Choices:
     def _texts(self, name):
         """Options by their texts."""
         state = self._state()
-        if name == "preset":
-            return {preset.label: key for key, preset in PRESETS.items()}
-        if name == "shape":
-            return {shape.label: key for key, shape in SHAPES.items() if key != "sampled" or state.samples}
-        return {CHOICES[name][option]: option for option in options(state, name)}
+        texts = {CHOICES[name][option]: option for option in options(state, name)}
+        if name == "shape" and not state.samples:
+            del texts[CHOICES["shape"]["sampled"]]
+        return texts
 
     def show(self, state: State) -> None:
         for name, widget in self.widgets.items():
@@ -192,7 +160,7 @@ class Controls:
         self.tip = upload("CSV file of a measured tip: r, z", ".csv,.txt,text/csv")
         look = {"css_classes": ["button", "more"], "margin": (4, 0)}
         self.more = pn.widgets.Toggle(label="More about the medium", **look)
-        folded = (*map(choices.row, _MORE), self.numbers["more"], self.notes["more"])
+        folded = (*map(choices.row, MEDIUM_CHOICES), self.numbers["more"], self.notes["more"])
         more, folded = pn.Column(self.more, **WIDE), pn.Column(*folded, **WIDE)
         self.more.param.watch(lambda event: reveal(more, folded, event.new), "value")
         self._forms = pn.Column(**WIDE)
@@ -204,75 +172,42 @@ class Controls:
         parts = (*drive, heads[0], *shape, heads[1], *medium, heads[2], *sources)
         self.view = pn.Column(*parts, css_classes=["form"], **WIDE)
 
-    def show(self, state: State) -> None:
+    def show(self, state: State, course: Course) -> None:
         """Show the numbers and choices in use."""
-        form = DRIVES[state.drive].form
-        parts = [self.again if n == "again" else self.choices.row(n) for n in form if n != "inertia"]
+        parts = [self.choices.row(name) for name in OF_DRIVE[state.drive]["form"]]
+        parts += [self.again] * (state.drive == "impact")
         for part in (*self._forms, *parts):
             reveal(self._forms, part, part in parts)
-        show(self.choices.row("inertia"), visible="inertia" in form)
-        more = [name for name in _MORE if name != "inertia" or name in form]
-        numbers = {
-            "drive": [n for part in ("drive", *form) if part in USED for n in USED[part][state[part]]],
-            "shape": [name for name, _ in shape_quantities(state.shape)],
-            "medium": ["E_star", *["q_c"] * (state.plasticity != "none")],
-            "more": [n for choice in more for n in USED[choice][state[choice]]],
-        }
-        for region in ("drive", "more"):
-            numbers[region] = [n for n in numbers[region] if n not in _ELSEWHERE[region]]
+        numbers = regions(state)
         for region, names in numbers.items():
-            self.numbers[region].show(state, names)
-        in_use = bool({*more, *numbers["more"]} & set(altered(state)))
+            self.numbers[region].show(state, names, {"plastic_depth": float(course.turning_point.depth)})
+        in_use = bool({*MEDIUM_CHOICES, *numbers["more"]} & set(altered(state)))
         if in_use and not self._in_use:
             show(self.more, value=True)
         self._in_use = in_use
 
     def show_texts(self, state: State, course: Course) -> None:
         """Update the texts."""
-        preset, shape = PRESETS[state.preset], SHAPES[state.shape]
-        sources = "".join(_source(name, preset.values[name], text) for name, text in preset.sources.items())
+        preset, shape, made = PRESETS[state.preset], SHAPES[state.shape], course.scene.medium
+        sources = ""
+        for name, text in preset.sources.items():
+            value = written(preset.values[name], QUANTITIES[name].kind, 3)
+            sources += f"<dt>{marked(f'{QUANTITIES[name].symbol} = {value}')}</dt><dd>{escape(text)}</dd>"
         title = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
-        formulas = f"<figcaption>{marked(shape.height)}<br>{marked(shape.reduced)}</figcaption>"
+        energy = written(state.mass * state.speed**2 / 2, "energy")
+        height = written(state.speed**2 / (2 * _GRAVITY), "length")
+        slope = getattr(state, f"{state.shape}_slope", None)
+        angle = f"Half-angle {digits(90 - degrees(atan(slope)))}°" if slope is not None else ""
+        onset = f"Yield starts at d_c = π q_c/(2E*) = {written(made.critical_depth, 'length')} (19)"
+        eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
+        idle = "" if course.dashpots else "; no effect here: pressing is infinitely slow"
         texts = {
-            "drive": marked(_drop(state)),
-            "shape": formulas + marked(_half_angle(state)),
-            "medium": linked(_yield(state, course)),
-            "more": linked(_damping(state, course)),
+            "drive": f"Energy {energy}; speed of a fall from {height}" * (state.drive == "impact"),
+            "shape": f"<figcaption>{marked(shape.height)}<br>{marked(shape.reduced)}</figcaption>"
+            + marked(state.tip_note if state.shape == "sampled" else angle),
+            "medium": linked(onset if made.q_c < inf else "Nothing yields: q_c = ∞"),
+            "more": linked(f"η = {eta}, τ = 4η/E* = {tau} (1){idle}") if made.eta > 0 else "",
             "sources": f"<details><summary>{title}</summary><dl>{sources}</dl></details>",
         }
         for name, text in texts.items():
             show(self.notes[name], object=text)
-
-
-def _source(name: str, value: float, text: str) -> str:
-    known = QUANTITIES[name]
-    return f"<dt>{marked(f'{known.symbol} = {written(value, known.kind, 3)}')}</dt><dd>{escape(text)}</dd>"
-
-
-def _half_angle(state: State) -> str:
-    if state.shape == "sampled":
-        return state.tip_note
-    slope = state.get(f"{state.shape}_slope")
-    return "" if slope is None else f"Half-angle {digits(90 - degrees(atan(slope)))}°"
-
-
-def _drop(state: State) -> str:
-    if state.drive != "impact":
-        return ""
-    energy, height = state.mass * state.speed**2 / 2, state.speed**2 / (2 * _GRAVITY)
-    return f"Energy {written(energy, 'energy')}; speed of a fall from {written(height, 'length')}"
-
-
-def _yield(state: State, course: Course) -> str:
-    if state.plasticity == "none":
-        return "Nothing yields: q_c = ∞"
-    depth = written(course.scene.medium.critical_depth, "length")
-    return f"Yield starts at d_c = π q_c/(2E*) = {depth} (19)"
-
-
-def _damping(state: State, course: Course) -> str:
-    if state.damping == "none":
-        return ""
-    made = course.scene.medium
-    text = f"η = {written(made.eta, 'viscosity')}, τ = 4η/E* = {written(made.relaxation_time, 'time')} (1)"
-    return text if course.dashpots else f"{text}; no effect here: pressing is infinitely slow"

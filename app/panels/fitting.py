@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from contextlib import suppress
 from html import escape
-from pathlib import Path
 
 import numpy as np
 import panel as pn
@@ -11,20 +10,15 @@ import panel as pn
 import mdr_core as mdr
 from mdr_core.reading import SIZES
 
-from ..solve import turning_point
 from ..state import State, checked, medium, profile, with_derived
-from ..state.files import FITTED, OF_MEDIUM, PLACED, Curve, Measured, agrees, read_curve
-from ..state.quantities import QUANTITIES, USED
-from ..state.units import fitting, written
+from ..state.files import FITTED, OF_MEDIUM, PLACED, Measured, agrees, read_curve
+from ..state.quantities import ASSETS, QUANTITIES
+from ..state.units import written
 from ..ui import WIDE, button, field, html, indexed, marked, on_upload, plain, show, upload
-from .controls import Choices, Numbers
+from .controls import Numbers
 
-#: The measured example, and the name and description of the made one.
-SILICA = Path(__file__).parents[2] / "assets" / "silica.csv"
-_MADE = "A made curve, no measurement"
-_EXAMPLE = (
-    "This tip on a medium of 1.3 E* and 0.8 q_c, which begins at a tenth of the depth, with 0.4 % noise."
-)
+#: The measured example.
+SILICA = ASSETS / "silica.csv"
 
 
 def take(state: State, curve: Measured | None) -> State:
@@ -45,29 +39,19 @@ def silica(state: State) -> State:
     return state.replace(drive="depth", max_depth=checked("max_depth", depth), progress=1.0)
 
 
-def example(state: State) -> Measured:
-    """Synthetic curve: the present tip on another medium, with noise."""
-    tip, made, depth = profile(state), medium(state), float(turning_point(state).depth)
-    other = mdr.Medium(1.3 * made.E_star, 0.8 * made.q_c)
-    back = depth - 0.8 * min(depth, other.critical_depth)
-    path = np.append(np.linspace(-0.05, 1, 240) * depth, np.linspace(depth, back, 160))
-    force = mdr.indent(tip, other, path).force
-    force = force + 0.004 * force.max() * np.random.default_rng(1).standard_normal(path.size)
-    units = fitting(depth, "length"), fitting(force.max(), "force")
-    columns = (path + 0.1 * depth) / units[0].factor, force / units[1].factor
-    rows = [f"{x:.6g}; {y:.6g}" for x, y in zip(*columns, strict=True)]
-    text = "\n".join([f"depth ({units[0].name}); force ({units[1].name})", *rows])
-    return read_curve(text.encode(), _MADE)
-
-
 def fit(state: State) -> State:
     """Fit medium and position to the measured curve; press to its depth."""
     made = medium(state)
     names = state.curve.fitted
+    for name in FITTED:
+        if name not in (*names, *state.fixed):
+            raise ValueError(
+                f"the {QUANTITIES[name].label} needs the times of the samples: leave it as it is"
+            )
     held = [name for name in names if name in state.fixed]
     fixed = {name: state[name] if name in PLACED else getattr(made, name) for name in held}
     asked = dict.fromkeys(names) | fixed
-    if state.noise == "given":
+    if state.depth_noise > 0:
         asked["depth_noise"] = state.depth_noise
     found = mdr.fit_indentation(profile(state), *state.curve.data, time=state.curve.time, **asked)
     numbers = {name: float(getattr(found, name)) for name in PLACED}
@@ -108,7 +92,7 @@ def result(state: State) -> str:
 
 def unloading(state: State) -> str:
     """Numbers of Oliver and Pharr for the curve where it lies, as HTML; empty without an unloading."""
-    curve = Curve.of(state)
+    curve = state.curve.placed(state)
     with suppress(ValueError):
         text = mdr.oliver_pharr(profile(state), curve.depth, curve.force)._repr_html_()
         return indexed(plain(text.replace("OliverPharr: one unloading", "Unloading: Oliver and Pharr")))
@@ -118,20 +102,18 @@ def unloading(state: State) -> str:
 class Fitting:
     """The tab *Fit a measurement*."""
 
-    def __init__(self, choices: Choices, apply_or_raise: Callable[..., None], apply: Callable[..., None]):
+    def __init__(self, apply_or_raise: Callable[..., None], apply: Callable[..., None]):
         self._apply, self._placed, select = apply, None, pn.widgets.Select
-        self.file = upload(
-            "CSV file of a measured curve: depth, force", ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx"
-        )
-        self.silica, self.made, self.remove, self.fit = map(
-            button, ("Fused silica", "Example", "Remove", "Fit")
-        )
+        kinds = ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx"
+        self.file = upload("CSV file of a measured curve: depth, force", kinds)
+        self.silica, self.remove, self.fit = map(button, ("Fused silica", "Remove", "Fit"))
         self.columns = {role: field(select, "column", label=f"Column of {role}") for role in SIZES}
         self.units = {
             role: field(select, "unit", label=f"Unit of {role}", options=list(sizes))
             for role, sizes in SIZES.items()
         }
-        self.fixed = field(pn.widgets.CheckBoxGroup, "fixed", inline=False)
+        names = {QUANTITIES[name].label: name for name in FITTED}
+        self.fixed = field(pn.widgets.CheckBoxGroup, "fixed", inline=False, options=names)
         self.about, self.said = html(), html("", "note", "said")
         self.unloading = html("", "note", "unloading")
         self.place, self.noise = Numbers(apply_or_raise), Numbers(apply_or_raise)
@@ -139,31 +121,21 @@ class Fitting:
             *(pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES),
             html("<h2>Where it lies</h2>", "title"), self.place,
             html("<h2>What a fit leaves as it is</h2>", "title"), self.fixed,
-            choices.row("noise"), self.noise, self.fit, self.said, self.unloading, visible=False, **WIDE,
+            self.noise, self.fit, self.said, self.unloading, visible=False, **WIDE,
         )  # fmt: skip
-        note = html(
-            "Depth and force as a table, drop or choose: they lie over the model, which can be fitted."
-        )
-        buttons = pn.Row(self.silica, self.made, self.remove, css_classes=["tools"], **WIDE)
+        note = html("Depth and force as a table: they lie over the model, which can be fitted.")
+        buttons = pn.Row(self.silica, self.remove, css_classes=["tools"], **WIDE)
         self.view = pn.Column(note, self.file, buttons, self.about, self._rest, visible=False, **WIDE)
         on_upload(self.file, lambda data: self._take(lambda state: read_curve(data, self.file.filename)))
         self.silica.on_click(lambda event: apply(silica))
-        self.made.on_click(lambda event: self._take(example))
         self.remove.on_click(lambda event: self._take(lambda state: None))
         self.fit.on_click(lambda event: apply(fit, self._refuse(self.said)))
         for role in SIZES:
             for widget in (self.columns[role], self.units[role]):
                 widget.param.watch(lambda event, role=role: self._correct(role, event.new), "value")
-        self.fixed.param.watch(lambda event: self._hold(event.new), "value")
-
-    def _hold(self, names):
-        """Hold parameters; those that the curve does not offer stay as they are."""
-
-        def change(state):
-            others = [name for name in state.fixed if state.curve and name not in state.curve.fitted]
-            return state.replace(fixed=tuple(name for name in FITTED if name in (*names, *others)))
-
-        self._apply(change)
+        self.fixed.param.watch(
+            lambda event: apply(lambda now: now.replace(fixed=tuple(event.new))), "value"
+        )
 
     def _refuse(self, where):
         return lambda text: show(where, object=f'<span class="refused">{escape(text)}</span>')
@@ -191,14 +163,12 @@ class Fitting:
         placed = curve, profile(state), *(state[name] for name in PLACED)
         if placed != self._placed:
             self._placed, self.unloading.object = placed, unloading(state)
-        made = f" {marked(_EXAMPLE)}" if curve.name == _MADE else ""
-        show(self.about, object=f"<b>{escape(curve.name)}</b>: {escape(curve.note)}.{made}")
+        show(self.about, object=f"<b>{escape(curve.name)}</b>: {escape(curve.note)}.")
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
         likes = {"contact_point": depth, "baseline": force, "frame_compliance": depth / (force or 1.0)}
         self.place.show(state, [name for name in PLACED if name in curve.fitted], likes)
-        options = {QUANTITIES[name].label: name for name in curve.fitted}
-        show(self.fixed, options=options, value=[name for name in state.fixed if name in curve.fitted])
-        self.noise.show(state, USED["noise"][state.noise])
+        show(self.fixed, value=list(state.fixed))
+        self.noise.show(state, ["depth_noise"], {"depth_noise": depth})
         heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.curve.table.heads)}
         for role, column in curve.curve.columns.items():
             options = heads | ({"none, rows in order": None} if role == "time" else {})

@@ -22,7 +22,7 @@ _LEFT = "The page shows something else by now. Back and Next go on with the step
 def step_state(step: dict[str, Any], now: State) -> State:
     """State of a step; theme, held scenes and other tiles stay."""
     state = link.read(urlencode(step["set"]))
-    kept = {name: now[name] for name in ("hold", "keep", "dark", "curve")}
+    kept = {name: now[name] for name in ("hold", "dark", "curve")}
     return state.replace(tiles=state.tiles or now.tiles, **kept)
 
 
@@ -47,7 +47,6 @@ class Guide:
         self.next.on_click(lambda event: self.go(self.at + 1))
         row = pn.Row(self.back, self.next, css_classes=["tools"], **WIDE)
         self.view = pn.Column(self.title, row, self.words, css_classes=["guide"], visible=False, **WIDE)
-        self._show_buttons()
 
     def go(self, at: int) -> None:
         self.at, steps = at, TOURS[self.title.value]
@@ -55,15 +54,12 @@ class Guide:
         course = self._course()
         self._scene, self._text = course.scene, linked(step_text(steps[at], course))
         self.show(course)
-        self._show_buttons()
 
     def show(self, course: Course) -> None:
         """Show the text of the step while the page shows its scene."""
+        count = len(TOURS[self.title.value])
+        show(self.back, disabled=self.at <= 0)
+        show(self.next, disabled=self.at == count - 1)
         if self.at >= 0:
             words = self._text if course.scene == self._scene else _LEFT
-            count = len(TOURS[self.title.value])
             show(self.words, object=f'<p role="status">{self.at + 1} of {count}. {words}</p>')
-
-    def _show_buttons(self):
-        show(self.back, disabled=self.at <= 0)
-        show(self.next, disabled=self.at == len(TOURS[self.title.value]) - 1)

@@ -12,9 +12,8 @@ from mdr_core.results.quantities import QUANTITIES as RESULTS
 from mdr_core.results.quantities import Quantity
 
 from ..drives import Course
-from ..solve import DRIVES, drive_of
 from ..state import State, medium
-from ..state.quantities import DATA, QUANTITIES, SHAPES, USED, shape_quantities
+from ..state.quantities import CHOICES, DATA, OF_DRIVE, QUANTITIES, SHAPES, USED, shape_quantities
 from ..state.units import KINDS, written
 from ..ui import explained, linked, plain, symbol
 
@@ -54,20 +53,15 @@ def readings(course: Course) -> dict[Readout, Any]:
     return {readout: values for readout, values in numbers if values is not None}
 
 
-def value_at(values: Any, i: int) -> float:
-    """Value in state i of a scalar or an array."""
-    return float(values if np.ndim(values) == 0 else values[i])
-
-
 def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
     """Value in state i with its unit."""
-    return written(value_at(values, i), KINDS[readout.known.unit], count)
+    value = values if np.ndim(values) == 0 else values[i]
+    return written(float(value), KINDS[readout.known.unit], count)
 
 
 def line(course: Course, numbers: dict[Readout, Any]) -> list[Readout]:
     """Readouts of the line above the plots."""
-    names = drive_of(course.scene).line
-    return [readout for readout in numbers if readout.name in names]
+    return [readout for readout in numbers if readout.name in OF_DRIVE[course.drive]["line"]]
 
 
 def values(course: Course, numbers: dict[Readout, Any], i: int) -> str:
@@ -103,7 +97,7 @@ def _head(readout: Readout) -> str:
 def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
     """Levels ("good", "note", "beyond") and sentences of the assumptions."""
     assumptions = list((course.states if course.hit is None else course.hit).limits)
-    if course.hit is not None and state.inertia == "density":
+    if course.hit is not None:
         assumptions.append(course.hit.speed_limit(state.density))
     assumptions += friction_limits(course.scene.medium) if course.oblique is not None else ()
     if course.hit is not None and course.hit.captured:
@@ -111,6 +105,9 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
     if course.pending:
         yield "note", course.pending
     given = state.elasticity != "modulus"
+    if course.adhesive:
+        # The fast limit is one without adhesion.
+        assumptions = [limit for limit in assumptions if limit.what != "fast limit"]
     for limit in sorted(assumptions, key=lambda limit: limit.concerns != "result"):
         if limit.what == "Poisson ratio" and not given:
             yield "note", "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*."
@@ -144,14 +141,14 @@ def warnings(course: Course, state: State) -> str:
 
 def summary(state: State) -> str:
     """Shape, medium and drive of a scene in one line."""
-    made, drive = medium(state), DRIVES[state.drive]
+    made, choices = medium(state), OF_DRIVE[state.drive]["form"]
     names = [name for name, _ in shape_quantities(state.shape)]
     of_medium = ("E_star", "q_c", "eta", "work_of_adhesion")
     names += [name for name in of_medium if 0 < getattr(made, name) < np.inf]
-    names += USED["drive"][state.drive]
-    names += ["plastic_depth"] * ("surface" in drive.form and state.surface == "imprint")
+    names += [number for name in ("drive", *choices) for number in USED[name][state[name]]]
     words = [SHAPES[state.shape].label]
     for name in names:
         value = float(getattr(made, name)) if name in of_medium else state[name]
-        words.append(f"{QUANTITIES[name].symbol} = {written(value, QUANTITIES[name].kind, 3)}")
-    return ", ".join([*words, *drive.words(state)])
+        if value:
+            words.append(f"{QUANTITIES[name].symbol} = {written(value, QUANTITIES[name].kind, 3)}")
+    return ", ".join([*words, *(CHOICES[name][state[name]] for name in choices)])

@@ -10,10 +10,9 @@ from jinja2 import Template
 
 import mdr_core as mdr
 
-from ..plots.draw import Picture, described, drawn
+from ..plots.draw import Picture, drawn
 from ..plots.plot import Plot, View
-from ..solve import numbers_of
-from ..state import PRESETS, State, altered
+from ..state import MEDIUM_CHOICES, PRESETS, State, altered, used
 from ..state.quantities import CHOICES, LABELS, QUANTITIES, SHAPES
 from ..state.units import written
 from ..ui import HERE, STYLE, indexed, legend, marked, plain, symbol
@@ -23,17 +22,18 @@ _TEMPLATE = Template((HERE / "static" / "report.html").read_text(encoding="utf-8
 _SIZE = 500, 340
 
 
-def report(state: State, view: View, plots: list[Plot], snippet: str, address: str = "", held=()) -> str:
+def report(view: View, plots: list[Plot], snippet: str, address: str = "") -> str:
     """The report as HTML."""
-    course, fit = view.course, state.curve.fit if state.curve is not None else None
+    state, course = view.state, view.course
+    fit = state.curve.fit if state.curve is not None else None
     plots = [plot for plot in plots if view.axes_of(plot)]
     title = PRESETS[state.preset].label + ", altered" * bool(altered(state))
     words = {
         "title": f"Fit to {state.curve.name}" if fit is not None else title,
         "scene": marked(readouts.summary(state)),
-        "held": [escape(name) for name in held],
+        "held": [escape(each.name) for each in view.held],
         "made": f"{datetime.now(UTC):%d %B %Y, %H:%M} UTC, mdr_core {mdr.__version__}",
-        "inputs": list(_inputs(state, view)),
+        "inputs": list(_inputs(state)),
         "numbers": [
             (symbol(each.known.symbol), each.known.long_name, readouts.text(each, values, course.now, 5))
             for each, values in readouts.readings(course).items()
@@ -45,26 +45,29 @@ def report(state: State, view: View, plots: list[Plot], snippet: str, address: s
         "python": escape(snippet),
         "link": escape(address),
     }
-    script, figures = components([printed(view, plot) for plot in plots])
+    pictures = [Picture(plot, "glyph", _SIZE) for plot in plots]
+    for picture in pictures:
+        picture.show(picture.columns(view, course.now, False), view, False)
+    script, figures = components([picture.figure for picture in pictures])
     words["plots"] = []
     for plot, figure in zip(plots, figures, strict=True):
         key, found = legend(plot, drawn(view, plot, {course.now})), view.found.get(plot.name)
         words["plots"].append(
-            (plot.title, key, figure, marked(plot.says(course)), found.note if found else "")
+            (plot.title, key, figure, marked(plot.formula_of(course)), found.note if found else "")
         )
     # Of Bokeh alone what draws.
     bokeh = Resources(mode="inline", components=["bokeh"]).js_raw
     return _TEMPLATE.render(words, bokeh=bokeh, script=script, style=STYLE[0])
 
 
-def _inputs(state: State, view: View):
+def _inputs(state: State):
     """Symbol, name, value and source of all inputs, as HTML."""
     preset, shape, fit = PRESETS[state.preset], SHAPES[state.shape], state.curve and state.curve.fit
     note = state.tip_note if state.shape == "sampled" else f"{shape.height},  {shape.reduced}"
     yield "", "indenter", escape(shape.label), marked(note)
-    for choice in ("elasticity", "plasticity", "damping", "adhesion", "drive"):
+    for choice in (*MEDIUM_CHOICES, "drive"):
         yield "", LABELS[choice].lower(), CHOICES[choice][state[choice]], ""
-    given = numbers_of(state)
+    given = used(state)
     for name in dict.fromkeys([*given, "E_star", *["q_c"] * (state.plasticity != "none")]):
         known, value = QUANTITIES[name], state[name]
         source = "set on the page" if name in given else "from the numbers above"
@@ -73,10 +76,3 @@ def _inputs(state: State, view: View):
         elif name in preset.sources and isclose(value, preset.values[name]):
             source = preset.sources[name]
         yield symbol(known.symbol), known.label, written(value, known.kind, 5), escape(source)
-
-
-def printed(view: View, plot: Plot):
-    picture = Picture(plot, "glyph", _SIZE)
-    picture.figure.html_attributes = {"role": "img", "aria-label": described(view, plot)}
-    picture.show(picture.columns(view, view.course.now, False), view, False)
-    return picture.figure

@@ -10,10 +10,10 @@ import panel as pn
 
 import mdr_core as mdr
 
-from ..drives import Course
-from ..solve import DRIVES
-from ..state import State, link
-from ..ui import WIDE, field, html, show
+from ..plots import visible
+from ..plots.plot import View
+from ..state import link
+from ..ui import WIDE, field, html, show, tools
 from .readouts import readings, summary
 from .report import report
 
@@ -36,20 +36,20 @@ def _constructed(value: Any) -> str:
     return f"mdr.{type(value).__name__}({', '.join(given)})"
 
 
-def csv(course: Course, state: State) -> str:
+def csv(view: View) -> str:
     """All states along the path: every readout that changes."""
     columns = {
         f"{each.known.long_name} {each.known.symbol} ({each.known.unit or '1'})": values
-        for each, values in readings(course).items()
+        for each, values in readings(view.course).items()
         if np.ndim(values)
     }
-    return _table(course, state, "states along the path", columns)
+    return _table(view, "states along the path", columns)
 
 
-def pressure_csv(course: Course, state: State, points: int = 401) -> str:
+def pressure_csv(view: View, points: int = 401) -> str:
     """Pressure, line load and reduced profile of the present state."""
-    now, profile = course.state, course.scene.profile
-    largest = 1.25 * float(course.turning_point.contact_radius)
+    now, profile = view.course.state, view.course.scene.profile
+    largest = 1.25 * float(view.course.turning_point.contact_radius)
     r = np.linspace(0, min(largest, profile.known_radius), points)
     columns = {
         "radius r (m)": r,
@@ -58,45 +58,42 @@ def pressure_csv(course: Course, state: State, points: int = 401) -> str:
         "reduced profile g (m)": profile.reduced(r),
     }
     title = f"state at depth d = {float(now.depth)!r} m, force F = {float(now.force)!r} N"
-    return _table(course, state, title, columns)
+    return _table(view, title, columns)
 
 
-def _table(course: Course, state: State, title: str, columns: dict[str, Any]) -> str:
+def _table(view: View, title: str, columns: dict[str, Any]) -> str:
     """Columns in SI, with the scene in a header."""
-    head = f"mdr_core {mdr.__version__}: {title}\n{summary(state)}\n{python(course.scene)}"
+    head = f"mdr_core {mdr.__version__}: {title}\n{summary(view.state)}\n{python(view.course.scene)}"
     rows = zip(*(np.asarray(column, float).tolist() for column in columns.values()), strict=True)
     lines = [*(f"# {line}".rstrip() for line in head.splitlines()), ",".join(columns)]
     return "\n".join([*lines, *(",".join(map(repr, row)) for row in rows)]) + "\n"
 
 
 class Share:
-    """The panel *Share*; `shown` returns what the page shows."""
+    """The panel *Share*; `shown` returns the view of the page."""
 
-    def __init__(self, shown: Callable[[], Any]):
+    def __init__(self, shown: Callable[[], View]):
         self._shown = shown
-        files = {
-            "Report": ("report.html", self._report),
-            "Curves (CSV)": ("curves.csv", lambda: csv(shown().view.course, shown().state)),
-            "Pressure (CSV)": ("pressure.csv", lambda: pressure_csv(shown().view.course, shown().state)),
-        }
         self.link = field(pn.widgets.TextInput, label="Link to this page")
         self.python = field(pn.widgets.TextAreaInput, label="This scene in Python", rows=12)
         self._note = html()
-        buttons = pn.FlexBox(
-            *(self._file(label, *of) for label, of in files.items()), css_classes=["tools"], **WIDE
-        )
-        self.view = pn.Column(self.link, self._note, buttons, self.python, visible=False, **WIDE)
-
-    @staticmethod
-    def _file(label, name, write):
-        options = {"callback": lambda: StringIO(write()), "filename": name, "label": label, "auto": True}
-        return pn.widgets.FileDownload(css_classes=["button"], margin=0, **options)
+        buttons = [
+            pn.widgets.FileDownload(
+                label=label, filename=name, callback=lambda write=write: StringIO(write(self._shown())),
+                auto=True, css_classes=["button"], margin=0,
+            )
+            for label, name, write in (
+                ("Report", "report.html", self._report),
+                ("Curves (CSV)", "curves.csv", csv),
+                ("Pressure (CSV)", "pressure.csv", pressure_csv),
+            )
+        ]  # fmt: skip
+        self.view = pn.Column(self.link, self._note, tools(*buttons), self.python, visible=False, **WIDE)
 
     def query(self) -> tuple[str, str]:
         """The page as a query, or why it has none."""
-        state = self._shown().state
         try:
-            return link.write(state, DRIVES[state.drive].form), ""
+            return link.write(self._shown().state), ""
         except ValueError as error:
             return "", f"No link: {error}."
 
@@ -107,13 +104,10 @@ class Share:
         return "" if note else base + f"?{query}" * bool(query), note
 
     def show(self) -> None:
-        shown, (address, note) = self._shown(), self.address()
+        view, (address, note) = self._shown(), self.address()
         show(self.link, value=address)
-        show(self._note, object=note if shown.state.curve is None else f"{note} {_MEASURED}")
-        show(self.python, value=python(shown.view.course.scene))
+        show(self._note, object=note if view.curve is None else f"{note} {_MEASURED}")
+        show(self.python, value=python(view.course.scene))
 
-    def _report(self):
-        shown = self._shown()
-        address, _ = self.address()
-        code, names = python(shown.view.course.scene), [each.name for each in shown.held]
-        return report(shown.state, shown.view, shown.plots, code, address, names)
+    def _report(self, view):
+        return report(view, visible(view), python(view.course.scene), self.address()[0])

@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 import numpy as np
-from contourpy import contour_generator
 
 from mdr_core.results.figures import NOTHING, RADII, area, at_radii, both, line, mark
 
@@ -14,8 +13,8 @@ from .plot import Plot, View, axis
 
 #: Where points lie between edges, at which the surface is steep.
 _DENSE = (1 - np.cos(np.linspace(0, np.pi, 20))) / 2
-#: Pixels down and along the radius, and lines of equal stress.
-_PIXELS, _LINES = (72, 96), 9
+#: Pixels down and along the radius.
+_PIXELS = (72, 96)
 #: What can be drawn: its title, and how it comes from a `Stress`.
 _DRAWN = {
     "max_shear": ("τmax, largest shear stress", lambda stress: stress.max_shear),
@@ -92,10 +91,8 @@ def section(course: Course, asked):
         bound = written(float(peak.value), "pressure", 3) if np.isfinite(peak.value) else "without bound"
         note = "{} is largest at r = {}, {} below the surface: {}.".format(title.split(",")[0], *at, bound)
     colours, ends = axis("stress", title, "pressure", most), np.array([z.start, z.end])
-    levels = colours.end * np.arange(1, _LINES + 1) / (_LINES + 1)
     rows = {
         "image": (np.array([r.start, r.end]), ends, np.minimum(image, colours.end)),
-        "equal stress": _contours(across, -deep, image, levels),
         "contact radius a": (np.full(2, state.contact_radius), ends),
         "plastic zone c": (np.full(2, state.plastic_radius), ends) if state.plastic_radius else NOTHING,
         "largest": place,
@@ -103,18 +100,9 @@ def section(course: Course, asked):
     return Found(rows, [r, z, colours], note)
 
 
-def _contours(x, y, image, levels):
-    """Level lines of an image, separated by gaps."""
-    lines = [line for level in levels for line in contour_generator(x, y, image).lines(level)]
-    return tuple(
-        np.concatenate([[np.nan], *(np.append(line[:, k], np.nan) for line in lines)]) for k in (0, 1)
-    )
-
-
 SECTION = Plot(
     "section", "Section under the tip", "σ(r, z): each increment a flat punch of radius a(s)  § 7", (),
     (
-        line("equal stress", "chalk", 0.6, legend=False),
         line("contact radius a", "chalk", 1.2, "dashed"),
         line("plastic zone c", "chalk", 1.2, "dotted"),
         mark("largest", "yielded", "chalk", "diamond", 12),

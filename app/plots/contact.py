@@ -3,18 +3,7 @@
 import numpy as np
 
 from mdr_core.results import figures
-from mdr_core.results.figures import (
-    NOTHING,
-    PRESSURE_ROWS,
-    REST,
-    SPRING_ROWS,
-    area,
-    both,
-    label,
-    line,
-    mark,
-    split,
-)
+from mdr_core.results.figures import NOTHING, area, both, label, line, mark, split
 
 from ..drives import Course
 from .plot import Plot, View, held_rows
@@ -69,7 +58,7 @@ def _feet(state, rows: dict, half: float, height: float) -> dict:
     for name in ("sticks", "slips"):
         foot = rows[name][0].reshape(-1, 9)[:, 0]
         ends = foot[:, None] + np.array([-width, width, np.nan])
-        found[name] = ends.ravel(), np.full(ends.size, -0.97 * REST * height)
+        found[name] = ends.ravel(), np.full(ends.size, -0.97 * figures.REST * height)
     return found
 
 
@@ -82,7 +71,7 @@ def _spring_formula(course: Course) -> str:
 
 SPRINGS = Plot(
     "springs", "1D foundation", _spring_formula, ("x", "z"),
-    (*SPRING_ROWS, line("sticks", "stick", 4.0), line("slips", "slip", 4.0)),
+    (*figures.SPRING_ROWS, line("sticks", "stick", 4.0), line("slips", "slip", 4.0)),
     moving=springs,
 )  # fmt: skip
 
@@ -103,7 +92,7 @@ def _held_pressure(view: View) -> dict:
 
 PRESSURE = Plot(
     "pressure", "Contact pressure", "(10)  σ_zz(r) = (1/π) ∫ q′(x) dx/√(x² − r²)", ("r", "p"),
-    (*held_rows("−σzz"), *PRESSURE_ROWS, label("exceeds")), _held_pressure, pressure,
+    (*held_rows("−σzz"), *figures.PRESSURE_ROWS, label("exceeds")), _held_pressure, pressure,
 )  # fmt: skip
 
 
@@ -112,10 +101,8 @@ def _loading(course: Course):
     depth, a = course.states.depth[: course.peak + 1], course.states.contact_radius[: course.peak + 1]
     if course.motion is None:
         return depth, a
-    fine = (
-        course.initial_plastic_depth
-        + (depth[-1] - course.initial_plastic_depth) * np.linspace(0, 1, 81) ** 2
-    )
+    start = course.initial_plastic_depth
+    fine = start + (depth[-1] - start) * np.linspace(0, 1, 81) ** 2
     return np.append(fine[:1], fine), np.append(a[:1], course.scene.profile.contact_radius(fine))
 
 
@@ -182,9 +169,7 @@ def relief(view: View, i: int) -> dict:
         back = (y / half + 1) / 2
         edges = [np.sqrt(max(radius**2 - y * y, 0.0)) for radius in (a, c)]
         for name, reach in (("cut", half), ("zone", edges[1])):
-            x = np.unique(
-                np.append(np.linspace(-reach, reach, _POINTS), [s * e for e in edges for s in (-1, 1)])
-            )
+            x = np.unique([*np.linspace(-reach, reach, _POINTS), *edges, *(-edge for edge in edges)])
             x = x[np.abs(x) <= reach]
             over = np.interp(np.hypot(x, y), r, np.clip(p, 0.0, view.end("p")), right=0.0)
             at = (1 - _RIGHT) * x + _RIGHT * half * (2 * back - 1)

@@ -1,7 +1,7 @@
 """Plots as Bokeh figures: one source for the rows of a kind, drawn by `source.data = …`; frames."""
 
-from functools import lru_cache
 from itertools import chain
+from math import floor, log10
 from typing import Any
 
 import bokeh.models as bk
@@ -10,7 +10,6 @@ from bokeh.plotting import figure
 
 from mdr_core.results.figures import DASHES, ROLES, Axis, Row
 
-from ..state.units import digits
 from .plot import Plot, View
 
 FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
@@ -21,13 +20,8 @@ _GROUPS = ("areas", "lines", "lines right", "marks", "marks right", "labels")
 #: Glyphs of each kind of row, and the columns of their source.
 _LINE = {"line_color": "color", "line_width": "width", "line_dash": "dash"}
 _MARK = {"fill_color": "color", "line_color": "edge", "marker": "marker", "size": "size", "line_width": 1.6}
-_TEXT = {
-    "text_font_size": "12px",
-    "text_font_style": "italic",
-    "text_baseline": "top",
-    "text_color": "color",
-}
-_GROUND = {"background_fill_color": "ground", "background_fill_alpha": 0.8}
+_TEXT = {"text_font_size": "12px", "text_font_style": "italic", "text_baseline": "top"}
+_GROUND = {"text_color": "color", "background_fill_color": "ground", "background_fill_alpha": 0.8}
 _GLYPHS: dict[str, tuple[str, dict[str, Any]]] = {
     "areas": ("patches", {"xs": "xs", "ys": "ys", "fill_color": "color", "fill_alpha": "alpha"}),
     "lines": ("multi_line", {"xs": "xs", "ys": "ys"} | _LINE),
@@ -100,13 +94,10 @@ class Layer:
 def _short(values: Any, axis: Axis) -> list[float]:
     """Values in the unit of an axis, as list, on a linear one to a fraction of a pixel."""
     values = np.atleast_1d(np.asarray(values, float)) / axis.factor
-    return (values if axis.log else np.round(values, _decimals(axis))).tolist()
-
-
-@lru_cache(1000)
-def _decimals(axis: Axis) -> int:
-    size = max(abs(end) for end in axis.ends) or 1.0
-    return 4 - int(np.floor(np.log10(size)))
+    if axis.log:
+        return values.tolist()
+    size = max(abs(axis.start), abs(axis.end)) / axis.factor or 1.0
+    return np.round(values, 4 - floor(log10(size))).tolist()
 
 
 def _inside(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, Any]:
@@ -210,6 +201,8 @@ class Picture:
         f, ground = self.figure, COLOURS["paper"][dark]
         # Another ground paints the axes anew, too, which take their colours from the sheet.
         f.update(background_fill_color=ground, border_fill_color=ground)
+        about = f"{self.plot.title}: {axes[1].title}, over {axes[0].title}"
+        f.html_attributes = {"role": "img", "aria-label": about}
         ranges = (f.x_range, f.y_range, f.extra_y_ranges.get("right"))
         sides = (f.below[0], f.left[0], *f.right[:1])
         for bounds, side, axis in zip(ranges, sides, axes, strict=False):
@@ -224,12 +217,8 @@ class Picture:
         if self.image is not None:
             low, high = axes[2].ends
             self.bar.color_mapper.update(low=low, high=high)
-            colour = COLOURS["ink"][dark]
-            self.bar.update(
-                title=f"{axes[2].title.split(',')[0]} ({axes[2].unit})",
-                title_text_color=colour,
-                major_label_text_color=colour,
-            )
+            colour, title = COLOURS["ink"][dark], f"{axes[2].title.split(',')[0]} ({axes[2].unit})"
+            self.bar.update(title=title, title_text_color=colour, major_label_text_color=colour)
 
     def _scale(self, side, axis: Axis):
         """Make the scale along one side logarithmic, or linear again."""
@@ -258,43 +247,3 @@ def drawn(view: View, plot: Plot, states: set[int]) -> set[str]:
     """Names of the rows of a plot that have something to show in one of some states."""
     rows = [row for i in states for row in view.rows(plot, i).items()]
     return {row for row, values in rows if np.size(values[1]) and np.isfinite(values[1]).any()}
-
-
-def described(view: View, plot: Plot) -> str:
-    """A plot in words, for those who do not see it: its axes, and how far and how high each row goes."""
-    axes = view.axes_of(plot)
-    if not axes:
-        return f"{plot.title}: nothing yet."
-    x, y, *more = axes
-    said = [f"{plot.title}: {y.title}, over {x.title}, from {_at(x, x.start)} to {_at(x, x.end)}."]
-    rows = view.rows(plot, view.course.now)
-    for row in plot.rows:
-        if row.legend and (text := _row(row, rows[row.name], x, more[0] if row.axis == 2 else y)):
-            said.append(f"{row.name}: {text}.")
-    if plot.image and np.isfinite(rows["image"][2]).any():
-        said.append(f"colours: {_at(more[0], np.nanmax(rows['image'][2]))} at most.")
-    return " ".join(said)
-
-
-def _row(row: Row, columns: Any, x: Axis, y: Axis) -> str:
-    """Where one row is; nothing if it is not drawn."""
-    at, values = (np.ravel(part) for part in columns[:2])
-    there = np.isfinite(at) & np.isfinite(values)
-    if not there.any():
-        return ""
-    at, values = at[there], values[there]
-    if row.kind == "marks" and values.size < 4:
-        return "; ".join(f"{_of(x, a)}, {_of(y, b)}" for a, b in zip(at, values, strict=True))
-    if row.symbol:
-        # Of two sides that are alike the right one.
-        top = values.size - 1 - int(np.argmax(values[::-1]))
-        return f"{row.symbol} from {_at(y, values.min())} to {_at(y, values[top])} at {_of(x, at[top])}"
-    return f"from {_of(x, at.min())} to {_at(x, at.max())}"
-
-
-def _at(axis: Axis, value: float) -> str:
-    return f"{digits(float(value) / axis.factor, 3)} {axis.unit}".strip()
-
-
-def _of(axis: Axis, value: float) -> str:
-    return f"{axis.title.split(',')[0]} = {_at(axis, value)}"

@@ -15,7 +15,9 @@ _DRAWN = 150
 def _curve(course: Course, until=None) -> dict:
     """Parts of the force–depth curve, optionally up to a state."""
     depth, past = course.states.depth, slice(until)
-    return split(depth[past], course.force[past], depth[past], course.states.live_interval.lower[past])
+    return split(
+        depth[past], course.states.force[past], depth[past], course.states.live_interval.lower[past]
+    )
 
 
 def sampled(x, y):
@@ -25,7 +27,7 @@ def sampled(x, y):
 
 def force_still(view: View) -> dict:
     course, onset = view.course, view.course.onset
-    rows = {"path ahead": (course.states.depth, course.force)} if course.turns else _curve(course)
+    rows = {"path ahead": (course.states.depth, course.states.force)} if course.turns else _curve(course)
     if onset is not None and not course.dashpots:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     if view.curve is not None:
@@ -41,14 +43,14 @@ def force(view: View, i: int) -> dict:
     if lower > 0:
         rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end("F"), "dₚ"
     if course.adhesive:
-        last = int(np.argmin(course.force))
+        last = int(np.argmin(course.states.force))
         text = f"Fₐ = {written(course.pull_off_force[last], 'force', 3)}"
-        rows["Fₐ"] = course.states.depth[last] + right, course.force[last], text
+        rows["Fₐ"] = course.states.depth[last] + right, course.states.force[last], text
     rows |= _curve(course, i + 1) if course.turns else {}
     if course.chained:
         # No live interval tells what is stored in elements that have each a memory of their own.
         return rows
-    d, F = (np.asarray(part[: i + 1]) for part in (course.states.depth, course.force))
+    d, F = (np.asarray(part[: i + 1]) for part in (course.states.depth, course.states.force))
     back_d, back_F = course.unloading_curve(i)
     elastic = lower == course.initial_plastic_depth and not (course.dashpots or course.adhesive)
     # The path so far, and back along what is stored: dissipated is the loop that it encloses.

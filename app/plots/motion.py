@@ -1,7 +1,5 @@
 """Depth, force and energies over time, and friction of an oblique impact."""
 
-from itertools import pairwise
-
 import numpy as np
 
 from mdr_core.results.figures import NOTHING, area, line, mark
@@ -40,16 +38,15 @@ MOTION = Plot(
 
 
 def energy_still(view: View) -> dict:
-    m = view.course.ledger
-    slip = 0 * m.time if view.course.oblique is None else m.friction_work
-    parts = slip, m.plastic_work, m.viscous_work, m.stored_energy, m.kinetic_energy
-    sums = np.cumsum([np.zeros_like(m.time), *parts], axis=0)
-    time = np.append(m.time, m.time[::-1])
-    between = [(time, np.append(upper, lower[::-1])) for lower, upper in pairwise(sums)]
-    # What is nothing but rounding is not in the legend.
-    relevant = [part.max() > 1e-9 * sums.max() for part in parts]
-    rows = [row if is_relevant else NOTHING for row, is_relevant in zip(between, relevant, strict=True)]
-    return dict(zip(("friction", "plastic", "viscous", "stored", "kinetic"), rows, strict=True))
+    time, rows = view.course.motion.time, {}
+    lower = np.zeros_like(time)
+    for name, energy in view.course.energies.items():
+        upper = lower + energy
+        between = np.append(time, time[::-1]), np.append(upper, lower[::-1])
+        # Rounding errors are not in the legend.
+        rows[name] = between if energy.max() > 1e-9 * view.size["E"] else NOTHING
+        lower = upper
+    return rows
 
 
 def _ledger(course: Course) -> str:
@@ -75,7 +72,7 @@ ENERGY = Plot(
 
 
 def forces_still(view: View) -> dict:
-    on, most = view.course.on_axes, view.course.scene.drive.friction * view.course.force
+    on, most = view.course.on_axes, view.course.scene.drive.friction * view.course.states.force
     both = np.append(on["t"], [np.nan, *on["t"]]), np.append(most, [np.nan, *-most])
     rows = {"normal force F": (on["t"], on["F"]), "force along Fₓ": (on["t"], on["force"])}
     return rows | {"most friction ±μF": both} | view.held_on_axes("t", "force")

@@ -12,6 +12,7 @@ from mdr_core.results.figures import NOTHING, REST, Axis, Row, ceiling, line, ra
 from mdr_core.results.quantities import QUANTITIES
 
 from ..drives import Course
+from ..state import State
 from ..state.units import fitting, round_up, written
 
 #: Scenes that are held have each its own dashes.
@@ -32,7 +33,7 @@ AXES: dict[str, tuple[str, str, str, float]] = {
     "d": (_titled("depth"), "length", "d", 0.0),
     "F": (_titled("force"), "force", "F", 0.0),
     "a": ("a, c, radius", "length", "a", 0.0),
-    "p": ("−σzz, contact pressure", "pressure", "p", 0.0),
+    "p": ("−σzz, pressure", "pressure", "p", 0.0),
     "far r": ("r, radius", "length", "far", 1.0),
     "far z": ("z, height", "length", "z", 1.2),
     "t": (_titled("time"), "time", "t", 0.0),
@@ -79,10 +80,10 @@ class Plot:
         """Arguments of `find` beside the course."""
         return self.asks(state) if self.asks else tuple(state[name] for name in self.controls)
 
-    def says(self, course: Course) -> str:
+    def formula_of(self, course: Course) -> str:
         return self.formula if isinstance(self.formula, str) else self.formula(course)
 
-    def there(self, view: "View") -> bool:
+    def applies(self, view: "View") -> bool:
         """Whether a view has all axes."""
         return all(AXES[name][2] in view.size for name in self.axes)
 
@@ -104,10 +105,11 @@ def axis(name: str, title: str, kind: str, largest: float, below: float = 0.0) -
 
 
 class View:
-    """A course and its axes, with held scenes, search results and the measured curve."""
+    """A state with its course and axes, courses of held scenes, results of searches, and the curve."""
 
-    def __init__(self, course: Course, held=(), found=None, curve=None):
-        self.course, self.held, self.found, self.curve = course, held, found or {}, curve
+    def __init__(self, state: State, course: Course, held=(), found=None):
+        self.state, self.course, self.held, self.found = state, course, held, found or {}
+        self.curve = None if state.curve is None else state.curve.placed(state)
         self._axes: dict[str, Axis] = {}
         self._drawn: dict[Any, Any] = {}
 
@@ -129,28 +131,25 @@ class View:
             title, kind, size, below = AXES[name]
             key = name.removeprefix("log ")
             made = axis(key, title, kind, self.size[size], below)
-            if name == "force" and np.min(self.course.on_axes["force"]) < 0:
-                made = replace(made, start=-made.end)
-            elif name == "force":
+            if name == "force":
                 made = replace(made, start=-min(self.course.scene.drive.friction, 1.0) * made.end)
-            elif name == "t":
-                made = replace(made, start=min(float(self.course.motion.time[0]), 0.0))
             elif name == "p" and any(each.adhesive for each in (self.course, *self.held)):
                 made = replace(made, start=-made.end)
             elif name in ("d", "F"):
-                made = replace(made, start=0.0 - self._below(name, made))
+                # Adhesion reaches below zero.
+                adhesive = (each.on_axes[name] for each in (self.course, *self.held) if each.adhesive)
+                least = min((np.min(values) for values in adhesive), default=0.0)
+                if least < 0:
+                    made = replace(made, start=-round_up(-least / made.factor) * made.factor)
             elif name != key:
-                least = _least(self.course)[key]
-                power = np.floor(np.log10(max(least, 1e-8 * made.end) / made.factor))
+                profile, medium = self.course.scene.profile, self.course.scene.medium
+                depth = min(float(np.max(self.course.states.depth)), medium.critical_depth) / 50
+                elastic = mdr.indent(profile, mdr.Medium(medium.E_star), depth)
+                least = max(float({"d": depth, "F": elastic.force}[key]), 1e-8 * made.end)
+                power = np.floor(np.log10(least / made.factor))
                 made = replace(made, start=float(10.0**power) * made.factor, log=True)
             self._axes[name] = made
         return self._axes[name]
-
-    def _below(self, name: str, made: Axis) -> float:
-        """Length (SI) of an axis of depth or force below zero, which adhesion needs."""
-        adhesive = (each.on_axes[name] for each in (self.course, *self.held) if each.adhesive)
-        least = min((np.min(values) for values in adhesive), default=0.0)
-        return round_up(-least / made.factor) * made.factor if least < 0 else 0.0
 
     def end(self, name: str) -> float:
         return self.axis(name).end
@@ -186,31 +185,23 @@ class View:
     def residual(self) -> np.ndarray:
         return self.curve.residual(self.course.scene)
 
-    def still(self, plot: Plot) -> dict:
-        if plot.name not in self._drawn:
-            found = self.found.get(plot.name)
-            self._drawn[plot.name] = plot.still(self) | (found.rows if found else {})
-        return self._drawn[plot.name]
-
     def rows(self, plot: Plot, i: int) -> dict:
-        """All rows of a plot in state i; the present ones are cached."""
-        if (plot.name, i) in self._drawn:
-            return self._drawn[plot.name, i]
-        empty = {row.name: (*NOTHING, "") for row in plot.rows}
-        if plot.image:
-            empty["image"] = *[np.array([0.0, 1.0])] * 2, np.full(plot.image, np.nan)
-        rows = empty | self.still(plot) | plot.moving(self, i)
-        if i == self.course.now:
-            self._drawn[plot.name, i] = rows
-        return rows
+        """All rows of a plot in state i; those that stay during playback are cached."""
+        if plot.name not in self._drawn:
+            empty = {row.name: (*NOTHING, "") for row in plot.rows}
+            if plot.image:
+                empty["image"] = *[np.array([0.0, 1.0])] * 2, np.full(plot.image, np.nan)
+            found = self.found.get(plot.name)
+            self._drawn[plot.name] = empty | plot.still(self) | (found.rows if found else {})
+        return self._drawn[plot.name] | plot.moving(self, i)
 
     def pressure(self, i: int) -> tuple[Any, Any]:
         """Radii (m) and pressures (Pa) of state i."""
-        if ("r, p", i) not in self._drawn:
+        if i not in self._drawn:
             state = self.course.states[i]
             r = radii(state, self.end("x"))
-            self._drawn["r, p", i] = r, state.pressure(r)
-        return self._drawn["r, p", i]
+            self._drawn[i] = r, state.pressure(r)
+        return self._drawn[i]
 
     def exceeds(self, i: int) -> str:
         """Note on a pressure beyond its axis."""
@@ -235,24 +226,15 @@ def _sizes(course: Course) -> dict[str, float]:
     state = course.turning_point
     tension = -2 / np.pi * float(state.uniform_load / state.contact_radius) if course.adhesive else 0.0
     size = {"r": 1.25 * radius, "a": 1.14 * radius, "far": 2.1875 * radius, "z": depth, "d": 1.02 * depth}
-    size["p"], size["F"] = (
-        1.05 * max(ceiling(course.turning_point, 1.25 * radius), tension),
-        1.05 * float(np.max(course.force)),
-    )
+    size["F"] = 1.05 * float(np.max(states.force))
+    size["p"] = 1.05 * max(ceiling(state, 1.25 * radius), tension)
     size["relief"] = 1.35 * size["p"]
     # An onset slightly below the path stays visible.
     if first_yield is not None and depth < first_yield.depth <= 2.5 * depth:
         size["d"] = 1.02 * max(depth, 1.02 * float(first_yield.depth))
         size["F"] = max(size["F"], 1.05 * float(first_yield.force))
     if course.motion is not None:
-        size |= {"t": float(course.motion.time[-1]), "E": float(np.max(course.energy))}
+        size |= {"t": float(course.motion.time[-1]), "E": float(np.max(sum(course.energies.values())))}
     if course.oblique is not None:
         size["force"] = max(size["F"], float(np.max(np.abs(course.on_axes["force"]))))
     return size
-
-
-def _least(course: Course) -> dict[str, float]:
-    """Smallest depth and force (SI) on logarithmic axes."""
-    profile, medium = course.scene.profile, course.scene.medium
-    depth = min(float(np.max(course.states.depth)), medium.critical_depth) / 50
-    return {"d": depth, "F": float(mdr.indent(profile, mdr.Medium(medium.E_star), depth).force)}

@@ -42,71 +42,53 @@ class Sweep:
     low: float
     high: float
     against: str
-    axes: str
-
-    @property
-    def drive(self):
-        return DRIVES[self.values["drive"]]
+    #: Function of the core and its arguments.
+    solver: tuple
 
     @property
     def viscous(self):
-        return self.values["damping"] != "none" and "speed" in self.drive.solver
-
-    @property
-    def together(self):
-        """Whether one call of the core solves all values."""
-        return self.drive.solver[:1] != ("indent_to_force",) or self.swept == "max_force"
-
-    @property
-    def logarithmic(self):
-        return self.axes != "linear" and self.low > 0
+        return self.values["damping"] != "none" and "speed" in self.solver
 
     @property
     def numbers(self):
-        space = np.geomspace if self.logarithmic else np.linspace
+        space = np.geomspace if self.low > 0 else np.linspace
         return space(self.low, self.high, VISCOUS if self.viscous else POINTS)
 
-    def parts(self, numbers):
-        """Profile, medium and arguments of the solver."""
+    def solve(self, numbers):
+        """Results of the core for values of the swept number."""
         values = self.values | {self.swept: numbers}
         if self.swept == "energy":
             values["speed"] = (2 * numbers / values["mass"]) ** 0.5
-        state, names = SimpleNamespace(**values), self.drive.solver[1:]
-        given = {name.replace("max_", ""): getattr(state, name) for name in names}
-        if "speed" in given and state.surface == "imprint":
-            given["plastic_depth"] = state.plastic_depth
-        return profile(state), medium(state), given
+        solver, *names = self.solver
+        given = {name.replace("max_", ""): values[name] for name in names}
+        if solver == "impact":
+            given["plastic_depth"] = values["plastic_depth"]
+        state = SimpleNamespace(**values)
+        return getattr(mdr, solver)(profile(state), medium(state), **given)
 
-    def solve(self, numbers):
-        profile, medium, given = self.parts(numbers)
-        return getattr(mdr, self.drive.solver[0])(profile, medium, **given)
-
-    def columns(self, numbers, quantities):
-        """Rows of quantities; NaN where the core refuses."""
+    def column(self, numbers, quantity):
+        """A result at values of the swept number; NaN where the core refuses."""
         try:
-            # One at a time also what is not solved together.
             result = self.solve(numbers[:, None] if len(numbers) > 1 else float(numbers[0]))
-            rows = [np.broadcast_to(attrgetter(each)(result), (len(numbers), 1)) for each in quantities]
-            return np.hstack(rows).T
+            return np.broadcast_to(attrgetter(quantity)(result), (len(numbers), 1))[:, 0]
         except ValueError:
             if len(numbers) == 1:
-                return np.full((len(quantities), 1), np.nan)
-            halves = np.array_split(numbers, 2)
-            return np.hstack([self.columns(half, quantities) for half in halves])
+                return np.full(1, np.nan)
+            return np.hstack([self.column(half, quantity) for half in np.array_split(numbers, 2)])
 
     def limits(self, numbers):
         """Curves of the fast limit and of the classes of hardness, and their powers of the energy."""
         values, (limit, power) = self.values, _LIMITS.get(self.against, ("", None))
-        dry = "speed" in self.drive.solver and not self.viscous and values["surface"] == "virgin"
-        if not (limit and dry and values["plasticity"] != "none"):
+        dry = not self.viscous and not values["plastic_depth"] and values["adhesion"] == "none"
+        if not (limit and dry and "speed" in self.solver and values["plasticity"] != "none"):
             return {}, {}
-        rows = {FAST: self.columns(numbers, [limit])[0]}
+        rows = {FAST: self.column(numbers, limit)}
         exponent = (_SHAPES | {"power_law": values["power_law_exponent"]}).get(values["shape"])
         if exponent is None or self.swept not in ("energy", "mass", "speed"):
             return rows, {}
         powers = {name: power(mdr.ScalingLaw(name, exponent)) for name in "abc"}
         # All through the limit at the present energy.
-        present = self.columns(np.array([self.present]), [limit])[0]
+        present = self.column(np.array([self.present]), limit)
         energy = (numbers / self.present) ** (2 if self.swept == "speed" else 1)
         return rows | {CLASSES[name]: present * energy ** powers[name] for name in CLASSES}, powers
 
@@ -115,23 +97,24 @@ def asked(state: State) -> Sweep:
     """The sweep of a state, over the range of a slider about the value of the preset."""
     swept = option(state, "swept")
     states = state, state.replace(**PRESETS[state.preset].values)
-    values, preset = ({**each, "energy": each.mass * each.speed**2 / 2} for each in states)
+    values, preset = ({**each.scene_values, "energy": each.mass * each.speed**2 / 2} for each in states)
     scale = Scale.about(SWEPT[swept], preset[swept], values[swept])
-    chosen = option(state, "against"), option(state, "sweep_axes")
+    chosen = option(state, "against"), DRIVES[state.drive].solver
     return Sweep(state.scene_values, swept, values[swept], scale.low, scale.high, *chosen)
 
 
 def quick(sweep: Sweep) -> bool:
     """Whether the sweep is fast enough for every move: shapes with closed forms."""
-    return sweep.together and not sweep.viscous and sweep.values["shape"] in (*_SHAPES, "power_law")
+    one_by_one = sweep.solver[:1] == ("indent_to_force",) and sweep.swept != "max_force"
+    return not (one_by_one or sweep.viscous) and sweep.values["shape"] in (*_SHAPES, "power_law")
 
 
 def found(course, sweep: Sweep):
     """Curve of the sweep with the present value and limits."""
-    if not sweep.drive.solver:
+    if not sweep.solver:
         return Found({}, [], "Nothing is swept: press to a depth or a force, or let a body hit.")
     numbers, present = sweep.numbers, getattr(course.hit or course.turning_point, sweep.against)
-    (values,) = sweep.columns(numbers, [sweep.against])
+    values = sweep.column(numbers, sweep.against)
     limits, powers = sweep.limits(numbers)
     inside = sweep.low <= sweep.present <= sweep.high
     rows = {"this scene": (numbers, values)} | {name: (numbers, row) for name, row in limits.items()}
@@ -144,14 +127,15 @@ def found(course, sweep: Sweep):
 
 
 def _axes(sweep, values, present):
+    """Both logarithmic, to show powers; a ratio, and numbers that may be negative, on a linear one."""
     quantity, result = SWEPT[sweep.swept], RESULTS[sweep.against]
     x = axis("swept", lowered(f"{quantity.symbol}, {quantity.label}"), quantity.kind, sweep.high)
-    x = replace(x, start=sweep.low, end=sweep.high, log=sweep.logarithmic)
+    x = replace(x, start=sweep.low, end=sweep.high, log=sweep.low > 0)
     sizes = np.append(values, present)
     sizes = sizes[np.isfinite(sizes)]
     title = lowered(f"{result.symbol}, {result.long_name}")
     y = axis("against", title, KINDS[result.unit], max(sizes, default=1.0))
-    if sweep.axes != "log" or not (sizes > 0).any():
+    if not (result.unit and x.log and (sizes > 0).any()):
         return x, y
     # At most six decades, between powers of ten.
     least, most = max(min(sizes[sizes > 0]), 1e-6 * max(sizes)), max(sizes)
@@ -164,9 +148,9 @@ def _notes(sweep, numbers, values, powers, inside):
     if not inside:
         shown = written(sweep.present, quantity.kind, 3)
         yield f"The present value, {marked(f'{quantity.symbol} = {shown}')}, is outside of the range."
-    elif sweep.logarithmic:
+    elif sweep.low > 0:
         pair = sweep.present * np.array([0.999, 1.001])
-        (ends,) = sweep.columns(pair, [sweep.against])
+        ends = sweep.column(pair, sweep.against)
         if (ends > 0).all():
             slope = round(float(np.log(ends[1] / ends[0]) / np.log(pair[1] / pair[0])), 6)
             power = f"<sup>{digits(slope, 3)}</sup>."
@@ -189,5 +173,5 @@ SWEEP = Plot(
         line("this scene", "elastic", 2.4, symbol="y"),
         mark("present value"),
     ),
-    find=found, asks=asked, quick=quick, tab=("Sweep", "w"), controls=("swept", "against", "sweep_axes"),
+    find=found, asks=asked, quick=quick, tab=("Sweep", "w"), controls=("swept", "against"),
 )  # fmt: skip

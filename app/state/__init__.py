@@ -1,23 +1,13 @@
 """The state of the page: a frozen mapping of numbers (SI) and choices."""
 
 import json
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, make_dataclass, replace
 from math import inf, isclose
-from types import MappingProxyType
 from typing import Any
 
 import mdr_core as mdr
 
-from .quantities import (
-    ASSETS,
-    CHOICES,
-    QUANTITIES,
-    SHAPES,
-    USED,
-    lowered,
-    shape_quantities,
-)
+from .quantities import ASSETS, CHOICES, OF_DRIVE, QUANTITIES, SHAPES, USED, lowered, shape_quantities
 from .units import written
 
 
@@ -38,9 +28,9 @@ def _preset(scene: dict, media: dict, indenters: dict) -> Preset:
     values = {name: each["value"] for name, each in given.items()}
     sources = {name: each["source"] for name, each in given.items()}
     made = mdr.Medium.from_bodies(*(values[n] for n in USED["elasticity"]["bodies"]), q_c=values["q_c"])
-    values["E_star"] = made.E_star
+    values |= {"E_star": made.E_star, "plastic_depth": 0.0}
     choices = {"shape": indenter["shape"], "elasticity": "bodies", "plasticity": "q_c", "damping": "none"}
-    choices |= {"drive": "impact", "inertia": "density", "surface": "virgin", "adhesion": "none"}
+    choices |= {"drive": "impact", "adhesion": "none"}
     if "depth" in scene:
         choices["drive"], values["max_depth"] = "depth", float(scene["depth"] * made.critical_depth)
         sources["max_depth"] = f"{scene['depth']:g} times the depth at which yield begins"
@@ -53,7 +43,10 @@ _DATA = json.loads((ASSETS / "presets.json").read_text(encoding="utf-8"))
 _MADE = (_preset(scene, _DATA["media"], _DATA["indenters"]) for scene in _DATA["scenes"])
 #: By their keys.
 PRESETS = {preset.key: preset for preset in _MADE}
+CHOICES["preset"] = {key: preset.label for key, preset in PRESETS.items()}
 
+#: Choices about the medium.
+MEDIUM_CHOICES = ("elasticity", "plasticity", "damping", "adhesion")
 #: What the page opens on.
 OPENING = next(iter(PRESETS))
 
@@ -61,7 +54,7 @@ OPENING = next(iter(PRESETS))
 #: height of the undeformed surface.
 LAST_PROGRESS = 2.2
 #: What the view is like rather than the scene: undo leaves it alone.
-VIEW = ("progress", "hold", "tiles", "keep", "dark")
+VIEW = ("progress", "hold", "tiles", "dark")
 
 # A number of a shape that has not been looked at is None: it is sized when it is.
 _DEFAULTS: dict[str, Any] = {name: q.bounded(q.default) for name, q in QUANTITIES.items()}
@@ -69,56 +62,40 @@ _DEFAULTS |= {name: None for shape in SHAPES for name, _ in shape_quantities(sha
 _DEFAULTS |= {name: next(iter(options)) for name, options in CHOICES.items()}
 _DEFAULTS |= {
     "preset": OPENING, "shape": "cone", "progress": 1.0, "samples": (), "tip_note": "",
-    "hold": (), "tiles": (), "keep": False, "dark": False,
+    "hold": (), "tiles": (), "dark": False,
     "curve": None, "fit_note": "", "fixed": ("eta", "baseline", "tilt", "drag", "frame_compliance"),
 }  # fmt: skip
 
 
-class State(Mapping[str, Any]):
-    """Everything set on the page; values are attributes, `replace` returns a copy with other values.
+class _Values:
+    """Everything set on the page; `replace` returns a copy with other values.
 
     `samples` has radii and heights of a measured tip, `hold` held scenes as links, `tiles`
     optional plots; `curve` is a measured curve, `fixed` the fixed parameters of a fit, `fit_note` its
     summary.
     """
 
-    __slots__ = ("_values",)
-
-    def __init__(self, values: Mapping[str, Any]):
-        self._values = MappingProxyType({**_DEFAULTS, **values})
-
     def __getitem__(self, name: str) -> Any:
-        return self._values[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._values)
-
-    def __len__(self) -> int:
-        return len(self._values)
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_") or name not in self._values:
-            raise AttributeError(name)
-        return self._values[name]
+        return getattr(self, name)
 
     def replace(self, **changes: Any) -> "State":
         """Copy with other values."""
-        unknown = changes.keys() - _DEFAULTS.keys()
-        if unknown:
-            raise KeyError(f"a state has no {', '.join(sorted(unknown))}")
-        return State({**self._values, **changes})
+        return replace(self, **changes)
 
     @property
     def scene_values(self) -> dict[str, Any]:
         """Values that undo restores."""
-        return {name: value for name, value in self._values.items() if name not in VIEW}
+        return {name: self[name] for name in _DEFAULTS if name not in VIEW}
+
+
+_FIELDS = [(name, Any, field(default=value)) for name, value in _DEFAULTS.items()]
+State = make_dataclass("State", _FIELDS, bases=(_Values,), frozen=True)
 
 
 def preset_state(key: str = OPENING, **view: Any) -> State:
     """State of a preset, with a view."""
     preset = PRESETS[key]
-    state = State({"preset": key, **preset.choices, **preset.values, **view})
-    return with_derived(state)
+    return with_derived(State(preset=key, **preset.choices, **preset.values, **view))
 
 
 def profile(state: Any) -> mdr.Profile:
@@ -136,7 +113,7 @@ def medium(state: Any) -> mdr.Medium:
     made = make(*numbers)
     hardness = state.hardness * state.hardness_radius
     q_c = {"q_c": state.q_c, "hardness": hardness, "none": inf}[state.plasticity]
-    eta = {"none": 0.0, "eta": state.eta, "tau": state.tau * made.E_star / 4}[state.damping]
+    eta = state.eta if state.damping == "eta" else 0.0
     w = state.work_of_adhesion if state.adhesion == "work" else 0.0
     return replace(made, q_c=q_c, eta=eta, work_of_adhesion=w)
 
@@ -148,12 +125,23 @@ def with_derived(state: State) -> State:
     return state.replace(E_star=float(made.E_star), **q_c)
 
 
-def used(state: State, form: tuple[str, ...]) -> list[str]:
-    """Names of the numbers in use; `form` has the choices of the drive."""
+def used(state: State) -> list[str]:
+    """Names of the numbers in use."""
     names = [name for name, _ in shape_quantities(state.shape)]
-    of_medium = ("elasticity", "plasticity", "damping", "adhesion")
-    choices = [*of_medium, "drive", *(part for part in form if part in USED)]
+    choices = (*MEDIUM_CHOICES, "drive", *OF_DRIVE[state.drive]["form"])
     return names + [name for choice in choices for name in USED[choice][state[choice]]]
+
+
+def regions(state: State) -> dict[str, list[str]]:
+    """Names of the numbers in the form, by its regions."""
+    drive = [n for name in ("drive", *OF_DRIVE[state.drive]["form"]) for n in USED[name][state[name]]]
+    medium = [n for name in MEDIUM_CHOICES for n in USED[name][state[name]]]
+    return {
+        "shape": [name for name, _ in shape_quantities(state.shape)],
+        "drive": [name for name in drive if name != "density"],
+        "medium": ["E_star", *["q_c"] * (state.plasticity != "none")],
+        "more": [n for n in medium if n not in ("E_star", "q_c")] + ["density"] * ("density" in drive),
+    }
 
 
 def checked(name: str, value: float) -> float:

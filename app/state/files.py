@@ -87,6 +87,16 @@ class Measured:
         taken = f"{len(self.curve)} samples" + f", one in {self._step} of them taken" * (self._step > 1)
         return "; ".join([taken, *self.curve.remarks])
 
+    def placed(self, state):
+        """The curve at its position on the page."""
+        (depth, force), time = self.data, self.time
+        force = force - state.baseline - state.tilt * depth
+        if state.drag and time is not None:
+            force = force - state.drag * np.gradient(depth, time)
+        depth = depth - state.contact_point - state.frame_compliance * force
+        fit = self.fit if self.fit is not None and agrees(state) else None
+        return Curve(depth, force, fit, self.asked)
+
     def corrected(self, role, chosen):
         """With another column or unit of "depth", "force" or "time", without a fit."""
         columns, units = dict(self.curve.columns), dict(self.curve.units)
@@ -130,19 +140,6 @@ class Curve:
     force: np.ndarray
     fit: IndentationFit | None = None
     asked: dict[str, Any] | None = None
-
-    @classmethod
-    def of(cls, state: State) -> "Curve | None":
-        """The measured curve at its position on the page, or None."""
-        if state.curve is None:
-            return None
-        (depth, force), time = state.curve.data, state.curve.time
-        force = force - state.baseline - state.tilt * depth
-        if state.drag and time is not None:
-            force = force - state.drag * np.gradient(depth, time)
-        depth = depth - state.contact_point - state.frame_compliance * force
-        found = state.curve.fit
-        return cls(depth, force, found if found is not None and agrees(state) else None, state.curve.asked)
 
     def residual(self, scene):
         """Measured minus modelled force (N); NaN if the scene cannot be solved."""

@@ -1,37 +1,40 @@
 """States as links: defaults are left out, and links are read as hostile input."""
 
-from math import inf, isfinite
+import re
+from math import atan2, hypot, inf, isfinite
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from . import LAST_PROGRESS, OPENING, PRESETS, State, checked, preset_state, used, with_derived
+from . import LAST_PROGRESS, OPENING, PRESETS, State, checked, medium, preset_state, used, with_derived
 from .files import FITTED, MAX_SAMPLES
-from .quantities import CHOICES, QUANTITIES, SHAPES, USED
+from .quantities import CHOICES, QUANTITIES
 
 #: Limits of a link: characters, values, held scenes, plots.
 MAX_LENGTH, _MAX_VALUES, MAX_HELD, _MAX_TILES = 8000, 100, 4, 12
-_OPTIONS = {"shape": SHAPES} | CHOICES
-_FLAGS, _LISTS = ("dark", "keep"), ("hold", "tiles", "fixed")
-#: Names of version 0.3 with their present names, and names that are ignored.
-_RENAMED, _IGNORED = (
-    {"plots": "tiles"},
-    ("called", "sweep_low", "sweep_high", "references", "axes", "heights"),
-)
+_LISTS = ("hold", "tiles", "fixed")
+#: Names and options of earlier versions with their present names, and names that are ignored.
+_RENAMED = {"plots": "tiles", "tau": "eta", "rigid_tip": "modulus", "tangential_speed": "incoming_speed"}
+_IGNORED = re.compile("called|references|axes|heights|keep|inertia|surface|noise|sweep_.*|.*_(from|to)")
+#: Choices and options of earlier versions, with the number that they had and its default.
+_FORMER = {
+    ("damping", "tau"): ("tau", "0.001"), ("aim", "components"): ("tangential_speed", "1"),
+    ("surface", "imprint"): ("plastic_depth", "1e-06"), ("noise", "given"): ("depth_noise", "1e-10"),
+}  # fmt: skip
 
 
-def write(state: State, form: tuple[str, ...]) -> str:
-    """State as a query; `form` has the choices of the drive. Raises ValueError if it is too long."""
+def write(state: State) -> str:
+    """State as a query. Raises ValueError if it is too long."""
     start = preset_state(state.preset)
-    numbers = [*used(state, form), *FITTED[2:], *USED["noise"][state.noise]]
-    changed = {n for n in (*_OPTIONS, *numbers, *_FLAGS, *_LISTS, "fit_note") if state[n] != start[n]}
+    numbers = [*used(state), *FITTED[2:], "depth_noise"]
+    changed = {n for n in (*CHOICES, *numbers, *_LISTS, "dark", "fit_note") if state[n] != start[n]}
     pairs = {"preset": state.preset} if state.preset != OPENING else {}
-    pairs |= {name: state[name] for name in _OPTIONS if name in changed}
+    pairs |= {name: state[name] for name in CHOICES if name in changed}
     pairs |= {name: repr(state[name]) for name in numbers if name in changed and state[name] is not None}
     pairs |= {"at": f"{state.progress:.6g}"} if state.progress != 1 else {}
     if state.shape == "sampled":
         pairs["samples"] = " ".join(f"{r!r},{z!r}" for r, z in zip(*state.samples, strict=True))
     pairs |= {name: " ".join(state[name]) for name in _LISTS if name in changed}
-    pairs |= {name: "1" for name in _FLAGS if name in changed}
+    pairs |= {"dark": "1"} if "dark" in changed else {}
     pairs |= {"fit_note": state.fit_note} if "fit_note" in changed else {}
     query = urlencode(pairs, safe=",*")
     if len(query) > MAX_LENGTH:
@@ -44,17 +47,19 @@ def read(query: str) -> State:
     values = parse_qsl(query[: 3 * MAX_LENGTH + 1], keep_blank_values=True)
     if len(values) > _MAX_VALUES or sum(len(text) for _, text in values) > MAX_LENGTH:
         raise ValueError("this link is too long")
-    pairs = {_RENAMED.get(name, name): text for name, text in values}
+    pairs = dict(values)
     if len(pairs) < len(values):
         raise ValueError("this link sets a value twice")
     state = preset_state(_preset(pairs.pop("preset", OPENING)))
-    state = state.replace(**dict(_value(*pair) for pair in pairs.items() if not _is_ignored(pair[0])))
-    missing = [name for name in used(state, ()) if state[name] is None]
+    for (name, option), (number, default) in _FORMER.items():
+        if pairs.get(name) == option:
+            pairs.setdefault(number, default)
+    former = {name: pairs.pop(name, "") for name in ("aim", "tau", "tangential_speed")}
+    changes = dict(_value(*pair) for pair in pairs.items() if not _IGNORED.fullmatch(pair[0]))
+    state = _converted(state.replace(**changes), pairs, former)
+    missing = [name for name in used(state) if state[name] is None]
     for wrong, message in (
-        (
-            not 0 <= state.progress <= LAST_PROGRESS,
-            f"at in this link is not in 0 to {LAST_PROGRESS}",
-        ),
+        (not 0 <= state.progress <= LAST_PROGRESS, f"at in this link is not in 0 to {LAST_PROGRESS}"),
         (len(state.hold) > MAX_HELD, f"more than {MAX_HELD} scenes are held in this link"),
         (not set(state.fixed) <= set(FITTED), "what a fit leaves as it is, in this link, is not known"),
         (state.shape == "sampled" and not state.samples, "this link has a measured tip without samples"),
@@ -65,9 +70,18 @@ def read(query: str) -> State:
     return with_derived(state)
 
 
-def _is_ignored(name: str) -> bool:
-    # Version 0.3 had a range for each number that can be swept.
-    return name in _IGNORED or name.endswith(("_from", "_to"))
+def _converted(state: State, pairs: dict[str, str], former: dict[str, str]) -> State:
+    """State with numbers of earlier versions: a relaxation time, a rigid tip, components of a speed."""
+    if pairs.get("elasticity") == "rigid_tip":
+        state = state.replace(E_star=state.E_1 / (1 - state.nu_1**2))
+    if pairs.get("damping") == "tau":
+        tau = _number("tau", former["tau"])
+        state = state.replace(eta=checked("eta", tau * medium(state).E_star / 4))
+    if former["aim"] == "components":
+        along = _number("tangential_speed", former["tangential_speed"])
+        state = state.replace(incoming_speed=checked("incoming_speed", hypot(state.speed, along)))
+        state = state.replace(attack=checked("attack", atan2(state.speed, along)))
+    return state
 
 
 def _preset(text: str) -> str:
@@ -82,13 +96,14 @@ def _preset(text: str) -> str:
 
 def _value(name: str, text: str) -> tuple[str, Any]:
     """Name and value of a state from a pair of a link."""
-    if name in _OPTIONS and text in _OPTIONS[name]:
-        return name, text
+    name = _RENAMED.get(name, name)
+    if name in CHOICES and _RENAMED.get(text, text) in CHOICES[name]:
+        return name, _RENAMED.get(text, text)
     if name in QUANTITIES:
         return name, checked(name, _number(name, text))
     if name in _LISTS:
         return name, tuple(text.split()[:_MAX_TILES])
-    if name in _FLAGS:
+    if name == "dark":
         return name, text == "1"
     if name == "samples":
         rows = [[_number(name, cell) for cell in row.split(",")] for row in text.split()[: MAX_SAMPLES + 1]]

@@ -81,6 +81,9 @@ for _name, _choice in DATA["choices"].items():
     LABELS[_name], ABOUT[_name] = _choice["label"], _choice["help"]
     CHOICES[_name] = {option: each["label"] for option, each in _choice["options"].items()}
     USED[_name] = {option: each["uses"] for option, each in _choice["options"].items()}
+#: Choices of a drive (`form`), readouts above the plots (`line`) and results of sweeps, by the options of
+#: the choice "drive".
+OF_DRIVE = DATA["choices"]["drive"]["options"]
 
 
 def shape_quantities(shape):
@@ -96,12 +99,7 @@ QUANTITIES = {each["name"]: _quantity(**each) for each in DATA["numbers"]} | {
 
 #: What can be swept: every number, and the energy of an impact.
 SWEPT = {"energy": _quantity(**DATA["energy"])} | QUANTITIES
-LABELS |= {"swept": "Swept", "preset": "Preset", "shape": "Shape"}
-ABOUT |= {
-    "swept": "The number that takes all values of a range; all others stay as they are.",
-    "preset": "A medium and an indenter that exist, with their numbers. Choosing one sets everything.",
-    "shape": "What is pressed or hits: a body of revolution, which touches with its tip.",
-}
+CHOICES["shape"] = {key: shape.label for key, shape in SHAPES.items()}
 CHOICES["swept"] = {name: lowered(f"{q.symbol}, {q.label}") for name, q in SWEPT.items()}
 
 

@@ -76,15 +76,8 @@ def entry(value: float, kind: str, like: float = 0.0) -> str:
     return f"{value / unit.factor:.5g} {unit.name}".strip()
 
 
+#: Letters of units, with those that keyboards have for them.
 _KEYBOARD = str.maketrans("µ·³²", "u*32")
-
-
-def named(kind: str) -> dict[str, Unit]:
-    """Units of a kind by name, also with u, * and 3 for µ, · and ³."""
-    units = (*UNITS[kind], *_READ.get(kind, ()))
-    return {name: unit for unit in units for name in (unit.name, unit.name.translate(_KEYBOARD))}
-
-
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
 
 
@@ -98,7 +91,9 @@ def read(text: str, kind: str, shown: Unit) -> float:
     plain = re.sub(r"(?<=\d)\s(?=\d{3}(?!\d))", "", plain)
     if plain.count(",") == 1 and "." not in plain:
         plain = plain.replace(",", ".")
-    match, units = _NUMBER.fullmatch(plain) if len(plain) <= 40 else None, named(kind)
+    match = _NUMBER.fullmatch(plain) if len(plain) <= 40 else None
+    units = (*UNITS[kind], *_READ.get(kind, ()))
+    units = {name: unit for unit in units for name in (unit.name, unit.name.translate(_KEYBOARD))}
     if match and kind == "slope" and match[3] == "°" and 0 < float(match[1]) < 90:
         return 1 / tan(radians(float(match[1])))
     if match is None or (match[3] and match[3] not in units):

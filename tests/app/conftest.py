@@ -3,10 +3,13 @@
 import importlib.util
 import os
 import re
+import shlex
 import signal
+import socket
 import subprocess
 import sys
 import threading
+from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import parse_qsl, urlsplit
 from urllib.request import urlopen
@@ -38,7 +41,6 @@ window.explorer = {
       return data.xs ? [Array.from(data.xs[k]), Array.from(data.ys[k])] : [mine(data.x), mine(data.y)]
     }
   },
-  labels: (figure) => explorer.model(`${figure} labels`).data.text,
   axis: (figure) => {
     const { x_range, y_range, below, left } = explorer.model(figure)
     return { x: [x_range.start, x_range.end], y: [y_range.start, y_range.end],
@@ -111,6 +113,20 @@ class Server:
         self.process.stdout.close()
 
 
+def free_port():
+    with socket.create_server(("127.0.0.1", 0)) as probe:
+        return probe.getsockname()[1]
+
+
+def deployed(port):
+    """Options of the line in assets/docs/explorer.md, but for its port, answered on loopback."""
+    text = (ROOT / "assets/docs/explorer.md").read_text(encoding="utf-8")
+    line = re.search(r"panel serve app (--address.*?)\n```", text, re.DOTALL)[1].replace("\\\n", " ")
+    options = shlex.split(line.replace("explorer.example.org", f"127.0.0.1:{port}"))
+    at = options.index("--port")
+    return [*options[:at], *options[at + 2 :]]
+
+
 class Explorer:
     """The page as a person sees it, and what it said on the way."""
 
@@ -140,9 +156,6 @@ class Explorer:
             np.array(part, float) for part in self.page.evaluate("(a) => explorer.row(...a)", [figure, row])
         ]
 
-    def labels(self, figure):
-        return self.page.evaluate("(name) => explorer.labels(name)", figure)
-
     def axis(self, figure):
         return self.page.evaluate("(name) => explorer.axis(name)", figure)
 
@@ -164,6 +177,15 @@ class Explorer:
         """Press a button of the page by its name."""
         self.page.get_by_role("button", name=name, exact=True).click()
 
+    def open(self, tab, plot, row):
+        """Open an optional plot, and wait until one of its rows is drawn."""
+        self.press(tab)
+        self.wait(
+            "([plot, row]) => explorer.model(plot) && explorer.row(plot, row)?.[0].length > 1", [plot, row]
+        )
+        # Until the address has it, its change would be taken for that of what is done next.
+        self.link(f"tiles={plot}")
+
     def pick(self, option):
         """Pick an option of a choice by its text, and wait until it is drawn."""
         with self.change():
@@ -178,17 +200,6 @@ class Explorer:
         self.field(symbol).fill(text)
         self.field(symbol).press("Enter")
 
-    def lights(self):
-        """What is said of the assumptions: pairs of level and sentence."""
-        spans = self.page.locator(".lights span").all()
-        return [(span.get_attribute("class"), span.inner_text()) for span in spans]
-
-    def save(self, figure):
-        """Path of the picture of a plot."""
-        with self.page.expect_download() as download:
-            self.page.locator(f".card.{figure}").get_by_role("button", name="Save").click()
-        return download.value.path()
-
     def drag(self, figure, moves, steps=8):
         """Drag from the middle of a plot by shares of its size, with the mouse."""
         box = self.page.locator(f".card.{figure} canvas").first.bounding_box()
@@ -196,13 +207,12 @@ class Explorer:
         self.page.mouse.move(x, y)
         self.page.mouse.down()
         for k in range(1, steps + 1):
-            self.page.mouse.move(
-                x + moves[0] * k / steps * box["width"], y + moves[1] * k / steps * box["height"]
-            )
+            share = k / steps
+            self.page.mouse.move(x + moves[0] * share * box["width"], y + moves[1] * share * box["height"])
         self.page.mouse.up()
 
     def hover(self, figure, row, at):
-        """The tooltip over one point of a row, by its number."""
+        """Lines of the tooltip over one point of a row, by its number."""
         x, y = (part[at] for part in self.row(figure, row))
         place = """([name, row, x, y]) => {
             const figure = explorer.model(name), view = Bokeh.index.find_one(figure)
@@ -213,10 +223,6 @@ class Explorer:
             return [left + view.frame.x_scale.compute(x), top + view.frame.y_scale.compute(up)]
         }"""
         self.page.mouse.move(*self.page.evaluate(place, [figure, row, x, y]))
-        return self.tooltip(row)
-
-    def tooltip(self, row):
-        """The lines of the tooltip that is seen, once it is that of a row."""
         text = """(row) => {
             const tips = explorer.all().filter((on) => on.classList.contains("bk-Tooltip") && on.shadowRoot)
             const parts = tips.flatMap((tip) => [...tip.shadowRoot.querySelectorAll("div")])
@@ -235,21 +241,12 @@ class Explorer:
         self.wait("(text) => location.search.includes(text)", expected)
         return dict(parse_qsl(urlsplit(self.page.url).query))
 
+    @contextmanager
     def change(self):
         """Context in which something is done, left when a new scene is there and all is painted."""
-        return _Change(self.page)
-
-
-class _Change:
-    def __init__(self, page):
-        self.page = page
-
-    def __enter__(self):
         self.page.evaluate("window.before = explorer.scene()")
-
-    def __exit__(self, kind, *_):
-        if kind is None:
-            self.page.wait_for_function("explorer.scene() !== before && explorer.idle()")
+        yield
+        self.page.wait_for_function("explorer.scene() !== before && explorer.idle()")
 
 
 @pytest.fixture(scope="session")

@@ -20,7 +20,7 @@ def main():
             page.screenshot(path=ROOT / "assets/explorer.png")
             explorer.choose("Preset", PRESETS[DROP].label)
             explorer.press("More about the medium")
-            explorer.pick("τ")
+            explorer.pick("η")
             explorer.press("Energy")
             page.locator("h1").click()
             with explorer.change():

@@ -32,11 +32,6 @@ def contrast(one, other):
     return (high + 0.05) / (low + 0.05)
 
 
-def test_contrast_of_known_pairs():
-    assert contrast("#fff", "#000000") == pytest.approx(21)
-    assert contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.005)
-
-
 @themes
 def test_text_stands_out(colours):
     """Every colour that the sheet writes in, on both grounds, and what is written on a pressed button."""

@@ -5,18 +5,17 @@ import pytest
 
 import mdr_core as mdr
 from app import changes
-from app.drives import States
 from app.panels import readouts, share
 from app.panels.readouts import readings
 from app.plots.force import force, force_still
-from app.solve import DRIVES, drive_of, follow, scene_of
+from app.plots.plot import View
+from app.solve import DRIVES, follow, scene_of
 from app.state import PRESETS, medium, preset_state, profile
 from app.state.quantities import CHOICES
 
 from .conftest import DROP, ELASTIC
-from .states import linked_state, solved, state_with, view_of
+from .states import linked_state, numbers, solved, state_with, view_of
 
-PATTERNS = CHOICES["pattern"]
 ARRAYS = (
     "depth", "force", "contact_radius", "plastic_radius", "plastic_depth", "mean_pressure", "stored_energy",
     "plastic_work",
@@ -25,51 +24,46 @@ ARRAYS = (
 
 def path(pattern, viscous=False, shape="cone"):
     state = state_with(shape=shape)
-    state = changes.choose(state, "damping", "tau") if viscous else state
+    state = changes.choose(state, "damping", "eta") if viscous else state
     return changes.choose(changes.choose(state, "drive", "path"), "pattern", pattern)
 
 
-def numbers(course):
-    """What is read of a course, by name."""
-    return {each.name: values for each, values in readings(course).items()}
-
-
-def test_every_drive_of_the_form_is_in_the_table():
-    assert set(DRIVES) == set(CHOICES["drive"])
-
-
-@pytest.mark.parametrize("damping", ["none", "tau"])
+@pytest.mark.parametrize("damping", ["none", "eta"])
 @pytest.mark.parametrize("drive", DRIVES)
 def test_every_drive_gives_the_same_interface(drive, damping):
     state = state_with(DROP, drive, damping=damping)
-    if drive == "path" and damping == "tau":
+    if drive == "path" and damping == "eta":
         state = changes.choose(state, "pattern", "hold")
     course = solved(state)
     states, count = course.states, len(course)
-    assert isinstance(states, States)
     for name in ARRAYS:
         assert np.shape(getattr(states, name)) == (count,), name
     assert states.live_interval.lower.shape == states.live_interval.length.shape == (count,)
     assert np.all(np.diff(course.progress) >= 0)
     assert course.progress[course.peak] == 1.0
     state = states[course.peak]
-    assert isinstance(state, States)
     r = float(state.contact_radius) * np.array([0.1, 0.5, 1.2])
     for field in (state.pressure, state.line_load, state.surface, state.imprint):
         assert np.shape(field(r)) == (3,)
     line = [each.name for each in readouts.line(course, readings(course))]
     assert 6 <= len(line) <= 8
-    assert drive_of(course.scene) is DRIVES[drive]
+    assert set(DRIVES) == set(CHOICES["drive"])
 
 
-@pytest.mark.parametrize("pattern", PATTERNS)
-def test_a_pattern_goes_as_deep_as_what_was_there_before(pattern):
-    course = solved(path(pattern))
+@pytest.mark.parametrize("pattern", CHOICES["pattern"])
+def test_a_pattern_goes_as_deep_as_what_was_there_before_and_is_in_link_and_csv(pattern):
+    state = path(pattern)
+    course = solved(state)
     assert float(course.turning_point.depth) == pytest.approx(preset_state().max_depth, rel=1e-9)
+    assert scene_of(linked_state(state)) == course.scene
+    assert CHOICES["pattern"][pattern] in readouts.summary(state)
+    data = [line for line in share.csv(View(state, course)).splitlines() if not line.startswith("#")]
+    assert len(data) == 1 + len(course)
 
 
 def test_hysteresis_yields_once_a_cycle_and_reloads_elastically():
     view = view_of(path("cycles"))
+    assert len(force_still(view)["path ahead"][0]) == len(view.course)
     rows = force(view, len(view.course) - 1)
     yielding, elastic = rows["yielding"], rows["elastic"]
     peaks = preset_state().max_depth * np.arange(1, 6) / 5
@@ -80,32 +74,6 @@ def test_hysteresis_yields_once_a_cycle_and_reloads_elastically():
     assert np.nanmax(elastic[0]) == pytest.approx(peaks[-2], rel=1e-9)
 
 
-def test_the_curve_is_drawn_as_one_goes():
-    view = view_of(path("reload"))
-    middle, end = (force(view, i) for i in (view.course.peak // 2, len(view.course) - 1))
-    names = ("elastic", "yielding", "unloading")
-    drawn = [sum(np.isfinite(rows[name][0]).sum() for name in names) for rows in (middle, end)]
-    assert 0 < drawn[0] < drawn[1]
-    assert len(force_still(view)["path ahead"][0]) == len(view.course)
-
-
-def test_the_load_is_gone_at_a_step():
-    """The contact radius comes down to that of the imprint and then falls, within a trace of depth."""
-    course = solved(path("reload"))
-    a, c, depth = course.states.contact_radius, course.states.plastic_radius, course.states.depth
-    gone = np.flatnonzero((a[1:] == 0) & (a[:-1] > 0))
-    assert len(gone) == 2
-    np.testing.assert_allclose(a[gone], c[gone], rtol=1e-6)
-    assert np.all(np.abs(depth[gone] - depth[gone + 1]) < 1e-6 * depth.max())
-    assert course.states.contact_radius[-1] == 0
-
-
-def test_the_drive_gives_the_pattern_its_depth():
-    """A slider moves the largest depth of each pattern, as when pressing."""
-    state = changes.put(path("cycles"), "max_depth", 5e-9)
-    np.testing.assert_allclose(scene_of(state).drive.depth[::2], 5e-9 * np.arange(1, 6) / 5, rtol=1e-12)
-
-
 @pytest.mark.parametrize("shape", ["cone", "sphere"])
 def test_a_held_ramp_of_a_viscous_medium_is_that_of_the_core(shape):
     state = path("hold", viscous=True, shape=shape)
@@ -113,40 +81,27 @@ def test_a_held_ramp_of_a_viscous_medium_is_that_of_the_core(shape):
     time, made = course.motion.time, medium(state)
     exact = mdr.indent_in_time(profile(state), made, course.states.depth, time)
     # What the page asks of the chain is 3·10⁻³.
-    np.testing.assert_allclose(course.force, exact.force, atol=3e-3 * exact.force.max())
+    np.testing.assert_allclose(course.states.force, exact.force, atol=3e-3 * exact.force.max())
     assert numbers(course)["chain_error"] == course.states.error
     # At the end of the hold the dashpots carry nothing: F of the springs alone.
     still = mdr.indent(profile(state), made, course.states.depth)
-    assert course.force[-1] == pytest.approx(float(still.force[-1]), rel=1e-3)
+    assert course.states.force[-1] == pytest.approx(float(still.force[-1]), rel=1e-3)
     # All that has been put in is in the ledger, by the trapezoidal rule over 24 steps a piece.
     motion = course.motion
-    work = np.sum((course.force[1:] + course.force[:-1]) / 2 * np.diff(course.states.depth))
+    work = np.sum((course.states.force[1:] + course.states.force[:-1]) / 2 * np.diff(course.states.depth))
     ledger = motion.stored_energy + motion.plastic_work + motion.viscous_work
     assert ledger[-1] == pytest.approx(work, rel=0.02)
     # Away from the rim the pressure is the core's; elements between 300 places are straight.
-    for i in (course.peak // 2, course.peak, len(course) - 1):
-        one = course.states[i]
-        r = float(one.contact_radius) * np.linspace(0.02, 0.98, 40)
-        exact_state = mdr.indent_in_time(profile(state), made, course.states.depth[: i + 1], time[: i + 1])[
-            -1
-        ]
-        p = one.pressure(r)
-        np.testing.assert_allclose(p, exact_state.pressure(r), atol=3e-3 * p.max())
-        assert np.isinf(one.pressure(float(one.contact_radius))) == (
-            i <= course.peak or shape == "flat_punch"
-        )
-
-
-def test_the_surface_beside_a_ramp_is_that_of_the_springs():
-    """While nothing lets go dashpots do not move the surface; between 300 places it is straight."""
-    course = solved(path("hold", viscous=True))
-    scene = course.scene
-    for i in (course.peak // 2, len(course) - 1):
-        state = course.states[i]
-        still = mdr.indent(scene.profile, scene.medium, course.states.depth[: i + 1])[-1]
-        r = float(state.contact_radius) * np.array([0.5, 1.01, 1.5, 3.0])
-        np.testing.assert_allclose(state.surface(r), still.surface(r), rtol=1e-3)
-        np.testing.assert_allclose(state.imprint(r), still.imprint(r), rtol=1e-9, atol=1e-15)
+    i = course.peak // 2
+    one = course.states[i]
+    r = float(one.contact_radius) * np.linspace(0.02, 0.98, 40)
+    exact = mdr.indent_in_time(profile(state), made, course.states.depth[: i + 1], time[: i + 1])[-1]
+    np.testing.assert_allclose(one.pressure(r), exact.pressure(r), atol=3e-3 * one.pressure(r).max())
+    assert np.isinf(one.pressure(float(one.contact_radius)))
+    # While nothing has been released dashpots do not move the surface.
+    r = float(one.contact_radius) * np.array([0.5, 1.01, 1.5, 3.0])
+    np.testing.assert_allclose(one.surface(r), still[i].surface(r), rtol=1e-3)
+    np.testing.assert_allclose(one.imprint(r), still[i].imprint(r), rtol=1e-9, atol=1e-15)
 
 
 def test_creep_is_first_shown_without_dashpots_and_then_in_time():
@@ -156,22 +111,9 @@ def test_creep_is_first_shown_without_dashpots_and_then_in_time():
     assert "without dashpots" in first.pending
     assert not course.pending
     assert np.all(np.diff(course.states.depth) > 0)
-    assert course.force[-1] == pytest.approx(first.force[-1])
+    assert course.states.force[-1] == pytest.approx(first.states.force[-1])
     # It creeps towards what the springs alone carry.
     assert 0.7 < course.states.depth[-1] / first.states.depth[-1] < 1
-
-
-_TAKEN = [("reload", False), ("cycles", True), ("hold", False), ("hold", True)]
-
-
-@pytest.mark.parametrize(("pattern", "viscous"), _TAKEN)
-def test_a_path_is_in_the_link_and_the_csv(pattern, viscous):
-    state = path(pattern, viscous)
-    assert scene_of(linked_state(state)) == scene_of(state)
-    course = solved(state)
-    assert CHOICES["pattern"][pattern] in readouts.summary(state)
-    data = [line for line in share.csv(course, state).splitlines() if not line.startswith("#")]
-    assert len(data) == 1 + len(course)
 
 
 # Oblique impacts.

@@ -1,6 +1,7 @@
 """What cannot be shown leaves the page as it was, and in use, wherever it fails. Without a browser."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
@@ -35,21 +36,19 @@ def assert_in_use(page):
     (notices,) = page.notices
     assert "Everything is as it was before" in notices
     put(page, "q_c", 1.5 * Q_C)
-    assert page.shown.view.course.scene.medium.q_c == page.state.q_c == 1.5 * Q_C
+    assert page.shown.course.scene.medium.q_c == page.state.q_c == 1.5 * Q_C
     page.frame.undo.clicks += 1
-    assert page.shown.view.course.scene.medium.q_c == Q_C
+    assert page.shown.course.scene.medium.q_c == Q_C
     assert len(page.notices) == 1
 
 
-def test_a_plot_on_request(page, monkeypatch):
-    monkeypatch.setattr(page.board, "_make", failing)
-    page.board.tabs["surface"].value = True
-    assert page.state.tiles == ()
-    assert not page.board.tabs["surface"].value
+def test_a_plot_or_a_held_scene_that_fails(page, monkeypatch):
+    with monkeypatch.context() as failure:
+        failure.setattr(page.board, "_make", failing)
+        page.board.tabs["surface"].value = True
+    assert (page.state.tiles, page.board.tabs["surface"].value) == ((), False)
     assert_in_use(page)
-
-
-def test_a_scene_that_is_held(page, monkeypatch):
+    page.notices.clear()
     monkeypatch.setattr(page.table, "show", lambda course, held: failing() if held else None)
     page.frame.hold.value = True
     assert (page.state.hold, page.shown.held, page.frame.hold.value) == ((), [], False)
@@ -69,18 +68,16 @@ def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
     assert_in_use(page)
 
 
-class Typed:
-    """What a field sends."""
-
-    def __init__(self, text):
-        self.data = {"text": text}
+def send(number, **data):
+    """What a field or slider sends."""
+    number._on_message(SimpleNamespace(data=data))
 
 
 @pytest.mark.parametrize("act", ["preset", "undo", "reset"])
 def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
     (depth,), (_, q_c) = page.controls.numbers["drive"], page.controls.numbers["medium"]
-    depth._on_message(Typed("5 nm"))
-    q_c._on_message(Typed("abc"))
+    send(depth, text="5 nm")
+    send(q_c, text="abc")
     words = "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m"
     assert q_c.refused == words
     if act == "preset":
@@ -94,13 +91,11 @@ def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
     (number,) = page.controls.numbers["drive"]
     start = page.state.max_depth
     for position in (210, 220, 230):
-        message = Typed("")
-        message.data = {"position": position}
-        number._on_message(message)
+        send(number, position=position)
     assert page.state.max_depth > start
-    page.apply(lambda state: state.replace(progress=0.5, keep=True))
+    page.apply(lambda state: state.replace(progress=0.5))
     page.frame.undo.clicks += 1
-    assert (page.state.max_depth, page.state.progress, page.state.keep) == (start, 0.5, True)
+    assert (page.state.max_depth, page.state.progress) == (start, 0.5)
     assert page.frame.undo.disabled
     page.frame.redo.clicks += 1
     assert page.state.max_depth > start
@@ -115,7 +110,7 @@ def test_the_indenter_is_dragged_to_a_depth_and_no_further_than_it_is_known(page
     assert page.state.max_depth == PRESETS[GOLD].values["max_depth"]
     page.apply(lambda state: changes.choose(state, "drive", "force"))
     page._dragged("tags", [], [5.0])
-    assert float(page.shown.view.course.turning_point.depth) == pytest.approx(5e-9)
+    assert float(page.shown.course.turning_point.depth) == pytest.approx(5e-9)
     page._dragged("tags", [], ["<b>"])
     assert page.notices == []
 
@@ -123,29 +118,29 @@ def test_the_indenter_is_dragged_to_a_depth_and_no_further_than_it_is_known(page
 def rested(page):
     """What is found of the section when the input is at rest."""
     page._input_rests()
-    return page.shown.view.found["section"]
+    return page.shown.found["section"]
 
 
 def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
     page.board.tabs["section"].value = True
-    assert page.shown.view.found["section"] == COMPUTING
+    assert page.shown.found["section"] == COMPUTING
     first = rested(page)
     put(page, "q_c", 1.2 * Q_C)
-    assert page.shown.view.found["section"] == replace(COMPUTING, axes=first.axes)
+    assert page.shown.found["section"] == replace(COMPUTING, axes=first.axes)
     page.frame.undo.clicks += 1
-    assert page.shown.view.found["section"] is first
-    page._state_chosen("value_throttled", page.shown.view.course.now, 5)
-    assert page.shown.view.found["section"].note == "computing …"
+    assert page.shown.found["section"] is first
+    page._state_chosen("value_throttled", page.shown.course.now, 5)
+    assert page.shown.found["section"].note == "computing …"
     again = rested(page)
-    assert again.rows["contact radius a"][0][0] == page.shown.view.course.state.contact_radius
+    assert again.rows["contact radius a"][0][0] == page.shown.course.state.contact_radius
 
 
 def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
     show = page.board.show
     page.board.tabs["section"].value = True
 
-    def fails(columns, view, state):
-        return failing() if view.found["section"].rows else show(columns, view, state)
+    def fails(columns, view):
+        return failing() if view.found["section"].rows else show(columns, view)
 
     monkeypatch.setattr(page.board, "show", fails)
     assert rested(page) is FAULT
@@ -158,4 +153,4 @@ def test_a_link_that_cannot_be_opened_is_a_notice(monkeypatch):
     page = Page("preset=none")
     assert notices == ["The link was not opened: this link names no preset that is known"]
     assert page.state == preset_state()
-    assert Page(f"preset={DROP}&speed=3.0").shown.view.course.hit.speed == 3.0
+    assert Page(f"preset={DROP}&speed=3.0").shown.course.hit.speed == 3.0

@@ -25,18 +25,12 @@ def holding(*depths):
 
 def test_one_gesture_holds_a_scene_and_lets_it_go():
     state = holding(6e-9, 9e-9)
-    assert [held_scene(query, {}).course.turning_point.depth for query in state.hold] == [6e-9, 9e-9]
-    assert is_held(state.replace(progress=0.4, keep=True))
+    assert [held_scene(query, {}).turning_point.depth for query in state.hold] == [6e-9, 9e-9]
+    assert is_held(state.replace(progress=0.4))
+    assert all(len(query) < 100 for query in state.hold)
     state = toggle_hold(state)
-    assert [held_scene(query, {}).course.turning_point.depth for query in state.hold] == [6e-9]
+    assert [held_scene(query, {}).turning_point.depth for query in state.hold] == [6e-9]
     assert not is_held(state)
-
-
-def test_springs_keep_their_height_beside_a_deeper_scene():
-    shallow = preset().replace(max_depth=2e-9)
-    alone, beside = view_of(shallow), view_of(shallow, 1.0, preset())
-    assert beside.end("z") == alone.end("z")
-    assert beside.end("d") > alone.end("d")
 
 
 def test_a_fifth_is_refused():
@@ -46,12 +40,6 @@ def test_a_fifth_is_refused():
         toggle_hold(state.replace(max_depth=5e-9))
     with pytest.raises(ValueError, match="more than 4"):
         linked_state(state.replace(hold=(*state.hold, state.hold[0])))
-
-
-@pytest.mark.parametrize("query", ["preset=none", "preset=x&called=1", "shape="])
-def test_what_is_no_scene_is_refused(query):
-    with pytest.raises(ValueError, match="link"):
-        held_scene(query, {})
 
 
 def test_the_numbers_are_those_of_the_deepest_state_and_of_the_impact():
@@ -65,15 +53,14 @@ def test_the_numbers_are_those_of_the_deepest_state_and_of_the_impact():
 def test_each_has_its_own_row_in_every_plot():
     states = [preset().replace(max_depth=depth) for depth in (3e-9, 6e-9, 9e-9, 12e-9)]
     view = view_of(states[0], 1.0, *states)
+    # Springs keep their height beside deeper scenes.
+    assert view.end("z") == view_of(states[0]).end("z")
+    assert view.end("d") > view_of(states[0]).end("d")
     rows = force_still(view)
     for k, course in enumerate(view.held, 1):
-        np.testing.assert_array_equal(rows[f"held {k}"][1], course.force)
+        np.testing.assert_array_equal(rows[f"held {k}"][1], course.states.force)
         for name in ("pressure", "radii", "loglog"):
             row = f"held {k} a" if name == "radii" else f"held {k}"
             assert np.isfinite(view.rows(PLOTS[name], view.course.now)[row][1]).any()
     looks = {row.look["dash"] for row in PLOTS["force"].rows if row.role == "held"}
     assert len(looks) == len(states)
-
-
-def test_a_held_link_is_short():
-    assert all(len(query) < 100 for query in holding(6e-9, 9e-9).hold)

@@ -14,7 +14,7 @@ from app.solve import scene_of
 from app.state import medium, preset_state, profile
 from app.state.files import agrees, read_curve
 
-from .states import view_of
+from .states import example_curve, view_of
 from .test_page import unit as unit_of
 
 DEPTH, FORCE = [-1.0, 0.0, 2.0, 4.0, 3.0], [0.0, 0.0, 1.5, 6.0, 2.0]
@@ -39,6 +39,9 @@ def test_long_files_are_thinned_and_refused_in_words_of_the_page():
         read_curve(b"h (nm)\n1\n2\n", "../run.csv")
     with pytest.raises(ValueError, match="more than 5 MB"):
         read_curve(b"1, 2\n" * 10**6 + b"3", "run.csv")
+    flat = read_curve(file((range(6), [0] * 6), ["h (nm), F (nN)"]), "flat")
+    with pytest.raises(ValueError, match=r"largest force\[0\] = 0 N above the baseline: no contact"):
+        fitting.fit(fitting.take(preset_state(), flat))
 
 
 def test_the_measured_example_lies_over_its_tip_with_the_numbers_of_oliver_and_pharr():
@@ -69,14 +72,14 @@ def test_columns_and_units_are_corrected():
 
 
 def fitted(**changed):
-    state = fitting.take(preset_state(), fitting.example(preset_state())).replace(**changed)
+    state = fitting.take(preset_state(), example_curve(preset_state())).replace(**changed)
     return fitting.fit(state), medium(preset_state())
 
 
 def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
     page = Page()
     before = medium(page.state)
-    page.apply(lambda state: fitting.take(state, fitting.example(state)))
+    page.apply(lambda state: fitting.take(state, example_curve(state)))
     page.apply(fitting.fit)
     state = page.state
     # Ten standard errors of 0.4 % noise in 400 samples.
@@ -96,11 +99,13 @@ def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
 
 
 def test_what_is_fixed_stays():
-    state, before = fitted(fixed=("E_star", "tilt", "frame_compliance"), noise="given", depth_noise=1e-11)
+    state, before = fitted(fixed=("E_star", "eta", "tilt", "drag", "frame_compliance"), depth_noise=1e-11)
     assert medium(state).E_star == before.E_star
     assert state.elasticity == "bodies"
     assert state.curve.fit.standard_errors.keys() == {"q_c", "contact_point", "baseline"}
     assert state.baseline == state.curve.fit.baseline != 0
+    with pytest.raises(ValueError, match="the drag needs the times"):
+        fitted(fixed=("eta",))
 
 
 def test_a_drag_is_fitted_where_there_are_times():
@@ -118,13 +123,7 @@ def test_a_drag_is_fitted_where_there_are_times():
     assert state.E_star == pytest.approx(medium(start).E_star, rel=1e-3)
     assert agrees(state)
     np.testing.assert_allclose(view_of(state).curve.force, F, atol=1e-3 * F.max())
-    assert {"eta", "drag"} == set(curve.fitted) - set(fitting.example(start).fitted)
-
-
-def test_what_cannot_be_fitted_is_refused_as_it_was():
-    curve = read_curve(file((range(6), [0] * 6), ["h (nm), F (nN)"]), "flat")
-    with pytest.raises(ValueError, match=r"largest force\[0\] = 0 N above the baseline: no contact"):
-        fitting.fit(fitting.take(preset_state(), curve))
+    assert {"eta", "drag"} == set(curve.fitted) - set(example_curve(start).fitted)
 
 
 def test_the_curve_lies_where_it_is_set_to_and_its_residual_is_of_what_is_set():
@@ -144,7 +143,7 @@ def test_the_curve_lies_where_it_is_set_to_and_its_residual_is_of_what_is_set():
 def test_a_tip_that_ends_above_the_measured_depth_says_so():
     r = np.linspace(0, 5e-9, 20)
     state = preset_state()
-    state = changes.take_tip(fitting.take(state, fitting.example(state)), (r, 0.1 * r), "")
+    state = changes.take_tip(fitting.take(state, example_curve(state)), (r, 0.1 * r), "")
     assert view_of(state).rows(PLOTS["residual"], 0)["missing"][2] == "no model at these depths"
 
 

@@ -7,42 +7,28 @@ import pytest
 import mdr_core as mdr
 from app.state import preset_state
 
-from .conftest import ROOT, Explorer, Server
-from .deployed import Proxy, deployed
+from .conftest import ROOT, Explorer, Server, deployed, free_port
 from .test_page import assert_draws, now
 
 MARKUP = "<img src=x onerror=alert(1)>"
 
 
-def serve(proxy, port=0):
-    """A server as it is deployed, whose solver fails at one depth."""
-    options = deployed(f"127.0.0.1:{proxy.port}")
-    server = Server(*options, "--setup", "tests/app/fault.py", port=port)
-    proxy.target = server.port
-    return server
-
-
-@pytest.fixture(scope="module")
-def proxy():
-    proxy = Proxy()
-    yield proxy
-    proxy.stop()
-
-
-def test_page_comes_back_with_what_it_showed(proxy, context):
+def test_page_comes_back_with_what_it_showed(context):
     """Once its server has died; a fault before that is told and logged once."""
-    server = serve(proxy)
-    page = context.new_page()
+    port = free_port()
+    # The solver fails at one depth.
+    options = *deployed(port), "--setup", "tests/app/fault.py"
+    server, page = Server(*options, port=port), context.new_page()
     try:
-        explorer = Explorer(page, f"http://127.0.0.1:{proxy.port}/app")
+        explorer = Explorer(page, f"http://127.0.0.1:{port}/app")
         with explorer.change():
             explorer.type("d_max", "13.5 nm")
         assert_a_fault_is_told(explorer, server)
         explorer.link("max_depth=1.35e-08")
         page.evaluate("window.left = true")
         server.stop(kill=True)
-        page.locator(".notyf__disconnect, .notyf__reconnect").first.wait_for()
-        server = serve(proxy)
+        page.locator(".notyf__disconnect").first.wait_for()
+        server = Server(*options, port=port)
         # It loads itself again, once the server answers.
         page.wait_for_function("!window.left && window.explorer?.idle()", timeout=60_000)
         assert_draws(explorer, preset_state().replace(max_depth=13.5e-9))

@@ -1,8 +1,5 @@
 """What an earlier page said wrong: each statement is read here as it is drawn or said now."""
 
-import re
-from html import unescape
-
 import numpy as np
 import pytest
 
@@ -12,21 +9,20 @@ from app.panels import fitting, held, readouts
 from app.panels.guide import TOURS, step_state, step_text
 from app.panels.report import report
 from app.panels.share import Share
-from app.plots import PLOTS
+from app.plots import PLOTS, visible
 from app.plots.contact import springs
 from app.plots.force import force, residual
-from app.solve import DRIVES, follow
+from app.solve import follow
 from app.state import link, preset_state, with_derived
 from app.state.quantities import DATA, LABELS, QUANTITIES
+from app.ui import HERE
+from app.ui import plain as said_plainly
 from mdr_core.results.figures import SPRINGS
 
 from .conftest import DROP, GOLD
-from .states import solved, state_with, view_of, viscous, written
+from .states import example_curve, numbers, solved, state_with, view_of, viscous, written
 from .test_drives import oblique_state
-
-
-def plain(html):
-    return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())
+from .test_report import plain
 
 
 def assert_springs_reach_the_radii_of_the_core(view, vertices=1):
@@ -83,10 +79,10 @@ def test_3_the_guide_says_of_which_shape_the_area_goes_with_the_energy():
 
 
 def test_4_report_and_link_of_a_fit_have_the_fit():
-    state = fitting.take(preset_state(), fitting.example(preset_state()))
-    state = fitting.fit(state.replace(noise="given", depth_noise=1e-11))
+    state = fitting.take(preset_state(), example_curve(preset_state()))
+    state = fitting.fit(state.replace(depth_noise=1e-11))
     found = state.curve.fit
-    text = plain(report(state, view_of(state), [PLOTS["residual"]], ""))
+    text = plain(report(view_of(state), [PLOTS["residual"]], ""))
     assert "Fit to A made curve" in text
     assert "± " in text[text.index("The fit") :]
     for part in ("reduced χ²", "contact point", *found.remarks):
@@ -98,8 +94,8 @@ def test_4_report_and_link_of_a_fit_have_the_fit():
 
 
 def test_5_the_noise_around_a_residual_has_that_of_the_depth():
-    state = fitting.take(preset_state(), fitting.example(preset_state()))
-    state = fitting.fit(state.replace(noise="given", depth_noise=5e-11))
+    state = fitting.take(preset_state(), example_curve(preset_state()))
+    state = fitting.fit(state.replace(depth_noise=5e-11))
     found, view = state.curve.fit, view_of(state)
     size = residual(view)["± noise"][1][: found.residuals.size]
     expected = np.hypot(found.force_noise, found.path.stiffness * 5e-11)
@@ -112,7 +108,7 @@ def test_5_the_noise_around_a_residual_has_that_of_the_depth():
 def test_6_and_7_are_of_typed_numbers():
     """In test_state.py: zeros in the unit of their column, 90°, 10 000 nm, 5 Å, 70.3°."""
     page = Page()
-    page.apply(lambda state: fitting.take(state, fitting.example(state)))
+    page.apply(lambda state: fitting.take(state, example_curve(state)))
     texts = [number.text for number in page.fitting.place]
     assert [text.split()[1] for text in texts] == ["nm", "µN", "N/m", "nm/µN"]
 
@@ -120,53 +116,39 @@ def test_6_and_7_are_of_typed_numbers():
 def test_8_formulas_are_those_of_the_drive():
     dry, wet = follow(preset_state(DROP)), follow(viscous())
     for name in ("force", "springs"):
-        assert "η" not in PLOTS[name].says(dry)
-        assert "η" in PLOTS[name].says(wet)
-    assert "W_v" in PLOTS["energy"].says(wet)
-    assert "W_v" not in PLOTS["energy"].says(dry)
-    assert "W_f" in PLOTS["energy"].says(follow(oblique_state()))
+        assert "η" not in PLOTS[name].formula_of(dry)
+        assert "η" in PLOTS[name].formula_of(wet)
+    assert "W_v" in PLOTS["energy"].formula_of(wet)
+    assert "W_v" not in PLOTS["energy"].formula_of(dry)
+    assert "W_f" in PLOTS["energy"].formula_of(follow(oblique_state()))
 
 
 @pytest.mark.parametrize("progress", [0.7, 1.0, 1.5])
 def test_9_the_numbers_of_a_state_sum_up(progress):
     course = follow(viscous().replace(progress=progress))
-    found = {
-        each.name: readouts.value_at(values, course.now)
-        for each, values in readouts.readings(course).items()
-    }
     parts = ("stored_energy", "plastic_work", "viscous_work", "kinetic_energy")
-    assert sum(found[name] for name in parts) == pytest.approx(2.75, rel=1e-6)
+    assert sum(numbers(course)[name][course.now] for name in parts) == pytest.approx(2.75, rel=1e-6)
     helps = {each.name: each.help for each in readouts.READOUTS}
     assert "Without dashpots" in helps["stored_energy"]
     assert "Without them" in helps["mean_pressure"]
 
 
 def test_10_held_scenes_are_named_by_what_differs():
-    names = []
-    for state in (
-        preset_state(DROP),
-        preset_state(DROP).replace(speed=2.0),
-        with_derived(preset_state(DROP).replace(q_c=2e5)),
-        state_with(DROP, shape="cone").replace(cone_slope=0.2),
+    drop = preset_state(DROP)
+    for state, name in (
+        (drop, "Steel ball 16 mm on glass-fibre epoxy, drop weight"),
+        (drop.replace(speed=2.0), "v_0 = 2.00 m/s"),
+        (with_derived(drop.replace(q_c=2e5)), "q_c = 200 kN/m"),
+        (state_with(DROP, shape="cone").replace(cone_slope=0.2), "Cone, s = 0.200"),
     ):
-        names.append(held.difference(state))
-    assert names == [
-        "Steel ball 16 mm on glass-fibre epoxy, drop weight",
-        "v_0 = 2.00 m/s",
-        "q_c = 200 kN/m",
-        "Cone, s = 0.200",
-    ]
+        assert held.difference(state) == name
 
 
 def test_11_small_things_are_said_right():
-    about = (changes.__file__.rpartition("/")[0]) + "/static/about.html"
-    with open(about, encoding="utf-8") as file:
-        assert "never cut" not in file.read()
+    assert "never cut" not in (HERE / "static" / "about.html").read_text(encoding="utf-8")
     assert "∞ m" not in str(
         readouts.table(follow(state_with(plasticity="none")), readouts.readings(follow(preset_state())), 0)
     )
-    from app.ui import plain as said_plainly
-
     assert said_plainly("reach 4.26e-06 within") == "reach 4.26 × 10⁻⁶ within"
     assert "line load" in QUANTITIES["q_c"].help
     force_c = next(each for each in readouts.READOUTS if each.name == "critical_force")
@@ -179,12 +161,12 @@ def test_12_curves_with_a_vertical_start_are_no_chords():
     for depth in (1e-6, 5e-6, 5e-5):
         exact = float(view.course.scene.profile.contact_radius(depth))
         assert np.interp(depth, d[1:], a[1:]) == pytest.approx(exact, rel=0.03)
-    state = changes.choose(state_with(GOLD, damping="tau"), "drive", "path")
+    state = changes.choose(state_with(GOLD, damping="eta"), "drive", "path")
     course = solved(changes.choose(state, "pattern", "creep"))
     time, depth = course.motion.time, course.states.depth
     assert len(time) > 20
     # Half of the states of the hold are in its first tenth.
-    held_at = np.flatnonzero(course.force >= 0.999 * course.force.max())
+    held_at = np.flatnonzero(course.states.force >= 0.999 * course.states.force.max())
     share = (time[held_at] - time[held_at[0]]) / np.ptp(time[held_at])
     assert np.mean(share < 0.1) > 0.5
     assert np.all(np.diff(depth) > 0)
@@ -201,11 +183,11 @@ def test_13_springs_of_an_oblique_impact_are_elastic_or_yielded():
 def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept():
     page = Page()
     page.board.tabs["forces"].value = True
-    assert page.shown.plots == [PLOTS[name] for name in ("springs", "pressure", "force")]
+    assert visible(page.shown) == [PLOTS[name] for name in ("springs", "pressure", "force")]
     assert not page.board.tabs["forces"].value
     page.apply(lambda state: changes.put(state, "max_depth", 5e-9))
     assert page.state.max_depth == 5e-9
-    assert "forces" not in link.write(page.state, DRIVES["depth"].form)
+    assert "forces" not in link.write(page.state)
     # A measured tip can be chosen where there is one only.
     assert "Measured tip" not in page.choices.widgets["shape"].options
     assert isinstance(page.share, Share)
@@ -223,14 +205,29 @@ def test_adhesion_is_drawn_below_zero_to_the_pull_off(drive):
     view = view_of(state, 2.0)
     course, axis = view.course, view.axis("F")
     pull_off = 1.5 * np.pi * 0.05 * state.paraboloid_radius
-    read = {each.name: values for each, values in readouts.readings(course).items()}
-    np.testing.assert_allclose(read["pull_off_force"], pull_off, rtol=1e-12)
+    np.testing.assert_allclose(numbers(course)["pull_off_force"], pull_off, rtol=1e-12)
     assert view.rows(PLOTS["force"], course.now)["Fₐ"][2] == "Fₐ = 11.8 µN"
     # The largest tension is between two states; it is flat there.
-    assert -np.min(course.force) == pytest.approx(pull_off, rel=1e-2)
+    assert -np.min(course.states.force) == pytest.approx(pull_off, rel=1e-2)
     assert axis.start <= -pull_off
     assert view.axis("d").start <= np.min(course.states.depth) < 0
-    assert course.force[-1] == 0
+    assert course.states.force[-1] == 0
+
+
+def test_a_given_force_pulls_off_at_the_largest_tension_and_a_given_depth_later():
+    """JKR: at 3/2 π w R, and at 5/9 of that under a given depth."""
+    for drive, share in (("force", 1.0), ("depth", 5 / 9)):
+        course = follow(adhesive(drive, plasticity="none"))
+        last = course.states.force[course.progress <= 2][-1]
+        radius = course.scene.profile.radius
+        assert -last == pytest.approx(share * 1.5 * np.pi * 0.05 * radius, rel=1e-9)
+
+
+def test_the_fast_limit_is_not_compared_with_an_adhesive_impact():
+    state = adhesive("impact")
+    assert not any(
+        "contact and damage" in sentence for _, sentence in readouts.limits(follow(state), state)
+    )
 
 
 def test_after_yield_the_whole_imprint_is_pulled_off():
@@ -256,7 +253,13 @@ def test_adhesion_has_a_link_and_is_refused_where_it_is_not_computed():
     assert (again.adhesion, again.work_of_adhesion) == ("work", 0.05)
     assert "w = 50.0 mJ/m²" in readouts.summary(again)
     assert "adhesion" not in written(preset_state())
-    for choices in ({"drive": "oblique"}, {"damping": "eta"}, {"drive": "impact", "surface": "imprint"}):
+    hold = {"drive": "path", "pattern": "hold"}
+    for choices in (
+        {"drive": "oblique"},
+        {"damping": "eta"},
+        {"drive": "impact", "plastic_depth": 1e-7},
+        hold,
+    ):
         with pytest.raises(ValueError, match="adhesion"):
             follow(adhesive().replace(**choices))
 
@@ -278,4 +281,4 @@ def test_a_reset_stands_at_the_deepest_state():
     page.apply(lambda state: state.replace(progress=0.0))
     page.frame.reset.clicks += 1
     assert page.state.progress == 1.0
-    assert step_text(TOURS["First yield"][0], page.shown.view.course)
+    assert step_text(TOURS["First yield"][0], page.shown.course)

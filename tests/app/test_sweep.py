@@ -31,8 +31,10 @@ def one(state, name, value, quantity):
 def test_every_number_is_swept_as_one_scene_at_a_time(drive):
     state = state_with(OPENING, drive)
     for name in changes.options(state, "swept"):
-        state, asked, found = swept(state, swept=name, against="plastic_work", sweep_axes="log_x")
+        state, asked, found = swept(state, swept=name, against="plastic_work")
         numbers, values = found.rows["this scene"]
+        # What is 0 has no place on a logarithmic axis.
+        values = np.nan_to_num(values)
         assert (numbers[0], numbers[-1]) == pytest.approx((asked.low, asked.high), rel=1e-12)
         for k in (0, 50, 80):
             expected = one(state, name, numbers[k], "plastic_work")
@@ -44,15 +46,15 @@ def test_every_number_is_swept_as_one_scene_at_a_time(drive):
 
 
 def test_a_viscous_impact_is_swept_over_its_relaxation_time_at_rest():
-    state = state_with(DROP, damping="tau").replace(tau=1e-5)
-    state, asked, found = swept(state, swept="tau", against="restitution")
+    state = state_with(DROP, damping="eta").replace(eta=3e4)
+    state, asked, found = swept(state, swept="eta", against="restitution")
     numbers, values = found.rows["this scene"]
     assert not sweep.quick(asked)
-    assert values[20] == pytest.approx(one(state, "tau", numbers[20], "restitution"), rel=1e-9)
+    assert values[20] == pytest.approx(one(state, "eta", numbers[20], "restitution"), rel=1e-9)
     # The limit of fast impacts is without viscosity.
     assert sweep.FAST not in found.rows
     state = changes.choose(state, "damping", "none")
-    assert "tau" not in changes.options(state, "swept")
+    assert "eta" not in changes.options(state, "swept")
     assert changes.option(state, "swept") == "energy"
 
 

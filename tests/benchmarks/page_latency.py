@@ -19,7 +19,7 @@ FIGURES = ["springs", "pressure", "force"]
 SCENES = {
     "pressing": ("", "d_max"),
     "dry impact": ("?preset=striker-glass_epoxy-drop-weight", "v_0"),
-    "viscous impact": ("?preset=striker-glass_epoxy-drop-weight&damping=tau&tau=0.0002", "v_0"),
+    "viscous impact": ("?preset=striker-glass_epoxy-drop-weight&damping=eta&eta=524000", "v_0"),
     "oblique impact": ("?preset=striker-glass_epoxy-drop-weight&drive=oblique&incoming_speed=2", "V_0"),
     "sweep beside an impact": ("?preset=striker-glass_epoxy-drop-weight&tiles=sweep", "v_0"),
 }
