@@ -11,7 +11,7 @@ import mdr_core as mdr
 from mdr_core.reading import SIZES
 
 from ..state import State, checked, medium, profile, with_derived
-from ..state.files import FITTED, OF_MEDIUM, PLACED, Measured, agrees, read_curve
+from ..state.files import FITTED, OF_MEDIUM, PLACED, Measured, agrees, offered, read_curve
 from ..state.quantities import ASSETS, QUANTITIES
 from ..state.units import written
 from ..ui import WIDE, button, field, html, indexed, marked, on_upload, plain, show, upload
@@ -42,9 +42,9 @@ def silica(state: State) -> State:
 def fit(state: State) -> State:
     """Fit medium and position to the measured curve; press to its depth."""
     made = medium(state)
-    names = state.curve.fitted
+    names = offered(state)
     for name in FITTED:
-        if name not in (*names, *state.fixed):
+        if name not in (*state.curve.fitted, *state.fixed):
             raise ValueError(
                 f"the {QUANTITIES[name].label} needs the times of the samples: leave it as it is"
             )
@@ -133,9 +133,16 @@ class Fitting:
         for role in SIZES:
             for widget in (self.columns[role], self.units[role]):
                 widget.param.watch(lambda event, role=role: self._correct(role, event.new), "value")
-        self.fixed.param.watch(
-            lambda event: apply(lambda now: now.replace(fixed=tuple(event.new))), "value"
-        )
+        self.fixed.param.watch(lambda event: self._hold(event.new), "value")
+
+    def _hold(self, names):
+        """Hold parameters; those that the curve does not offer stay as they are."""
+
+        def change(state):
+            others = [name for name in state.fixed if state.curve and name not in offered(state)]
+            return state.replace(fixed=tuple(name for name in FITTED if name in (*names, *others)))
+
+        self._apply(change)
 
     def _refuse(self, where):
         return lambda text: show(where, object=f'<span class="refused">{escape(text)}</span>')
@@ -167,7 +174,8 @@ class Fitting:
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
         likes = {"contact_point": depth, "baseline": force, "frame_compliance": depth / (force or 1.0)}
         self.place.show(state, [name for name in PLACED if name in curve.fitted], likes)
-        show(self.fixed, value=list(state.fixed))
+        options = {QUANTITIES[name].label: name for name in offered(state)}
+        show(self.fixed, options=options, value=[name for name in state.fixed if name in offered(state)])
         self.noise.show(state, ["depth_noise"], {"depth_noise": depth})
         heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.curve.table.heads)}
         for role, column in curve.curve.columns.items():

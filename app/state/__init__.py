@@ -63,7 +63,8 @@ _DEFAULTS |= {name: next(iter(options)) for name, options in CHOICES.items()}
 _DEFAULTS |= {
     "preset": OPENING, "shape": "cone", "progress": 1.0, "samples": (), "tip_note": "",
     "hold": (), "tiles": (), "dark": False,
-    "curve": None, "fit_note": "", "fixed": ("eta", "baseline", "tilt", "drag", "frame_compliance"),
+    "curve": None, "fit_note": "",
+    "fixed": ("eta", "work_of_adhesion", "baseline", "tilt", "drag", "frame_compliance"),
 }  # fmt: skip
 
 

@@ -20,7 +20,10 @@ from .units import written
 #: taken of a curve, most rows of a tip and most bytes of a curve.
 MAX_SAMPLES, _FITTED, _MAX_ROWS, _MAX_BYTES = 60, 2000, 20_000, 5_000_000
 #: Parameters of a fit: those of the medium, with the choice and option of the page, and the rest.
-OF_MEDIUM = {"E_star": ("elasticity", "modulus"), "q_c": ("plasticity", "q_c"), "eta": ("damping", "eta")}
+OF_MEDIUM = {
+    "E_star": ("elasticity", "modulus"), "q_c": ("plasticity", "q_c"), "eta": ("damping", "eta"),
+    "work_of_adhesion": ("adhesion", "work"),
+}  # fmt: skip
 PLACED = ("contact_point", "baseline", "tilt", "drag", "frame_compliance")
 FITTED = (*OF_MEDIUM, *PLACED)
 #: Those that need the times of the samples.
@@ -120,6 +123,12 @@ def read_curve(data: bytes, name: str) -> Measured:
         path.write_bytes(data)
         curve = mdr.read_curve(path)
     return Measured(" ".join(name.split())[:80], curve)
+
+
+def offered(state: State) -> list[str]:
+    """Names of the parameters that a fit of the curve can have on the page: w only with adhesion."""
+    adhesive = state.adhesion == "work"
+    return [name for name in state.curve.fitted if adhesive or name != "work_of_adhesion"]
 
 
 def agrees(state: State) -> bool:

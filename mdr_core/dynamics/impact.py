@@ -219,7 +219,7 @@ class Impact(ImpactResult):
 
     @_check.frozen_property
     def max_force(self):
-        """Largest force (N); a viscous impact reaches it before the turning point."""
+        """Largest force (N), with adhesion that at the turning point; a viscous one is before it."""
         return self._merged("max_force", lambda: self.turning_point.force)
 
     @_check.frozen_property

@@ -21,16 +21,21 @@ import numpy as np
 from ..medium import critical_depth
 from ..superposition import radius_integral, radius_rate
 from ..yielding import LiveInterval, interval_at
+from .adhesive_curve import adhesive_states, next_to_jumps
 
 #: All parameters in the order of a fit, those of the background, those fitted as logarithms, those that are
 #: not negative, and those of foundation and frame.
 PARAMETERS = (
     "E_star", "q_c", "eta", "contact_point", "baseline", "tilt", "drag", "frame_compliance",
+    "work_of_adhesion",
 )  # fmt: skip
 BACKGROUND = ("baseline", "tilt", "drag")
-LOGARITHMIC = ("E_star", "q_c", "contact_point")
+LOGARITHMIC = ("E_star", "q_c", "contact_point", "work_of_adhesion")
 NOT_NEGATIVE = ("eta", "frame_compliance")
 _OF_FORCE = ("E_star", "q_c", "eta", "frame_compliance")
+_WITH_ADHESION = ("E_star", "q_c", "work_of_adhesion")
+#: Standard deviations of samples that are not to weigh, in units of those they would have.
+NO_WEIGHT = 1e6
 #: The contact point is searched down to so many ranges of depth below the record.
 REACH = 30.0
 
@@ -41,8 +46,8 @@ class CurveProblem:
 
     `rate` is ż (m/s); `fixed` holds the fixed parameters by name (R,); `depth_noise` and `sigma` (R, N) are
     the standard deviations of depth (m) and force (N); `turning_points` (R, K) and `loading_starts` are
-    indices. Scaled parameters x are logarithms of E*, q_c and `top` − z₀, otherwise shares of `length` (m),
-    `load` (N) and `speed` (m/s).
+    indices; `contact` (R, N) says with adhesion which samples are in contact. Scaled parameters x are
+    logarithms of E*, q_c, w and `top` − z₀, otherwise shares of `length` (m), `load` (N) and `speed` (m/s).
     """
 
     profile: object
@@ -54,10 +59,12 @@ class CurveProblem:
     sigma: np.ndarray
     turning_points: np.ndarray
     loading_starts: np.ndarray
+    contact: np.ndarray | None = None
 
     def rows(self, rows):
         fixed = {name: value[rows] for name, value in self.fixed.items()}
-        names = "depth", "force", "rate", "sigma", "turning_points", "loading_starts"
+        names = ["depth", "force", "rate", "sigma", "turning_points", "loading_starts"]
+        names += [] if self.contact is None else ["contact"]
         return replace(self, fixed=fixed, **{name: getattr(self, name)[rows] for name in names})
 
     #: Largest depth (m), ranges of depth (m) and force (N) and largest speed (m/s) of each curve (R, 1);
@@ -72,6 +79,15 @@ class CurveProblem:
     def memoryless(self):
         """Whether the medium is held elastic: the order of the samples does not matter."""
         return bool(np.all(np.isinf(self.fixed.get("q_c", 0.0))))
+
+    @property
+    def adhesive(self):
+        """Whether there is adhesion."""
+        return bool(np.any(self.fixed.get("work_of_adhesion", 1.0)))
+
+    def in_contact(self, contact):
+        """The problem with the samples (R, N) that are in contact."""
+        return replace(self, contact=contact)
 
     @property
     def free_turning_points(self):
@@ -201,6 +217,8 @@ class CurveProblem:
 
     def noise(self, slope):
         """Standard deviation (N) of the residuals from both noises, at slopes of the curve (N/m)."""
+        if self.adhesive:
+            return np.where(next_to_jumps(self.contact), NO_WEIGHT, 1.0) * self.sigma
         return np.sqrt(self.sigma**2 + (slope * self.depth_noise) ** 2)
 
     def with_best_turning_points(self, x):
@@ -225,15 +243,15 @@ class CurveState:
     """States of the model at all samples, arrays (R, N).
 
     `displacement` is u = d + C F with the frame's share (m), `loading` whether it is the largest so far,
-    `dashpot_load` the line load 4ηḋ (N/m) in contact on pressing, `slope` ∂F/∂u, `memory_slope` ∂F/∂u_max
-    where it is not, `gradient` ∂F by the parameters of `_OF_FORCE`.
+    `uniform_load` the line load (N/m) of dashpots, 4ηḋ, or of adhesion, `slope` ∂F/∂u, `memory_slope`
+    ∂F/∂u_max where it is not, `gradient` ∂F by the parameters of `_OF_FORCE` or `_WITH_ADHESION`.
     """
 
     displacement: np.ndarray
     depth: np.ndarray
     loading: np.ndarray
     live_interval: LiveInterval
-    dashpot_load: np.ndarray
+    uniform_load: np.ndarray
     force: np.ndarray
     slope: np.ndarray
     memory_slope: np.ndarray
@@ -244,6 +262,9 @@ class CurveState:
         """States at displacements (m) from first contact, turning points likewise."""
         profile, C = problem.profile, values["frame_compliance"]
         largest, loading = problem.largest_so_far(displacement, turning_depth)
+        if problem.adhesive:
+            states = adhesive_states(profile, values, displacement, largest, loading, problem.contact)
+            return cls(displacement, displacement, loading, *states)
         if not C.any() and "frame_compliance" not in problem.free:
             rate = problem.rate if values["eta"].any() or "eta" in problem.free else 0.0
             return cls.on_rigid_frame(profile, values, displacement, largest, loading, rate)
@@ -279,19 +300,20 @@ class CurveState:
         gradient = np.stack([force - yielded - modulus * a * ahead, yielded, 8 * a * rate])
         slope = modulus * a + np.where(loading, memory_slope, 0.0)
         memory_slope = np.where(loading, 0.0, memory_slope)
-        dashpot_load = np.where(contact, values["E_star"] * np.maximum(lag, 0.0), 0.0)
-        if dashpot_load.any():
-            force = force + 2 * dashpot_load * a
+        uniform_load = np.where(contact, values["E_star"] * np.maximum(lag, 0.0), 0.0)
+        if uniform_load.any():
+            force = force + 2 * uniform_load * a
             # da/dd may be infinite at first contact: that at the mean distance of samples is the largest.
             inside = np.maximum(interval.upper, np.ptp(depth, axis=1, keepdims=True) / depth.shape[1])
             growing = contact & (a < profile.wall)
             rate_of_radius = radius_rate(profile, np.minimum(inside, known))
-            slope = slope + 2 * dashpot_load * np.where(growing, rate_of_radius, 0.0)
-        return cls(depth, depth, loading, interval, dashpot_load, force, slope, memory_slope, gradient)
+            slope = slope + 2 * uniform_load * np.where(growing, rate_of_radius, 0.0)
+        return cls(depth, depth, loading, interval, uniform_load, force, slope, memory_slope, gradient)
 
     def derivatives(self, problem, values):
         """−∂F by the free parameters, in logarithms, and by turning depths (R, N, P)."""
-        columns = dict(zip(_OF_FORCE, -self.gradient, strict=False))
+        names = _WITH_ADHESION if problem.adhesive else _OF_FORCE
+        columns = dict(zip(names, -self.gradient, strict=False))
         shift = values["contact_point"] - problem.top
         columns["contact_point"] = shift * (self.slope + self.memory_slope)
         background = problem.background_columns.items()

@@ -29,6 +29,7 @@ def fit_indentation(
     tilt: ArrayLike | None = 0.0,
     drag: ArrayLike | None = 0.0,
     frame_compliance: ArrayLike | None = 0.0,
+    work_of_adhesion: ArrayLike | None = 0.0,
     depth_noise: float = 0.0,
     force_noise: ArrayLike | None = None,
 ) -> IndentationFit:
@@ -45,7 +46,8 @@ def fit_indentation(
     depth, force : array_like
         Measured depths (m) and forces (N) in the order of time, of one shape: one curve (N,), or many
         (R, N) with one indenter, each on a virgin medium; or lists of R arrays of different lengths.
-        Samples with NaN are left out. With `q_c=inf` and without `time` the order does not matter.
+        Samples with NaN are left out. With `q_c=inf`, without `time` and without adhesion the order does
+        not matter.
     time : array_like, optional
         Increasing times (s) of the samples, of the same shape; needed for `eta` and `drag`. The rate ż is
         the central difference of the depths, so that a noisy depth makes a noisy rate: average neighbouring
@@ -62,6 +64,8 @@ def fit_indentation(
     frame_compliance : float, optional
         Compliance C (m/N) of the frame: the measured depth is z₀ + d + C (F − F₀). 0 by default; not
         together with `eta`.
+    work_of_adhesion : float, optional
+        Work of adhesion w (J/m²), 0 by default; see Notes.
     depth_noise : float, optional
         Standard deviation (m) of the measured depth. Without it noise counts as a new largest depth, and
         E* is too small.
@@ -93,8 +97,14 @@ def fit_indentation(
     ``keep = (time < start) | (time > stop)`` (s) with ``depth[keep], force[keep], time=time[keep]``. Rates
     at the edges of the gap are those of the nearer samples.
 
-    **Not in the model**: adhesion (forces below the background on the retract), relaxation over more than
-    one time, poroelastic flow, layers, finite thickness, and hardness that does not fall with the contact
+    **Adhesion.** The states are those of `indent`, on record from before contact to after the pull-off. E*,
+    q_c, w and z₀ follow from the forces in contact. Which samples are in contact is taken from the data: a
+    soft cantilever loses contact earlier than the model, in which the depth is prescribed. The samples next
+    to a jump into or out of contact have no weight; `path` and `residuals` have the jumps of the model. Not
+    together with `eta`, `frame_compliance` or `depth_noise`.
+
+    **Not in the model**: relaxation over more than one time, adhesion that changes between approach and
+    retract, poroelastic flow, layers, finite thickness, and hardness that does not fall with the contact
     radius (glass, most metals). Residuals then follow a curve; a remark says so where they exceed 5 % of
     the force.
 
@@ -124,16 +134,26 @@ def fit_indentation(
     >>> fit = fit_indentation(Cone(slope=0.3), d, F, time=t, q_c=np.inf, eta=None, drag=None)
     >>> print(f"{fit.medium.E_star:.3g} {fit.medium.eta:.3g} {fit.drag:.3g}")
     1e+10 1e+08 2
+
+    A medium with adhesion, from before contact to after the pull-off:
+
+    >>> d = np.append(np.linspace(-10e-9, 60e-9, 100), np.linspace(60e-9, -20e-9, 120))
+    >>> F = indent(Cone(slope=0.3), Medium(E_star=1e9, work_of_adhesion=0.2), d).force
+    >>> fit = fit_indentation(Cone(slope=0.3), d, F, q_c=np.inf, work_of_adhesion=None)
+    >>> print(f"{fit.medium.E_star:.6g} {fit.medium.work_of_adhesion:.6g}")
+    1e+09 0.2
     """
     check_pair(profile, Medium(1.0), "a fit")
     measured = measurement(depth, force, time, force_noise)
     count = len(measured.depth)
-    values = E_star, q_c, eta, contact_point, baseline, tilt, drag, frame_compliance
+    values = E_star, q_c, eta, contact_point, baseline, tilt, drag, frame_compliance, work_of_adhesion
     named = zip(PARAMETERS, values, strict=True)
     fixed = {name: _fixed(name, value, count) for name, value in named if value is not None}
     noise = _check.positive_number("depth_noise", depth_noise, unit="m") if depth_noise else 0.0
     in_time = [name for name in ("eta", "drag") if name not in fixed or fixed[name].any()]
     _refuse_missing(fixed, in_time, time)
+    if "work_of_adhesion" not in fixed or fixed["work_of_adhesion"].any():
+        _refuse_with_adhesion(fixed, noise)
     _refuse_empty(measured, fixed)
     profile_table = tabulated(profile, _table_depth(profile, measured.depth, fixed))
     fits = []
@@ -155,6 +175,14 @@ def _refuse_missing(fixed, in_time, time):
         )
 
 
+def _refuse_with_adhesion(fixed, noise):
+    """Refuses adhesion with what its curves are not fitted with."""
+    excluded = [name for name in ("eta", "frame_compliance") if name not in fixed or fixed[name].any()]
+    names = " and ".join([*excluded, *["depth_noise"] * bool(noise)])
+    if names:
+        raise ValueError(f"work_of_adhesion is not fitted together with {names}: hold one of them at 0")
+
+
 def _fixed(name, value, count):
     """A fixed parameter, one number a curve."""
     unit = FITTED_QUANTITIES[name].unit
@@ -165,7 +193,7 @@ def _fixed(name, value, count):
     if name in ("contact_point", *BACKGROUND):
         value = _check.finite_array(name, value, unit=unit)
     else:
-        allowed = {"infinite": name == "q_c", "zero": name in NOT_NEGATIVE}
+        allowed = {"infinite": name == "q_c", "zero": name in (*NOT_NEGATIVE, "work_of_adhesion")}
         value = _check.positive(name, value, unit=unit, **allowed)
     _check.common_shape("fit_indentation", **{name: value, "curves": np.empty(count)})
     return np.broadcast_to(value, (count,)).astype(float)
@@ -186,7 +214,8 @@ def _refuse_empty(measured, fixed):
     _check.refuse("range of depth", width, width == 0, "m: the indenter does not move", remedy="check it")
     rise = highest - fixed.get("baseline", lowest)
     bound, remedy = "above the baseline: no contact", "forces are positive in compression; or free baseline"
-    _check.refuse("largest force", rise, rise <= 0, bound, unit="N", remedy=remedy)
+    attracted = np.any(fixed.get("work_of_adhesion", 1.0))
+    _check.refuse("largest force", rise, (rise <= 0) & ~attracted, bound, unit="N", remedy=remedy)
     height = highest - lowest
     bound = f"must be at least {_check.SMALLEST:g}"
     _check.refuse("range of force", height, height < _check.SMALLEST, bound, unit="N", remedy="check it")

@@ -10,11 +10,13 @@ from .least_squares import SIGNIFICANT, SINGULAR, autocorrelation, roughness
 
 #: All kinds of remarks, the most important first.
 KINDS = (
-    "units", "bound", "frame", "second minimum", "undetermined", "misfit", "jitter", "loading", "vague",
-    "class", "elastic", "hardly yields", "noisy", "inviscid", "missing",
+    "units", "adhesion", "bound", "frame", "second minimum", "undetermined", "misfit", "jitter", "loading",
+    "vague", "contact", "class", "elastic", "hardly yields", "noisy", "inviscid", "missing",
 )  # fmt: skip
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
+#: Samples at which contact differs from that of the model, as a share of those in contact.
+_OTHER_CONTACT = 0.05
 #: Root mean square of correlated residuals over the range of force above which the model does not fit, of
 #: elastic media and of those that yield, whose unloading is a small part of the curve.
 _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
@@ -22,7 +24,7 @@ _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
 
 def remarks_of(solved):
     """Remarks on each curve of `SolvedCurves`: a sentence by its kind, the same for all curves."""
-    checks = _ambiguous, _undetermined, _jitter, _class_b, _misfit
+    checks = _ambiguous, _adhesion, _undetermined, _jitter, _class_b, _misfit
     curves = range(len(solved.rows))
     return [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in curves]
 
@@ -67,6 +69,32 @@ def _ambiguous(solved, i):
             )
 
 
+def _adhesion(solved, i):
+    """A work of adhesion that is hardly determined, and contact at other samples than in the model."""
+    problem, (values, state) = solved.problem, solved.values_and_states
+    if not problem.adhesive:
+        return
+    force = (problem.force - problem.background(values))[i]
+    noise = problem.sigma[i] * (1.0 if solved.noise_known else np.sqrt(solved.reduced_chi_square[i]))
+    column = problem.free.index("work_of_adhesion") if "work_of_adhesion" in problem.free else None
+    error = 0.0 if column is None else np.sqrt(solved.covariance[i, column, column])
+    if error > _VAGUE:
+        cause = "" if np.any(force < -SIGNIFICANT * noise) else "; there is no tension beyond the noise"
+        share = f"to {100 * error:.2g} %" if error < np.inf else "not at all"
+        yield (
+            "adhesion",
+            f"the forces in contact hardly determine w ({share}{cause}): hold work_of_adhesion",
+        )
+    differs = problem.contact[i] != (state.live_interval.length[i] > 0)
+    others = np.count_nonzero(differs & (np.abs(force - state.force[i]) > SIGNIFICANT * noise))
+    if others > max(2, _OTHER_CONTACT * np.count_nonzero(problem.contact[i])):
+        yield (
+            "contact",
+            f"{others} samples have contact where the model has none, or none where it has: a soft "
+            "cantilever loses it earlier, or adhesion differs between approach and retract",
+        )
+
+
 def _undetermined(solved, i):
     """Parameters that the data do not determine."""
     values, state = solved.values_and_states
@@ -101,7 +129,7 @@ def _undetermined(solved, i):
             f"within the critical depth of {d_c}; record more of them, or hold E_star",
         )
     for name, error in errors.items():
-        if error == np.inf:
+        if error == np.inf and name != "work_of_adhesion":
             text = f"the data do not determine {name}: hold it, or a parameter that it is correlated with"
             yield f"undetermined:{name}", text
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 #: Parameters besides those of the medium; arrays with one entry per curve, and per sample.
 _FURTHER = ("contact_point", "baseline", "tilt", "drag", "frame_compliance")
+_OF_MEDIUM = ("E_star", "q_c", "eta", "work_of_adhesion")
 _OF_CURVES = (*_FURTHER, "covariance", "reduced_chi_square", "block_length")
 _OF_SAMPLES = ("depth", "force", "time", "residuals")
 
@@ -62,9 +63,9 @@ class IndentationFit(Fit):
     _remarks: tuple[dict[str, str], ...]
     _lengths: np.ndarray
 
-    _medium_parameters = ("E_star", "q_c", "eta")
+    _medium_parameters = _OF_MEDIUM
     _further_parameters = _FURTHER
-    _zero_unless_asked = ("eta", "tilt", "drag")
+    _zero_unless_asked = ("eta", "tilt", "drag", "work_of_adhesion")
     _dimensions = ("curve",)
 
     def __getitem__(self, index: Any) -> "IndentationFit":
@@ -171,18 +172,18 @@ def collected(profile, measured, depth_noise, fits):
     counts = zip(measured.lengths - np.count_nonzero(measured.used, axis=1), measured.lengths, strict=True)
     remarks = [by_importance(remarks[i] | missing(*pair)) for i, pair in zip(order, counts, strict=True)]
     errors = np.sqrt(np.einsum("rpp->rp", joined["covariance"]))
-    media = [joined[name] for name in ("E_star", "q_c", "eta")]
+    media = {name: joined[name] for name in _OF_MEDIUM}
     interval = LiveInterval(joined["lower"], joined["upper"], joined["length"])
     path = Indentation(
-        profile, Medium(*(value[:, None] for value in media)), joined["path_depth"], interval,
-        joined["dashpot_load"], bool(np.any(joined["eta"])),
+        profile, Medium(**{name: value[:, None] for name, value in media.items()}), joined["path_depth"],
+        interval, joined["uniform_load"], bool(np.any(joined["eta"])),
     )  # fmt: skip
     noise = joined["force_noise"] if measured.force_noise is None else measured.force_noise
     measurements = {name: getattr(measured, name) for name in ("depth", "force", "time")}
     names = (*_OF_CURVES, "residuals")
     values = {name: joined[name] for name in names} | measurements | {"force_noise": noise}
     return IndentationFit(
-        profile=profile, medium=Medium(*media), path=path, depth_noise=depth_noise,
+        profile=profile, medium=Medium(**media), path=path, depth_noise=depth_noise,
         standard_errors={name: _check.frozen(errors[:, i]) for i, name in enumerate(fits[0].problem.free)},
         **{name: value if value is None else _check.frozen(value) for name, value in values.items()},
         _remarks=tuple(remarks), _lengths=measured.lengths,
@@ -193,12 +194,16 @@ def _arrays(fit, used):
     """Arrays of `SolvedCurves` by name, one row a curve, one column a sample that was given."""
     problem, (values, state) = fit.problem, fit.values_and_states
     units = problem.units(values)
+    residuals = fit.residual * problem.noise(state.slope)
+    if problem.adhesive:
+        # The path follows the model, the search has contact where the data have it.
+        residuals = problem.force - problem.background(values) - state.force
     values = {name: np.broadcast_to(values[name], (len(fit.rows), 1))[:, 0] for name in PARAMETERS}
     chi, sigma = fit.reduced_chi_square, np.median(problem.sigma, axis=1)
     states = {
-        "residuals": fit.residual * problem.noise(state.slope), "path_depth": state.depth,
+        "residuals": residuals, "path_depth": state.depth,
         "lower": state.live_interval.lower, "upper": state.live_interval.upper,
-        "length": state.live_interval.length, "dashpot_load": state.dashpot_load,
+        "length": state.live_interval.length, "uniform_load": state.uniform_load,
     }  # fmt: skip
     before = np.maximum(np.cumsum(used, axis=1) - 1, 0)
     states = {name: np.take_along_axis(array, before, axis=1) for name, array in states.items()}

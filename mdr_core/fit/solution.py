@@ -7,7 +7,8 @@ import numpy as np
 
 from .._numeric import chunks
 from ..medium import critical_depth
-from .curve import LOGARITHMIC, NOT_NEGATIVE, REACH, CurveProblem
+from .adhesive_curve import contact_of_data, contact_of_model
+from .curve import LOGARITHMIC, NO_WEIGHT, NOT_NEGATIVE, REACH, CurveProblem
 from .least_squares import (
     autocorrelation,
     block_factors,
@@ -18,8 +19,8 @@ from .least_squares import (
 )
 from .start import first_guesses, turning_points
 
-#: Standard deviations of samples that are not to weigh, in units of those they would have.
-_NO_WEIGHT = 1e6
+#: Largest number of searches with adhesion, between which the samples in contact are found anew.
+_SEARCHES = 8
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,10 @@ class SolvedCurves:
     @cached_property
     def values_and_states(self):
         """Parameters by name (R, 1), with an infinite q_c where elastic, and the states at all samples."""
-        values, _, state = self.problem.states(self.x)
+        problem = self.problem
+        if problem.adhesive:
+            problem = problem.in_contact(contact_of_model(problem, self.x))
+        values, _, state = problem.states(self.x)
         return values | {"q_c": np.where(self.elastic[:, None], np.inf, values["q_c"])}, state
 
     @cached_property
@@ -118,13 +122,16 @@ def solved(profile, samples, fixed, noise, rows, turns, starts):
     )
     given = samples.force_noise is not None
     sigma = samples.force_noise[rows] if given else _first_sigma(ordered, noise)
-    sigma = np.where(samples.corner[rows], _NO_WEIGHT * sigma, sigma)
+    sigma = np.where(samples.corner[rows], NO_WEIGHT * sigma, sigma)
     problem = CurveProblem(profile, depth, force, rate, fixed, noise, sigma, turns, starts)
     solution, rival = _best_minimum(problem)
     for _ in range(5 if noise and turns.size else 0):
         before, problem = problem, problem.with_best_turning_points(solution[0])
         if np.array_equal(before.turning_points, problem.turning_points):
             break
+        solution = _minimum(problem, solution[0])
+    if problem.adhesive:
+        problem = problem.in_contact(contact_of_data(problem, solution[0]))
         solution = _minimum(problem, solution[0])
     noise_known = given or noise > 0
     if "q_c" in fixed:
@@ -158,14 +165,28 @@ def _minimum(problem, start):
     return *solution, (solution[0] <= lower + 1e-9) | (solution[0] >= upper - 1e-9)
 
 
+def _searched(problem, start):
+    """`_minimum`, with adhesion for the samples in contact that fit best."""
+    if not problem.adhesive:
+        return _minimum(problem, start)
+    contact = None
+    for _ in range(_SEARCHES):
+        before, contact = contact, contact_of_data(problem, start)
+        if np.array_equal(before, contact):
+            break
+        solution = _minimum(problem.in_contact(contact), start)
+        start = solution[0]
+    return solution
+
+
 def _best_minimum(problem):
     """The best minimum, and the second-best one that differs in E* or contact point, with its squares."""
     (_, start), *others = first_guesses(problem)
-    solution = _minimum(problem, start)
+    solution = _searched(problem, start)
     rival, rival_squares = solution[0].copy(), np.full(len(start), np.inf)
     columns = [i for i, name in enumerate(problem.free) if name in ("E_star", "contact_point")]
     for rows, start in others:
-        trial = _minimum(problem.rows(rows), start)
+        trial = _searched(problem.rows(rows), start)
         x, squares = solution[0][rows], np.sum(solution[1][rows] ** 2, axis=1)
         trial_squares = np.sum(trial[1] ** 2, axis=1)
         differs = np.any(np.abs(trial[0] - x)[:, columns] > 0.05, axis=1)

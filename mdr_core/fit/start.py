@@ -5,6 +5,7 @@ import numpy as np
 from ..medium import critical_depth, yield_constant
 from ..superposition import radius_integral
 from ..yielding import elastic_interval, interval_at
+from .adhesive_curve import in_contact
 from .curve import BACKGROUND, PARAMETERS, REACH
 
 #: Trial frame compliances, in units of the range of depth over the range of force.
@@ -15,6 +16,8 @@ _DEPTHS = np.geomspace(3e-3, 1 + REACH, 48)
 _SHARES = np.concatenate([np.geomspace(2e-3, 0.5, 13), [0.65, 0.8, 0.92, 3.0]])
 #: Trial relaxation times, as shares of the largest depth over the largest rate.
 _LAGS = np.append(0.0, np.geomspace(0.01, 4.0, 10))
+#: Trial stretches at the rim at the largest depth, as shares of it.
+_STRETCHES = np.geomspace(0.03, 4.0, 14)
 #: Largest number of starts, and largest sum of squares of a start in units of the smallest one.
 _STARTS, _CLOSE = 4, 20.0
 
@@ -44,9 +47,9 @@ def turning_points(depth, threshold):
 def first_guesses(problem):
     """Starts of a search, the best first, each with its rows and their scaled parameters.
 
-    They are the minima over a grid of contact points, with the best critical depth, relaxation time and
-    frame compliance of grids. The force is E* times a function of these, and a background: E* and the
-    parameters of the background follow by linear regression.
+    They are the minima over a grid of contact points, with the best critical depth, relaxation time or work
+    of adhesion, and frame compliance of grids. The force is E* times a function of these, and a background:
+    E* and the parameters of the background follow by linear regression.
     """
     largest = min((1 + REACH) * float(problem.length.max()), problem.profile.known_depth)
     depths = largest * np.append(0.0, np.geomspace(1e-7, 1, 600))
@@ -91,20 +94,25 @@ def _grid(curve, fixed, turning_depth, table, compliance):
     top, length = float(depth.max()), float(curve.length[0, 0])
     points = top - np.minimum(length * _DEPTHS, curve.profile.known_depth)
     points = np.array([fixed["contact_point"]]) if "contact_point" in fixed else points
-    d_c, tau = _media(curve, fixed, np.maximum(top - points, 1e-3 * length)[:, None])
-    samples = largest[:, subset], depth[subset], curve.rate[0, subset]
-    unit_force = _unit_force(*samples, points[:, None, None], d_c[..., None], tau[..., None], table)
-    best, moduli, squares, background = _regression(curve, fixed, subset, unit_force, d_c)
+    d_c, tau, kappa = _media(curve, fixed, np.maximum(top - points, 1e-3 * length)[:, None])
+    if curve.adhesive:
+        samples = np.maximum.accumulate(depth)[subset], depth[subset]
+        unit_force = _adhesive_force(*samples, points, d_c, kappa, table)
+    else:
+        samples = largest[:, subset], depth[subset], curve.rate[0, subset]
+        unit_force = _unit_force(*samples, points[:, None, None], d_c[..., None], tau[..., None], table)
+    best, moduli, squares, background = _regression(curve, fixed, subset, unit_force, d_c, kappa)
     for i, (j, E) in enumerate(zip(best.tolist(), moduli.tolist(), strict=True)):
         yield {
             "E_star": E, "q_c": yield_constant(E, float(d_c[i, j])), "eta": E * float(tau[i, j]) / 4,
             "contact_point": float(points[i]), "frame_compliance": compliance, "squares": squares[i],
+            "work_of_adhesion": E * float(kappa[i, j]),
             **{name: float(values[i]) for name, values in background.items()}, **fixed,
         }  # fmt: skip
 
 
 def _media(curve, fixed, depth):
-    """Trial critical depths (m) and relaxation times (s) at trial largest depths (m), arrays (Z, M)."""
+    """Trial d_c (m), relaxation times (s) and w/E* (m) at trial largest depths (m), arrays (Z, M)."""
     if curve.memoryless or {"E_star", "q_c"} <= set(fixed):
         d_c = np.full_like(depth, critical_depth(fixed.get("E_star", 1.0), fixed["q_c"]))
     else:
@@ -114,8 +122,16 @@ def _media(curve, fixed, depth):
         tau = np.zeros_like(depth)
     elif {"E_star", "eta"} <= set(fixed):
         tau = np.full_like(depth, 4 * fixed["eta"] / fixed["E_star"])
+    if curve.adhesive:
+        radius = curve.profile._radius(np.minimum(depth, curve.profile.known_depth))
+        kappa = (depth * _STRETCHES) ** 2 / (2 * np.pi * radius)
+        if {"E_star", "work_of_adhesion"} <= set(fixed):
+            kappa = np.full_like(depth, fixed["work_of_adhesion"] / fixed["E_star"])
+        tau = np.zeros_like(kappa)
+    else:
+        kappa = np.zeros_like(tau)
     count = d_c.shape[1], tau.shape[1]
-    return np.repeat(d_c, count[1], axis=1), np.tile(tau, (1, count[0]))
+    return np.repeat(d_c, count[1], axis=1), *(np.tile(each, (1, count[0])) for each in (tau, kappa))
 
 
 def _unit_force(largest, depth, rate, point, d_c, tau, table):
@@ -130,7 +146,25 @@ def _unit_force(largest, depth, rate, point, d_c, tau, table):
     return force
 
 
-def _regression(curve, fixed, subset, unit_force, d_c):
+def _adhesive_force(largest, depth, points, d_c, kappa, table):
+    """`_unit_force` with adhesion, for media with critical depths (m) and w/E* (m)."""
+    depths, area, radius = table
+    force = np.empty((*d_c.shape, depth.size))
+    for i, point in enumerate(points):
+        for each in np.unique(kappa[i]):
+            columns, stretched = kappa[i] == each, np.sqrt(2 * np.pi * radius * each)
+            # D = d + Δl(D) does not depend on the imprint.
+            reached = depths - stretched
+            end = int(np.argmin(reached))
+            lower = np.maximum(largest - point - d_c[i, columns, None], 0.0)
+            upper = np.maximum(lower, depths[end])
+            held = in_contact(depth - point, lower, upper - np.interp(upper, depths, stretched))
+            tension = np.interp(depth - point, reached[end:], (area - radius * stretched)[end:])
+            force[i, columns] = np.where(held, 2 * (tension - np.interp(lower, depths, area)), 0.0)
+    return force
+
+
+def _regression(curve, fixed, subset, unit_force, d_c, kappa):
     """The line E* × unit force + background that is nearest to the force, of the best medium of each row.
 
     The free parameters of the background are projected out. Returns the index of that medium, E*, the sum
@@ -148,6 +182,8 @@ def _regression(curve, fixed, subset, unit_force, d_c):
         projected = weighted - (weighted @ basis) @ basis.T
     if "E_star" in fixed:
         E_star = np.full_like(d_c, fixed["E_star"])
+    elif fixed.get("work_of_adhesion"):
+        E_star = fixed["work_of_adhesion"] / kappa
     elif fixed.get("q_c", np.inf) < np.inf:
         E_star = fixed["q_c"] / yield_constant(1.0, d_c)
     else:

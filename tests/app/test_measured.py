@@ -12,7 +12,7 @@ from app.panels import fitting
 from app.plots import PLOTS
 from app.solve import scene_of
 from app.state import medium, preset_state, profile
-from app.state.files import agrees, read_curve
+from app.state.files import FITTED, agrees, offered, read_curve
 
 from .states import example_curve, view_of
 from .test_page import unit as unit_of
@@ -106,6 +106,20 @@ def test_what_is_fixed_stays():
     assert state.baseline == state.curve.fit.baseline != 0
     with pytest.raises(ValueError, match="the drag needs the times"):
         fitted(fixed=("eta",))
+
+
+def test_a_work_of_adhesion_is_fitted_where_there_is_adhesion():
+    """To the digits of the file, 10⁻³ nm, where the stretch at the rim is 0.2 nm."""
+    start = preset_state().replace(adhesion="work")
+    d = np.append(np.linspace(-1e-9, 9e-9, 200), np.linspace(9e-9, -9e-9, 300))
+    F = mdr.indent(profile(start), medium(start), d).force
+    curve = read_curve(file((1e9 * d, 1e9 * F), ["h (nm); F (nN)"], ";"), "run.csv")
+    held = tuple(name for name in FITTED if name not in ("E_star", "work_of_adhesion"))
+    other = fitting.take(start, curve).replace(fixed=held, work_of_adhesion=0.3 * start.work_of_adhesion)
+    state = fitting.fit(other)
+    assert state.work_of_adhesion == pytest.approx(start.work_of_adhesion, rel=1e-2)
+    assert agrees(state)
+    assert "work_of_adhesion" not in offered(other.replace(adhesion="none"))
 
 
 def test_a_drag_is_fitted_where_there_are_times():
