@@ -143,7 +143,7 @@ def oblique_impacts(
     tangential_mass: "Given | None" = None,
     quantities: str | Iterable[str] = ("friction_work", "plastic_work"),
     invalid: str = "raise",
-    tolerance: float = 2e-4,
+    tolerance: float = 5e-4,
     **shape_parameters: "Given",
 ) -> "xarray.Dataset":
     """Oblique impacts (`mdr_core.oblique_impact`) over named dimensions.

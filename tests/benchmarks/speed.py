@@ -100,8 +100,8 @@ def _oblique(count):
             profile, medium, *own, tangential_mass=2 / 7 * mass[i], tolerance=tolerance
         )
 
-    hits = solved(slice(None), 2e-4)
-    taken = seconds(lambda: solved(slice(None), 2e-4), runs=1)
+    hits = solved(slice(None), 5e-4)
+    taken = seconds(lambda: solved(slice(None), 5e-4), runs=1)
     some = np.arange(0, count, max(1, count // 100))
     singles = [solved(i, 1e-5) for i in some]
     one = np.median([seconds(lambda i=i: solved(i, 1e-5), runs=1) for i in some])
