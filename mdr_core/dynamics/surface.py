@@ -115,7 +115,8 @@ def _dry(hit, rows, tolerance, speed, friction, tangential_mass):
     velocity = np.maximum(kappa * speed / friction, slowest)
     inertia = 2 * kappa * E_star / tangential_mass
     after, force, change_error, force_error, halvings = solve_dry(motions, inertia, velocity, tolerance)
-    remaining = after / velocity
+    # Friction takes energy: no step may leave more than there was.
+    remaining = np.clip(after / velocity, -1.0, 1.0)
     force = np.minimum(2 * kappa * E_star * speed / velocity * force, friction * max_force)
     return {
         "relative_change": remaining - 1,
