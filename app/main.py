@@ -9,9 +9,11 @@ from .page import Page
 
 _PLACE = pn.state.session_args.get("theory")
 _SHEETS = {"css_files": ["app/static/style.css"]}
-# As wide as the screen: a phone would lay the page out for a desk.
+# As wide as the screen: a phone would lay the page out for a desk. No plot is drawn with WebGL.
 pn.state.curdoc.template = """{% block postamble %}
-<meta name="viewport" content="width=device-width, initial-scale=1">{% endblock %}"""
+<meta name="viewport" content="width=device-width, initial-scale=1">{% endblock %}{% block js_resources %}
+{% for line in bokeh_js.splitlines() if "bokeh-gl" not in line %}{{ line }}
+{% endfor %}{% endblock %}"""
 if _PLACE:
     pn.extension("katex", **_SHEETS)
     theory.page(_PLACE[0].decode("utf-8", "replace")).servable(title="The theory")

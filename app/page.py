@@ -32,8 +32,6 @@ _LOG = logging.getLogger(__name__)
 SETTLED = 300
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
 _UNDO_STEPS = 100
-#: Accessible names of widgets, by class.
-_NAMED = {"slider": "State along the path"}
 
 
 class Page:
@@ -84,15 +82,13 @@ class Page:
         player.state.on_change("value", self._slider_moved)
         player.play.on_change("active", lambda attr, old, new: new and self._send())
         player.hand.on_change("tags", self._dragged)
-        for source in (self.theme, self.address):
-            source.js_on_change("tags", CustomJS(args={}, code=JS["tell"]))
         if self.document is None:
             return
         for source in (self.theme, self.address):
+            source.js_on_change("tags", CustomJS(code=JS["tell"]))
             self.document.add_root(source)
         self.document.on_event(DocumentReady, self._browser_ready)
-        ready = CustomJS(args={"named": _NAMED, "theme": self.theme}, code=JS["ready"])
-        self.document.js_on_event(DocumentReady, ready)
+        self.document.js_on_event(DocumentReady, CustomJS(args={"theme": self.theme}, code=JS["ready"]))
         # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
 
@@ -258,7 +254,7 @@ class Page:
 
     def _browser_ready(self, event):
         self._ready = True
-        self._schedule()
+        self._input_rests()
 
     def _schedule(self):
         """Schedule the slow updates."""

@@ -74,8 +74,6 @@ class Found:
 #: Results before a search ends, and after one failed.
 COMPUTING = Found({}, [], "computing …")
 FAULT = Found({}, [], "This could not be found, because of a fault of the explorer.")
-
-
 #: Threads for the searches of all sessions.
 _THREADS = ThreadPoolExecutor()
 

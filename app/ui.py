@@ -16,8 +16,6 @@ WIDE = {"sizing_mode": "stretch_width", "margin": 0}
 FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": STYLE}
 
 _LABELS = {name: quantity.label for name, quantity in QUANTITIES.items()}
-
-
 #: Parts of messages of the core that do not apply to the page.
 _EXPONENT = re.compile(r"(\d(?:\.\d+)?)e([+-]?)0?(\d+)\b")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -1,8 +1,8 @@
-// Once the page is there: names for widgets that have none of their own, keys, and the theme that the system has.
+// Once the page is there: a name for the slider, which has none of its own, keys, and the theme that the system has.
 const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
 const hosts = (name) => all(document).filter((each) => each.shadowRoot && each.classList.contains(name))
-for (const [name, spoken] of Object.entries(named)) for (const host of hosts(name))
-  for (const each of host.shadowRoot.querySelectorAll("input, select, textarea, [role=slider]")) each.ariaLabel = spoken
+for (const { shadowRoot } of hosts("slider"))
+  for (const each of shadowRoot.querySelectorAll("input, [role=slider]")) each.ariaLabel = "State along the path"
 document.documentElement.lang = "en"
 document.documentElement.classList.toggle("dark", theme.tags[0])
 document.addEventListener("keydown", (event) => {

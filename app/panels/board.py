@@ -60,16 +60,14 @@ class Player:
     """Moves through the states of a scene in the browser, from frames that are sent once."""
 
     def __init__(self):
-        styled = {"stylesheets": STYLE, "margin": 0}
-        self.play = Toggle(label="▶ Play", css_classes=["button", "key-space"], width=84, **styled)
-        look = {"show_value": False, "title": None, "tooltips": False, "sizing_mode": "stretch_width"}
-        self.state = Slider(
-            start=0, end=1, value=1, step=1, name="state", css_classes=["slider"], **look, **styled
-        )
+        look = {"css_classes": ["button", "key-space"], "stylesheets": STYLE, "margin": 0}
+        self.play = Toggle(label="▶ Play", width=84, **look)
+        wide = WIDE | {"stylesheets": STYLE}
+        look = wide | {"show_value": False, "title": None, "tooltips": False, "css_classes": ["slider"]}
+        self.state = Slider(start=0, end=1, value=1, step=1, name="state", **look)
         self.frames, self.hand = ColumnDataSource(name="frames"), ColumnDataSource(name="hand")
-        fixed = {"stylesheets": STYLE, "margin": 0, "sizing_mode": "stretch_width"}
-        self.heads = HTML(css_classes=["readouts", "heads"], height=29, **fixed)
-        self.readout = HTML(css_classes=["readouts"], height=24, **fixed)
+        self.heads = HTML(css_classes=["readouts", "heads"], height=29, **wide)
+        self.readout = HTML(css_classes=["readouts"], height=24, **wide)
         parts = {"frames": self.frames, "state": self.state, "play": self.play}
         self.parts = parts | {"readout": self.readout}
         code = CustomJS(args=self.parts, code=JS["player"])

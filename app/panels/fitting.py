@@ -14,7 +14,7 @@ from ..state import State, checked, medium, profile, with_derived
 from ..state.files import FITTED, OF_MEDIUM, PLACED, Measured, agrees, offered, read_curve
 from ..state.quantities import ASSETS, QUANTITIES
 from ..state.units import written
-from ..ui import WIDE, button, field, html, indexed, marked, on_upload, plain, show, upload
+from ..ui import WIDE, button, field, html, indexed, marked, on_upload, plain, show, tools, upload
 from .controls import Numbers
 
 #: The measured example.
@@ -124,7 +124,7 @@ class Fitting:
             self.noise, self.fit, self.said, self.unloading, visible=False, **WIDE,
         )  # fmt: skip
         note = html("Depth and force as a table: they lie over the model, which can be fitted.")
-        buttons = pn.Row(self.silica, self.remove, css_classes=["tools"], **WIDE)
+        buttons = tools(self.silica, self.remove)
         self.view = pn.Column(note, self.file, buttons, self.about, self._rest, visible=False, **WIDE)
         on_upload(self.file, lambda data: self._take(lambda state: read_curve(data, self.file.filename)))
         self.silica.on_click(lambda event: apply(silica))

@@ -10,7 +10,7 @@ import panel as pn
 from ..drives import Course
 from ..state import State, link
 from ..state.quantities import ASSETS
-from ..ui import WIDE, button, field, html, linked, show
+from ..ui import WIDE, button, field, html, linked, show, tools
 from .readouts import readings, text
 
 #: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
@@ -45,8 +45,8 @@ class Guide:
         self.title.param.watch(lambda event: self.go(0), "value")
         self.back.on_click(lambda event: self.go(self.at - 1))
         self.next.on_click(lambda event: self.go(self.at + 1))
-        row = pn.Row(self.back, self.next, css_classes=["tools"], **WIDE)
-        self.view = pn.Column(self.title, row, self.words, css_classes=["guide"], visible=False, **WIDE)
+        parts = self.title, tools(self.back, self.next), self.words
+        self.view = pn.Column(*parts, css_classes=["guide"], visible=False, **WIDE)
 
     def go(self, at: int) -> None:
         self.at, steps = at, TOURS[self.title.value]

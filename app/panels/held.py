@@ -70,8 +70,7 @@ class Table:
         for k in range(len(DASHES)):
             remove = button(f"Remove {k + 1}", width=76)
             remove.on_click(lambda event, k=k: apply(lambda state: _without(state, k)))
-            look = {"css_classes": ["head"], "visible": False}
-            self._rows.append(pn.Row(html("", "key"), remove, **look, **WIDE))
+            self._rows.append(pn.Row(html("", "key"), remove, css_classes=["head"], visible=False, **WIDE))
         note = html("Hold keeps the present scene to compare with; its curves are drawn in every plot.")
         parts = (note, *self._rows, self._numbers)
         self.view = pn.Column(*parts, css_classes=["held"], visible=False, **WIDE)

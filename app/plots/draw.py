@@ -22,11 +22,11 @@ _LINE = {"line_color": "color", "line_width": "width", "line_dash": "dash"}
 _MARK = {"fill_color": "color", "line_color": "edge", "marker": "marker", "size": "size", "line_width": 1.6}
 _TEXT = {"text_font_size": "12px", "text_font_style": "italic", "text_baseline": "top"}
 _GROUND = {"text_color": "color", "background_fill_color": "ground", "background_fill_alpha": 0.8}
-_GLYPHS: dict[str, tuple[str, dict[str, Any]]] = {
-    "areas": ("patches", {"xs": "xs", "ys": "ys", "fill_color": "color", "fill_alpha": "alpha"}),
-    "lines": ("multi_line", {"xs": "xs", "ys": "ys"} | _LINE),
-    "marks": ("scatter", {"x": "x", "y": "y"} | _MARK),
-    "labels": ("text", {"x": "x", "y": "y", "text": "text"} | _TEXT | _GROUND),
+_GLYPHS: dict[str, tuple[Any, dict[str, Any]]] = {
+    "areas": (bk.Patches, {"xs": "xs", "ys": "ys", "fill_color": "color", "fill_alpha": "alpha"}),
+    "lines": (bk.MultiLine, {"xs": "xs", "ys": "ys"} | _LINE),
+    "marks": (bk.Scatter, {"x": "x", "y": "y"} | _MARK),
+    "labels": (bk.Text, {"x": "x", "y": "y", "text": "text"} | _TEXT | _GROUND),
 }
 _HATCH = {"hatch_pattern": "hatch", "hatch_color": "color", "hatch_alpha": 0.35}
 _PLACES = ("xs", "ys", "x", "y", "text")
@@ -78,17 +78,14 @@ class Layer:
 
     def draw(self, figure: Any, level: str) -> Any:
         """Renderer of the rows on a figure."""
-        method, look = _GLYPHS[self.kind]
+        kind, look = _GLYPHS[self.kind]
         if self.kind == "areas":
             look = look | {"line_color": "edge"}
             look |= _HATCH if any(row.look["hatch"] != " " for row in self.rows) else {}
-        drawn = getattr(figure, method)(source=self.source, **look)
         only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
-        # Above the axes, on a canvas of its own: they are not painted again with the data.
-        drawn.update(name=self.name, level=level, **only)
-        if self.right:
-            drawn.y_range_name = "right"
-        return drawn
+        only["y_range_name"] = "right" if self.right else "default"
+        # Level: above the axes, on a canvas of its own, so that they are not painted again with the data.
+        return figure.add_glyph(self.source, kind(**look), name=self.name, level=level, **only)
 
 
 def _short(values: Any, axis: Axis) -> list[float]:

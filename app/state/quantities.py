@@ -95,8 +95,6 @@ def shape_quantities(shape):
 QUANTITIES = {each["name"]: _quantity(**each) for each in DATA["numbers"]} | {
     name: quantity for shape in SHAPES for name, quantity in shape_quantities(shape)
 }
-
-
 #: What can be swept: every number, and the energy of an impact.
 SWEPT = {"energy": _quantity(**DATA["energy"])} | QUANTITIES
 CHOICES["shape"] = {key: shape.label for key, shape in SHAPES.items()}

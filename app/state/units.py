@@ -22,8 +22,6 @@ UNITS = {
     kind: tuple(Unit(name, float(factor)) for name, factor in units.items())
     for kind, units in DATA["units"].items()
 }
-
-
 #: Kinds by the names of their SI units, as the core has them: "N" is a force.
 KINDS = {unit.name: kind for kind, units in reversed(UNITS.items()) for unit in units if unit.factor == 1}
 KINDS |= {"": "number", "rad": "angle"}

@@ -4,6 +4,7 @@ import numpy as np
 
 import mdr_core as mdr
 from app import changes
+from app.panels.guide import TOURS, step_state
 from app.panels.readouts import readings
 from app.plots.plot import View
 from app.solve import follow, in_time, turning_point
@@ -26,6 +27,11 @@ def view_of(state: State, progress=1.0, *held: State, **view) -> View:
     """The view of a state."""
     state = state.replace(progress=progress, **view)
     return View(state, follow(state), [follow(each) for each in held])
+
+
+def stepped(title: str) -> list:
+    """The course of each step of a guided scene."""
+    return [follow(step_state(step, preset_state())) for step in TOURS[title]]
 
 
 def linked_state(state: State) -> State:

@@ -60,8 +60,9 @@ def test_a_newcomer_takes_the_report_home(explorer, context):
 
 
 def test_small_screens(server, browser):
-    """A phone, in one column and in the same order, with nothing over anything; and smaller windows."""
-    with browser.new_context(viewport={"width": 390, "height": 844}, is_mobile=True) as context:
+    """A phone, in one column, with nothing over anything, where a finger drags; and smaller windows."""
+    phone = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
+    with browser.new_context(**phone) as context:
         explorer = Explorer(context.new_page(), server.url)
         page = explorer.page
         assert page.evaluate(SEEN) == {"small": [], "sideways": [], "scroll": 390}
@@ -74,6 +75,13 @@ def test_small_screens(server, browser):
         assert tops[0] < 300
         for one, other in pairwise(places[4:]):
             assert one["y"] + one["height"] <= other["y"]
+        page.locator(".card.springs").scroll_into_view_if_needed()
+        box = page.locator(".card.springs canvas").first.bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        touch, places = context.new_cdp_session(page), [[{"x": x, "y": y + 6 * k}] for k in range(8)]
+        for kind, points in zip(["touchStart", *7 * ["touchMove"], "touchEnd"], [*places, []], strict=True):
+            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+        explorer.wait("explorer.row('force', 'now')[0][0] > 9.2")
         explorer.press("Fit a measurement")
         with explorer.change():
             explorer.press("Fused silica")

@@ -221,13 +221,9 @@ def test_a_noisy_tip_is_as_hard_as_the_one_that_is_nearest_to_it():
 
 @pytest.mark.parametrize("drive", DRIVES)
 def test_numbers_of_other_drives_are_neither_reported_nor_taken_away_nor_swept(drive):
-    theirs = {
-        "depth": {"max_depth"},
-        "force": {"max_force"},
-        "path": {"max_depth"},
-        "impact": {"mass", "speed", "plastic_depth", "density"},
-        "oblique": {"mass", "friction", "incoming_speed", "attack", "density"},
-    }
+    theirs = {"depth": {"max_depth"}, "force": {"max_force"}, "path": {"max_depth"}}
+    theirs["impact"] = {"mass", "speed", "plastic_depth", "density"}
+    theirs["oblique"] = {"mass", "friction", "incoming_speed", "attack", "density"}
     state = state_with(OPENING, drive)
     own = {"cone_slope", "E_1", "nu_1", "E_2", "nu_2", "q_c"}
     assert set(used(state)) == own | theirs[drive]

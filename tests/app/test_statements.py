@@ -8,7 +8,6 @@ from app.page import Page
 from app.panels import fitting, held, readouts
 from app.panels.guide import TOURS, step_state, step_text
 from app.panels.report import report
-from app.panels.share import Share
 from app.plots import PLOTS, visible
 from app.plots.contact import springs
 from app.plots.force import force, residual
@@ -20,7 +19,7 @@ from app.ui import plain as said_plainly
 from mdr_core.results.figures import SPRINGS
 
 from .conftest import DROP, GOLD
-from .states import example_curve, numbers, solved, state_with, view_of, viscous, written
+from .states import example_curve, numbers, solved, state_with, stepped, view_of, viscous, written
 from .test_drives import oblique_state
 from .test_report import plain
 
@@ -31,10 +30,6 @@ def assert_springs_reach_the_radii_of_the_core(view, vertices=1):
     spacing = 2 * view.end("x") / SPRINGS
     for name, radius in (("yielded", state.plastic_radius), ("elastic", state.contact_radius)):
         assert np.nanmax(np.abs(rows[name][0][::vertices])) == pytest.approx(radius, abs=spacing)
-
-
-def test_springs_are_yielded_elastic_or_free_where_the_core_says():
-    assert_springs_reach_the_radii_of_the_core(view_of(preset_state()))
 
 
 def area(row):
@@ -66,6 +61,9 @@ def test_2_the_fast_limit_is_compared_with_both_areas():
     assert (
         f"{100 * (float(course.hit.fast_limit.contact_area / course.hit.damaged_area) - 1):+.3g} %" in text
     )
+    # It is one without adhesion.
+    state = adhesive("impact")
+    assert "contact and damage" not in str(list(readouts.limits(follow(state), state)))
 
 
 def test_3_the_guide_says_of_which_shape_the_area_goes_with_the_energy():
@@ -74,7 +72,7 @@ def test_3_the_guide_says_of_which_shape_the_area_goes_with_the_energy():
     assert "under a cone the area is proportional to the energy" in steps[4]["says"]
     assert step_state(steps[5], preset_state()).tiles == ("sweep",)
     assert "ball of 5.5 kg" not in str(TOURS)
-    areas = [follow(step_state(step, preset_state())).hit.damaged_area for step in steps[3:5]]
+    areas = [course.hit.damaged_area for course in stepped("A fast impact, and what it destroys")[3:5]]
     assert areas[1] / areas[0] == pytest.approx(4, rel=0.05)
 
 
@@ -172,15 +170,15 @@ def test_12_curves_with_a_vertical_start_are_no_chords():
     assert np.all(np.diff(depth) > 0)
 
 
-def test_13_springs_of_an_oblique_impact_are_elastic_or_yielded():
-    view = view_of(state_with(DROP, "oblique"))
-    assert_springs_reach_the_radii_of_the_core(view, 9)
+def test_13_springs_are_elastic_or_yielded_also_in_an_oblique_impact():
+    assert_springs_reach_the_radii_of_the_core(view_of(preset_state()))
+    assert_springs_reach_the_radii_of_the_core(view_of(state_with(DROP, "oblique")), 9)
     assert "speed" not in PLOTS
     assert "Speed" not in LABELS.values()
     assert DATA["choices"]["drive"]["options"]["depth"]["label"] == "depth"
 
 
-def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept():
+def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept_and_reset_stands_deepest():
     page = Page()
     page.board.tabs["forces"].value = True
     assert visible(page.shown) == [PLOTS[name] for name in ("springs", "pressure", "force")]
@@ -190,7 +188,10 @@ def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept():
     assert "forces" not in link.write(page.state)
     # A measured tip can be chosen where there is one only.
     assert "Measured tip" not in page.choices.widgets["shape"].options
-    assert isinstance(page.share, Share)
+    page.apply(lambda state: state.replace(progress=0.0))
+    page.frame.reset.clicks += 1
+    assert page.state.progress == 1.0
+    assert step_text(TOURS["First yield"][0], page.shown.course)
 
 
 def adhesive(drive="depth", **more):
@@ -223,13 +224,6 @@ def test_a_given_force_pulls_off_at_the_largest_tension_and_a_given_depth_later(
         assert -last == pytest.approx(share * 1.5 * np.pi * 0.05 * radius, rel=1e-9)
 
 
-def test_the_fast_limit_is_not_compared_with_an_adhesive_impact():
-    state = adhesive("impact")
-    assert not any(
-        "contact and damage" in sentence for _, sentence in readouts.limits(follow(state), state)
-    )
-
-
 def test_after_yield_the_whole_imprint_is_pulled_off():
     view = view_of(adhesive(), 2.0)
     course = view.course
@@ -253,32 +247,15 @@ def test_adhesion_has_a_link_and_is_refused_where_it_is_not_computed():
     assert (again.adhesion, again.work_of_adhesion) == ("work", 0.05)
     assert "w = 50.0 mJ/m²" in readouts.summary(again)
     assert "adhesion" not in written(preset_state())
-    hold = {"drive": "path", "pattern": "hold"}
-    for choices in (
-        {"drive": "oblique"},
-        {"damping": "eta"},
-        {"drive": "impact", "plastic_depth": 1e-7},
-        hold,
-    ):
+    again, hold = {"drive": "impact", "plastic_depth": 1e-7}, {"drive": "path", "pattern": "hold"}
+    for choices in ({"drive": "oblique"}, {"damping": "eta"}, again, hold):
         with pytest.raises(ValueError, match="adhesion"):
             follow(adhesive().replace(**choices))
 
 
 def test_the_guide_shows_between_which_speeds_a_body_bounces():
-    courses = [
-        follow(step_state(each, preset_state())) for each in TOURS["It bounces only between two speeds"]
-    ]
+    courses = stepped("It bounces only between two speeds")
     assert [bool(course.hit.captured) for course in courses] == [False, True, True]
-    forces = [
-        float(follow(step_state(each, preset_state())).states.pull_off_force[-1])
-        for each in TOURS["Harder pressed, harder to pull off"]
-    ]
+    courses = stepped("Harder pressed, harder to pull off")
+    forces = [float(course.states.pull_off_force[-1]) for course in courses]
     assert forces[0] < forces[1] == forces[2] < forces[3]
-
-
-def test_a_reset_stands_at_the_deepest_state():
-    page = Page()
-    page.apply(lambda state: state.replace(progress=0.0))
-    page.frame.reset.clicks += 1
-    assert page.state.progress == 1.0
-    assert step_text(TOURS["First yield"][0], page.shown.course)

@@ -7,7 +7,7 @@ import pytest
 
 from app import changes, theory
 from app.page import Page
-from app.panels.guide import TOURS, step_state
+from app.panels.guide import TOURS
 from app.panels.readouts import READOUTS, heads, readings
 from app.plots import PLOTS
 from app.solve import follow
@@ -17,7 +17,7 @@ from app.state.quantities import ABOUT, CHOICES, QUANTITIES, SHAPES
 from app.ui import linked, marked, plain
 
 from .conftest import DROP
-from .states import state_with, view_of
+from .states import state_with, stepped, view_of
 
 
 def places(html):
@@ -86,11 +86,6 @@ def test_the_form_begins_with_the_drive_and_has_what_is_used():
     assert shown("drive") == ["max_depth"]
 
 
-def stepped(title):
-    """The course of each step of a guided scene."""
-    return [follow(step_state(step, preset_state())) for step in TOURS[title]]
-
-
 def test_guided_scenes_say_what_is_so():
     elastic, begun, deep, lifted = stepped("First yield")
     assert elastic.state.plastic_radius == 0
@@ -145,12 +140,8 @@ def test_python_and_raw_indices_are_not_on_the_page():
     shown = [text for texts in CHOICES.values() for text in texts.values()] + [ABOUT["shape"]]
     shown += [quantity.label for quantity in QUANTITIES.values()]
     view = view_of(preset_state())
-    shown += [
-        axis.label
-        for plot in PLOTS.values()
-        if plot.applies(view) and not plot.find and plot.name != "residual"
-        for axis in view.axes_of(plot)
-    ]
+    plots = [plot for plot in PLOTS.values() if plot.applies(view) and not plot.find]
+    shown += [axis.label for plot in plots for axis in view.axes_of(plot)]
     assert [text for text in shown if "_" in text] == []
     for shape in SHAPES.values():
         assert "_" not in marked(shape.height + shape.reduced)
