@@ -9,8 +9,7 @@ arrays are lazy: `compute` solves them chunk by chunk, on the cores of a machine
                            quantities=("restitution", "damaged_area"))
     total = stream.damaged_area.sum().compute()
 
-A long run to disk that can be interrupted and continued, region by region; a region whose last number is
-missing has not been computed::
+A long run to disk that can be continued; a region whose last number is missing has not been computed::
 
     encoding = {name: {"_FillValue": numpy.nan} for name in stream}
     stream.to_zarr("stream.zarr", compute=False, encoding=encoding)  # once
@@ -165,8 +164,8 @@ def oblique_impacts(
     parameters = {"E_star": E_star, "q_c": q_c, "eta": eta, "poisson": poisson, "mass": mass}
     parameters |= {"speed": speed, "tangential_speed": tangential_speed, "friction": friction}
     parameters["tangential_mass"] = mass if tangential_mass is None else tangential_mass
-    solve = partial(_hit_at_angle, tolerance=tolerance)
-    return _sweep(ObliqueImpact, solve, shape, parameters, shape_parameters, quantities, invalid)
+    hit = partial(_hit_at_angle, tolerance=tolerance)
+    return _sweep(ObliqueImpact, hit, shape, parameters, shape_parameters, quantities, invalid)
 
 
 def indentations(
