@@ -1,6 +1,8 @@
 // Moves through the states of a scene: frames are what `source.data` becomes in each of them, sent once.
+// Gaps in a line; text has no NaN, and a null would be drawn as zero.
+const gap = (_, value) => value ?? NaN
 const sent = () => {
-  if (frames.read !== frames.tags) [frames.read, frames.sent] = [frames.tags, JSON.parse(frames.tags[1])]
+  if (frames.read !== frames.tags) [frames.read, frames.sent] = [frames.tags, JSON.parse(frames.tags[1], gap)]
   return frames.sent
 }
 const stand = (k) => {

@@ -138,6 +138,14 @@ def test_keys_player_and_hand_move_every_plot(explorer):
     explorer.wait("explorer.played() && explorer.row('force', 'now')[1][0] === 0")
     assert explorer.readout("contact_radius") == "0"
     explorer.link("at=2.2")
+    # A frame is the picture that the server draws of its state.
+    page.evaluate("explorer.model('state').value = 70")
+    explorer.wait("explorer.row('force', 'now')[1][0] > 0 && explorer.idle()")
+    frame = [page.locator(f".card.{name} canvas").first.screenshot() for name in ("springs", "pressure")]
+    page.evaluate("explorer.model('state').value_throttled = 70")
+    assert explorer.link("at=0.")["at"] != "2.2"
+    drawn = [page.locator(f".card.{name} canvas").first.screenshot() for name in ("springs", "pressure")]
+    assert frame == drawn
     page.evaluate("explorer.listen()")
     page.mouse.move(0, 0)
     before = explorer.row("force", "now")
