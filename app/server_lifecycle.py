@@ -1,7 +1,12 @@
 """Hooks of the server, run once before it starts."""
 
+import gc
+
 from bokeh.server.urls import per_app_patterns
 from panel.io.server import WSHandler
+
+# Here, so that the first visitor does not wait for it.
+from . import page as page
 
 
 class PromptHandler(WSHandler):
@@ -18,3 +23,9 @@ class PromptHandler(WSHandler):
 
 # The first pattern that matches is used.
 per_app_patterns.insert(0, (r"/ws", PromptHandler))
+
+
+def on_server_loaded(server_context):
+    """Rare garbage collections, of sessions only: with 24 of them a full one takes half a second."""
+    gc.freeze()
+    gc.set_threshold(10_000)
