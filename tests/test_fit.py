@@ -363,6 +363,7 @@ class TestHardness:
         (95.234e9, 0.31e9, "Pa", "95.23 ± 0.31 GPa"),
         (2.5e-9, 0.0, "m", "2.5 ± 0 nm"),
         (1.0, np.inf, "N", "1 ± ∞ N"),
+        (np.inf, np.inf, "N/m", "∞"),
     ],
 )
 def test_values_with_errors(value, error, unit, text):

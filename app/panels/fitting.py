@@ -17,6 +17,8 @@ from ..state.units import written
 from ..ui import WIDE, button, field, html, indexed, marked, on_upload, plain, show, tools, upload
 from .controls import Numbers
 
+#: The option for no column; a list shows an option of the value None as empty.
+_NO_COLUMN = -1
 #: The measured example.
 SILICA = ASSETS / "silica.csv"
 
@@ -123,7 +125,7 @@ class Fitting:
             html("<h2>What a fit leaves as it is</h2>", "title"), self.fixed,
             self.noise, self.fit, self.said, self.unloading, visible=False, **WIDE,
         )  # fmt: skip
-        note = html("Depth and force as a table: they lie over the model, which can be fitted.")
+        note = html("Depth and force as a table, to lie over the model. The indenter is that of <i>Explore</i>.")
         buttons = tools(self.silica, self.remove)
         self.view = pn.Column(note, self.file, buttons, self.about, self._rest, visible=False, **WIDE)
         on_upload(self.file, lambda data: self._take(lambda state: read_curve(data, self.file.filename)))
@@ -151,6 +153,8 @@ class Fitting:
         self._apply(lambda state: take(state, make(state)), self._refuse(self.about))
 
     def _correct(self, role, chosen):
+        chosen = None if chosen == _NO_COLUMN else chosen
+
         def change(state):
             curve = state.curve
             if curve is None or chosen in (curve.curve.columns[role], curve.curve.units[role]):
@@ -179,7 +183,6 @@ class Fitting:
         self.noise.show(state, ["depth_noise"], {"depth_noise": depth})
         heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.curve.table.heads)}
         for role, column in curve.curve.columns.items():
-            options = heads | ({"none, rows in order": None} if role == "time" else {})
-            if self.columns[role].options != options or self.columns[role].value != column:
-                self.columns[role].param.update(options=options, value=column)
+            options = heads | ({"none, rows in order": _NO_COLUMN} if role == "time" else {})
+            show(self.columns[role], options=options, value=_NO_COLUMN if column is None else column)
             show(self.units[role], value=curve.curve.units[role])

@@ -108,7 +108,7 @@ LOGLOG = Plot(
 
 def residual(view: View) -> dict:
     """Residual and its standard deviation."""
-    curve, ends = view.curve, np.array([0.0, view.end("d")])
+    curve, ends = view.curve, np.array([view.axis("d").start, view.end("d")])
     missing = "no model at these depths" * bool(np.isnan(view.residual).all())
     rows = {
         "zero": (ends, np.zeros(2)),

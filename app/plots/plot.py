@@ -136,9 +136,11 @@ class View:
             elif name == "p" and any(each.adhesive for each in (self.course, *self.held)):
                 made = replace(made, start=-made.end)
             elif name in ("d", "F"):
-                # Adhesion reaches below zero.
-                adhesive = (each.on_axes[name] for each in (self.course, *self.held) if each.adhesive)
-                least = min((np.min(values) for values in adhesive), default=0.0)
+                # Adhesion reaches below zero, and a measurement before first contact.
+                parts = [each.on_axes[name] for each in (self.course, *self.held) if each.adhesive]
+                if self.curve is not None:
+                    parts.append({"d": self.curve.depth, "F": self.curve.force}[name])
+                least = min((np.min(values) for values in parts), default=0.0)
                 if least < 0:
                     made = replace(made, start=-round_up(-least / made.factor) * made.factor)
             elif name != key:

@@ -144,6 +144,8 @@ def block_factors(residual, jacobian, length):
 
 def with_error(value, error, unit):
     """A number and its standard error as text, with one prefix and two digits of the error."""
+    if value == np.inf:
+        return "∞"
     if not np.isfinite(value) or not np.isfinite(error) or error == 0:
         number, _, unit = engineering(value, unit).partition(" ")
         return f"{number} ± {'∞' if error == np.inf else '0'} {unit}".rstrip()

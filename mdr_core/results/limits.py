@@ -83,6 +83,8 @@ def _slope_limit(profile, radius):
             ": a needle, for which a half-space is no approximation. A slope is the tangent of the angle "
             "to the surface; Cone.from_half_angle(degrees) takes the angle to the axis."
         )
+    elif value >= 1:
+        text += ": a half-space with small slopes is no approximation."
     elif value > _SMALL:
         text += f": small slopes are an approximation, good to about s² = {100 * value**2:.2g} %."
     else:

@@ -177,6 +177,10 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
             with page.expect_file_chooser() as chooser:
                 page.get_by_label("CSV file of a measured curve: depth, force").click()
             chooser.value.set_files(path)
+    time = page.get_by_label("Column of time")
+    assert time.evaluate("(list) => list.selectedOptions[0]?.text") == "none, rows in order"
+    # The axes reach the samples before contact.
+    assert explorer.axis("force")["x"][0] <= -0.5
     before = explorer.axis("force")["labels"][1]
     page.get_by_label("Unit of force", exact=True).select_option(label="nN")
     explorer.wait("(label) => explorer.axis('force').labels[1] !== label", before)
