@@ -54,6 +54,8 @@ def test_repr_has_the_numbers_that_are_looked_for():
     hit = repr(HIT)
     for part in ("scalar ODE", "0.6938", "102.3 µm", "618.5 µs", "plastic work W_p", "viscous work W_v"):
         assert part in hit
+    sticky = mdr.Medium(1e9, work_of_adhesion=0.05)
+    assert "adhesive work W_a" in repr(mdr.impact(mdr.Paraboloid(1e-6), sticky, 1e-14, 1.0))
 
 
 def test_repr_of_a_million_is_short_and_computes_nothing():

@@ -230,7 +230,8 @@ class Fit(Report):
             if error is None:
                 text = f"{engineering(value, unit)} (held)"
             elif np.ndim(value):
-                text = f"{engineering(value, unit)}, ± {engineering(np.median(error), unit)}"
+                text = engineering(value, unit)
+                text += f", ± {engineering(np.median(error), unit)}" if np.size(value) else ""
             else:
                 text = with_error(value, error, unit)
             yield f"{quantity.long_name} {quantity.symbol}", text

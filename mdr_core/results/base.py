@@ -92,16 +92,20 @@ class ImpactResult(Result):
         "contact_radius", "plastic_radius", "plastic_depth", "damaged_area", "stored_energy",
         "plastic_work", "viscous_work", "adhesive_work",
     )  # fmt: skip
-    _shown = (
-        "speed", "restitution", "max_depth", "max_force", "contact_time", "stored_energy", "plastic_work",
-        "viscous_work",
-    )  # fmt: skip
     _dimensions = ("impact",)
 
     medium: Any
     speed: Any
     restitution: Any
     plastic_radius: Any
+
+    @property
+    def _shown(self):  # type: ignore[override]
+        # Adhesion and dashpots exclude each other.
+        adhesive = np.any(np.asarray(self.medium.work_of_adhesion) > 0)
+        loss = "adhesive_work" if adhesive else "viscous_work"
+        names = "speed", "restitution", "max_depth", "max_force", "contact_time"
+        return *names, "stored_energy", "plastic_work", loss
 
     @property
     def rebound_speed(self) -> Array:
