@@ -10,6 +10,7 @@ from bokeh.plotting import figure
 
 from mdr_core.results.figures import DASHES, ROLES, Axis, Row
 
+from ..ui import JS
 from .plot import Plot, View
 
 FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
@@ -157,7 +158,9 @@ class Picture:
             f.update(sizing_mode="fixed", width=size[0], height=size[1], output_backend="svg")
         else:
             f.update(sizing_mode="stretch_both", min_height=150)
+        painted = bk.CustomJS(args={"figure": f}, code=JS["label"])
         for axis in f.axis:
+            axis.js_on_change("axis_label", painted)
             axis.update(minor_tick_line_color=None, major_tick_in=0, axis_label_text_font_style="normal")
             axis.update(axis_label_text_font=FONT, axis_label_text_font_size="12px")
             axis.update(major_label_text_font=FONT, major_label_text_font_size="11px")

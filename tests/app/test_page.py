@@ -163,6 +163,24 @@ def test_keys_player_and_hand_move_every_plot(explorer):
     assert 0 <= float(explorer.link("at=")["at"]) <= 2.2
 
 
+def test_titles_of_axes_are_painted_with_their_new_units(explorer):
+    """Also where a legend gets shorter, so that Bokeh paints the title before it has made the new one."""
+    page, canvas = explorer.page, explorer.page.locator(".card.force canvas").first
+
+    def title():
+        return page.screenshot(clip=canvas.bounding_box() | {"width": 40})
+
+    page.set_viewport_size({"width": 1280, "height": 720})
+    explorer.wait("explorer.model('force').inner_width < 420")
+    with explorer.change():
+        explorer.type("d_max", "1.5")
+    assert explorer.axis("force")["labels"][1] == "F, normal force (nN)"
+    seen = title()
+    page.evaluate("explorer.model('force').change.emit()")
+    page.wait_for_function("Bokeh.documents[0].is_idle")
+    assert title() == seen
+
+
 def test_typed_numbers_are_read_as_they_say_refused_where_they_stand_and_undone(explorer):
     """What is refused stays in its field, which says why."""
     with explorer.change():
