@@ -128,7 +128,8 @@ class Medium(_check.Parameters):
         both = np.logical_and(np.asarray(self.eta) > 0, np.asarray(w) > 0)
         if np.any(both):
             raise ValueError(
-                "adhesion is not modelled on a viscous medium; set eta or work_of_adhesion to 0"
+                "adhesion is not modelled on a viscous medium; set the viscosity eta or the work of "
+                "adhesion work_of_adhesion to 0"
             )
 
     @classmethod

@@ -97,6 +97,8 @@ class TestIndentation:
         # Where the noise is estimated from the residuals χ² is 1 by construction, which says nothing.
         chi = pytest.approx(1.0, abs=0.06) if depth_noise else pytest.approx(np.nan, nan_ok=True)
         assert np.mean(fit.reduced_chi_square) == chi
+        # By the noise of force and depth the residuals have the size 1, but for the three values fitted.
+        assert np.mean((fit.residuals / fit.residual_noise) ** 2) == pytest.approx(1.0, abs=0.1)
         assert np.median(fit.force_noise) == pytest.approx(0.004 * curve(profile).max(), rel=0.1)
 
     def test_depth_noise_does_not_count_as_largest_depth(self):

@@ -66,7 +66,7 @@ def fit(state: State) -> State:
             choices[choice] = option if there else "none"
             numbers |= {name: value} if there else {}
     numbers = {name: checked(name, value) for name, value in numbers.items()}
-    curve = Measured(state.curve.name, state.curve.curve, found, asked)
+    curve = Measured(state.curve.name, state.curve.curve, found)
     state = state.replace(curve=curve, progress=1.0, fit_note=_note(curve), **choices, **numbers)
     return with_derived(state)
 
@@ -121,11 +121,13 @@ class Fitting:
         self.place, self.noise = Numbers(apply_or_raise), Numbers(apply_or_raise)
         self._rest = pn.Column(
             *(pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES),
-            html("<h2>Where it lies</h2>", "title"), self.place,
-            html("<h2>What a fit leaves as it is</h2>", "title"), self.fixed,
+            html("<h2>Position and background</h2>", "title"), self.place,
+            html("<h2>Held in the fit</h2>", "title"), self.fixed,
             self.noise, self.fit, self.said, self.unloading, visible=False, **WIDE,
         )  # fmt: skip
-        note = html("Depth and force as a table, to lie over the model. The indenter is that of <i>Explore</i>.")
+        note = html(
+            "Depth and force as a table, to lie over the model. The indenter is that of <i>Explore</i>."
+        )
         buttons = tools(self.silica, self.remove)
         self.view = pn.Column(note, self.file, buttons, self.about, self._rest, visible=False, **WIDE)
         on_upload(self.file, lambda data: self._take(lambda state: read_curve(data, self.file.filename)))

@@ -71,7 +71,7 @@ class Table:
             remove = button(f"Remove {k + 1}", width=76)
             remove.on_click(lambda event, k=k: apply(lambda state: _without(state, k)))
             self._rows.append(pn.Row(html("", "key"), remove, css_classes=["head"], visible=False, **WIDE))
-        note = html("Hold keeps the present scene to compare with; its curves are drawn in every plot.")
+        note = html("Hold keeps the present scene: its curves are drawn beside those of the next ones.")
         parts = (note, *self._rows, self._numbers)
         self.view = pn.Column(*parts, css_classes=["held"], visible=False, **WIDE)
 

@@ -88,7 +88,7 @@ def section(course: Course, asked):
         most = float(peak.value) if np.isfinite(peak.value) else most
         # A place is known to about 10⁻⁴ of the radius.
         at = (written(float(x) if x > 1e-4 * reach else 0.0, "length", 3) for x in (peak.r, peak.z))
-        bound = written(float(peak.value), "pressure", 3) if np.isfinite(peak.value) else "without bound"
+        bound = written(float(peak.value), "pressure", 3) if np.isfinite(peak.value) else "infinite"
         note = "{} is largest at r = {}, {} below the surface: {}.".format(title.split(",")[0], *at, bound)
     colours, ends = axis("stress", title, "pressure", most), np.array([z.start, z.end])
     rows = {

@@ -143,8 +143,14 @@ def radii_marks(view: View, i: int) -> dict:
     return {"now": (depth, a), "c now": (depth, np.where(c > 0, c, np.nan))}
 
 
+def _radii_formula(course: Course) -> str:
+    if course.adhesive:
+        return "(21)  g(a) = d + Δl,  g(c) = d_p  § 19"
+    return "(16) (21)  g(a) = d,  g(c) = d_p"
+
+
 RADII = Plot(
-    "radii", "Contact and plastic zone", "(16) (21)  g(a) = d,  g(c) = d_p", ("d", "a"),
+    "radii", "Contact and plastic zone", _radii_formula, ("d", "a"),
     (
         area("zone", "yielded", 0.13, legend=False),
         *held_rows("a", what=" a"),

@@ -45,7 +45,7 @@ def force(view: View, i: int) -> dict:
     if course.adhesive:
         last = int(np.argmin(course.states.force))
         text = f"Fₐ = {written(course.pull_off_force[last], 'force', 3)}"
-        rows["Fₐ"] = course.states.depth[last] + right, course.states.force[last], text
+        rows["Fₐ"] = course.states.depth[last] + 3 * right, 0.09 * view.end("F"), text
     rows |= _curve(course, i + 1) if course.turns else {}
     if course.chained:
         # No live interval tells what is stored in elements that have each a memory of their own.
@@ -116,7 +116,7 @@ def residual(view: View) -> dict:
         "missing": (0.05 * ends[1], 0.9 * view.end("ΔF"), missing),
     }
     if curve.fit is not None:
-        size = curve.noise(np.asarray(curve.fit.path.stiffness))
+        size = curve.fit.residual_noise
         d = np.append(curve.depth, [np.nan, *curve.depth])
         rows["± noise"] = d, np.concatenate([size, [np.nan], -size])
     return rows

@@ -74,17 +74,17 @@ ENERGY = Plot(
 def forces_still(view: View) -> dict:
     on, most = view.course.on_axes, view.course.scene.drive.friction * view.course.states.force
     both = np.append(on["t"], [np.nan, *on["t"]]), np.append(most, [np.nan, *-most])
-    rows = {"normal force F": (on["t"], on["F"]), "force along Fₓ": (on["t"], on["force"])}
-    return rows | {"most friction ±μF": both} | view.held_on_axes("t", "force")
+    rows = {"normal force F": (on["t"], on["F"]), "tangential force Fₓ": (on["t"], on["force"])}
+    return rows | {"largest friction ±μF": both} | view.held_on_axes("t", "force")
 
 
 FORCES = Plot(
     "forces", "Forces of an oblique impact", "|F_x| ≤ μ F,  § 13", ("t", "force"),
     (
         *held_rows("F"),
-        line("most friction ±μF", "slip", 1.2, "dashed", "μF"),
+        line("largest friction ±μF", "slip", 1.2, "dashed", "μF"),
         line("normal force F", "elastic", 2.2, symbol="F"),
-        line("force along Fₓ", "stick", 2.2, symbol="Fₓ"),
+        line("tangential force Fₓ", "stick", 2.2, symbol="Fₓ"),
         line("time", "ink", 1.0, "dashed", legend=False),
         mark("now"),
         mark("F now", marker="diamond", legend=False),

@@ -43,7 +43,7 @@ AXES: dict[str, tuple[str, str, str, float]] = {
     "log d": (_titled("depth"), "length", "d", 0.0),
     "log F": (_titled("force"), "force", "F", 0.0),
     "across": ("x, across the surface", "length", "r", 1.0),
-    "oblique": ("−σzz, above its own ground", "pressure", "relief", 0.0),
+    "oblique": ("−σzz, pressure", "pressure", "relief", 0.0),
 }
 
 

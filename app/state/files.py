@@ -56,12 +56,11 @@ def read_tip(text: str) -> tuple[tuple[Any, Any], str]:
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """A curve from a file, as the core reads it, and its fit with the arguments of that."""
+    """A curve from a file, as the core reads it, and its fit."""
 
     name: str
     curve: MeasuredCurve
     fit: IndentationFit | None = None
-    asked: dict | None = None
 
     @property
     def _step(self):
@@ -98,7 +97,7 @@ class Measured:
             force = force - state.drag * np.gradient(depth, time)
         depth = depth - state.contact_point - state.frame_compliance * force
         fit = self.fit if self.fit is not None and agrees(state) else None
-        return Curve(depth, force, fit, self.asked)
+        return Curve(depth, force, fit)
 
     def corrected(self, role, chosen):
         """With another column or unit of "depth", "force" or "time", without a fit."""
@@ -148,7 +147,6 @@ class Curve:
     depth: np.ndarray
     force: np.ndarray
     fit: IndentationFit | None = None
-    asked: dict[str, Any] | None = None
 
     def residual(self, scene):
         """Measured minus modelled force (N); NaN if the scene cannot be solved."""
@@ -158,9 +156,3 @@ class Curve:
             return self.force - mdr.indent(scene.profile, scene.medium, self.depth).force
         except ValueError:
             return np.full_like(self.depth, np.nan)
-
-    def noise(self, stiffness: Any) -> np.ndarray:
-        """Standard deviation (N) of the residual at a stiffness (N/m)."""
-        depth_noise = float(self.asked.get("depth_noise") or 0.0)
-        slope = stiffness / (1 + self.fit.frame_compliance * stiffness)
-        return np.hypot(float(self.fit.force_noise), slope * depth_noise)

@@ -94,9 +94,11 @@ def along_surface(hit, speed, friction, mass, n, halvings, impact=None):
     first = records.sticks.argmax(axis=1)
     last = records.sticks.shape[1] - records.sticks[:, ::-1].argmax(axis=1)
     velocity, energy = records.velocity * speed, stiffness * speed**2
+    # Rounding errors would be left at loss of contact.
+    most = friction * np.abs(normal.force)
     return ObliqueMotion(
         tangential_velocity=velocity,
-        tangential_force=stiffness * speed * records.force,
+        tangential_force=np.clip(stiffness * speed * records.force, -most, most),
         stick_radius=np.where(stuck, edges[last], 0.0),
         slip_radius=np.where(stuck, edges[first], 0.0),
         kinetic_energy=normal.kinetic_energy + mass * velocity**2 / 2,

@@ -17,9 +17,7 @@ def plot_fit(fit):
     """Two overlays of one fit, one below the other: `IndentationFit.plot`."""
     given = np.isfinite(fit.residuals)
     depth, force, residual = (values[given] for values in (fit.depth, fit.force, fit.residuals))
-    noise = np.broadcast_to(fit.force_noise, given.shape)[given]
-    stiffness = np.asarray(fit.path.stiffness)[given]
-    size = np.hypot(noise, stiffness / (1 + fit.frame_compliance * stiffness) * fit.depth_noise)
+    size = fit.residual_noise[given]
     order, ends = np.argsort(depth, kind="stable"), np.array([depth.min(), depth.max()])
     band = np.append(depth[order], depth[order][::-1]), np.append(size[order], -size[order][::-1])
     x = Axis.fitting("depth", "z, measured depth", "m", np.abs(depth).max())

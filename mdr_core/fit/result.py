@@ -68,6 +68,16 @@ class IndentationFit(Fit):
     _zero_unless_asked = ("eta", "tilt", "drag", "work_of_adhesion")
     _dimensions = ("curve",)
 
+    @property
+    def residual_noise(self) -> Array:
+        """Standard deviation (N) of the residuals by the noise of force and depth, √(σ_F² + (S σ_d)²)."""
+        stiffness = np.asarray(self.path.stiffness)
+        compliance, force_noise = np.asarray(self.frame_compliance), np.asarray(self.force_noise)
+        if self.shape:
+            compliance = compliance[:, None]
+            force_noise = force_noise if force_noise.ndim == 2 else force_noise[:, None]
+        return np.hypot(force_noise, stiffness / (1 + compliance * stiffness) * self.depth_noise)
+
     def __getitem__(self, index: Any) -> "IndentationFit":
         if not self.shape:
             return super().__getitem__(index)

@@ -62,3 +62,34 @@ def test_plots_have_the_colours_of_the_sheet(theme):
     for role, pair in ROLES.items():
         if role in colours:
             assert luminance(pair[theme]) == pytest.approx(luminance(colours[role])), role
+
+
+# Every text that is seen, with its colour and that of its ground.
+TEXTS = """() => {
+  const ground = (on) => {
+    for (; on; on = on.parentElement ?? on.getRootNode().host) {
+      const { backgroundColor } = getComputedStyle(on)
+      if (!/, 0\\)$|transparent/.test(backgroundColor)) return backgroundColor
+    }
+    return "rgb(255, 255, 255)"
+  }
+  const own = (on) => [...on.childNodes].map((n) => n.nodeType === 3 && n.data.trim()).find(Boolean)
+  const texts = explorer.all().filter((on) => on.matches(":not(style, script, option, [disabled])"))
+  return texts.filter((on) => own(on) && on.checkVisibility())
+    .map((on) => [own(on), getComputedStyle(on).color, ground(on)])
+}"""
+
+
+def test_every_text_of_the_page_is_read_in_the_dark(explorer):
+    """In each part of the side, within a theme that is changed by its key."""
+    page = explorer.page
+    page.locator("h1").click()
+    page.keyboard.press("d")
+    explorer.link("dark=1")
+    for part in ("Menu", "Share", "All numbers", "Fit a measurement", "Explore"):
+        explorer.press(part)
+        for text, *pair in page.evaluate(TEXTS):
+            colours = [
+                "#" + "".join(f"{int(k):02x}" for k in re.findall(r"\d+", each)[:3]) for each in pair
+            ]
+            assert contrast(*colours) >= 4.5, (part, text, colours)

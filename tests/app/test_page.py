@@ -285,7 +285,7 @@ def test_an_oblique_impact_a_path_and_a_section_are_found_at_rest(explorer):
     explorer.wait("explorer.model('forces')")
     explorer.page.locator(".lights", has_text="so far").wait_for(state="hidden")
     explorer.link("tiles=forces")
-    _, force = explorer.row("forces", "force along Fₓ")
+    _, force = explorer.row("forces", "tangential force Fₓ")
     assert np.max(np.abs(force)) == pytest.approx(float(hit.max_tangential_force), rel=1e-3)
     explorer.pick("path")
     explorer.choose("Pattern", "five cycles, growing")
