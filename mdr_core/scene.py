@@ -2,7 +2,7 @@
 
 import json
 import os
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, is_dataclass
 
 import numpy as np
 
@@ -97,6 +97,26 @@ class Scene:
             allow_nan=False,
         )
 
+    def to_python(self) -> str:
+        """Python that makes and solves the scene; arguments at their defaults are left out.
+
+        Examples
+        --------
+        >>> from mdr_core import Cone, Medium
+        >>> print(Scene(Cone(slope=1.0), Medium(E_star=1.0), DepthPath(2.0)).to_python())
+        import mdr_core as mdr
+        <BLANKLINE>
+        scene = mdr.Scene(
+            mdr.Cone(slope=1.0),
+            mdr.Medium(E_star=1.0),
+            mdr.DepthPath(depth=2.0),
+        )
+        result = scene.solve()
+        <BLANKLINE>
+        """
+        parts = "".join(f"    {_constructed(getattr(self, each.name))},\n" for each in fields(self))
+        return f"import mdr_core as mdr\n\nscene = mdr.Scene(\n{parts})\nresult = scene.solve()\n"
+
     @classmethod
     def from_json(cls, text: str | bytes) -> "Scene":
         """Read a scene from the text of `to_json`.
@@ -135,6 +155,16 @@ class Scene:
             _build("medium", medium, Medium),
             _untagged("drive", data["drive"], _DRIVES),
         )
+
+
+def _constructed(value):
+    """A value as a call of its class."""
+    if not is_dataclass(value):
+        return repr(np.asarray(value).tolist())
+    own = {each.name: getattr(value, each.name) for each in fields(value) if each.init}
+    defaults = {each.name: each.default for each in fields(value)}
+    given = [f"{name}={_constructed(part)}" for name, part in own.items() if part != defaults[name]]
+    return f"mdr.{type(value).__name__}({', '.join(given)})"
 
 
 def _tagged(value):

@@ -1,7 +1,6 @@
 """Exports: link, report, Python, and curves as CSV in SI."""
 
 from collections.abc import Callable
-from dataclasses import fields, is_dataclass
 from io import StringIO
 from typing import Any
 
@@ -18,22 +17,6 @@ from .readouts import readings, summary
 from .report import report
 
 _MEASURED = "The measured curve is not in the link: it stays in its file. Its fit is in the link."
-
-
-def python(scene: mdr.Scene) -> str:
-    """Python that builds and solves a scene."""
-    parts = "".join(f"    {_constructed(getattr(scene, each.name))},\n" for each in fields(scene))
-    return f"import mdr_core as mdr\n\nscene = mdr.Scene(\n{parts})\nresult = scene.solve()\n"
-
-
-def _constructed(value: Any) -> str:
-    """A value as a constructor call; defaults are left out."""
-    if not is_dataclass(value):
-        return repr(np.asarray(value).tolist())
-    own = {each.name: getattr(value, each.name) for each in fields(value) if each.init}
-    defaults = {each.name: each.default for each in fields(value)}
-    given = [f"{name}={_constructed(part)}" for name, part in own.items() if part != defaults[name]]
-    return f"mdr.{type(value).__name__}({', '.join(given)})"
 
 
 def csv(view: View) -> str:
@@ -63,7 +46,7 @@ def pressure_csv(view: View, points: int = 401) -> str:
 
 def _table(view: View, title: str, columns: dict[str, Any]) -> str:
     """Columns in SI, with the scene in a header."""
-    head = f"mdr_core {mdr.__version__}: {title}\n{summary(view.state)}\n{python(view.course.scene)}"
+    head = f"mdr_core {mdr.__version__}: {title}\n{summary(view.state)}\n{view.course.scene.to_python()}"
     rows = zip(*(np.asarray(column, float).tolist() for column in columns.values()), strict=True)
     lines = [*(f"# {line}".rstrip() for line in head.splitlines()), ",".join(columns)]
     return "\n".join([*lines, *(",".join(map(repr, row)) for row in rows)]) + "\n"
@@ -107,7 +90,7 @@ class Share:
         view, (address, note) = self._shown(), self.address()
         show(self.link, value=address)
         show(self._note, object=note if view.curve is None else f"{note} {_MEASURED}")
-        show(self.python, value=python(view.course.scene))
+        show(self.python, value=view.course.scene.to_python())
 
     def _report(self, view):
-        return report(view, visible(view), python(view.course.scene), self.address()[0])
+        return report(view, visible(view), view.course.scene.to_python(), self.address()[0])
