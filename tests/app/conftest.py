@@ -9,7 +9,6 @@ import socket
 import subprocess
 import sys
 import threading
-from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import parse_qsl, urlsplit
 from urllib.request import urlopen
@@ -42,9 +41,8 @@ window.explorer = {
     }
   },
   axis: (figure) => {
-    const { x_range, y_range, below, left } = explorer.model(figure)
-    return { x: [x_range.start, x_range.end], y: [y_range.start, y_range.end],
-             labels: [below[0].axis_label, left[0].axis_label] }
+    const { x_range, below, left } = explorer.model(figure)
+    return { x: [x_range.start, x_range.end], labels: [below[0].axis_label, left[0].axis_label] }
   },
   // What is shown once the input is still.
   scene: () => explorer.model("address").tags[0],
@@ -53,14 +51,6 @@ window.explorer = {
     (each) => [each, ...(each.shadowRoot ? explorer.all(each.shadowRoot) : [])]),
   idle: () => Boolean(explorer.model("address")?.tags.length) &&
     Bokeh.documents.every((each) => each.is_idle) && explorer.row("force", "now")?.[0].length === 1,
-  listen: () => {
-    explorer.sent = []
-    const send = WebSocket.prototype.send
-    WebSocket.prototype.send = function (data) {
-      explorer.sent.push(String(data).slice(0, 200))
-      send.call(this, data)
-    }
-  },
 }
 """
 
@@ -98,9 +88,7 @@ class Server:
     @property
     def faults(self):
         """What the log complains about, but for pages that closed while an answer was on its way."""
-        closed = (
-            r"Task exception was never retrieved\n(?:(?!Task exc).)*?\ntornado\S+WebSocketClosedError\n"
-        )
+        closed = r"Task exception was never retrieved\n(?:(?!Task exc).)*?\ntornado\S+ClosedError\n"
         log = re.sub(closed, "", self.log, flags=re.DOTALL)
         return log if re.search(r"Traceback|ERROR|\b[EW]-1\d{3}\b", log) else ""
 
@@ -122,17 +110,17 @@ def deployed(port):
     """Options of the line in assets/docs/explorer.md, but for its port, answered on loopback."""
     text = (ROOT / "assets/docs/explorer.md").read_text(encoding="utf-8")
     line = re.search(r"panel serve app (--address.*?)\n```", text, re.DOTALL)[1].replace("\\\n", " ")
-    options = shlex.split(line.replace("explorer.example.org", f"127.0.0.1:{port}"))
-    at = options.index("--port")
-    return [*options[:at], *options[at + 2 :]]
+    line = re.sub(r"--port \S+", "", line)
+    return shlex.split(line.replace("explorer.example.org", f"127.0.0.1:{port}"))
 
 
 class Explorer:
     """The page as a person sees it, and what it said on the way."""
 
     def __init__(self, page, url):
-        self.page, self.requests, self.problems = page, [], []
-        page.on("request", lambda request: self.requests.append(request.url))
+        self.page, self.sent, self.problems = page, [], []
+        page.on("websocket", lambda socket: socket.on("framesent", lambda data: self.sent.append(data)))
+        page.on("request", self._requested)
         page.on("pageerror", lambda error: self.problems.append(str(error)))
         page.on("console", self._heard)
         # Long enough for a busy machine, on which the first page of a server waits for all its imports.
@@ -141,20 +129,18 @@ class Explorer:
         page.goto(url)
         page.wait_for_function("explorer.idle()")
 
+    def _requested(self, request):
+        if urlsplit(request.url).hostname not in ("localhost", "127.0.0.1", None):
+            self.problems.append(request.url)
+
     def _heard(self, message):
         if message.type in ("error", "warning"):
             self.problems.append(message.text)
 
-    def off_host(self):
-        """Requests that left the host."""
-        inside = ("localhost", "127.0.0.1", None)
-        return [url for url in self.requests if urlsplit(url).hostname not in inside]
-
     def row(self, figure, row):
         """Columns x and y of a row as they are drawn."""
-        return [
-            np.array(part, float) for part in self.page.evaluate("(a) => explorer.row(...a)", [figure, row])
-        ]
+        drawn = self.page.evaluate("(a) => explorer.row(...a)", [figure, row])
+        return [np.array(part, float) for part in drawn]
 
     def axis(self, figure):
         return self.page.evaluate("(name) => explorer.axis(name)", figure)
@@ -174,41 +160,34 @@ class Explorer:
         return self.page.locator(f'output[data-name="{name}"]').inner_text()
 
     def press(self, name):
-        """Press a button of the page by its name."""
         self.page.get_by_role("button", name=name, exact=True).click()
 
     def open(self, tab, plot, row):
         """Open an optional plot, and wait until one of its rows is drawn."""
         self.press(tab)
-        self.wait(
-            "([plot, row]) => explorer.model(plot) && explorer.row(plot, row)?.[0].length > 1", [plot, row]
-        )
+        self.wait("(a) => explorer.model(a[0]) && explorer.row(...a)?.[0].length > 1", [plot, row])
         # Until the address has it, its change would be taken for that of what is done next.
         self.link(f"tiles={plot}")
 
     def pick(self, option):
         """Pick an option of a choice by its text, and wait until it is drawn."""
-        with self.change():
-            self.page.get_by_label(option, exact=True).first.check()
+        self.change(self.page.get_by_label(option, exact=True).first.check)
 
     def choose(self, label, option):
         """Choose from a list, and wait until it is drawn."""
-        with self.change():
-            self.page.get_by_label(label, exact=True).select_option(label=option)
+        self.change(self.page.get_by_label(label, exact=True).select_option, label=option)
 
     def type(self, symbol, text):
         self.field(symbol).fill(text)
         self.field(symbol).press("Enter")
 
-    def drag(self, figure, moves, steps=8):
+    def drag(self, figure, moves):
         """Drag from the middle of a plot by shares of its size, with the mouse."""
         box = self.page.locator(f".card.{figure} canvas").first.bounding_box()
         x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
         self.page.mouse.move(x, y)
         self.page.mouse.down()
-        for k in range(1, steps + 1):
-            share = k / steps
-            self.page.mouse.move(x + moves[0] * share * box["width"], y + moves[1] * share * box["height"])
+        self.page.mouse.move(x + moves[0] * box["width"], y + moves[1] * box["height"], steps=8)
         self.page.mouse.up()
 
     def hover(self, figure, row, at):
@@ -223,17 +202,10 @@ class Explorer:
             return [left + view.frame.x_scale.compute(x), top + view.frame.y_scale.compute(up)]
         }"""
         self.page.mouse.move(*self.page.evaluate(place, [figure, row, x, y]))
-        text = """(row) => {
-            const tips = explorer.all().filter((on) => on.classList.contains("bk-Tooltip") && on.shadowRoot)
-            const parts = tips.flatMap((tip) => [...tip.shadowRoot.querySelectorAll("div")])
-            const said = parts.map((part) => part.innerText)
-            return said.find((each) => each?.trim().startsWith(row)) ?? ""
-        }"""
-        self.wait(text, row)
-        return [line.strip() for line in self.page.evaluate(text, row).splitlines() if line.strip()]
+        said = self.page.locator(".bk-Tooltip div", has_text=re.compile(f"^{row}")).first.inner_text()
+        return [line.strip() for line in said.splitlines() if line.strip()]
 
     def wait(self, condition, arg=None):
-        """Wait until a condition in the browser holds."""
         self.page.wait_for_function(condition, arg=arg, timeout=20_000)
 
     def link(self, expected):
@@ -241,11 +213,10 @@ class Explorer:
         self.wait("(text) => location.search.includes(text)", expected)
         return dict(parse_qsl(urlsplit(self.page.url).query))
 
-    @contextmanager
-    def change(self):
-        """Context in which something is done, left when a new scene is there and all is painted."""
+    def change(self, act, *arguments, **options):
+        """Do something, and wait until a new scene is there and all is painted."""
         self.page.evaluate("window.before = explorer.scene()")
-        yield
+        act(*arguments, **options)
         self.page.wait_for_function("explorer.scene() !== before && explorer.idle()")
 
 
@@ -281,10 +252,8 @@ def context(browser):
 @pytest.fixture
 def explorer(server, context):
     """A page freshly opened; afterwards nothing may have been complained about or left the host."""
-    page = context.new_page()
-    explorer = Explorer(page, server.url)
+    explorer = Explorer(context.new_page(), server.url)
     yield explorer
     assert explorer.problems == []
-    assert explorer.off_host() == []
-    page.close()
+    explorer.page.close()
     assert server.faults == ""

@@ -4,13 +4,13 @@ import numpy as np
 
 import mdr_core as mdr
 from app import changes
+from app.panels import fitting
 from app.panels.guide import TOURS, step_state
 from app.panels.readouts import readings
 from app.plots.plot import View
-from app.solve import follow, in_time, turning_point
+from app.solve import follow, in_time
 from app.state import State, link, medium, preset_state, profile
 from app.state.files import read_curve
-from app.state.units import fitting
 
 from .conftest import DROP, GOLD
 
@@ -24,7 +24,6 @@ def state_with(key=GOLD, drive=None, **choices) -> State:
 
 
 def view_of(state: State, progress=1.0, *held: State, **view) -> View:
-    """The view of a state."""
     state = state.replace(progress=progress, **view)
     return View(state, follow(state), [follow(each) for each in held])
 
@@ -36,11 +35,7 @@ def stepped(title: str) -> list:
 
 def linked_state(state: State) -> State:
     """What a link of a state says."""
-    return link.read(written(state))
-
-
-def written(state: State) -> str:
-    return link.write(state)
+    return link.read(link.write(state))
 
 
 def solved(state: State):
@@ -49,29 +44,33 @@ def solved(state: State):
     return in_time(course) if course.pending else course
 
 
-def viscous(**more) -> State:
-    return state_with(DROP, damping="eta", **more)
+def viscous() -> State:
+    return state_with(DROP, damping="eta")
 
 
-def tip(state: State | None = None) -> State:
-    """With a measured tip, a paraboloid."""
-    r = np.linspace(0, 100e-9, 30)
-    return changes.take_tip(state or preset_state(), (r, r**2 / 200e-9), "")
+def table(columns: dict, between=", ", comma=False) -> str:
+    """Columns under their heads, as an instrument writes them."""
+    rows = [between.join(f"{x:.6f}" for x in row) for row in zip(*columns.values(), strict=True)]
+    text = "\n".join([between.join(columns), *rows])
+    return text.replace(".", ",") if comma else text
 
 
-def example_curve(state: State):
-    """The present tip on a medium of 1.3 E* and 0.8 q_c, begun at a tenth of its depth; 0.4 % noise."""
-    tip, made, depth = profile(state), medium(state), float(turning_point(state).depth)
+def example_curve():
+    """The opening's tip on a medium of 1.3 E* and 0.8 q_c, begun at a tenth of its depth; 0.4 % noise."""
+    state = preset_state()
+    made, depth = medium(state), state.max_depth
     other = mdr.Medium(1.3 * made.E_star, 0.8 * made.q_c)
     back = depth - 0.8 * min(depth, other.critical_depth)
     path = np.append(np.linspace(-0.05, 1, 240) * depth, np.linspace(depth, back, 160))
-    force = mdr.indent(tip, other, path).force
+    force = mdr.indent(profile(state), other, path).force
     force = force + 0.004 * force.max() * np.random.default_rng(1).standard_normal(path.size)
-    units = fitting(depth, "length"), fitting(force.max(), "force")
-    columns = (path + 0.1 * depth) / units[0].factor, force / units[1].factor
-    rows = [f"{x:.6g}; {y:.6g}" for x, y in zip(*columns, strict=True)]
-    text = "\n".join([f"depth ({units[0].name}); force ({units[1].name})", *rows])
+    text = table({"depth (nm)": 1e9 * (path + 0.1 * depth), "force (µN)": 1e6 * force}, "; ")
     return read_curve(text.encode(), "A made curve, no measurement")
+
+
+def fitted(**changed) -> State:
+    """The opening with a fit to the example curve."""
+    return fitting.fit(fitting.take(preset_state(), example_curve()).replace(**changed))
 
 
 def numbers(course) -> dict:

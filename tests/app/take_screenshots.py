@@ -23,8 +23,7 @@ def main():
             explorer.pick("η")
             explorer.press("Energy")
             page.locator("h1").click()
-            with explorer.change():
-                page.keyboard.press("d")
+            explorer.change(page.keyboard.press, "d")
             page.screenshot(path=ROOT / "assets/explorer-impact.png")
             page = browser.new_page(viewport={"width": 400, "height": 800})
             Explorer(page, server.url)

@@ -16,7 +16,7 @@ Q_C = PRESETS[GOLD].values["q_c"]
 
 
 @pytest.fixture
-def page(monkeypatch):
+def page():
     """A page that tells its notices to a list."""
     page, notices = Page(), []
     page.notify, page.notices = notices.append, notices
@@ -58,10 +58,7 @@ def test_a_plot_or_a_held_scene_that_fails(page, monkeypatch):
 def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
     """What is beside the plots counts as shown too: undo leads to nothing that was refused."""
     shown = page.fitting.show
-    monkeypatch.setattr(
-        page.fitting, "show", lambda state: shown(state) if state.preset == GOLD else failing()
-    )
-    put(page, "q_c", Q_C)
+    monkeypatch.setattr(page.fitting, "show", lambda now: shown(now) if now.preset == GOLD else failing())
     page.choices.widgets["preset"].value = DROP
     assert page.state.preset == page.choices.widgets["preset"].value == GOLD
     assert page.frame.undo.disabled
@@ -78,8 +75,7 @@ def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
     (depth,), (_, q_c) = page.controls.numbers["drive"], page.controls.numbers["medium"]
     send(depth, text="5 nm")
     send(q_c, text="abc")
-    words = "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m"
-    assert q_c.refused == words
+    assert q_c.refused == "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m"
     if act == "preset":
         page.choices.widgets["preset"].value = DROP
     else:
@@ -101,13 +97,7 @@ def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
     assert page.state.max_depth > start
 
 
-def test_the_indenter_is_dragged_to_a_depth_and_no_further_than_it_is_known(page):
-    page._dragged("tags", [], [12.0])
-    assert page.state.max_depth == pytest.approx(12e-9)
-    page._dragged("tags", [], [13.0])
-    assert page.board.player.hand.tags == []
-    page.frame.undo.clicks += 1
-    assert page.state.max_depth == PRESETS[GOLD].values["max_depth"]
+def test_the_indenter_is_dragged_to_a_depth_under_a_given_force_too(page):
     page.apply(lambda state: changes.choose(state, "drive", "force"))
     page._dragged("tags", [], [5.0])
     assert float(page.shown.course.turning_point.depth) == pytest.approx(5e-9)
@@ -131,8 +121,7 @@ def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
     assert page.shown.found["section"] is first
     page._state_chosen("value_throttled", page.shown.course.now, 5)
     assert page.shown.found["section"].note == "computing …"
-    again = rested(page)
-    assert again.rows["contact radius a"][0][0] == page.shown.course.state.contact_radius
+    assert rested(page).rows["contact radius a"][0][0] == page.shown.course.state.contact_radius
 
 
 def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
@@ -153,4 +142,3 @@ def test_a_link_that_cannot_be_opened_is_a_notice(monkeypatch):
     page = Page("preset=none")
     assert notices == ["The link was not opened: this link names no preset that is known"]
     assert page.state == preset_state()
-    assert Page(f"preset={DROP}&speed=3.0").shown.course.hit.speed == 3.0

@@ -14,23 +14,14 @@ from app.solve import scene_of
 from app.state import medium, preset_state, profile
 from app.state.files import FITTED, agrees, offered, read_curve
 
-from .states import example_curve, view_of
+from .states import example_curve, fitted, table, view_of
 from .test_page import unit as unit_of
-
-DEPTH, FORCE = [-1.0, 0.0, 2.0, 4.0, 3.0], [0.0, 0.0, 1.5, 6.0, 2.0]
-
-
-def file(columns, header, between=", ", comma=False):
-    rows = [between.join(f"{x:.3f}" for x in row) for row in zip(*columns, strict=True)]
-    text = "\n".join(rows)
-    return "\n".join([*header, text.replace(".", ",") if comma else text]).encode()
 
 
 def test_long_files_are_thinned_and_refused_in_words_of_the_page():
     """What the core reads and refuses is in its own tests."""
     depth = np.linspace(0, 10, 5000)
-    data = file((depth, depth**2), ["h (µm), F (µN)"]).decode()
-    curve = read_curve(data.encode("cp1252"), "a/run  7.csv")
+    curve = read_curve(table({"h (µm)": depth, "F (µN)": depth**2}).encode("cp1252"), "a/run  7.csv")
     assert curve.note == "5000 samples, one in 3 of them taken"
     assert curve.name == "a/run 7.csv"
     assert curve.data[0][-1] == pytest.approx(10e-6, rel=1e-3)
@@ -39,7 +30,7 @@ def test_long_files_are_thinned_and_refused_in_words_of_the_page():
         read_curve(b"h (nm)\n1\n2\n", "../run.csv")
     with pytest.raises(ValueError, match="more than 5 MB"):
         read_curve(b"1, 2\n" * 10**6 + b"3", "run.csv")
-    flat = read_curve(file((range(6), [0] * 6), ["h (nm), F (nN)"]), "flat")
+    flat = read_curve(table({"h (nm)": range(6), "F (nN)": [0] * 6}).encode(), "flat")
     with pytest.raises(ValueError, match=r"largest force\[0\] = 0 N above the baseline: no contact"):
         fitting.fit(fitting.take(preset_state(), flat))
 
@@ -56,14 +47,14 @@ def test_the_measured_example_lies_over_its_tip_with_the_numbers_of_oliver_and_p
     assert state.E_star == pytest.approx(72e9, rel=0.05)
     # Loading alone has no unloading.
     depth = np.arange(9.0)
-    curve = read_curve(file((depth, depth**2), ["h (nm), F (µN)"]), "run.csv")
+    curve = read_curve(table({"h (nm)": depth, "F (µN)": depth**2}).encode(), "run.csv")
     assert fitting.unloading(fitting.take(preset_state(), curve)) == ""
 
 
 def test_columns_and_units_are_corrected():
-    curve = read_curve(file((DEPTH, FORCE, FORCE), ["h (nm), F (mN), more"]), "run.csv")
-    deeper = curve.corrected("depth", "µm").data[0]
-    np.testing.assert_allclose(deeper, 1e3 * curve.data[0])
+    depth, force = [-1.0, 0.0, 2.0, 4.0, 3.0], [0.0, 0.0, 1.5, 6.0, 2.0]
+    curve = read_curve(table({"h (nm)": depth, "F (mN)": force, "more": force}).encode(), "run.csv")
+    np.testing.assert_allclose(curve.corrected("depth", "µm").data[0], 1e3 * curve.data[0])
     np.testing.assert_allclose(curve.corrected("depth", "−nm").data[0], -curve.data[0])
     assert curve.corrected("depth", 1).curve.columns == {"depth": 1, "force": 0, "time": None}
     assert curve.corrected("time", 2).curve.columns["time"] == 2
@@ -71,22 +62,16 @@ def test_columns_and_units_are_corrected():
         curve.corrected("time", 1)
 
 
-def fitted(**changed):
-    state = fitting.take(preset_state(), example_curve(preset_state())).replace(**changed)
-    return fitting.fit(state), medium(preset_state())
-
-
 def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
     page = Page()
     before = medium(page.state)
-    page.apply(lambda state: fitting.take(state, example_curve(state)))
+    page.apply(lambda state: fitting.take(state, example_curve()))
     page.apply(fitting.fit)
     state = page.state
     # Ten standard errors of 0.4 % noise in 400 samples.
     assert state.E_star == pytest.approx(1.3 * before.E_star, rel=1e-2)
     assert state.q_c == pytest.approx(0.8 * before.q_c, rel=5e-3)
-    turning_point = float(np.max(state.curve.fit.path.depth))
-    assert scene_of(state).drive == mdr.DepthPath(turning_point)
+    assert scene_of(state).drive == mdr.DepthPath(float(np.max(state.curve.fit.path.depth)))
     assert agrees(state)
     assert "residual" in page.board.names
     page.frame.undo.clicks += 1
@@ -99,8 +84,8 @@ def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
 
 
 def test_what_is_fixed_stays():
-    state, before = fitted(fixed=("E_star", "eta", "tilt", "drag", "frame_compliance"), depth_noise=1e-11)
-    assert medium(state).E_star == before.E_star
+    state = fitted(fixed=("E_star", "eta", "tilt", "drag", "frame_compliance"), depth_noise=1e-11)
+    assert medium(state).E_star == medium(preset_state()).E_star
     assert state.elasticity == "bodies"
     assert state.curve.fit.standard_errors.keys() == {"q_c", "contact_point", "baseline"}
     assert state.baseline == state.curve.fit.baseline != 0
@@ -109,11 +94,10 @@ def test_what_is_fixed_stays():
 
 
 def test_a_work_of_adhesion_is_fitted_where_there_is_adhesion():
-    """To the digits of the file, 10⁻³ nm, where the stretch at the rim is 0.2 nm."""
     start = preset_state().replace(adhesion="work")
     d = np.append(np.linspace(-1e-9, 9e-9, 200), np.linspace(9e-9, -9e-9, 300))
     F = mdr.indent(profile(start), medium(start), d).force
-    curve = read_curve(file((1e9 * d, 1e9 * F), ["h (nm); F (nN)"], ";"), "run.csv")
+    curve = read_curve(table({"h (nm)": 1e9 * d, "F (nN)": 1e9 * F}).encode(), "run.csv")
     held = tuple(name for name in FITTED if name not in ("E_star", "work_of_adhesion"))
     other = fitting.take(start, curve).replace(fixed=held, work_of_adhesion=0.3 * start.work_of_adhesion)
     state = fitting.fit(other)
@@ -123,25 +107,25 @@ def test_a_work_of_adhesion_is_fitted_where_there_is_adhesion():
 
 
 def test_a_drag_is_fitted_where_there_are_times():
-    """Without it the placed curve is that of the elastic medium; the file has 10⁻³ nm and nN."""
+    """Without it the placed curve is that of the elastic medium."""
     t = np.linspace(0, 2, 401)
     d = 9e-9 * np.sin(np.pi * t / 2)
     start = preset_state().replace(plasticity="none")
     F = mdr.indent(profile(start), medium(start), d).force
     drag = 0.05 * F.max() / (9e-9 * np.pi / 2)
-    columns = t, 1e9 * d, 1e9 * (F + drag * np.gradient(d, t))
-    curve = read_curve(file(columns, ["t (s); h (nm); F (nN)"], ";"), "run.csv")
+    columns = {"t (s)": t, "h (nm)": 1e9 * d, "F (nN)": 1e9 * (F + drag * np.gradient(d, t))}
+    curve = read_curve(table(columns).encode(), "run.csv")
     held = tuple(name for name in curve.fitted if name not in ("E_star", "drag"))
     state = fitting.fit(fitting.take(start, curve).replace(fixed=held))
     assert state.drag == pytest.approx(drag, rel=1e-3)
     assert state.E_star == pytest.approx(medium(start).E_star, rel=1e-3)
     assert agrees(state)
     np.testing.assert_allclose(view_of(state).curve.force, F, atol=1e-3 * F.max())
-    assert {"eta", "drag"} == set(curve.fitted) - set(example_curve(start).fitted)
+    assert {"eta", "drag"} == set(curve.fitted) - set(example_curve().fitted)
 
 
 def test_the_curve_lies_where_it_is_set_to_and_its_residual_is_of_what_is_set():
-    state, _ = fitted()
+    state = fitted()
     np.testing.assert_allclose(view_of(state).residual, state.curve.fit.residuals)
     z, F = state.curve.data
     state = state.replace(E_star=2e11, baseline=1e-8, contact_point=1e-9, frame_compliance=1e-5)
@@ -152,12 +136,9 @@ def test_the_curve_lies_where_it_is_set_to_and_its_residual_is_of_what_is_set():
     np.testing.assert_allclose(view.residual, expected, rtol=1e-9, atol=1e-15)
     assert np.isnan(view.rows(PLOTS["residual"], 0)["± noise"][0]).all()
     assert view.axis("ΔF").end >= np.abs(expected).max()
-
-
-def test_a_tip_that_ends_above_the_measured_depth_says_so():
+    # A tip that ends above the measured depth says so.
     r = np.linspace(0, 5e-9, 20)
-    state = preset_state()
-    state = changes.take_tip(fitting.take(state, example_curve(state)), (r, 0.1 * r), "")
+    state = changes.take_tip(state, (r, 0.1 * r), "")
     assert view_of(state).rows(PLOTS["residual"], 0)["missing"][2] == "no model at these depths"
 
 
@@ -165,18 +146,16 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
     page, path = explorer.page, tmp_path / "run.csv"
     d = np.append(np.linspace(-1e-9, 9e-9, 120), np.linspace(9e-9, 7.5e-9, 60))
     F = mdr.indent(mdr.Cone(0.358), mdr.Medium(60e9, 80.0), d).force
-    path.write_bytes(file((d * 1e9 + 0.5, F * 1e9), ["h (nm); F (µN)"], "; "))
+    path.write_text(table({"h (nm)": d * 1e9 + 0.5, "F (µN)": F * 1e9}, "; "), encoding="utf-8")
     page.locator("h1").click()
     page.keyboard.press("f")
     for again in (False, True):
         if again:
-            with explorer.change():
-                explorer.press("Remove")
+            explorer.change(explorer.press, "Remove")
         # A file of the same name is read again.
-        with explorer.change():
-            with page.expect_file_chooser() as chooser:
-                page.get_by_label("CSV file of a measured curve: depth, force").click()
-            chooser.value.set_files(path)
+        with page.expect_file_chooser() as chooser:
+            page.get_by_label("CSV file of a measured curve: depth, force").click()
+        explorer.change(chooser.value.set_files, path)
     time = page.get_by_label("Column of time")
     assert time.evaluate("(list) => list.selectedOptions[0]?.text") == "none, rows in order"
     # The axes reach the samples before contact.
@@ -184,16 +163,13 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
     before = explorer.axis("force")["labels"][1]
     page.get_by_label("Unit of force", exact=True).select_option(label="nN")
     explorer.wait("(label) => explorer.axis('force').labels[1] !== label", before)
-    with explorer.change():
-        explorer.press("Fit")
-    # The file has three decimals, of 1.5 nm of unloading.
+    explorer.change(explorer.press, "Fit")
     y = explorer.row("residual", "measured − model")[1]
     size = unit_of(explorer.axis("residual")["labels"][1], "force")
     assert np.nanmax(np.abs(y)) * size < 1e-3 * F.max()
     assert explorer.readout("depth") == "9.000 nm"
-    text = page.locator(".said table").inner_text()
-    modulus = float(re.search(r"E\*\s+([\d.]+)", text)[1])
-    assert modulus == pytest.approx(60, rel=1e-3)
+    modulus = re.search(r"E\*\s+([\d.]+)", page.locator(".said table").inner_text())[1]
+    assert float(modulus) == pytest.approx(60, rel=1e-3)
     # The plots stay in view beside the form.
     for name in ("springs", "pressure", "force", "residual"):
         box = page.locator(f".card.{name}").bounding_box()

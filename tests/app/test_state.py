@@ -13,12 +13,11 @@ from app.panels import share
 from app.solve import DRIVES, follow, scene_of, turning_point
 from app.state import OPENING, PRESETS, VIEW, altered, link, medium, preset_state, profile, used
 from app.state.files import MAX_SAMPLES, read_tip
-from app.state.quantities import QUANTITIES, SHAPES, USED, Scale
+from app.state.quantities import QUANTITIES, SHAPES
 from app.state.units import entry, fitting, read, written
 
 from .conftest import DROP
-from .states import linked_state, state_with, view_of
-from .states import written as link_of
+from .states import linked_state, state_with, table, view_of
 
 
 def test_a_state_is_small_frozen_and_known():
@@ -32,36 +31,15 @@ def test_a_state_is_small_frozen_and_known():
     assert state.replace(max_depth=1.0).replace(max_depth=state.max_depth) == state
 
 
-def test_every_number_says_what_it_is():
-    assert {
-        name for uses in USED.values() for names in uses.values() for name in names
-    } <= QUANTITIES.keys()
-    for quantity in QUANTITIES.values():
-        assert quantity.help.count(". ") >= 1
-        assert quantity.help.endswith(".")
-        assert quantity.equation
-
-
 @pytest.mark.parametrize("shape", [shape for shape in SHAPES if shape != "sampled"])
 def test_a_shape_that_was_looked_at_keeps_its_values(shape):
     state = state_with(shape=shape)
     state = changes.choose(state, "shape", "sphere" if shape == "cone" else "cone")
     assert state.cone_slope == 0.358
-    state = changes.choose(state, "shape", "cone")
-    assert state.cone_slope == 0.358
-    assert not altered(state)
+    assert not altered(changes.choose(state, "shape", "cone"))
     # A sphere has the radius of a paraboloid that was there before.
     state = state_with(shape="paraboloid")
     assert changes.choose(state, "shape", "sphere").sphere_radius == state.paraboloid_radius
-
-
-@pytest.mark.parametrize("key", PRESETS)
-def test_every_drive_can_be_chosen_from_every_preset(key):
-    state = preset_state(key)
-    assert medium(state).q_c == PRESETS[key].values["q_c"]
-    for drive in ("force", "impact", "depth", "oblique", "path"):
-        state = changes.choose(state, "drive", drive)
-        assert float(turning_point(state).depth) > 0
 
 
 TYPED = [
@@ -86,9 +64,7 @@ def test_a_zero_has_the_unit_of_its_column():
     assert state.contact_point == pytest.approx(5e-9)
 
 
-@pytest.mark.parametrize(
-    "text", ["", "abc", "1e999", "nan", "3 MPa", "1,5,2", "1.000,5", "<img src=x>", "5°"]
-)
+@pytest.mark.parametrize("text", ["", "abc", "1e999", "nan", "3 MPa", "1,5,2", "1.000,5", "<b>", "5°"])
 def test_what_is_no_number_is_refused(text):
     with pytest.raises(ValueError, match=r"is not a number|too large"):
         read(text, "length", fitting(9e-9, "length"))
@@ -105,35 +81,23 @@ def test_E_star_of_two_bodies_and_q_c_of_a_hardness_can_be_set():
     assert medium(state).q_c == pytest.approx(50.0, rel=1e-12)
 
 
-def test_a_slider_begins_where_the_preset_does_and_reaches_what_is_typed():
-    scale = Scale(QUANTITIES["q_c"], 100.0)
-    assert scale.position(100.0) == scale.STEPS // 2
-    assert scale.reaches(3000.0)
-    assert not scale.reaches(3001.0)
-    assert scale.value(scale.STEPS) == 3000.0
-
-
-# Links.
-
-
 def test_the_link_of_a_preset_is_its_name():
-    assert link_of(preset_state()) == ""
-    assert link_of(preset_state(DROP)) == f"preset={DROP}"
-    assert link_of(preset_state().replace(max_depth=2e-9)) == "max_depth=2e-09"
+    assert link.write(preset_state()) == ""
+    assert link.write(preset_state(DROP)) == f"preset={DROP}"
+    assert link.write(preset_state().replace(max_depth=2e-9)) == "max_depth=2e-09"
 
 
 @pytest.mark.parametrize("drive", DRIVES)
 def test_a_link_holds_the_whole_page(drive):
     state = state_with(DROP, drive, damping="eta", shape="sphere")
-    state = state.replace(progress=0.75, hold=(link_of(state),), tiles=("sweep", "section"))
-    state = state.replace(dark=True, fit_note="a < b")
-    state = state.replace(section="zz")
+    state = state.replace(progress=0.75, hold=(link.write(state),), tiles=("sweep", "section"))
+    state = state.replace(dark=True, fit_note="a < b", section="zz")
     again = linked_state(state)
     assert scene_of(again) == scene_of(state)
     for name in (*VIEW, "section", "fit_note"):
         assert again[name] == state[name], name
     assert scene_of(link.read(again.hold[0])) == scene_of(state)
-    assert len(link_of(state)) < 700
+    assert len(link.write(state)) < 700
 
 
 def test_links_of_earlier_versions_are_read():
@@ -172,51 +136,37 @@ def test_a_hostile_link_is_refused(query):
         link.read(query)
 
 
-# Measured tips.
-
-
-def table(r, z, between=", ", comma=False):
-    rows = [f"{x:.6f}{between}{y:.6f}" for x, y in zip(r, z, strict=True)]
-    text = "\n".join([f"r (nm){between}z (nm)", *rows]) + "\n"
-    return text.replace(".", ",") if comma else text
-
-
 def test_a_measured_tip_is_taken_as_it_is_or_made_convex():
-    few, note = read_tip(table([0, 1, 2, 4], [0, 0.1, 0.3, 1]))
+    few, note = read_tip(table({"r (nm)": [0, 1, 2, 4], "z (nm)": [0, 0.1, 0.3, 1]}))
     assert note == "4 samples as they are"
     assert few[1][-1] == pytest.approx(1e-9)
     state = changes.take_tip(preset_state(), few, note)
     assert state.max_depth < profile(state).known_depth
     assert follow(state).turning_point.force > 0
     rng, r = np.random.default_rng(3), np.linspace(0, 300, 20_000)
-    radii, heights = read_tip(table(r, r**2 / 2000 + 0.3 * rng.standard_normal(r.size), "\t"))[0]
+    z = r**2 / 2000 + 0.3 * rng.standard_normal(r.size)
+    radii, heights = read_tip(table({"r (nm)": r, "z (nm)": z}, "\t"))[0]
     assert len(radii) <= MAX_SAMPLES
     assert heights[-1] == pytest.approx(45e-9, rel=0.01)
     # Few rows that noise has made concave.
     r = np.linspace(-50, 50, 41)
-    assert "nearest to 41 rows" in read_tip(table(r, 0.2 * np.abs(r) + 0.5 * rng.standard_normal(41)))[1]
+    z = 0.2 * np.abs(r) + 0.5 * rng.standard_normal(41)
+    assert "nearest to 41 rows" in read_tip(table({"r (nm)": r, "z (nm)": z}))[1]
     with pytest.raises(ValueError, match="does not rise"):
-        read_tip(table(r, -np.abs(r)))
+        read_tip(table({"r (nm)": r, "z (nm)": -np.abs(r)}))
 
 
 def test_a_noisy_tip_is_as_hard_as_the_one_that_is_nearest_to_it():
-    """As `Sampled.fit` has it of the same rows about their axis; near the tip without noise."""
-    r, gold = np.linspace(-300, 300, 400), medium(preset_state())
+    """As `Sampled.fit` has it of the same rows about their axis."""
+    r = np.linspace(-300, 300, 400)
     z = r**2 / 2000 + 0.3 * np.random.default_rng(2).standard_normal(r.size)
-    samples, note = read_tip(table(r + 20, z, "; ", comma=True))
-    assert len(samples[0]) <= MAX_SAMPLES
+    samples, note = read_tip(table({"r (nm)": r + 20, "z (nm)": z}, "; ", comma=True))
     assert "which scatter by 290 pm" in note
+    tips = mdr.Sampled(*samples), mdr.Sampled.fit(r * 1e-9, z * 1e-9)
     depths = [2e-9, 5e-9, 10e-9]
-    read, fitted, smooth = (
-        mdr.indent(tip, gold, depths).force
-        for tip in (mdr.Sampled(*samples), mdr.Sampled.fit(r * 1e-9, z * 1e-9), mdr.Paraboloid(1e-6))
-    )
+    read, fitted = (mdr.indent(tip, medium(preset_state()), depths).force for tip in tips)
     # The axis is found to about noise/(slope √rows), 0.1 nm.
     np.testing.assert_allclose(read, fitted, rtol=0.01)
-    np.testing.assert_allclose(read, smooth, rtol=0.06)
-
-
-# What is taken away.
 
 
 @pytest.mark.parametrize("drive", DRIVES)
@@ -225,9 +175,8 @@ def test_numbers_of_other_drives_are_neither_reported_nor_taken_away_nor_swept(d
     theirs["impact"] = {"mass", "speed", "plastic_depth", "density"}
     theirs["oblique"] = {"mass", "friction", "incoming_speed", "attack", "density"}
     state = state_with(OPENING, drive)
-    own = {"cone_slope", "E_1", "nu_1", "E_2", "nu_2", "q_c"}
-    assert set(used(state)) == own | theirs[drive]
-    taken = share.csv(view_of(state)) + link_of(state)
+    assert set(used(state)) == {"cone_slope", "E_1", "nu_1", "E_2", "nu_2", "q_c"} | theirs[drive]
+    taken = share.csv(view_of(state)) + link.write(state)
     for name in set().union(*theirs.values()) - theirs[drive]:
         assert f" {QUANTITIES[name].symbol} = " not in taken
         assert f"&{name}=" not in taken
@@ -249,11 +198,15 @@ def test_the_csv_has_the_scene_and_its_states():
 
 
 @pytest.mark.parametrize("key", PRESETS)
-@pytest.mark.parametrize("drive", DRIVES)
-def test_the_python_makes_the_scene_and_solves_it(key, drive):
-    scene, values = scene_of(state_with(key, drive)), {}
-    code = share.python(scene)
-    exec(code, values)
-    assert values["scene"] == scene
-    assert values["result"].model == scene.models[0]
-    assert len(code.splitlines()) <= 15
+def test_every_drive_can_be_chosen_and_its_python_makes_the_scene_and_solves_it(key):
+    state = preset_state(key)
+    assert medium(state).q_c == PRESETS[key].values["q_c"]
+    for drive in DRIVES:
+        state = changes.choose(state, "drive", drive)
+        scene, values = scene_of(state), {}
+        code = scene.to_python()
+        exec(code, values)
+        assert values["scene"] == scene
+        assert values["result"].model == scene.models[0]
+        assert float(turning_point(state).depth) > 0
+        assert len(code.splitlines()) <= 15

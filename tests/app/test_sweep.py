@@ -15,8 +15,7 @@ from .states import linked_state, state_with
 def swept(state, **choices):
     state = state.replace(**choices)
     asked = sweep.asked(state)
-    found = sweep.found(follow(state), asked)
-    return state, asked, found
+    return state, asked, sweep.found(follow(state), asked)
 
 
 def one(state, name, value, quantity):
@@ -86,7 +85,6 @@ def test_what_cannot_be_solved_ends_the_curve_and_is_said():
 
 
 def test_a_drive_that_is_not_swept_says_so():
-    state = state_with(OPENING, "path")
-    found = sweep.found(follow(state), sweep.asked(state))
+    _, _, found = swept(state_with(OPENING, "path"))
     assert found.rows == {}
     assert "press to a depth" in found.note

@@ -13,7 +13,7 @@ from app.plots import PLOTS
 from app.solve import follow
 from app.state import PRESETS, preset_state
 from app.state.files import read_tip
-from app.state.quantities import ABOUT, CHOICES, QUANTITIES, SHAPES
+from app.state.quantities import ABOUT, CHOICES, QUANTITIES, SHAPES, USED
 from app.ui import linked, marked, plain
 
 from .conftest import DROP
@@ -25,13 +25,16 @@ def places(html):
     return re.findall(r'href="\?theory=([\w-]+)"', html)
 
 
-def test_every_number_that_is_read_says_what_it_is():
+def test_every_number_says_what_it_is():
     for drive in ("depth", "impact", "oblique"):
         course = follow(state_with(DROP, drive, damping="eta"))
         html = heads(course, readings(course))
         ids = re.findall(r' popover id="([^"]+)"', html)
         assert 6 <= len(set(ids)) == len(ids) == html.count("popovertarget=") <= 8
-    assert all(each.help.endswith(".") for each in READOUTS)
+    assert all(each.help.endswith(".") for each in (*READOUTS, *QUANTITIES.values()))
+    assert all(". " in quantity.help and quantity.equation for quantity in QUANTITIES.values())
+    named = {name for uses in USED.values() for names in uses.values() for name in names}
+    assert named <= QUANTITIES.keys()
     assert len({each.name for each in READOUTS}) == len(READOUTS)
     assert ABOUT.keys() == CHOICES.keys()
 
@@ -98,16 +101,23 @@ def test_guided_scenes_say_what_is_so():
     assert lifted.states.force[lifted.now] == 0
     left = float(deep.state.depth) - elastic.onset.depth
     assert float(lifted.state.depth) == pytest.approx(left, rel=1e-9)
-    slow, onset, fast, *_ = (course.hit for course in stepped("A fast impact, and what it destroys"))
+    courses = stepped("A fast impact, and what it destroys")
+    slow, onset, fast, one, twice, _ = (course.hit for course in courses)
     assert slow.restitution == 1
     assert slow.damaged_area == 0
     assert onset.damaged_area > 0
     assert fast.plastic_work / (fast.mass * fast.speed**2 / 2) > 0.9
+    assert twice.damaged_area / one.damaged_area == pytest.approx(4, rel=0.05)
     fast, slow, thick, thin = (course.hit for course in stepped("Why a slow drop bounces better"))
     assert slow.restitution > 4 * fast.restitution
     assert thin.contact_time > 2 * thick.contact_time
     assert thin.restitution > thick.restitution
     assert thick.plastic_work == thin.plastic_work == 0
+    courses = stepped("It bounces only between two speeds")
+    assert [bool(course.hit.captured) for course in courses] == [False, True, True]
+    courses = stepped("Harder pressed, harder to pull off")
+    forces = [float(course.states.pull_off_force[-1]) for course in courses]
+    assert forces[0] < forces[1] == forces[2] < forces[3]
 
 
 def test_a_guided_scene_is_stepped_through_and_undone():
