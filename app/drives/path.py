@@ -16,8 +16,6 @@ from .press import limited_force
 
 #: Steps of a piece of a path; of creep, each of which takes eight steps of the chain and more.
 _STEPS, _CREEP_STEPS = 24, 12
-#: Patterns in time.
-_TIMED = ("hold", "creep")
 #: Tolerance of the chain, below the resolution of plots.
 _TOLERANCE = 3e-3
 
@@ -159,7 +157,7 @@ class Path(Drive):
     """Pressed along a path."""
 
     def make(self, state, medium):
-        if state.pattern in _TIMED:
+        if state.pattern in ("hold", "creep"):
             refuse_adhesion(medium, "a path in time")
             times = (0.0, state.ramp_time, 5 * state.ramp_time)
             if state.pattern == "creep":

@@ -9,7 +9,6 @@ const stand = (k) => {
   const { pictures, words } = sent()
   frames.tags[0].forEach((source, n) => { source.data = { ...source.data, ...pictures[k][n] } })
   readout.setv({ text: words[k] }, { sync: false })
-  for (const figure of figures) Bokeh.index.find_one(figure).repaint()
 }
 if (cb_obj !== play) return void (frames.tags.length && stand(state.value))
 play.label = play.active ? "❚❚ Pause" : "▶ Play"

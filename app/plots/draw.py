@@ -158,7 +158,7 @@ class Picture:
             f.update(sizing_mode="fixed", width=size[0], height=size[1], output_backend="svg")
         else:
             f.update(sizing_mode="stretch_both", min_height=150)
-        painted = bk.CustomJS(args={"figures": [f]}, code=JS["paint"])
+        painted = bk.CustomJS(args={"figure": f}, code=JS["label"])
         for axis in f.axis:
             axis.js_on_change("axis_label", painted)
             axis.update(minor_tick_line_color=None, major_tick_in=0, axis_label_text_font_style="normal")
