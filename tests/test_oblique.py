@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import mdr_core as mdr
 from mdr_core.dynamics.dry_friction import DryRun
@@ -146,6 +147,24 @@ class TestFlatPunch:
             lost = BALL * 0.05**2 * (1 - ratio**2) / 2
             assert hit.friction_work == pytest.approx(lost, rel=2e-5)
 
+    @pytest.mark.parametrize("psi", [0.1, 0.2, 0.3, 0.4, 0.6])
+    def test_largest_force_where_slip_begins(self, psi):
+        """Of a heavy body the force rises until the whole face slips: a kink, at no level of depth."""
+        modulus, b, mass = ELASTIC.E_star, 1e-6, 3 * MASS
+        normal, along = np.sqrt(2 * modulus * b / MASS), np.sqrt(2 * KAPPA * modulus * b / mass)
+        start = speed_at(psi)
+
+        def room(time):
+            stuck = start / along * np.sin(along * time)
+            return MU / KAPPA * SPEED / normal * np.sin(normal * time) - stuck
+
+        slip = brentq(room, 0.1 * np.pi / normal, np.pi / normal)
+        force = 2 * KAPPA * modulus * b * start / along * np.sin(along * slip)
+        for tolerance in (1e-3, 1e-5):
+            hit = hit_at(psi, mdr.FlatPunch(b), mass=mass, tolerance=tolerance)
+            miss = abs(hit.max_tangential_force / force - 1)
+            assert miss <= min(3 * hit.errors.max_tangential_force, tolerance)
+
 
 def jaeger(psi, steps=1000):
     """W′/W₀ of an elastic impact, from Jäger's superposition: F_x = κ Σ slope × normal force between.
@@ -254,6 +273,20 @@ def test_ensembles():
     assert np.quantile(miss / errors, 0.99) < 4
 
 
+def test_errors_of_ensembles():
+    """Estimates cover what finer steps change in nine of ten impacts, and a fifth of it in all."""
+    arguments, mass = random_impacts(80)
+    hits, fine = (mdr.oblique_impact(*arguments, **mass, tolerance=tolerance) for tolerance in (2e-5, 1e-6))
+    miss = np.abs(hits.tangential_velocity - fine.tangential_velocity) / hits.tangential_speed
+    force_miss = np.abs(hits.max_tangential_force / fine.max_tangential_force - 1)
+    for share in (
+        miss / hits.errors.tangential_velocity,
+        force_miss / hits.errors.max_tangential_force,
+    ):
+        assert np.mean(share[~hits.slips_throughout] <= 1) >= 0.9
+        assert share.max() < 5
+
+
 @pytest.mark.parametrize("q_c", [1e-2, 1e-3, 1e-4])
 def test_deep_impacts_say_how_uncertain_they_are(q_c):
     """At d/d_c of 10⁶ and more elements that stick oscillate thousands of times: at rebound both speeds
@@ -275,6 +308,35 @@ def test_errors_of_a_family_of_impacts_are_relative():
     )  # fmt: skip
     assert large.friction_work == pytest.approx(1e6 * small.friction_work, rel=1e-9)
     assert large.errors == pytest.approx(small.errors, rel=1e-6)
+
+
+@pytest.mark.parametrize("medium", [ELASTIC, DRY], ids=["elastic", "yielding"])
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+def test_levels_beside_the_turning_point(shape, medium):
+    """Stick may begin one unit of rounding before it; the steps still sum to the contact time."""
+    hit = mdr.impact(shape, medium, MASS, SPEED)
+    motions = NormalMotions.of(hit, np.array([0]))
+    for units in (1, 2, 8, 1e4):
+        instants = np.full((1, 1), hit.max_depth * (1 - units * 2.0**-53))
+        loading, unloading = motions.branches((32, 32), instants)
+        total = loading.step.sum() + unloading.step.sum()
+        # Of fourth order in the levels.
+        assert total == pytest.approx(hit.contact_time, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "shape", [mdr.TruncatedCone(1e-6, 10.0), mdr.TruncatedParaboloid(1e-6, 1e-12)], ids=name
+)
+@pytest.mark.parametrize("speed", [1e-4, 1e-5, 1e-6])
+def test_just_past_a_flat_face(shape, speed):
+    """Nearly a flat punch, though radii of levels beside the face differ by rounding, or not at all."""
+    hit, punch = (
+        mdr.oblique_impact(shape, ELASTIC, MASS, speed, speed / 10, MU, tangential_mass=BALL)
+        for shape in (shape, mdr.FlatPunch(1e-6))
+    )
+    # The contact is wider by less than 10⁻¹⁰.
+    assert hit.tangential_restitution == pytest.approx(punch.tangential_restitution, abs=1e-8)
+    assert hit.max_tangential_force == pytest.approx(punch.max_tangential_force, rel=1e-8)
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
@@ -315,6 +377,18 @@ class TestExtremes:
     def test_grazing(self):
         hit = mdr.oblique_impact(PARABOLOID, DRY, MASS, 1e-6, 1.0, MU)
         assert hit.velocity_change == pytest.approx(-MU * (1 + hit.restitution) * 1e-6, rel=1e-9)
+
+    @pytest.mark.parametrize("medium", [ELASTIC, DRY, VISCOUS], ids=["elastic", "yielding", "viscous"])
+    @pytest.mark.parametrize(("speed", "mu"), [(0.06, 0.0), (0.06, 1e-60), (1e3, MU), (1e60, MU)])
+    def test_motion_in_full_slip(self, medium, speed, mu):
+        """The force is Coulomb's at any speed, however small its part in the motion."""
+        hit = mdr.oblique_impact(PARABOLOID, medium, MASS, SPEED, speed, mu, tangential_mass=BALL)
+        motion = hit.motion(20)
+        rounding = 1e-12 * mu * hit.max_force
+        np.testing.assert_allclose(motion.tangential_force, mu * motion.force, rtol=1e-10, atol=rounding)
+        # Viscous runs have errors of their own.
+        assert motion.friction_work[-1] == pytest.approx(hit.friction_work, rel=1e-4, abs=0)
+        assert not motion.sticks.any()
 
     def test_arrays(self):
         speed = np.array([-0.06, 0.0, 0.2])

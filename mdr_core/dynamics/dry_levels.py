@@ -104,16 +104,23 @@ class NormalMotions:
         ahead = np.maximum(self.plastic_depth - lower, 0.0)
         if np.any(ahead > 0):
             work += self.critical_depth * self.at_levels(_area, lower, ahead)
-        velocity = np.sqrt(2 * self.rate * np.maximum(work, 0.0))
+        velocity = self._velocity(work, depth[-1] - depth, area)
         velocity[0], velocity[-1] = self.speed, 0.0
         return Branch.of(depth, lower, velocity, -self.rate * area)
 
     def _unloading(self, live_depth):
         lower = np.broadcast_to(self.plastic_depth, live_depth.shape)
         work, area = self._work_and_area(lower, live_depth)
-        velocity = -np.sqrt(2 * self.rate * np.maximum(work, 0.0))
+        velocity = -self._velocity(work, live_depth[0] - live_depth, area)
         velocity[0] = 0.0
         return Branch.of(lower + live_depth, lower, velocity, -self.rate * area)
+
+    def _velocity(self, work, gap, area):
+        """Speeds (m/s) from works (m³), at least that of the force at a level over the gap (m) to the top.
+
+        Beside the turning point the work is rounding, and steps would have any length.
+        """
+        return np.sqrt(2 * self.rate * np.maximum(work, gap * area))
 
     def _work_and_area(self, lower, length):
         """Energy stored at the turning point less that at levels, over 2E* (m³), and ∫a ds there (m²)."""

@@ -148,12 +148,14 @@ def _viscous_records(hit, normal, inertia, ratio, halvings):
 def _dry_records(hit, normal, inertia, ratio, halvings):
     motions, inertia = NormalMotions.of(hit, np.array([0])), np.array([inertia])
     counts = first_counts(motions, inertia)[:, 0] * 2 ** int(halvings)
-    run = DryRun(motions, inertia, np.array([1 / ratio]), counts, normal.depth[:, None])
+    # At higher speeds all elements slip as well, with the same loads, but these would be lost to rounding.
+    start = 1 / np.maximum(ratio, 1 / (2 * (1 + inertia / motions.rate) * motions.speed))
+    run = DryRun(motions, inertia, start, counts, normal.depth[:, None])
     at = [int(np.argmin(np.abs(run.time[:, 0] - time))) for time in normal.time]
     run.solve(recorded=at)
     states = [(ratio * load[:, 0], sticks[:, 0]) for load, sticks in map(run.element_states.get, at)]
-    velocity, width = ratio * run.velocities[at, 0], run.width[:, 0]
+    loss, width = ratio * (start - run.velocities[at, 0]), run.width[:, 0]
     stored = np.array([width[: load.size] @ load**2 / 2 for load, _ in states])
-    friction = (1 - velocity**2) / (2 * inertia) - stored
-    quantities = velocity, ratio * run.forces[at, 0], stored, np.zeros(len(at)), friction
+    friction = loss * (2 - loss) / (2 * inertia) - stored
+    quantities = 1 - loss, ratio * run.forces[at, 0], stored, np.zeros(len(at)), friction
     return _Records.of(*quantities, width=width, states=states)
