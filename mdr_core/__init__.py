@@ -84,7 +84,7 @@ __all__ = [
     "yield_speed",
 ]
 
-__version__ = "0.6.0"
+__version__ = "0.6.1"
 
 
 def __dir__():
