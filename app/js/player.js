@@ -9,6 +9,8 @@ const stand = (k) => {
   const { pictures, words } = sent()
   frames.tags[0].forEach((source, n) => { source.data = { ...source.data, ...pictures[k][n] } })
   readout.setv({ text: words[k] }, { sync: false })
+  // By itself Bokeh paints at most every second frame.
+  setTimeout(() => figures.forEach((figure) => Bokeh.index.find_one(figure).repaint()))
 }
 if (cb_obj !== play) return void (frames.tags.length && stand(state.value))
 play.label = play.active ? "❚❚ Pause" : "▶ Play"

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable
 from html import escape
+from typing import Any
 
 import numpy as np
 import panel as pn
@@ -59,7 +60,7 @@ class Card:
 class Player:
     """Moves through the states of a scene in the browser, from frames that are sent once."""
 
-    def __init__(self):
+    def __init__(self, figures: list[Any]):
         look = {"css_classes": ["button", "key-space"], "stylesheets": STYLE, "margin": 0}
         self.play = Toggle(label="▶ Play", width=84, **look)
         wide = WIDE | {"stylesheets": STYLE}
@@ -68,9 +69,9 @@ class Player:
         self.frames, self.hand = ColumnDataSource(name="frames"), ColumnDataSource(name="hand")
         self.heads = HTML(css_classes=["readouts", "heads"], height=29, **wide)
         self.readout = HTML(css_classes=["readouts"], height=24, **wide)
-        parts = {"frames": self.frames, "state": self.state, "play": self.play}
-        self.parts = parts | {"readout": self.readout}
-        code = CustomJS(args=self.parts, code=JS["player"])
+        self.parts = {"frames": self.frames, "state": self.state, "play": self.play}
+        told = self.parts | {"readout": self.readout, "figures": figures}
+        code = CustomJS(args=told, code=JS["player"])
         self.state.js_on_change("value", code)
         self.frames.js_on_change("tags", code)
         self.play.js_on_change("active", code)
@@ -115,8 +116,7 @@ class Board:
     """All plots of a session: a card is made when it is seen for the first time, and stays."""
 
     def __init__(self, choices: Choices, asked: Callable[[str, bool], None]):
-        self.player, self._choices = Player(), choices
-        self.cards: dict[str, Card] = {}
+        self._choices, self.cards = choices, {}
         self.names: list[str] = []
         # Its tags are the scene, which stands below a picture that is saved.
         self.scene = ColumnDataSource(name="scene")
@@ -125,20 +125,21 @@ class Board:
             tab.param.watch(lambda event, name=name: asked(name, event.new), "value")
         self.tab_row = pn.Row(*self.tabs.values(), css_classes=["tools", "tabs"], **WIDE)
         self.grid = pn.Column(css_classes=["plots"], **FULL)
+        figures = {name: self._make(name) for name in NAMED}
+        self.player = Player(list(figures.values()))
         drag = {"hand": self.player.hand, **self.player.parts}
-        for name in NAMED:
-            self._make(name, drag)
+        for figure in (figures["springs"], figures["force"]):
+            code = CustomJS(args=drag | {"figure": figure}, code=JS["drag"])
+            for event in (PanStart, Pan, PanEnd):
+                figure.js_on_event(event, code)
 
-    def _make(self, name, drag=None):
+    def _make(self, name):
         card = self.cards[name] = Card(PLOTS[name], self._choices, self.scene)
         figure = card.picture.figure
         if name in _SAME_X:
             figure.x_range = self.cards[_SAME_X[name]].picture.figure.x_range
-        if drag and name in ("springs", "force"):
-            code = CustomJS(args=drag | {"figure": figure}, code=JS["drag"])
-            for event in (PanStart, Pan, PanEnd):
-                figure.js_on_event(event, code)
         self.grid.append(card.view)
+        return figure
 
     def columns(self, view: View) -> dict[str, dict]:
         """Columns of all plots that are seen, by their names; nothing on the page is changed."""
