@@ -154,8 +154,9 @@ def _real_array(quantity, value, what="real numbers"):
 
 
 def finite_array(quantity, value, *, unit="", most=FARTHEST, missing=False):
-    """`value` as a float array of numbers up to `most` in size, without infinity; NaN where `missing`."""
-    array = _real_array(quantity, in_unit(quantity, value, unit))
+    """A copy of `value` as a float array of numbers up to `most`, without infinity; NaN where `missing`."""
+    # A result that keeps the array must not change with the argument.
+    array = _real_array(quantity, in_unit(quantity, value, unit)).copy()
     large = np.isfinite(array) & (np.abs(array) > most)
     refuse(quantity, array, large, f"is beyond {most:g}", unit=unit, remedy="give it in SI units")
     remedy = "leave it out, or mend the data it comes from"

@@ -118,7 +118,7 @@ class Medium(_check.Parameters):
         q_c = _check.positive("yield constant q_c", self.q_c, unit="N/m", infinite=True)
         set_(self, "q_c", q_c)
         set_(self, "eta", _check.positive("viscosity eta", self.eta, unit="Pa·s", zero=True))
-        poisson = _poisson("Poisson ratio poisson", self.poisson).copy()
+        poisson = _poisson("Poisson ratio poisson", self.poisson)
         set_(self, "poisson", _check.frozen(poisson) if poisson.ndim else float(poisson))
         w = _check.positive(
             "work of adhesion work_of_adhesion", self.work_of_adhesion, unit="J/m²", zero=True

@@ -77,6 +77,23 @@ class TestStressFromLineLoad:
         stress = abel.stress_from_line_load([0, c, a], state.line_load([0, c, a]), r)
         np.testing.assert_allclose(-stress, state.pressure(r), rtol=1e-12)
 
+    def test_first_sample_given_twice(self):
+        """A step of length zero at the axis changes the first panel from a parabola to a straight line."""
+        x = np.linspace(0, 1, 21)
+        x = np.append(0.0, x)
+        r = np.array([0.01, 0.31, 0.72])
+        q = 1 - x * x
+        expected = [polygon_stress(x, q, radius) for radius in r]
+        np.testing.assert_allclose(abel.stress_from_line_load(x, q, r), expected, rtol=1e-12)
+
+    def test_unit_of_length_does_not_matter(self):
+        """σ(λr) of q(λx) is σ(r)/λ, also where a coordinate is 1."""
+        x, r = np.linspace(0, 1, 6), np.array([0.0, 0.05, 0.5])
+        stress = abel.stress_from_line_load(x, 1 - x * x, r)
+        for unit in (4.0, 5.0, 1e-9):
+            scaled = abel.stress_from_line_load(unit * x, 1 - x * x, unit * r)
+            np.testing.assert_allclose(scaled * unit, stress, rtol=1e-13)
+
     def test_many_nodes(self):
         """The sum in blocks agrees with the direct one."""
         x = np.linspace(0, 1, 4001)

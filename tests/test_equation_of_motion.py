@@ -118,7 +118,8 @@ def test_force_of_a_flat_face_jumps_at_first_touch():
     """8 η b v₀, and that is the largest force where viscosity governs."""
     hit = mdr.impact(mdr.FlatPunch(1e-6), mdr.Medium(E_STAR, eta=1e4), MASS, SPEED)
     assert hit.motion(11).force[0] == pytest.approx(8 * 1e4 * 1e-6 * SPEED, rel=1e-13)
-    assert hit.max_force == pytest.approx(8 * 1e4 * 1e-6 * SPEED, rel=1e-13)
+    # The largest value of a polynomial through the first step, which ends in this force.
+    assert hit.max_force == pytest.approx(8 * 1e4 * 1e-6 * SPEED, rel=1e-12)
 
 
 @pytest.mark.parametrize("q_c", [math.inf, 10.0])

@@ -135,3 +135,22 @@ def test_without_holoviews_it_is_said_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "holoviews", None)
     with pytest.raises(ImportError, match="pip install holoviews bokeh"):
         PATH.plot()
+
+
+def test_a_fit_is_drawn_with_its_residuals():
+    """Measured samples and the model over the measured depth, below them the residual and its noise."""
+    cone, noise = mdr.Cone(0.3), 2e-9
+    depth = np.append(np.linspace(0.0, 60e-9, 60), np.linspace(60e-9, 50e-9, 30))
+    force = mdr.indent(cone, mdr.Medium(1e10, 100.0), depth).force
+    force = force + noise * np.random.default_rng(5).standard_normal(depth.size)
+    fit = mdr.fit_indentation(cone, depth + 3e-9, force, force_noise=noise)
+    curve, below = fit.plot()
+    measured = columns(element(curve, hv.Scatter, "measured"))
+    np.testing.assert_allclose(measured, [(depth + 3e-9) * 1e9, force * 1e6], rtol=1e-14)
+    model = columns(element(curve, hv.Curve, "fit"))
+    np.testing.assert_allclose(model, [(depth + 3e-9) * 1e9, (force - fit.residuals) * 1e6], rtol=1e-14)
+    (points,) = [each for each in below if isinstance(each, hv.Scatter)]
+    np.testing.assert_allclose(columns(points), [(depth + 3e-9) * 1e9, fit.residuals * 1e9], rtol=1e-14)
+    # The band is the given noise on both sides.
+    (band,) = [each for each in below if isinstance(each, hv.Polygons)]
+    np.testing.assert_allclose(np.ptp(band.dimension_values(1)), 2 * noise * 1e9, rtol=1e-12)

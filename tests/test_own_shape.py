@@ -87,8 +87,8 @@ class TestToldAgain:
         medium = mdr.Medium(MEDIUM.E_star, MEDIUM.q_c, share * dry.contact_time * MEDIUM.E_star / 4)
         told, exact = (mdr.impact(shape, medium, MASS, SPEED) for shape in (Told(known), known))
         for quantity in ("max_depth", "restitution", "contact_time", "max_force", "plastic_work"):
-            # What is promised of both.
-            assert getattr(told, quantity) == pytest.approx(getattr(exact, quantity), rel=1e-9), quantity
+            # 1e-9 is promised of each.
+            assert getattr(told, quantity) == pytest.approx(getattr(exact, quantity), rel=2e-9), quantity
 
     def test_chain(self, known):
         half_width = known.contact_radius(3 * D_C)

@@ -42,12 +42,23 @@ def test_polygon_of_a_cone_is_the_cone(count):
         assert_same(*states(tip, cone, history), 1e-14)
 
 
+def test_samples_of_a_cone_at_uneven_distances_are_not_concave():
+    """Slopes over distances of 1 pm to 1 µm differ by 3·10⁻¹⁰, the rounding of the heights."""
+    r = np.append(0.0, np.cumsum(np.tile([1e-6, 1e-12, 1e-9, 1e-6, 1e-10], 8)))
+    assert np.ptp(np.diff(0.3 * r) / np.diff(r)) > 1e-10
+    np.testing.assert_allclose(mdr.Sampled(r, 0.3 * r).reduced(r), mdr.Cone(0.3).reduced(r), rtol=1e-14)
+    # A bend of 10⁻⁸ is none of rounding.
+    with pytest.raises(ValueError, match=r"concave at r\[15\]"):
+        mdr.Sampled(r, 0.3 * r - 1e-8 * np.maximum(r - r[15], 0.0))
+
+
 @pytest.mark.parametrize("history", HISTORIES)
 def test_polygon_with_a_flat_face_is_the_truncated_cone(history):
     b = 1e-6
     tip = mdr.Sampled([0, b, 1e-4], [0, 0, 0.3 * (1e-4 - b)])
-    # The slope between the samples carries their rounding, amplified by up to a/b.
-    assert_same(*states(tip, mdr.TruncatedCone(b, 0.3), history), 1e-12)
+    # The slope between the samples carries their rounding, amplified by up to a/(a − c) = 15,000 in the
+    # stiffness while yielding.
+    assert_same(*states(tip, mdr.TruncatedCone(b, 0.3), history), 1e-11)
 
 
 def test_refined_polygon_converges():
