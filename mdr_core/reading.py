@@ -20,6 +20,8 @@ _WORDS = {
 }
 #: Names of columns of the depth itself, not of the position of a piezo or of the depth below the contact.
 _DEPTH = re.compile("(?!.*(piezo|displ|height|contact)).*(depth|indent|tiefe)", re.I)
+#: Names of columns of the position of the piezo, in which the deflection of the cantilever is included.
+_PIEZO = re.compile("piezo|height|sens|scanner", re.I)
 #: Sizes of the units of each quantity (SI); a minus turns the sign of a column.
 SIZES = {
     name: UNITS[kind] | {f"−{unit}": -size for unit, size in UNITS[kind].items()}
@@ -74,7 +76,10 @@ def read_curve(path: str | PathLike[str], index: int = 0) -> "MeasuredCurve":
         return _from_sheets(path, index)
     if suffix.startswith((".jpk", ".h5", ".ibw", ".nid", ".zip")):
         return _from_afm(path, index)
-    return curve_of(read_table(decoded(path.read_bytes()), name), name)
+    data = path.read_bytes()
+    if suffix == ".tab" and data.startswith(b"# afmformats"):
+        return _from_afm(path, index)
+    return curve_of(read_table(decoded(data), name), name)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -170,6 +175,11 @@ def _columns(table, name):
             raise ValueError(
                 f"{name} has no column of {quantity} among {heads}: name it and its unit in the header"
             )
+        if quantity == "depth" and _PIEZO.search(table.heads[best]):
+            remarks.append(
+                f"{table.heads[best]!r} is the position of the piezo: it includes the deflection of the "
+                "cantilever, force over stiffness; subtract that from the depth"
+            )
         columns[quantity] = best
         left = [column for column in left if column != best]
     return {quantity: columns[quantity] for quantity in _KINDS}, remarks
@@ -248,10 +258,16 @@ def _from_afm(path, index):
     """Curve of a file that `afmformats` reads, approach and retract in the order of time."""
     afmformats = imported("afmformats", f"reading {path.name}", "mdr-core[afm]")
     try:
-        data, remarks = _picked(afmformats.load_data(path), index, path.name)
-    # Errors of this package are none that `except Exception` would handle.
-    except (afmformats.errors.AFMFileFormatError, afmformats.errors.MissingMetaDataError) as error:
+        curves = afmformats.load_data(path)
+    # Errors of this package are none that `except Exception` would handle; of a damaged or unknown file it
+    # raises any error.
+    except (
+        Exception,
+        afmformats.errors.AFMFileFormatError,
+        afmformats.errors.MissingMetaDataError,
+    ) as error:
         raise ValueError(f"{path.name} is not read by afmformats: {error}") from None
+    data, remarks = _picked(curves, index, path.name)
     if "tip position" in data:
         depth = -data["tip position"]
     else:

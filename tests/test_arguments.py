@@ -75,8 +75,9 @@ CALLS = {
 }  # fmt: skip
 #: Public names that take no arrays, or only through those above.
 WITHOUT = {
-    "FreeImpact", "FreeObliqueImpact", "Foundation", "Impact", "Indentation", "Motion", "ObliqueImpact", "Profile",
-    "ScalingLaw", "Scene", "Smooth", "TimedIndentation", "abel", "chain_impact", "read_curve", "sweep",
+    "FreeImpact", "FreeObliqueImpact", "Foundation", "Impact", "Indentation", "Motion", "ObliqueImpact",
+    "Profile", "ScalingLaw", "Scene", "Smooth", "TimedIndentation", "abel", "chain_impact", "read_curve",
+    "sweep",
 }  # fmt: skip
 
 

@@ -38,7 +38,10 @@ def assert_same(curve):
         (text((DEPTH, FORCE), ["Depth (nm), Load (mN)"]), ""),
         (text((FORCE, DEPTH), ["force [mN];Displacement [nm]"], ";", comma=True), ""),
         (text((TIME, DEPTH, FORCE), ["# run 7", "Time\th\tP", "s\tnm\tmN"], "\t"), ""),
-        (text((TIME, DEPTH, FORCE), ["# columns: time height load", "# units: s nm mN"], " "), ""),
+        (
+            text((TIME, DEPTH, FORCE), ["# columns: time height load", "# units: s nm mN"], " "),
+            "'height nm' is the position of",
+        ),
         (text((DEPTH, FORCE), ["Operator, A. B.", "Date, 2020", "", "depth_nm, force_mN"]), ""),
         (text((DEPTH, FORCE, FORCE), ["h (nm), F (mN), Stiffness (N/m)"]), ""),
         (text((FORCE, DEPTH, FORCE), ["Loading rate (mN/s); Depth (nm); Load (mN)"], ";"), ""),
@@ -226,6 +229,35 @@ def test_afm_files_are_read_by_afmformats(monkeypatch, tmp_path, tip, stiffness)
     np.testing.assert_allclose(curve.depth, depth, atol=1e-18)
     assert (curve.time is None) == tip
     assert np.isnan(stiffness) == bool(curve.remarks)
+
+
+def test_a_table_with_the_position_of_the_piezo_says_so(tmp_path):
+    """As instruments write it: approach and retract side by side, the deflection not subtracted."""
+    rows = "\n".join(f"{z},{f},{z - 1},{f}" for z, f in zip(DEPTH, FORCE, strict=True))
+    head = "Extend Z-Sense(nm),Extend Force(nN),Retract Z-Sense(nm),Retract Force(nN)"
+    (tmp_path / "run.csv").write_text(f"{head}\n{rows}\n", encoding="utf-8")
+    remarks = "\n".join(mdr.read_curve(tmp_path / "run.csv").remarks)
+    assert "'Extend Z-Sense(nm)' is the position of the piezo" in remarks
+    assert "not from 'Retract Z-Sense(nm)'" in remarks
+
+
+@pytest.mark.parametrize(
+    "error", [KeyError("time"), UnicodeDecodeError("utf-8", b"\xb5", 0, 1, "start byte")]
+)
+def test_files_that_afmformats_does_not_read_are_refused(monkeypatch, tmp_path, error):
+    """Whatever it raises, also of its own tables, which end in .tab."""
+
+    def load_data(path):
+        raise error
+
+    module = ModuleType("afmformats")
+    module.load_data = load_data
+    module.errors = SimpleNamespace(AFMFileFormatError=TypeError, MissingMetaDataError=TypeError)
+    monkeypatch.setitem(sys.modules, "afmformats", module)
+    for name in ("run.zip", "run.tab"):
+        (tmp_path / name).write_bytes(b"# afmformats 0.13.3\n\xb5")
+        with pytest.raises(ValueError, match=f"{name} is not read by afmformats"):
+            mdr.read_curve(tmp_path / name)
 
 
 def test_missing_packages_are_named(monkeypatch, tmp_path):
