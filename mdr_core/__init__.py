@@ -6,6 +6,7 @@ V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 """
 
 from . import abel, sweep
+from ._check import no_attribute
 from .drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
 from .dynamics.adhesive_impact import capture_speeds
 from .dynamics.ball import Ball, at_angle
@@ -87,5 +88,15 @@ __all__ = [
 __version__ = "0.6.1"
 
 
+#: Names that are looked for, and what there is instead.
+_INSTEAD = {"Berkovich": "Cone.berkovich()", "Cylinder": "FlatPunch", "Hertz": "Paraboloid"}
+
+
 def __dir__():
     return __all__
+
+
+def __getattr__(name):
+    if name in _INSTEAD:
+        raise AttributeError(f"mdr_core has no {name!r}: take mdr_core.{_INSTEAD[name]}", name=name)
+    raise no_attribute("mdr_core", name, __all__)

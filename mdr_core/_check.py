@@ -1,5 +1,6 @@
 """Checks of arguments, with errors that name the quantity, its value, the bound and a remedy."""
 
+import difflib
 import reprlib
 from collections.abc import Callable
 from dataclasses import fields
@@ -272,6 +273,14 @@ def keywords_explained(function: "Callable[_Arguments, _Result]") -> "Callable[_
         return function(*arguments, **keywords)
 
     return checked
+
+
+def no_attribute(owner, name, known):
+    """AttributeError on an unknown name, which suggests the nearest one of those that are known."""
+    nearest = difflib.get_close_matches(name, known, 1)
+    suggestion = f"; did you mean {nearest[0]!r}?" if nearest else ""
+    # With its name, Python does not add a suggestion of its own.
+    return AttributeError(f"{owner} has no {name!r}{suggestion}", name=name)
 
 
 class Parameters:

@@ -18,21 +18,22 @@ A long run to disk that can be continued; a region whose last number is missing 
         if xr.open_zarr("stream.zarr").restitution.isel(region)[-1].isnull():
             stream.isel(region).to_zarr("stream.zarr", region=region)
 
+While a sweep of arrays in memory runs, tqdm shows its progress where it is installed and the output is a
+terminal; of dask arrays ``dask.diagnostics.ProgressBar()`` does.
+
 Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; the regions on disk remain.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import MISSING, fields
 from functools import partial
 from importlib import import_module
 from inspect import isclass
-from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _check
-from ._numeric import chunks
 from .adhesion import first_contacts
 from .dynamics.energy_balance import loading_interval
 from .dynamics.impact import Impact, impact
@@ -40,6 +41,7 @@ from .dynamics.oblique import ObliqueImpact, oblique_impact
 from .indentation import Indentation
 from .medium import Medium
 from .results.labels import InvalidParticles, check_alignment, indices, labelled
+from .results.progress import tracked_chunks
 from .results.quantities import QUANTITIES, described
 from .results.report import imported
 from .shapes.profile import Profile
@@ -53,10 +55,10 @@ if TYPE_CHECKING:
     Given = float | np.floating[Any] | xarray.DataArray
     Shape = type[Profile] | Profile
 
-__all__ = ["cost", "impacts", "indentations", "oblique_impacts"]
+__all__ = ["impacts", "indentations", "oblique_impacts"]
 
-#: Entries that are solved at a time, with some tens of MB.
-_BLOCK = 2**17
+#: Entries that are solved at a time, with some MB; viscous and oblique impacts take seconds.
+_BLOCK = 2**14
 
 
 def __dir__():
@@ -196,50 +198,6 @@ def indentations(
     return _sweep(Indentation, _press, shape, parameters, shape_parameters, quantities, invalid)
 
 
-def cost(solve: Callable[..., "xarray.Dataset"], shape: "Shape", **arguments: Any) -> float:
-    """Estimated time (s) of a sweep on one core, from a sample of it.
-
-    Parameters
-    ----------
-    solve : callable
-        `impacts`, `oblique_impacts` or `indentations`.
-    shape, **arguments
-        Its arguments. The sample of dask arrays is taken from the first chunks.
-
-    Examples
-    --------
-    >>> import xarray as xr
-    >>> from mdr_core import Cone
-    >>> speed = xr.DataArray(np.linspace(0.1, 1.0, 10**5), dims="particle")
-    >>> cost(impacts, Cone, slope=0.3, E_star=1e9, q_c=10.0, mass=1e-9, speed=speed) < 10
-    True
-    """
-    xarray = imported("xarray", "mdr_core.sweep")
-    arrays = {name: value for name, value in arguments.items() if isinstance(value, xarray.DataArray)}
-    sizes = {dim: size for array in arrays.values() for dim, size in array.sizes.items()}
-    first = dict(sizes)
-    for array in arrays.values():
-        first |= {dim: min(first[dim], chunk[0]) for dim, chunk in array.chunksizes.items()}
-    total, available = (float(np.prod(list(counts.values()))) for counts in (sizes, first))
-    number = 1
-    while True:
-        # The same number of samples along all dimensions.
-        side = int(np.ceil(number ** (1 / max(len(sizes), 1))))
-        index = {dim: np.linspace(0, size - 1, min(size, side)).astype(int) for dim, size in first.items()}
-        sample = {name: x.isel(index, missing_dims="ignore").compute() for name, x in arrays.items()}
-        # Twice, because the first run at a size may make tables.
-        elapsed, count = min(_timed(solve, shape, arguments | sample) for _ in range(2))
-        if count >= available or elapsed >= 0.2:
-            return elapsed * total / count
-        number *= 8
-
-
-def _timed(solve, shape, arguments):
-    """Time (s) of a sweep, and the number of its results."""
-    start, sizes = perf_counter(), solve(shape, **arguments).sizes
-    return perf_counter() - start, float(np.prod(list(sizes.values())))
-
-
 def _sweep(kind, solve, shape, parameters, shape_parameters, quantities, invalid):
     """Dataset of quantities of a class of results, which `solve` returns for arrays of parameters."""
     xarray = imported("xarray", "mdr_core.sweep")
@@ -299,7 +257,7 @@ def _in_blocks(solve, shape, values, own, names, refused):
     varied = {k: np.broadcast_to(v, size).flat for k, v in values.items() if np.size(v) > 1}
     results = np.full((len(names), *size), np.nan)
     flat = results.reshape(len(names), -1)
-    for rows in chunks(flat.shape[1], _BLOCK):
+    for rows in tracked_chunks(flat.shape[1], _BLOCK, "entries"):
         block = {k: varied[k][rows] if k in varied else np.ravel(v)[0] for k, v in values.items()}
         valid = np.arange(flat.shape[1])[rows]
         while valid.size:

@@ -202,6 +202,25 @@ def test_an_unknown_keyword_is_told_what_there_is(make, says):
         make()
 
 
+@pytest.mark.parametrize(
+    ("owner", "name", "says"),
+    [
+        (mdr, "Berkovich", r"mdr_core has no 'Berkovich': take mdr_core\.Cone\.berkovich\(\)"),
+        (mdr, "Paraboloide", "has no 'Paraboloide'; did you mean 'Paraboloid'"),
+        (mdr, "xyzzy", "mdr_core has no 'xyzzy'$"),
+        (mdr.indent(mdr.Cone(0.3), MEDIUM, 1e-9), "forse", "this Indentation has no 'forse'; .* 'force'"),
+        (
+            mdr.impact(mdr.Cone(0.3), MEDIUM, 1e-9, 1.0),
+            "depth",
+            "this Impact has no 'depth'; .*'max_depth'",
+        ),
+    ],
+)
+def test_an_unknown_name_is_told_the_nearest_one(owner, name, says):
+    with pytest.raises(AttributeError, match=says):
+        getattr(owner, name)
+
+
 def test_a_missing_argument_is_named_by_python():
     with pytest.raises(TypeError, match="missing 1 required positional argument: 'slope'"):
         mdr.Cone()

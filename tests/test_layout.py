@@ -14,7 +14,8 @@ PACKAGE = Path(mdr.__file__).parent
 ORDER = (
     "_check", "_numeric", "abel", "shapes.tables", "shapes.profile", "shapes.power",
     "shapes.tabulated", "shapes.rounded", "shapes.truncated", "shapes.sampled", "shapes.smooth", "medium",
-    "results.quantities", "results.limits", "results.report", "results.base", "results.labels", "reading",
+    "results.quantities", "results.limits", "results.report", "results.base", "results.labels",
+    "results.progress", "reading",
     "foundation.refinement", "foundation.element", "foundation.grid", "foundation.foundation",
     "foundation.fronts", "foundation.depth_path", "foundation.force_path", "foundation.free_body",
     "foundation.impact",

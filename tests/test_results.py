@@ -44,6 +44,20 @@ def test_a_small_contact_exceeds_nothing(result):
     assert exceeded(result) == set()
 
 
+def test_numbers_in_other_units_are_noticed():
+    """A modulus in GPa, half-angles in radians and depths in µm are taken for what they say, and told."""
+    state = mdr.indent(mdr.Cone(0.2), mdr.Medium(95.0, 1e-6), 1e-9)
+    assert "E* is 95 Pa: check that it is given in Pa" in limit(state, "modulus").sentence
+    assert "modulus" in exceeded(mdr.indent(mdr.Cone(0.2), mdr.Medium(2e13), 1e-9))
+    state = mdr.indent(mdr.Cone.from_half_angle(1.2), SOFT, 1e-9)
+    # cot 1.2°.
+    assert limit(state, "slope").value == pytest.approx(47.74, rel=1e-4)
+    assert "in degrees, not in radians" in limit(state, "slope").sentence
+    state = mdr.indent(mdr.Paraboloid(1e-6), SOFT, 5e-6)
+    assert "2.24 R, beyond the equator of the body" in limit(state, "contact radius").sentence
+    assert "beyond" in repr(state)
+
+
 @pytest.mark.parametrize(
     ("shape", "depth", "slope"),
     [
@@ -79,7 +93,7 @@ def test_a_path_goes_as_far_as_its_largest_contact():
 def test_degrees_taken_for_a_slope_are_told():
     state = mdr.indent(mdr.Cone(70.3), SOFT, 1e-9)
     assert "tangent" in limit(state, "slope").sentence
-    assert "Cone.from_half_angle(degrees)" in repr(state)
+    assert "Cone.from_half_angle takes the angle to the axis in degrees" in repr(state)
     assert "from_half_angle" not in repr(mdr.indent(mdr.Cone.from_half_angle(70.3), SOFT, 1e-9))
 
 

@@ -1,7 +1,9 @@
 """Ensembles over named dimensions: the numbers of single impacts, lazily, on two processes, to disk."""
 
+import io
 import os
 import signal
+import sys
 import warnings
 
 import numpy as np
@@ -9,6 +11,7 @@ import pytest
 
 import mdr_core as mdr
 from mdr_core import sweep
+from mdr_core.results import progress
 
 xr = pytest.importorskip("xarray")
 
@@ -229,13 +232,22 @@ def test_blocks_do_not_show(monkeypatch):
     xr.testing.assert_allclose(sweep.impacts(mdr.Sphere, **SPHERES), whole, rtol=1e-13)
 
 
-def test_the_cost_grows_with_the_number():
-    arguments = {"slope": 0.3, "E_star": 1e9, "q_c": 10.0, "mass": 1e-9}
-    speed = xr.DataArray(np.linspace(0.1, 1.0, 200), dims="particle")
-    few = sweep.cost(sweep.impacts, mdr.Cone, **arguments, speed=speed)
-    # A thousand times as many, of which no more than a sample is solved.
-    many = sweep.cost(sweep.impacts, mdr.Cone, **arguments, speed=speed, eta=speed.rename(particle="eta"))
-    assert 0 < few < many
+class Terminal(io.StringIO):
+    """An error output that a person looks at."""
+
+    def isatty(self):
+        return True
+
+
+@pytest.mark.parametrize("kind", [io.StringIO, Terminal])
+def test_progress_is_shown_at_a_terminal(monkeypatch, kind):
+    """As the number of entries that are done, and nothing in a pipe."""
+    pytest.importorskip("tqdm")
+    monkeypatch.setattr(progress, "_DELAY", 0.0)
+    monkeypatch.setattr(sweep, "_BLOCK", 4)
+    monkeypatch.setattr(sys, "stderr", kind())
+    count = sweep.impacts(mdr.Sphere, **SPHERES).restitution.size
+    assert (f"/{count}" in sys.stderr.getvalue()) == (kind is Terminal)
 
 
 class TestLazily:

@@ -12,6 +12,7 @@ import numpy as np
 from .. import _check
 from .._check import Array
 from ..results.base import Entries
+from ..results.progress import tracked_chunks
 from .dry_friction import solve_dry
 from .dry_levels import NormalMotions
 from .friction import SLOWEST, RunQuantities, bound_ratio, slide, stick_instants
@@ -55,7 +56,9 @@ def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
     columns = _slip_throughout(hit, speed, friction, tangential_mass)
     slips = columns["slips_throughout"]
     viscous = (eta > 0) & (~slips | ((plastic_work > 0) & (friction > 0)))
-    for row in np.flatnonzero(viscous):
+    rows = np.flatnonzero(viscous)
+    for place in tracked_chunks(rows.size, 1, "viscous impacts"):
+        (row,) = rows[place]
         one = hit[np.unravel_index(row, shape)] if shape else hit
         values = _viscous(one, tolerance, speed[row], friction[row], tangential_mass[row])
         if slips[row]:

@@ -12,9 +12,10 @@ from .quantities import engineering
 #: Slope up to which results are good, above which they are estimates, and above which the slope is
 #: probably a mistake; contact radius over the radius of the body; share of the wave speed;
 #: Tabor's parameter from which adhesion is that of the rim alone, and the range (m) of surface forces;
-#: relative error of a pull-off from facets.
+#: relative error of a pull-off from facets; range of effective moduli (Pa) of the media that there are.
 _SMALL, _STEEP, _NEEDLE, _BODY, _SLOW, _TABOR, _RANGE = 0.3, 0.5, 3.0, 0.5, 0.1, 5.0, 0.3e-9
 _FACETS = 0.02
+_SOFTEST, _STIFFEST = 1e3, 1e13
 
 
 @dataclass(frozen=True)
@@ -24,9 +25,9 @@ class Limit:
     Attributes
     ----------
     what : str
-        Quantity that is bounded: "slope", "contact radius", "Poisson ratio", "viscosity", "speed", "fast
-        limit", "Tabor's parameter", which must be larger than its bound, "facets" of samples with
-        adhesion, and for friction "coupling" and "slip direction".
+        Quantity that is bounded: "slope", "contact radius", "modulus" below 1 kPa or above 10 TPa, "Poisson
+        ratio", "viscosity", "speed", "fast limit", "Tabor's parameter", which must be larger than its
+        bound, "facets" of samples with adhesion, and for friction "coupling" and "slip direction".
     value, bound : float
         Its largest value over all states, and the largest one for which the assumption is good.
     exceeded : bool
@@ -65,6 +66,7 @@ def contact_limits(profile, medium, radius, *, slow=False):
     limits = [_slope_limit(profile, radius), *_body_limit(profile, radius)]
     if np.any(np.asarray(medium.eta) > 0):
         limits.append(_viscosity_limit(medium) if slow else _poisson_limit(medium))
+    limits.extend(_modulus_limit(medium))
     return (*limits, *_tabor_limit(profile, medium), *_facet_limit(profile, medium))
 
 
@@ -81,7 +83,7 @@ def _slope_limit(profile, radius):
     if value > _NEEDLE and isinstance(profile, Cone):
         text += (
             ": a needle, for which a half-space is no approximation. A slope is the tangent of the angle "
-            "to the surface; Cone.from_half_angle(degrees) takes the angle to the axis."
+            "to the surface; Cone.from_half_angle takes the angle to the axis in degrees, not in radians."
         )
     elif value >= 1:
         text += ": a half-space with small slopes is no approximation."
@@ -98,10 +100,24 @@ def _body_limit(profile, radius):
         return
     value = float(np.max(radius / profile.body_radius, initial=0.0))
     text = f"The contact radius reaches {value:.3g} R"
-    text += (
-        f"; a half-space is good up to about {_BODY:g} R, the equator is at R." if value > _BODY else "."
-    )
+    if value >= 1:
+        text += ", beyond the equator of the body: check that depth and radius are in m."
+    elif value > _BODY:
+        text += f"; a half-space is good up to about {_BODY:g} R, the equator is at R."
+    else:
+        text += "."
     yield Limit("contact radius", value, _BODY, value > _BODY, text)
+
+
+def _modulus_limit(medium):
+    """Modulus that is softer or stiffer than any medium, as one given in GPa for Pa."""
+    softest = float(np.min(medium.E_star, initial=np.inf))
+    stiffest = float(np.max(medium.E_star, initial=0.0))
+    text = "The effective modulus E* is {}: check that it is given in Pa."
+    if softest < _SOFTEST:
+        yield Limit("modulus", softest, _SOFTEST, True, text.format(engineering(softest, "Pa")))
+    if stiffest > _STIFFEST:
+        yield Limit("modulus", stiffest, _STIFFEST, True, text.format(engineering(stiffest, "Pa")))
 
 
 def _tabor_limit(profile, medium):

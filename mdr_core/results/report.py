@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
 
 import numpy as np
 
+from .._check import no_attribute
 from .limits import Limit
 from .quantities import QUANTITIES, described, engineering
 
@@ -56,6 +57,12 @@ class Report:
             name = type(self).__name__
             raise TypeError(f"this {name} is a single one: there is nothing to iterate over")
         return (self[i] for i in range(self.shape[0]))
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name):
+            known = [each for each in dir(type(self)) if not each.startswith("_")]
+            raise no_attribute(f"this {type(self).__name__}", name, known)
 
     def __array__(self, *_: Any, **__: Any) -> NoReturn:
         raise TypeError(
