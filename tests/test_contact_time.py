@@ -8,8 +8,6 @@ import pytest
 from scipy.integrate import cumulative_trapezoid, trapezoid
 
 import mdr_core as mdr
-from mdr_core import superposition
-from mdr_core.dynamics import contact_time, time_table
 
 from .shapes import SHAPES, name
 from .test_energy_balance import D_C, MEDIUM, hit_to_depth
@@ -136,70 +134,20 @@ def many_digits(integrals, d, d_c):
     return time
 
 
-@pytest.mark.parametrize("copies", [1, time_table.MANY + 1], ids=["quadrature", "table"])
 @pytest.mark.parametrize("depth", [1e-4, 0.97, 1.5])
 @pytest.mark.parametrize(
     ("shape", "integrals"),
     [(mdr.TruncatedParaboloid(1.0, 1.0), behind_a_face), (mdr.ParabolicPunch(1.0, 1.0), below_a_wall)],
     ids=["face", "wall"],
 )
-def test_times_against_many_digits(shape, integrals, depth, copies):
+def test_times_against_many_digits(shape, integrals, depth):
     """From elastic impacts to thousands of critical depths, far below the shape's own length and beyond."""
     mp = pytest.importorskip("mpmath").mp
     medium = mdr.Medium(1.0, depth / np.array([1.0, 4.9, 3e4]) * 2 / math.pi)
     states = [mdr.indent(shape, medium.entries(i), depth) for i in range(3)]
     speed = np.sqrt([2 * float(each.stored_energy + each.plastic_work) for each in states])
-    many = medium.entries(np.repeat(np.arange(3), copies))
-    found = mdr.impact(shape, many, 1.0, np.repeat(speed, copies)).contact_time[::copies]
+    found = mdr.impact(shape, medium, 1.0, speed).contact_time
     with mp.workdps(40):
         expected = [float(many_digits(integrals, depth, d_c) / 2) for d_c in medium.critical_depth]
-    # 10⁻⁹ is promised; the nodes and the polynomials are chosen for a tenth of it.
+    # 10⁻⁹ is promised; the nodes are chosen for a tenth of it.
     np.testing.assert_allclose(found, expected, rtol=1e-10)
-
-
-@pytest.mark.parametrize(
-    "shape", [*(s for s in SHAPES if s.unit), KINKED[-1], mdr.Smooth(np.arctan)], ids=name
-)
-def test_table_against_quadrature(shape, monkeypatch):
-    """Elastic and yielding, at and around the onset of yield, with d_max, d_p or d_c at a kink."""
-    monkeypatch.setattr(time_table, "MANY", 0)
-    profile, random = superposition.tabulated(shape, 1.0).unit[0], np.random.default_rng(3)
-    near = 1 + np.geomspace(1e-9, 0.1, 40) * random.choice([-1, 1], 40)
-    octave = random.choice([-20, -3, 0, 1, 5], 200)
-    depth = np.append(near, np.ldexp(random.uniform(1, 2, 200), octave))
-    # d_c over d_max: 1, any, almost 1, and with d_c or d_p close to the unit depth.
-    share = np.exp(random.uniform(np.log(1e-8), 0, depth.size))
-    kink = np.resize(near, depth.size) / depth
-    share = np.array([np.ones_like(depth), share, 1 - share, kink, 1 - kink])
-    valid, depth = (share > 1e-8) & (share <= 1), np.broadcast_to(depth, share.shape)
-    depth, X = depth[valid], 1 / share[valid] - 1
-    depth *= profile.kinks[0] if profile.kinks else 1.0
-    # Octaves that reach deeper than the second kink, or the end, have no cells.
-    inside = 2 * depth < min([*profile.kinks[1:2], profile.known_depth])
-    depth, X = depth[inside], X[inside]
-    found = time_table.tabulated_ratio(profile, contact_time._ratio, depth, X)
-    covered = ~np.isnan(found)
-    # Not the cells next to the most abrupt changes.
-    assert covered.mean() > 0.9
-    expected = contact_time._ratio(profile, depth[covered], X[covered])
-    np.testing.assert_allclose(found[covered], expected, rtol=5e-10)
-
-
-def test_without_a_table_where_the_shape_ends_or_impacts_are_few():
-    """A sphere has no table close to its end; that of a few impacts would take longer than they do."""
-    sphere = mdr.Sphere(1.0)
-    depth = np.append(np.full(time_table.MANY, 0.3), np.full(2 * time_table.MANY, 70.0))
-    found = time_table.tabulated_ratio(sphere.unit[0], contact_time._ratio, depth, 0 * depth)
-    assert np.isnan(found).all()
-
-
-def test_without_a_table_where_polynomials_do_not_converge():
-    """A contact time with digits of noise is left to the quadrature."""
-    random, depth = np.random.default_rng(4), np.full(time_table.MANY + 1, 0.3)
-    profile = mdr.Hyperboloid(1.0, 1.0).unit[0]
-
-    def noisy(_, depth, X):
-        return 3 + 1e-8 * random.random(depth.shape)
-
-    found = time_table.tabulated_ratio(profile, noisy, depth, 0 * depth)
-    assert np.isnan(found).all()

@@ -21,7 +21,7 @@ ORDER = (
     "foundation.impact",
     "yielding", "closed_forms", "superposition", "adhesion", "onset", "fields", "stress", "indentation",
     "paths",
-    "dynamics.energy_balance", "dynamics.adhesive_impact", "dynamics.time_table", "dynamics.contact_time",
+    "dynamics.energy_balance", "dynamics.adhesive_impact", "dynamics.contact_time",
     "scaling", "dynamics.equation_of_motion", "dynamics.steps", "dynamics.legs", "dynamics.course",
     "dynamics.motion", "dynamics.impact",
     "dynamics.levels", "dynamics.friction", "dynamics.dry_levels", "dynamics.dry_friction",

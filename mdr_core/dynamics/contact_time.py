@@ -1,4 +1,4 @@
-"""Contact time of a dry impact: quadrature of dd/v, without time stepping, or a table made by it."""
+"""Contact time of a dry impact: quadrature of dd/v, without time stepping."""
 
 from functools import lru_cache, partial
 
@@ -10,7 +10,6 @@ from .._numeric import chunks, cube_rise, cube_way, gauss_integrals, gauss_legen
 from ..closed_forms import closed_forms
 from ..superposition import energy_integral, radius_integral, tabulated
 from ..yielding import LiveInterval, elastic_interval
-from . import time_table
 
 #: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
 #: transition depth; and in units of the length of the live interval, whose lower end is close to the tip.
@@ -44,13 +43,6 @@ def contact_time(profile, inertia, speed, interval, increase):
         profile = tabulated(profile, upper[remainder].max())
     unit, radius, depth = profile.unit or (profile, 1.0, 1.0)
     root, depth = (np.broadcast_to(scale, shape).ravel() for scale in (np.sqrt(radius), depth))
-    if remainder.size > time_table.MANY and profile.unit:
-        first = virgin[remainder]
-        rows, remainder = remainder[first], remainder[~first]
-        depths, X = upper[rows] / depth[rows], lower[rows] / length[rows]
-        ratio = time_table.tabulated_ratio(unit, _ratio, depths, X)
-        time[rows] = ratio * passage[rows]
-        remainder = np.append(remainder, rows[np.isnan(ratio)])
     # In ascending order, impacts that reach few kinks are together.
     depths = upper[remainder] / depth[remainder]
     order = np.argsort(depths)
