@@ -17,9 +17,9 @@ import numpy as np
 
 from . import _check
 from .closed_forms import closed_forms
+from .live_interval import LiveInterval
 from .medium import plastic_depth
 from .superposition import radius_and_energy, radius_drop, radius_integral
-from .yielding import LiveInterval
 
 #: Least a g′(a)/Δl of a stable state at given depth, and at given force.
 AT_DEPTH, AT_FORCE = 0.5, 1.5

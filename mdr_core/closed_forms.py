@@ -20,8 +20,8 @@ import numpy as np
 import scipy
 
 from ._numeric import chunks, root
+from .live_interval import LiveInterval
 from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
-from .yielding import LiveInterval
 
 _TINY = np.finfo(float).tiny
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from ._numeric import chunks, root, tanh_sinh
 from .closed_forms import closed_forms, log1p_ratio
+from .live_interval import LiveInterval
 from .superposition import nodes, pieces
-from .yielding import elastic_interval
 
 
 def _punches(profile, interval):
@@ -99,7 +99,7 @@ def displacement_integral(profile, interval, r):
     if ring.any():
         result[ring] = interval.upper - profile._height(r[ring])
         if interval.lower > 0:
-            result[ring] -= displacement_integral(profile, elastic_interval(interval.lower), r[ring])
+            result[ring] -= displacement_integral(profile, LiveInterval.elastic(interval.lower), r[ring])
         result[ring] = np.clip(result[ring], 0.0, interval.length)
     if not inside.all():
         _, radii, weight = (array.ravel() for array in _punches(profile, interval))

@@ -9,13 +9,14 @@ import numpy as np
 from . import _check, adhesion, fields, stress
 from ._check import Array, ArrayLike
 from ._numeric import root
+from .live_interval import LiveInterval
 from .medium import Medium
 from .results.base import CLOSED_FORM, Result
 from .results.limits import Limit, contact_limits
 from .shapes.profile import Profile
 from .stress import Stress, StressPeak
-from .superposition import energy_integral, radius_drop, radius_integral
-from .yielding import LiveInterval, elastic_interval
+from .superposition import energy_integral, radius_integral
+from .yielding import yield_rule
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -61,6 +62,10 @@ class Indentation(Result):
     def limits(self) -> tuple[Limit, ...]:
         """Limits of the model for these states."""
         return contact_limits(self.profile, self.medium, self.contact_radius, slow=not self.in_time)
+
+    @property
+    def _rule(self):
+        return yield_rule(self.profile, self.medium)
 
     @property
     def _adhesive(self):
@@ -124,9 +129,7 @@ class Indentation(Result):
     def plastic_work(self):
         """Work W_p = d_c φ(d_p) (J) dissipated by yielding so far; φ(d) is the elastic force."""
         depth = np.asarray(self.plastic_depth)
-        # Every increment of d_p dissipates π q_c a; q_c may be infinite where nothing yields.
-        yield_load = np.where(depth > 0, 2 * self.medium.yield_line_load, 0.0)
-        return yield_load * radius_integral(self.profile, elastic_interval(depth))
+        return 2 * self.medium.E_star * self._rule.plastic_integral(np.zeros_like(depth), depth)
 
     @_check.frozen_property
     def surface_energy(self):
@@ -159,9 +162,9 @@ class Indentation(Result):
         if self._adhesive:
             return adhesion.stiffness(self)
         width, interval = self.contact_radius, self.live_interval
-        yielding = (interval.lower > 0) & (interval.length == self.medium.critical_depth)
+        yielding = self._rule.yielding(interval)
         if np.any(yielding):
-            width = np.where(yielding, radius_drop(self.profile, interval), width)[()]
+            width = np.where(yielding, self._rule.yielding_width(interval), width)[()]
         return 2 * self.medium.E_star * width
 
     def pressure(self, r: ArrayLike) -> Array:
@@ -218,7 +221,7 @@ class Indentation(Result):
     def imprint(self, r: ArrayLike) -> Array:
         """Depth (m) of the residual imprint at radii r (m), after the load is removed."""
         self._one("imprint")
-        return self._displacement(elastic_interval(self.live_interval.lower), r)
+        return self._displacement(LiveInterval.elastic(self.live_interval.lower), r)
 
     def _displacement(self, interval, r):
         r = self._radii(r)

@@ -4,10 +4,11 @@ import numpy as np
 
 from . import _check
 from ._check import Array, ArrayLike
+from .live_interval import LiveInterval
 from .medium import Medium, check_pair, shape_with
 from .shapes.profile import Profile
 from .superposition import energy_integral, radius_integral
-from .yielding import elastic_interval
+from .yielding import yield_rule
 
 
 @_check.keywords_explained
@@ -39,9 +40,9 @@ def critical_force(profile: Profile, medium: Medium) -> Array:
     >>> print(round(critical_force(Cone(slope=1.0), Medium(E_star=1.0, q_c=2.0)), 12))  # π q_c²/(2E* s)
     6.28318530718
     """
-    shape, interval = _at_critical_depth("critical_force", profile, medium)
+    yields, interval = _at_onset("critical_force", profile, medium)
     force = 2 * medium.E_star * radius_integral(profile, interval)
-    return _check.frozen(np.broadcast_to(np.where(np.isinf(medium.q_c), np.inf, force), shape))
+    return _check.frozen(np.where(yields, force, np.inf))
 
 
 @_check.keywords_explained
@@ -79,14 +80,15 @@ def yield_speed(profile: Profile, medium: Medium, mass: ArrayLike) -> Array:
     1.0
     """
     mass = _check.positive("mass", mass, unit="kg")
-    shape, interval = _at_critical_depth("yield_speed", profile, medium, mass=mass)
+    yields, interval = _at_onset("yield_speed", profile, medium, mass=mass)
     speed = np.sqrt(4 * medium.E_star / mass * energy_integral(profile, interval))
-    return _check.frozen(np.broadcast_to(np.where(np.isinf(medium.q_c), np.inf, speed), shape))
+    return _check.frozen(np.where(yields, speed, np.inf))
 
 
-def _at_critical_depth(what, profile, medium, **values):
-    """Shape of the result, and the live interval of an elastic indentation to the critical depth."""
+def _at_onset(what, profile, medium, **values):
+    """Where the medium yields at all, and the live interval of an elastic indentation to the onset."""
     check_pair(profile, medium)
     shape = shape_with(what, profile, medium, **values)
-    depth = np.broadcast_to(np.where(np.isinf(medium.q_c), 0.0, medium.critical_depth), shape)
-    return shape, elastic_interval(profile._known(depth))
+    onset = np.broadcast_to(yield_rule(profile, medium).onset(), shape)
+    yields = onset < np.inf
+    return yields, LiveInterval.elastic(profile._known(np.where(yields, onset, 0.0)))

@@ -4,11 +4,13 @@ import numpy as np
 
 from . import _check, adhesion
 from ._check import ArrayLike
+from ._numeric import increasing_root
 from .indentation import Indentation
+from .live_interval import LiveInterval
 from .medium import Medium, check_pair, paths_on
 from .shapes.profile import Profile
-from .superposition import live_length, loading_depth
-from .yielding import LiveInterval, first_loading, path_intervals
+from .superposition import radius_integral
+from .yielding import yield_rule
 
 
 @_check.keywords_explained
@@ -56,7 +58,7 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     depth = profile._known(paths_on(profile, medium, depth))
     if np.any(medium.work_of_adhesion):
         return Indentation(profile, medium, depth, *adhesion.depth_path(profile, medium, depth))
-    return Indentation(profile, medium, depth, path_intervals(depth, medium.critical_depth))
+    return Indentation(profile, medium, depth, yield_rule(profile, medium).path(depth))
 
 
 @_check.keywords_explained
@@ -95,7 +97,8 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     check_pair(profile, medium, "an indentation")
     adhesive = medium.work_of_adhesion > 0
     force = _check.finite_array("force", force, unit="N") if adhesive else _check.force("force", force)
-    limit = 2 * medium.yield_line_load * profile.wall
+    rule = yield_rule(profile, medium)
+    limit = 2 * medium.E_star * rule.wall_integral()
     bound = f"must be less than the {limit:g} N at which the whole flat face yields"
     _check.refuse("force", force, force >= limit, bound, unit="N", remedy="press to a depth instead")
     if adhesive:
@@ -103,11 +106,35 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     integral = force / (2 * medium.E_star)
     largest = np.maximum.accumulate(integral, axis=-1) if integral.ndim else integral
     with np.errstate(all="ignore"):
-        largest_depth = loading_depth(profile, medium.critical_depth, largest)
+        largest_depth = _loading_depth(rule, largest)
     known = largest_depth <= min(profile.known_depth, _check.LARGEST)
     bound = f"presses {profile._too_deep()}"
     _check.refuse("force", force, ~known, bound, unit="N", remedy="press less")
-    loaded = first_loading(largest_depth, medium.critical_depth)
-    length = np.where(integral == largest, loaded.length, live_length(profile, loaded, integral))
+    loaded, _ = rule.loading(largest_depth)
+    length = np.where(integral == largest, loaded.length, _live_length(profile, loaded, integral))
     depth = np.where(integral == largest, largest_depth, loaded.lower + length)
     return Indentation(profile, medium, depth, LiveInterval(loaded.lower, depth, length))
+
+
+def _loading_depth(rule, area):
+    """Depth (m) at which a first loading has ∫ a ds = `area` (m²), elementwise."""
+
+    def loading(depth):
+        interval, _ = rule.loading(depth)
+        width = rule.yielding_width(interval)
+        slope = np.where(interval.lower > 0, width, rule.profile._radius(depth))
+        return radius_integral(rule.profile, interval), slope
+
+    onset = rule.onset()
+    return increasing_root(loading, area, onset if onset < np.inf else 1.0, rule.profile.known_depth)
+
+
+def _live_length(profile, largest, area):
+    """Live depth (m) at which unloading from the live interval `largest` has ∫ a ds = `area` (m²)."""
+
+    def unloading(length):
+        interval = LiveInterval.above(largest.lower, np.minimum(length, largest.length))
+        return radius_integral(profile, interval), profile._radius(interval.upper)
+
+    limit = np.where(largest.length > 0, largest.length, 1.0)
+    return np.minimum(increasing_root(unloading, area, limit, limit), largest.length)

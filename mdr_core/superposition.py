@@ -17,10 +17,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from ._numeric import LONG, chunks, gauss_legendre, increasing_root
+from ._numeric import LONG, chunks, gauss_legendre
 from .closed_forms import closed_forms
+from .live_interval import LiveInterval
 from .shapes.tabulated import Tabulated
-from .yielding import LiveInterval, first_loading
 
 #: Live intervals longer than this share of the depth are integrated as a difference of two integrals from
 #: the tip; the energy loses up to two digits by it.
@@ -268,27 +268,3 @@ def _differences(table, lower, upper, length, moments):
             result[1] -= table.volume(lower)
             result[1] -= length * area
     return result
-
-
-def loading_depth(profile, critical_depth, area):
-    """Depth (m) at which a first loading has ∫ a ds = `area` (m²), elementwise."""
-
-    def loading(depth):
-        interval = first_loading(depth, critical_depth)
-        slope = np.where(interval.lower > 0, radius_drop(profile, interval), profile._radius(depth))
-        return radius_integral(profile, interval), slope
-
-    start = critical_depth if critical_depth < np.inf else 1.0
-    return increasing_root(loading, area, start, profile.known_depth)
-
-
-def live_length(profile, largest, area):
-    """Live depth (m) at which unloading from the live interval `largest` has ∫ a ds = `area` (m²)."""
-
-    def unloading(length):
-        length = np.minimum(length, largest.length)
-        interval = LiveInterval(largest.lower, largest.lower + length, length)
-        return radius_integral(profile, interval), profile._radius(interval.upper)
-
-    limit = np.where(largest.length > 0, largest.length, 1.0)
-    return np.minimum(increasing_root(unloading, area, limit, limit), largest.length)

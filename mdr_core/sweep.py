@@ -35,7 +35,6 @@ import numpy as np
 
 from . import _check
 from .adhesion import first_contacts
-from .dynamics.energy_balance import loading_interval
 from .dynamics.impact import Impact, impact
 from .dynamics.oblique import ObliqueImpact, oblique_impact
 from .indentation import Indentation
@@ -47,6 +46,7 @@ from .results.report import imported
 from .shapes.profile import Profile
 from .shapes.sampled import Sampled
 from .shapes.smooth import Smooth
+from .yielding import yield_rule
 
 if TYPE_CHECKING:
     import xarray
@@ -293,7 +293,7 @@ def _press(profile, E_star, q_c, work_of_adhesion, depth):
     depth = profile._known(np.broadcast_to(depth, shape))
     if np.any(np.asarray(work_of_adhesion) > 0):
         return Indentation(profile, medium, depth, *first_contacts(profile, medium, depth))
-    interval, _ = loading_interval(np.maximum(depth, 0.0), medium.critical_depth, np.zeros(shape))
+    interval, _ = yield_rule(profile, medium).loading(np.maximum(depth, 0.0))
     return Indentation(profile, medium, depth, interval)
 
 

@@ -8,7 +8,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core import superposition
 from mdr_core.closed_forms import ClosedForms, closed_forms
-from mdr_core.yielding import LiveInterval
+from mdr_core.live_interval import LiveInterval
 
 from .shapes import POWER_LAWS, name
 

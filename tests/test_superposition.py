@@ -9,8 +9,8 @@ from mpmath import mp, mpf
 
 import mdr_core as mdr
 from mdr_core import superposition
+from mdr_core.live_interval import LiveInterval
 from mdr_core.superposition import tabulated
-from mdr_core.yielding import LiveInterval, elastic_interval
 
 from .hard_cases import EXTREMES, MEDIA, REGIMES, bounds, errors
 from .shapes import SHAPES, name
@@ -77,7 +77,7 @@ def test_depths_beyond_the_tables():
     """Where a sphere is a paraboloid to any precision, a hyperboloid its cone, and a sphere all in."""
     for depth in (1e-40, 1e-32, 1e-28):
         assert mdr.Sphere(1.0).contact_radius(depth) == pytest.approx(depth**0.5, rel=1e-15)
-        energy = superposition.energy_integral(mdr.Sphere(1.0), elastic_interval(np.array([depth])))[0]
+        energy = superposition.energy_integral(mdr.Sphere(1.0), LiveInterval.elastic(np.array([depth])))[0]
         assert energy == pytest.approx(4 / 15 * depth**2.5, rel=1e-14)
     assert mdr.Hyperboloid(1.0, 1.0).contact_radius(1e45) == pytest.approx(1e45 / (np.pi / 2), rel=1e-15)
     assert mdr.Sphere(1.0).contact_radius(99.0) == pytest.approx(1.0, rel=1e-15)

@@ -11,7 +11,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core import adhesion
 from mdr_core.dynamics.oblique_motion import ObliqueMotion
-from mdr_core.yielding import LiveInterval
+from mdr_core.live_interval import LiveInterval
 
 
 @dataclass(frozen=True, eq=False)

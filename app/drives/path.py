@@ -8,8 +8,8 @@ import numpy as np
 
 import mdr_core as mdr
 from mdr_core import abel
+from mdr_core.live_interval import LiveInterval
 from mdr_core.medium import refuse_adhesion
-from mdr_core.yielding import LiveInterval
 
 from . import Course, Drive, nearest, path_progress
 from .press import limited_force

@@ -24,7 +24,8 @@ from ..adhesion import (
 )
 from ..medium import Medium, check_pair
 from ..shapes.profile import Profile
-from .energy_balance import plastic_integral, tabulated_for, turning_interval
+from ..yielding import yield_rule
+from .energy_balance import tabulated_for, turning_interval
 
 
 def _energy(profile, medium, interval):
@@ -51,7 +52,7 @@ def _loading(profile, medium, upper, before):
     interval, stretched = loaded_interval(profile, medium, upper, before)
     radius = profile._radius(upper)
     tension, energy = tension_and_energy(profile, interval, radius, stretched)
-    plastic = plastic_integral(profile, interval, medium.critical_depth, interval.lower - before)
+    plastic = yield_rule(profile, medium).plastic_integral(before, interval.lower - before)
     rate = 1 - stretch_rate(profile, radius, stretched) / (2 * radius)
     return energy + plastic, tension * rate
 
@@ -61,7 +62,7 @@ def adhesive_turning_interval(profile, medium, target, before):
     shape, profile = target.shape, tabulated_for(profile, target.size)
     start, energy = touching(profile, medium, before)
     # The springs at the rim take some more than the jump into contact gives: four steps instead of ten.
-    guess, _ = turning_interval(profile, target - 3 * energy, medium.critical_depth, before)
+    guess, _ = turning_interval(yield_rule(profile, medium), target - 3 * energy, before)
     guess = guess.upper + stretch(medium, profile._radius(np.minimum(guess.upper, profile.known_depth)))
     arrays = (target + energy, np.maximum(guess, start.upper), start.upper, before)
     arrays = [np.broadcast_to(array, shape).ravel() for array in arrays]

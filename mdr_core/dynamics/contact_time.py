@@ -8,8 +8,8 @@ from numpy.polynomial import chebyshev
 
 from .._numeric import chunks, cube_rise, cube_way, gauss_integrals, gauss_legendre
 from ..closed_forms import closed_forms
+from ..live_interval import LiveInterval
 from ..superposition import energy_integral, radius_integral, tabulated
-from ..yielding import LiveInterval, elastic_interval
 
 #: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
 #: transition depth; and in units of the length of the live interval, whose lower end is close to the tip.
@@ -88,7 +88,7 @@ def _table(profile):
 def _ratio(profile, depth, X):
     """Contact time over d_max/v₀ of impacts on a virgin medium, from d_max (m) and X = d_p/d_c."""
     interval = LiveInterval(depth * X / (1 + X), depth, depth / (1 + X))
-    plastic = interval.length * radius_integral(profile, elastic_interval(interval.lower))
+    plastic = interval.length * radius_integral(profile, LiveInterval.elastic(interval.lower))
     energy = energy_integral(profile, interval) + plastic
     return time_over_root(profile, interval, interval.lower) * np.sqrt(energy) / depth
 

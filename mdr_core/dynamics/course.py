@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from .._numeric import gauss_integrals
-from ..yielding import LiveInterval
-from .energy_balance import loading_interval
+from ..live_interval import LiveInterval
+from ..yielding import yield_rule
 from .equation_of_motion import Bodies, MotionState
 from .legs import solve
 
@@ -106,7 +106,8 @@ class Course:
         largest = self._penetration
         y = np.where(time < self.turning_time, np.minimum(state.depth, largest), largest)
         medium, final = self._turning_point.medium, self._turning_point.live_interval
-        interval, increase = loading_interval(y, medium.critical_depth, self._imprint_depth)
+        rule = yield_rule(self._turning_point.profile, medium)
+        interval, increase = rule.loading(y, self._imprint_depth)
         lower = np.where(pressed, interval.lower, final.lower)
         length = np.where(pressed, interval.length, state.depth)
         upper = np.where(pressed, interval.upper, lower + length)

@@ -39,7 +39,7 @@ class DryRun:
         self.edge = np.maximum.accumulate(motions.radii(self.loading.depth), axis=0)
         width = np.diff(self.edge, axis=0)
         x = (self.edge[:-1, None] + width[:, None] * _POINTS).reshape(-1, velocity.size)
-        depth = motions.at_levels(lambda profile, x: profile._reduced(x), x)
+        depth = motions.at_levels(motions.profile._reduced, x)
         self.loading_ends, _ = self._ends(motions, self.loading)
         self.unloading_ends = self._ends(motions, self.unloading)
         # The first element is the flat face, if there is one. There are no elements behind a wall.

@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..live_interval import LiveInterval
 from ..superposition import energy_integral, radius_integral
-from ..yielding import LiveInterval
+from ..yielding import YieldRule, yield_rule
 
 
 class Branch(NamedTuple):
@@ -35,7 +36,7 @@ class Branch(NamedTuple):
         with np.errstate(divide="ignore", invalid="ignore"):
             step = np.where(rise == 0, 0.0, 2 * rise / (mean + root))
         middle = (depth[1:] + depth[:-1]) / 2 - step * np.diff(velocity, axis=0) / 8
-        # The critical depth is a level: over a step either nothing yields, or both depths rise alike.
+        # The onset of yield is a level: over a step either nothing yields, or both depths rise alike.
         before, after = plastic_depth[:-1], plastic_depth[1:]
         middle_plastic_depth = np.clip(after - (depth[1:] - middle), before, after)
         return cls(depth, plastic_depth, velocity, acceleration, step, middle, middle_plastic_depth)
@@ -45,12 +46,11 @@ class Branch(NamedTuple):
 class NormalMotions:
     """Impacts without viscosity on a virgin medium, as what stays the same during each of them.
 
-    Profile, critical depth, plastic depth at the end, live depth at the turning point (m), speed (m/s),
-    and 2E*/m (1/(m s²)), which makes an acceleration of ∫a ds.
+    Rule of yield, plastic depth at the end, live depth at the turning point (m), speed (m/s), and 2E*/m
+    (1/(m s²)), which makes an acceleration of ∫a ds.
     """
 
-    profile: object
-    critical_depth: np.ndarray
+    rule: YieldRule
     plastic_depth: np.ndarray
     live_depth: np.ndarray
     speed: np.ndarray
@@ -60,34 +60,38 @@ class NormalMotions:
     def of(cls, hit, rows):
         """Those of the `Impact` at rows of its flattened shape."""
         turning, medium = hit.turning_point.live_interval, hit.medium
-        # A finite depth, which no impact reaches, in place of an infinite one.
-        critical_depth = np.minimum(medium.critical_depth, 2 * hit.max_depth)
-        given = critical_depth, turning.lower, turning.length, hit.speed, 2 * medium.E_star / hit.mass
+        given = turning.lower, turning.length, hit.speed, 2 * medium.E_star / hit.mass
         given = (np.broadcast_to(value, hit.shape).ravel()[rows] for value in given)
-        return cls(hit.profile.flat_entries(rows, hit.shape), *given)
+        return cls(yield_rule(hit.profile, medium).flat_entries(rows, hit.shape), *given)
+
+    @property
+    def profile(self):
+        """One indenter, or one for each impact."""
+        return self.rule.profile
 
     def __getitem__(self, rows):
-        values = (value[rows] for name, value in vars(self).items() if name != "profile")
-        return NormalMotions(self.profile.flat_entries(rows, self.speed.shape), *values)
+        values = (value[rows] for name, value in vars(self).items() if name != "rule")
+        return NormalMotions(self.rule.flat_entries(rows, self.speed.shape), *values)
 
     def at_levels(self, function, *levels):
-        """A function of the profile and of arrays of levels; where profiles differ level by level."""
+        """A function of arrays of levels, which is called level by level where profiles differ."""
         if not self.profile.shape:
-            return function(self.profile, *levels)
-        return np.array([function(self.profile, *row) for row in zip(*levels, strict=True)])
+            return function(*levels)
+        return np.array([function(*row) for row in zip(*levels, strict=True)])
 
     def radii(self, depth):
         """Contact radii (m) at levels of depth (m)."""
-        return self.at_levels(lambda profile, depth: profile._radius(depth), depth)
+        return self.at_levels(self.profile._radius, depth)
 
     def branches(self, counts, instants):
         """Loading and unloading: with levels in so many parts below and above the imprint.
 
-        Depths at `instants`, (M, n), are levels as well; so are the critical depth and the kinks.
+        Depths at `instants`, (M, n), are levels as well; so are the onset of yield and the kinks.
         """
         end, size = self.plastic_depth, self.live_depth
         kinks = [np.broadcast_to(kink, end.shape) for kink in self.profile.kinks]
-        extra = np.vstack([np.stack([self.critical_depth, *kinks]), instants])
+        onset = np.broadcast_to(self.rule.onset(), end.shape)
+        extra = np.vstack([np.stack([onset, *kinks]), instants])
         below, above = (np.linspace(0.0, 1.0, count + 1)[:, None] for count in counts)
         # In equal parts of √(d_max − d) below, about equal times; above closer towards both ends.
         root = np.sqrt(end + size)
@@ -99,11 +103,12 @@ class NormalMotions:
         return loading, self._unloading(np.vstack([above[::-1], 0 * size]))
 
     def _loading(self, depth):
-        lower, length = np.maximum(depth - self.critical_depth, 0.0), np.minimum(depth, self.critical_depth)
-        work, area = self._work_and_area(lower, length)
+        interval, _ = self.rule.loading(depth)
+        lower = interval.lower
+        work, area = self._work_and_area(lower, interval.length)
         ahead = np.maximum(self.plastic_depth - lower, 0.0)
         if np.any(ahead > 0):
-            work += self.critical_depth * self.at_levels(_area, lower, ahead)
+            work += self.at_levels(self.rule.plastic_integral, lower, ahead)
         velocity = self._velocity(work, depth[-1] - depth, area)
         velocity[0], velocity[-1] = self.speed, 0.0
         return Branch.of(depth, lower, velocity, -self.rate * area)
@@ -124,13 +129,12 @@ class NormalMotions:
 
     def _work_and_area(self, lower, length):
         """Energy stored at the turning point less that at levels, over 2E* (m³), and ∫a ds there (m²)."""
-        stored = _energy(self.profile, self.plastic_depth, self.live_depth)
-        return stored - self.at_levels(_energy, lower, length), self.at_levels(_area, lower, length)
+        stored = self._energy(self.plastic_depth, self.live_depth)
+        work = stored - self.at_levels(self._energy, lower, length)
+        return work, self.at_levels(self._area, lower, length)
 
+    def _energy(self, lower, length):
+        return energy_integral(self.profile, LiveInterval.above(lower, length))
 
-def _energy(profile, lower, length):
-    return energy_integral(profile, LiveInterval(lower, lower + length, length))
-
-
-def _area(profile, lower, length):
-    return radius_integral(profile, LiveInterval(lower, lower + length, length))
+    def _area(self, lower, length):
+        return radius_integral(self.profile, LiveInterval.above(lower, length))

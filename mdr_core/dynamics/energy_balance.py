@@ -1,39 +1,42 @@
 """The energy balance of an impact without viscosity: its maximum depth and its restitution.
 
-The indenter meets a medium with an imprint of plastic depth p₀ (0 if virgin). With the penetration
-y = d − p₀ the live interval is [p₀ + Δ, p₀ + Δ + ℓ], ℓ = min(y, d_c) and Δ = max(0, y − d_c), and the work
-is 2E* [∫(d − s) a ds over it + d_c ∫a ds over [p₀, p₀ + Δ]]: stored, and dissipated by yielding.
+The indenter meets a medium with an imprint of plastic depth p₀ (0 if virgin). At the penetration y = d − p₀
+the work is that of the live interval, 2E* ∫(d − s) a ds, which is stored, and the plastic work.
 """
+
+from dataclasses import replace
 
 import numpy as np
 
 from .._numeric import LONG, broadcast_flat, chunks, increasing_root
-from ..closed_forms import closed_forms
-from ..superposition import energy_integral, radius_and_energy, radius_integral, tabulated
-from ..yielding import LiveInterval
+from ..live_interval import LiveInterval
+from ..superposition import energy_integral, radius_and_energy, tabulated
 
 
-def turning_interval(profile, target, d_c, before):
+def turning_interval(rule, target, before):
     """Live interval at the turning point of a dry impact, and the increase Δ (m) of the plastic depth.
 
-    Elementwise for kinetic energies `target` over 2E* (m³), to whose shape the other arguments broadcast.
-    The interval is infinite where the turning point is deeper than the known depth.
+    Elementwise for kinetic energies `target` over 2E* (m³), to whose shape the imprint's depth `before` (m)
+    and the parameters of the `YieldRule` broadcast. The interval is infinite where the turning point is
+    deeper than the known depth.
     """
-    forms = closed_forms(profile)
-    if forms and not np.any(before):
-        interval = forms.turning_interval(target, d_c)
-        if interval is not None:
-            return interval, interval.lower
-    profile, shape = tabulated_for(profile, target.size), target.shape
-    unit, *scales = profile.unit or (profile, 1.0, 1.0)
+    interval = None if np.any(before) else rule.turning_interval(target)
+    if interval is not None:
+        return interval, interval.lower
+    shape = target.shape
+    rule = replace(rule, profile=tabulated_for(rule.profile, target.size))
+    unit, *scales = rule.profile.unit or (rule.profile, 1.0, 1.0)
+    rule = rule.flat_entries(slice(None), shape)
     # Apart from the results, arrays are no longer than a block.
-    _, arrays = broadcast_flat(target, d_c, before, *scales)
+    _, arrays = broadcast_flat(target, before, *scales)
     result = np.empty((4, target.size))
     for rows in chunks(target.size, LONG):
-        target, d_c, before, radius, depth = (array[rows] for array in arrays)
-        target, d_c, before = target / (radius * depth**2), d_c / depth, before / depth
-        y = _penetration(unit.flat_entries(rows, shape), target, d_c, before)
-        interval, increase = loading_interval(np.where(np.isinf(y), 0.0, y), d_c, before)
+        energy, imprint, length, depth = (array[rows] for array in arrays)
+        part = rule.flat_entries(rows, (target.size,))
+        part = part.in_units_of(unit.flat_entries(rows, shape), length, depth)
+        imprint = imprint / depth
+        y = _penetration(part, energy / (length * depth**2), imprint)
+        interval, increase = part.loading(np.where(np.isinf(y), 0.0, y), imprint)
         upper = np.where(np.isinf(y), np.inf, interval.upper)
         result[:, rows] = depth * np.array([interval.lower, upper, interval.length, increase])
     *interval, increase = result.reshape(4, *shape)
@@ -46,43 +49,32 @@ def tabulated_for(profile, count):
     return tabulated(profile, profile.known_depth) if many else profile
 
 
-def loading_interval(y, d_c, before):
-    """Live interval and increase of the plastic depth (m) at a penetration y ≥ 0 (m) into an imprint."""
-    increase = np.maximum(y - d_c, 0.0)
-    lower, length = before + increase, np.minimum(y, d_c)
-    return LiveInterval(lower, np.maximum(before + y, lower), length), increase
+def dry_restitution(rule, interval, increase):
+    """Coefficient of restitution e = √(U/(U + W_p)) of an impact without viscosity.
 
-
-def plastic_integral(profile, interval, d_c, increase):
-    """Plastic work over 2E* (m³): d_c ∫ a ds over the increase of the plastic depth."""
-    integral = radius_integral(profile, LiveInterval(interval.lower - increase, interval.lower, increase))
-    with np.errstate(invalid="ignore"):
-        return np.where(increase > 0, d_c * integral, 0.0)
-
-
-def dry_restitution(profile, interval, d_c, increase):
-    """Coefficient of restitution e = √(U/(U + W_p)) of an impact without viscosity."""
-    profile = tabulated_for(profile, np.size(interval.length))
-    stored = energy_integral(profile, interval)
+    From the live interval at the turning point and the increase (m) of the plastic depth.
+    """
+    rule = replace(rule, profile=tabulated_for(rule.profile, np.size(interval.length)))
+    stored = energy_integral(rule.profile, interval)
     # U over the sum instead of U over the kinetic energy: never above 1.
-    return np.sqrt(stored / (stored + plastic_integral(profile, interval, d_c, increase)))
+    return np.sqrt(stored / (stored + rule.plastic_integral(interval.lower - increase, increase)))
 
 
-def _penetration(profile, target, d_c, before):
+def _penetration(rule, target, before):
     """y = d − p₀ (m) at which the work over 2E* is `target` (m³); infinite below the known depth.
 
     The work grows about as a power of y: Newton's method on their logarithms.
     """
 
     def work(y, rows):
-        interval, increase = loading_interval(y, d_c[rows], before[rows])
-        entries = profile.entries(rows, target.shape)
-        force, stored = radius_and_energy(entries, interval)
-        return stored + plastic_integral(entries, interval, d_c[rows], increase), force
+        part = rule.flat_entries(rows, target.shape)
+        interval, increase = part.loading(y, before[rows])
+        force, stored = radius_and_energy(part.profile, interval)
+        return stored + part.plastic_integral(before[rows], increase), force
 
-    highest = np.broadcast_to(profile.known_depth - before, target.shape)
+    highest = np.broadcast_to(rule.profile.known_depth - before, target.shape)
     with np.errstate(all="ignore"):
-        y = np.minimum(_first_guess(profile, target, d_c, before), highest)
+        y = np.minimum(_first_guess(rule, target, before), highest)
         rows = np.arange(y.size)
         for _ in range(12):
             value, slope = work(y[rows], rows)
@@ -99,17 +91,19 @@ def _penetration(profile, target, d_c, before):
     return y
 
 
-def _first_guess(profile, target, d_c, before):
-    """Penetration (m) to about 10⁻⁴ from the table of a profile, else d_c."""
-    if profile.unit is None:
-        return np.where(np.isinf(d_c), 1.0, d_c)
-    table, imprint = profile.table, before.any()
+def _first_guess(rule, target, before):
+    """Penetration (m) to about 10⁻⁴ from the table of a profile, else that of the onset of yield."""
+    onset = rule.penetration(before, before)
+    if rule.profile.unit is None:
+        return np.where(np.isinf(onset), 1.0, onset)
+    table, imprint = rule.profile.table, before.any()
     elastic = table.depth_of_volume(target)
-    # The mean of a force that goes as the power 3/2 of the depth is nearly that in the middle.
-    middle = table.depth_of_area(target / d_c + (table.area(before) if imprint else 0.0))
-    yielding = middle - d_c * d_c / (48 * middle) + d_c / 2 - before
     if imprint:
         # Not deeper than a flat punch of the plastic radius.
         punch = np.sqrt(2 * target / table.radius(before))
         elastic = np.where(before > 0, np.minimum(elastic, punch), elastic)
-    return np.where(elastic > d_c, np.maximum(yielding, d_c), elastic)
+    # The mean of a force that goes as the power 3/2 of the depth is nearly that in the middle.
+    cap = rule.cap(before + elastic)
+    middle = table.depth_of_area(target / cap + (table.area(before) if imprint else 0.0))
+    yielding = middle - cap * cap / (48 * middle) + cap / 2 - before
+    return np.where(elastic > onset, np.maximum(yielding, onset), elastic)

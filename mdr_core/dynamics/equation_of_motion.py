@@ -13,15 +13,15 @@ y = d − p₀ into an imprint of plastic depth p₀, the plastic depth p, the l
 solve these equations, in the depth q = y or ℓ and the velocity v.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..live_interval import LiveInterval
 from ..results.base import Entries
 from ..shapes.profile import Profile
 from ..superposition import radius_integral, tabulated
-from ..yielding import LiveInterval
-from .energy_balance import loading_interval
+from ..yielding import YieldRule, yield_rule
 
 
 @dataclass(frozen=True)
@@ -41,17 +41,16 @@ class MotionState(Entries):
 
 @dataclass(frozen=True)
 class Bodies:
-    """Impacts to solve, one a row of each array of shape (N, 1); `profile` is one indenter or N.
+    """Impacts to solve, one a row of each array of shape (N, 1).
 
-    Relaxation time τ (s), inertia μ (m s²), speed v₀ (m/s), critical depth d_c (m), plastic depth p₀ (m) of
-    the imprint, and penetration y (m) of the same impact without viscosity.
+    Rule of yield for one indenter or N, relaxation time τ (s), inertia μ (m s²), speed v₀ (m/s), plastic
+    depth p₀ (m) of the imprint, and penetration y (m) of the same impact without viscosity.
     """
 
-    profile: Profile
+    rule: YieldRule
     relaxation_time: np.ndarray
     inertia: np.ndarray
     speed: np.ndarray
-    critical_depth: np.ndarray
     imprint_depth: np.ndarray
     dry_penetration: np.ndarray
 
@@ -63,27 +62,29 @@ class Bodies:
         def column(values):
             return np.broadcast_to(values, shape).reshape(-1, 1)
 
-        profile = profile.flat_entries(slice(None), shape).entries((slice(None), None), (size,))
+        rule = yield_rule(profile, medium).flat_entries(slice(None), shape)
+        rule = rule.entries((slice(None), None), (size,))
         imprint_depth = column(imprint_depth)
-        dry_penetration = np.minimum(column(dry_penetration), profile.known_depth - imprint_depth)
+        dry_penetration = np.minimum(column(dry_penetration), rule.profile.known_depth - imprint_depth)
+        # A little deeper than the impact reaches: the table must not end at the turning point.
+        profile = tabulated(rule.profile, imprint_depth + 1.1 * dry_penetration)
         return cls(
-            # A little deeper than the impact reaches: the table must not end at the turning point.
-            profile=tabulated(profile, imprint_depth + 1.1 * dry_penetration),
+            rule=replace(rule, profile=profile),
             relaxation_time=column(medium.relaxation_time),
             inertia=column(mass / (2 * medium.E_star)),
             speed=column(speed),
-            critical_depth=column(medium.critical_depth),
             imprint_depth=imprint_depth,
             dry_penetration=dry_penetration,
         )
 
+    @property
+    def profile(self) -> Profile:
+        """One indenter or N, with a table of its contact radius."""
+        return self.rule.profile
+
     def __getitem__(self, index):
-        if index.size == self.speed.size:
-            return self
-        columns = {
-            name: getattr(self, name)[index] for name in self.__dataclass_fields__ if name != "profile"
-        }
-        return Bodies(self.profile.entries(index, self.speed.shape), **columns)
+        columns = {name: getattr(self, name)[index] for name in self.__dataclass_fields__ if name != "rule"}
+        return Bodies(self.rule.entries(index, self.speed.shape), **columns)
 
 
 @dataclass(frozen=True)
@@ -107,17 +108,18 @@ class Loading(Entries):
         return self.bodies.relaxation_time * radius / self.bodies.inertia
 
     def stiffness(self, depth, radius, velocity):
-        """−μ ∂v̇/∂y (m): a (less c while yielding), and the drag on a contact that grows."""
-        profile, (interval, increase), slope = self.bodies.profile, self._interval(depth), radius
+        """−μ ∂v̇/∂y (m): a (less c dp/ds while yielding), and the drag on a contact that grows."""
+        rule, profile, slope = self.bodies.rule, self.bodies.profile, radius
+        interval, increase = self._interval(depth)
         if np.any(increase > 0):
-            slope = np.where(increase > 0, radius - profile._radius(interval.lower), radius)
+            c = profile._radius(interval.lower)
+            slope = np.where(increase > 0, radius - c * rule.rate(interval.upper), radius)
         # At a wall the contact no longer grows.
         spread = np.where(radius < profile.wall, 1 / profile._reduced_slope(radius), 0.0)
         return slope + self.bodies.relaxation_time * velocity * spread
 
     def _interval(self, depth):
-        bodies = self.bodies
-        return loading_interval(np.maximum(depth, 0.0), bodies.critical_depth, bodies.imprint_depth)
+        return self.bodies.rule.loading(np.maximum(depth, 0.0), self.bodies.imprint_depth)
 
 
 @dataclass(frozen=True)
@@ -130,7 +132,7 @@ class Unloading(Entries):
     def load(self, depth):
         """Φ (m²) and contact radius a (m) at live depths (m)."""
         length = np.maximum(depth, 0.0)
-        interval = LiveInterval(self.plastic_depth + 0 * length, self.plastic_depth + length, length)
+        interval = LiveInterval.above(self.plastic_depth, length)
         return radius_integral(self.bodies.profile, interval), self.bodies.profile._radius(interval.upper)
 
     def rates(self, load, radius, velocity):

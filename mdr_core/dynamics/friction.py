@@ -19,8 +19,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..live_interval import LiveInterval
 from ..superposition import radius_integral
-from ..yielding import LiveInterval
+from ..yielding import yield_rule
 
 #: κW₀/μ over the normal speed below which everything sticks.
 SLOWEST = 1e-7
@@ -94,10 +95,11 @@ def _largest(time, values):
 
 def slide(hit, levels, inertia, ratio, instants=()):
     """One `FrictionRun` of a body of speed 1: C = `inertia` (1/(m s²)), B = `ratio` × normal load."""
-    tau, d_c = float(hit.medium.relaxation_time), hit.medium.critical_depth
+    tau = float(hit.medium.relaxation_time)
+    interval, _ = yield_rule(hit.profile, hit.medium).loading(levels.depth)
     elements = SurfaceElements.of(hit.profile, levels.depth)
-    plastic_depth = np.maximum(levels.depth - d_c, 0.0)
-    load = np.minimum(levels.depth, d_c) + tau * levels.velocity
+    plastic_depth = interval.lower
+    load = interval.length + tau * levels.velocity
     number, partial = _partly_yielded(hit.profile, elements, levels, plastic_depth)
     time = np.append(levels.loading_time, levels.unloading_time[1:])
     run = FrictionRun(elements, inertia, tau, time, instants)

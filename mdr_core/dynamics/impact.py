@@ -20,6 +20,7 @@ from ..results.base import CLOSED_FORM, SCALAR_ODE, ImpactResult, Model, Motion
 from ..results.limits import Limit, contact_limits
 from ..scaling import FastLimit, fast_limit, how_fast
 from ..shapes.profile import Profile
+from ..yielding import yield_rule
 from .adhesive_impact import (
     adhesive_contact_time,
     adhesive_turning_interval,
@@ -31,8 +32,6 @@ from .contact_time import contact_time
 from .course import Course
 from .energy_balance import (
     dry_restitution,
-    loading_interval,
-    plastic_integral,
     tabulated_for,
     turning_interval,
 )
@@ -106,24 +105,24 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
     adhesive = np.any(np.asarray(medium.work_of_adhesion) > 0)
     if adhesive and in_time:
         refuse_adhesion(medium, "an equation of motion")
-    load = 0.0
+    rule, load = yield_rule(profile, medium), 0.0
     with np.errstate(all="ignore"):
         energy = np.broadcast_to(mass * speed**2 / (4 * medium.E_star), shape)
         if adhesive:
             interval, stretched = adhesive_turning_interval(profile, medium, energy, imprint_depth)
             increase, load = interval.lower - imprint_depth, -medium.E_star * stretched
         else:
-            interval, increase = turning_interval(profile, energy, medium.critical_depth, imprint_depth)
+            interval, increase = turning_interval(rule, energy, imprint_depth)
         integrated = None
         if in_time or np.any(np.asarray(medium.eta) > 0):
             penetration = np.where(interval.upper < np.inf, interval.length + increase, np.inf)
             bodies = Bodies.of(profile, medium, mass, speed, imprint_depth, penetration)
             penetration, integrated = _integrated(bodies, penetration, mass, medium.E_star, in_time)
-            interval, increase = loading_interval(penetration, medium.critical_depth, imprint_depth)
+            interval, increase = rule.loading(penetration, imprint_depth)
     known = np.minimum(profile.known_depth, _check.LARGEST)
     bound = f"m/s presses {too_deep}"
     _check.refuse("speed", speed, ~(interval.upper <= known), bound, remedy="hit less hard")
-    depth = interval.upper if not adhesive else _depth(medium, interval, stretched, increase)
+    depth = interval.upper if not adhesive else _depth(rule, interval, stretched, increase)
     turning_point = Indentation(profile, medium, depth, interval, load, in_time=True)
     return Impact(profile, medium, mass[()], speed[()], turning_point, increase, integrated)
 
@@ -153,10 +152,9 @@ def _integrated(bodies, penetration, mass, E_star, in_time):
     return penetration.reshape(shape), {name: _check.frozen(values) for name, values in quantities.items()}
 
 
-def _depth(medium, interval, stretched, increase):
+def _depth(rule, interval, stretched, increase):
     """Depth (m) at a turning point with adhesion."""
-    yielding = interval.lower + medium.critical_depth
-    return np.where(increase > 0, yielding, interval.upper - stretched)
+    return np.where(increase > 0, rule.onset(interval.lower), interval.upper - stretched)
 
 
 def quantity_of(path: str, doc: str) -> "cached_property[Array]":
@@ -225,9 +223,9 @@ class Impact(ImpactResult):
     @_check.frozen_property
     def plastic_work(self):
         """Energy (J) dissipated by yielding in this impact."""
-        interval, increase = self.turning_point.live_interval, self.plastic_depth_increase
-        profile, d_c = tabulated_for(self.profile, increase.size), self.medium.critical_depth
-        return 2 * self.medium.E_star * plastic_integral(profile, interval, d_c, increase)
+        increase = self.plastic_depth_increase
+        rule = yield_rule(tabulated_for(self.profile, increase.size), self.medium)
+        return 2 * self.medium.E_star * rule.plastic_integral(self.plastic_depth - increase, increase)
 
     @property
     def viscous_work(self) -> Array:
@@ -267,9 +265,9 @@ class Impact(ImpactResult):
         if self._adhesive:
             kinetic = self.mass * self.speed**2 / (4 * self.medium.E_star)
             return np.sqrt(np.maximum(self._rebound_energy, 0.0) / kinetic)
-        interval, d_c = self.turning_point.live_interval, self.medium.critical_depth
-        arguments = self.profile, interval, d_c, self.plastic_depth_increase
-        return self._merged("restitution", lambda: dry_restitution(*arguments))
+        interval, rule = self.turning_point.live_interval, yield_rule(self.profile, self.medium)
+        increase = self.plastic_depth_increase
+        return self._merged("restitution", lambda: dry_restitution(rule, interval, increase))
 
     @_check.frozen_property
     def contact_time(self):

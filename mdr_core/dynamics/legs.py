@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._numeric import cube_way
-from .energy_balance import loading_interval
 from .equation_of_motion import Loading, MotionState, Unloading
 from .steps import DepthCoordinate, DepthSteps, VelocitySteps
 
@@ -54,18 +53,19 @@ def solve(bodies, tolerance=1e-5):
 
 def _load(bodies, tolerance):
     """State at the turning point (of infinite depth below the known depth), and the steps of loading."""
-    profile, imprint, d_c = bodies.profile, bodies.imprint_depth, bodies.critical_depth
+    profile, rule, imprint = bodies.profile, bodies.rule, bodies.imprint_depth
+    onset = rule.penetration(imprint, imprint)
     equation, steps, zero = Loading(bodies), [], np.zeros_like(bodies.speed)
     state = MotionState(zero.copy(), bodies.speed.copy(), zero.copy(), zero.copy())
     kinks = [kink - imprint for kink in profile.kinks]
     end = np.broadcast_to(profile.known_depth - imprint, zero.shape)
-    edges = np.array([d_c, *kinks, *(kink + d_c for kink in kinks)])
+    edges = np.array([onset, *kinks, *(rule.penetration(kink, imprint) for kink in profile.kinks)])
     edges = np.sort(np.where((edges > 0) & (edges < end), edges, end), axis=0)
     below = imprint - profile._kink_above(imprint)
     base, rows = zero, np.arange(zero.size)
     for edge in [*edges, end]:
         # Behind a kink the radius is a power of the distance from it, else of that from the kink above.
-        root = np.cbrt(np.where((base == 0) | (base == d_c), below, 0.0))
+        root = np.cbrt(np.where((base == 0) | (base == onset), below, 0.0))
         leg = _LoadingLeg(equation[rows], DepthCoordinate(base, root)[rows], edge[rows], state[rows])
         leg.length = np.minimum(cube_way(root, 0.65 * bodies.dry_penetration)[rows], leg.edge_delta)
         leg.run(tolerance, rows, steps)
@@ -78,7 +78,7 @@ def _load(bodies, tolerance):
 def _unload(bodies, turning_state, tolerance):
     """State at the loss of contact, and the steps of unloading."""
     profile, steps, zero = bodies.profile, [], np.zeros_like(bodies.speed)
-    interval, _ = loading_interval(turning_state.depth, bodies.critical_depth, bodies.imprint_depth)
+    interval, _ = bodies.rule.loading(turning_state.depth, bodies.imprint_depth)
     equation = Unloading(bodies, interval.lower)
     state = MotionState(interval.length, zero.copy(), turning_state.time.copy(), turning_state.work.copy())
     below = interval.lower - profile._kink_above(interval.lower)

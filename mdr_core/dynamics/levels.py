@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..yielding import yield_rule
+
 #: Largest number of levels of a run.
 MOST_LEVELS = 6000
 
@@ -29,7 +31,8 @@ def levels(hit, inertia, halvings, instants=()):
     instants = np.asarray(instants, dtype=float)
     early = np.append(_even_times(hit, loading, 0.0, inertia), instants[instants < turn])
     late = np.append(_even_times(hit, unloading, lower, inertia), instants[instants > turn])
-    inner = np.append(lower + unloading.at(late).depth, [lower, min(hit.medium.critical_depth, max_depth)])
+    onset = min(yield_rule(hit.profile, hit.medium).onset(), max_depth)
+    inner = np.append(lower + unloading.at(late).depth, [lower, onset])
     inner = inner[(inner > 0) & (inner < max_depth)]
     depth = np.concatenate([[0.0, max_depth], loading.at(early).depth, inner])
     coarse, first = np.unique(np.clip(depth, 0.0, max_depth), return_index=True)

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..indentation import Indentation
 from ..results.base import Motion, instants
-from .energy_balance import plastic_integral
+from ..yielding import yield_rule
 
 
 def motion(hit, n):
@@ -18,7 +18,8 @@ def motion(hit, n):
     # Energy of the elements at the rim at their release, by parts: dissipated, or still stored in them.
     elastic = -medium.relaxation_time * np.minimum(state.velocity, 0.0)
     rim = elastic**2 * states.contact_radius / 2
-    plastic = plastic_integral(hit.profile, state.interval, medium.critical_depth, state.increase)
+    imprint = state.interval.lower - state.increase
+    plastic = yield_rule(hit.profile, medium).plastic_integral(imprint, state.increase)
     return Motion(
         time=time,
         depth=state.depth,

@@ -14,8 +14,8 @@ beyond the end of their stable range have the force at this end. Samples next to
 import numpy as np
 
 from ..adhesion import AT_DEPTH, contact_interval, stable_ranges, stretch, stretch_rate, tension_integral
+from ..live_interval import LiveInterval
 from ..medium import Medium, critical_depth, plastic_depth
-from ..yielding import LiveInterval
 
 #: Least 1 − p in derivatives, which are infinite at the end of the stable range.
 _LEAST = 0.01

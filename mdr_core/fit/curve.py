@@ -18,9 +18,10 @@ from functools import cached_property
 
 import numpy as np
 
+from ..live_interval import LiveInterval
 from ..medium import critical_depth
 from ..superposition import radius_integral, radius_rate
-from ..yielding import LiveInterval, interval_at
+from ..yielding import interval_at
 from .adhesive_curve import adhesive_states, next_to_jumps
 
 #: All parameters in the order of a fit, those of the background, those fitted as logarithms, those that are

@@ -7,12 +7,12 @@ import numpy as np
 from .. import _check
 from .._check import Array, ArrayLike
 from .._numeric import increasing_root
+from ..live_interval import LiveInterval
 from ..medium import Medium, check_pair, yield_constant
 from ..results.quantities import engineering
 from ..scaling import HardnessClass, class_of, straight_line
 from ..shapes.profile import Profile
 from ..superposition import radius_integral
-from ..yielding import LiveInterval
 from .least_squares import Fit
 
 

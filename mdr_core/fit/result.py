@@ -10,10 +10,10 @@ import numpy as np
 from .. import _check
 from .._check import Array
 from ..indentation import Indentation
+from ..live_interval import LiveInterval
 from ..medium import Medium
 from ..results.quantities import described, engineering
 from ..results.report import imported
-from ..yielding import LiveInterval
 from .curve import PARAMETERS
 from .least_squares import FITTED_QUANTITIES, Fit, with_error
 from .oliver_pharr import oliver_pharr
