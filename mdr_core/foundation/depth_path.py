@@ -8,11 +8,12 @@ import numpy as np
 
 from .. import _check, abel
 from .._check import Array, ArrayLike
-from ..medium import Medium, check_pair, plastic_depth, refuse_adhesion
+from ..medium import Medium, check_pair, refuse_adhesion
 from ..results.base import CHAIN, Result
 from ..results.limits import Limit, contact_limits
 from ..shapes.profile import Profile
 from . import element
+from .cap import elastic_limit, plastic_depth
 from .element import Elements, Ramp
 from .foundation import Foundation
 from .fronts import force_and_radius
@@ -96,7 +97,7 @@ def indent_in_time(
     record, errors = refine(run, tolerance, levels, 4)
     return TimedIndentation(
         profile, medium, time, depth,
-        plastic_depth=plastic_depth(np.maximum.accumulate(depth), medium.critical_depth),
+        plastic_depth=plastic_depth(medium, np.maximum.accumulate(depth)),
         error=float(errors[:4].max()),
         _index=np.arange(depth.size), _path_time=np.array(time), _path_depth=np.array(depth),
         **dict(zip(_RECORD, record.T, strict=True)),
@@ -122,7 +123,7 @@ def _node_radii(profile, medium, depth, time):
         turns = np.sort(turns[np.argsort(-depth[turns])[:_MAX_EDGE_DEPTHS]])
         depth, time = depth[turns], time[turns]
     lag = medium.relaxation_time * np.append(0.0, np.diff(depth) / np.diff(time))
-    level = np.concatenate([depth, depth + np.minimum(lag, 0.0), depth - medium.critical_depth])
+    level = np.concatenate([depth, depth + np.minimum(lag, 0.0), plastic_depth(medium, depth)])
     level = np.unique(level[level > 0])
     return profile.contact_radius(level) if level.size else np.empty(0)
 
@@ -202,7 +203,7 @@ class TimedIndentation(Result):
         ramps = zip(self._path_depth[:count], travel, duration, strict=False)
         load, elastic = np.empty((2, count, x.size))
         for i, piece in enumerate(ramps):
-            ramp = Ramp(*piece, medium.relaxation_time, medium.critical_depth)
+            ramp = Ramp(*piece, medium.relaxation_time, elastic_limit(medium))
             elements, _ = element.advance(elements, ramp)
             elastic[i] = elements.elastic
             load[i] = np.where(elements.contact, medium.E_star * (elastic[i] + ramp.lag), 0.0)

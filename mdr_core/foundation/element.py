@@ -43,7 +43,7 @@ class Elements:
 
 @dataclass(frozen=True)
 class Ramp:
-    """A straight piece of a path of depth in time, and the medium's τ (s) and d_c (m).
+    """A straight piece of a path of depth in time, and the medium's τ (s) and elastic limit d_c (m).
 
     `travel` (m) ends at `depth` (m): a difference of depths may cancel. The `duration` (s) may be infinite.
     """
@@ -52,7 +52,7 @@ class Ramp:
     travel: float
     duration: float
     tau: float
-    critical_depth: float
+    elastic_limit: float
 
     @property
     def lag(self):
@@ -121,10 +121,10 @@ def _press(elements, ramp, penetration):
     relaxed = initial * ramp.decay
     contact = (penetration > relaxed) | elements.contact
     first, duration = _pressed_contact(elements, ramp, penetration, contact & ~elements.contact)
-    elastic = np.where(contact, np.minimum(penetration, ramp.critical_depth), relaxed)
+    elastic = np.where(contact, np.minimum(penetration, ramp.elastic_limit), relaxed)
     first = np.where(contact, first, elastic)
     stroke = np.where(contact, penetration - first, 0.0)
-    excess = np.maximum(penetration - ramp.critical_depth, 0.0)
+    excess = np.maximum(penetration - ramp.elastic_limit, 0.0)
     # The elastic part is constant along the stroke at the yield cap.
     spring_share = 1 - excess / np.maximum(stroke, 1e-300)
     mean = elastic - spring_share * ((elastic - first) / 2)

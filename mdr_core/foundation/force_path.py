@@ -9,8 +9,9 @@ import scipy
 from .. import _check
 from .._check import ArrayLike
 from .._numeric import root_in_bracket
-from ..medium import Medium, check_pair, plastic_depth, refuse_adhesion
+from ..medium import Medium, check_pair, refuse_adhesion
 from ..shapes.profile import Profile
+from .cap import elastic_limit, flat_face_load, plastic_depth
 from .depth_path import TimedIndentation, check_times, follow
 from .foundation import Foundation
 from .fronts import force_and_radius
@@ -72,7 +73,7 @@ def creep(
     force = _check.force("force", force)
     time = check_times(time, force, "force")
     tolerance = _check.positive_number("tolerance", tolerance)
-    capacity = 2 * medium.yield_line_load * profile.wall
+    capacity = flat_face_load(medium, profile.wall)
     static = (np.arange(force.size) == 0) | (medium.eta == 0)
     bound = f"must be less than the {capacity:g} N at which the whole flat face yields"
     _check.refuse("force", force, (force >= capacity) & static, bound, unit="N", remedy="begin with less")
@@ -97,7 +98,7 @@ def creep(
     return TimedIndentation(
         profile, medium, time, depth, force, radius,
         **dict(zip(("stored_energy", "plastic_work", "viscous_work"), energies, strict=True)),
-        plastic_depth=plastic_depth(np.maximum.accumulate(depth), medium.critical_depth),
+        plastic_depth=plastic_depth(medium, np.maximum.accumulate(depth)),
         error=float(errors[0]), _index=index, _path_time=path_time, _path_depth=path_depth,
     )  # fmt: skip
 
@@ -151,7 +152,7 @@ def _step(foundation, dt, force, guess, bound, close):
     def excess(travel):
         moved = foundation.advance(foundation.depth + travel, dt)
         elements, lag = moved._elements, moved._current.lag
-        spring = (elements.elastic < medium.critical_depth) + medium.relaxation_time / dt
+        spring = (elements.elastic < elastic_limit(medium)) + medium.relaxation_time / dt
         total, radius = force_and_radius(moved)
         stiffness = max(moved._total(elements.contact * spring), 1e-300)
         slope = foundation.profile.reduced_slope(radius)

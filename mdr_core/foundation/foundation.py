@@ -12,6 +12,7 @@ from ..medium import Medium, check_pair, refuse_adhesion
 from ..results.quantities import described, engineering
 from ..shapes.profile import Profile
 from . import element
+from .cap import elastic_limit
 from .element import Elements, Ramp
 from .grid import cell_edges
 
@@ -162,7 +163,7 @@ class Foundation:
     def _ramp(self, travel, dt, depth=None):
         """`Ramp` from the present depth by a travel (m) in a time (s), to a rounded depth (m) if given."""
         medium, depth = self.medium, self.depth + travel if depth is None else depth
-        return Ramp(depth, travel, dt, medium.relaxation_time, medium.critical_depth)
+        return Ramp(depth, travel, dt, medium.relaxation_time, elastic_limit(medium))
 
     def _after(self, ramp, elements, exchange, rate=None):
         """Foundation with these elements at the end of a ramp, at the rate (m/s) of the ramp or another."""
@@ -259,8 +260,8 @@ class Foundation:
     @property
     def plastic_work(self) -> float:
         """Energy Σ (π q_c/2) u_p Δx (J) dissipated by yielding so far."""
-        d_c = self.medium.critical_depth
-        return self._total(self._elements.plastic) * d_c if d_c < np.inf else 0.0
+        limit = elastic_limit(self.medium)
+        return self._total(self._elements.plastic) * limit if limit < np.inf else 0.0
 
 
 def _mirrored(values):

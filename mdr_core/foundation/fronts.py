@@ -7,6 +7,8 @@ is where the gap between indenter and surface closes, extrapolated from the gaps
 
 import numpy as np
 
+from .cap import elastic_limit
+
 
 def force_and_radius(foundation):
     """Force (N) including the fronts, and outer radius (m) of the contact, 0 without contact."""
@@ -48,14 +50,14 @@ def _yield_correction(foundation, load):
 def _narrow_ring(foundation, load, last, front):
     """Correction (N) where yield ends within three elements of a virgin contact front, else None."""
     elements, x, width = foundation._elements, foundation._elements.x, foundation._elements.width
-    yielded, critical = int(np.count_nonzero(elements.plastic)) - 1, foundation.medium.critical_depth
+    yielded = int(np.count_nonzero(elements.plastic)) - 1
     virgin = elements.elastic[last + 1] == 0 == elements.plastic[last + 1]
-    lag = foundation._current.lag
-    capped = lag >= 0 and elements.elastic[yielded] == critical
+    lag, limit = foundation._current.lag, elastic_limit(foundation.medium)
+    capped = lag >= 0 and elements.elastic[yielded] == limit
     if not (0 < yielded <= last < yielded + 3 and capped and virgin):
         return None
     edge = float(x[yielded] - width[yielded] / 2)
-    kink = _virgin_radius(foundation, foundation.depth - critical)
+    kink = _virgin_radius(foundation, foundation.depth - limit)
     if not edge <= kink <= front:
         return None
     rim = foundation.medium.E_star * lag

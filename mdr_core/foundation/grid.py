@@ -7,6 +7,7 @@ import numpy as np
 
 from .. import _check
 from .._numeric import increasing_root
+from .cap import elastic_limit
 
 
 def cell_edges(profile, count, half_width, nodes=()):
@@ -57,7 +58,7 @@ def depth_bound(profile, medium, quantity, amount, start=0.0):
     The quantity is "force" (N) or "work" (J) of the springs, ∫F dd = 2E* ∫ (u_e²/2 + d_c u_p) dx, or
     "momentum" (N s) of the dashpots, 8η ∫ a dd = 8η ∫ u dx. At most the known depth.
     """
-    d_c = medium.critical_depth
+    limit = elastic_limit(medium)
 
     def taken_up(depth):
         """The quantity at a depth, and its derivative."""
@@ -66,10 +67,10 @@ def depth_bound(profile, medium, quantity, amount, start=0.0):
         u = np.maximum(depth - profile.reduced((np.arange(64) + 0.5) * width), 0.0)
         if quantity == "momentum":
             return 8 * medium.eta * width * np.sum(u), 8 * medium.eta * radius
-        elastic, stiffness = np.minimum(u, d_c), 2 * medium.E_star * width
+        elastic, stiffness = np.minimum(u, limit), 2 * medium.E_star * width
         force = stiffness * np.sum(elastic)
         if quantity == "force":
-            return force, stiffness * np.count_nonzero(u < d_c)
+            return force, stiffness * np.count_nonzero(u < limit)
         # u_e²/2 + d_c u_p, with u_e = d_c wherever u_p > 0.
         return stiffness * (elastic @ (u - elastic / 2)), force
 
@@ -77,5 +78,5 @@ def depth_bound(profile, medium, quantity, amount, start=0.0):
         return profile.known_depth
     known = min(profile.known_depth, _check.LARGEST)
     target = amount + (taken_up(start)[0] if start > 0 else 0.0)
-    depth = increasing_root(taken_up, target, max(min(d_c, known, 1.0), start), known)
+    depth = increasing_root(taken_up, target, max(min(limit, known, 1.0), start), known)
     return min(1.05 * float(depth), profile.known_depth)

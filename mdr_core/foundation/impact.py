@@ -14,6 +14,7 @@ from ..medium import Medium, check_pair, refuse_adhesion
 from ..results.base import CHAIN, ImpactResult, Motion, instants
 from ..results.limits import Limit, contact_limits
 from ..shapes.profile import Profile
+from .cap import plastic_depth
 from .foundation import Foundation, element_count
 from .free_body import ImpactSolver, foundation_before, impact_depth_bound
 from .refinement import refine
@@ -193,7 +194,7 @@ class ChainImpact(ImpactResult):
     @property
     def plastic_depth(self) -> float:
         """Plastic depth d_p (m) after the impact."""
-        return max(0.0, self.max_depth - self.medium.critical_depth)
+        return float(plastic_depth(self.medium, self.max_depth))
 
     @property
     def plastic_radius(self) -> float:
