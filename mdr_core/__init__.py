@@ -6,6 +6,7 @@ V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 """
 
 from . import abel, sweep
+from . import closed_forms as closed_forms  # registers the closed forms of the shapes
 from ._check import no_attribute
 from .drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
 from .dynamics.adhesive_impact import capture_speeds

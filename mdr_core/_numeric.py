@@ -144,6 +144,13 @@ def root(x, r):
     return np.sqrt(np.maximum(x - r, 0.0)) * np.sqrt(x + r)
 
 
+def log1p_ratio(above, below):
+    """ln(1 + above/below), also where the quotient leaves double precision; infinite over 0."""
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        ratio = above / below
+        return np.where(ratio < np.inf, np.log1p(ratio), np.log(above) - np.log(below))
+
+
 #: Rows of a block where each block takes about a thousand calls of NumPy.
 LONG = 2**14
 

@@ -16,10 +16,9 @@ from functools import lru_cache
 import numpy as np
 
 from . import _check
-from .closed_forms import closed_forms
+from .integrals import integrals
 from .live_interval import LiveInterval
 from .medium import plastic_depth
-from .superposition import radius_and_energy, radius_drop, radius_integral
 
 #: Least a g′(a)/Δl of a stable state at given depth, and at given force.
 AT_DEPTH, AT_FORCE = 0.5, 1.5
@@ -39,7 +38,7 @@ def stretch_rate(profile, radius, length):
 
 def tension_integral(profile, interval, radius, length):
     """Force over 2E* (m²): ∫ a ds − a Δl for the stretch `length` (m) at the rim, of `radius` (m)."""
-    return radius_integral(profile, interval) - radius * length
+    return integrals(profile).radius_integral(interval) - radius * length
 
 
 def tension_and_energy(profile, interval, radius, length):
@@ -47,7 +46,7 @@ def tension_and_energy(profile, interval, radius, length):
 
     π w a² is E* a Δl²/2.
     """
-    area, stored = radius_and_energy(profile, interval)
+    area, stored = integrals(profile).radius_and_energy(interval)
     return area - radius * length, stored - length * (area - radius * length / 4)
 
 
@@ -57,11 +56,11 @@ def stable_ranges(profile, medium, share):
     Arrays of media or profiles have one range each; the upper end of the last range is infinite.
     """
     threshold = share * np.sqrt(2 * np.pi * (medium.work_of_adhesion / medium.E_star))
-    forms = closed_forms(profile)
-    if forms and forms.elastic_exponent is not None:
-        low = _power_range(profile, threshold, 1 / np.maximum(forms.elastic_exponent - 1, 1e-300))
+    exponent = integrals(profile).elastic_exponent
+    if exponent is not None:
+        low = _power_range(profile, threshold, 1 / np.maximum(exponent - 1, 1e-300))
         return low[None], np.full_like(low, np.inf)[None]
-    unit, length, depth = profile.unit or (profile, 1.0, 1.0)
+    unit, length, depth = integrals(profile).unit
     threshold = np.asarray(threshold * np.sqrt(length) / depth)
     ranges = [_ranges(unit, float(value)) for value in threshold.ravel()]
     if threshold.ndim == 0:
@@ -313,7 +312,7 @@ def stiffness(state):
         rate = stretch_rate(profile, radius, stretched)
         part = rate / (2 * radius)
         inner = np.where(yielding, state.plastic_radius, 0.0)
-        width = np.where(yielding, radius_drop(profile, interval), radius)
+        width = np.where(yielding, integrals(profile).radius_drop(interval), radius)
         # (a − 3Δl/(2g′))/(1 − Δl/(2a g′)) − c, with the difference a − c.
         return np.where(
             radius > 0, 2 * medium.E_star * (width - 1.5 * rate + inner * part) / (1 - part), 0.0

@@ -3,79 +3,27 @@
 A profile with an entry here is solved by its formulas, every other one by quadrature or from a table. To
 add a family, write a subclass of `ClosedForms` and register it for the class of its profiles:
 
-    @closed_forms.register(Wedge)
-    class WedgeForms(ClosedForms): ...
+    @integrals.register(Wedge)
+    class WedgeForms(Integrals): ...
 
 The live interval is [d_p, d], and a(s) the contact radius at the depth s. No formula is a difference of
 two elastic curves, which loses its digits where the interval is short: each is its length times a positive
 mean.
 """
 
-from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from functools import singledispatch
-from typing import Any
-
 import numpy as np
 import scipy
 
-from ._numeric import chunks, root
+from ._numeric import chunks, log1p_ratio, root
+from .integrals import Integrals, integrals
 from .live_interval import LiveInterval
 from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
 
 _TINY = np.finfo(float).tiny
 
 
-@dataclass(frozen=True)
-class ClosedForms(ABC):
-    """Integrals over the live interval of one profile or an ensemble, elementwise.
-
-    The integrals and `radius_drop` are required. Everything else says here that there is no closed form.
-    """
-
-    profile: Any
-
-    #: Whether a(s) is a polynomial of √s from the tip on, for which quadrature needs no cuts.
-    polynomial = False
-
-    #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/d_c for all.
-    similar = None
-
-    #: Exponent p of the elastic force F ∝ dᵖ.
-    elastic_exponent = None
-
-    @abstractmethod
-    def radius_integral(self, interval):
-        """∫ a(s) ds (m²)."""
-
-    @abstractmethod
-    def energy_integral(self, interval):
-        """∫ (d − s) a(s) ds (m³)."""
-
-    @abstractmethod
-    def radius_drop(self, interval):
-        """a(d) − a(d_p) (m)."""
-
-    def pressure_integral(self, interval, r):
-        """∫ ds/√(a(s)² − r²) over a(s) > r, for one state and radii r ≥ 0 (m)."""
-        return None
-
-    def turning_interval(self, target, d_c):
-        """Live interval at the turning point of an impact on a virgin medium of critical depth d_c (m).
-
-        `target` is the kinetic energy over 2E* (m³).
-        """
-        return None
-
-
-@singledispatch
-def closed_forms(profile):
-    """The `ClosedForms` of a profile, None if it has none."""
-    return None
-
-
-@closed_forms.register(FlatPunch)
-class FlatPunchForms(ClosedForms):
+@integrals.register(FlatPunch)
+class FlatPunchIntegrals(Integrals):
     """a = b."""
 
     polynomial = True
@@ -91,8 +39,8 @@ class FlatPunchForms(ClosedForms):
         return np.zeros_like(interval.length)
 
 
-@closed_forms.register(Cone)
-class ConeForms(ClosedForms):
+@integrals.register(Cone)
+class ConeIntegrals(Integrals):
     """a = 2 s/(π slope)."""
 
     polynomial = True
@@ -133,8 +81,8 @@ class ConeForms(ClosedForms):
         return _turning_interval(elastic, 2 * surplus / (1 + np.sqrt(1 + 4 * surplus)), d_c)
 
 
-@closed_forms.register(Paraboloid)
-class ParaboloidForms(ClosedForms):
+@integrals.register(Paraboloid)
+class ParaboloidIntegrals(Integrals):
     """a = √(R s)."""
 
     polynomial = True
@@ -177,8 +125,8 @@ class ParaboloidForms(ClosedForms):
         return _turning_interval(elastic, X.reshape(elastic.shape), d_c)
 
 
-@closed_forms.register(PowerLaw)
-class PowerLawForms(ClosedForms):
+@integrals.register(PowerLaw)
+class PowerLawIntegrals(Integrals):
     """a = (s/(κₙ c))^(1/n)."""
 
     elastic_exponent = property(lambda self: 1 + 1 / self.profile.exponent)
@@ -203,13 +151,6 @@ class PowerLawForms(ClosedForms):
                 fraction < 0.5, np.log1p(-fraction), np.log(interval.lower / interval.upper)
             )
         return -self.profile._radius(interval.upper) * np.expm1(logarithm / self.profile.exponent)
-
-
-def log1p_ratio(above, below):
-    """ln(1 + above/below), also where the quotient leaves double precision; infinite over 0."""
-    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        ratio = above / below
-        return np.where(ratio < np.inf, np.log1p(ratio), np.log(above) - np.log(below))
 
 
 def _fraction(interval):

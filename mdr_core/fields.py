@@ -3,15 +3,15 @@
     pressure_integral      ∫ ds/√(a(s)² − r²) over a(s) > r    contact pressure, Popov (2015), Eq. (10)
     displacement_integral  ∫ h(r, a(s)) ds                     surface displacement, residual imprint
 
-Each increment of depth is a flat punch of radius a(s), as in `superposition`.
+Each increment of depth is a flat punch of radius a(s), as in `integrals`.
 """
 
 import numpy as np
 
-from ._numeric import chunks, root, tanh_sinh
-from .closed_forms import closed_forms, log1p_ratio
+from ._numeric import chunks, log1p_ratio, root, tanh_sinh
+from .integrals import integrals
 from .live_interval import LiveInterval
-from .superposition import nodes, pieces
+from .quadrature import nodes, pieces
 
 
 def _punches(profile, interval):
@@ -28,8 +28,7 @@ def pressure_integral(profile, interval, r):
     Of one state. Infinite where the contact pressure is: at the rim of a flat face, and under a sharp tip
     as long as the medium has not yielded there.
     """
-    forms = closed_forms(profile)
-    result = forms and forms.pressure_integral(interval, r)
+    result = integrals(profile).pressure_integral(interval, r)
     if result is not None:
         return result
     result = np.zeros_like(r)

@@ -9,13 +9,13 @@ import numpy as np
 from . import _check, adhesion, fields, stress
 from ._check import Array, ArrayLike
 from ._numeric import root
+from .integrals import integrals
 from .live_interval import LiveInterval
 from .medium import Medium
 from .results.base import CLOSED_FORM, Result
 from .results.limits import Limit, contact_limits
 from .shapes.profile import Profile
 from .stress import Stress, StressPeak
-from .superposition import energy_integral, radius_integral
 from .yielding import yield_rule
 
 
@@ -84,7 +84,7 @@ class Indentation(Result):
     @_check.frozen_property
     def force(self):
         """Normal force F = 2E* ∫ a(s) ds (N) and of the uniform load; Popov (2015), Eqs. (20), (22)."""
-        force = 2 * self.medium.E_star * radius_integral(self.profile, self.live_interval)
+        force = 2 * self.medium.E_star * integrals(self.profile).radius_integral(self.live_interval)
         return force + 2 * self.uniform_load * self.contact_radius if np.any(self.uniform_load) else force
 
     @_check.frozen_property
@@ -119,9 +119,9 @@ class Indentation(Result):
     @_check.frozen_property
     def stored_energy(self):
         """Elastic energy of the springs in contact, U = 2E* ∫ (d − s) a(s) ds (J)."""
-        energy, ahead = energy_integral(self.profile, self.live_interval), self._ahead
+        energy, ahead = integrals(self.profile).energy_integral(self.live_interval), self._ahead
         if np.any(ahead != 0):
-            area = radius_integral(self.profile, self.live_interval)
+            area = integrals(self.profile).radius_integral(self.live_interval)
             energy = energy + ahead * (area + ahead / 2 * self.contact_radius)
         return 2 * self.medium.E_star * energy
 

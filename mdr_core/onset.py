@@ -4,10 +4,10 @@ import numpy as np
 
 from . import _check
 from ._check import Array, ArrayLike
+from .integrals import integrals
 from .live_interval import LiveInterval
 from .medium import Medium, check_pair, shape_with
 from .shapes.profile import Profile
-from .superposition import energy_integral, radius_integral
 from .yielding import yield_rule
 
 
@@ -41,7 +41,7 @@ def critical_force(profile: Profile, medium: Medium) -> Array:
     6.28318530718
     """
     yields, interval = _at_onset("critical_force", profile, medium)
-    force = 2 * medium.E_star * radius_integral(profile, interval)
+    force = 2 * medium.E_star * integrals(profile).radius_integral(interval)
     return _check.frozen(np.where(yields, force, np.inf))
 
 
@@ -81,7 +81,7 @@ def yield_speed(profile: Profile, medium: Medium, mass: ArrayLike) -> Array:
     """
     mass = _check.positive("mass", mass, unit="kg")
     yields, interval = _at_onset("yield_speed", profile, medium, mass=mass)
-    speed = np.sqrt(4 * medium.E_star / mass * energy_integral(profile, interval))
+    speed = np.sqrt(4 * medium.E_star / mass * integrals(profile).energy_integral(interval))
     return _check.frozen(np.where(yields, speed, np.inf))
 
 

@@ -6,10 +6,10 @@ from . import _check, adhesion
 from ._check import ArrayLike
 from ._numeric import increasing_root
 from .indentation import Indentation
+from .integrals import integrals
 from .live_interval import LiveInterval
 from .medium import Medium, check_pair, paths_on
 from .shapes.profile import Profile
-from .superposition import radius_integral
 from .yielding import yield_rule
 
 
@@ -123,7 +123,7 @@ def _loading_depth(rule, area):
         interval, _ = rule.loading(depth)
         width = rule.yielding_width(interval)
         slope = np.where(interval.lower > 0, width, rule.profile._radius(depth))
-        return radius_integral(rule.profile, interval), slope
+        return integrals(rule.profile).radius_integral(interval), slope
 
     onset = rule.onset()
     return increasing_root(loading, area, onset if onset < np.inf else 1.0, rule.profile.known_depth)
@@ -134,7 +134,7 @@ def _live_length(profile, largest, area):
 
     def unloading(length):
         interval = LiveInterval.above(largest.lower, np.minimum(length, largest.length))
-        return radius_integral(profile, interval), profile._radius(interval.upper)
+        return integrals(profile).radius_integral(interval), profile._radius(interval.upper)
 
     limit = np.where(largest.length > 0, largest.length, 1.0)
     return np.minimum(increasing_root(unloading, area, limit, limit), largest.length)

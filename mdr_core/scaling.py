@@ -12,11 +12,11 @@ import numpy as np
 from . import _check
 from ._check import Array, ArrayLike
 from ._numeric import increasing_root
+from .integrals import integrals
 from .live_interval import LiveInterval
 from .results.base import Entries
 from .results.limits import Limit
 from .results.report import Report
-from .superposition import radius_integral
 
 _FORCE_POWER = {"a": 2, "b": 1, "c": 0}
 #: Largest relative error at which the fast limit holds.
@@ -190,7 +190,7 @@ def fast_limit(hit):
     target = np.broadcast_to(energy / (np.pi * medium.q_c), np.shape(hit.max_depth))
 
     def work(depth):
-        return radius_integral(profile, LiveInterval.elastic(depth)), profile._radius(depth)
+        return integrals(profile).radius_integral(LiveInterval.elastic(depth)), profile._radius(depth)
 
     with np.errstate(over="ignore", under="ignore"):
         depth = increasing_root(work, target, hit.max_depth, profile.known_depth)

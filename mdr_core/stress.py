@@ -18,8 +18,8 @@ import numpy as np
 from . import _check
 from ._check import Array
 from ._numeric import chunks, crowded, gauss_legendre, largest_value
-from .closed_forms import closed_forms
-from .superposition import nodes, pieces, radius_drop
+from .integrals import integrals
+from .quadrature import nodes, pieces
 
 #: Quantities of which the largest value can be found.
 SIZES = "max_shear", "von_mises"
@@ -174,7 +174,7 @@ def _grid(state):
     profile, a, c = state.profile, state.contact_radius, state.plastic_radius
     inner = max(c, profile.face_radius)
     # The load varies between the inner radius and a.
-    width = (float(radius_drop(profile, state.live_interval)) if c == inner else a - inner) or a
+    width = (float(integrals(profile).radius_drop(state.live_interval)) if c == inner else a - inner) or a
     ring = width * np.linspace(-2, 1, 37)
     r = np.unique(np.abs(np.concatenate([a * np.linspace(0, 1.5, 31), a + ring])))
     z = np.concatenate([[0.0], width * np.geomspace(1e-3, 3, 36), np.geomspace(3 * width, 3 * a, 20)[1:]])
@@ -220,8 +220,7 @@ def _integrals(state, unit, r, z):
 
 def _pieces(profile, interval):
     """Start and end (m) of each piece of the load above d_p, and its start above the kink below it."""
-    forms = closed_forms(profile)
-    if forms and forms.polynomial:
+    if integrals(profile).polynomial:
         # One piece, since a(s) is a power from the tip.
         return np.array([[0.0, interval.length, interval.lower]])
     ends = map(np.atleast_1d, (interval.lower, interval.upper, interval.length))

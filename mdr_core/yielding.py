@@ -14,11 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .closed_forms import closed_forms
+from .integrals import integrals
 from .live_interval import LiveInterval
 from .medium import Medium
 from .shapes.profile import Profile
-from .superposition import radius_drop, radius_integral
 
 
 @dataclass(frozen=True)
@@ -91,7 +90,7 @@ class YieldRule(ABC):
     def yielding_width(self, interval):
         """a − c dp/ds (m) on loading at the cap: the stiffness over 2E*."""
         c = self.profile._radius(interval.lower)
-        return radius_drop(self.profile, interval) + c * (1 - self.rate(interval.upper))
+        return integrals(self.profile).radius_drop(interval) + c * (1 - self.rate(interval.upper))
 
     def wall_integral(self):
         """∫ a ds (m²) of a contact that has yielded throughout behind a wall, infinite without a wall."""
@@ -125,17 +124,16 @@ class ConstantCap(YieldRule):
         return np.maximum(penetration - self.critical_depth, 0.0)
 
     def yielding_width(self, interval):
-        return radius_drop(self.profile, interval)
+        return integrals(self.profile).radius_drop(interval)
 
     def plastic_integral(self, imprint, increase):
-        integral = radius_integral(self.profile, LiveInterval.above(imprint, increase))
+        integral = integrals(self.profile).radius_integral(LiveInterval.above(imprint, increase))
         # An infinite cap times 0 where nothing yields.
         with np.errstate(invalid="ignore"):
             return np.where(increase > 0, self.critical_depth * integral, 0.0)
 
     def turning_interval(self, energy):
-        forms = closed_forms(self.profile)
-        return forms and forms.turning_interval(energy, self.critical_depth)
+        return integrals(self.profile).turning_interval(energy, self.critical_depth)
 
     def entries(self, index, shape):
         cap = np.broadcast_to(self.critical_depth, shape)[index]

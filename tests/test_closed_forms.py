@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core import superposition
-from mdr_core.closed_forms import ClosedForms, closed_forms
+from mdr_core.integrals import Integrals, QuadratureIntegrals, integrals
 from mdr_core.live_interval import LiveInterval
 
 from .shapes import POWER_LAWS, name
@@ -20,9 +19,9 @@ def test_closed_forms_are_those_of_quadrature(profile):
     """From whole depths to a billionth of them."""
     depth = np.geomspace(1e-12, 1e-3, 40)
     length = depth * np.tile([1.0, 0.5, 1e-3, 1e-9], 10)
-    interval, forms = LiveInterval(depth - length, depth, length), closed_forms(profile)
-    for moment, values in enumerate([forms.radius_integral(interval), forms.energy_integral(interval)]):
-        expected = superposition._integrate(profile, interval, superposition._radius, moment)
+    interval, quadrature = LiveInterval(depth - length, depth, length), QuadratureIntegrals(profile)
+    for quantity in ("radius_integral", "energy_integral"):
+        values, expected = (getattr(way, quantity)(interval) for way in (integrals(profile), quadrature))
         np.testing.assert_allclose(values, expected, rtol=1e-13)
 
 
@@ -45,8 +44,8 @@ class Known(Wide):
     """The same with an entry."""
 
 
-@closed_forms.register(Known)
-class KnownForms(ClosedForms):
+@integrals.register(Known)
+class KnownIntegrals(Integrals):
     """a = 4 s/π; the others are left to quadrature."""
 
     def radius_integral(self, interval):
@@ -61,7 +60,7 @@ class KnownForms(ClosedForms):
 
 def test_a_family_of_its_own_takes_part():
     """States, fields, impacts and stress of a profile with an entry and of the same one without."""
-    assert closed_forms(Wide()) is None
+    assert type(integrals(Wide())) is QuadratureIntegrals
     known, wide, cone = (mdr.indent(p, MEDIUM, 5e-8) for p in (Known(), Wide(), mdr.Cone(0.5)))
     for quantity in ("force", "stored_energy", "plastic_work", "stiffness"):
         assert getattr(known, quantity) == pytest.approx(getattr(wide, quantity), rel=1e-13, abs=0.0)

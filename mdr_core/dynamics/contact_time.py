@@ -7,9 +7,8 @@ import scipy
 from numpy.polynomial import chebyshev
 
 from .._numeric import chunks, cube_rise, cube_way, gauss_integrals, gauss_legendre
-from ..closed_forms import closed_forms
+from ..integrals import integrals, tabulated
 from ..live_interval import LiveInterval
-from ..superposition import energy_integral, radius_integral, tabulated
 
 #: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
 #: transition depth; and in units of the length of the live interval, whose lower end is close to the tip.
@@ -28,8 +27,8 @@ def contact_time(profile, inertia, speed, interval, increase):
         np.ravel, (interval.lower, interval.upper, interval.length, increase)
     )
     passage = np.broadcast_to(upper.reshape(shape) / speed, shape).ravel()
-    virgin, forms = increase == lower, closed_forms(profile)
-    exponent, similar = (forms.elastic_exponent, forms.similar) if forms else (None, None)
+    virgin = increase == lower
+    exponent, similar = integrals(profile).elastic_exponent, integrals(profile).similar
     elastic = virgin & (lower == 0) & (exponent is not None)
     by_ratio = virgin & (lower > 0) & (similar is not None)
     time = np.empty(upper.shape)
@@ -41,7 +40,7 @@ def contact_time(profile, inertia, speed, interval, increase):
     remainder = np.flatnonzero(~(elastic | by_ratio))
     if remainder.size:
         profile = tabulated(profile, upper[remainder].max())
-    unit, radius, depth = profile.unit or (profile, 1.0, 1.0)
+    unit, radius, depth = integrals(profile).unit
     root, depth = (np.broadcast_to(scale, shape).ravel() for scale in (np.sqrt(radius), depth))
     # In ascending order, impacts that reach few kinks are together.
     depths = upper[remainder] / depth[remainder]
@@ -88,8 +87,8 @@ def _table(profile):
 def _ratio(profile, depth, X):
     """Contact time over d_max/v₀ of impacts on a virgin medium, from d_max (m) and X = d_p/d_c."""
     interval = LiveInterval(depth * X / (1 + X), depth, depth / (1 + X))
-    plastic = interval.length * radius_integral(profile, LiveInterval.elastic(interval.lower))
-    energy = energy_integral(profile, interval) + plastic
+    plastic = interval.length * integrals(profile).radius_integral(LiveInterval.elastic(interval.lower))
+    energy = integrals(profile).energy_integral(interval) + plastic
     return time_over_root(profile, interval, interval.lower) * np.sqrt(energy) / depth
 
 
@@ -192,9 +191,9 @@ def _rule(count):
 
 def _flow(profile, lower, length):
     """∫ a ds over live intervals (m²) with the digits that times need, from a table where there is one."""
-    upper, table = lower + length, profile.unit and profile.table
-    if not table or not np.all(table.covers([lower.min(), upper.min(), upper.max()])):
-        return radius_integral(profile, LiveInterval(*np.broadcast_arrays(lower, upper, length)))
+    upper, table = lower + length, integrals(profile).table
+    if table is None or not np.all(table.covers([lower.min(), upper.min(), upper.max()])):
+        return integrals(profile).radius_integral(LiveInterval(*np.broadcast_arrays(lower, upper, length)))
     flow = table.area(upper) - table.area(lower)
     # Over these a difference of integrals has too few digits.
     short = length < 1e-4 * upper

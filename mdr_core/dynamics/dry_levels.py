@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..integrals import integrals
 from ..live_interval import LiveInterval
-from ..superposition import energy_integral, radius_integral
 from ..yielding import YieldRule, yield_rule
 
 
@@ -134,7 +134,7 @@ class NormalMotions:
         return work, self.at_levels(self._area, lower, length)
 
     def _energy(self, lower, length):
-        return energy_integral(self.profile, LiveInterval.above(lower, length))
+        return integrals(self.profile).energy_integral(LiveInterval.above(lower, length))
 
     def _area(self, lower, length):
-        return radius_integral(self.profile, LiveInterval.above(lower, length))
+        return integrals(self.profile).radius_integral(LiveInterval.above(lower, length))

@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from .._numeric import LONG, broadcast_flat, chunks, increasing_root
+from ..integrals import integrals, tabulated
 from ..live_interval import LiveInterval
-from ..superposition import energy_integral, radius_and_energy, tabulated
 
 
 def turning_interval(rule, target, before):
@@ -25,7 +25,7 @@ def turning_interval(rule, target, before):
         return interval, interval.lower
     shape = target.shape
     rule = replace(rule, profile=tabulated_for(rule.profile, target.size))
-    unit, *scales = rule.profile.unit or (rule.profile, 1.0, 1.0)
+    unit, *scales = integrals(rule.profile).unit
     rule = rule.flat_entries(slice(None), shape)
     # Apart from the results, arrays are no longer than a block.
     _, arrays = broadcast_flat(target, before, *scales)
@@ -55,7 +55,7 @@ def dry_restitution(rule, interval, increase):
     From the live interval at the turning point and the increase (m) of the plastic depth.
     """
     rule = replace(rule, profile=tabulated_for(rule.profile, np.size(interval.length)))
-    stored = energy_integral(rule.profile, interval)
+    stored = integrals(rule.profile).energy_integral(interval)
     # U over the sum instead of U over the kinetic energy: never above 1.
     return np.sqrt(stored / (stored + rule.plastic_integral(interval.lower - increase, increase)))
 
@@ -69,7 +69,7 @@ def _penetration(rule, target, before):
     def work(y, rows):
         part = rule.flat_entries(rows, target.shape)
         interval, increase = part.loading(y, before[rows])
-        force, stored = radius_and_energy(part.profile, interval)
+        force, stored = integrals(part.profile).radius_and_energy(interval)
         return stored + part.plastic_integral(before[rows], increase), force
 
     highest = np.broadcast_to(rule.profile.known_depth - before, target.shape)
@@ -94,9 +94,9 @@ def _penetration(rule, target, before):
 def _first_guess(rule, target, before):
     """Penetration (m) to about 10⁻⁴ from the table of a profile, else that of the onset of yield."""
     onset = rule.penetration(before, before)
-    if rule.profile.unit is None:
+    table, imprint = integrals(rule.profile).table, before.any()
+    if table is None:
         return np.where(np.isinf(onset), 1.0, onset)
-    table, imprint = rule.profile.table, before.any()
     elastic = table.depth_of_volume(target)
     if imprint:
         # Not deeper than a flat punch of the plastic radius.

@@ -17,10 +17,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..integrals import integrals, tabulated
 from ..live_interval import LiveInterval
 from ..results.base import Entries
 from ..shapes.profile import Profile
-from ..superposition import radius_integral, tabulated
 from ..yielding import YieldRule, yield_rule
 
 
@@ -96,7 +96,8 @@ class Loading(Entries):
     def load(self, depth):
         """Φ (m²) and contact radius a (m) at penetrations (m)."""
         interval, _ = self._interval(depth)
-        return radius_integral(self.bodies.profile, interval), self.bodies.profile._radius(interval.upper)
+        profile = self.bodies.profile
+        return integrals(profile).radius_integral(interval), profile._radius(interval.upper)
 
     def rates(self, load, radius, velocity):
         """Rates of y (m/s), velocity (m/s²), viscous work over 2E* (m³/s) at loads Φ, radii, velocities."""
@@ -133,7 +134,8 @@ class Unloading(Entries):
         """Φ (m²) and contact radius a (m) at live depths (m)."""
         length = np.maximum(depth, 0.0)
         interval = LiveInterval.above(self.plastic_depth, length)
-        return radius_integral(self.bodies.profile, interval), self.bodies.profile._radius(interval.upper)
+        profile = self.bodies.profile
+        return integrals(profile).radius_integral(interval), profile._radius(interval.upper)
 
     def rates(self, load, radius, velocity):
         """Rates of ℓ (m/s), velocity (m/s²), viscous work over 2E* (m³/s) at loads Φ, radii, velocities."""

@@ -19,8 +19,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..integrals import integrals
 from ..live_interval import LiveInterval
-from ..superposition import radius_integral
 from ..yielding import yield_rule
 
 #: κW₀/μ over the normal speed below which everything sticks.
@@ -49,7 +49,7 @@ class SurfaceElements(NamedTuple):
         """Elements with their edges at the contact radii of levels of depth (m)."""
         edge = np.maximum.accumulate(profile._radius(depth))
         width, rise = np.diff(edge), np.diff(depth)
-        area = radius_integral(profile, LiveInterval(depth[:-1], depth[1:], rise))
+        area = integrals(profile).radius_integral(LiveInterval(depth[:-1], depth[1:], rise))
         with np.errstate(divide="ignore", invalid="ignore"):
             delay = np.where(width > 0, (edge[1:] - area / rise) / width, 0.5).clip(0.0, 1.0)
         mean_depth = np.append(0.0, depth[:-1] + delay * rise)
@@ -63,7 +63,7 @@ def _partly_yielded(profile, elements, levels, plastic_depth):
     """The element in which the plastic zone ends, at each level: its number, its mean (g − p)₊ (m)."""
     number = np.searchsorted(levels.depth, plastic_depth, side="right")
     top = np.maximum(levels.depth[np.minimum(number, levels.depth.size - 1)], plastic_depth)
-    area = radius_integral(profile, LiveInterval(plastic_depth, top, top - plastic_depth))
+    area = integrals(profile).radius_integral(LiveInterval(plastic_depth, top, top - plastic_depth))
     number = np.minimum(number, elements.width.size - 1)
     with np.errstate(divide="ignore", invalid="ignore"):
         mean = (profile._radius(top) * (top - plastic_depth) - area) / elements.width[number]

@@ -18,9 +18,10 @@ from functools import cached_property
 
 import numpy as np
 
+from ..integrals import integrals
 from ..live_interval import LiveInterval
 from ..medium import critical_depth
-from ..superposition import radius_integral, radius_rate
+from ..quadrature import radius_rate
 from ..yielding import interval_at
 from .adhesive_curve import adhesive_states, next_to_jumps
 
@@ -296,7 +297,7 @@ class CurveState:
         contact = interval.length > 0
         a = np.where(contact, profile._radius(interval.upper), 0.0)
         c = np.where(contact & (interval.lower > 0), profile._radius(interval.lower), 0.0)
-        force, memory_slope = modulus * radius_integral(profile, interval), -modulus * c
+        force, memory_slope = modulus * integrals(profile).radius_integral(interval), -modulus * c
         yielded = np.where(c > 0, -memory_slope * d_c, 0.0)
         gradient = np.stack([force - yielded - modulus * a * ahead, yielded, 8 * a * rate])
         slope = modulus * a + np.where(loading, memory_slope, 0.0)

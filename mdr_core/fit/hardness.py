@@ -7,12 +7,12 @@ import numpy as np
 from .. import _check
 from .._check import Array, ArrayLike
 from .._numeric import increasing_root
+from ..integrals import integrals
 from ..live_interval import LiveInterval
 from ..medium import Medium, check_pair, yield_constant
 from ..results.quantities import engineering
 from ..scaling import HardnessClass, class_of, straight_line
 from ..shapes.profile import Profile
-from ..superposition import radius_integral
 from .least_squares import Fit
 
 
@@ -102,7 +102,7 @@ def _critical_depths(profile, depth, area):
 
     def integral(d_c):
         interval = LiveInterval(depth - d_c, depth, d_c)
-        return radius_integral(profile, interval), profile._radius(interval.lower)
+        return integrals(profile).radius_integral(interval), profile._radius(interval.lower)
 
     d_c = increasing_root(integral, area, area / profile._radius(depth), depth, quantity="critical depth")
     return d_c, d_c < depth

@@ -4,9 +4,9 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
+from ..integrals import tabulated
 from ..medium import Medium, check_pair
 from ..shapes.profile import Profile
-from ..superposition import tabulated
 from .curve import BACKGROUND, NOT_NEGATIVE, PARAMETERS, REACH
 from .least_squares import FITTED_QUANTITIES
 from .measured import measurement

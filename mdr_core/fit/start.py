@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from ..integrals import integrals
 from ..live_interval import LiveInterval
 from ..medium import critical_depth, yield_constant
-from ..superposition import radius_integral
 from ..yielding import interval_at
 from .adhesive_curve import in_contact
 from .curve import BACKGROUND, PARAMETERS, REACH
@@ -55,7 +55,7 @@ def first_guesses(problem):
     largest = min((1 + REACH) * float(problem.length.max()), problem.profile.known_depth)
     depths = largest * np.append(0.0, np.geomspace(1e-7, 1, 600))
     radius = problem.profile._radius(depths)
-    table = depths, radius_integral(problem.profile, LiveInterval.elastic(depths)), radius
+    table = depths, integrals(problem.profile).radius_integral(LiveInterval.elastic(depths)), radius
     turning_depth = _turning_depth(problem)
     count = len(problem.depth)
     guesses = [_guesses(problem.rows([row]), turning_depth[[row]], table) for row in range(count)]

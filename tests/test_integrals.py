@@ -8,9 +8,8 @@ pytest.importorskip("mpmath")
 from mpmath import mp, mpf
 
 import mdr_core as mdr
-from mdr_core import superposition
+from mdr_core.integrals import QuadratureIntegrals, integrals, tabulated
 from mdr_core.live_interval import LiveInterval
-from mdr_core.superposition import tabulated
 
 from .hard_cases import EXTREMES, MEDIA, REGIMES, bounds, errors
 from .shapes import SHAPES, name
@@ -46,7 +45,7 @@ def test_energy_of_a_sphere_of_any_contact_radius(share):
                 return (depth - y * a) * a * (a + y * (1 - a * a))
 
             exact = mp.quad(moment, mp.linspace(*ends, 2 + int(ends[1] - ends[0])))
-            error = abs(mpf(superposition.energy_integral(mdr.Sphere(1.0), live)[0]) / exact - 1)
+            error = abs(mpf(integrals(mdr.Sphere(1.0)).energy_integral(live)[0]) / exact - 1)
         # Twenty roundings.
         assert error <= 5e-15, depth
 
@@ -66,18 +65,17 @@ def test_integrals_from_tables_are_those_of_quadrature(shape):
     length = depth * 10.0 ** random.uniform(-8, 0, 3000)
     length[::7] = depth[::7]
     live = LiveInterval(np.where(length == depth, 0.0, depth - length), depth, length)
-    found = superposition.radius_integral(shape, live), superposition.energy_integral(shape, live)
-    for moment, values in enumerate(found):
-        expected = superposition._integrate(shape, live, superposition._radius, moment)
-        # Of the energy differences lose up to two digits, a tenth of what is promised.
-        np.testing.assert_allclose(values, expected, rtol=1e-13)
+    table, quadrature = integrals(shape), QuadratureIntegrals(shape)
+    np.testing.assert_allclose(table.radius_integral(live), quadrature.radius_integral(live), rtol=1e-13)
+    # Differences lose up to two digits of the energy, a tenth of what is promised.
+    np.testing.assert_allclose(table.energy_integral(live), quadrature.energy_integral(live), rtol=1e-13)
 
 
 def test_depths_beyond_the_tables():
     """Where a sphere is a paraboloid to any precision, a hyperboloid its cone, and a sphere all in."""
     for depth in (1e-40, 1e-32, 1e-28):
         assert mdr.Sphere(1.0).contact_radius(depth) == pytest.approx(depth**0.5, rel=1e-15)
-        energy = superposition.energy_integral(mdr.Sphere(1.0), LiveInterval.elastic(np.array([depth])))[0]
+        energy = integrals(mdr.Sphere(1.0)).energy_integral(LiveInterval.elastic(np.array([depth])))[0]
         assert energy == pytest.approx(4 / 15 * depth**2.5, rel=1e-14)
     assert mdr.Hyperboloid(1.0, 1.0).contact_radius(1e45) == pytest.approx(1e45 / (np.pi / 2), rel=1e-15)
     assert mdr.Sphere(1.0).contact_radius(99.0) == pytest.approx(1.0, rel=1e-15)
