@@ -88,7 +88,8 @@ class Page:
             source.js_on_change("tags", CustomJS(code=JS["tell"]))
             self.document.add_root(source)
         self.document.on_event(DocumentReady, self._browser_ready)
-        self.document.js_on_event(DocumentReady, CustomJS(args={"theme": self.theme}, code=JS["ready"]))
+        for name, told in (("ready", {"theme": self.theme}), ("touch", {"figures": self.board.dragged})):
+            self.document.js_on_event(DocumentReady, CustomJS(args=told, code=JS[name]))
         # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
 
