@@ -8,6 +8,7 @@ from typing import Any
 import panel as pn
 from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS
+from panel.io.location import Location
 
 from mdr_core.shapes.tables import decoded
 
@@ -34,6 +35,14 @@ _FAULT = "This cannot be shown, because of a fault of the explorer. Everything i
 _UNDO_STEPS = 100
 
 
+class Address(Location):
+    """The address of a page, without arguments: Panel fails to read one of 5,000 digits, or "²"."""
+
+    @property
+    def query_params(self):
+        return {}
+
+
 class Page:
     """The page of one session."""
 
@@ -41,6 +50,8 @@ class Page:
         self.document, self.past, self.future, self._drag = pn.state.curdoc, [], [], None
         self.solved: dict[Any, Course] = {}
         self._waiting, self._ready, self.shown = None, False, None
+        # Notices until the browser is ready, and whether the address holds a link that was not opened.
+        self._notices, self._refused = [], False
         self.state = preset_state()
         self.resting = Resting(self._show_result)
         self.choices = Choices(self.apply, lambda: self.state)
@@ -59,8 +70,11 @@ class Page:
         self._watch()
         try:
             self.draw(link.read(query))
+            if names := link.unknown(query):
+                self.notify(f"Not known, and left out of this link: {', '.join(names):.200}")
         except Exception as error:
             self.draw(self.state)
+            self._refused = True
             self.notify(f"The link was not opened: {self._refusal(error)}")
 
     def _watch(self):
@@ -115,7 +129,7 @@ class Page:
         if after.scene_values != before.scene_values:
             if mark is None or mark != self._drag:
                 self.past = [*self.past[1 - _UNDO_STEPS :], before]
-            self.future, self._drag = [], mark
+            self.future, self._drag, self._refused = [], mark, False
             self._show_history()
 
     def apply(self, change: Any, refused: Any = None, mark: str | None = None) -> None:
@@ -155,8 +169,10 @@ class Page:
         show(self.frame.hold, value=is_held(self.state))
 
     def notify(self, text: str) -> None:
-        """Show a notice; its text may contain user input."""
-        if pn.state.notifications is not None:
+        """Show a notice, once the browser is ready; its text may contain user input."""
+        if is_served(self.document) and not self._ready:
+            self._notices.append(text)
+        elif pn.state.notifications is not None:
             pn.state.notifications.error(escape(text), duration=7000)
 
     def _refusal(self, error, state=None):
@@ -255,6 +271,8 @@ class Page:
 
     def _browser_ready(self, event):
         self._ready = True
+        for text in self._notices:
+            self.notify(text)
         self._input_rests()
 
     def _schedule(self):
@@ -269,8 +287,10 @@ class Page:
         self._waiting = None
         self._show_texts()
         query, _ = self.share.query()
-        if self.address.tags != [f"?{query}"]:
-            self.address.tags = [f"?{query}"]
+        # The empty address leaves the present one, of a link that was not opened.
+        address = "" if self._refused else f"?{query}"
+        if self.address.tags != [address]:
+            self.address.tags = [address]
         view = self.shown
         self.board.scene.tags = [readouts.summary(self.state)]
         self.resting.begin([view.course, *view.held], visible(view), self.state)

@@ -126,7 +126,7 @@ def test_links_of_earlier_versions_are_read():
 @pytest.mark.parametrize(
     "query",
     [
-        "preset=none", "cone_slope=1e9", "shape=ball", "at=7", "x=1", "shape=cone&shape=cone", "at=nan",
+        "preset=none", "cone_slope=1e9", "shape=ball", "at=7", "shape=cone&shape=cone", "at=nan",
         "shape=sampled&samples=0,0 1", "q_c=" + 9000 * "1", "hold=a b c d e", "shape=sphere",
         "fixed=everything", "drive=path&pattern=own&path=1e-8 2e-8",
     ],
@@ -134,6 +134,15 @@ def test_links_of_earlier_versions_are_read():
 def test_a_hostile_link_is_refused(query):
     with pytest.raises(ValueError, match=r"link|bounds|samples|vertices"):
         link.read(query)
+
+
+def test_what_others_append_to_a_link_is_left_out_and_other_names_are_told():
+    query = "utm_source=teams&max_depth=5e-09&fbclid=IwAR" + 9000 * "0" + "&utm_source=a&foo=1&hold=bar%3D2"
+    state = link.read(query)
+    assert (state.max_depth, link.write(state.replace(hold=()))) == (5e-9, "max_depth=5e-09")
+    assert link.unknown(query) == ["foo", "bar"]
+    state = preset_state(DROP).replace(progress=0.5, tiles=("sweep",), dark=True, hold=("at=1",))
+    assert link.unknown(f"{link.write(state)}&tau=1&aim=speed&references=all&sweep_from=1") == []
 
 
 def test_a_measured_tip_is_taken_as_it_is_or_made_convex():
