@@ -26,7 +26,7 @@ from .plots.plot import View
 from .solve import Resting, follow, is_served, scene_of
 from .state import VIEW, State, link, preset_state
 from .state.files import read_tip
-from .ui import JS, on_upload, plain, show
+from .ui import JS, plain, show
 
 _LOG = logging.getLogger(__name__)
 #: Milliseconds of rest before slow updates.
@@ -56,7 +56,7 @@ class Page:
         self.resting = Resting(self._show_result)
         self.choices = Choices(self.apply, lambda: self.state)
         self.board = Board(self.choices, self._toggle_tile)
-        self.controls = Controls(self.choices, self.apply_or_raise)
+        self.controls = Controls(self.choices, self.apply_or_raise, self._take_tip)
         self.fitting = Fitting(self.apply_or_raise, self.apply)
         self.share = Share(lambda: self.shown)
         self.guide = Guide(self.apply, lambda: self.shown.course)
@@ -85,8 +85,6 @@ class Page:
         self.controls.again.on_click(
             lambda event: apply(lambda state: changes.hit_again(state, self.shown.course.hit))
         )
-        tip = self.controls.tip
-        on_upload(tip, lambda data: apply(lambda now: changes.take_tip(now, *read_tip(decoded(data)))))
         frame.hold.param.watch(self._hold_toggled, "value")
         for name in ("share", "numbers"):
             frame.tabs[name].param.watch(lambda event: self._show_part(), "value")
@@ -162,6 +160,9 @@ class Page:
             return state.replace(tiles=(name,) if on else tuple(t for t in state.tiles if t != name))
 
         self.apply(change)
+
+    def _take_tip(self, file):
+        self.apply(lambda state: changes.take_tip(state, *read_tip(decoded(file.read()))))
 
     def _hold_toggled(self, event):
         if event.new != is_held(self.state):

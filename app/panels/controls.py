@@ -12,9 +12,10 @@ from .. import changes
 from ..drives import Course
 from ..solve import option, options
 from ..state import MEDIUM_CHOICES, PRESETS, State, altered, regions
+from ..state.files import MAX_BYTES, Uploaded
 from ..state.quantities import ABOUT, CHOICES, LABELS, OF_DRIVE, QUANTITIES, SHAPES, Scale
 from ..state.units import UNITS, digits, entry, written
-from ..ui import JS, WIDE, button, explained, field, html, linked, marked, reveal, show, symbol, upload
+from ..ui import JS, WIDE, button, explained, field, html, linked, marked, reveal, show, symbol
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
@@ -99,6 +100,18 @@ class Numbers(pn.Column):
             show(each, visible=each.key in names)
 
 
+class Upload(pn.custom.JSComponent):
+    """A field for a file; `take` is called with each as an `Uploaded`."""
+
+    label, accept, most = param.String(), param.String(), param.Integer(MAX_BYTES)
+
+    _esm = JS["upload"]
+
+    def __init__(self, label: str, accept: str, take: Callable[[Uploaded], None]):
+        super().__init__(label=label, accept=accept, css_classes=["file"], **WIDE)
+        self.on_msg(lambda event: take(Uploaded(**event.data)))
+
+
 class Choices:
     """Choices of a session by name, made when first used."""
 
@@ -152,12 +165,12 @@ class Choices:
 class Controls:
     """The form: drive, shape, E* and q_c; the rest of the medium folds."""
 
-    def __init__(self, choices: Choices, apply_or_raise: Callable[..., None]):
+    def __init__(self, choices: Choices, apply_or_raise: Callable[..., None], take_tip: Any):
         self.choices, self._in_use = choices, False
         self.numbers = {name: Numbers(apply_or_raise) for name in ("drive", "shape", "medium", "more")}
         self.notes = {name: html() for name in (*self.numbers, "sources")}
         self.again = button("Hit again", width=90)
-        self.tip = upload("CSV file of a measured tip: r, z", ".csv,.txt,text/csv")
+        self.tip = Upload("CSV file of a measured tip: r, z", ".csv,.txt,text/csv", take_tip)
         look = {"css_classes": ["button", "more"], "margin": (4, 0)}
         self.more = pn.widgets.Toggle(label="More about the medium", **look)
         folded = (*map(choices.row, MEDIUM_CHOICES), self.numbers["more"], self.notes["more"])
