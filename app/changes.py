@@ -10,7 +10,6 @@ from .solve import DRIVES, follow, option, options, scene_of, turning_point
 from .state import State, checked, medium, preset_state, with_derived
 from .state.files import PLACED
 from .state.quantities import QUANTITIES, shape_quantities
-from .state.units import fitting, read
 
 #: Values that a preset leaves as they are: of the view, and of a measured curve.
 _STAYING = ("hold", "tiles", "dark")
@@ -55,12 +54,6 @@ def _moduli(state: State, E_star: float) -> dict[str, float]:
     if compliance > 0.01 / E_star:
         return {"E_1": (1 - state.nu_1**2) / compliance}
     return {"E_1": 2 * E_star * (1 - state.nu_1**2), "E_2": 2 * E_star * (1 - state.nu_2**2)}
-
-
-def typed(state: State, name: str, text: str, like: float = 0.0) -> State:
-    """Set a number from text; a bare number is in the displayed unit, that of `like` for zero."""
-    kind = QUANTITIES[name].kind
-    return put(state, name, read(text, kind, fitting(state[name], kind, like)))
 
 
 def take_tip(state: State, samples: tuple[Any, Any], note: str) -> State:
