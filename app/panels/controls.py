@@ -48,7 +48,7 @@ class Number(pn.custom.JSComponent):
         known = QUANTITIES[name]
         self.key, self._apply_or_raise, self._preset = name, apply_or_raise, ""
         self._scale, self._unit = Scale(known, known.default), fitting(known.default, known.kind)
-        # The number as it was shown, and whether the one that is shown next was asked for here.
+        # The number as it was shown, and whether the next one was typed or dragged here.
         self._value, self._asked = known.default, False
         steps, label = Scale.STEPS * (known.span >= 0), f"{symbol(known.symbol)} {marked(known.label)}"
         texts = {"label": label, "spoken": f"{known.symbol}, {known.label}", "about": _about(known)}
@@ -56,7 +56,7 @@ class Number(pn.custom.JSComponent):
         self.on_msg(self._on_message)
 
     def _on_message(self, event):
-        refused, unit, self._asked = "", self._unit, True
+        refused, unit, self._asked = "", self._unit, "reset" not in event.data
         with pn.io.hold():
             try:
                 self._change(event.data)

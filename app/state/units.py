@@ -93,9 +93,10 @@ def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
     plain = text.strip().replace("−", "-").replace("μ", "µ")
     plain = re.sub(r"(?<=\d)\s(?=\d{3}(?!\d))", "", plain)
     if plain.count(",") == 1 and "." not in plain:
-        whole, plain = plain.replace(",", ""), plain.replace(",", ".")
-        if _TWO_READINGS.match(text.strip()):
-            raise ValueError(f"“{text:.40}” can be {whole:.40} or {plain:.40}: type one of these")
+        whole, part = plain.replace(",", ""), plain.replace(",", ".")
+        if _TWO_READINGS.match(plain):
+            raise ValueError(f"“{text:.40}” can be {whole:.40} or {part:.40}: type one of these")
+        plain = part
     match = _NUMBER.fullmatch(plain) if len(plain) <= 40 else None
     units = (*UNITS[kind], *_READ.get(kind, ()))
     units = {name: unit for unit in units for name in (unit.name, unit.name.translate(_KEYBOARD))}
