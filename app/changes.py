@@ -8,11 +8,12 @@ import mdr_core as mdr
 
 from .solve import DRIVES, follow, option, options, scene_of, turning_point
 from .state import State, checked, medium, preset_state, with_derived
+from .state.files import PLACED
 from .state.quantities import QUANTITIES, shape_quantities
-from .state.units import fitting, read
 
-#: Values of the view that a preset leaves as they are.
+#: Values that a preset leaves as they are: of the view, and of a measured curve.
 _STAYING = ("hold", "tiles", "dark")
+_OF_CURVE = ("curve", "fixed", "depth_noise", *PLACED)
 
 
 def choose(state: State, name: str, wanted: str) -> State:
@@ -23,7 +24,7 @@ def choose(state: State, name: str, wanted: str) -> State:
     if wanted == option(state, name):
         return state
     if name == "preset":
-        return preset_state(wanted, **{each: state[each] for each in _STAYING})
+        return _preset(state, wanted)
     if name == "shape" and wanted == "sampled" and not state.samples:
         raise ValueError("load a tip first: a CSV file with radii r and heights z")
     numbers = CONVERT[name](state, wanted) if name in CONVERT else {}
@@ -55,12 +56,6 @@ def _moduli(state: State, E_star: float) -> dict[str, float]:
     return {"E_1": 2 * E_star * (1 - state.nu_1**2), "E_2": 2 * E_star * (1 - state.nu_2**2)}
 
 
-def typed(state: State, name: str, text: str, like: float = 0.0) -> State:
-    """Set a number from text; a bare number is in the displayed unit, that of `like` for zero."""
-    kind = QUANTITIES[name].kind
-    return put(state, name, read(text, kind, fitting(state[name], kind, like)))
-
-
 def take_tip(state: State, samples: tuple[Any, Any], note: str) -> State:
     """Use samples of a measured tip as the indenter; the depth is limited to their range."""
     tip, more = mdr.Sampled(*samples), {}
@@ -86,8 +81,13 @@ def press_to(state: State, depth: float) -> State:
 
 
 def reset(state: State) -> State:
-    """Return to the preset at its largest depth; the view stays."""
-    return preset_state(state.preset, **{name: state[name] for name in _STAYING})
+    """Return to the preset at its largest depth; the view and a measured curve stay."""
+    return _preset(state, state.preset)
+
+
+def _preset(state: State, key: str) -> State:
+    staying = _STAYING + _OF_CURVE * (state.curve is not None)
+    return preset_state(key, **{name: state[name] for name in staying})
 
 
 # Numbers that keep their meaning under another option of a choice.

@@ -5,8 +5,9 @@ from urllib.parse import urlencode
 import panel as pn
 
 from . import theory
-from .page import Page
+from .page import Address, Page
 
+_ADDRESS = Address.from_request(pn.state.curdoc.session_context.request)
 _PLACE = pn.state.session_args.get("theory")
 _SHEETS = {"css_files": ["app/static/style.css"]}
 # As wide as the screen: a phone would lay the page out for a desk. No plot is drawn with WebGL.
@@ -16,7 +17,7 @@ pn.state.curdoc.template = """{% block postamble %}
 {% endfor %}{% endblock %}"""
 if _PLACE:
     pn.extension("katex", **_SHEETS)
-    theory.page(_PLACE[0].decode("utf-8", "replace")).servable(title="The theory")
+    theory.page(_PLACE[0].decode("utf-8", "replace")).servable("The theory", _ADDRESS)
 else:
     pn.extension(notifications=True, **_SHEETS)
-    Page(urlencode(pn.state.session_args, doseq=True)).view.servable(title="Indentation explorer")
+    Page(urlencode(pn.state.session_args, doseq=True)).view.servable("Indentation explorer", _ADDRESS)

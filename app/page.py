@@ -8,6 +8,7 @@ from typing import Any
 import panel as pn
 from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS
+from panel.io.location import Location
 
 from mdr_core.shapes.tables import decoded
 
@@ -25,13 +26,21 @@ from .plots.plot import View
 from .solve import Resting, follow, is_served, scene_of
 from .state import VIEW, State, link, preset_state
 from .state.files import read_tip
-from .ui import JS, on_upload, plain, show
+from .ui import JS, plain, show
 
 _LOG = logging.getLogger(__name__)
 #: Milliseconds of rest before slow updates.
 SETTLED = 300
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
 _UNDO_STEPS = 100
+
+
+class Address(Location):
+    """The address of a page, without arguments: Panel fails to read one of 5,000 digits, or "²"."""
+
+    @property
+    def query_params(self):
+        return {}
 
 
 class Page:
@@ -41,11 +50,13 @@ class Page:
         self.document, self.past, self.future, self._drag = pn.state.curdoc, [], [], None
         self.solved: dict[Any, Course] = {}
         self._waiting, self._ready, self.shown = None, False, None
+        # Notices until the browser is ready, and whether the address holds a link that was not opened.
+        self._notices, self._refused = [], False
         self.state = preset_state()
         self.resting = Resting(self._show_result)
         self.choices = Choices(self.apply, lambda: self.state)
         self.board = Board(self.choices, self._toggle_tile)
-        self.controls = Controls(self.choices, self.apply_or_raise)
+        self.controls = Controls(self.choices, self.apply_or_raise, self._take_tip)
         self.fitting = Fitting(self.apply_or_raise, self.apply)
         self.share = Share(lambda: self.shown)
         self.guide = Guide(self.apply, lambda: self.shown.course)
@@ -59,8 +70,11 @@ class Page:
         self._watch()
         try:
             self.draw(link.read(query))
+            if names := link.unknown(query):
+                self.notify(f"Not known, and left out of this link: {', '.join(names):.200}")
         except Exception as error:
             self.draw(self.state)
+            self._refused = True
             self.notify(f"The link was not opened: {self._refusal(error)}")
 
     def _watch(self):
@@ -71,8 +85,6 @@ class Page:
         self.controls.again.on_click(
             lambda event: apply(lambda state: changes.hit_again(state, self.shown.course.hit))
         )
-        tip = self.controls.tip
-        on_upload(tip, lambda data: apply(lambda now: changes.take_tip(now, *read_tip(decoded(data)))))
         frame.hold.param.watch(self._hold_toggled, "value")
         for name in ("share", "numbers"):
             frame.tabs[name].param.watch(lambda event: self._show_part(), "value")
@@ -88,7 +100,8 @@ class Page:
             source.js_on_change("tags", CustomJS(code=JS["tell"]))
             self.document.add_root(source)
         self.document.on_event(DocumentReady, self._browser_ready)
-        self.document.js_on_event(DocumentReady, CustomJS(args={"theme": self.theme}, code=JS["ready"]))
+        for name, told in (("ready", {"theme": self.theme}), ("touch", {"figures": self.board.dragged})):
+            self.document.js_on_event(DocumentReady, CustomJS(args=told, code=JS[name]))
         # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
 
@@ -114,7 +127,7 @@ class Page:
         if after.scene_values != before.scene_values:
             if mark is None or mark != self._drag:
                 self.past = [*self.past[1 - _UNDO_STEPS :], before]
-            self.future, self._drag = [], mark
+            self.future, self._drag, self._refused = [], mark, False
             self._show_history()
 
     def apply(self, change: Any, refused: Any = None, mark: str | None = None) -> None:
@@ -148,14 +161,19 @@ class Page:
 
         self.apply(change)
 
+    def _take_tip(self, file):
+        self.apply(lambda state: changes.take_tip(state, *read_tip(decoded(file.read()))))
+
     def _hold_toggled(self, event):
         if event.new != is_held(self.state):
             self.apply(toggle_hold)
         show(self.frame.hold, value=is_held(self.state))
 
     def notify(self, text: str) -> None:
-        """Show a notice; its text may contain user input."""
-        if pn.state.notifications is not None:
+        """Show a notice, once the browser is ready; its text may contain user input."""
+        if is_served(self.document) and not self._ready:
+            self._notices.append(text)
+        elif pn.state.notifications is not None:
             pn.state.notifications.error(escape(text), duration=7000)
 
     def _refusal(self, error, state=None):
@@ -254,6 +272,8 @@ class Page:
 
     def _browser_ready(self, event):
         self._ready = True
+        for text in self._notices:
+            self.notify(text)
         self._input_rests()
 
     def _schedule(self):
@@ -268,8 +288,10 @@ class Page:
         self._waiting = None
         self._show_texts()
         query, _ = self.share.query()
-        if self.address.tags != [f"?{query}"]:
-            self.address.tags = [f"?{query}"]
+        # The empty address leaves the present one, of a link that was not opened.
+        address = "" if self._refused else f"?{query}"
+        if self.address.tags != [address]:
+            self.address.tags = [address]
         view = self.shown
         self.board.scene.tags = [readouts.summary(self.state)]
         self.resting.begin([view.course, *view.held], visible(view), self.state)

@@ -86,22 +86,6 @@ def field(kind, *classes, **options):
     return kind(css_classes=["choice", *classes], **WIDE | options)
 
 
-def upload(label, accept):
-    return pn.widgets.FileInput(accept=accept, label=label, css_classes=["file"], **WIDE)
-
-
-def on_upload(widget, act):
-    """Call a function with the bytes of each uploaded file."""
-
-    def bring(*events):
-        if widget.filename:
-            act(widget.value or b"")
-            # Without this a file of the same name is not read again.
-            widget.clear()
-
-    widget.param.watch(bring, ["value", "filename"])
-
-
 def tools(*parts, **options):
     return pn.Row(*parts, css_classes=["tools"], **WIDE | options)
 

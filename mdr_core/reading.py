@@ -240,8 +240,13 @@ def _units(table, used, values):
 def _from_sheets(path, index):
     """Curve of one of the sheets of an Excel file that name the units of depth and force."""
     pandas = imported("pandas", f"reading {path.name}", "mdr-core[tables]")
+    try:
+        sheets = pandas.read_excel(path, sheet_name=None, header=None)
+    except Exception as error:
+        # Each engine has errors of its own for what is no Excel file.
+        raise ValueError(f"{path.name} cannot be read as an Excel file: {error}") from error
     curves = []
-    for sheet, frame in pandas.read_excel(path, sheet_name=None, header=None).items():
+    for sheet, frame in sheets.items():
         try:
             table = read_table(frame.to_csv(sep="\t", header=False, index=False), f"{path.name}, {sheet}")
             curve = curve_of(table, f"{path.name}, {sheet}")

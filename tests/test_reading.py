@@ -204,6 +204,9 @@ def test_sheets_of_an_excel_file(tmp_path):
     np.testing.assert_allclose(second.force, 2 * first.force)
     with pytest.raises(ValueError, match="index = 2 must be from 0 to less than 2"):
         mdr.read_curve(tmp_path / "tests.xlsx", 2)
+    (tmp_path / "words.xlsx").write_text("only words")
+    with pytest.raises(ValueError, match=r"words\.xlsx cannot be read as an Excel file: Excel file format"):
+        mdr.read_curve(tmp_path / "words.xlsx")
 
 
 class Segments(dict):

@@ -5,9 +5,11 @@ const [begin, depth, pixel] = cb_obj.event_name === "panstart" ? [cb_obj.sy, d[s
 figure.setv({ tags: [begin, depth, pixel] }, { sync: false })
 const wish = Math.max(depth + (cb_obj.sy - begin) * pixel, 1e-3 * wide(y))
 const end = cb_obj.event_name === "panend"
+// Without a hold the finger scrolls the page, or the browser has cancelled the drag and its place is none.
+if (!figure.held && !end) return
 if (name === "springs" && pressing) {
   // One request at a time: the server empties the hand once it has drawn.
-  if (end || !hand.tags.length) hand.tags = [wish]
+  if (figure.held && (end || !hand.tags.length)) hand.tags = [wish]
 } else if (end) state.value_throttled = state.value
 else {
   const near = name === "springs" ? (k) => Math.abs(d[k] * unit - wish) / wide(y)

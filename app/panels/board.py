@@ -128,7 +128,9 @@ class Board:
         figures = {name: self._make(name) for name in NAMED}
         self.player = Player(list(figures.values()))
         drag = {"hand": self.player.hand, **self.player.parts}
-        for figure in (figures["springs"], figures["force"]):
+        #: Figures that are dragged.
+        self.dragged = [figures["springs"], figures["force"]]
+        for figure in self.dragged:
             code = CustomJS(args=drag | {"figure": figure}, code=JS["drag"])
             for event in (PanStart, Pan, PanEnd):
                 figure.js_on_event(event, code)

@@ -12,9 +12,10 @@ from .. import changes
 from ..drives import Course
 from ..solve import option, options
 from ..state import MEDIUM_CHOICES, PRESETS, State, altered, regions
+from ..state.files import MAX_BYTES, Uploaded
 from ..state.quantities import ABOUT, CHOICES, LABELS, OF_DRIVE, QUANTITIES, SHAPES, Scale
-from ..state.units import UNITS, digits, entry, written
-from ..ui import JS, WIDE, button, explained, field, html, linked, marked, reveal, show, symbol, upload
+from ..state.units import UNITS, digits, entry, fitting, read, written
+from ..ui import JS, WIDE, button, explained, field, html, linked, marked, reveal, show, symbol
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
@@ -45,26 +46,29 @@ class Number(pn.custom.JSComponent):
 
     def __init__(self, name: str, apply_or_raise: Callable[..., None]):
         known = QUANTITIES[name]
-        self.key, self._apply_or_raise, self._like, self._preset = name, apply_or_raise, 0.0, ""
-        self._scale = Scale(known, known.default)
+        self.key, self._apply_or_raise, self._preset = name, apply_or_raise, ""
+        self._scale, self._unit = Scale(known, known.default), fitting(known.default, known.kind)
+        # The number as it was shown, and whether the next one was typed or dragged here.
+        self._value, self._asked = known.default, False
         steps, label = Scale.STEPS * (known.span >= 0), f"{symbol(known.symbol)} {marked(known.label)}"
         texts = {"label": label, "spoken": f"{known.symbol}, {known.label}", "about": _about(known)}
         super().__init__(css_classes=["number"], steps=steps, **texts, **WIDE)
         self.on_msg(self._on_message)
 
     def _on_message(self, event):
+        refused, unit, self._asked = "", self._unit, "reset" not in event.data
         with pn.io.hold():
-            refused = ""
             try:
                 self._change(event.data)
             except ValueError as error:
-                refused = str(error)
-            self.param.update(refused=refused, answered=self.answered + 1)
+                refused, self._unit = str(error), unit
+            self._asked = False
+            self.param.update(refused=refused, answered=event.data["number"])
 
     def _change(self, message):
         if isinstance(message.get("text"), str):
-            text, like = message["text"], self._like
-            self._apply_or_raise(lambda state: changes.typed(state, self.key, text, like))
+            value, self._unit = read(message["text"], QUANTITIES[self.key].kind, self._unit)
+            self._apply_or_raise(lambda state: changes.put(state, self.key, value))
         elif isinstance(message.get("position"), int | float):
             value = self._scale.value(message["position"])
             self._apply_or_raise(lambda state: changes.put(state, self.key, value), self.key)
@@ -72,13 +76,21 @@ class Number(pn.custom.JSComponent):
             self._apply_or_raise(lambda state: changes.put(state, self.key, self._scale.middle))
 
     def show(self, state: State, like: float = 0.0) -> None:
-        """Show a number; zero in the unit that fits the value `like`."""
-        known, value, self._like = QUANTITIES[self.key], state[self.key], like
+        """Show a number; zero in the unit that fits the value `like`.
+
+        The unit is that of the preset's number until another one is typed. What others change is shown in
+        it, too, unless that takes a power of ten.
+        """
+        known, value = QUANTITIES[self.key], state[self.key]
+        changed = value != self._value and not self._asked
+        if self._preset != state.preset or (changed and not self._unit.fits(value)):
+            self._unit = fitting(value, known.kind, like)
+        self._value = value
         # The middle of the slider stays while it moves.
         if self._preset != state.preset or not self._scale.reaches(value):
             middle = PRESETS[state.preset].values.get(self.key, value)
             self._scale, self._preset = Scale.about(known, middle, value), state.preset
-        text, position = entry(value, known.kind, like), self._scale.position(value)
+        text, position = entry(value, self._unit), self._scale.position(value)
         show(self, text=text, position=position, refused="")
 
 
@@ -97,6 +109,18 @@ class Numbers(pn.Column):
             if each.key in names:
                 each.show(state, (likes or {}).get(each.key, 0.0))
             show(each, visible=each.key in names)
+
+
+class Upload(pn.custom.JSComponent):
+    """A field for a file; `take` is called with each as an `Uploaded`."""
+
+    label, accept, most = param.String(), param.String(), param.Integer(MAX_BYTES)
+
+    _esm = JS["upload"]
+
+    def __init__(self, label: str, accept: str, take: Callable[[Uploaded], None]):
+        super().__init__(label=label, accept=accept, css_classes=["file"], **WIDE)
+        self.on_msg(lambda event: take(Uploaded(**event.data)))
 
 
 class Choices:
@@ -152,12 +176,12 @@ class Choices:
 class Controls:
     """The form: drive, shape, E* and q_c; the rest of the medium folds."""
 
-    def __init__(self, choices: Choices, apply_or_raise: Callable[..., None]):
+    def __init__(self, choices: Choices, apply_or_raise: Callable[..., None], take_tip: Any):
         self.choices, self._in_use = choices, False
         self.numbers = {name: Numbers(apply_or_raise) for name in ("drive", "shape", "medium", "more")}
         self.notes = {name: html() for name in (*self.numbers, "sources")}
         self.again = button("Hit again", width=90)
-        self.tip = upload("CSV file of a measured tip: r, z", ".csv,.txt,text/csv")
+        self.tip = Upload("CSV file of a measured tip: r, z", ".csv,.txt,text/csv", take_tip)
         look = {"css_classes": ["button", "more"], "margin": (4, 0)}
         self.more = pn.widgets.Toggle(label="More about the medium", **look)
         folded = (*map(choices.row, MEDIUM_CHOICES), self.numbers["more"], self.notes["more"])

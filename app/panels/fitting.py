@@ -14,8 +14,8 @@ from ..state import State, checked, medium, profile, with_derived
 from ..state.files import FITTED, OF_MEDIUM, PLACED, Measured, agrees, offered, read_curve
 from ..state.quantities import ASSETS, QUANTITIES
 from ..state.units import written
-from ..ui import WIDE, button, field, html, indexed, marked, on_upload, plain, show, tools, upload
-from .controls import Numbers
+from ..ui import WIDE, button, field, html, indexed, marked, plain, show, tools
+from .controls import Numbers, Upload
 
 #: The option for no column; a list shows an option of the value None as empty.
 _NO_COLUMN = -1
@@ -105,9 +105,9 @@ class Fitting:
     """The tab *Fit a measurement*."""
 
     def __init__(self, apply_or_raise: Callable[..., None], apply: Callable[..., None]):
-        self._apply, self._placed, select = apply, None, pn.widgets.Select
+        self._apply, self._placed, self._curve, select = apply, None, None, pn.widgets.Select
         kinds = ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx"
-        self.file = upload("CSV file of a measured curve: depth, force", kinds)
+        self.file = Upload("CSV file of a measured curve: depth, force", kinds, self._read)
         self.silica, self.remove, self.fit = map(button, ("Fused silica", "Remove", "Fit"))
         self.columns = {role: field(select, "column", label=f"Column of {role}") for role in SIZES}
         self.units = {
@@ -117,23 +117,25 @@ class Fitting:
         names = {QUANTITIES[name].label: name for name in FITTED}
         self.fixed = field(pn.widgets.CheckBoxGroup, "fixed", inline=False, options=names)
         self.about, self.said = html(), html("", "note", "said")
+        # What was refused of a file and of a fit.
+        self.not_taken, self.not_fitted = html(), html()
         self.unloading = html("", "note", "unloading")
         self.place, self.noise = Numbers(apply_or_raise), Numbers(apply_or_raise)
         self._rest = pn.Column(
             *(pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES),
             html("<h2>Position and background</h2>", "title"), self.place,
             html("<h2>Held in the fit</h2>", "title"), self.fixed,
-            self.noise, self.fit, self.said, self.unloading, visible=False, **WIDE,
+            self.noise, self.fit, self.not_fitted, self.said, self.unloading, visible=False, **WIDE,
         )  # fmt: skip
         note = html(
             "Depth and force as a table, to lie over the model. The indenter is that of <i>Explore</i>."
         )
         buttons = tools(self.silica, self.remove)
-        self.view = pn.Column(note, self.file, buttons, self.about, self._rest, visible=False, **WIDE)
-        on_upload(self.file, lambda data: self._take(lambda state: read_curve(data, self.file.filename)))
-        self.silica.on_click(lambda event: apply(silica))
-        self.remove.on_click(lambda event: self._take(lambda state: None))
-        self.fit.on_click(lambda event: apply(fit, self._refuse(self.said)))
+        parts = (note, self.file, buttons, self.not_taken, self.about, self._rest)
+        self.view = pn.Column(*parts, visible=False, **WIDE)
+        self.silica.on_click(lambda event: self._change(silica, self.not_taken))
+        self.remove.on_click(lambda event: self._change(lambda state: take(state, None), self.not_taken))
+        self.fit.on_click(lambda event: self._change(fit, self.not_fitted))
         for role in SIZES:
             for widget in (self.columns[role], self.units[role]):
                 widget.param.watch(lambda event, role=role: self._correct(role, event.new), "value")
@@ -148,25 +150,41 @@ class Fitting:
 
         self._apply(change)
 
-    def _refuse(self, where):
-        return lambda text: show(where, object=f'<span class="refused">{escape(text)}</span>')
+    def _change(self, change, where):
+        """Apply a change; if it is refused say so, and which curve stays."""
 
-    def _take(self, make):
-        self._apply(lambda state: take(state, make(state)), self._refuse(self.about))
+        def refuse(text):
+            text = f"Refused: {text}."
+            if where is self.not_taken and self._curve is not None:
+                text += f" What is shown is still {self._curve.name}."
+            show(where, object=f'<span class="refused" role="alert">{escape(text)}</span>')
+
+        self._forget()
+        self._apply(change, refuse)
+
+    def _forget(self):
+        for each in (self.not_taken, self.not_fitted):
+            show(each, object="")
+
+    def _read(self, file):
+        self._change(lambda state: take(state, read_curve(file.read(), file.name)), self.not_taken)
 
     def _correct(self, role, chosen):
-        chosen = None if chosen == _NO_COLUMN else chosen
+        curve, chosen = self._curve, None if chosen == _NO_COLUMN else chosen
+        # A list that is set to what the curve has.
+        if curve is None or chosen in (curve.curve.columns[role], curve.curve.units[role]):
+            return
 
         def change(state):
-            curve = state.curve
-            if curve is None or chosen in (curve.curve.columns[role], curve.curve.units[role]):
-                return state
             return state.replace(curve=curve.corrected(role, chosen), fit_note="")
 
-        self._apply(change, self._refuse(self.about))
+        self._change(change, self.not_taken)
 
     def show(self, state: State) -> None:
         curve = state.curve
+        if curve is not self._curve:
+            self._curve = curve
+            self._forget()
         show(self._rest, visible=curve is not None)
         show(self.remove, disabled=curve is None)
         show(self.said, object=result(state))

@@ -44,7 +44,15 @@ def springs(view: View, i: int) -> dict:
     size = view.end("x"), view.end("z")
     along = None if course.oblique is None else lambda r: leaning(course, i, r)
     rows = figures.springs(state, *size, lambda g: relaxing(course, i, g), along)
+    rows["handle"] = _rim(state)
     return rows if along is None else rows | _feet(state, rows, *size)
+
+
+def _rim(state):
+    """Place of the rim of the contact; without contact, of the tip."""
+    a = float(state.contact_radius)
+    height = float(state.live_interval.upper) if a > 0 else 0.0
+    return np.array([a]), np.array([height - float(state.depth)])
 
 
 def _feet(state, rows: dict, half: float, height: float) -> dict:
@@ -71,7 +79,10 @@ def _spring_formula(course: Course) -> str:
 
 SPRINGS = Plot(
     "springs", "1D foundation", _spring_formula, ("x", "z"),
-    (*figures.SPRING_ROWS, line("sticks", "stick", 4.0), line("slips", "slip", 4.0)),
+    (
+        *figures.SPRING_ROWS, line("sticks", "stick", 4.0), line("slips", "slip", 4.0),
+        mark("handle", legend=False),
+    ),
     moving=springs,
 )  # fmt: skip
 

@@ -17,8 +17,8 @@ from . import State, medium, profile
 from .units import written
 
 #: Most samples that are pressed without keeping everybody waiting, most that a tip is fitted to or that are
-#: taken of a curve, most rows of a tip and most bytes of a curve.
-MAX_SAMPLES, _FITTED, _MAX_ROWS, _MAX_BYTES = 60, 2000, 20_000, 5_000_000
+#: taken of a curve, most rows of a tip and most bytes of a file.
+MAX_SAMPLES, _FITTED, _MAX_ROWS, MAX_BYTES = 60, 2000, 20_000, 5_000_000
 #: Parameters of a fit: those of the medium, with the choice and option of the page, and the rest.
 OF_MEDIUM = {
     "E_star": ("elasticity", "modulus"), "q_c": ("plasticity", "q_c"), "eta": ("damping", "eta"),
@@ -28,6 +28,22 @@ PLACED = ("contact_point", "baseline", "tilt", "drag", "frame_compliance")
 FITTED = (*OF_MEDIUM, *PLACED)
 #: Those that need the times of the samples.
 _IN_TIME = ("eta", "drag")
+
+
+@dataclass(frozen=True)
+class Uploaded:
+    """A file from the browser: name, size (bytes), and data unless it is too large to be sent."""
+
+    name: str
+    size: int
+    data: bytes | None
+
+    def read(self) -> bytes:
+        """Data of the file. Raises ValueError if it is too large."""
+        if self.data is None or len(self.data) > MAX_BYTES:
+            sizes = f"{self.size / 1e6:.3g} MB, more than {MAX_BYTES / 1e6:g} MB"
+            raise ValueError(f"{self.name:.80} has {sizes}; thin out its samples")
+        return self.data
 
 
 def read_tip(text: str) -> tuple[tuple[Any, Any], str]:
@@ -115,13 +131,14 @@ class Measured:
 
 def read_curve(data: bytes, name: str) -> Measured:
     """Measured curve from a file, see `mdr.read_curve`. Raises ValueError."""
-    if len(data) > _MAX_BYTES:
-        raise ValueError(f"the file has more than {_MAX_BYTES / 1e6:g} MB; thin out its samples")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"the file{Path(name).suffix}"
         path.write_bytes(data)
-        curve = mdr.read_curve(path)
-    return Measured(" ".join(name.split())[:80], curve)
+        name = " ".join(name.split())[:80]
+        try:
+            return Measured(name, mdr.read_curve(path))
+        except ValueError as error:
+            raise ValueError(str(error).replace(path.name, name)) from None
 
 
 def offered(state: State) -> list[str]:

@@ -15,11 +15,16 @@ _LISTS = ("hold", "tiles", "fixed")
 #: Names and options of earlier versions with their present names, and names that are ignored.
 _RENAMED = {"plots": "tiles", "tau": "eta", "rigid_tip": "modulus", "tangential_speed": "incoming_speed"}
 _IGNORED = re.compile("called|references|axes|heights|keep|inertia|surface|noise|sweep_.*|.*_(from|to)")
+#: Names that mail programs and search engines append to links.
+_APPENDED = re.compile(
+    r"utm_.*|\w*clk?id|gclsrc|[gw]braid|igsh(id)?|mc_[ce]id|_ga|_gl|_hs\w+|li_fat_id|srsltid|bokeh-.*"
+)
 #: Choices and options of earlier versions, with the number that they had and its default.
 _FORMER = {
     ("damping", "tau"): ("tau", "0.001"), ("aim", "components"): ("tangential_speed", "1"),
     ("surface", "imprint"): ("plastic_depth", "1e-06"), ("noise", "given"): ("depth_noise", "1e-10"),
 }  # fmt: skip
+_FORMER_NUMBERS = ("aim", "tau", "tangential_speed")
 
 
 def write(state: State) -> str:
@@ -42,9 +47,25 @@ def write(state: State) -> str:
     return query
 
 
+def _known(name: str) -> bool:
+    former = name in _RENAMED or name in _FORMER_NUMBERS or _IGNORED.fullmatch(name)
+    own = (*CHOICES, *QUANTITIES, *_LISTS, "samples", "at", "dark", "fit_note")
+    return bool(former) or name in own
+
+
+def unknown(query: str) -> list[str]:
+    """Names in a query that no version has, without those that are appended to links on their way."""
+    pairs = dict(parse_qsl(query, keep_blank_values=True))
+    names = [name for name in pairs if not (_known(name) or _APPENDED.fullmatch(name))]
+    return names + [name for held in pairs.get("hold", "").split() for name in unknown(held)]
+
+
 def read(query: str) -> State:
-    """State of a query, of this version or an earlier one; ValueError if it is invalid."""
-    values = parse_qsl(query[: 3 * MAX_LENGTH + 1], keep_blank_values=True)
+    """State of a query, of this version or an earlier one; ValueError if it is invalid.
+
+    What is not known is left out.
+    """
+    values = [pair for pair in parse_qsl(query, keep_blank_values=True) if _known(pair[0])]
     if len(values) > _MAX_VALUES or sum(len(text) for _, text in values) > MAX_LENGTH:
         raise ValueError("this link is too long")
     pairs = dict(values)
@@ -54,7 +75,7 @@ def read(query: str) -> State:
     for (name, option), (number, default) in _FORMER.items():
         if pairs.get(name) == option:
             pairs.setdefault(number, default)
-    former = {name: pairs.pop(name, "") for name in ("aim", "tau", "tangential_speed")}
+    former = {name: pairs.pop(name, "") for name in _FORMER_NUMBERS}
     changes = dict(_value(*pair) for pair in pairs.items() if not _IGNORED.fullmatch(pair[0]))
     state = _converted(state.replace(**changes), pairs, former)
     missing = [name for name in used(state) if state[name] is None]

@@ -16,6 +16,10 @@ class Unit:
     name: str
     factor: float
 
+    def fits(self, value: float) -> bool:
+        """Whether a value (SI) is written in this unit without a power of ten."""
+        return value == 0 or 1e-3 <= abs(value) / self.factor < 1e5
+
 
 #: The units of each kind of quantity, smallest first; the first of factor 1 is the SI unit.
 UNITS = {
@@ -66,12 +70,9 @@ def written(value: float, kind: str, count: int = 4) -> str:
     return f"{digits(value / unit.factor, count)} {unit.name}".strip()
 
 
-def entry(value: float, kind: str, like: float = 0.0) -> str:
+def entry(value: float, unit: Unit) -> str:
     """A value (SI) as text for a field, readable by `read`."""
-    if not isfinite(value):
-        return digits(value)
-    unit = fitting(value, kind, like)
-    return f"{value / unit.factor:.5g} {unit.name}".strip()
+    return f"{value / unit.factor:.5g} {unit.name}".strip() if isfinite(value) else digits(value)
 
 
 #: Letters of units, with those that keyboards have for them.
@@ -79,8 +80,12 @@ _KEYBOARD = str.maketrans("µ·³²", "u*32")
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
 
 
-def read(text: str, kind: str, shown: Unit) -> float:
-    """Value (SI) of typed text; ValueError if it is no number.
+#: A comma before exactly three digits is a decimal comma, or separates thousands.
+_TWO_READINGS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?!\d)", re.ASCII)
+
+
+def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
+    """Value (SI) of typed text, and its unit; ValueError if it is no number.
 
     Bare numbers are in the displayed unit, with an exponent in SI; decimal commas, spaces between
     thousands, and half-angles for slopes are accepted.
@@ -88,12 +93,15 @@ def read(text: str, kind: str, shown: Unit) -> float:
     plain = text.strip().replace("−", "-").replace("μ", "µ")
     plain = re.sub(r"(?<=\d)\s(?=\d{3}(?!\d))", "", plain)
     if plain.count(",") == 1 and "." not in plain:
-        plain = plain.replace(",", ".")
+        whole, part = plain.replace(",", ""), plain.replace(",", ".")
+        if _TWO_READINGS.match(plain):
+            raise ValueError(f"“{text:.40}” can be {whole:.40} or {part:.40}: type one of these")
+        plain = part
     match = _NUMBER.fullmatch(plain) if len(plain) <= 40 else None
     units = (*UNITS[kind], *_READ.get(kind, ()))
     units = {name: unit for unit in units for name in (unit.name, unit.name.translate(_KEYBOARD))}
     if match and kind == "slope" and match[3] == "°" and 0 < float(match[1]) < 90:
-        return 1 / tan(radians(float(match[1])))
+        return 1 / tan(radians(float(match[1]))), shown
     if match is None or (match[3] and match[3] not in units):
         known = ", ".join(unit.name for unit in UNITS[kind] if unit.name) or "°" * (kind == "slope")
         raise ValueError(f"“{text:.40}” is not a number" + f" with one of the units {known}" * bool(known))
@@ -102,7 +110,8 @@ def read(text: str, kind: str, shown: Unit) -> float:
     value = float(f"{float(match[1]) * factor:.15g}")
     if not isfinite(value):
         raise ValueError(f"“{text}” is too large")
-    return value
+    typed = (unit for unit in UNITS[kind] if match[3] and unit.factor == factor)
+    return value, next(typed, shown)
 
 
 _ROUND = np.array([1, 1.5, 2, 3, 4, 5, 6, 8, 10])

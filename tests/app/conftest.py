@@ -190,8 +190,8 @@ class Explorer:
         self.page.mouse.move(x + moves[0] * box["width"], y + moves[1] * box["height"], steps=8)
         self.page.mouse.up()
 
-    def hover(self, figure, row, at):
-        """Lines of the tooltip over one point of a row, by its number."""
+    def place(self, figure, row, at):
+        """Where one point of a row is on the screen, by its number."""
         x, y = (part[at] for part in self.row(figure, row))
         place = """([name, row, x, y]) => {
             const figure = explorer.model(name), view = Bokeh.index.find_one(figure)
@@ -201,7 +201,11 @@ class Explorer:
             const up = y_range.start + (y - start) / (end - start) * (y_range.end - y_range.start)
             return [left + view.frame.x_scale.compute(x), top + view.frame.y_scale.compute(up)]
         }"""
-        self.page.mouse.move(*self.page.evaluate(place, [figure, row, x, y]))
+        return self.page.evaluate(place, [figure, row, x, y])
+
+    def hover(self, figure, row, at):
+        """Lines of the tooltip over one point of a row, by its number."""
+        self.page.mouse.move(*self.place(figure, row, at))
         said = self.page.locator(".bk-Tooltip div", has_text=re.compile(f"^{row}")).first.inner_text()
         return [line.strip() for line in said.splitlines() if line.strip()]
 

@@ -67,7 +67,7 @@ def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
 
 def send(number, **data):
     """What a field or slider sends."""
-    number._on_message(SimpleNamespace(data=data))
+    number._on_message(SimpleNamespace(data=data | {"number": number.answered + 1}))
 
 
 @pytest.mark.parametrize("act", ["preset", "undo", "reset"])

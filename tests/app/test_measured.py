@@ -11,8 +11,8 @@ from app.page import Page
 from app.panels import fitting
 from app.plots import PLOTS
 from app.solve import scene_of
-from app.state import medium, preset_state, profile
-from app.state.files import FITTED, agrees, offered, read_curve
+from app.state import PRESETS, medium, preset_state, profile
+from app.state.files import FITTED, Uploaded, agrees, offered, read_curve
 
 from .states import example_curve, fitted, table, view_of
 from .test_page import unit as unit_of
@@ -26,10 +26,11 @@ def test_long_files_are_thinned_and_refused_in_words_of_the_page():
     assert curve.name == "a/run 7.csv"
     assert curve.data[0][-1] == pytest.approx(10e-6, rel=1e-3)
     assert len(curve.data[0]) <= 2000
-    with pytest.raises(ValueError, match=r"the file\.csv has one column of numbers"):
+    with pytest.raises(ValueError, match=r"^\.\./run\.csv has one column of numbers"):
         read_curve(b"h (nm)\n1\n2\n", "../run.csv")
-    with pytest.raises(ValueError, match="more than 5 MB"):
-        read_curve(b"1, 2\n" * 10**6 + b"3", "run.csv")
+    # A browser that sends more than it should.
+    with pytest.raises(ValueError, match=r"run\.csv has 5 MB, more than 5 MB"):
+        Uploaded("run.csv", 5_000_001, b"1, 2\n" * 10**6 + b"3").read()
     flat = read_curve(table({"h (nm)": range(6), "F (nN)": [0] * 6}).encode(), "flat")
     with pytest.raises(ValueError, match=r"largest force\[0\] = 0 N above the baseline: no contact"):
         fitting.fit(fitting.take(preset_state(), flat))
@@ -140,6 +141,40 @@ def test_the_curve_lies_where_it_is_set_to_and_its_residual_is_of_what_is_set():
     r = np.linspace(0, 5e-9, 20)
     state = changes.take_tip(state, (r, 0.1 * r), "")
     assert view_of(state).rows(PLOTS["residual"], 0)["missing"][2] == "no model at these depths"
+
+
+def test_refusals_say_why_and_what_stays_and_a_preset_leaves_the_curve(explorer, tmp_path):
+    page, refused = explorer.page, explorer.page.locator(".refused:visible")
+    large = tmp_path / "large.csv"
+    with large.open("wb") as file:
+        file.truncate(20_000_000)
+    files = {"words": b"force after\ndepth\n", "binary": bytes(range(256)), "NUL": bytes(99), "empty": b""}
+    files = [{"name": f"{name}.csv", "mimeType": "", "buffer": data} for name, data in files.items()]
+    whys = 3 * ["no samples; expected rows of numbers"] + ["is empty", "has 20 MB, more than 5 MB"]
+    explorer.press("Fit a measurement")
+    for loaded in (False, True):
+        stays = " What is shown is still Fused silica, Berkovich tip.csv." * loaded
+        for file, why in zip([*files, large], whys, strict=True):
+            page.get_by_label("CSV file of a measured curve: depth, force").set_input_files(file)
+            name = file.name if file is large else file["name"]
+            refused.filter(has_text=re.compile(f"^Refused: {name}:? {why}.*\\.{stays}$")).wait_for()
+        if not loaded:
+            explorer.change(explorer.press, "Fused silica")
+            assert refused.count() == 0
+    explorer.change(explorer.type, "F_0", "1 N")
+    explorer.press("Fit")
+    refused.filter(has_text="above the baseline: no contact").wait_for()
+    explorer.change(explorer.press, "Undo")
+
+    def largest_depth():
+        unit = unit_of(explorer.axis("force")["labels"][0], "length")
+        return explorer.row("force", "measured")[0].max() * unit
+
+    before = largest_depth()
+    explorer.choose("Preset", PRESETS["berkovich-pdms"].label)
+    # Places are drawn to 10⁻⁴ of an axis.
+    assert largest_depth() == pytest.approx(before, rel=1e-2)
+    assert page.get_by_text("Fused silica, Berkovich tip.csv:").is_visible()
 
 
 def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):

@@ -2,6 +2,8 @@
 
 from itertools import pairwise
 
+import pytest
+
 from .conftest import Explorer
 from .test_report import plain
 
@@ -52,37 +54,98 @@ def test_a_newcomer_takes_the_report_home(explorer, context):
     kept.close()
 
 
-def test_small_screens(server, browser):
-    """A phone, in one column, with nothing over anything, where a finger drags; and smaller windows."""
-    phone = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
-    with browser.new_context(**phone) as context:
+@pytest.fixture(scope="module")
+def phone(server, browser):
+    """The page on a phone."""
+    held = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
+    with browser.new_context(**held) as context:
         explorer = Explorer(context.new_page(), server.url)
-        page = explorer.page
-        assert page.evaluate(SEEN) == {"small": [], "sideways": [], "scroll": 390}
-        places = [explorer.slider(symbol) for symbol in ("d_max", "s", "E*", "q_c")]
-        places += [page.locator(f".card.{name}") for name in ("springs", "pressure", "force")]
-        boxes = [place.bounding_box() for place in places]
-        assert boxes[0]["y"] < 300
-        for one, other in pairwise(boxes):
-            assert one["y"] + one["height"] <= other["y"]
-        page.locator(".card.springs").scroll_into_view_if_needed()
-        box = page.locator(".card.springs canvas").first.bounding_box()
-        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-        touch, places = context.new_cdp_session(page), [[{"x": x, "y": y + 6 * k}] for k in range(8)]
-        for kind, points in zip(["touchStart", *7 * ["touchMove"], "touchEnd"], [*places, []], strict=True):
-            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
-        explorer.wait("explorer.row('force', 'now')[0][0] > 9.2")
-        explorer.press("Fit a measurement")
-        explorer.change(explorer.press, "Fused silica")
-        page.get_by_label("Unit of force").wait_for()
-        assert page.evaluate(SEEN)["scroll"] == 390
-        page.set_viewport_size({"width": 720, "height": 450})
-        explorer.wait("explorer.model('force').inner_width > 400")
-        assert page.evaluate(SEEN)["scroll"] == 720
-        for width in (1001, 1280):
-            page.set_viewport_size({"width": width, "height": 800})
-            assert page.evaluate(SEEN)["scroll"] == width
+        yield explorer
         assert explorer.problems == []
+
+
+def test_small_screens(phone):
+    """A phone, in one column, with nothing over anything; and smaller windows."""
+    page = phone.page
+    assert page.evaluate(SEEN) == {"small": [], "sideways": [], "scroll": 390}
+    places = [phone.slider(symbol) for symbol in ("d_max", "s", "E*", "q_c")]
+    places += [page.locator(f".card.{name}") for name in ("springs", "pressure", "force")]
+    boxes = [place.bounding_box() for place in places]
+    assert boxes[0]["y"] < 300
+    for one, other in pairwise(boxes):
+        assert one["y"] + one["height"] <= other["y"]
+    phone.press("Fit a measurement")
+    phone.change(phone.press, "Fused silica")
+    page.get_by_label("Unit of force").wait_for()
+    assert page.evaluate(SEEN)["scroll"] == 390
+    page.set_viewport_size({"width": 720, "height": 450})
+    phone.wait("explorer.model('force').inner_width > 400")
+    assert page.evaluate(SEEN)["scroll"] == 720
+    for width in (1001, 1280):
+        page.set_viewport_size({"width": width, "height": 800})
+        assert page.evaluate(SEEN)["scroll"] == width
+    page.set_viewport_size({"width": 390, "height": 844})
+    phone.press("Explore")
+    phone.change(phone.press, "Undo")
+
+
+def swipe(page, begin, moved):
+    """Put a finger down at a place of the screen, move it by pixels, and lift it."""
+    touch = page.context.new_cdp_session(page)
+    for k in range(9):
+        place = {side: start + way * k / 8 for side, start, way in zip("xy", begin, moved, strict=True)}
+        told = {"type": "touchMove" if k else "touchStart", "touchPoints": [place]}
+        touch.send("Input.dispatchTouchEvent", told)
+    touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+
+def test_a_finger_scrolls_the_page_and_drags_by_the_mark(phone):
+    """Over the indenter, beside it and over the curve a swipe changes nothing, whatever way it goes."""
+    page = phone.page
+    for figure in ("springs", "force"):
+        card = page.locator(f".card.{figure}")
+        for across, down in ((0.5, 0.4), (0.4, 0.8)):
+            for moved in ((100, 0), (0, 120)):
+                card.scroll_into_view_if_needed()
+                box = card.locator("canvas").first.bounding_box()
+                scrolled = page.evaluate("scrollY")
+                swipe(page, (box["x"] + across * box["width"], box["y"] + down * box["height"]), moved)
+                if moved[1] > 0:
+                    phone.wait("(before) => scrollY < before", scrolled)
+    # What is asked now is answered after anything that the swipes may have asked.
+    phone.change(phone.type, "q_c", "101 N/m")
+    assert phone.readout("depth") == phone.field("d_max").input_value() == "8.978 nm"
+    assert phone.link("q_c=") == {"q_c": "101.0"}
+    pixel = page.evaluate("""() => {
+        const { y_range: { start, end }, inner_height } = explorer.model("springs")
+        return (end - start) / inner_height
+    }""")
+    for figure, row, moved, told in (
+        # The tip goes as far as the finger, to a pixel; then the mark on the curve goes back.
+        ("springs", "handle", (0, 40), f"Math.abs(x - {8.978 + 40 * pixel}) < {pixel}"),
+        ("force", "now", (-60, 0), f"x < {8.978 + 35 * pixel}"),
+    ):
+        page.locator(f".card.{figure}").scroll_into_view_if_needed()
+        scrolled = page.evaluate("scrollY")
+        swipe(page, phone.place(figure, row, 0), moved)
+        phone.wait(f"((x) => {told})(explorer.row('force', 'now')[0][0]) && explorer.idle()")
+        assert page.evaluate("scrollY") == scrolled
+    # A drag that is cancelled ends where it was last: the event has no place.
+    begun = phone.row("force", "now")[0][0]
+    page.locator(".card.springs").scroll_into_view_if_needed()
+    x, y = phone.place("springs", "handle", 0)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x, y + 20, steps=4)
+    page.evaluate("""() => {
+        const { shadowRoot } = Bokeh.index.find_one(explorer.model("springs")).el
+        const canvas = explorer.all(shadowRoot).find((each) => each.matches(".bk-events"))
+        canvas.dispatchEvent(new PointerEvent("pointercancel", { pointerId: 1, composed: true }))
+    }""")
+    page.mouse.up()
+    phone.change(phone.type, "q_c", "102 N/m")
+    # To the digits that are drawn.
+    assert float(phone.field("d_max").input_value().removesuffix(" nm")) >= begun - 1e-3
 
 
 def test_everything_is_reached_by_keys_and_an_equation_leads_to_the_theory(explorer, context):

@@ -23,7 +23,7 @@ def plain(html):
 
 
 def test_the_report_says_what_the_page_says():
-    state = changes.typed(preset_state(DROP), "speed", "2 m/s")
+    state = changes.put(preset_state(DROP), "speed", 2.0)
     view = view_of(state, 1.5)
     course = view.course
     plots = [PLOTS[name] for name in ("springs", "pressure", "force", "motion", "energy")]

@@ -60,6 +60,28 @@ def test_text_of_others_is_never_markup(explorer, tmp_path):
     assert_draws(explorer, preset_state())
 
 
+def test_a_link_is_opened_as_far_as_it_is_known_or_refused_in_words(explorer):
+    """Also where Panel cannot read it; a refused link stays in the address until something is changed."""
+    page, start = explorer.page, explorer.page.url.split("?")[0]
+    told = page.locator(".notyf__message")
+
+    def opened(query):
+        page.goto(f"{start}?{query}")
+        explorer.wait("window.explorer?.idle()")
+        return explorer.readout("depth")
+
+    assert opened("max_depth=5e-9&utm_source=teams&fbclid=I&foo=²") == "5.000 nm"
+    assert told.all_inner_texts() == ["Not known, and left out of this link: foo"]
+    assert explorer.link("max_depth=5e-09") == {"max_depth": "5e-09"}
+    refused = {f"q_c={5000 * '1'}": "is not a number", "preset=none": "no preset that is known"}
+    for query, why in refused.items():
+        assert opened(query) == "8.978 nm"
+        told.filter(has_text=re.compile(f"The link was not opened: .*{why}")).wait_for()
+        assert page.url == f"{start}?{query}"
+    explorer.change(explorer.type, "d_max", "7 nm")
+    assert explorer.link("max_depth=") == {"max_depth": "7e-09"}
+
+
 def test_the_page_is_embedded_as_documented(server, context):
     """In a frame of a page from elsewhere it connects to its server and draws."""
     text = (ROOT / "assets/docs/how_do_i.md").read_text(encoding="utf-8")

@@ -46,22 +46,29 @@ TYPED = [
     ("25", "length", 25e-9), ("2,5", "length", 2.5e-9), ("1e-6", "length", 1e-6), ("5 Å", "length", 5e-10),
     ("0.012 µm", "length", 12e-9), ("3e-3um", "length", 3e-9), ("10 000 nm", "length", 1e-5),
     ("10\u202f000 nm", "length", 1e-5), ("70.3°", "slope", 1 / tan(radians(70.3))), ("0.36", "slope", 0.36),
-    ("90", "angle", pi / 2),
+    ("90", "angle", pi / 2), ("0,125", "length", 0.125e-9), ("1234,567 nm", "length", 1234.567e-9),
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize(("text", "kind", "value"), TYPED)
 def test_typed_numbers(text, kind, value):
     shown = fitting(9e-9 if kind == "length" else 0.3, kind)
-    assert read(text, kind, shown) == pytest.approx(value, rel=1e-14)
+    assert read(text, kind, shown)[0] == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize("text", ["1,500 nm", "-12,345", "−999,000 nm"])
+def test_a_comma_that_may_separate_thousands_is_refused_with_both_readings(text):
+    whole, part = (text.replace(",", instead).replace("−", "-") for instead in ("", "."))
+    with pytest.raises(ValueError, match=f"“{text}” can be {whole} or {part}: type one of these"):
+        read(text, "length", fitting(9e-9, "length"))
 
 
 def test_a_zero_has_the_unit_of_its_column():
     """A bare 5 typed over it is 5 nm, not 5 m."""
-    assert entry(0.0, "length", 9e-9) == "0 nm"
+    unit = fitting(0.0, "length", 9e-9)
+    assert entry(0.0, unit) == "0 nm"
     assert written(float("inf"), "length") == "∞"
-    state = changes.typed(preset_state(), "contact_point", "5", like=9e-9)
-    assert state.contact_point == pytest.approx(5e-9)
+    assert read("5", "length", unit) == (5e-9, unit)
 
 
 @pytest.mark.parametrize("text", ["", "abc", "1e999", "nan", "3 MPa", "1,5,2", "1.000,5", "<b>", "5°"])
@@ -69,7 +76,7 @@ def test_what_is_no_number_is_refused(text):
     with pytest.raises(ValueError, match=r"is not a number|too large"):
         read(text, "length", fitting(9e-9, "length"))
     with pytest.raises(ValueError, match=r"dₘₐₓ = 1000 m is out of bounds: .* to 10\.00 m"):
-        changes.typed(preset_state(), "max_depth", "1000 m")
+        changes.put(preset_state(), "max_depth", 1000.0)
 
 
 def test_E_star_of_two_bodies_and_q_c_of_a_hardness_can_be_set():
@@ -126,7 +133,7 @@ def test_links_of_earlier_versions_are_read():
 @pytest.mark.parametrize(
     "query",
     [
-        "preset=none", "cone_slope=1e9", "shape=ball", "at=7", "x=1", "shape=cone&shape=cone", "at=nan",
+        "preset=none", "cone_slope=1e9", "shape=ball", "at=7", "shape=cone&shape=cone", "at=nan",
         "shape=sampled&samples=0,0 1", "q_c=" + 9000 * "1", "hold=a b c d e", "shape=sphere",
         "fixed=everything", "drive=path&pattern=own&path=1e-8 2e-8",
     ],
@@ -134,6 +141,15 @@ def test_links_of_earlier_versions_are_read():
 def test_a_hostile_link_is_refused(query):
     with pytest.raises(ValueError, match=r"link|bounds|samples|vertices"):
         link.read(query)
+
+
+def test_what_others_append_to_a_link_is_left_out_and_other_names_are_told():
+    query = "utm_source=teams&max_depth=5e-09&fbclid=IwAR" + 9000 * "0" + "&utm_source=a&foo=1&hold=bar%3D2"
+    state = link.read(query)
+    assert (state.max_depth, link.write(state.replace(hold=()))) == (5e-9, "max_depth=5e-09")
+    assert link.unknown(query) == ["foo", "bar"]
+    state = preset_state(DROP).replace(progress=0.5, tiles=("sweep",), dark=True, hold=("at=1",))
+    assert link.unknown(f"{link.write(state)}&tau=1&aim=speed&references=all&sweep_from=1") == []
 
 
 def test_a_measured_tip_is_taken_as_it_is_or_made_convex():

@@ -90,8 +90,8 @@ class Client:
 
     async def move(self, n):
         """Move a slider; seconds until the server has answered with a new picture."""
-        data = {"position": 150 + n % 100}
         self.count += 1
+        data = {"position": 150 + n % 100, "number": self.count}
         values = [
             ["model", {"id": self.control}],
             ["data", {"type": "map", "entries": [list(item) for item in data.items()]}],
