@@ -214,7 +214,6 @@ class TestSamples:
             ({"drag": None}, "drag need time"),
             ({"eta": 1.0, "time": None}, "eta need time"),
             ({"eta": None, "time": np.zeros(180)}, "does not increase"),
-            ({"eta": None, "time": np.arange(180.0), "frame_compliance": 1e-4}, "subtract the depth"),
             ({"eta": -1.0, "time": np.arange(180.0)}, "eta"),
             ({"time": np.arange(179.0)}, "of one shape"),
             ({"force_noise": np.zeros(180)}, "force_noise"),

@@ -141,8 +141,7 @@ def test_nothing_is_determined_without_tension():
         ({"work_of_adhesion": -1.0}, "work_of_adhesion = -1 J/m².*not negative"),
         ({"work_of_adhesion": "free"}, "must be a number"),
         ({"eta": None, "time": np.arange(OUT.size)}, "together with eta"),
-        ({"frame_compliance": None}, "together with frame_compliance"),
-        ({"frame_compliance": 1.0, "depth_noise": 1e-9}, "frame_compliance and depth_noise"),
+        ({"depth_noise": 1e-9}, "together with depth_noise"),
     ],
 )
 def test_what_is_not_fitted_is_refused(parameters, words):

@@ -28,7 +28,6 @@ FITTED_QUANTITIES = QUANTITIES | {
     "baseline": Quantity("F₀", "N", "baseline"),
     "tilt": Quantity("F₁", "N/m", "tilt of the baseline"),
     "drag": Quantity("ζ", "N·s/m", "drag"),
-    "frame_compliance": Quantity("C", "m/N", "frame compliance"),
     "contact_depth": Quantity("h_c", "m", "contact depth"),
     "hardness": Quantity("H", "Pa", "hardness"),
     "exponent": Quantity("m", "", "exponent"),

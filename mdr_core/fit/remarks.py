@@ -10,7 +10,7 @@ from .least_squares import SIGNIFICANT, SINGULAR, autocorrelation, roughness
 
 #: All kinds of remarks, the most important first.
 KINDS = (
-    "units", "adhesion", "bound", "frame", "second minimum", "undetermined", "misfit", "jitter", "loading",
+    "units", "adhesion", "bound", "second minimum", "undetermined", "misfit", "jitter", "loading",
     "vague", "contact", "class", "elastic", "hardly yields", "noisy", "inviscid", "missing",
 )  # fmt: skip
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
@@ -40,7 +40,7 @@ def missing(count, samples):
 
 
 def _ambiguous(solved, i):
-    """A modulus of no material, parameters at a bound, a second minimum, a frame like the medium."""
+    """A modulus of no material, parameters at a bound, a second minimum."""
     problem, squares = solved.problem, np.sum(solved.residual[i] ** 2)
     E = solved.values_and_states[0]["E_star"][i, 0]
     if not 1.0 <= E <= 1e13 and "E_star" in problem.free:
@@ -57,16 +57,6 @@ def _ambiguous(solved, i):
         E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
         text = f"E* = {E} with contact at {point} fits about as well: hold contact_point or E_star"
         yield "second minimum", text
-    if {"E_star", "frame_compliance"} <= set(problem.free):
-        pair = [problem.free.index(name) for name in ("E_star", "frame_compliance")]
-        block = solved.covariance[i][np.ix_(pair, pair)]
-        correlation = block[0, 1] / max(np.sqrt(block[0, 0] * block[1, 1]), 1e-300)
-        if abs(correlation) > 0.9:
-            yield (
-                "frame",
-                f"E* and frame_compliance are nearly one parameter (correlation {correlation:.3f}): hold "
-                "frame_compliance",
-            )
 
 
 def _adhesion(solved, i):

@@ -8,7 +8,7 @@ import numpy as np
 from .._numeric import chunks
 from ..medium import critical_depth
 from .adhesive_curve import contact_of_data, contact_of_model
-from .curve import LOGARITHMIC, NO_WEIGHT, NOT_NEGATIVE, REACH, CurveProblem
+from .curve import LOGARITHMIC, NO_WEIGHT, REACH, CurveProblem
 from .least_squares import (
     autocorrelation,
     block_factors,
@@ -158,7 +158,7 @@ def _minimum(problem, start):
             lower[:, i], upper[:, i] = np.log(1e-4 * problem.length[:, 0]), np.log(longest)
         elif name in LOGARITHMIC:
             lower[:, i], upper[:, i] = start[:, i] - 16, start[:, i] + 16
-        elif name in NOT_NEGATIVE:
+        elif name == "eta":
             lower[:, i] = 0.0
     solution = least_squares(lambda x, rows: problem.rows(rows).residuals(x), start, lower, upper)
     # Steps across a bound may end next to it.

@@ -8,8 +8,6 @@ from ..yielding import elastic_interval, interval_at
 from .adhesive_curve import in_contact
 from .curve import BACKGROUND, PARAMETERS, REACH
 
-#: Trial frame compliances, in units of the range of depth over the range of force.
-_COMPLIANCES = np.array([0.0, 0.05, 0.15, 0.3, 0.5])
 #: Trial depths of contact at the largest depth, in units of the range of depth.
 _DEPTHS = np.geomspace(3e-3, 1 + REACH, 48)
 #: Trial critical depths, as shares of the largest depth.
@@ -47,9 +45,9 @@ def turning_points(depth, threshold):
 def first_guesses(problem):
     """Starts of a search, the best first, each with its rows and their scaled parameters.
 
-    They are the minima over a grid of contact points, with the best critical depth, relaxation time or work
-    of adhesion, and frame compliance of grids. The force is E* times a function of these, and a background:
-    E* and the parameters of the background follow by linear regression.
+    They are the minima over a grid of contact points, with the best critical depth and relaxation time or
+    work of adhesion of grids. The force is E* times a function of these, and a background: E* and the
+    parameters of the background follow by linear regression.
     """
     largest = min((1 + REACH) * float(problem.length.max()), problem.profile.known_depth)
     depths = largest * np.append(0.0, np.geomspace(1e-7, 1, 600))
@@ -74,22 +72,18 @@ def _turning_depth(problem):
 def _guesses(curve, turning_depth, table):
     """Parameters of one curve by name at the minima over its contact points, the best first."""
     fixed = {name: float(value[0]) for name, value in curve.fixed.items()}
-    compliances = _COMPLIANCES * float((curve.length / curve.load)[0, 0])
-    compliances = [fixed["frame_compliance"]] if "frame_compliance" in fixed else compliances
-    grids = [_grid(curve, fixed, turning_depth, table, C) for C in compliances]
-    trials = [min(column, key=lambda trial: trial["squares"]) for column in zip(*grids, strict=True)]
+    trials = list(_grid(curve, fixed, turning_depth, table))
     squares = np.array([np.inf, *(trial["squares"] for trial in trials), np.inf])
     minima = (squares[1:-1] <= squares[:-2]) & (squares[1:-1] < squares[2:])
     minima &= squares[1:-1] <= _CLOSE * squares.min()
     return sorted((trials[i] for i in np.flatnonzero(minima)), key=lambda trial: trial["squares"])[:_STARTS]
 
 
-def _grid(curve, fixed, turning_depth, table, compliance):
+def _grid(curve, fixed, turning_depth, table):
     """Parameters by name and sum of squares of the best medium for each contact point."""
-    force, depth = curve.force[0], curve.depth[0]
+    depth = curve.depth[0]
     count = min(depth.size, 512 if curve.memoryless else 64)
     subset = np.union1d(np.linspace(0, depth.size - 1, count).astype(int), np.argmax(depth))
-    depth = depth - compliance * (force - fixed.get("baseline", float(np.quantile(force, 0.05))))
     largest, _ = curve.largest_so_far(depth[None], turning_depth)
     top, length = float(depth.max()), float(curve.length[0, 0])
     points = top - np.minimum(length * _DEPTHS, curve.profile.known_depth)
@@ -105,8 +99,8 @@ def _grid(curve, fixed, turning_depth, table, compliance):
     for i, (j, E) in enumerate(zip(best.tolist(), moduli.tolist(), strict=True)):
         yield {
             "E_star": E, "q_c": yield_constant(E, float(d_c[i, j])), "eta": E * float(tau[i, j]) / 4,
-            "contact_point": float(points[i]), "frame_compliance": compliance, "squares": squares[i],
-            "work_of_adhesion": E * float(kappa[i, j]),
+            "work_of_adhesion": E * float(kappa[i, j]), "contact_point": float(points[i]),
+            "squares": squares[i],
             **{name: float(values[i]) for name, values in background.items()}, **fixed,
         }  # fmt: skip
 

@@ -84,7 +84,7 @@ def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
 
 
 def test_what_is_fixed_stays():
-    state = fitted(fixed=("E_star", "eta", "tilt", "drag", "frame_compliance"), depth_noise=1e-11)
+    state = fitted(fixed=("E_star", "eta", "tilt", "drag"), depth_noise=1e-11)
     assert medium(state).E_star == medium(preset_state()).E_star
     assert state.elasticity == "bodies"
     assert state.curve.fit.standard_errors.keys() == {"q_c", "contact_point", "baseline"}
@@ -128,9 +128,9 @@ def test_the_curve_lies_where_it_is_set_to_and_its_residual_is_of_what_is_set():
     state = fitted()
     np.testing.assert_allclose(view_of(state).residual, state.curve.fit.residuals)
     z, F = state.curve.data
-    state = state.replace(E_star=2e11, baseline=1e-8, contact_point=1e-9, frame_compliance=1e-5)
+    state = state.replace(E_star=2e11, baseline=1e-8, contact_point=1e-9)
     view = view_of(state)
-    d = z - 1e-9 - 1e-5 * (F - 1e-8)
+    d = z - 1e-9
     np.testing.assert_allclose((view.curve.depth, view.curve.force), (d, F - 1e-8), rtol=1e-12)
     expected = F - 1e-8 - mdr.indent(profile(state), medium(state), d).force
     np.testing.assert_allclose(view.residual, expected, rtol=1e-9, atol=1e-15)
