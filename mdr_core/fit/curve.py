@@ -29,7 +29,7 @@ PARAMETERS = "E_star", "q_c", "eta", "contact_point", "baseline", "tilt", "drag"
 BACKGROUND = ("baseline", "tilt", "drag")
 LOGARITHMIC = ("E_star", "q_c", "contact_point", "work_of_adhesion")
 _OF_FORCE = ("E_star", "q_c", "eta")
-_WITH_ADHESION = ("E_star", "q_c", "work_of_adhesion")
+_WITH_ADHESION = ("E_star", "work_of_adhesion")
 #: Standard deviations of samples that are not to weigh, in units of those they would have.
 NO_WEIGHT = 1e6
 #: The contact point is searched down to so many ranges of depth below the record.
@@ -78,7 +78,7 @@ class CurveProblem:
 
     @property
     def adhesive(self):
-        """Whether there is adhesion."""
+        """Whether there is adhesion, of a medium that is then held elastic."""
         return bool(np.any(self.fixed.get("work_of_adhesion", 1.0)))
 
     def in_contact(self, contact):
@@ -256,8 +256,8 @@ class CurveState:
         """States at depths (m) from first contact, turning points likewise."""
         largest, loading = problem.largest_so_far(depth, turning_depth)
         if problem.adhesive:
-            states = adhesive_states(problem.profile, values, depth, largest, loading, problem.contact)
-            return cls(depth, loading, *states)
+            *states, gradient = adhesive_states(problem.profile, values, depth, problem.contact)
+            return cls(depth, loading, *states, np.zeros_like(depth), gradient)
         rate = problem.rate if values["eta"].any() or "eta" in problem.free else 0.0
         return cls.without_adhesion(problem.profile, values, depth, largest, loading, rate)
 

@@ -5,6 +5,7 @@ import numpy as np
 from .. import _check
 from .._check import ArrayLike
 from ..medium import Medium, check_pair
+from ..results.quantities import engineering
 from ..shapes.profile import Profile
 from ..superposition import tabulated
 from .curve import BACKGROUND, PARAMETERS, REACH
@@ -61,7 +62,7 @@ def fit_indentation(
         Background: force F₀ (N) without contact, its slope F₁ (N/m) over depth, and the drag ζ (N·s/m) of
         a liquid, which shifts approach and retract apart. 0 by default.
     work_of_adhesion : float, optional
-        Work of adhesion w (J/m²), 0 by default; see Notes.
+        Work of adhesion w (J/m²) of an elastic medium, 0 by default; see Notes.
     depth_noise : float, optional
         Standard deviation (m) of the measured depth. Without it noise counts as a new largest depth, and
         E* is too small.
@@ -93,11 +94,12 @@ def fit_indentation(
     ``keep = (time < start) | (time > stop)`` (s) with ``depth[keep], force[keep], time=time[keep]``. Rates
     at the edges of the gap are those of the nearer samples.
 
-    **Adhesion.** The states are those of `indent`, on record from before contact to after the pull-off. E*,
-    q_c, w and z₀ follow from the forces in contact. Which samples are in contact is taken from the data: a
-    soft cantilever loses contact earlier than the model, in which the depth is prescribed. The samples next
-    to a jump into or out of contact have no weight; `path` and `residuals` have the jumps of the model. Not
-    together with `eta` or `depth_noise`.
+    **Adhesion** is that of an elastic medium, `q_c=inf`: the retract from one that yields does not
+    determine it. The states are those of `indent`, on record from before contact to after the pull-off.
+    E*, w and z₀ follow from the forces in contact. Which samples are in contact is taken from the data: a
+    soft cantilever loses contact earlier than the model, in which the depth is prescribed; a remark says by
+    what depth. The samples next to a jump into or out of contact have no weight; `path` and `residuals`
+    have the jumps of the model. Not together with `eta` or `depth_noise`.
 
     **Not in the model**: relaxation over more than one time, adhesion that changes between approach and
     retract, poroelastic flow, layers, finite thickness, and hardness that does not fall with the contact
@@ -164,6 +166,13 @@ def fit_indentation(
 
 def _refuse_with_adhesion(fixed, noise):
     """Refuses adhesion with what its curves are not fitted with."""
+    q_c = fixed.get("q_c", np.array([np.nan]))
+    if not np.all(np.isinf(q_c)):
+        given = "free" if np.isnan(q_c[0]) else engineering(q_c, "N/m")
+        raise ValueError(
+            f"work_of_adhesion with q_c {given}: with adhesion a fit is of an elastic medium, q_c = inf; "
+            "give q_c=np.inf, or work_of_adhesion=0"
+        )
     excluded = ["eta"] * ("eta" not in fixed or bool(fixed["eta"].any())) + ["depth_noise"] * bool(noise)
     names = " and ".join(excluded)
     if names:

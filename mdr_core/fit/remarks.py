@@ -15,8 +15,8 @@ KINDS = (
 )  # fmt: skip
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
-#: Samples at which contact differs from that of the model, as a share of those in contact.
-_OTHER_CONTACT = 0.05
+#: Least distance of the pull-off from that of the model, as a share of the range of depth.
+_PULL_OFF = 0.02
 #: Root mean square of correlated residuals over the range of force above which the model does not fit, of
 #: elastic media and of those that yield, whose unloading is a small part of the curve.
 _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
@@ -60,7 +60,7 @@ def _ambiguous(solved, i):
 
 
 def _adhesion(solved, i):
-    """A work of adhesion that is hardly determined, and contact at other samples than in the model."""
+    """A work of adhesion that is hardly determined, and a pull-off at another depth than in the model."""
     problem, (values, state) = solved.problem, solved.values_and_states
     if not problem.adhesive:
         return
@@ -75,14 +75,21 @@ def _adhesion(solved, i):
             "adhesion",
             f"the forces in contact hardly determine w ({share}{cause}): hold work_of_adhesion",
         )
-    differs = problem.contact[i] != (state.live_interval.length[i] > 0)
-    others = np.count_nonzero(differs & (np.abs(force - state.force[i]) > SIGNIFICANT * noise))
-    if others > max(2, _OTHER_CONTACT * np.count_nonzero(problem.contact[i])):
+    depth = problem.depth[i]
+    lost = [_depth_of_loss(depth, held) for held in (problem.contact[i], state.live_interval.length[i] > 0)]
+    if abs(lost[1] - lost[0]) > _PULL_OFF * np.ptp(depth):
+        measured, model, difference = (engineering(z, "m") for z in (*lost, lost[1] - lost[0]))
         yield (
             "contact",
-            f"{others} samples have contact where the model has none, or none where it has: a soft "
-            "cantilever loses it earlier, or adhesion differs between approach and retract",
+            f"contact is lost at z = {measured}, in the model at {model} (model less data {difference}): a "
+            "soft cantilever loses it earlier, or adhesion differs between approach and retract",
         )
+
+
+def _depth_of_loss(depth, contact):
+    """Depth (m) at which contact is lost at last, that of the last sample where it is not lost."""
+    losses = np.flatnonzero(contact[:-1] & ~contact[1:])
+    return depth[losses[-1] + 1] if losses.size else depth[-1]
 
 
 def _undetermined(solved, i):

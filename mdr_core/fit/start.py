@@ -90,8 +90,7 @@ def _grid(curve, fixed, turning_depth, table):
     points = np.array([fixed["contact_point"]]) if "contact_point" in fixed else points
     d_c, tau, kappa = _media(curve, fixed, np.maximum(top - points, 1e-3 * length)[:, None])
     if curve.adhesive:
-        samples = np.maximum.accumulate(depth)[subset], depth[subset]
-        unit_force = _adhesive_force(*samples, points, d_c, kappa, table)
+        unit_force = _adhesive_force(depth[subset], points, kappa, table)
     else:
         samples = largest[:, subset], depth[subset], curve.rate[0, subset]
         unit_force = _unit_force(*samples, points[:, None, None], d_c[..., None], tau[..., None], table)
@@ -140,21 +139,16 @@ def _unit_force(largest, depth, rate, point, d_c, tau, table):
     return force
 
 
-def _adhesive_force(largest, depth, points, d_c, kappa, table):
-    """`_unit_force` with adhesion, for media with critical depths (m) and w/E* (m)."""
+def _adhesive_force(depth, points, kappa, table):
+    """Force over E* (m²) of elastic media with w/E* (m) of adhesion, from a table."""
     depths, area, radius = table
-    force = np.empty((*d_c.shape, depth.size))
-    for i, point in enumerate(points):
-        for each in np.unique(kappa[i]):
-            columns, stretched = kappa[i] == each, np.sqrt(2 * np.pi * radius * each)
-            # D = d + Δl(D) does not depend on the imprint.
-            reached = depths - stretched
-            end = int(np.argmin(reached))
-            lower = np.maximum(largest - point - d_c[i, columns, None], 0.0)
-            upper = np.maximum(lower, depths[end])
-            held = in_contact(depth - point, lower, upper - np.interp(upper, depths, stretched))
-            tension = np.interp(depth - point, reached[end:], (area - radius * stretched)[end:])
-            force[i, columns] = np.where(held, 2 * (tension - np.interp(lower, depths, area)), 0.0)
+    force = np.empty((*kappa.shape, depth.size))
+    for i, j in np.ndindex(kappa.shape):
+        stretched = np.sqrt(2 * np.pi * radius * kappa[i, j])
+        reached = depths - stretched
+        end = int(np.argmin(reached))
+        tension = np.interp(depth - points[i], reached[end:], (area - radius * stretched)[end:])
+        force[i, j] = np.where(in_contact(depth - points[i], reached[end]), 2 * tension, 0.0)
     return force
 
 

@@ -94,7 +94,7 @@ def test_what_is_fixed_stays():
 
 
 def test_a_work_of_adhesion_is_fitted_where_there_is_adhesion():
-    start = preset_state().replace(adhesion="work")
+    start = preset_state().replace(adhesion="work", plasticity="none")
     d = np.append(np.linspace(-1e-9, 9e-9, 200), np.linspace(9e-9, -9e-9, 300))
     F = mdr.indent(profile(start), medium(start), d).force
     curve = read_curve(table({"h (nm)": 1e9 * d, "F (nN)": 1e9 * F}).encode(), "run.csv")
