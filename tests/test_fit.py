@@ -267,57 +267,6 @@ def test_paths_of_many_media():
         mdr.indent(profile, mdr.Medium([E, 2 * E]), [1e-9, 2e-9])
 
 
-class TestImpacts:
-    SHAPE, MASS, SPEED = mdr.Cone(0.3), 1e-6, np.geomspace(0.3, 10.0, 25)
-
-    def hit(self, eta=0.0):
-        return mdr.impact(self.SHAPE, mdr.Medium(1e10, 2e4, eta), self.MASS, self.SPEED)
-
-    @pytest.mark.parametrize("eta", [0.0, 3e3])
-    def test_is_the_inverse_of_impact(self, eta):
-        """To the last step of the search, 10⁻⁹, and the precision of viscous impacts, 10⁻⁹."""
-        hit, free = self.hit(eta), {"eta": None if eta else 0.0}
-        for given in ({"E_star": 1e10}, {"contact_time": hit.contact_time}):
-            fit = mdr.fit_impacts(self.SHAPE, self.MASS, self.SPEED, hit.restitution, **given, **free)
-            assert (fit.medium.E_star, fit.medium.q_c) == pytest.approx((1e10, 2e4), rel=1e-7)
-            assert fit.medium.eta == pytest.approx(eta, rel=1e-7)
-            assert not fit.remarks
-
-    @pytest.mark.parametrize(
-        "profile", [mdr.TruncatedCone(1e-6, 0.3), mdr.RoundedPunch(1e-6, 1e-5)], ids=name
-    )
-    def test_flat_face(self, profile):
-        """Impacts too light to press far outside the flat face."""
-        hit = mdr.impact(profile, mdr.Medium(1e10, 2e4), 1e-10, 0.1 * self.SPEED)
-        fit = mdr.fit_impacts(profile, 1e-10, hit.speed, hit.restitution, contact_time=hit.contact_time)
-        assert fit.medium.E_star == pytest.approx(1e10, rel=1e-7)
-
-    def test_errors_are_those_of_repeated_measurements(self):
-        """The standard deviation of 30 pulls is known to 13 %: three of these around 1."""
-        hit, random, deviations = self.hit(), np.random.default_rng(7), []
-        for _ in range(30):
-            e = hit.restitution + 0.01 * random.normal(size=25)
-            T = hit.contact_time * np.exp(0.02 * random.normal(size=25))
-            fit = mdr.fit_impacts(self.SHAPE, self.MASS, self.SPEED, e, contact_time=T)
-            deviations.append([*pulls(fit, E_star=1e10, q_c=2e4).values()])
-        assert np.all(np.abs(np.std(deviations, axis=0) - 1) < 0.39)
-        assert np.all(np.abs(np.mean(deviations, axis=0)) < 0.6)
-
-    @pytest.mark.parametrize("eta", [0.0, None])
-    def test_restitution_alone_does_not_determine_the_modulus(self, eta):
-        with pytest.raises(ValueError, match=r"combination.* hold E_star"):
-            mdr.fit_impacts(self.SHAPE, self.MASS, self.SPEED, self.hit().restitution, eta=eta)
-
-    def test_nothing_yields(self):
-        soft = mdr.impact(self.SHAPE, mdr.Medium(1e10), self.MASS, self.SPEED)
-        fit = mdr.fit_impacts(
-            self.SHAPE, self.MASS, self.SPEED, soft.restitution, contact_time=soft.contact_time
-        )
-        assert fit.medium.E_star == pytest.approx(1e10, rel=1e-7)
-        assert fit.medium.q_c == np.inf
-        assert "nothing has yielded" in fit.remarks[0]
-
-
 class TestHardness:
     DEPTH = MEDIUM.critical_depth * np.geomspace(1.2, 50, 10)
 

@@ -27,7 +27,7 @@ ORDER = (
     "dynamics.oblique_motion", "dynamics.surface", "dynamics.oblique", "dynamics.ball", "sweep",
     "fit.least_squares", "fit.oliver_pharr", "fit.measured", "fit.adhesive_curve", "fit.curve", "fit.start",
     "fit.solution", "fit.remarks", "fit.figures", "fit.result", "fit.indentation", "fit.hardness",
-    "fit.impacts", "drives", "scene", "results.figures", "__init__",
+    "drives", "scene", "results.figures", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {
