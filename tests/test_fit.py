@@ -298,7 +298,10 @@ class TestHardness:
     ("value", "error", "unit", "text"),
     [
         (95.234e9, 0.31e9, "Pa", "95.23 ± 0.31 GPa"),
-        (2.5e-9, 0.0, "m", "2.5 ± 0 nm"),
+        # An error of the arithmetic is not one of the measurement.
+        (2.5e-9, 0.0, "m", "2.5 nm"),
+        (69.8481732e9, 1.5e-5, "Pa", "69.8482 GPa"),
+        (69.8481732e9, 1.5e5, "Pa", "69.84817 ± 0.00015 GPa"),
         (1.0, np.inf, "N", "1 ± ∞ N"),
         (np.inf, np.inf, "N/m", "∞"),
     ],

@@ -13,6 +13,8 @@ KINDS = (
     "units", "adhesion", "bound", "second minimum", "undetermined", "misfit", "jitter", "loading",
     "vague", "contact", "class", "elastic", "hardly yields", "noisy", "inviscid", "missing",
 )  # fmt: skip
+#: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
+DOUBTS = {"misfit", "jitter", "class", "noisy"}
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
 #: Least distance of the pull-off from that of the model, as a share of the range of depth.

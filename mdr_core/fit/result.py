@@ -17,7 +17,7 @@ from ..yielding import LiveInterval
 from .curve import PARAMETERS
 from .least_squares import FITTED_QUANTITIES, Fit, with_error
 from .oliver_pharr import oliver_pharr
-from .remarks import by_importance, missing, remarks_of
+from .remarks import DOUBTS, by_importance, missing, remarks_of
 
 if TYPE_CHECKING:
     import xarray
@@ -150,14 +150,20 @@ class IndentationFit(Fit):
         return xarray.Dataset(variables, names, attributes | {"depth_noise": self.depth_noise})
 
     def _unloading(self):
-        """Row with the results of Oliver and Pharr for one curve, if it has an unloading."""
+        """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
+        if set(self._remarks[0]) & DOUBTS:
+            return
         # Without background the measured force is that of the contact plus the residual.
+        force, shift = self.path.force + self.residuals, self.standard_errors.get("contact_point", 0.0)
         with suppress(ValueError):
-            result = oliver_pharr(self.profile, self.path.depth, self.path.force + self.residuals)
-            pairs = (("E_star", "Pa"), ("hardness", "Pa"))
-            errors = result.standard_errors
-            E, H = (with_error(getattr(result, name), errors[name], unit) for name, unit in pairs)
-            yield "Oliver and Pharr", f"E* {E}, H {H}"
+            result = oliver_pharr(self.profile, self.path.depth, force)
+            shifted = oliver_pharr(self.profile, self.path.depth + shift, force)
+            texts = []
+            for name, unit in (("E_star", "Pa"), ("hardness", "Pa")):
+                value = getattr(result, name)
+                error = np.hypot(result.standard_errors[name], getattr(shifted, name) - value)
+                texts.append(f"{FITTED_QUANTITIES[name].symbol} {with_error(value, error, unit)}")
+            yield "Oliver and Pharr", ", ".join(texts)
 
     def _quality(self):
         noise = np.asarray(self.force_noise)
