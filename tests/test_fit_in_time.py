@@ -136,8 +136,8 @@ class TestRealCurves:
         assert "block-wise (Newey–West)" in repr(fit)
 
     def test_misfit(self):
-        """A curve without its drag is not fitted, and the remark says what to try; with it none is left."""
-        assert "free drag, eta, tilt" in fit_of("spot3-0").remarks[0]
+        """A curve without its drag is not fitted, and a remark says what to try; with it none is left."""
+        assert "give drag=None" in fit_of("spot3-0").remarks[0]
         assert not fit_of("spot3-0", drag=None).remarks
 
 

@@ -42,8 +42,9 @@ class CurveProblem:
 
     `rate` is ż (m/s); `fixed` holds the fixed parameters by name (R,); `depth_noise` and `sigma` (R, N) are
     the standard deviations of depth (m) and force (N); `turning_points` (R, K) and `loading_starts` are
-    indices; `contact` (R, N) says with adhesion which samples are in contact. Scaled parameters x are
-    logarithms of E*, q_c, w and `top` − z₀, otherwise shares of `length` (m), `load` (N) and `speed` (m/s).
+    indices; `contact` (R, N) says with adhesion which samples are in contact; `time` (s) may be None.
+    Scaled parameters x are logarithms of E*, q_c, w and `top` − z₀, otherwise shares of `length` (m),
+    `load` (N) and `speed` (m/s).
     """
 
     profile: object
@@ -56,11 +57,12 @@ class CurveProblem:
     turning_points: np.ndarray
     loading_starts: np.ndarray
     contact: np.ndarray | None = None
+    time: np.ndarray | None = None
 
     def rows(self, rows):
         fixed = {name: value[rows] for name, value in self.fixed.items()}
         names = ["depth", "force", "rate", "sigma", "turning_points", "loading_starts"]
-        names += [] if self.contact is None else ["contact"]
+        names += [name for name in ("contact", "time") if getattr(self, name) is not None]
         return replace(self, fixed=fixed, **{name: getattr(self, name)[rows] for name in names})
 
     #: Largest depth (m), ranges of depth (m) and force (N) and largest speed (m/s) of each curve (R, 1);

@@ -7,16 +7,20 @@ import numpy as np
 from ..medium import critical_depth
 from ..results.quantities import engineering
 from .least_squares import SIGNIFICANT, SINGULAR, autocorrelation, roughness
+from .nested import nested_tests
 
 #: All kinds of remarks, the most important first.
 KINDS = (
-    "units", "adhesion", "bound", "second minimum", "undetermined", "misfit", "jitter", "loading",
-    "vague", "contact", "class", "elastic", "hardly yields", "noisy", "inviscid", "missing",
+    "units", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag", "drift", "misfit",
+    "jitter", "loading", "vague", "contact", "class", "elastic", "hardly yields", "noisy", "rest",
+    "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
-DOUBTS = {"misfit", "jitter", "class", "noisy"}
+DOUBTS = {"tilt", "drag", "drift", "misfit", "jitter", "class", "noisy"}
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
+#: Largest range of depth (m), and least share of the variance of the force that a contact explains.
+_LONGEST, _EXPLAINED = 1e-3, 0.75
 #: Least distance of the pull-off from that of the model, as a share of the range of depth.
 _PULL_OFF = 0.02
 #: Root mean square of correlated residuals over the range of force above which the model does not fit, of
@@ -26,7 +30,7 @@ _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
 
 def remarks_of(solved):
     """Remarks on each curve of `SolvedCurves`: a sentence by its kind, the same for all curves."""
-    checks = _ambiguous, _adhesion, _undetermined, _jitter, _class_b, _misfit
+    checks = _units, _ambiguous, _adhesion, _undetermined, _jitter, _class_b, _misfit, nested_tests
     curves = range(len(solved.rows))
     return [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in curves]
 
@@ -41,13 +45,53 @@ def missing(count, samples):
     return {"missing": f"left out: {count} of {samples} samples, without a number"} if count else {}
 
 
+def _units(solved, i):
+    """Columns that are swapped or of the other sign, records without contact, and data in other units."""
+    problem, (values, state) = solved.problem, solved.values_and_states
+    if "E_star" not in problem.free or problem.adhesive:
+        return
+    depth, force, E = problem.depth[i], problem.force[i], values["E_star"][i, 0]
+    squares = np.sum((solved.residual[i] * problem.noise(state.slope)[i]) ** 2)
+    line = np.sum((force - np.polyval(np.polyfit(depth - depth[0], force, 1), depth - depth[0])) ** 2)
+    explained = 1 - squares / np.sum((force - force.mean()) ** 2)
+    modulus = f"E* = {engineering(E, 'Pa')} is that of no material"
+    if explained < _EXPLAINED and line < 1.1 * squares:
+        others = {
+            "depth and force are swapped": (force, depth),
+            "the depth has the other sign, it must grow as the indenter goes in": (-depth, force),
+            "the force has the other sign, it must be positive in compression": (depth, -force),
+            "depth and force have the other sign": (-depth, -force),
+        }
+        shares = {cause: _share_of_contact(*pair) for cause, pair in others.items()}
+        cause = max(shares, key=shares.get)
+        if shares[cause] < max(_EXPLAINED, _share_of_contact(depth, force)):
+            cause = "there is no contact in this record"
+        yield "units", f"a straight line fits the force as well as an indentation: {cause}"
+    elif not 1.0 <= E <= 1e13:
+        small = E < 1.0 and np.ptp(depth) < _LONGEST
+        cause = "there is no contact in this record" if small else "give depth in m and force in N"
+        yield "units", f"{modulus}: {cause}"
+
+
+def _share_of_contact(depth, force):
+    """Share of the variance of the force that grows as (depth − z₀)^(3/2), with the best z₀.
+
+    On the loading, or on the unloading of a record that begins near its largest depth.
+    """
+    top = int(np.argmax(depth))
+    part = slice(top + 1) if top > depth.size / 4 else slice(top, None)
+    depth, deviation, shares = depth[part], force[part] - force[part].mean(), [0.0]
+    for point in np.linspace(depth.min(), depth.max(), 50)[:-1]:
+        column = np.maximum(depth - point, 0.0) ** 1.5
+        column = column - column.mean()
+        product = max(column @ deviation, 0.0)
+        shares.append(product**2 / max((column @ column) * (deviation @ deviation), 1e-300))
+    return max(shares)
+
+
 def _ambiguous(solved, i):
-    """A modulus of no material, parameters at a bound, a second minimum."""
+    """Parameters at a bound, a second minimum."""
     problem, squares = solved.problem, np.sum(solved.residual[i] ** 2)
-    E = solved.values_and_states[0]["E_star"][i, 0]
-    if not 1.0 <= E <= 1e13 and "E_star" in problem.free:
-        text = f"E* = {engineering(E, 'Pa')} is that of no material: give depth in m and force in N"
-        yield "units", text
     for name, at_bound in zip(problem.free, solved.at_bound[i], strict=False):
         if at_bound and name == "eta":
             yield "inviscid", "no viscosity within the noise: η = 0; hold eta = 0"
@@ -195,8 +239,7 @@ def _misfit(solved, i):
     largest = _MISFIT if problem.memoryless else _MISFIT_YIELDING
     if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
         cause = "not an elastic medium" if problem.memoryless else "not class (b)"
-        held = [name for name in ("drag", "eta", "tilt") if name not in problem.free]
-        remedy = f"; free {', '.join(held)}, if the curve was measured in a liquid or on a gel" * bool(held)
+        remedy = "; give time, which tells drag and drift" * (problem.time is None and not problem.adhesive)
         yield (
             "misfit",
             f"the residuals ({100 * size:.2g} % of the force) follow a curve (correlation of neighbours "

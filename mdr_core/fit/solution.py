@@ -123,7 +123,8 @@ def solved(profile, samples, fixed, noise, rows, turns, starts):
     given = samples.force_noise is not None
     sigma = samples.force_noise[rows] if given else _first_sigma(ordered, noise)
     sigma = np.where(samples.corner[rows], NO_WEIGHT * sigma, sigma)
-    problem = CurveProblem(profile, depth, force, rate, fixed, noise, sigma, turns, starts)
+    time = None if samples.time is None else samples.time[rows]
+    problem = CurveProblem(profile, depth, force, rate, fixed, noise, sigma, turns, starts, time=time)
     solution, rival = _best_minimum(problem)
     for _ in range(5 if noise and turns.size else 0):
         before, problem = problem, problem.with_best_turning_points(solution[0])
