@@ -33,19 +33,21 @@ _LEAST_CHANGE, _COMMON = 0.005, 1e-10
 def nested_tests(solved, i):
     """Remarks on what a tilt, a drag or a drift changes in curve i of `SolvedCurves`."""
     problem, (_, state) = solved.problem, solved.values_and_states
-    contact, noise = state.live_interval.length[i] > 0, problem.noise(state.slope)[i]
+    contact, noise = state.live_interval.length[i] > 0, solved.noise[i]
     residual, jacobian = solved.residual[i], solved.jacobian[i][:, ~solved.at_bound[i]]
     if "E_star" not in problem.free or solved.at_bound[i, 0] or problem.adhesive:
         return
     if np.count_nonzero(contact) < _FEW:
         return
     yields = not (problem.memoryless or solved.elastic[i])
+    before = residual
     small = _rms((residual * noise)[contact]) < _SMALL * problem.load[i, 0]
     for name, columns in () if small else _columns(problem, state, i, contact, yields):
         least, unit, follows = _TESTS[name]
         matrix = np.column_stack([jacobian, columns / noise[:, None]])
-        step, before = _step(matrix, residual), residual + jacobian @ _step(jacobian, residual)
-        factor = _rms(before[contact]) / _rms((residual + matrix @ step)[contact])
+        step = _step(matrix, residual)
+        rest = residual + matrix @ step
+        factor = _rms(before[contact]) / _rms(rest[contact])
         if factor > least and (factor**2 - 1) * np.count_nonzero(contact) > SIGNIFICANT**2:
             change = step[0] / np.sqrt(solved.covariance[i, 0, 0])
             yield (
@@ -55,6 +57,7 @@ def nested_tests(solved, i):
             )
             # The next ones are tested beside it.
             jacobian = matrix
+            before = rest
     if yields and _increases(problem, i):
         drift = _drift(problem, state, i, contact) / noise
         yield from _in_a_hold(problem, state, i, contact, _step(jacobian, drift)[0])
@@ -125,9 +128,10 @@ def _longest_hold(problem, state, i):
     """The longest part of a curve in contact at one force, as a slice."""
     force, time, load = problem.force[i], problem.time[i], problem.load[i, 0]
     pressed, longest = state.force[i] > _LEAST_FORCE * load, slice(0, 1)
-    for start in range(0, force.size, max(1, force.size // 100)):
-        away = ~pressed[start:] | (np.abs(force[start:] - force[start]) > _HOLD_FORCE * load)
-        part = slice(start, start + int(np.argmax(away)) if away.any() else force.size)
-        if part.stop > start and np.ptp(time[part]) > np.ptp(time[longest]):
-            longest = part
+    for start in range(0, force.size - _FEW, max(1, force.size // 100)):
+        if abs(force[start + _FEW] - force[start]) < _HOLD_FORCE * load:
+            away = ~pressed[start:] | (np.abs(force[start:] - force[start]) > _HOLD_FORCE * load)
+            part = slice(start, start + int(np.argmax(away)) if away.any() else force.size)
+            if part.stop > start and np.ptp(time[part]) > np.ptp(time[longest]):
+                longest = part
     return longest

@@ -16,7 +16,7 @@ KINDS = (
     "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
-DOUBTS = {"tilt", "drag", "drift", "misfit", "jitter", "class", "noisy"}
+DOUBTS = {"units", "tilt", "drag", "drift", "misfit", "jitter", "class", "noisy"}
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
 #: Largest range of depth (m), and least share of the variance of the force that a contact explains.
@@ -47,15 +47,14 @@ def missing(count, samples):
 
 def _units(solved, i):
     """Columns that are swapped or of the other sign, records without contact, and data in other units."""
-    problem, (values, state) = solved.problem, solved.values_and_states
+    problem, values = solved.problem, solved.values_and_states[0]
     if "E_star" not in problem.free or problem.adhesive:
         return
     depth, force, E = problem.depth[i], problem.force[i], values["E_star"][i, 0]
-    squares = np.sum((solved.residual[i] * problem.noise(state.slope)[i]) ** 2)
-    line = np.sum((force - np.polyval(np.polyfit(depth - depth[0], force, 1), depth - depth[0])) ** 2)
-    explained = 1 - squares / np.sum((force - force.mean()) ** 2)
-    modulus = f"E* = {engineering(E, 'Pa')} is that of no material"
-    if explained < _EXPLAINED and line < 1.1 * squares:
+    squares = np.sum((solved.residual[i] * solved.noise[i]) ** 2)
+    variance = np.sum((force - force.mean()) ** 2)
+    line = variance * (1 - np.corrcoef(depth, force)[0, 1] ** 2)
+    if squares > (1 - _EXPLAINED) * variance and line < 1.1 * squares:
         others = {
             "depth and force are swapped": (force, depth),
             "the depth has the other sign, it must grow as the indenter goes in": (-depth, force),
@@ -70,7 +69,7 @@ def _units(solved, i):
     elif not 1.0 <= E <= 1e13:
         small = E < 1.0 and np.ptp(depth) < _LONGEST
         cause = "there is no contact in this record" if small else "give depth in m and force in N"
-        yield "units", f"{modulus}: {cause}"
+        yield "units", f"E* = {engineering(E, 'Pa')} is that of no material: {cause}"
 
 
 def _share_of_contact(depth, force):
@@ -206,7 +205,7 @@ def _class_b(solved, i):
     depth = state.live_interval.lower[i] + d_c
     mean = np.mean(depth[unloading])
     change = np.where(unloading, memory_slope * d_c * (depth / mean - 1), 0.0)
-    column = change / problem.noise(state.slope)[i]
+    column = change / solved.noise[i]
     if problem.depth_noise:
         # Free turning depths would absorb the trend; each is known about as well as one sample.
         count, width = problem.free_turning_points, jacobian.shape[1]
@@ -234,8 +233,7 @@ def _misfit(solved, i):
     problem, residual = solved.problem, solved.residual[i]
     freedom, chi = max(residual.size - solved.x.shape[1], 1), solved.reduced_chi_square[i]
     correlation = autocorrelation(residual[solved.orders[i]])
-    _, state = solved.values_and_states
-    size = np.sqrt(np.mean((residual * problem.noise(state.slope)[i]) ** 2)) / problem.load[i, 0]
+    size = np.sqrt(np.mean((residual * solved.noise[i]) ** 2)) / problem.load[i, 0]
     largest = _MISFIT if problem.memoryless else _MISFIT_YIELDING
     if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
         cause = "not an elastic medium" if problem.memoryless else "not class (b)"

@@ -208,7 +208,7 @@ def _arrays(fit, used):
     """Arrays of `SolvedCurves` by name, one row a curve, one column a sample that was given."""
     problem, (values, state) = fit.problem, fit.values_and_states
     units = problem.units(values)
-    residuals = fit.residual * problem.noise(state.slope)
+    residuals = fit.residual * fit.noise
     if problem.adhesive:
         # The path follows the model, the search has contact where the data have it.
         residuals = problem.force - problem.background(values) - state.force

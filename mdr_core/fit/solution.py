@@ -53,6 +53,11 @@ class SolvedCurves:
         return values | {"q_c": np.where(self.elastic[:, None], np.inf, values["q_c"])}, state
 
     @cached_property
+    def noise(self):
+        """Standard deviation (N) of the residuals at all samples (R, N)."""
+        return self.problem.noise(self.values_and_states[1].slope)
+
+    @cached_property
     def reduced_chi_square(self):
         freedom = max(self.residual.shape[1] - self.x.shape[1], 1)
         return np.sum(self.residual**2, axis=1) / freedom
