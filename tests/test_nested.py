@@ -150,7 +150,7 @@ class TestData:
             (lambda z, F, noise: (-z, F), "the depth has the other sign"),
             (lambda z, F, noise: (z, -F), "the force has the other sign"),
             (lambda z, F, noise: (-z, -F), "depth and force have the other sign"),
-            (lambda z, F, noise: (z, noise), "there is no contact in this record"),
+            (lambda z, F, noise: (z, noise), "no contact is seen in this record"),
             (lambda z, F, noise: (1e9 * z, F), "give depth in m and force in N"),
         ],
         ids=["swapped", "depth", "force", "both", "noise", "units"],

@@ -294,7 +294,7 @@ class CurveState:
     def derivatives(self, problem, values):
         """−∂F by the free parameters, in logarithms, and by turning depths (R, N, P)."""
         names = _WITH_ADHESION if problem.adhesive else _OF_FORCE
-        columns = dict(zip(names, -self.gradient, strict=False))
+        columns = dict(zip(names, -self.gradient, strict=True))
         shift = values["contact_point"] - problem.top
         columns["contact_point"] = shift * (self.slope + self.memory_slope)
         background = problem.background_columns.items()

@@ -49,9 +49,10 @@ def fit_indentation(
         Samples with NaN are left out. Of a frame of compliance C (m/N) subtract the depth C F before.
         With `q_c=inf`, without `time` and without adhesion the order does not matter.
     time : array_like, optional
-        Increasing times (s) of the samples, of the same shape; needed for `eta` and `drag`. The rate ż is
-        the central difference of the depths, so that a noisy depth makes a noisy rate: average neighbouring
-        samples first. Where the rate jumps from one sample to the next, the sample has no weight.
+        Increasing times (s) of the samples, of the same shape; needed for `eta` and `drag`, and for remarks
+        on drag and drift that are left out. The rate ż is the central difference of the depths, so that a
+        noisy depth makes a noisy rate: average neighbouring samples first. Where the rate jumps from one
+        sample to the next, the sample has no weight.
     E_star, q_c : float, optional
         Effective modulus (Pa) and yield constant (N/m); `q_c=inf` holds the medium elastic.
     eta : float, optional

@@ -48,13 +48,13 @@ def missing(count, samples):
 def _units(solved, i):
     """Columns that are swapped or of the other sign, records without contact, and data in other units."""
     problem, values = solved.problem, solved.values_and_states[0]
-    if "E_star" not in problem.free or problem.adhesive:
+    if "E_star" not in problem.free:
         return
     depth, force, E = problem.depth[i], problem.force[i], values["E_star"][i, 0]
     squares = np.sum((solved.residual[i] * solved.noise[i]) ** 2)
     variance = np.sum((force - force.mean()) ** 2)
     line = variance * (1 - np.corrcoef(depth, force)[0, 1] ** 2)
-    if squares > (1 - _EXPLAINED) * variance and line < 1.1 * squares:
+    if not problem.adhesive and squares > (1 - _EXPLAINED) * variance and line < 1.1 * squares:
         others = {
             "depth and force are swapped": (force, depth),
             "the depth has the other sign, it must grow as the indenter goes in": (-depth, force),
@@ -64,11 +64,11 @@ def _units(solved, i):
         shares = {cause: _share_of_contact(*pair) for cause, pair in others.items()}
         cause = max(shares, key=shares.get)
         if shares[cause] < max(_EXPLAINED, _share_of_contact(depth, force)):
-            cause = "there is no contact in this record"
+            cause = "no contact is seen in this record"
         yield "units", f"a straight line fits the force as well as an indentation: {cause}"
     elif not 1.0 <= E <= 1e13:
         small = E < 1.0 and np.ptp(depth) < _LONGEST
-        cause = "there is no contact in this record" if small else "give depth in m and force in N"
+        cause = "no contact is seen in this record" if small else "give depth in m and force in N"
         yield "units", f"E* = {engineering(E, 'Pa')} is that of no material: {cause}"
 
 

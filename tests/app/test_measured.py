@@ -104,6 +104,8 @@ def test_a_work_of_adhesion_is_fitted_where_there_is_adhesion():
     assert state.work_of_adhesion == pytest.approx(start.work_of_adhesion, rel=1e-2)
     assert agrees(state)
     assert "work_of_adhesion" not in offered(other.replace(adhesion="none"))
+    with pytest.raises(ValueError, match=r"with adhesion a fit is of an elastic medium, q_c = inf"):
+        fitting.fit(other.replace(plasticity="q_c"))
 
 
 def test_a_drag_is_fitted_where_there_are_times():
