@@ -14,7 +14,6 @@ from .dynamics.ball import Ball, at_angle
 from .dynamics.impact import Impact, impact
 from .dynamics.oblique import ObliqueImpact, oblique_impact
 from .fit.hardness import fit_hardness
-from .fit.impacts import fit_impacts
 from .fit.indentation import fit_indentation
 from .fit.oliver_pharr import oliver_pharr
 from .foundation.depth_path import TimedIndentation, indent_in_time
@@ -72,7 +71,6 @@ __all__ = [
     "creep",
     "critical_force",
     "fit_hardness",
-    "fit_impacts",
     "fit_indentation",
     "hardness_class",
     "impact",

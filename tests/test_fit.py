@@ -68,22 +68,14 @@ class TestIndentation:
         assert not fit.remarks
         assert fit.path.force == pytest.approx(curve(profile), rel=1e-8, abs=1e-12 * curve(profile).max())
 
-    def test_frame_and_baseline(self):
+    def test_baseline_and_a_frame_that_is_subtracted(self):
         profile, C, F0 = mdr.Paraboloid(1e-6), 2e-4, 1e-6
         F = curve(profile)
-        fit = mdr.fit_indentation(profile, OUT + C * F, F + F0, baseline=None, frame_compliance=None)
-        values = fit.medium.E_star, fit.medium.q_c, fit.frame_compliance, fit.baseline
-        assert values == pytest.approx((E, Q, C, F0), rel=1e-8)
-        assert len(fit.standard_errors) == len(fit.covariance) == 5
-
-    @pytest.mark.parametrize("profile", PROFILES, ids=name)
-    def test_soft_frame(self, profile):
-        """Half of the measured depth is the frame's: a flat face that touches or yields is no obstacle."""
-        F = curve(profile)
-        C = 0.5 * np.ptp(OUT) / F.max()
-        fit = mdr.fit_indentation(profile, OUT + C * F + 3e-9, F, frame_compliance=C)
-        assert (fit.medium.E_star, fit.medium.q_c) == pytest.approx((E, Q), rel=1e-9)
-        assert fit.path.force == pytest.approx(F - fit.residuals, rel=1e-12, abs=1e-12 * F.max())
+        depth, force = OUT + C * F, F + F0
+        fit = mdr.fit_indentation(profile, depth - C * force, force, baseline=None)
+        values = fit.medium.E_star, fit.medium.q_c, fit.contact_point, fit.baseline
+        assert values == pytest.approx((E, Q, -C * F0, F0), rel=1e-8)
+        assert len(fit.standard_errors) == len(fit.covariance) == 4
 
     @pytest.mark.parametrize("depth_noise", [0.0, 0.4e-9])
     def test_errors_are_those_of_repeated_measurements(self, depth_noise):
@@ -249,14 +241,8 @@ class TestRealCurves:
         fit = mdr.fit_indentation(HERTZ["hertz_para"], *measured("spot3-0", "retract"), q_c=np.inf)
         assert not any("fits about as well" in remark for remark in fit.remarks)
 
-    def test_frame_of_silica(self):
-        """Frame compliance and modulus are nearly one parameter, and this frame is stiff."""
+    def test_misfit_of_silica(self):
         depth, force, _ = silica()
-        fit = mdr.fit_indentation(mdr.Cone.berkovich(), depth, force, frame_compliance=None)
-        assert fit.frame_compliance == 0
-        assert fit.correlations["E_star", "frame_compliance"] > 0.97
-        assert "frame_compliance is at the bound" in fit.remarks[0]
-        assert "E* and frame_compliance are nearly one parameter" in fit.remarks[1]
         # Residuals in terms of the force, whatever the noise is made of.
         fit = mdr.fit_indentation(mdr.Cone.berkovich(), depth, force, depth_noise=1e-9)
         assert "residuals (1.3 % of the force)" in fit.remarks[-1]
@@ -279,57 +265,6 @@ def test_paths_of_many_media():
         )
     with pytest.raises(ValueError, match="path"):
         mdr.indent(profile, mdr.Medium([E, 2 * E]), [1e-9, 2e-9])
-
-
-class TestImpacts:
-    SHAPE, MASS, SPEED = mdr.Cone(0.3), 1e-6, np.geomspace(0.3, 10.0, 25)
-
-    def hit(self, eta=0.0):
-        return mdr.impact(self.SHAPE, mdr.Medium(1e10, 2e4, eta), self.MASS, self.SPEED)
-
-    @pytest.mark.parametrize("eta", [0.0, 3e3])
-    def test_is_the_inverse_of_impact(self, eta):
-        """To the last step of the search, 10⁻⁹, and the precision of viscous impacts, 10⁻⁹."""
-        hit, free = self.hit(eta), {"eta": None if eta else 0.0}
-        for given in ({"E_star": 1e10}, {"contact_time": hit.contact_time}):
-            fit = mdr.fit_impacts(self.SHAPE, self.MASS, self.SPEED, hit.restitution, **given, **free)
-            assert (fit.medium.E_star, fit.medium.q_c) == pytest.approx((1e10, 2e4), rel=1e-7)
-            assert fit.medium.eta == pytest.approx(eta, rel=1e-7)
-            assert not fit.remarks
-
-    @pytest.mark.parametrize(
-        "profile", [mdr.TruncatedCone(1e-6, 0.3), mdr.RoundedPunch(1e-6, 1e-5)], ids=name
-    )
-    def test_flat_face(self, profile):
-        """Impacts too light to press far outside the flat face."""
-        hit = mdr.impact(profile, mdr.Medium(1e10, 2e4), 1e-10, 0.1 * self.SPEED)
-        fit = mdr.fit_impacts(profile, 1e-10, hit.speed, hit.restitution, contact_time=hit.contact_time)
-        assert fit.medium.E_star == pytest.approx(1e10, rel=1e-7)
-
-    def test_errors_are_those_of_repeated_measurements(self):
-        """The standard deviation of 30 pulls is known to 13 %: three of these around 1."""
-        hit, random, deviations = self.hit(), np.random.default_rng(7), []
-        for _ in range(30):
-            e = hit.restitution + 0.01 * random.normal(size=25)
-            T = hit.contact_time * np.exp(0.02 * random.normal(size=25))
-            fit = mdr.fit_impacts(self.SHAPE, self.MASS, self.SPEED, e, contact_time=T)
-            deviations.append([*pulls(fit, E_star=1e10, q_c=2e4).values()])
-        assert np.all(np.abs(np.std(deviations, axis=0) - 1) < 0.39)
-        assert np.all(np.abs(np.mean(deviations, axis=0)) < 0.6)
-
-    @pytest.mark.parametrize("eta", [0.0, None])
-    def test_restitution_alone_does_not_determine_the_modulus(self, eta):
-        with pytest.raises(ValueError, match=r"combination.* hold E_star"):
-            mdr.fit_impacts(self.SHAPE, self.MASS, self.SPEED, self.hit().restitution, eta=eta)
-
-    def test_nothing_yields(self):
-        soft = mdr.impact(self.SHAPE, mdr.Medium(1e10), self.MASS, self.SPEED)
-        fit = mdr.fit_impacts(
-            self.SHAPE, self.MASS, self.SPEED, soft.restitution, contact_time=soft.contact_time
-        )
-        assert fit.medium.E_star == pytest.approx(1e10, rel=1e-7)
-        assert fit.medium.q_c == np.inf
-        assert "nothing has yielded" in fit.remarks[0]
 
 
 class TestHardness:
@@ -363,7 +298,10 @@ class TestHardness:
     ("value", "error", "unit", "text"),
     [
         (95.234e9, 0.31e9, "Pa", "95.23 ± 0.31 GPa"),
-        (2.5e-9, 0.0, "m", "2.5 ± 0 nm"),
+        # An error of the arithmetic is not one of the measurement.
+        (2.5e-9, 0.0, "m", "2.5 nm"),
+        (69.8481732e9, 1.5e-5, "Pa", "69.8482 GPa"),
+        (69.8481732e9, 1.5e5, "Pa", "69.84817 ± 0.00015 GPa"),
         (1.0, np.inf, "N", "1 ± ∞ N"),
         (np.inf, np.inf, "N/m", "∞"),
     ],

@@ -28,8 +28,8 @@ ORDER = (
     "dynamics.levels", "dynamics.friction", "dynamics.dry_levels", "dynamics.dry_friction",
     "dynamics.oblique_motion", "dynamics.surface", "dynamics.oblique", "dynamics.ball", "sweep",
     "fit.least_squares", "fit.oliver_pharr", "fit.measured", "fit.adhesive_curve", "fit.curve", "fit.start",
-    "fit.solution", "fit.remarks", "fit.figures", "fit.result", "fit.indentation", "fit.hardness",
-    "fit.impacts", "drives", "scene", "results.figures", "__init__",
+    "fit.solution", "fit.nested", "fit.remarks", "fit.figures", "fit.result", "fit.indentation",
+    "fit.hardness", "drives", "scene", "results.figures", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {

@@ -1,5 +1,7 @@
 """The method of Oliver and Pharr on unloadings with closed forms, and on fused silica."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -93,21 +95,47 @@ def test_fused_silica():
     result = mdr.oliver_pharr(mdr.Cone.from_half_angle(70.3), depth, force)
     assert result.E_star == pytest.approx(70.9e9, rel=0.02)
     assert result.hardness == pytest.approx(9.42e9, rel=0.04)
-    # A drift of the power law over the unloading shows in the errors, not in the results.
-    assert 0 < result.standard_errors["E_star"] < 0.01 * result.E_star
+    # Parts of the unloading from 90 to 99 % down to 30 to 50 % of the force give 69.37 to 69.63 GPa.
+    assert 0.13e9 <= result.standard_errors["E_star"] < 0.01 * result.E_star
 
 
 def test_the_report_of_a_fit_has_it_where_there_is_an_unloading():
-    """Of the contact: without contact point, background and frame, which the fit knows."""
-    profile, C, F0 = mdr.Cone(0.3), 1e-4, 1e-6
+    """Of the contact: without contact point and background, which the fit knows."""
+    profile, F0 = mdr.Cone(0.3), 1e-6
     F = mdr.indent(profile, mdr.Medium(E), DEPTH).force
-    depth, force = DEPTH + 7e-9 + C * F, F + F0
-    held = {"q_c": np.inf, "baseline": F0, "frame_compliance": C}
+    depth, force = DEPTH + 7e-9, F + F0
+    held = {"q_c": np.inf, "baseline": F0}
     modulus = mdr.oliver_pharr(profile, DEPTH, F).E_star
     report = repr(mdr.fit_indentation(profile, depth, force, **held))
-    # Cut to six digits, which rounding does not reach.
-    assert f"Oliver and Pharr         E* {modulus / 1e9:.12g}"[:34] in report
+    # Six digits, without an error: without noise it is that of the arithmetic.
+    assert f"Oliver and Pharr         E* {modulus / 1e9:.6g} GPa, H" in report
     assert "Oliver" not in repr(mdr.fit_indentation(profile, depth[:60], force[:60], **held))
+
+
+def test_its_error_in_a_report_is_also_that_of_the_contact_point():
+    """Of 60 unloadings, the standard deviation of whose pulls is known to 9 %: four of these around 1.
+
+    That of the scatter about the power law alone would be 1.7.
+    """
+    profile, depth = mdr.Cone(0.3), np.linspace(60e-9, 20e-9, 200)
+    force, random = mdr.indent(profile, mdr.Medium(E), depth).force, np.random.default_rng(2)
+    exact, sigma, pulls = mdr.oliver_pharr(profile, depth, force).E_star, 0.002 * force.max(), []
+    for _ in range(60):
+        noisy = force + sigma * random.normal(size=force.size)
+        fit = mdr.fit_indentation(
+            profile, depth + 7e-9, noisy, q_c=np.inf, baseline=None, force_noise=sigma
+        )
+        value, error = re.search(r"Pharr +E\* ([\d.]+) ± ([\d.]+) GPa", repr(fit)).groups()
+        pulls.append((float(value) - exact / 1e9) / float(error))
+    assert 0.64 < np.std(pulls) < 1.36
+
+
+def test_a_report_leaves_it_out_where_the_model_does_not_fit():
+    """On silica the fitted contact point, 106 ± 29 nm below that of the record, makes 75.6 GPa of 69.6."""
+    depth, force, _ = silica()
+    fit = mdr.fit_indentation(mdr.Cone(0.358), depth, force)
+    assert any("not class (b)" in remark for remark in fit.remarks)
+    assert "Oliver" not in repr(fit)
 
 
 F_CONE = mdr.indent(mdr.Cone(0.3), mdr.Medium(E), DEPTH).force

@@ -196,7 +196,7 @@ class Fitting:
             self._placed, self.unloading.object = placed, unloading(state)
         show(self.about, object=f"<b>{escape(curve.name)}</b>: {escape(curve.note)}.")
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
-        likes = {"contact_point": depth, "baseline": force, "frame_compliance": depth / (force or 1.0)}
+        likes = {"contact_point": depth, "baseline": force}
         self.place.show(state, [name for name in PLACED if name in curve.fitted], likes)
         options = {QUANTITIES[name].label: name for name in offered(state)}
         show(self.fixed, options=options, value=[name for name in state.fixed if name in offered(state)])

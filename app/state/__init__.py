@@ -64,7 +64,7 @@ _DEFAULTS |= {
     "preset": OPENING, "shape": "cone", "progress": 1.0, "samples": (), "tip_note": "",
     "hold": (), "tiles": (), "dark": False,
     "curve": None, "fit_note": "",
-    "fixed": ("eta", "work_of_adhesion", "baseline", "tilt", "drag", "frame_compliance"),
+    "fixed": ("eta", "work_of_adhesion", "baseline", "tilt", "drag"),
 }  # fmt: skip
 
 

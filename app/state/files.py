@@ -24,7 +24,7 @@ OF_MEDIUM = {
     "E_star": ("elasticity", "modulus"), "q_c": ("plasticity", "q_c"), "eta": ("damping", "eta"),
     "work_of_adhesion": ("adhesion", "work"),
 }  # fmt: skip
-PLACED = ("contact_point", "baseline", "tilt", "drag", "frame_compliance")
+PLACED = ("contact_point", "baseline", "tilt", "drag")
 FITTED = (*OF_MEDIUM, *PLACED)
 #: Those that need the times of the samples.
 _IN_TIME = ("eta", "drag")
@@ -111,7 +111,7 @@ class Measured:
         force = force - state.baseline - state.tilt * depth
         if state.drag and time is not None:
             force = force - state.drag * np.gradient(depth, time)
-        depth = depth - state.contact_point - state.frame_compliance * force
+        depth = depth - state.contact_point
         fit = self.fit if self.fit is not None and agrees(state) else None
         return Curve(depth, force, fit)
 

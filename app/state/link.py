@@ -14,7 +14,9 @@ MAX_LENGTH, _MAX_VALUES, MAX_HELD, _MAX_TILES = 8000, 100, 4, 12
 _LISTS = ("hold", "tiles", "fixed")
 #: Names and options of earlier versions with their present names, and names that are ignored.
 _RENAMED = {"plots": "tiles", "tau": "eta", "rigid_tip": "modulus", "tangential_speed": "incoming_speed"}
-_IGNORED = re.compile("called|references|axes|heights|keep|inertia|surface|noise|sweep_.*|.*_(from|to)")
+_IGNORED = re.compile(
+    "called|references|axes|heights|keep|inertia|surface|noise|frame_compliance|sweep_.*|.*_(from|to)"
+)
 #: Names that mail programs and search engines append to links.
 _APPENDED = re.compile(
     r"utm_.*|\w*clk?id|gclsrc|[gw]braid|igsh(id)?|mc_[ce]id|_ga|_gl|_hs\w+|li_fat_id|srsltid|bokeh-.*"
@@ -123,7 +125,7 @@ def _value(name: str, text: str) -> tuple[str, Any]:
     if name in QUANTITIES:
         return name, checked(name, _number(name, text))
     if name in _LISTS:
-        return name, tuple(text.split()[:_MAX_TILES])
+        return name, tuple(n for n in text.split()[:_MAX_TILES] if not _IGNORED.fullmatch(n))
     if name == "dark":
         return name, text == "1"
     if name == "samples":

@@ -1,1 +1,1 @@
-"""Fits of media to measurements: force–depth curves, impacts, hardness at several radii."""
+"""Fits of media to measurements: force–depth curves, hardness at several radii."""

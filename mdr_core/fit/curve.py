@@ -25,17 +25,13 @@ from ..quadrature import radius_rate
 from ..yielding import interval_at
 from .adhesive_curve import adhesive_states, next_to_jumps
 
-#: All parameters in the order of a fit, those of the background, those fitted as logarithms, those that are
-#: not negative, and those of foundation and frame.
-PARAMETERS = (
-    "E_star", "q_c", "eta", "contact_point", "baseline", "tilt", "drag", "frame_compliance",
-    "work_of_adhesion",
-)  # fmt: skip
+#: All parameters in the order of a fit, those of the background, those fitted as logarithms, and those by
+#: which the force of the contact has derivatives, without and with adhesion.
+PARAMETERS = "E_star", "q_c", "eta", "contact_point", "baseline", "tilt", "drag", "work_of_adhesion"
 BACKGROUND = ("baseline", "tilt", "drag")
 LOGARITHMIC = ("E_star", "q_c", "contact_point", "work_of_adhesion")
-NOT_NEGATIVE = ("eta", "frame_compliance")
-_OF_FORCE = ("E_star", "q_c", "eta", "frame_compliance")
-_WITH_ADHESION = ("E_star", "q_c", "work_of_adhesion")
+_OF_FORCE = ("E_star", "q_c", "eta")
+_WITH_ADHESION = ("E_star", "work_of_adhesion")
 #: Standard deviations of samples that are not to weigh, in units of those they would have.
 NO_WEIGHT = 1e6
 #: The contact point is searched down to so many ranges of depth below the record.
@@ -48,8 +44,9 @@ class CurveProblem:
 
     `rate` is ż (m/s); `fixed` holds the fixed parameters by name (R,); `depth_noise` and `sigma` (R, N) are
     the standard deviations of depth (m) and force (N); `turning_points` (R, K) and `loading_starts` are
-    indices; `contact` (R, N) says with adhesion which samples are in contact. Scaled parameters x are
-    logarithms of E*, q_c, w and `top` − z₀, otherwise shares of `length` (m), `load` (N) and `speed` (m/s).
+    indices; `contact` (R, N) says with adhesion which samples are in contact; `time` (s) may be None.
+    Scaled parameters x are logarithms of E*, q_c, w and `top` − z₀, otherwise shares of `length` (m),
+    `load` (N) and `speed` (m/s).
     """
 
     profile: object
@@ -62,11 +59,12 @@ class CurveProblem:
     turning_points: np.ndarray
     loading_starts: np.ndarray
     contact: np.ndarray | None = None
+    time: np.ndarray | None = None
 
     def rows(self, rows):
         fixed = {name: value[rows] for name, value in self.fixed.items()}
         names = ["depth", "force", "rate", "sigma", "turning_points", "loading_starts"]
-        names += [] if self.contact is None else ["contact"]
+        names += [name for name in ("contact", "time") if getattr(self, name) is not None]
         return replace(self, fixed=fixed, **{name: getattr(self, name)[rows] for name in names})
 
     #: Largest depth (m), ranges of depth (m) and force (N) and largest speed (m/s) of each curve (R, 1);
@@ -84,7 +82,7 @@ class CurveProblem:
 
     @property
     def adhesive(self):
-        """Whether there is adhesion."""
+        """Whether there is adhesion, of a medium that is then held elastic."""
         return bool(np.any(self.fixed.get("work_of_adhesion", 1.0)))
 
     def in_contact(self, contact):
@@ -106,7 +104,6 @@ class CurveProblem:
         """Unit of each scaled parameter, 1 for a logarithm (R, P)."""
         units = dict.fromkeys(LOGARITHMIC, np.ones_like(self.length))
         units |= {"baseline": self.load, "tilt": self.load / self.length}
-        units |= {"frame_compliance": self.length / self.load}
         if {"eta", "drag"} & set(self.free):
             units["drag"] = self.load / self.speed
             radius = self.profile._radius(np.minimum(self.length, self.profile.known_depth))
@@ -187,27 +184,27 @@ class CurveProblem:
             state = CurveState.at(self, values, measured, turning_depth)
             if self.depth_noise:
                 state = self._nearest(values, measured, turning_depth, state)
-        return values, measured - state.displacement, state
+        return values, measured - state.depth, state
 
     def _nearest(self, values, measured, turning_depth, state):
         """The state of each branch that is nearest to its sample."""
         load, noise = self.force - self.background(values), self.depth_noise
 
         def distance(state):
-            return ((measured - state.displacement) / noise) ** 2 + ((load - state.force) / self.sigma) ** 2
+            return ((measured - state.depth) / noise) ** 2 + ((load - state.force) / self.sigma) ** 2
 
-        nearest, least = state.displacement, distance(state)
+        nearest, least = state.depth, distance(state)
         # The slope is 0 without contact: the search also starts just within the contact.
         inside = np.maximum(measured, state.live_interval.lower + noise)
         state = CurveState.at(self, values, inside, turning_depth)
         for _ in range(6):
             squares = distance(state)
-            nearest = np.where(squares < least, state.displacement, nearest)
+            nearest = np.where(squares < least, state.depth, nearest)
             least = np.minimum(squares, least)
-            residual = load - state.force - state.slope * (measured - state.displacement)
+            residual = load - state.force - state.slope * (measured - state.depth)
             step = state.slope * noise**2 * residual / (self.sigma**2 + (state.slope * noise) ** 2)
             state = CurveState.at(self, values, measured + step, turning_depth)
-        nearest = np.where(distance(state) < least, state.displacement, nearest)
+        nearest = np.where(distance(state) < least, state.depth, nearest)
         return CurveState.at(self, values, nearest, turning_depth)
 
     def residuals(self, x):
@@ -244,12 +241,11 @@ class CurveProblem:
 class CurveState:
     """States of the model at all samples, arrays (R, N).
 
-    `displacement` is u = d + C F with the frame's share (m), `loading` whether it is the largest so far,
-    `uniform_load` the line load (N/m) of dashpots, 4ηḋ, or of adhesion, `slope` ∂F/∂u, `memory_slope`
-    ∂F/∂u_max where it is not, `gradient` ∂F by the parameters of `_OF_FORCE` or `_WITH_ADHESION`.
+    `loading` says whether the depth is the largest so far; `uniform_load` is the line load (N/m) of
+    dashpots, 4ηḋ, or of adhesion, `slope` ∂F/∂d, `memory_slope` ∂F/∂d_max where the depth is not the
+    largest so far, `gradient` ∂F by the parameters of `_OF_FORCE` or `_WITH_ADHESION`.
     """
 
-    displacement: np.ndarray
     depth: np.ndarray
     loading: np.ndarray
     live_interval: LiveInterval
@@ -260,32 +256,17 @@ class CurveState:
     gradient: np.ndarray
 
     @classmethod
-    def at(cls, problem, values, displacement, turning_depth):
-        """States at displacements (m) from first contact, turning points likewise."""
-        profile, C = problem.profile, values["frame_compliance"]
-        largest, loading = problem.largest_so_far(displacement, turning_depth)
+    def at(cls, problem, values, depth, turning_depth):
+        """States at depths (m) from first contact, turning points likewise."""
+        largest, loading = problem.largest_so_far(depth, turning_depth)
         if problem.adhesive:
-            states = adhesive_states(profile, values, displacement, largest, loading, problem.contact)
-            return cls(displacement, displacement, loading, *states)
-        if not C.any() and "frame_compliance" not in problem.free:
-            rate = problem.rate if values["eta"].any() or "eta" in problem.free else 0.0
-            return cls.on_rigid_frame(profile, values, displacement, largest, loading, rate)
-        largest = _depth_in_frame(profile, values, largest, largest, True)
-        depth = _depth_in_frame(profile, values, displacement, largest, loading)
-        depth = np.where(loading, largest, depth)
-        turning_state = cls.on_rigid_frame(profile, values, largest, largest, True)
-        state = cls.on_rigid_frame(profile, values, depth, largest, loading)
-        # Derivatives of u = d + C F at both depths.
-        rate, memory_slope = 1 + C * state.slope, state.memory_slope / (1 + C * turning_state.slope)
-        springs = state.gradient - C * memory_slope * turning_state.gradient
-        frame = -(state.slope * state.force + memory_slope * turning_state.force)
-        return replace(
-            state, displacement=displacement, slope=state.slope / rate, memory_slope=memory_slope / rate,
-            gradient=np.concatenate([springs, frame[None]]) / rate,
-        )  # fmt: skip
+            *states, gradient = adhesive_states(problem.profile, values, depth, problem.contact)
+            return cls(depth, loading, *states, np.zeros_like(depth), gradient)
+        rate = problem.rate if values["eta"].any() or "eta" in problem.free else 0.0
+        return cls.without_adhesion(problem.profile, values, depth, largest, loading, rate)
 
     @classmethod
-    def on_rigid_frame(cls, profile, values, depth, largest, loading, rate=0.0):
+    def without_adhesion(cls, profile, values, depth, largest, loading, rate):
         """States at depths (m) and rates (m/s), the largest depths so far given.
 
         Above the known depth they are those at it.
@@ -310,12 +291,12 @@ class CurveState:
             growing = contact & (a < profile.wall)
             rate_of_radius = radius_rate(profile, np.minimum(inside, known))
             slope = slope + 2 * uniform_load * np.where(growing, rate_of_radius, 0.0)
-        return cls(depth, depth, loading, interval, uniform_load, force, slope, memory_slope, gradient)
+        return cls(depth, loading, interval, uniform_load, force, slope, memory_slope, gradient)
 
     def derivatives(self, problem, values):
         """−∂F by the free parameters, in logarithms, and by turning depths (R, N, P)."""
         names = _WITH_ADHESION if problem.adhesive else _OF_FORCE
-        columns = dict(zip(names, -self.gradient, strict=False))
+        columns = dict(zip(names, -self.gradient, strict=True))
         shift = values["contact_point"] - problem.top
         columns["contact_point"] = shift * (self.slope + self.memory_slope)
         background = problem.background_columns.items()
@@ -324,20 +305,3 @@ class CurveState:
         turning = [np.where(last == k, -self.memory_slope, 0.0) for k in range(problem.free_turning_points)]
         free = [columns[name] for name in problem.free]
         return np.stack([*free, *turning], axis=-1) if free or turning else self.force[..., None][..., :0]
-
-
-def _depth_in_frame(profile, values, displacement, largest, loading):
-    """Depth d (m) with d + C F(d) = `displacement`, by Newton's method from above within a bracket."""
-    C, depth = values["frame_compliance"], displacement
-    low, high = np.minimum(displacement, 0.0), displacement
-    for _ in range(60):
-        so_far = np.where(loading, depth, largest)
-        state = CurveState.on_rigid_frame(profile, values, depth, so_far, loading)
-        excess = depth + C * state.force - displacement
-        low, high = np.where(excess < 0, depth, low), np.where(excess > 0, depth, high)
-        before, depth = depth, depth - excess / (1 + C * state.slope)
-        # The slope jumps where a flat face touches or yields: without bisection the steps may cycle.
-        depth = np.where((depth >= low) & (depth <= high), depth, (low + high) / 2)
-        if np.all(np.abs(depth - before) <= 1e-15 * np.abs(displacement).max()):
-            break
-    return depth

@@ -6,8 +6,9 @@ from .. import _check
 from .._check import ArrayLike
 from ..integrals import tabulated
 from ..medium import Medium, check_pair
+from ..results.quantities import engineering
 from ..shapes.profile import Profile
-from .curve import BACKGROUND, NOT_NEGATIVE, PARAMETERS, REACH
+from .curve import BACKGROUND, PARAMETERS, REACH
 from .least_squares import FITTED_QUANTITIES
 from .measured import measurement
 from .result import IndentationFit, collected
@@ -28,7 +29,6 @@ def fit_indentation(
     baseline: ArrayLike | None = 0.0,
     tilt: ArrayLike | None = 0.0,
     drag: ArrayLike | None = 0.0,
-    frame_compliance: ArrayLike | None = 0.0,
     work_of_adhesion: ArrayLike | None = 0.0,
     depth_noise: float = 0.0,
     force_noise: ArrayLike | None = None,
@@ -46,12 +46,13 @@ def fit_indentation(
     depth, force : array_like
         Measured depths (m) and forces (N) in the order of time, of one shape: one curve (N,), or many
         (R, N) with one indenter, each on a virgin medium; or lists of R arrays of different lengths.
-        Samples with NaN are left out. With `q_c=inf`, without `time` and without adhesion the order does
-        not matter.
+        Samples with NaN are left out. Of a frame of compliance C (m/N) subtract the depth C F before.
+        With `q_c=inf`, without `time` and without adhesion the order does not matter.
     time : array_like, optional
-        Increasing times (s) of the samples, of the same shape; needed for `eta` and `drag`. The rate ż is
-        the central difference of the depths, so that a noisy depth makes a noisy rate: average neighbouring
-        samples first. Where the rate jumps from one sample to the next, the sample has no weight.
+        Increasing times (s) of the samples, of the same shape; needed for `eta` and `drag`, and for remarks
+        on drag and drift that are left out. The rate ż is the central difference of the depths, so that a
+        noisy depth makes a noisy rate: average neighbouring samples first. Where the rate jumps from one
+        sample to the next, the sample has no weight.
     E_star, q_c : float, optional
         Effective modulus (Pa) and yield constant (N/m); `q_c=inf` holds the medium elastic.
     eta : float, optional
@@ -61,11 +62,8 @@ def fit_indentation(
     baseline, tilt, drag : float, optional
         Background: force F₀ (N) without contact, its slope F₁ (N/m) over depth, and the drag ζ (N·s/m) of
         a liquid, which shifts approach and retract apart. 0 by default.
-    frame_compliance : float, optional
-        Compliance C (m/N) of the frame: the measured depth is z₀ + d + C (F − F₀). 0 by default; not
-        together with `eta`.
     work_of_adhesion : float, optional
-        Work of adhesion w (J/m²), 0 by default; see Notes.
+        Work of adhesion w (J/m²) of an elastic medium, 0 by default; see Notes.
     depth_noise : float, optional
         Standard deviation (m) of the measured depth. Without it noise counts as a new largest depth, and
         E* is too small.
@@ -97,16 +95,19 @@ def fit_indentation(
     ``keep = (time < start) | (time > stop)`` (s) with ``depth[keep], force[keep], time=time[keep]``. Rates
     at the edges of the gap are those of the nearer samples.
 
-    **Adhesion.** The states are those of `indent`, on record from before contact to after the pull-off. E*,
-    q_c, w and z₀ follow from the forces in contact. Which samples are in contact is taken from the data: a
-    soft cantilever loses contact earlier than the model, in which the depth is prescribed. The samples next
-    to a jump into or out of contact have no weight; `path` and `residuals` have the jumps of the model. Not
-    together with `eta`, `frame_compliance` or `depth_noise`.
+    **Adhesion** is that of an elastic medium, `q_c=inf`: the retract from one that yields does not
+    determine it. The states are those of `indent`, on record from before contact to after the pull-off.
+    E*, w and z₀ follow from the forces in contact. Which samples are in contact is taken from the data: a
+    soft cantilever loses contact earlier than the model, in which the depth is prescribed; a remark says by
+    what depth. The samples next to a jump into or out of contact have no weight; `path` and `residuals`
+    have the jumps of the model. Not together with `eta` or `depth_noise`.
 
     **Not in the model**: relaxation over more than one time, adhesion that changes between approach and
     retract, poroelastic flow, layers, finite thickness, and hardness that does not fall with the contact
     radius (glass, most metals). Residuals then follow a curve; a remark says so where they exceed 5 % of
-    the force.
+    the force, 1 % where the medium yields. A tilt, a drag and, of elastic media, a drift of the depth that
+    would lower the residuals in contact clearly are told with the change of E*, those in time if `time` is
+    given. Drift of a curve that yields is read off a hold; without one the report says what 0.1 nm/s does.
 
     **Standard errors** come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)², S the
     slope. In simulated curves deviations over errors have standard deviations of 0.9 to 1.2; with depth
@@ -146,12 +147,13 @@ def fit_indentation(
     check_pair(profile, Medium(1.0), "a fit")
     measured = measurement(depth, force, time, force_noise)
     count = len(measured.depth)
-    values = E_star, q_c, eta, contact_point, baseline, tilt, drag, frame_compliance, work_of_adhesion
+    values = E_star, q_c, eta, contact_point, baseline, tilt, drag, work_of_adhesion
     named = zip(PARAMETERS, values, strict=True)
     fixed = {name: _fixed(name, value, count) for name, value in named if value is not None}
     noise = _check.positive_number("depth_noise", depth_noise, unit="m") if depth_noise else 0.0
     in_time = [name for name in ("eta", "drag") if name not in fixed or fixed[name].any()]
-    _refuse_missing(fixed, in_time, time)
+    if in_time and time is None:
+        raise ValueError(f"{' and '.join(in_time)} need time, the times (s) of the samples: give time=")
     if "work_of_adhesion" not in fixed or fixed["work_of_adhesion"].any():
         _refuse_with_adhesion(fixed, noise)
     _refuse_empty(measured, fixed)
@@ -165,20 +167,17 @@ def fit_indentation(
     return fit[0] if measured.single else fit
 
 
-def _refuse_missing(fixed, in_time, time):
-    """Refuses rates without times, and viscosity in a frame that gives way."""
-    if in_time and time is None:
-        raise ValueError(f"{' and '.join(in_time)} need time, the times (s) of the samples: give time=")
-    if "eta" in in_time and ("frame_compliance" not in fixed or fixed["frame_compliance"].any()):
-        raise ValueError(
-            "eta needs frame_compliance = 0: subtract the depth of the frame, C F, from the measured depth"
-        )
-
-
 def _refuse_with_adhesion(fixed, noise):
     """Refuses adhesion with what its curves are not fitted with."""
-    excluded = [name for name in ("eta", "frame_compliance") if name not in fixed or fixed[name].any()]
-    names = " and ".join([*excluded, *["depth_noise"] * bool(noise)])
+    q_c = fixed.get("q_c", np.array([np.nan]))
+    if not np.all(np.isinf(q_c)):
+        given = "free" if np.isnan(q_c[0]) else engineering(q_c, "N/m")
+        raise ValueError(
+            f"work_of_adhesion with q_c {given}: with adhesion a fit is of an elastic medium, q_c = inf; "
+            "give q_c=np.inf, or work_of_adhesion=0"
+        )
+    excluded = ["eta"] * ("eta" not in fixed or bool(fixed["eta"].any())) + ["depth_noise"] * bool(noise)
+    names = " and ".join(excluded)
     if names:
         raise ValueError(f"work_of_adhesion is not fitted together with {names}: hold one of them at 0")
 
@@ -193,7 +192,7 @@ def _fixed(name, value, count):
     if name in ("contact_point", *BACKGROUND):
         value = _check.finite_array(name, value, unit=unit)
     else:
-        allowed = {"infinite": name == "q_c", "zero": name in (*NOT_NEGATIVE, "work_of_adhesion")}
+        allowed = {"infinite": name == "q_c", "zero": name in ("eta", "work_of_adhesion")}
         value = _check.positive(name, value, unit=unit, **allowed)
     _check.common_shape("fit_indentation", **{name: value, "curves": np.empty(count)})
     return np.broadcast_to(value, (count,)).astype(float)
@@ -228,6 +227,5 @@ def _table_depth(profile, depth, fixed):
     if "contact_point" in fixed:
         largest = top - fixed["contact_point"]
         limit = max(limit, 1.01 * float(largest.max()))
-        if fixed.get("frame_compliance", np.ones(1)).max() == 0:
-            profile._known(largest)
+        profile._known(largest)
     return min(limit, profile.known_depth)

@@ -28,7 +28,6 @@ FITTED_QUANTITIES = QUANTITIES | {
     "baseline": Quantity("F₀", "N", "baseline"),
     "tilt": Quantity("F₁", "N/m", "tilt of the baseline"),
     "drag": Quantity("ζ", "N·s/m", "drag"),
-    "frame_compliance": Quantity("C", "m/N", "frame compliance"),
     "contact_depth": Quantity("h_c", "m", "contact depth"),
     "hardness": Quantity("H", "Pa", "hardness"),
     "exponent": Quantity("m", "", "exponent"),
@@ -143,16 +142,19 @@ def block_factors(residual, jacobian, length):
 
 
 def with_error(value, error, unit):
-    """A number and its standard error as text, with one prefix and two digits of the error."""
+    """A number and its standard error as text, with one prefix and two digits of the error.
+
+    An error below 10⁻⁶ of the number is that of the arithmetic, and left out.
+    """
     if value == np.inf:
         return "∞"
-    if not np.isfinite(value) or not np.isfinite(error) or error == 0:
+    if error == np.inf:
         number, _, unit = engineering(value, unit).partition(" ")
-        return f"{number} ± {'∞' if error == np.inf else '0'} {unit}".rstrip()
+        return f"{number} ± ∞ {unit}".rstrip()
     factor, unit = prefixed(max(abs(value), error), unit)
     value, error = value / factor, error / factor
-    if error < 1e-9 * abs(value):
-        return f"{value:.10g} ± {error:.1e} {unit}".rstrip()
+    if error <= 1e-6 * abs(value):
+        return f"{value:.6g} {unit}".rstrip()
     digits = max(0, 1 - int(np.floor(np.log10(error))))
     return f"{value:.{digits}f} ± {error:.{digits}f} {unit}".rstrip()
 

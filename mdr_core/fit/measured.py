@@ -15,8 +15,8 @@ _JUMP, _ISOLATED = 0.03, 10.0
 class Samples:
     """Samples of the curves `rows` of a measurement, with equally many each, arrays (R, N).
 
-    Depth (m), its rate (m/s), force (N) and its standard deviation (N), None where it is to be estimated.
-    At a `corner` the rate jumps, and that of the sample is not known.
+    Depth (m), its rate (m/s), force (N) and its standard deviation (N), None where it is to be estimated;
+    time (s), None where it is not known. At a `corner` the rate jumps, and that of the sample is not known.
     """
 
     rows: np.ndarray
@@ -25,6 +25,7 @@ class Samples:
     rate: np.ndarray
     corner: np.ndarray
     force_noise: np.ndarray | None
+    time: np.ndarray | None
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,7 @@ class Measurement:
             rate, corner = np.zeros_like(depth), np.zeros(depth.shape, bool)
             if in_time:
                 rate, corner = _rates(depth, time)
-            yield Samples(rows, depth, force, rate, corner, noise)
+            yield Samples(rows, depth, force, rate, corner, noise, time)
 
 
 def measurement(depth, force, time, force_noise):

@@ -1,5 +1,6 @@
 """Modulus and hardness from an unloading, by the method of Oliver and Pharr."""
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,8 @@ from .least_squares import FITTED_QUANTITIES, least_squares, with_error
 
 #: Bounds of force and stiffness, in units of those of the samples, and of the exponent.
 _LOWER, _UPPER = np.array([[0.1, 1e-3, 0.5]]), np.array([[10.0, 1e3, 50.0]])
+#: Shares of the largest force from and to which the unloading is fitted: those of the result, and others.
+_SHARES = (0.99, 0.5), (0.99, 0.4), (0.99, 0.3), (0.95, 0.5), (0.95, 0.4), (0.95, 0.3)
 
 
 @_check.keywords_explained
@@ -76,30 +79,35 @@ def oliver_pharr(
     def results(F, S, m):
         contact_depth = depth.max() - epsilon * F / S
         a = _radius_at_height(profile, contact_depth)
-        return np.stack([S, contact_depth, S / (2 * beta * a), F / (np.pi * a**2), m])
+        with np.errstate(all="ignore"):
+            return np.stack([S, contact_depth, S / (2 * beta * a), F / (np.pi * a**2), m]).T
 
-    solution, deviations = _power_law(*_upper_half(depth, force))
-    with np.errstate(all="ignore"):
-        values, *others = results(*np.column_stack([solution, solution[:, None] + deviations])).T
+    solution, deviations = _power_law(*_part(depth, force, *_SHARES[0]))
+    values, *others = results(*np.column_stack([solution, solution[:, None] + deviations]))
     # A contact radius of 0 or ∞ makes the modulus or the hardness so.
     if not np.all((values[2:] > 0) & (values[2:] < np.inf)):
         raise ValueError(
             f"the contact depth h − ε F/S = {values[1]:g} m must be positive and within the profile: depth "
             "counts from first contact, force from the baseline"
         )
-    errors = np.linalg.norm(np.array(others) - values, axis=0)
+    choices = [values]
+    for shares in _SHARES[1:]:
+        with suppress(ValueError):
+            choices.append(results(*_power_law(*_part(depth, force, *shares))[0]))
+    spread = np.ptp([choice for choice in choices if np.isfinite(choice).all()], axis=0) / 2
+    errors = np.maximum(np.linalg.norm(np.array(others) - values, axis=0), spread)
     names = OliverPharr._quantities
     return OliverPharr(profile, *values.tolist(), dict(zip(names, errors.tolist(), strict=True)))
 
 
-def _upper_half(depth, force):
-    """Depths (m) minus the largest one, and forces (N), of the upper half of the unloading."""
+def _part(depth, force, upper, lower):
+    """Depths (m) minus the largest one, and forces (N), of the unloading between shares of the force."""
     start = int(np.flatnonzero(depth == depth.max())[-1])
     h, F = depth[start:] - depth[start], force[start:]
     share = F / np.abs(F).max()
-    below = np.flatnonzero(share < 0.5)
+    below = np.flatnonzero(share < lower)
     end = below[0] if below.size else np.argmin(F) + 1
-    first = np.flatnonzero(share[:end] >= 0.99)
+    first = np.flatnonzero(share[:end] >= upper)
     h, F = (values[first[-1] if first.size else end : end] for values in (h, F))
     if h.size < 5 or h.min() == 0:
         raise ValueError(
@@ -142,7 +150,8 @@ def _radius_at_height(profile, height):
 class OliverPharr(Report):
     """Results for one unloading, returned by `oliver_pharr`, and their standard errors by name.
 
-    The errors are those of the scatter about the power law.
+    The errors are those of the scatter about the power law, and not less than half the range of the results
+    for six parts of the unloading: from 99 or 95 % of the largest force down to 50, 40 or 30 %.
     """
 
     profile: Profile

@@ -7,16 +7,22 @@ import numpy as np
 from ..medium import critical_depth
 from ..results.quantities import engineering
 from .least_squares import SIGNIFICANT, SINGULAR, autocorrelation, roughness
+from .nested import nested_tests
 
 #: All kinds of remarks, the most important first.
 KINDS = (
-    "units", "adhesion", "bound", "frame", "second minimum", "undetermined", "misfit", "jitter", "loading",
-    "vague", "contact", "class", "elastic", "hardly yields", "noisy", "inviscid", "missing",
+    "units", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag", "drift", "misfit",
+    "jitter", "loading", "vague", "contact", "class", "elastic", "hardly yields", "noisy", "rest",
+    "inviscid", "missing",
 )  # fmt: skip
+#: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
+DOUBTS = {"units", "tilt", "drag", "drift", "misfit", "jitter", "class", "noisy"}
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
-#: Samples at which contact differs from that of the model, as a share of those in contact.
-_OTHER_CONTACT = 0.05
+#: Largest range of depth (m), and least share of the variance of the force that a contact explains.
+_LONGEST, _EXPLAINED = 1e-3, 0.75
+#: Least distance of the pull-off from that of the model, as a share of the range of depth.
+_PULL_OFF = 0.02
 #: Root mean square of correlated residuals over the range of force above which the model does not fit, of
 #: elastic media and of those that yield, whose unloading is a small part of the curve.
 _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
@@ -24,7 +30,7 @@ _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
 
 def remarks_of(solved):
     """Remarks on each curve of `SolvedCurves`: a sentence by its kind, the same for all curves."""
-    checks = _ambiguous, _adhesion, _undetermined, _jitter, _class_b, _misfit
+    checks = _units, _ambiguous, _adhesion, _undetermined, _jitter, _class_b, _misfit, nested_tests
     curves = range(len(solved.rows))
     return [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in curves]
 
@@ -39,13 +45,52 @@ def missing(count, samples):
     return {"missing": f"left out: {count} of {samples} samples, without a number"} if count else {}
 
 
+def _units(solved, i):
+    """Columns that are swapped or of the other sign, records without contact, and data in other units."""
+    problem, values = solved.problem, solved.values_and_states[0]
+    if "E_star" not in problem.free:
+        return
+    depth, force, E = problem.depth[i], problem.force[i], values["E_star"][i, 0]
+    squares = np.sum((solved.residual[i] * solved.noise[i]) ** 2)
+    variance = np.sum((force - force.mean()) ** 2)
+    line = variance * (1 - np.corrcoef(depth, force)[0, 1] ** 2)
+    if not problem.adhesive and squares > (1 - _EXPLAINED) * variance and line < 1.1 * squares:
+        others = {
+            "depth and force are swapped": (force, depth),
+            "the depth has the other sign, it must grow as the indenter goes in": (-depth, force),
+            "the force has the other sign, it must be positive in compression": (depth, -force),
+            "depth and force have the other sign": (-depth, -force),
+        }
+        shares = {cause: _share_of_contact(*pair) for cause, pair in others.items()}
+        cause = max(shares, key=shares.get)
+        if shares[cause] < max(_EXPLAINED, _share_of_contact(depth, force)):
+            cause = "no contact is seen in this record"
+        yield "units", f"a straight line fits the force as well as an indentation: {cause}"
+    elif not 1.0 <= E <= 1e13:
+        small = E < 1.0 and np.ptp(depth) < _LONGEST
+        cause = "no contact is seen in this record" if small else "give depth in m and force in N"
+        yield "units", f"E* = {engineering(E, 'Pa')} is that of no material: {cause}"
+
+
+def _share_of_contact(depth, force):
+    """Share of the variance of the force that grows as (depth − z₀)^(3/2), with the best z₀.
+
+    On the loading, or on the unloading of a record that begins near its largest depth.
+    """
+    top = int(np.argmax(depth))
+    part = slice(top + 1) if top > depth.size / 4 else slice(top, None)
+    depth, deviation, shares = depth[part], force[part] - force[part].mean(), [0.0]
+    for point in np.linspace(depth.min(), depth.max(), 50)[:-1]:
+        column = np.maximum(depth - point, 0.0) ** 1.5
+        column = column - column.mean()
+        product = max(column @ deviation, 0.0)
+        shares.append(product**2 / max((column @ column) * (deviation @ deviation), 1e-300))
+    return max(shares)
+
+
 def _ambiguous(solved, i):
-    """A modulus of no material, parameters at a bound, a second minimum, a frame like the medium."""
+    """Parameters at a bound, a second minimum."""
     problem, squares = solved.problem, np.sum(solved.residual[i] ** 2)
-    E = solved.values_and_states[0]["E_star"][i, 0]
-    if not 1.0 <= E <= 1e13 and "E_star" in problem.free:
-        text = f"E* = {engineering(E, 'Pa')} is that of no material: give depth in m and force in N"
-        yield "units", text
     for name, at_bound in zip(problem.free, solved.at_bound[i], strict=False):
         if at_bound and name == "eta":
             yield "inviscid", "no viscosity within the noise: η = 0; hold eta = 0"
@@ -57,20 +102,10 @@ def _ambiguous(solved, i):
         E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
         text = f"E* = {E} with contact at {point} fits about as well: hold contact_point or E_star"
         yield "second minimum", text
-    if {"E_star", "frame_compliance"} <= set(problem.free):
-        pair = [problem.free.index(name) for name in ("E_star", "frame_compliance")]
-        block = solved.covariance[i][np.ix_(pair, pair)]
-        correlation = block[0, 1] / max(np.sqrt(block[0, 0] * block[1, 1]), 1e-300)
-        if abs(correlation) > 0.9:
-            yield (
-                "frame",
-                f"E* and frame_compliance are nearly one parameter (correlation {correlation:.3f}): hold "
-                "frame_compliance",
-            )
 
 
 def _adhesion(solved, i):
-    """A work of adhesion that is hardly determined, and contact at other samples than in the model."""
+    """A work of adhesion that is hardly determined, and a pull-off at another depth than in the model."""
     problem, (values, state) = solved.problem, solved.values_and_states
     if not problem.adhesive:
         return
@@ -85,14 +120,21 @@ def _adhesion(solved, i):
             "adhesion",
             f"the forces in contact hardly determine w ({share}{cause}): hold work_of_adhesion",
         )
-    differs = problem.contact[i] != (state.live_interval.length[i] > 0)
-    others = np.count_nonzero(differs & (np.abs(force - state.force[i]) > SIGNIFICANT * noise))
-    if others > max(2, _OTHER_CONTACT * np.count_nonzero(problem.contact[i])):
+    depth = problem.depth[i]
+    lost = [_depth_of_loss(depth, held) for held in (problem.contact[i], state.live_interval.length[i] > 0)]
+    if abs(lost[1] - lost[0]) > _PULL_OFF * np.ptp(depth):
+        measured, model, difference = (engineering(z, "m") for z in (*lost, lost[1] - lost[0]))
         yield (
             "contact",
-            f"{others} samples have contact where the model has none, or none where it has: a soft "
-            "cantilever loses it earlier, or adhesion differs between approach and retract",
+            f"contact is lost at z = {measured}, in the model at {model} (model less data {difference}): a "
+            "soft cantilever loses it earlier, or adhesion differs between approach and retract",
         )
+
+
+def _depth_of_loss(depth, contact):
+    """Depth (m) at which contact is lost at last, that of the last sample where it is not lost."""
+    losses = np.flatnonzero(contact[:-1] & ~contact[1:])
+    return depth[losses[-1] + 1] if losses.size else depth[-1]
 
 
 def _undetermined(solved, i):
@@ -163,7 +205,7 @@ def _class_b(solved, i):
     depth = state.live_interval.lower[i] + d_c
     mean = np.mean(depth[unloading])
     change = np.where(unloading, memory_slope * d_c * (depth / mean - 1), 0.0)
-    column = change / problem.noise(state.slope)[i]
+    column = change / solved.noise[i]
     if problem.depth_noise:
         # Free turning depths would absorb the trend; each is known about as well as one sample.
         count, width = problem.free_turning_points, jacobian.shape[1]
@@ -191,13 +233,11 @@ def _misfit(solved, i):
     problem, residual = solved.problem, solved.residual[i]
     freedom, chi = max(residual.size - solved.x.shape[1], 1), solved.reduced_chi_square[i]
     correlation = autocorrelation(residual[solved.orders[i]])
-    _, state = solved.values_and_states
-    size = np.sqrt(np.mean((residual * problem.noise(state.slope)[i]) ** 2)) / problem.load[i, 0]
+    size = np.sqrt(np.mean((residual * solved.noise[i]) ** 2)) / problem.load[i, 0]
     largest = _MISFIT if problem.memoryless else _MISFIT_YIELDING
     if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
         cause = "not an elastic medium" if problem.memoryless else "not class (b)"
-        held = [name for name in ("drag", "eta", "tilt") if name not in problem.free]
-        remedy = f"; free {', '.join(held)}, if the curve was measured in a liquid or on a gel" * bool(held)
+        remedy = "; give time, which tells drag and drift" * (problem.time is None and not problem.adhesive)
         yield (
             "misfit",
             f"the residuals ({100 * size:.2g} % of the force) follow a curve (correlation of neighbours "

@@ -17,13 +17,13 @@ from ..results.report import imported
 from .curve import PARAMETERS
 from .least_squares import FITTED_QUANTITIES, Fit, with_error
 from .oliver_pharr import oliver_pharr
-from .remarks import by_importance, missing, remarks_of
+from .remarks import DOUBTS, by_importance, missing, remarks_of
 
 if TYPE_CHECKING:
     import xarray
 
 #: Parameters besides those of the medium; arrays with one entry per curve, and per sample.
-_FURTHER = ("contact_point", "baseline", "tilt", "drag", "frame_compliance")
+_FURTHER = ("contact_point", "baseline", "tilt", "drag")
 _OF_MEDIUM = ("E_star", "q_c", "eta", "work_of_adhesion")
 _OF_CURVES = (*_FURTHER, "covariance", "reduced_chi_square", "block_length")
 _OF_SAMPLES = ("depth", "force", "time", "residuals")
@@ -42,12 +42,11 @@ class IndentationFit(Fit):
     depth: Array
     force: Array
     time: Array | None
-    #: Fitted or held values (m, N, N/m, N·s/m, m/N).
+    #: Fitted or held values (m, N, N/m, N·s/m).
     contact_point: Array
     baseline: Array
     tilt: Array
     drag: Array
-    frame_compliance: Array
     #: Sum of squares in units of the noise over the degrees of freedom, NaN for noise from the residuals.
     reduced_chi_square: Array
     #: Number of samples in a block of the standard errors, 1 where residuals are not correlated.
@@ -72,11 +71,10 @@ class IndentationFit(Fit):
     def residual_noise(self) -> Array:
         """Standard deviation (N) of the residuals by the noise of force and depth, √(σ_F² + (S σ_d)²)."""
         stiffness = np.asarray(self.path.stiffness)
-        compliance, force_noise = np.asarray(self.frame_compliance), np.asarray(self.force_noise)
-        if self.shape:
-            compliance = compliance[:, None]
-            force_noise = force_noise if force_noise.ndim == 2 else force_noise[:, None]
-        return np.hypot(force_noise, stiffness / (1 + compliance * stiffness) * self.depth_noise)
+        force_noise = np.asarray(self.force_noise)
+        if self.shape and force_noise.ndim == 1:
+            force_noise = force_noise[:, None]
+        return np.hypot(force_noise, stiffness * self.depth_noise)
 
     def __getitem__(self, index: Any) -> "IndentationFit":
         if not self.shape:
@@ -118,7 +116,7 @@ class IndentationFit(Fit):
         """Measured and fitted force over depth, and the residuals, of one curve as HoloViews elements.
 
         The band of the residuals is one standard deviation of their noise, √(σ_F² + (S σ_d)²), S the
-        stiffness. Drawn are measured depths and forces, with offsets, background and frame.
+        stiffness. Drawn are measured depths and forces, with offset and background.
         """
         from .figures import plot_fit
 
@@ -152,14 +150,20 @@ class IndentationFit(Fit):
         return xarray.Dataset(variables, names, attributes | {"depth_noise": self.depth_noise})
 
     def _unloading(self):
-        """Row with the results of Oliver and Pharr for one curve, if it has an unloading."""
-        # Without background and frame the measured force is that of the contact plus the residual.
+        """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
+        if set(self._remarks[0]) & DOUBTS:
+            return
+        # Without background the measured force is that of the contact plus the residual.
+        force, shift = self.path.force + self.residuals, self.standard_errors.get("contact_point", 0.0)
         with suppress(ValueError):
-            result = oliver_pharr(self.profile, self.path.depth, self.path.force + self.residuals)
-            pairs = (("E_star", "Pa"), ("hardness", "Pa"))
-            errors = result.standard_errors
-            E, H = (with_error(getattr(result, name), errors[name], unit) for name, unit in pairs)
-            yield "Oliver and Pharr", f"E* {E}, H {H}"
+            result = oliver_pharr(self.profile, self.path.depth, force)
+            shifted = oliver_pharr(self.profile, self.path.depth + shift, force)
+            texts = []
+            for name, unit in (("E_star", "Pa"), ("hardness", "Pa")):
+                value = getattr(result, name)
+                error = np.hypot(result.standard_errors[name], getattr(shifted, name) - value)
+                texts.append(f"{FITTED_QUANTITIES[name].symbol} {with_error(value, error, unit)}")
+            yield "Oliver and Pharr", ", ".join(texts)
 
     def _quality(self):
         noise = np.asarray(self.force_noise)
@@ -204,7 +208,7 @@ def _arrays(fit, used):
     """Arrays of `SolvedCurves` by name, one row a curve, one column a sample that was given."""
     problem, (values, state) = fit.problem, fit.values_and_states
     units = problem.units(values)
-    residuals = fit.residual * problem.noise(state.slope)
+    residuals = fit.residual * fit.noise
     if problem.adhesive:
         # The path follows the model, the search has contact where the data have it.
         residuals = problem.force - problem.background(values) - state.force

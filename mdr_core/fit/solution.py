@@ -8,7 +8,7 @@ import numpy as np
 from .._numeric import chunks
 from ..medium import critical_depth
 from .adhesive_curve import contact_of_data, contact_of_model
-from .curve import LOGARITHMIC, NO_WEIGHT, NOT_NEGATIVE, REACH, CurveProblem
+from .curve import LOGARITHMIC, NO_WEIGHT, REACH, CurveProblem
 from .least_squares import (
     autocorrelation,
     block_factors,
@@ -51,6 +51,11 @@ class SolvedCurves:
             problem = problem.in_contact(contact_of_model(problem, self.x))
         values, _, state = problem.states(self.x)
         return values | {"q_c": np.where(self.elastic[:, None], np.inf, values["q_c"])}, state
+
+    @cached_property
+    def noise(self):
+        """Standard deviation (N) of the residuals at all samples (R, N)."""
+        return self.problem.noise(self.values_and_states[1].slope)
 
     @cached_property
     def reduced_chi_square(self):
@@ -123,7 +128,8 @@ def solved(profile, samples, fixed, noise, rows, turns, starts):
     given = samples.force_noise is not None
     sigma = samples.force_noise[rows] if given else _first_sigma(ordered, noise)
     sigma = np.where(samples.corner[rows], NO_WEIGHT * sigma, sigma)
-    problem = CurveProblem(profile, depth, force, rate, fixed, noise, sigma, turns, starts)
+    time = None if samples.time is None else samples.time[rows]
+    problem = CurveProblem(profile, depth, force, rate, fixed, noise, sigma, turns, starts, time=time)
     solution, rival = _best_minimum(problem)
     for _ in range(5 if noise and turns.size else 0):
         before, problem = problem, problem.with_best_turning_points(solution[0])
@@ -158,7 +164,7 @@ def _minimum(problem, start):
             lower[:, i], upper[:, i] = np.log(1e-4 * problem.length[:, 0]), np.log(longest)
         elif name in LOGARITHMIC:
             lower[:, i], upper[:, i] = start[:, i] - 16, start[:, i] + 16
-        elif name in NOT_NEGATIVE:
+        elif name == "eta":
             lower[:, i] = 0.0
     solution = least_squares(lambda x, rows: problem.rows(rows).residuals(x), start, lower, upper)
     # Steps across a bound may end next to it.

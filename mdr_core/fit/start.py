@@ -9,8 +9,6 @@ from ..yielding import interval_at
 from .adhesive_curve import in_contact
 from .curve import BACKGROUND, PARAMETERS, REACH
 
-#: Trial frame compliances, in units of the range of depth over the range of force.
-_COMPLIANCES = np.array([0.0, 0.05, 0.15, 0.3, 0.5])
 #: Trial depths of contact at the largest depth, in units of the range of depth.
 _DEPTHS = np.geomspace(3e-3, 1 + REACH, 48)
 #: Trial critical depths, as shares of the largest depth.
@@ -48,9 +46,9 @@ def turning_points(depth, threshold):
 def first_guesses(problem):
     """Starts of a search, the best first, each with its rows and their scaled parameters.
 
-    They are the minima over a grid of contact points, with the best critical depth, relaxation time or work
-    of adhesion, and frame compliance of grids. The force is E* times a function of these, and a background:
-    E* and the parameters of the background follow by linear regression.
+    They are the minima over a grid of contact points, with the best critical depth and relaxation time or
+    work of adhesion of grids. The force is E* times a function of these, and a background: E* and the
+    parameters of the background follow by linear regression.
     """
     largest = min((1 + REACH) * float(problem.length.max()), problem.profile.known_depth)
     depths = largest * np.append(0.0, np.geomspace(1e-7, 1, 600))
@@ -75,30 +73,25 @@ def _turning_depth(problem):
 def _guesses(curve, turning_depth, table):
     """Parameters of one curve by name at the minima over its contact points, the best first."""
     fixed = {name: float(value[0]) for name, value in curve.fixed.items()}
-    compliances = _COMPLIANCES * float((curve.length / curve.load)[0, 0])
-    compliances = [fixed["frame_compliance"]] if "frame_compliance" in fixed else compliances
-    grids = [_grid(curve, fixed, turning_depth, table, C) for C in compliances]
-    trials = [min(column, key=lambda trial: trial["squares"]) for column in zip(*grids, strict=True)]
+    trials = list(_grid(curve, fixed, turning_depth, table))
     squares = np.array([np.inf, *(trial["squares"] for trial in trials), np.inf])
     minima = (squares[1:-1] <= squares[:-2]) & (squares[1:-1] < squares[2:])
     minima &= squares[1:-1] <= _CLOSE * squares.min()
     return sorted((trials[i] for i in np.flatnonzero(minima)), key=lambda trial: trial["squares"])[:_STARTS]
 
 
-def _grid(curve, fixed, turning_depth, table, compliance):
+def _grid(curve, fixed, turning_depth, table):
     """Parameters by name and sum of squares of the best medium for each contact point."""
-    force, depth = curve.force[0], curve.depth[0]
+    depth = curve.depth[0]
     count = min(depth.size, 512 if curve.memoryless else 64)
     subset = np.union1d(np.linspace(0, depth.size - 1, count).astype(int), np.argmax(depth))
-    depth = depth - compliance * (force - fixed.get("baseline", float(np.quantile(force, 0.05))))
     largest, _ = curve.largest_so_far(depth[None], turning_depth)
     top, length = float(depth.max()), float(curve.length[0, 0])
     points = top - np.minimum(length * _DEPTHS, curve.profile.known_depth)
     points = np.array([fixed["contact_point"]]) if "contact_point" in fixed else points
     d_c, tau, kappa = _media(curve, fixed, np.maximum(top - points, 1e-3 * length)[:, None])
     if curve.adhesive:
-        samples = np.maximum.accumulate(depth)[subset], depth[subset]
-        unit_force = _adhesive_force(*samples, points, d_c, kappa, table)
+        unit_force = _adhesive_force(depth[subset], points, kappa, table)
     else:
         samples = largest[:, subset], depth[subset], curve.rate[0, subset]
         unit_force = _unit_force(*samples, points[:, None, None], d_c[..., None], tau[..., None], table)
@@ -106,8 +99,8 @@ def _grid(curve, fixed, turning_depth, table, compliance):
     for i, (j, E) in enumerate(zip(best.tolist(), moduli.tolist(), strict=True)):
         yield {
             "E_star": E, "q_c": yield_constant(E, float(d_c[i, j])), "eta": E * float(tau[i, j]) / 4,
-            "contact_point": float(points[i]), "frame_compliance": compliance, "squares": squares[i],
-            "work_of_adhesion": E * float(kappa[i, j]),
+            "work_of_adhesion": E * float(kappa[i, j]), "contact_point": float(points[i]),
+            "squares": squares[i],
             **{name: float(values[i]) for name, values in background.items()}, **fixed,
         }  # fmt: skip
 
@@ -147,21 +140,16 @@ def _unit_force(largest, depth, rate, point, d_c, tau, table):
     return force
 
 
-def _adhesive_force(largest, depth, points, d_c, kappa, table):
-    """`_unit_force` with adhesion, for media with critical depths (m) and w/E* (m)."""
+def _adhesive_force(depth, points, kappa, table):
+    """Force over E* (m²) of elastic media with w/E* (m) of adhesion, from a table."""
     depths, area, radius = table
-    force = np.empty((*d_c.shape, depth.size))
-    for i, point in enumerate(points):
-        for each in np.unique(kappa[i]):
-            columns, stretched = kappa[i] == each, np.sqrt(2 * np.pi * radius * each)
-            # D = d + Δl(D) does not depend on the imprint.
-            reached = depths - stretched
-            end = int(np.argmin(reached))
-            lower = np.maximum(largest - point - d_c[i, columns, None], 0.0)
-            upper = np.maximum(lower, depths[end])
-            held = in_contact(depth - point, lower, upper - np.interp(upper, depths, stretched))
-            tension = np.interp(depth - point, reached[end:], (area - radius * stretched)[end:])
-            force[i, columns] = np.where(held, 2 * (tension - np.interp(lower, depths, area)), 0.0)
+    force = np.empty((*kappa.shape, depth.size))
+    for i, j in np.ndindex(kappa.shape):
+        stretched = np.sqrt(2 * np.pi * radius * kappa[i, j])
+        reached = depths - stretched
+        end = int(np.argmin(reached))
+        tension = np.interp(depth - points[i], reached[end:], (area - radius * stretched)[end:])
+        force[i, j] = np.where(in_contact(depth - points[i], reached[end]), 2 * tension, 0.0)
     return force
 
 

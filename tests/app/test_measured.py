@@ -85,7 +85,7 @@ def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
 
 
 def test_what_is_fixed_stays():
-    state = fitted(fixed=("E_star", "eta", "tilt", "drag", "frame_compliance"), depth_noise=1e-11)
+    state = fitted(fixed=("E_star", "eta", "tilt", "drag"), depth_noise=1e-11)
     assert medium(state).E_star == medium(preset_state()).E_star
     assert state.elasticity == "bodies"
     assert state.curve.fit.standard_errors.keys() == {"q_c", "contact_point", "baseline"}
@@ -95,7 +95,7 @@ def test_what_is_fixed_stays():
 
 
 def test_a_work_of_adhesion_is_fitted_where_there_is_adhesion():
-    start = preset_state().replace(adhesion="work")
+    start = preset_state().replace(adhesion="work", plasticity="none")
     d = np.append(np.linspace(-1e-9, 9e-9, 200), np.linspace(9e-9, -9e-9, 300))
     F = mdr.indent(profile(start), medium(start), d).force
     curve = read_curve(table({"h (nm)": 1e9 * d, "F (nN)": 1e9 * F}).encode(), "run.csv")
@@ -105,6 +105,8 @@ def test_a_work_of_adhesion_is_fitted_where_there_is_adhesion():
     assert state.work_of_adhesion == pytest.approx(start.work_of_adhesion, rel=1e-2)
     assert agrees(state)
     assert "work_of_adhesion" not in offered(other.replace(adhesion="none"))
+    with pytest.raises(ValueError, match=r"with adhesion a fit is of an elastic medium, q_c = inf"):
+        fitting.fit(other.replace(plasticity="q_c"))
 
 
 def test_a_drag_is_fitted_where_there_are_times():
@@ -129,9 +131,9 @@ def test_the_curve_lies_where_it_is_set_to_and_its_residual_is_of_what_is_set():
     state = fitted()
     np.testing.assert_allclose(view_of(state).residual, state.curve.fit.residuals)
     z, F = state.curve.data
-    state = state.replace(E_star=2e11, baseline=1e-8, contact_point=1e-9, frame_compliance=1e-5)
+    state = state.replace(E_star=2e11, baseline=1e-8, contact_point=1e-9)
     view = view_of(state)
-    d = z - 1e-9 - 1e-5 * (F - 1e-8)
+    d = z - 1e-9
     np.testing.assert_allclose((view.curve.depth, view.curve.force), (d, F - 1e-8), rtol=1e-12)
     expected = F - 1e-8 - mdr.indent(profile(state), medium(state), d).force
     np.testing.assert_allclose(view.residual, expected, rtol=1e-9, atol=1e-15)

@@ -128,6 +128,9 @@ def test_links_of_earlier_versions_are_read():
     drive = scene_of(state).drive
     assert (drive.speed, drive.tangential_speed) == pytest.approx((3, 4), rel=1e-12)
     assert link.read(f"preset={DROP}&surface=imprint&noise=given").plastic_depth == 1e-6
+    # A compliance of the frame, which a fit had up to version 0.6.
+    state = link.read("frame_compliance=1e-05&fixed=q_c+frame_compliance&baseline=1e-08")
+    assert (state.fixed, state.baseline) == (("q_c",), 1e-8)
 
 
 @pytest.mark.parametrize(

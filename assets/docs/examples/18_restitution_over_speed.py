@@ -1,0 +1,40 @@
+"""
+A medium from restitution over speed
+====================================
+
+Coefficients of restitution over speed (made here, with a scatter of 0.005), fitted by
+``scipy.optimize.curve_fit``. They determine two combinations of E*, q_c and η: with E* held at half or at
+twice its value, another q_c and η (both as E*^(2/3) under a cone) fit exactly as well. The contact times
+differ, and tell them apart.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from scipy.optimize import curve_fit
+
+import mdr_core as mdr
+
+tip, mass, speed = mdr.Cone(slope=0.3), 1e-6, np.geomspace(0.3, 10.0, 15)
+made = mdr.impact(tip, mdr.Medium(E_star=1e10, q_c=2e4, eta=3e3), mass, speed)
+measured = made.restitution + 0.005 * np.random.default_rng(1).normal(size=speed.size)
+
+
+def restitution(speed, log_q_c, log_eta):
+    return mdr.impact(tip, mdr.Medium(E_star, np.exp(log_q_c), np.exp(log_eta)), mass, speed).restitution
+
+
+figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")
+left.semilogx(speed, measured, "k.", label="made, with scatter")
+for E_star in (5e9, 1e10, 2e10):
+    fitted, covariance = curve_fit(restitution, speed, measured, np.log([1.5e-6 * E_star, 2e-7 * E_star]))
+    q_c, eta = np.exp(fitted)
+    rms = np.std(restitution(speed, *fitted) - measured)
+    error = np.sqrt(covariance[0, 0])
+    print(f"E* {E_star:.0e} Pa: q_c {q_c:.3g} N/m ± {error:.1%}, η {eta:.3g} Pa·s, rms {rms:.6f}")
+    hit = mdr.impact(tip, mdr.Medium(E_star, q_c, eta), mass, speed)
+    left.semilogx(speed, hit.restitution, label=f"E* {E_star / 1e9:g} GPa, q_c {q_c / 1e3:.1f} kN/m")
+    right.loglog(speed, hit.contact_time * 1e6, label=f"E* {E_star / 1e9:g} GPa, η {eta / 1e3:.1f} kPa·s")
+left.set(xlabel="speed (m/s)", ylabel="coefficient of restitution")
+right.set(xlabel="speed (m/s)", ylabel="contact time (µs)")
+left.legend()
+right.legend()

@@ -1,0 +1,137 @@
+"""Whether a tilt, a drag or a drift of the depth, each one more linear parameter, fits a curve better.
+
+With residuals r, their derivatives J by the fitted parameters and c by another one, v, the least squares
+of r + J δ + c v give v and the change δ of the parameters. The misfit is the root mean square of the
+residuals in contact, which a long baseline does not hide. A drift v (m/s) makes the depth z − v t.
+
+E* of a medium that yields takes up a drift, and the residuals do not show it. It is read off a hold, from
+the depth over time at one force.
+"""
+
+import numpy as np
+
+from ..results.quantities import engineering
+from .least_squares import SIGNIFICANT, SINGULAR
+
+#: Least factor by which the misfit falls, unit, and what follows. A tilt lowers the misfit of measured
+#: curves without one up to 1.2 times.
+_TESTS = {
+    "tilt": (1.5, "N/m", "give tilt=None and baseline=None"),
+    "drag": (1.3, "N·s/m", "give drag=None"),
+    "drift": (1.6, "m/s", "the force changes at rest: drift, or a medium that relaxes"),
+}
+#: Least number of samples in contact and without, and least misfit as a share of the range of force.
+_FEW, _SMALL = 10, 1e-5
+#: Least share of the samples in contact before and after the depth is within a share of the largest one.
+_TURNS, _REACHED = 0.1, 0.02
+#: Deviation of the force in a hold, its least force and duration, as shares of those of the curve.
+_HOLD_FORCE, _LEAST_FORCE, _HOLD_TIME = 0.005, 0.05, 0.05
+#: Least change of ln E* by a drift that is said, and a drift that is common (m/s).
+_LEAST_CHANGE, _COMMON = 0.005, 1e-10
+
+
+def nested_tests(solved, i):
+    """Remarks on what a tilt, a drag or a drift changes in curve i of `SolvedCurves`."""
+    problem, (_, state) = solved.problem, solved.values_and_states
+    contact, noise = state.live_interval.length[i] > 0, solved.noise[i]
+    residual, jacobian = solved.residual[i], solved.jacobian[i][:, ~solved.at_bound[i]]
+    if "E_star" not in problem.free or solved.at_bound[i, 0] or problem.adhesive:
+        return
+    if np.count_nonzero(contact) < _FEW:
+        return
+    yields = not (problem.memoryless or solved.elastic[i])
+    before = residual
+    small = _rms((residual * noise)[contact]) < _SMALL * problem.load[i, 0]
+    for name, columns in () if small else _columns(problem, state, i, contact, yields):
+        least, unit, follows = _TESTS[name]
+        matrix = np.column_stack([jacobian, columns / noise[:, None]])
+        step = _step(matrix, residual)
+        rest = residual + matrix @ step
+        factor = _rms(before[contact]) / _rms(rest[contact])
+        if factor > least and (factor**2 - 1) * np.count_nonzero(contact) > SIGNIFICANT**2:
+            change = step[0] / np.sqrt(solved.covariance[i, 0, 0])
+            yield (
+                name,
+                f"a {name} of {engineering(step[-1], unit)} lowers the misfit in contact {factor:.2g} "
+                f"times, and changes E* by {change:+.1f} of its errors: {follows}",
+            )
+            # The next ones are tested beside it.
+            jacobian = matrix
+            before = rest
+    if yields and _increases(problem, i):
+        drift = _drift(problem, state, i, contact) / noise
+        yield from _in_a_hold(problem, state, i, contact, _step(jacobian, drift)[0])
+
+
+def _rms(values):
+    return np.sqrt(np.mean(values**2))
+
+
+def _step(matrix, residual):
+    """Change of the parameters to the least squares of the residual."""
+    scale = np.maximum(np.linalg.norm(matrix, axis=0), 1e-300)
+    return np.linalg.lstsq(matrix / scale, -residual, rcond=SINGULAR)[0] / scale
+
+
+def _columns(problem, state, i, contact, yields):
+    """Yields each name with the derivatives (N, K) of measured minus modelled force."""
+    depth, free = problem.depth[i], problem.free
+    baseline = np.count_nonzero(~contact) >= _FEW
+    if baseline and "tilt" not in free:
+        yield "tilt", -np.column_stack([np.ones_like(depth), depth - depth.mean()])
+    inside = depth[contact]
+    before = np.argmax(inside > inside.max() - _REACHED * np.ptp(inside))
+    turns = min(before, inside.size - before) >= max(_FEW, _TURNS * inside.size)
+    if not turns or not _increases(problem, i):
+        return
+    if baseline and "drag" not in free:
+        yield "drag", -np.gradient(depth, problem.time[i])[:, None]
+    if not yields:
+        yield "drift", _drift(problem, state, i, contact)[:, None]
+
+
+def _increases(problem, i):
+    """Whether there are times that increase."""
+    return problem.time is not None and bool(np.all(np.diff(problem.time[i]) > 0))
+
+
+def _drift(problem, state, i, contact):
+    """Derivative (N·s/m) of measured minus modelled force by a drift from first contact on."""
+    depth, time = problem.depth[i], problem.time[i] - problem.time[i][np.argmax(contact)]
+    reached = np.where(depth >= np.maximum.accumulate(depth), np.arange(depth.size), 0)
+    return state.slope[i] * time + state.memory_slope[i] * time[np.maximum.accumulate(reached)]
+
+
+def _in_a_hold(problem, state, i, contact, change):
+    """Remark on the drift in a hold, else on a common one; `change` is that of ln E* by 1 m/s."""
+    depth, time = problem.depth[i], problem.time[i]
+    duration, hold = time[-1] - time[np.argmax(contact)], _longest_hold(problem, state, i)
+    if hold.stop - hold.start < _FEW or time[hold][-1] - time[hold][0] < _HOLD_TIME * duration:
+        if abs(change) * _COMMON > _LEAST_CHANGE:
+            yield (
+                "rest",
+                f"no hold tells the drift of the depth: one of {engineering(_COMMON, 'm/s')} over the "
+                f"{duration:.3g} s from first contact on changes E* by {100 * change * _COMMON:+.2g} %",
+            )
+        return
+    rate = np.polyfit(time[hold], depth[hold], 1)[0]
+    if abs(rate * change) > _LEAST_CHANGE:
+        yield (
+            "rest",
+            f"in the hold at {engineering(problem.force[i][hold.start], 'N')} the depth changes by "
+            f"{engineering(rate, 'm/s')}: creep, or a drift, which from first contact on changes E* by "
+            f"{100 * change * rate:+.2g} %",
+        )
+
+
+def _longest_hold(problem, state, i):
+    """The longest part of a curve in contact at one force, as a slice."""
+    force, time, load = problem.force[i], problem.time[i], problem.load[i, 0]
+    pressed, longest = state.force[i] > _LEAST_FORCE * load, slice(0, 1)
+    for start in range(0, force.size - _FEW, max(1, force.size // 100)):
+        if abs(force[start + _FEW] - force[start]) < _HOLD_FORCE * load:
+            away = ~pressed[start:] | (np.abs(force[start:] - force[start]) > _HOLD_FORCE * load)
+            part = slice(start, start + int(np.argmax(away)) if away.any() else force.size)
+            if part.stop > start and np.ptp(time[part]) > np.ptp(time[longest]):
+                longest = part
+    return longest

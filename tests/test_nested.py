@@ -1,0 +1,162 @@
+"""Remarks on what a fit leaves out: tilt, drag, drift; and on data that are not what they are taken for."""
+
+import re
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+
+from .test_fit import AFM, measured
+from .test_fit_in_time import fit_of
+
+BALL, GEL = mdr.Paraboloid(1e-5), mdr.Medium(1e4)
+TIME = np.linspace(0.0, 2.0, 600)
+#: Approach and retract with a baseline of twice the depth.
+DEPTH = np.interp(TIME, [0, 1, 2], [-2e-6, 1e-6, -2e-6])
+CONE, METAL = mdr.Cone(0.358), mdr.Medium(70e9, 8e3)
+
+
+def elastic(depth=DEPTH, extra=0.0, drift=0.0, time=TIME, **parameters):
+    """A fit to a curve on the gel with a force (N) added, 0.2 % noise and a drift of the depth (m/s)."""
+    force = mdr.indent(BALL, GEL, depth).force
+    force = force + extra + 2e-3 * force.max() * np.random.default_rng(4).normal(size=force.size)
+    return mdr.fit_indentation(
+        BALL, depth + drift * TIME, force, time=time, **{"q_c": np.inf, "baseline": None, **parameters}
+    )
+
+
+def told(fit, kind):
+    """Factor of the misfit, and the change of E* in its errors, of a remark; None if there is none."""
+    found = [text for text in fit.remarks if text.startswith(f"a {kind}")]
+    numbers = re.search(
+        r"misfit in contact (\S+) times, and changes E\* by (\S+) of its errors", "".join(found)
+    )
+    return numbers and tuple(map(float, numbers.groups()))
+
+
+def change(fit, other):
+    """Change of E* to another fit in the errors of the first one."""
+    return (other.medium.E_star - fit.medium.E_star) / fit.standard_errors["E_star"]
+
+
+class TestElastic:
+    def test_nothing_is_said_of_noise(self):
+        assert not elastic().remarks
+        assert not elastic(time=None).remarks
+
+    @pytest.mark.parametrize("parameter", ["tilt", "drag"])
+    def test_what_is_left_out_is_told_with_its_change_of_the_modulus(self, parameter):
+        """The change is that of one linear step: of the tilt here, two thirds of the whole one."""
+        size = 0.05 * mdr.indent(BALL, GEL, DEPTH).force.max()
+        extra = {"tilt": size * DEPTH / 1e-6, "drag": size * np.sign(1 - TIME)}[parameter]
+        fit, free = elastic(extra=extra), elastic(extra=extra, **{parameter: None})
+        factor, step = told(fit, parameter)
+        assert factor > 1.5
+        assert step == pytest.approx(change(fit, free), rel=0.5, abs=0.1)
+        assert f"give {parameter}=None" in fit.remarks[0]
+        assert not free.remarks
+
+    def test_a_drift_is_told_and_named_as_what_else_it_may_be(self):
+        """2 % of the speed, with a hold. The change of E*, by one linear step, is that to the true one."""
+        fit = elastic(np.interp(TIME, [0, 0.5, 1, 1.5, 2], [-2e-6, 0, 1e-6, 1e-6, -2e-6]), drift=6e-8)
+        factor, step = told(fit, "drift")
+        whole = (GEL.E_star - fit.medium.E_star) / fit.standard_errors["E_star"]
+        assert factor > 1.6
+        assert whole > 1
+        assert step == pytest.approx(whole, rel=0.2)
+        speed = re.search(r"a drift of (\S+) nm/s", fit.remarks[0])[1]
+        assert float(speed) == pytest.approx(60, rel=0.1)
+        assert "rest: drift, or a medium that relaxes" in fit.remarks[0]
+
+    def test_a_solid_that_relaxes_is_told_from_a_viscous_one(self):
+        """Of three parameters, by the integral of Lee and Radok: the force falls by a third in the hold."""
+        depth = np.interp(TIME, [0, 0.5, 1, 2], [-1e-6, 0, 1e-6, 1e-6])
+        increments, force = np.diff(np.maximum(depth, 0.0) ** 1.5, prepend=0.0), np.zeros_like(TIME)
+        for k, step in enumerate(increments):
+            force[k:] += 4 / 3 * np.sqrt(1e-5) * step * (5e3 + 5e3 * np.exp(-(TIME[k:] - TIME[k]) / 0.3))
+        assert force[-1] / force.max() == pytest.approx(2 / 3, abs=0.05)
+        force = force + 2e-3 * force.max() * np.random.default_rng(4).normal(size=force.size)
+        fit = mdr.fit_indentation(BALL, depth, force, time=TIME, q_c=np.inf, baseline=None, eta=None)
+        assert told(fit, "drift")[0] > 1.6
+        assert any("a medium that relaxes" in remark for remark in fit.remarks)
+
+    @pytest.mark.parametrize("segment", ["approach", "retract"])
+    @pytest.mark.parametrize("name", AFM)
+    def test_of_measured_curves_no_tilt_is_told(self, name, segment):
+        fit = mdr.fit_indentation(BALL, *measured(name, segment), q_c=np.inf, baseline=None)
+        assert told(fit, "tilt") is None
+
+    @pytest.mark.parametrize("name", ["spot3-0", "map2x2-2"])
+    def test_the_drag_of_gels_in_a_liquid_is_told(self, name):
+        """Where it is free the residuals of both segments are smaller by 1.5 and 2.1 times."""
+        fit = fit_of(name)
+        factor, _ = told(fit, "drag")
+        assert factor > 1.3
+        assert told(fit_of(name, drag=None), "drag") is None
+
+    def test_times_that_do_not_increase_say_nothing(self):
+        assert not elastic(drift=6e-8, time=np.zeros(600)).remarks
+
+
+class TestYielding:
+    TIME = np.linspace(0.0, 140.0, 700)
+    RAMP = np.interp(TIME, [0, 5, 80, 140], 1e-9 * np.array([-20, 0, 600, 500]))
+    HOLD = np.interp(TIME, [0, 5, 60, 90, 130, 140], 1e-9 * np.array([-20, 0, 600, 545, 545, 500]))
+
+    def fit(self, depth, drift):
+        force = mdr.indent(CONE, METAL, depth).force
+        force = force + 2e-4 * force.max() * np.random.default_rng(6).normal(size=force.size)
+        return mdr.fit_indentation(CONE, depth + drift * self.TIME, force, time=self.TIME)
+
+    def test_without_a_hold_the_report_says_what_a_common_drift_would_do(self):
+        """It takes E* up by what the report says that it takes it down, to the second order of 4 %."""
+        fit = self.fit(self.RAMP, 1e-10)
+        said = float(re.search(r"one of 100 pm/s over the .* changes E\* by (\S+) %", str(fit))[1])
+        bias = 100 * (fit.medium.E_star / METAL.E_star - 1)
+        assert 1 < bias < 6
+        assert said == pytest.approx(-bias, abs=0.1 * bias)
+
+    def test_a_hold_tells_it(self):
+        fit = self.fit(self.HOLD, 1e-10)
+        (remark,) = [text for text in fit.remarks if "in the hold" in text]
+        rate, said = re.search(
+            r"depth changes by (\S+) pm/s: creep, or a drift.* by (\S+) %", remark
+        ).groups()
+        # Less what of the hold is not the hold: the force is the same to half a per cent.
+        assert float(rate) == pytest.approx(100, rel=0.05)
+        assert float(said) == pytest.approx(-100 * (fit.medium.E_star / METAL.E_star - 1), rel=0.15)
+        # Where nothing drifts nothing is said, of a common drift neither.
+        assert not self.fit(self.HOLD, 0.0).remarks
+
+
+class TestData:
+    """A gel from approach and retract, and a metal pressed and unloaded."""
+
+    @staticmethod
+    def curves():
+        for tip, medium, depth, free in (
+            (BALL, GEL, DEPTH, {"q_c": np.inf, "baseline": None}),
+            (CONE, METAL, 1e-9 * np.interp(TIME, [0, 1, 2], [-20, 600, 400]), {}),
+        ):
+            force = mdr.indent(tip, medium, depth).force
+            noise = 3e-3 * force.max() * np.random.default_rng(5).normal(size=force.size)
+            yield tip, depth + 1e-7, force + noise, noise, free
+
+    @pytest.mark.parametrize(
+        ("change", "words"),
+        [
+            (lambda z, F, noise: (F, z), "depth and force are swapped"),
+            (lambda z, F, noise: (-z, F), "the depth has the other sign"),
+            (lambda z, F, noise: (z, -F), "the force has the other sign"),
+            (lambda z, F, noise: (-z, -F), "depth and force have the other sign"),
+            (lambda z, F, noise: (z, noise), "no contact is seen in this record"),
+            (lambda z, F, noise: (1e9 * z, F), "give depth in m and force in N"),
+        ],
+        ids=["swapped", "depth", "force", "both", "noise", "units"],
+    )
+    def test_is_named_as_what_it_is(self, change, words):
+        for tip, depth, force, noise, free in self.curves():
+            fit = mdr.fit_indentation(tip, *change(depth, force, noise), **free)
+            assert words in fit.remarks[0]
+            assert not mdr.fit_indentation(tip, depth, force, **free).remarks
