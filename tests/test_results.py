@@ -58,6 +58,14 @@ def test_numbers_in_other_units_are_noticed():
     assert "beyond" in repr(state)
 
 
+def test_a_printed_fit_says_where_its_model_ends():
+    """The tip of an AFM with a half-angle of 25° has a slope of 2.14."""
+    tip, depth = mdr.Cone.from_half_angle(25.0), np.linspace(0.0, 60e-9, 100)
+    fit = mdr.fit_indentation(tip, depth, mdr.indent(tip, mdr.Medium(1e4), depth).force, q_c=np.inf)
+    assert limit(fit.path, "slope").value == pytest.approx(2.1445, rel=1e-4)
+    assert "Slopes reach 2.14 within the contact" in repr(fit)
+
+
 @pytest.mark.parametrize(
     ("shape", "depth", "slope"),
     [

@@ -247,3 +247,4 @@ class Fit(Report):
 
     def _limit_rows(self, most):
         yield from (("remark", remark) for remark in self.remarks)
+        yield from super()._limit_rows(most)

@@ -165,6 +165,9 @@ class IndentationFit(Fit):
                 texts.append(f"{FITTED_QUANTITIES[name].symbol} {with_error(value, error, unit)}")
             yield "Oliver and Pharr", ", ".join(texts)
 
+    def _limits(self):
+        return self.path.limits
+
     def _quality(self):
         noise = np.asarray(self.force_noise)
         yield "force noise σ_F", engineering(noise[np.isfinite(noise)], "N")
