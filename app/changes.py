@@ -7,7 +7,7 @@ from typing import Any
 import mdr_core as mdr
 
 from .solve import DRIVES, follow, option, options, scene_of, turning_point
-from .state import State, checked, medium, preset_state, with_derived
+from .state import State, altered, checked, medium, preset_state, with_derived
 from .state.quantities import QUANTITIES, shape_quantities
 from .state.units import fitting, read
 
@@ -20,10 +20,10 @@ def choose(state: State, name: str, wanted: str) -> State:
     known = options(state, name)
     if wanted not in known:
         raise ValueError(f"{wanted!r:.40} is not one of {', '.join(known)}")
+    if name == "preset" and (wanted != state.preset or altered(state)):
+        return preset_state(wanted, **{each: state[each] for each in _STAYING})
     if wanted == option(state, name):
         return state
-    if name == "preset":
-        return preset_state(wanted, **{each: state[each] for each in _STAYING})
     if name == "shape" and wanted == "sampled" and not state.samples:
         raise ValueError("load a tip first: a CSV file with radii r and heights z")
     numbers = CONVERT[name](state, wanted) if name in CONVERT else {}

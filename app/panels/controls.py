@@ -18,6 +18,8 @@ from ..ui import JS, WIDE, button, explained, field, html, linked, marked, revea
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
+#: Option of the list of presets for a scene that is none of them, so that its preset can be chosen again.
+_ALTERED = "altered"
 #: Choices shown as radio buttons; others are lists.
 _RADIO = (*MEDIUM_CHOICES, "drive", "body")
 
@@ -127,26 +129,33 @@ class Choices:
 
     def _made(self, name, kind, *classes, **options):
         def choose(event):
-            if event.new != option(self._state(), name):
+            if event.new != self._chosen(name):
                 self._apply(lambda state: changes.choose(state, name, event.new))
-            show(widget, value=option(self._state(), name))
+            show(widget, value=self._chosen(name))
 
-        chosen = {"options": self._texts(name), "value": option(self._state(), name)}
+        chosen = {"options": self._texts(name), "value": self._chosen(name)}
         widget = self.widgets[name] = field(kind, *classes, **chosen, **options)
         widget.param.watch(choose, "value")
         return widget
+
+    def _chosen(self, name):
+        """Option that is shown; none of the presets if the scene differs from all."""
+        state = self._state()
+        return _ALTERED if name == "preset" and altered(state) else option(state, name)
 
     def _texts(self, name):
         """Options by their texts."""
         state = self._state()
         texts = {CHOICES[name][option]: option for option in options(state, name)}
+        if self._chosen(name) == _ALTERED:
+            texts[f"altered, from: {PRESETS[state.preset].label}"] = _ALTERED
         if name == "shape" and not state.samples:
             del texts[CHOICES["shape"]["sampled"]]
         return texts
 
     def show(self, state: State) -> None:
         for name, widget in self.widgets.items():
-            show(widget, options=self._texts(name), value=option(state, name))
+            show(widget, options=self._texts(name), value=self._chosen(name))
 
 
 class Controls:

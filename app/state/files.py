@@ -45,8 +45,8 @@ def read_tip(text: str) -> tuple[tuple[Any, Any], str]:
     rows = len(r)
     if min(r) < 0 < max(r):
         r = r - axis_of_symmetry(r, z)
-    parts = np.array_split(np.argsort(np.abs(r), kind="stable"), min(rows, _FITTED))
-    tip = mdr.Sampled.fit(*(np.array([np.mean(of[part]) for part in parts]) for of in (np.abs(r), z)))
+    parts = np.array_split(np.argsort(r, kind="stable"), min(rows, _FITTED))
+    tip = mdr.Sampled.fit(*(np.array([np.mean(of[part]) for part in parts]) for of in (r, z)))
     # On a convex polygon every other one of its vertices is convex too.
     subset = np.unique(np.linspace(0, len(tip.r) - 1, MAX_SAMPLES).round().astype(int))
     samples = np.array(tip.r)[subset], np.array(tip.z)[subset]

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from app.state import PRESETS
 from app.state.units import UNITS
 
-from .conftest import DROP, Explorer
+from .conftest import DROP, GOLD, Explorer
+from .states import table
 
 SIZES = {unit.name: unit.factor for units in UNITS.values() for unit in units}
 #: A glass ball on rubber.
@@ -138,3 +140,28 @@ def test_an_impact_turns_orange_where_it_yields(server, page, drive):
     F = np.interp(d, elastic[0][inside], elastic[1][inside])
     # A twentieth of the depth apart, a chord is above the curve by 10⁻³ of the force at its end.
     np.testing.assert_allclose(F, force * (d / depth) ** 1.5, atol=5e-3 * force)
+
+
+def test_a_wavy_tip_is_refused_and_a_preset_is_chosen_again(server, page, tmp_path):
+    """What is refused changes nothing; over a measured tip stands no preset's name."""
+    page.goto(server.url)
+    tip, r = page.page.get_by_label("CSV file of a measured tip: r, z"), np.linspace(-400, 400, 161)
+    path, shape = tmp_path / "tip.csv", page.page.get_by_label("Shape", exact=True)
+    path.write_text(table({"r (nm)": r, "z (nm)": r**2 / 2000 + 50 * np.sin(r / 30)}), encoding="utf-8")
+    tip.set_input_files(path)
+    refused = page.page.get_by_text(re.compile("^the nearest convex profile misses the samples")).first
+    refused.wait_for()
+    # An rms of at most 50/√2 nm.
+    miss = float(re.search(r"by ([\d.]+) × 10⁻⁸ m", refused.inner_text())[1])
+    assert 1 < miss < 3.6
+    assert shape.input_value() == "Cone"
+    preset = page.page.get_by_label("Preset", exact=True)
+    named = "(list) => list.selectedOptions[0].textContent"
+    assert preset.evaluate(named) == PRESETS[GOLD].label
+    path.write_text(table({"r (nm)": r, "z (nm)": r**2 / 2000}), encoding="utf-8")
+    page.change(tip.set_input_files, path)
+    assert shape.input_value() == "Measured tip"
+    assert preset.evaluate(named) != PRESETS[GOLD].label
+    page.choose("Preset", PRESETS[GOLD].label)
+    assert shape.input_value() == "Cone"
+    assert preset.evaluate(named) == PRESETS[GOLD].label
