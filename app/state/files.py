@@ -10,10 +10,11 @@ import numpy as np
 
 import mdr_core as mdr
 from mdr_core.fit.indentation import IndentationFit
+from mdr_core.fit.least_squares import roughness
 from mdr_core.reading import MeasuredCurve, curve_of
 from mdr_core.shapes.tables import axis_of_symmetry, samples_of
 
-from . import State, medium, profile
+from . import State, checked, medium, profile
 from .units import written
 
 #: Most samples that are pressed without keeping everybody waiting, most that a tip is fitted to or that are
@@ -76,6 +77,16 @@ class Measured:
         """Time (s) of the same samples, or None."""
         return None if self.curve.time is None else self.curve.time[:: self._step]
 
+    @property
+    def depth_noise(self):
+        """Standard deviation (m) of depths that go back and forth, 0 if they hardly do."""
+        depth = self.data[0]
+        steps = np.diff(depth)
+        reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
+        if reversals <= max(4, 0.05 * steps.size):
+            return 0.0
+        return float(f"{roughness(depth[None])[0, 0]:.2g}")
+
     #: Report of the fit as HTML.
     report = cached_property(lambda self: self.fit._repr_html_())
 
@@ -122,6 +133,12 @@ def read_curve(data: bytes, name: str) -> Measured:
         path.write_bytes(data)
         curve = mdr.read_curve(path)
     return Measured(" ".join(name.split())[:80], curve)
+
+
+def with_curve(state: State, curve: Measured | None) -> State:
+    """With a curve that has no fit, or none, and the noise of its depth; with adhesion none is fitted."""
+    noise = curve.depth_noise if curve and state.adhesion == "none" else 0.0
+    return state.replace(curve=curve, fit_note="", depth_noise=checked("depth_noise", noise))
 
 
 def offered(state: State) -> list[str]:
