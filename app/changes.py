@@ -27,13 +27,18 @@ def choose(state: State, name: str, wanted: str) -> State:
     if name == "shape" and wanted == "sampled" and not state.samples:
         raise ValueError("load a tip first: a CSV file with radii r and heights z")
     numbers = CONVERT[name](state, wanted) if name in CONVERT else {}
-    numbers = {k: float(v) if k in QUANTITIES else v for k, v in numbers.items()}
+    numbers = {k: shown(v) if k in QUANTITIES else v for k, v in numbers.items()}
     changed, made = state.replace(**{name: wanted}, **numbers), medium(state)
     if name == "elasticity":
         return put(changed, "E_star", made.E_star)
     if name == "plasticity" and inf not in (made.q_c, medium(changed).q_c):
         return put(changed, "q_c", made.q_c)
     return with_derived(changed)
+
+
+def shown(value: float) -> float:
+    """A number that is found, with the five digits that its field shows: the one that is used."""
+    return float(f"{value:.5g}")
 
 
 def put(state: State, name: str, value: float) -> State:
@@ -81,7 +86,7 @@ def press_to(state: State, depth: float) -> State:
     depth = QUANTITIES["max_depth"].bounded(depth)
     pressed = mdr.indent(scene_of(state).profile, medium(state), depth)
     numbers = DRIVES[state.drive].equivalent(state, pressed)
-    numbers = {name: checked(name, value) for name, value in numbers.items()}
+    numbers = {name: checked(name, shown(value)) for name, value in numbers.items()}
     return state.replace(progress=1.0, **numbers)
 
 

@@ -200,7 +200,7 @@ class Controls:
         preset, shape, made = PRESETS[state.preset], SHAPES[state.shape], course.scene.medium
         sources = ""
         for name, text in preset.sources.items():
-            value = written(preset.values[name], QUANTITIES[name].kind, 3)
+            value = entry(preset.values[name], QUANTITIES[name].kind)
             sources += f"<dt>{marked(f'{QUANTITIES[name].symbol} = {value}')}</dt><dd>{escape(text)}</dd>"
         title = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
         energy = written(state.mass * state.speed**2 / 2, "energy")

@@ -14,7 +14,7 @@ from mdr_core.results.quantities import Quantity
 from ..drives import Course
 from ..state import State, medium
 from ..state.quantities import CHOICES, DATA, OF_DRIVE, QUANTITIES, SHAPES, USED, shape_quantities
-from ..state.units import KINDS, written
+from ..state.units import KINDS, entry, written
 from ..ui import explained, linked, plain, symbol
 
 
@@ -150,5 +150,5 @@ def summary(state: State) -> str:
     for name in names:
         value = float(getattr(made, name)) if name in of_medium else state[name]
         if value:
-            words.append(f"{QUANTITIES[name].symbol} = {written(value, QUANTITIES[name].kind, 3)}")
+            words.append(f"{QUANTITIES[name].symbol} = {entry(value, QUANTITIES[name].kind)}")
     return ", ".join([*words, *(CHOICES[name][state[name]] for name in choices)])

@@ -13,7 +13,7 @@ from mdr_core.results.quantities import QUANTITIES as RESULTS
 from ..solve import DRIVES, Found, option
 from ..state import PRESETS, State, medium, profile
 from ..state.quantities import SWEPT, Scale, lowered
-from ..state.units import KINDS, digits, written
+from ..state.units import KINDS, digits, entry
 from ..ui import marked, plain
 from .plot import Plot, axis
 
@@ -146,7 +146,7 @@ def _axes(sweep, values, present):
 def _notes(sweep, numbers, values, powers, inside):
     quantity, symbol = SWEPT[sweep.swept], RESULTS[sweep.against].symbol
     if not inside:
-        shown = written(sweep.present, quantity.kind, 3)
+        shown = entry(sweep.present, quantity.kind)
         yield f"The present value, {marked(f'{quantity.symbol} = {shown}')}, is outside of the range."
     elif sweep.low > 0:
         pair = sweep.present * np.array([0.999, 1.001])

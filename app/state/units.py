@@ -2,7 +2,7 @@
 
 import re
 from dataclasses import dataclass
-from math import floor, isfinite, log10, radians, tan
+from math import floor, isclose, isfinite, log10, radians, tan
 
 import numpy as np
 
@@ -67,11 +67,13 @@ def written(value: float, kind: str, count: int = 4) -> str:
 
 
 def entry(value: float, kind: str, like: float = 0.0) -> str:
-    """A value (SI) as text for a field, readable by `read`."""
+    """A value (SI) as text for a field, readable by `read`: all digits up to nine, else five."""
     if not isfinite(value):
         return digits(value)
     unit = fitting(value, kind, like)
-    return f"{value / unit.factor:.5g} {unit.name}".strip()
+    number = value / unit.factor
+    exact = isclose(float(f"{number:.9g}"), number, rel_tol=1e-13)
+    return f"{number:{'.9g' if exact else '.5g'}} {unit.name}".strip()
 
 
 #: Letters of units, with those that keyboards have for them.

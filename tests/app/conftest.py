@@ -25,7 +25,7 @@ FLAGS = [
     "--disable-component-update", "--disable-sync",
 ]  # fmt: skip
 #: Presets of which some tests need what they are: the opening, an impact, one without yield, a punch.
-GOLD, DROP, ELASTIC = "berkovich-gold", "striker-glass_epoxy-drop-weight", "striker-epoxy-elastic"
+GOLD, DROP, ELASTIC = "berkovich-gold", "striker-glass_epoxy-drop-weight", "ball-epoxy-elastic"
 PUNCH = "punch-glass_epoxy"
 
 # What the page draws: rows by name, axes, and whether all is done.

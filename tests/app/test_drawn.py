@@ -191,3 +191,54 @@ def test_a_fit_takes_the_noise_of_the_depth_and_oliver_and_pharr_first_contact(s
     assert abs(modulus - 80) < 4 * error < 4
     assert page.page.locator(".said").get_by_text("back and forth").count() == 0
     unloading.get_by_text("GPa").first.wait_for()
+
+
+def test_a_number_that_is_shown_is_the_one_that_is_used(server, page):
+    """Young's modulus of diamond is 1.141 TPa; what is typed has nine digits, what is dragged five."""
+    page.goto(server.url)
+    sources = page.page.locator("details", has_text="Where the preset's numbers come from")
+    sources.locator("summary").click()
+    said = sources.locator("dt").all_inner_texts()
+    assert "E2 = 1.141 TPa" in said
+    page.change(page.type, "d_max", "8.12345678 nm")
+    assert page.field("d_max").input_value() == "8.12345678 nm"
+    page.drag("springs", (0, 0.2))
+    page.wait("!location.search.includes('8.12345678') && explorer.idle()")
+    used = float(page.link("max_depth=")["max_depth"])
+    assert amounts(page.field("d_max").input_value())[0] == pytest.approx(used, rel=1e-12)
+    page.change(page.pick, "force")
+    used = float(page.link("max_force=")["max_force"])
+    assert amounts(page.field("F_max").input_value())[0] == pytest.approx(used, rel=1e-12)
+
+
+def test_a_steel_ball_is_one(server, page):
+    """16 mm of steel, 7850 kg/m³. A link of version 0.6, which had a paraboloid, opens that."""
+    page.goto(server.url)
+    page.choose("Preset", "Steel ball 16 mm on glass-fibre epoxy")
+    shape = page.page.get_by_label("Shape", exact=True)
+    assert shape.input_value() == "Sphere"
+    assert page.field("R").input_value() == "8 mm"
+    page.pick("impact")
+    mass = 4 / 3 * np.pi * 0.008**3 * 7850
+    # Three digits of it, in grams.
+    assert amounts(page.field("m").input_value())[0] == pytest.approx(1e3 * mass * SIZES["g"], rel=3e-3)
+    assert page.page.locator(".form").get_by_text("striker").count() == 0
+    page.goto(f"{server.url}?preset=striker-glass_epoxy&max_depth=0.0002")
+    assert shape.input_value() == "Paraboloid"
+    a = np.sqrt(0.008 * 0.0002)
+    assert amounts(page.readout("contact_radius"))[0] == pytest.approx(a, rel=1e-3)
+
+
+def test_creep_creeps(server, page):
+    """A Kelvin–Voigt medium reaches F(d) as exp(−t/τ): the ramp takes as long as τ, which is said."""
+    page.goto(server.url)
+    page.pick("path")
+    page.press("More about the medium")
+    page.pick("η")
+    page.choose("Pattern", "creep under a force, in time")
+    page.page.locator(".lights", has_text="so far").wait_for(state="hidden")
+    tau = amounts(page.page.locator(".form").get_by_text(re.compile("^η = .*τ = ")).inner_text())[1]
+    assert amounts(page.field("t_1").input_value())[0] == pytest.approx(tau, rel=0.02)
+    d, F = drawn(page, "force", "path ahead")
+    held = d[np.argmax(np.isclose(F, F.max(), rtol=1e-3)) :]
+    assert held.max() > 1.1 * held.min()
