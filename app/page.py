@@ -156,7 +156,8 @@ class Page:
     def notify(self, text: str) -> None:
         """Show a notice; its text may contain user input."""
         if pn.state.notifications is not None:
-            pn.state.notifications.error(escape(text), duration=7000)
+            # Screen readers are told the text itself, in which quotation marks need no escape.
+            pn.state.notifications.error(escape(text, quote=False), duration=7000)
 
     def _refusal(self, error, state=None):
         """Message for an error; a fault is logged with its scene."""

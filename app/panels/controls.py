@@ -209,7 +209,7 @@ class Controls:
         angle = f"Half-angle {digits(90 - degrees(atan(slope)))}°" if slope is not None else ""
         onset = f"Yield starts at d_c = π q_c/(2E*) = {written(made.critical_depth, 'length')} (19)"
         eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
-        idle = "" if course.dashpots else "; no effect here: pressing is infinitely slow"
+        idle = "" if course.dashpots else "; no effect here: pressing is quasi-static"
         rests = getattr(course.scene.drive, "time", None) is not None
         texts = {
             "drive": f"Energy {energy}; speed of a fall from {height}" * (state.drive == "impact")

@@ -96,6 +96,8 @@ def read(text: str, kind: str, shown: Unit) -> float:
     units = {name: unit for unit in units for name in (unit.name, unit.name.translate(_KEYBOARD))}
     if match and kind == "slope" and match[3] == "°" and 0 < float(match[1]) < 90:
         return 1 / tan(radians(float(match[1])))
+    if match and kind == "slope" and match[3] == "°":
+        raise ValueError("the half-angle is above 0° and below 90°")
     if match is None or (match[3] and match[3] not in units):
         known = ", ".join(unit.name for unit in UNITS[kind] if unit.name) or "°" * (kind == "slope")
         raise ValueError(f"“{text:.40}” is not a number" + f" with one of the units {known}" * bool(known))

@@ -242,3 +242,79 @@ def test_creep_creeps(server, page):
     d, F = drawn(page, "force", "path ahead")
     held = d[np.argmax(np.isclose(F, F.max(), rtol=1e-3)) :]
     assert held.max() > 1.1 * held.min()
+
+
+#: What was said and is not so, of whatever scene.
+FALSE = (
+    "which is exact for ν = ½, and", "infinitely slow", "that exist", "hardness falls as 1/a",
+    "indent_in_time", "Assumptions that hold", "*Sweep*", "&#x27;", "holds: ",
+)  # fmt: skip
+#: All texts of the page, those of explanations that are closed included.
+TEXTS = """() => {
+    const inside = (node) => [...(node.shadowRoot?.childNodes ?? []), ...node.childNodes]
+    const text = (node) => /STYLE|SCRIPT/.test(node.tagName) ? "" : node.data ?? inside(node).map(text).join("")
+    return text(document.body).replace(/\\s+/g, " ")
+}"""
+
+
+def said(page):
+    text = page.page.evaluate(TEXTS)
+    assert [words for words in FALSE if words in text] == []
+    return text
+
+
+def test_sentences_are_true(server, page):
+    page.goto(f"{server.url}?preset={DROP}&drive=oblique")
+    text = said(page)
+    assert "This is exact only for ν = ½; here ν = 0.3." in text
+    assert "which of them are illustrative" in text
+    page.goto(f"{server.url}?damping=eta&eta=1e6")
+    text = said(page)
+    assert "choose the drive path and one of its patterns in time, or an impact" in text
+    assert "They act in impacts and in the two patterns of a path that are in time" in text
+    # A fast impact: areas of the limit, of the damage and of the contact, and their ratios.
+    page.goto(f"{server.url}?preset={DROP}")
+    (sentence,) = re.findall(r"Fast-impact limit \(23\), \(24\): A = .*? = [\d.]+ mm²\.", said(page))
+    fast, above, damaged, below, contact = amounts(sentence)
+    assert damaged == pytest.approx(amounts(page.readout("damaged_area"))[0], rel=1e-3)
+    assert contact == pytest.approx(np.pi * amounts(page.readout("contact_radius"))[0] ** 2, rel=1e-3)
+    # Of areas with four digits.
+    assert (above, -below) == pytest.approx([fast / A - 1 for A in (damaged, contact)], abs=1e-3)
+    assert re.search("% above the damaged area.*% below the contact area", sentence)
+    # The sweep draws power laws through one point, and says so.
+    page.goto(f"{server.url}?preset={DROP}&tiles=sweep&against=restitution")
+    page.wait("explorer.row('sweep', 'this scene')?.[0].length > 1")
+    assert named(page, "sweep", "scaling of class (a), hardness constant") == 1
+    assert "Lines of (a) and (c) are these powers, drawn through the fast limit" in said(page)
+
+
+def test_guided_scenes_are_true(server, page):
+    """At d/d_c = 5 the mean pressure of a cone is 0.90 of q_c/a."""
+    page.goto(server.url)
+    page.press("Guide")
+    for depth in ("1.5", "2", "9"):
+        page.change(page.press, "Next")
+        page.wait("(d) => explorer.row('force', 'now')[0][0].toFixed(1) === Number(d).toFixed(1)", depth)
+    guide = page.page.locator("p[role=status]")
+    guide.get_by_text("approaches q").wait_for()
+    ratio = amounts(page.readout("mean_pressure"))[0] * amounts(page.readout("contact_radius"))[0] / 100
+    assert ratio == pytest.approx(0.9, abs=0.01)
+    assert page.readout("mean_pressure").split(".")[0] in guide.inner_text()
+    said(page)
+    page.page.get_by_label("Guided scene").select_option(label="It bounces only between two speeds")
+    guide.get_by_text("Sweep", exact=True).wait_for()
+    said(page)
+
+
+def test_refusals_are_said_to_all_and_heights_of_a_relief_are_on_no_axis(server, page, tmp_path):
+    page.goto(f"{server.url}?tiles=relief")
+    path = tmp_path / "tip.csv"
+    path.write_text("0, 0\n1, 1\n", encoding="utf-8")
+    page.page.get_by_label("CSV file of a measured tip: r, z").set_input_files(path)
+    page.page.get_by_text("header must name").last.wait_for()
+    said(page)
+    _, p = drawn(page, "pressure", "−σzz(r)")
+    assert amounts(page.label("relief", "largest"))[0] == pytest.approx(p.max(), rel=1e-2)
+    assert not page.page.evaluate("explorer.model('relief').left[0].visible")
+    page.type("s", "90°")
+    page.number("s").locator("#said", has_text="half-angle is above 0° and below 90°").wait_for()
