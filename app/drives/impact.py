@@ -9,7 +9,6 @@ import mdr_core as mdr
 from mdr_core.dynamics.motion import motion as motion_of
 from mdr_core.dynamics.oblique_motion import along_surface, oblique_motion
 
-from ..state import PRESETS
 from ..state.quantities import QUANTITIES
 from . import Course, Drive, nearest, path_progress
 from .press import slow
@@ -44,9 +43,10 @@ class Impact(Drive):
             return {"mass": state.mass, "speed": state.speed}
         if state.drive == "oblique":
             return {"mass": state.mass, "speed": state.incoming_speed * sin(state.attack)}
-        # The preset's, or a body as heavy as a ball of the contact's size times ten, of steel.
-        mass = float(f"{4.2 * 7800 * (10 * float(turning_point.contact_radius)) ** 3:.1g}")
-        mass = PRESETS[state.preset].values.get("mass", mass)
+        mass = state.mass
+        if mass == QUANTITIES["mass"].default:
+            # Nobody has set it: as heavy as a ball of the contact's size times ten, of steel.
+            mass = float(f"{4.2 * 7800 * (10 * float(turning_point.contact_radius)) ** 3:.1g}")
         work = float(turning_point.stored_energy + turning_point.plastic_work)
         return {"mass": mass, "speed": (2 * work / mass) ** 0.5}
 

@@ -90,7 +90,7 @@ def _hysteresis(view: View, i: int, back_d, back_F) -> dict:
     if states.contact_radius[i] > 0:
         out_d, out_F = np.append(out_d, back_d), np.append(out_F, back_F)
     start, end = states.depth[0], out_d[out_F != 0][-1:]
-    step = 1e-9 * states.depth[turn]
+    step = 1e-9 * states.depth[view.course.peak]
     x = np.unique(np.concatenate([states.depth[: turn + 1], out_d, [start - step], end, end - step]))
     F_in = np.interp(x, states.depth[: turn + 1], states.force[: turn + 1], left=0.0)
     F_out = np.interp(x, out_d[::-1], out_F[::-1], left=0.0)

@@ -252,7 +252,8 @@ FALSE = (
 #: All texts of the page, those of explanations that are closed included.
 TEXTS = """() => {
     const inside = (node) => [...(node.shadowRoot?.childNodes ?? []), ...node.childNodes]
-    const text = (node) => /STYLE|SCRIPT/.test(node.tagName) ? "" : node.data ?? inside(node).map(text).join("")
+    const shown = (node) => !/STYLE|SCRIPT/.test(node.tagName)
+    const text = (node) => node.data ?? inside(node).filter(shown).map(text).join("")
     return text(document.body).replace(/\\s+/g, " ")
 }"""
 
