@@ -180,7 +180,7 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
 
 
 def test_depth_noise_counts_where_it_is_no_rounding_and_no_trifle():
-    """Noise of a hundredth of the recovered depth is found; of a ten-thousandth, or none at all, it is 0."""
+    """Noise of a hundredth of the recovered depth is found; of a ten-thousandth, or none, it is 0."""
     d = np.append(np.linspace(-2, 15, 600), np.linspace(15, 12, 200))
     force = np.maximum(d, 0) ** 2
     for size, expected in ((0.03, 0.03), (3e-4, 0.0), (0.0, 0.0)):
