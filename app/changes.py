@@ -7,7 +7,7 @@ from typing import Any
 import mdr_core as mdr
 
 from .solve import DRIVES, follow, option, options, scene_of, turning_point
-from .state import State, checked, medium, preset_state, with_derived
+from .state import State, altered, checked, medium, preset_state, with_derived
 from .state.files import PLACED
 from .state.quantities import QUANTITIES, shape_quantities
 
@@ -21,20 +21,25 @@ def choose(state: State, name: str, wanted: str) -> State:
     known = options(state, name)
     if wanted not in known:
         raise ValueError(f"{wanted!r:.40} is not one of {', '.join(known)}")
+    if name == "preset" and (wanted != state.preset or altered(state)):
+        return _preset(state, wanted)
     if wanted == option(state, name):
         return state
-    if name == "preset":
-        return _preset(state, wanted)
     if name == "shape" and wanted == "sampled" and not state.samples:
         raise ValueError("load a tip first: a CSV file with radii r and heights z")
     numbers = CONVERT[name](state, wanted) if name in CONVERT else {}
-    numbers = {k: float(v) if k in QUANTITIES else v for k, v in numbers.items()}
+    numbers = {k: shown(v) if k in QUANTITIES else v for k, v in numbers.items()}
     changed, made = state.replace(**{name: wanted}, **numbers), medium(state)
     if name == "elasticity":
         return put(changed, "E_star", made.E_star)
     if name == "plasticity" and inf not in (made.q_c, medium(changed).q_c):
         return put(changed, "q_c", made.q_c)
     return with_derived(changed)
+
+
+def shown(value: float) -> float:
+    """A number that is found, with the five digits that its field shows: the one that is used."""
+    return float(f"{value:.5g}")
 
 
 def put(state: State, name: str, value: float) -> State:
@@ -76,7 +81,7 @@ def press_to(state: State, depth: float) -> State:
     depth = QUANTITIES["max_depth"].bounded(depth)
     pressed = mdr.indent(scene_of(state).profile, medium(state), depth)
     numbers = DRIVES[state.drive].equivalent(state, pressed)
-    numbers = {name: checked(name, value) for name, value in numbers.items()}
+    numbers = {name: checked(name, shown(value)) for name, value in numbers.items()}
     return state.replace(progress=1.0, **numbers)
 
 

@@ -174,7 +174,8 @@ class Page:
         if is_served(self.document) and not self._ready:
             self._notices.append(text)
         elif pn.state.notifications is not None:
-            pn.state.notifications.error(escape(text), duration=7000)
+            # Screen readers are told the text itself, in which quotation marks need no escape.
+            pn.state.notifications.error(escape(text, quote=False), duration=7000)
 
     def _refusal(self, error, state=None):
         """Message for an error; a fault is logged with its scene."""

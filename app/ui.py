@@ -20,7 +20,8 @@ _LABELS = {name: quantity.label for name, quantity in QUANTITIES.items()}
 _EXPONENT = re.compile(r"(\d(?:\.\d+)?)e([+-]?)0?(\d+)\b")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PYTHON = re.compile(
-    r"\[[\d, ]+\](?= = )| \(and \d+ more of \d+ entries\)|; or give unit='nm'| \(indent_in_time, creep\)"
+    r"Sampled\.fit:? "
+    r"|\[[\d, ]+\](?= = )| \(and \d+ more of \d+ entries\)|; or give unit='nm'| \(indent_in_time, creep\)"
 )
 
 

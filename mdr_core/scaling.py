@@ -224,7 +224,7 @@ def how_fast(hit):
     value = max(abs(area), abs(depth), viscous)
     exceeded = value > _MAX_ERROR or not first
     errors = f"{100 * area:+.3g} % of the area, {100 * depth:+.3g} % of the depth".replace("-", "−")
-    text = f"The fast limit, {equations}, {'does not hold' if exceeded else 'holds'}: {errors}"
+    text = f"The fast limit, {equations}, {'does not hold and ' * exceeded}is off by {errors}"
     if viscous > _MAX_ERROR:
         text += f", and viscosity takes {100 * viscous:.3g} % of the energy"
     if not first:

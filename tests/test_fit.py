@@ -104,6 +104,13 @@ class TestIndentation:
         assert abs(pulls(fit, E_star=E)["E_star"]) < 3
         assert fit.standard_errors["E_star"] < 0.2 * E
 
+    def test_noise_is_no_new_largest_depth_on_unloading_alone(self):
+        profile, back = mdr.Cone(0.3), slice(int(np.argmax(OUT)), None)
+        depth, force = noisy(profile, 1, seed=2, depth_noise=1e-9)
+        assert np.count_nonzero(np.diff(depth[0][back]) > 0) > 0.1 * OUT[back].size
+        fit = mdr.fit_indentation(profile, depth[0][back], force[0][back])
+        assert not any("back and forth" in remark for remark in fit.remarks)
+
     def test_rows_are_the_curves_one_by_one(self):
         profile = mdr.Sphere(1e-6)
         depth, force = noisy(profile, 3, seed=3)

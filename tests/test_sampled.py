@@ -1,6 +1,7 @@
 """Sampled tips: exact for their polygon, and careful with what a file may hold."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -289,6 +290,28 @@ class TestFit:
         # Three standard errors of the mean of 50; one tip scatters by 1 %, as its height at the apex does.
         assert abs(np.mean(error)) < 3 * np.std(error) / np.sqrt(50)
         assert np.std(error) < 0.015
+
+    @pytest.mark.parametrize("waves", [2, 5, 12])
+    @pytest.mark.parametrize("rows", [161, 401, 5000])
+    @pytest.mark.parametrize("sides", [1, 2])
+    def test_a_wavy_tip_is_refused(self, waves, rows, sides):
+        """50 nm on a tip of 80 nm, with 1 nm of noise: the misfit is that of a sine or less, 35 nm."""
+        r = np.linspace(4e-7 * (1 - sides), 4e-7, rows)
+        z = self.shape.height(r) + 5e-8 * np.sin(2 * np.pi * waves * r / 4e-7)
+        z += 1e-9 * np.random.default_rng(1).standard_normal(rows)
+        with pytest.raises(ValueError, match="wavy or concave") as refused:
+            mdr.Sampled.fit(r, z)
+        miss = float(re.search(r"by (\S+) m \(rms", str(refused.value))[1])
+        assert 1e-8 < miss < 4e-8
+
+    @pytest.mark.parametrize("width", [1, 5])
+    def test_noise_is_no_wave(self, width):
+        """Noise of 2 nm on a tip of 80 nm, also if the instrument has averaged neighbours."""
+        for seed in range(20):
+            noise = np.random.default_rng(seed).standard_normal(self.r.size + width - 1)
+            z = self.shape.height(self.r) + 2e-9 * np.convolve(noise, np.ones(width) / width**0.5, "valid")
+            tip = mdr.Sampled.fit(self.r, z)
+            np.testing.assert_allclose(tip.height(3e-7), self.shape.height(3e-7), atol=5e-9)
 
     def test_order_side_and_height_do_not_matter(self):
         z = self.measured(1)

@@ -6,14 +6,17 @@ from math import pi, sin
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core.dynamics.motion import motion as motion_of
 from mdr_core.dynamics.oblique_motion import along_surface, oblique_motion
 
 from ..state.quantities import QUANTITIES
 from . import Course, Drive, nearest, path_progress
 from .press import slow
 
-#: Instants of an impact; largest number of drawn elements, and halvings of their steps (errors about 10⁻⁵).
-INSTANTS, _ELEMENTS, _HALVINGS = 120, 300, 2
+#: Instants of an impact, and more of them up to the onset of yield, which a fast one passes in one step.
+INSTANTS, BEFORE_YIELD = 120, 20
+#: Largest number of drawn elements, and halvings of their steps (errors about 10⁻⁵).
+_ELEMENTS, _HALVINGS = 300, 2
 
 
 class Impact(Drive):
@@ -29,7 +32,7 @@ class Impact(Drive):
         hit = scene.solve()
         if scene.medium.work_of_adhesion > 0 and not scene.drive.plastic_depth:
             return slow(scene, progress, hit.turning_point, hit)
-        return along(scene, progress, hit, hit.motion(INSTANTS))
+        return along(scene, progress, hit, motion_of(hit, INSTANTS, BEFORE_YIELD))
 
     def turning_point(self, scene):
         return scene.solve().turning_point
@@ -40,8 +43,10 @@ class Impact(Drive):
             return {"mass": state.mass, "speed": state.speed}
         if state.drive == "oblique":
             return {"mass": state.mass, "speed": state.incoming_speed * sin(state.attack)}
-        # A body as heavy as a ball of the contact's size times ten, of steel.
-        mass = float(f"{4.2 * 7800 * (10 * float(turning_point.contact_radius)) ** 3:.1g}")
+        mass = state.mass
+        if mass == QUANTITIES["mass"].default:
+            # Nobody has set it: as heavy as a ball of the contact's size times ten, of steel.
+            mass = float(f"{4.2 * 7800 * (10 * float(turning_point.contact_radius)) ** 3:.1g}")
         work = float(turning_point.stored_energy + turning_point.plastic_work)
         return {"mass": mass, "speed": (2 * work / mass) ** 0.5}
 
@@ -67,14 +72,14 @@ class Oblique(Impact):
         """States from one coarse solution of friction."""
         drive, normal = scene.drive, _normal(scene)
         given = drive.tangential_speed, drive.friction, drive.tangential_mass
-        motion = along_surface(normal, *given, INSTANTS, 0)
+        motion = along_surface(motion_of(normal, INSTANTS, BEFORE_YIELD), *given, 0)
         words = "friction to three digits so far"
         return along(scene, progress, normal, motion.normal, oblique=motion, pending=words)
 
     def in_time(self, scene):
         """States from the core's solution, with elements thinned out for drawing."""
         hit = scene.solve()
-        motion = oblique_motion(hit, INSTANTS, _HALVINGS)
+        motion = oblique_motion(hit, motion_of(hit.normal, INSTANTS, BEFORE_YIELD), _HALVINGS)
         thinned = slice(None, None, -(-motion.x.size // _ELEMENTS))
         load, sticks = (np.array(part[:, thinned]) for part in (motion.tangential_line_load, motion.sticks))
         motion = replace(motion, x=motion.x[thinned], tangential_line_load=load, sticks=sticks)

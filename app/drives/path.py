@@ -28,6 +28,10 @@ def _vertices(drive):
     return depth, np.append(0.0, np.cumsum(np.abs(np.diff(depth))))
 
 
+def _in_time(state):
+    return state.drive == "path" and state.pattern in ("hold", "creep")
+
+
 def _by_force(drive):
     return isinstance(drive, mdr.ForcePath)
 
@@ -157,7 +161,7 @@ class Path(Drive):
     """Pressed along a path."""
 
     def make(self, state, medium):
-        if state.pattern in ("hold", "creep"):
+        if _in_time(state):
             refuse_adhesion(medium, "a path in time")
             times = (0.0, state.ramp_time, 5 * state.ramp_time)
             if state.pattern == "creep":
@@ -182,7 +186,7 @@ class Path(Drive):
         return _slowly(scene, float(np.max(_vertices(scene.drive)[0])))
 
     def equivalent(self, state, turning_point):
-        """Pattern of the present depth, and a ramp of one relaxation time."""
+        """Pattern of the present depth, and a ramp of one relaxation time unless there is one already."""
         numbers = {"max_depth": float(turning_point.depth), "max_force": limited_force(turning_point)}
         time = float(f"{turning_point.medium.relaxation_time or 1.0:.2g}")
-        return numbers if state.drive == "path" else numbers | {"ramp_time": time}
+        return numbers if _in_time(state) else numbers | {"ramp_time": time}

@@ -14,11 +14,13 @@ from ..solve import option, options
 from ..state import MEDIUM_CHOICES, PRESETS, State, altered, regions
 from ..state.files import MAX_BYTES, Uploaded
 from ..state.quantities import ABOUT, CHOICES, LABELS, OF_DRIVE, QUANTITIES, SHAPES, Scale
-from ..state.units import UNITS, digits, entry, fitting, read, written
+from ..state.units import UNITS, digits, entry, fitting, in_full, read, written
 from ..ui import JS, WIDE, button, explained, field, html, linked, marked, reveal, show, symbol
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
+#: Option of the list of presets for a scene that is none of them, so that its preset can be chosen again.
+_ALTERED = "altered"
 #: Choices shown as radio buttons; others are lists.
 _RADIO = (*MEDIUM_CHOICES, "drive", "body")
 
@@ -151,26 +153,33 @@ class Choices:
 
     def _made(self, name, kind, *classes, **options):
         def choose(event):
-            if event.new != option(self._state(), name):
+            if event.new != self._chosen(name):
                 self._apply(lambda state: changes.choose(state, name, event.new))
-            show(widget, value=option(self._state(), name))
+            show(widget, value=self._chosen(name))
 
-        chosen = {"options": self._texts(name), "value": option(self._state(), name)}
+        chosen = {"options": self._texts(name), "value": self._chosen(name)}
         widget = self.widgets[name] = field(kind, *classes, **chosen, **options)
         widget.param.watch(choose, "value")
         return widget
+
+    def _chosen(self, name):
+        """Option that is shown; none of the presets if the scene differs from all."""
+        state = self._state()
+        return _ALTERED if name == "preset" and altered(state) else option(state, name)
 
     def _texts(self, name):
         """Options by their texts."""
         state = self._state()
         texts = {CHOICES[name][option]: option for option in options(state, name)}
+        if self._chosen(name) == _ALTERED:
+            texts[f"altered, from: {PRESETS[state.preset].label}"] = _ALTERED
         if name == "shape" and not state.samples:
             del texts[CHOICES["shape"]["sampled"]]
         return texts
 
     def show(self, state: State) -> None:
         for name, widget in self.widgets.items():
-            show(widget, options=self._texts(name), value=option(state, name))
+            show(widget, options=self._texts(name), value=self._chosen(name))
 
 
 class Controls:
@@ -215,7 +224,7 @@ class Controls:
         preset, shape, made = PRESETS[state.preset], SHAPES[state.shape], course.scene.medium
         sources = ""
         for name, text in preset.sources.items():
-            value = written(preset.values[name], QUANTITIES[name].kind, 3)
+            value = in_full(preset.values[name], QUANTITIES[name].kind)
             sources += f"<dt>{marked(f'{QUANTITIES[name].symbol} = {value}')}</dt><dd>{escape(text)}</dd>"
         title = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
         energy = written(state.mass * state.speed**2 / 2, "energy")
@@ -224,7 +233,7 @@ class Controls:
         angle = f"Half-angle {digits(90 - degrees(atan(slope)))}°" if slope is not None else ""
         onset = f"Yield starts at d_c = π q_c/(2E*) = {written(made.critical_depth, 'length')} (19)"
         eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
-        idle = "" if course.dashpots else "; no effect here: pressing is infinitely slow"
+        idle = "" if course.dashpots else "; no effect here: pressing is quasi-static"
         rests = getattr(course.scene.drive, "time", None) is not None
         texts = {
             "drive": f"Energy {energy}; speed of a fall from {height}" * (state.drive == "impact")

@@ -1,5 +1,6 @@
 """The tab *Fit a measurement*: upload of a curve, choice of its columns, and fit of the medium."""
 
+import re
 from collections.abc import Callable
 from contextlib import suppress
 from html import escape
@@ -11,7 +12,7 @@ import mdr_core as mdr
 from mdr_core.reading import SIZES
 
 from ..state import State, checked, medium, profile, with_derived
-from ..state.files import FITTED, OF_MEDIUM, PLACED, Measured, agrees, offered, read_curve
+from ..state.files import FITTED, OF_MEDIUM, PLACED, Measured, agrees, offered, read_curve, with_curve
 from ..state.quantities import ASSETS, QUANTITIES
 from ..state.units import written
 from ..ui import WIDE, button, field, html, indexed, marked, plain, show, tools
@@ -26,7 +27,7 @@ SILICA = ASSETS / "silica.csv"
 def take(state: State, curve: Measured | None) -> State:
     """Compare with a measured curve, or with none."""
     tiles = ("residual",) if curve else tuple(tile for tile in state.tiles if tile != "residual")
-    return state.replace(curve=curve, contact_point=0.0, baseline=0.0, fit_note="", tiles=tiles)
+    return with_curve(state, curve).replace(contact_point=0.0, baseline=0.0, tiles=tiles)
 
 
 def silica(state: State) -> State:
@@ -86,17 +87,23 @@ def result(state: State) -> str:
     if curve is None or curve.fit is None:
         note = state.fit_note if curve is None else ""
         return f"This page was made with a {marked(note)}." if note else ""
-    text = "What is set on the page is not this fit any more."
+    text = "The page has other values than this fit."
     if agrees(state):
-        text = "Its values are those set on the page; Undo takes it back."
-    return text + indexed(plain(curve.report))
+        text = "The fitted values have been put into the form; Undo restores yours."
+    return text + re.sub(r"(?<![\w/])-(?=\d)", "−", indexed(plain(curve.report)))
 
 
 def unloading(state: State) -> str:
-    """Numbers of Oliver and Pharr for the curve where it lies, as HTML; empty without an unloading."""
+    """Numbers of Oliver and Pharr for the curve where it lies, as HTML; empty without an unloading.
+
+    They need first contact: found by a fit, or held by who knows it.
+    """
+    known = state.curve.fit is not None or "contact_point" in state.fixed
     curve = state.curve.placed(state)
     with suppress(ValueError):
         text = mdr.oliver_pharr(profile(state), curve.depth, curve.force)._repr_html_()
+        if not known:
+            return "Oliver and Pharr's numbers need first contact: fit it, or hold it where it is known."
         return indexed(plain(text.replace("OliverPharr: one unloading", "Unloading: Oliver and Pharr")))
     return ""
 
@@ -176,7 +183,7 @@ class Fitting:
             return
 
         def change(state):
-            return state.replace(curve=curve.corrected(role, chosen), fit_note="")
+            return with_curve(state, curve.corrected(role, chosen))
 
         self._change(change, self.not_taken)
 
@@ -191,7 +198,7 @@ class Fitting:
         if curve is None:
             show(self.about, object=result(state))
             return
-        placed = curve, profile(state), *(state[name] for name in PLACED)
+        placed = curve, profile(state), state.fixed, *(state[name] for name in PLACED)
         if placed != self._placed:
             self._placed, self.unloading.object = placed, unloading(state)
         show(self.about, object=f"<b>{escape(curve.name)}</b>: {escape(curve.note)}.")

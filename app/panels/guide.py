@@ -1,6 +1,7 @@
 """Guided scenes: steps with a state and a text."""
 
 import json
+import re
 from collections.abc import Callable
 from typing import Any
 from urllib.parse import urlencode
@@ -34,6 +35,11 @@ def step_text(step: dict[str, Any], course: Course) -> str:
     return step["says"].format_map(numbers)
 
 
+def _marked(text: str) -> str:
+    """HTML of a text with links, and *words* in italics; the asterisk of E* is followed by no letter."""
+    return re.sub(r"\*(\w+)\*", r"<i>\1</i>", linked(text))
+
+
 class Guide:
     """The panel *Guide*; `go` applies a change, `course` returns the present course."""
 
@@ -52,7 +58,7 @@ class Guide:
         self.at, steps = at, TOURS[self.title.value]
         self._apply(lambda state: step_state(steps[at], state))
         course = self._course()
-        self._scene, self._text = course.scene, linked(step_text(steps[at], course))
+        self._scene, self._text = course.scene, _marked(step_text(steps[at], course))
         self.show(course)
 
     def show(self, course: Course) -> None:

@@ -10,7 +10,7 @@ from ..plots.plot import DASHES
 from ..solve import follow, scene_of
 from ..state import PRESETS, State, altered, link, used
 from ..state.quantities import CHOICES, QUANTITIES
-from ..state.units import written
+from ..state.units import in_full
 from ..ui import WIDE, button, html, marked, show, symbol
 from .readouts import line, readings, text
 
@@ -48,7 +48,7 @@ def difference(state: State) -> str:
     words = [CHOICES[name][state[name]] for name in changed if name in CHOICES and name != "elasticity"]
     numbers = [name for name in used(state) if name in changed or name not in preset.values]
     for name in sorted(numbers, key=lambda name: name not in changed):
-        words.append(f"{QUANTITIES[name].symbol} = {written(state[name], QUANTITIES[name].kind, 3)}")
+        words.append(f"{QUANTITIES[name].symbol} = {in_full(state[name], QUANTITIES[name].kind)}")
     return ", ".join(words) or preset.label
 
 

@@ -14,7 +14,7 @@ from mdr_core.results.quantities import Quantity
 from ..drives import Course
 from ..state import State, medium
 from ..state.quantities import CHOICES, DATA, OF_DRIVE, QUANTITIES, SHAPES, USED, shape_quantities
-from ..state.units import KINDS, written
+from ..state.units import KINDS, digits, in_full, written
 from ..ui import explained, linked, plain, symbol
 
 
@@ -113,18 +113,27 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
             yield "note", "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*."
         elif limit.what == "coupling" and not given:
             yield "note", "Friction along the surface is that of ν = ½; ν is not given with E*."
+        elif limit.what == "viscosity":
+            tau = written(limit.value, "time")
+            remedy = "choose the drive path and one of its patterns in time, or an impact"
+            yield "note", f"Pressing is quasi-static here, without dashpots; τ = {tau}. For these {remedy}."
+        elif limit.what == "fast limit" and limit.holds:
+            yield limit.level, _areas(course.hit)
         else:
-            areas = _areas(course.hit) if limit.what == "fast limit" and np.isfinite(limit.value) else ""
+            areas = " " + _areas(course.hit) if limit.what == "fast limit" and limit.value < np.inf else ""
             yield limit.level, plain(limit.sentence) + areas
 
 
 def _areas(hit: Any) -> str:
     """Comparison of the fast limit with the areas of contact and damage."""
     limit = float(hit.fast_limit.contact_area)
-    area = {"πa²": float(np.pi * hit.contact_radius**2), "A = πc²": float(hit.damaged_area)}
-    texts = (f"{written(v, 'area')} ({name}, {100 * (limit / v - 1):+.3g} %)" for name, v in area.items())
-    text = ", ".join(texts).replace("-", "−")
-    return f" Its area is {written(limit, 'area')}; those of contact and damage: {text}."
+    named = {"damaged area πc²": hit.damaged_area, "contact area πa²": np.pi * hit.contact_radius**2}
+    texts = []
+    for name, area in named.items():
+        more = 100 * (limit / float(area) - 1)
+        side = "above" if more > 0 else "below"
+        texts.append(f"{digits(abs(more), 2)} % {side} the {name} = {written(float(area), 'area')}")
+    return f"Fast-impact limit (23), (24): A = {written(limit, 'area')}, {' and '.join(texts)}."
 
 
 def warnings(course: Course, state: State) -> str:
@@ -135,7 +144,7 @@ def warnings(course: Course, state: State) -> str:
     ]
     exceeded = "".join(html for level, html in sentences if level == "beyond")
     others = "".join(html for level, html in sentences if level != "beyond")
-    folded = f"<details><summary>Assumptions that hold, and notes</summary>{others}</details>"
+    folded = f"<details><summary>Assumptions and notes</summary>{others}</details>"
     return exceeded + folded * bool(others)
 
 
@@ -150,5 +159,5 @@ def summary(state: State) -> str:
     for name in names:
         value = float(getattr(made, name)) if name in of_medium else state[name]
         if value:
-            words.append(f"{QUANTITIES[name].symbol} = {written(value, QUANTITIES[name].kind, 3)}")
+            words.append(f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}")
     return ", ".join([*words, *(CHOICES[name][state[name]] for name in choices)])

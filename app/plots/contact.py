@@ -6,6 +6,7 @@ from mdr_core.results import figures
 from mdr_core.results.figures import NOTHING, area, both, label, line, mark, split
 
 from ..drives import Course
+from ..state.units import written
 from .plot import Plot, View, held_rows
 
 #: Cuts through the pressure over the plane, points along each, and how far the last one is moved: to the
@@ -192,7 +193,8 @@ def relief(view: View, i: int) -> dict:
             at = (1 - _RIGHT) * x + _RIGHT * half * (2 * back - 1)
             closed = np.append(at, at[::-1]), _UP * end * back + np.append(over, 0 * x)
             rows[f"{name} {k}"] = closed if reach > 0 else NOTHING
-    return rows
+    text = f"largest −σzz: {written(float(np.max(p)), 'pressure', 3)}"
+    return rows | {"largest": (-0.97 * half, 0.98 * end, text)}
 
 
 _CUT_ROWS = tuple(
@@ -202,5 +204,5 @@ _CUT_ROWS = tuple(
 )
 RELIEF = Plot(
     "relief", "Pressure over the plane, seen obliquely", "(10)  −σ_zz(√(x² + y²));  zone: orange",
-    ("across", "oblique"), _CUT_ROWS, moving=relief, tab=("Relief", "i"),
+    ("across", "oblique"), (*_CUT_ROWS, label("largest")), moving=relief, tab=("Relief", "i"),
 )  # fmt: skip

@@ -158,6 +158,9 @@ class Picture:
             f.update(sizing_mode="fixed", width=size[0], height=size[1], output_backend="svg")
         else:
             f.update(sizing_mode="stretch_both", min_height=150)
+        if self.plot.axes[1:] == ("oblique",):
+            # Heights in an oblique view are those of no axis.
+            f.left[0].visible = f.ygrid[0].visible = False
         painted = bk.CustomJS(args={"figure": f}, code=JS["label"])
         for axis in f.axis:
             axis.js_on_change("axis_label", painted)

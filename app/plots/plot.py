@@ -229,6 +229,10 @@ def _sizes(course: Course) -> dict[str, float]:
     tension = -2 / np.pi * float(state.uniform_load / state.contact_radius) if course.adhesive else 0.0
     size = {"r": 1.25 * radius, "a": 1.14 * radius, "far": 2.1875 * radius, "z": depth, "d": 1.02 * depth}
     size["F"] = 1.05 * float(np.max(states.force))
+    if course.adhesive:
+        # There may be tension alone, and the indenter is lifted above the surface.
+        size["F"] = max(size["F"], 0.25 * float(-np.min(states.force)))
+        size["z"] = max(depth, float(-np.min(states.depth)))
     size["p"] = 1.05 * max(ceiling(state, 1.25 * radius), tension)
     size["relief"] = 1.35 * size["p"]
     # An onset slightly below the path stays visible.

@@ -13,7 +13,7 @@ from mdr_core.results.quantities import QUANTITIES as RESULTS
 from ..solve import DRIVES, Found, option
 from ..state import PRESETS, State, medium, profile
 from ..state.quantities import SWEPT, Scale, lowered
-from ..state.units import KINDS, digits, written
+from ..state.units import KINDS, digits, in_full
 from ..ui import marked, plain
 from .plot import Plot, axis
 
@@ -21,7 +21,7 @@ from .plot import Plot, axis
 POINTS, VISCOUS = 81, 31
 #: Rows of the fast limit, which is that of class (b), and of the other classes, with their dashes.
 FAST = "fast limit (23) (24), class (b)"
-CLASSES = {"a": "class (a), hardness constant", "c": "class (c), hardness ∝ 1/a²"}
+CLASSES = {"a": "scaling of class (a), hardness constant", "c": "scaling of class (c), hardness ∝ 1/a²"}
 LINES = {FAST: "dashed", CLASSES["a"]: "dotted", CLASSES["c"]: "dotdash"}
 #: What the fast limit has: its quantity, and the power of the energy that a `ScalingLaw` has for it.
 _LIMITS = {
@@ -146,7 +146,7 @@ def _axes(sweep, values, present):
 def _notes(sweep, numbers, values, powers, inside):
     quantity, symbol = SWEPT[sweep.swept], RESULTS[sweep.against].symbol
     if not inside:
-        shown = written(sweep.present, quantity.kind, 3)
+        shown = in_full(sweep.present, quantity.kind)
         yield f"The present value, {marked(f'{quantity.symbol} = {shown}')}, is outside of the range."
     elif sweep.low > 0:
         pair = sweep.present * np.array([0.999, 1.001])
@@ -158,6 +158,7 @@ def _notes(sweep, numbers, values, powers, inside):
     if powers:
         texts = ", ".join(f"W<sup>{digits(power, 3)}</sup> ({name})" for name, power in powers.items())
         yield f"In the fast limit it goes with the energy as {texts}: hardness constant, ∝ 1/a, ∝ 1/a²."
+        yield "Lines of (a) and (c) are these powers, drawn through the fast limit at the present value."
     refused = numbers[np.isnan(values)]
     if refused.size:
         try:

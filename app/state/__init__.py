@@ -32,7 +32,8 @@ def _preset(scene: dict, media: dict, indenters: dict) -> Preset:
     choices = {"shape": indenter["shape"], "elasticity": "bodies", "plasticity": "q_c", "damping": "none"}
     choices |= {"drive": "impact", "adhesion": "none"}
     if "depth" in scene:
-        choices["drive"], values["max_depth"] = "depth", float(scene["depth"] * made.critical_depth)
+        depth = scene["depth"] * made.critical_depth
+        choices["drive"], values["max_depth"] = "depth", float(f"{depth:.5g}")
         sources["max_depth"] = f"{scene['depth']:g} times the depth at which yield begins"
     label = f"{indenter['label']} on {medium['label']}" + f", {remark}" * bool(remark)
     key = "-".join([scene["indenter"], scene["medium"], *remark.split()])

@@ -10,10 +10,11 @@ import numpy as np
 
 import mdr_core as mdr
 from mdr_core.fit.indentation import IndentationFit
+from mdr_core.fit.least_squares import roughness
 from mdr_core.reading import MeasuredCurve, curve_of
 from mdr_core.shapes.tables import axis_of_symmetry, samples_of
 
-from . import State, medium, profile
+from . import State, checked, medium, profile
 from .units import written
 
 #: Most samples that are pressed without keeping everybody waiting, most that a tip is fitted to or that are
@@ -61,8 +62,8 @@ def read_tip(text: str) -> tuple[tuple[Any, Any], str]:
     rows = len(r)
     if min(r) < 0 < max(r):
         r = r - axis_of_symmetry(r, z)
-    parts = np.array_split(np.argsort(np.abs(r), kind="stable"), min(rows, _FITTED))
-    tip = mdr.Sampled.fit(*(np.array([np.mean(of[part]) for part in parts]) for of in (np.abs(r), z)))
+    parts = np.array_split(np.argsort(r, kind="stable"), min(rows, _FITTED))
+    tip = mdr.Sampled.fit(*(np.array([np.mean(of[part]) for part in parts]) for of in (r, z)))
     # On a convex polygon every other one of its vertices is convex too.
     subset = np.unique(np.linspace(0, len(tip.r) - 1, MAX_SAMPLES).round().astype(int))
     samples = np.array(tip.r)[subset], np.array(tip.z)[subset]
@@ -91,6 +92,22 @@ class Measured:
     def time(self):
         """Time (s) of the same samples, or None."""
         return None if self.curve.time is None else self.curve.time[:: self._step]
+
+    @property
+    def depth_noise(self):
+        """Standard deviation (m) of depths that go back and forth, 0 where it hardly counts.
+
+        Taken for real maxima of depth it changes E* by about its share of the depth that is recovered on
+        unloading; below a thousandth the model is further off.
+        """
+        depth, force = self.data
+        steps, noise = np.diff(depth), roughness(depth[None])[0, 0]
+        reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
+        last = int(np.argmax(depth))
+        loaded = depth[last:][force[last:] > 0.05 * force.max()]
+        recovered = np.ptp(np.append(depth[last], loaded))
+        counts = reversals > max(4, 0.05 * steps.size) and noise > 1e-3 * recovered
+        return float(f"{noise:.2g}") if counts else 0.0
 
     #: Report of the fit as HTML.
     report = cached_property(lambda self: self.fit._repr_html_())
@@ -139,6 +156,12 @@ def read_curve(data: bytes, name: str) -> Measured:
             return Measured(name, mdr.read_curve(path))
         except ValueError as error:
             raise ValueError(str(error).replace(path.name, name)) from None
+
+
+def with_curve(state: State, curve: Measured | None) -> State:
+    """With a curve that has no fit, or none, and the noise of its depth; with adhesion none is fitted."""
+    noise = curve.depth_noise if curve and state.adhesion == "none" else 0.0
+    return state.replace(curve=curve, fit_note="", depth_noise=checked("depth_noise", noise))
 
 
 def offered(state: State) -> list[str]:

@@ -21,6 +21,9 @@ _IGNORED = re.compile(
 _APPENDED = re.compile(
     r"utm_.*|\w*clk?id|gclsrc|[gw]braid|igsh(id)?|mc_[ce]id|_ga|_gl|_hs\w+|li_fat_id|srsltid|bokeh-.*"
 )
+#: Presets of version 0.6 that had a paraboloid for a ball, and what else their links do not say.
+_FORMER_PRESETS = {"striker-glass_epoxy": "ball-glass_epoxy", "striker-epoxy-elastic": "ball-epoxy-elastic"}
+_FORMER_BALL = {"shape": "paraboloid", "paraboloid_radius": "0.008", "mass": "1"}
 #: Choices and options of earlier versions, with the number that they had and its default.
 _FORMER = {
     ("damping", "tau"): ("tau", "0.001"), ("aim", "components"): ("tangential_speed", "1"),
@@ -73,7 +76,10 @@ def read(query: str) -> State:
     pairs = dict(values)
     if len(pairs) < len(values):
         raise ValueError("this link sets a value twice")
-    state = preset_state(_preset(pairs.pop("preset", OPENING)))
+    key = _preset(pairs.pop("preset", OPENING))
+    if key in _FORMER_PRESETS:
+        pairs = _FORMER_BALL | pairs
+    state = preset_state(_FORMER_PRESETS.get(key, key))
     for (name, option), (number, default) in _FORMER.items():
         if pairs.get(name) == option:
             pairs.setdefault(number, default)
@@ -112,7 +118,7 @@ def _preset(text: str) -> str:
     key = {preset.label: key for key, preset in PRESETS.items()}.get(text, text)
     if not key:
         raise ValueError("a scene that version 0.3 took from a file has to be set anew")
-    if key not in PRESETS:
+    if key not in PRESETS and key not in _FORMER_PRESETS:
         raise ValueError("this link names no preset that is known")
     return key
 

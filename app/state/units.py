@@ -2,7 +2,7 @@
 
 import re
 from dataclasses import dataclass
-from math import floor, isfinite, log10, radians, tan
+from math import floor, isclose, isfinite, log10, radians, tan
 
 import numpy as np
 
@@ -71,8 +71,17 @@ def written(value: float, kind: str, count: int = 4) -> str:
 
 
 def entry(value: float, unit: Unit) -> str:
-    """A value (SI) as text for a field, readable by `read`."""
-    return f"{value / unit.factor:.5g} {unit.name}".strip() if isfinite(value) else digits(value)
+    """A value (SI) as text for a field, readable by `read`: all digits up to nine, else five."""
+    if not isfinite(value):
+        return digits(value)
+    number = value / unit.factor
+    exact = isclose(float(f"{number:.9g}"), number, rel_tol=1e-13)
+    return f"{number:{'.9g' if exact else '.5g'}} {unit.name}".strip()
+
+
+def in_full(value: float, kind: str) -> str:
+    """A value (SI) in the unit that fits it, with all digits as in `entry`."""
+    return entry(value, fitting(value, kind)) if isfinite(value) else digits(value)
 
 
 #: Letters of units, with those that keyboards have for them.
@@ -102,6 +111,8 @@ def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
     units = {name: unit for unit in units for name in (unit.name, unit.name.translate(_KEYBOARD))}
     if match and kind == "slope" and match[3] == "°" and 0 < float(match[1]) < 90:
         return 1 / tan(radians(float(match[1]))), shown
+    if match and kind == "slope" and match[3] == "°":
+        raise ValueError("the half-angle is above 0° and below 90°")
     if match is None or (match[3] and match[3] not in units):
         known = ", ".join(unit.name for unit in UNITS[kind] if unit.name) or "°" * (kind == "slope")
         raise ValueError(f"“{text:.40}” is not a number" + f" with one of the units {known}" * bool(known))

@@ -300,5 +300,4 @@ class Impact(ImpactResult):
         >>> print(round(hit.motion(101).time[-1] / (hit.max_depth / 0.01), 6))  # Hertz
         2.943275
         """
-        refuse_adhesion(self.medium, "the motion of an impact")
         return motion(self, n)

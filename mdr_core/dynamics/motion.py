@@ -3,15 +3,21 @@
 import numpy as np
 
 from ..indentation import Indentation
+from ..medium import refuse_adhesion
 from ..results.base import Motion, instants
 from ..yielding import yield_rule
 
 
-def motion(hit, n):
-    """The `Motion` of one `Impact` at n instants."""
+def motion(hit, n, before_yield=0):
+    """The `Motion` of one `Impact` at n instants, and so many more up to the onset of yield."""
+    refuse_adhesion(hit.medium, "the motion of an impact")
     hit._one("motion")
     course, medium, modulus = hit._course, hit.medium, 2 * hit.medium.E_star
     time = instants(n, course.turning_time, course.end_time)
+    if before_yield and hit.plastic_depth_increase > 0:
+        # Just before yield, at even steps of the depth.
+        depth = medium.critical_depth * (1 - 1e-9) * np.linspace(0, 1, before_yield + 1)[1:]
+        time = np.union1d(time, course.loading.when(depth))
     state, released = course.at(time), _released_energy(hit, course, time)
     uniform_load = 4 * medium.eta * np.maximum(state.velocity, 0.0)
     states = Indentation(hit.profile, medium, state.depth, state.interval, uniform_load, in_time=True)

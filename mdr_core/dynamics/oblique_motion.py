@@ -77,15 +77,19 @@ class ObliqueMotion(MotionResult):
         return replace(self, **instants, tangential_line_load=load, sticks=sticks, normal=normal)
 
 
-def oblique_motion(hit, n, halvings):
-    """The `ObliqueMotion` of one `ObliqueImpact` at n instants, from a run with so many halvings."""
+def oblique_motion(hit, normal, halvings):
+    """The `ObliqueMotion` of one `ObliqueImpact` at the instants of its normal `Motion`.
+
+    From a run with so many halvings.
+    """
     surface = float(hit.tangential_speed), float(hit.friction), float(hit.tangential_mass)
-    return along_surface(hit.normal, *surface, n, halvings, hit)
+    return along_surface(normal, *surface, halvings, hit)
 
 
-def along_surface(hit, speed, friction, mass, n, halvings, impact=None):
-    """The `ObliqueMotion` under a normal `Impact` from one run; errors are known of an `impact` only."""
-    normal, stiffness = hit.motion(n), 2 * float(hit.medium.tangential_ratio) * float(hit.medium.E_star)
+def along_surface(normal, speed, friction, mass, halvings, impact=None):
+    """The `ObliqueMotion` under a normal `Motion` from one run; errors are known of an `impact` only."""
+    hit = normal.impact
+    stiffness = 2 * float(hit.medium.tangential_ratio) * float(hit.medium.E_star)
     inertia, ratio = stiffness / mass, bound_ratio(hit, speed, friction)
     records = (_viscous_records if hit.medium.eta > 0 else _dry_records)(
         hit, normal, inertia, ratio, halvings

@@ -65,8 +65,8 @@ def fit_indentation(
     work_of_adhesion : float, optional
         Work of adhesion w (J/m²) of an elastic medium, 0 by default; see Notes.
     depth_noise : float, optional
-        Standard deviation (m) of the measured depth. Without it noise counts as a new largest depth, and
-        E* is too small.
+        Standard deviation (m) of the measured depth. Without it noise counts as new largest depths, and
+        E* is biased.
     force_noise : float or array_like, optional
         Standard deviation (N) of the measured force, of all samples or of each one: samples are weighted
         by its inverse. None estimates it from the residuals, or with `depth_noise` from third differences

@@ -124,6 +124,7 @@ SPRING_ROWS = (
     line("free", "free", 0.9),
     line("elastic", "elastic", 1.4),
     line("yielded", "yielded", 2.4),
+    line("stretched", "stick", 1.8),
     line("residual imprint", "yielded", 1.4, "dotted"),
     *RADII,
 )
@@ -197,7 +198,15 @@ def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
     lean, stick = (0.0 * x, None) if along is None else along(np.abs(x))
     lean = np.where(contact, lean, 0.0)[:, None] * (half / 2 / height) * _ALONG
     path = x[:, None] + _BEND * half / SPRINGS + lean, base_height + (top[:, None] - base_height) * _ALONG
-    states = {"free": ~contact & (left == 0), "elastic": contact & (left == 0), "yielded": left > 0}
+    # Springs carry tension with adhesion only.
+    adhesive = state.medium.work_of_adhesion > 0
+    stretched = contact & adhesive & (np.maximum(g, interval.lower) > state.depth)
+    states = {
+        "free": ~contact & (left == 0),
+        "elastic": contact & (left == 0) & ~stretched,
+        "yielded": (left > 0) & ~stretched,
+        "stretched": stretched,
+    }
     if along is not None:
         states = {name: some & ~contact for name, some in states.items()}
         states |= {"sticks": contact & stick, "slips": contact & ~stick}

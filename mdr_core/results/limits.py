@@ -191,8 +191,8 @@ def friction_limits(medium):
     """Limits of the model of friction; ν/(4 − 2ν) is the slip across the velocity over that along it."""
     nu = float(np.min(medium.poisson))
     value = (1 - 2 * nu) / (2 - 2 * nu)
-    text = "Normal and tangential displacements are taken as uncoupled, which is exact for ν = ½"
-    text += f", and ν = {nu:.3g}." if value > 0 else "."
+    text = "Normal and tangential displacements are taken as uncoupled"
+    text += f". This is exact only for ν = ½; here ν = {nu:.3g}." if value > 0 else ", exact for ν = ½."
     yield Limit("coupling", value, 0.0, value > 0, text, severe=False)
     value = float(np.max(np.abs(medium.poisson / (4 - 2 * medium.poisson))))
     text = f"Slip is taken along the velocity; up to {value:.2g} of the slip is across it."

@@ -22,6 +22,11 @@ _KNOWN = set().union(*UNITS.values())
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
 # An opening bracket ends the one before it: a line of brackets would take quadratic time otherwise.
 _BRACKETS = re.compile(r"[(\[]\s*([^(\[)\]\s]+)\s*[)\]]")
+#: Misfit of a convex profile, over the noise and over the height, above which samples have another shape.
+#: Noise that is averaged over five neighbours looks 2.9 times smaller.
+_MISFIT, _SHARE = 4.0, 0.005
+#: Fewest samples whose noise is known.
+_ENOUGH = 8
 #: Largest number of characters of a line.
 _LONGEST_LINE = 10_000
 
@@ -188,6 +193,20 @@ def axis_of_symmetry(r, z):
 
 
 def convex_fit(r, z):
+    """Radii and heights (m) of the convex polygon nearest to samples at radii r (m) on one or both sides.
+
+    Each side must be near a convex polygon of its own: waves of one would be taken for noise of the other.
+    """
+    fit = _nearest_convex(np.abs(r), z)
+    for side in (r >= 0, r <= 0):
+        if np.count_nonzero(side) >= _ENOUGH:
+            x, y = np.abs(r[side]), z[side]
+            vertices, heights = fit if side.all() else _nearest_convex(x, y)
+            _refuse_misfit(x, y - np.interp(x, vertices, heights), np.ptp(y))
+    return fit
+
+
+def _nearest_convex(r, z):
     """Radii and heights (m) of the convex polygon nearest to samples at radii r ≥ 0 (m).
 
     z₀ + Σ bₖ (r − ρₖ)₊ with bends bₖ ≥ 0 at kinks ρₖ from the axis out, by non-negative least squares.
@@ -209,6 +228,23 @@ def convex_fit(r, z):
     kinks, bends = kinks[used], bends[used]
     vertices = np.append(kinks, radii[-1])
     return vertices, np.maximum(vertices[:, None] - kinks, 0.0) @ bends
+
+
+def _refuse_misfit(r, residual, height):
+    """Refuse samples of which no convex profile is near: residuals (m) that are a curve, not noise.
+
+    Their third differences are those of noise alone: those of a wave of eight samples or more are a tenth.
+    """
+    order = np.argsort(r, kind="stable")
+    residual = residual[order] - np.mean(residual)
+    miss, noise = np.std(residual), np.sqrt(np.mean(np.diff(residual, 3) ** 2) / 20)
+    if miss > max(_MISFIT * noise, _SHARE * height):
+        worst = r[order][np.argmax(np.abs(residual))]
+        raise ValueError(
+            f"Sampled.fit: the nearest convex profile misses the samples by {miss:.2g} m (rms, most at r = "
+            f"{worst:.2g} m), and their noise is {noise:.1g} m: the tip is wavy or concave, so that the "
+            "contact would not be compact; smooth the samples, or leave out those outside the convex part"
+        )
 
 
 def area_samples(coefficients, height, samples, limit):

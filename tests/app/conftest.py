@@ -25,7 +25,7 @@ FLAGS = [
     "--disable-component-update", "--disable-sync",
 ]  # fmt: skip
 #: Presets of which some tests need what they are: the opening, an impact, one without yield, a punch.
-GOLD, DROP, ELASTIC = "berkovich-gold", "striker-glass_epoxy-drop-weight", "striker-epoxy-elastic"
+GOLD, DROP, ELASTIC = "berkovich-gold", "striker-glass_epoxy-drop-weight", "ball-epoxy-elastic"
 PUNCH = "punch-glass_epoxy"
 
 # What the page draws: rows by name, axes, and whether all is done.
@@ -40,9 +40,14 @@ window.explorer = {
       return data.xs ? [Array.from(data.xs[k]), Array.from(data.ys[k])] : [mine(data.x), mine(data.y)]
     }
   },
+  text: (figure, row) => {
+    for (const { data_source: { data } } of explorer.model(figure).renderers)
+      if (data.text && data.row.includes(row)) return data.text[data.row.indexOf(row)]
+  },
   axis: (figure) => {
-    const { x_range, below, left } = explorer.model(figure)
-    return { x: [x_range.start, x_range.end], labels: [below[0].axis_label, left[0].axis_label] }
+    const { x_range, y_range, below, left } = explorer.model(figure)
+    const [x, y] = [x_range, y_range].map((range) => [range.start, range.end])
+    return { x, y, labels: [below[0].axis_label, left[0].axis_label] }
   },
   // What is shown once the input is still.
   scene: () => explorer.model("address").tags[0],
@@ -144,6 +149,15 @@ class Explorer:
 
     def axis(self, figure):
         return self.page.evaluate("(name) => explorer.axis(name)", figure)
+
+    def label(self, figure, name):
+        """Text of a label that is drawn in a plot."""
+        return self.page.evaluate("(a) => explorer.text(...a)", [figure, name])
+
+    def goto(self, url):
+        """Open another address, and wait until all is painted."""
+        self.page.goto(url)
+        self.page.wait_for_function("window.explorer?.idle()")
 
     def slider(self, symbol):
         return self.page.locator(f'input[type="range"][aria-label^="{symbol},"]')

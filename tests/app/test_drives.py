@@ -50,7 +50,8 @@ def test_every_drive_gives_the_same_interface(drive, damping):
 def test_a_pattern_goes_as_deep_as_what_was_there_before_and_is_in_link_and_csv(pattern):
     state = path(pattern)
     course = solved(state)
-    assert float(course.turning_point.depth) == pytest.approx(preset_state().max_depth, rel=1e-9)
+    # A force that is found has the five digits that its field shows.
+    assert float(course.turning_point.depth) == pytest.approx(preset_state().max_depth, rel=5e-5)
     assert scene_of(linked_state(state)) == course.scene
     assert CHOICES["pattern"][pattern] in readouts.summary(state)
     lines = share.csv(View(state, course)).splitlines()
@@ -58,11 +59,14 @@ def test_a_pattern_goes_as_deep_as_what_was_there_before_and_is_in_link_and_csv(
 
 
 def test_hysteresis_yields_once_a_cycle_and_reloads_elastically():
-    view = view_of(path("cycles"))
+    state = path("cycles")
+    # The first cycle ends where yield begins.
+    depth = 5 * medium(state).critical_depth
+    view = view_of(state.replace(max_depth=depth))
     assert len(force_still(view)["path ahead"][0]) == len(view.course)
     rows = force(view, len(view.course) - 1)
     yielding, elastic = rows["yielding"][0], rows["elastic"][0]
-    peaks = preset_state().max_depth * np.arange(1, 6) / 5
+    peaks = depth * np.arange(1, 6) / 5
     stretches = np.split(yielding, np.flatnonzero(np.isnan(yielding)))
     ends = [[part[~np.isnan(part)][k] for part in stretches] for k in (0, -1)]
     np.testing.assert_allclose(ends, [peaks[:-1], peaks[1:]], rtol=1e-9)

@@ -214,3 +214,16 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
     page.locator("h1").click()
     page.keyboard.press("t")
     page.get_by_text("The measured curve is not in the link").wait_for()
+
+
+def test_depth_noise_counts_where_it_is_no_rounding_and_no_trifle():
+    """Noise of a hundredth of the recovered depth is found; of a ten-thousandth, or none, it is 0."""
+    d = np.append(np.linspace(-2, 15, 600), np.linspace(15, 12, 200))
+    force = np.maximum(d, 0) ** 2
+    for size, expected in ((0.03, 0.03), (3e-4, 0.0), (0.0, 0.0)):
+        depth = d + size * np.random.default_rng(3).standard_normal(d.size)
+        curve = read_curve(table({"h (nm)": depth, "F (µN)": force}).encode(), "run.csv")
+        state = fitting.take(preset_state(), curve)
+        # A standard deviation of 800 samples, from third differences.
+        assert state.depth_noise == pytest.approx(1e-9 * expected, rel=0.2)
+        assert fitting.take(state, None).depth_noise == 0

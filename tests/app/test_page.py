@@ -265,7 +265,7 @@ def test_scenes_are_held_and_come_back_from_the_address_in_the_dark(explorer):
         page.locator("h1").click()
         explorer.change(page.keyboard.press, "h")
     page.keyboard.press("j")
-    for k, text in ((1, "= 4.00 nm"), (2, "= 7.00 nm")):
+    for k, text in ((1, "= 4 nm"), (2, "= 7 nm")):
         page.get_by_text(text).wait_for()
         box = page.get_by_role("button", name=f"Remove {k}").bounding_box()
         assert box["x"] + box["width"] <= 312

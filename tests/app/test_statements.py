@@ -47,11 +47,11 @@ def test_2_the_fast_limit_is_compared_with_both_areas():
     course = follow(preset_state(DROP))
     text = " ".join(sentence for _, sentence in readouts.limits(course, preset_state(DROP)))
     more = float(course.hit.fast_limit.contact_area / course.hit.damaged_area) - 1
-    for part in ("πa²", "A = πc²", f"{100 * more:+.3g} %"):
+    for part in ("πa²", f"{100 * more:.2g} % above the damaged area πc²"):
         assert part in text
     # It is one without adhesion.
     state = adhesive("impact")
-    assert "contact and damage" not in str(list(readouts.limits(follow(state), state)))
+    assert "Fast-impact" not in str(list(readouts.limits(follow(state), state)))
 
 
 def test_3_the_guide_says_of_which_shape_the_area_goes_with_the_energy():
@@ -117,10 +117,10 @@ def test_9_the_numbers_of_a_state_sum_up(progress):
 def test_10_held_scenes_are_named_by_what_differs():
     drop = preset_state(DROP)
     for state, name in (
-        (drop, "Steel ball 16 mm on glass-fibre epoxy, drop weight"),
-        (drop.replace(speed=2.0), "v_0 = 2.00 m/s"),
+        (drop, "Round striker 16 mm on glass-fibre epoxy, drop weight"),
+        (drop.replace(speed=2.0), "v_0 = 2 m/s"),
         (with_derived(drop.replace(q_c=2e5)), "q_c = 200 kN/m"),
-        (state_with(DROP, shape="cone").replace(cone_slope=0.2), "Cone, s = 0.200"),
+        (state_with(DROP, shape="cone").replace(cone_slope=0.2), "Cone, s = 0.2"),
     ):
         assert held.difference(state) == name
 
@@ -222,7 +222,7 @@ def test_adhesion_has_a_link_and_is_refused_where_it_is_not_computed():
     state = adhesive()
     again = link.read(link.write(state))
     assert (again.adhesion, again.work_of_adhesion) == ("work", 0.05)
-    assert "w = 50.0 mJ/m²" in readouts.summary(again)
+    assert "w = 50 mJ/m²" in readouts.summary(again)
     assert "adhesion" not in link.write(preset_state())
     again, hold = {"drive": "impact", "plastic_depth": 1e-7}, {"drive": "path", "pattern": "hold"}
     for choices in ({"drive": "oblique"}, {"damping": "eta"}, again, hold):
