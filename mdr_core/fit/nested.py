@@ -4,8 +4,8 @@ With residuals r, their derivatives J by the fitted parameters and c by another 
 of r + J δ + c v give v and the change δ of the parameters. The misfit is the root mean square of the
 residuals in contact, which a long baseline does not hide. A drift v (m/s) makes the depth z − v t.
 
-In a medium that yields a drift changes E* and hardly the residuals. Its rate is that of the depth in a hold,
-where the force is constant.
+In a medium that yields a drift changes E* and hardly the residuals. Its rate is that of the depth in a
+hold, where the force is constant.
 """
 
 import numpy as np
