@@ -107,7 +107,9 @@ class TestYielding:
     def fit(self, depth, drift):
         force = mdr.indent(CONE, METAL, depth).force
         force = force + 2e-4 * force.max() * np.random.default_rng(6).normal(size=force.size)
-        return mdr.fit_indentation(CONE, depth + drift * self.TIME, force, time=self.TIME)
+        # Instruments write the same time twice where one part of the record ends and the next one begins.
+        time = np.delete(np.insert(self.TIME, 400, self.TIME[400]), -1)
+        return mdr.fit_indentation(CONE, depth + drift * self.TIME, force, time=time)
 
     def test_without_a_hold_the_report_says_what_a_common_drift_would_do(self):
         """It takes E* up by what the report says that it takes it down, to the second order of 4 %."""

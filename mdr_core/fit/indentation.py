@@ -106,8 +106,9 @@ def fit_indentation(
     retract, poroelastic flow, layers, finite thickness, and hardness that does not fall with the contact
     radius (glass, most metals). Residuals then follow a curve; a remark says so where they exceed 5 % of
     the force, 1 % where the medium yields. A tilt, a drag and, of elastic media, a drift of the depth that
-    would lower the residuals in contact clearly are told with the change of E*, those in time if `time` is
-    given. Drift of a curve that yields is read off a hold; without one the report says what 0.1 nm/s does.
+    would lower the residuals in contact clearly are reported with the change of E*, drag and drift only if
+    `time` is given. The drift of a medium that yields is measured in a hold; without one the report states
+    the effect of 0.1 nm/s.
 
     **Standard errors** come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)², S the
     slope. In simulated curves deviations over errors have standard deviations of 0.9 to 1.2; with depth

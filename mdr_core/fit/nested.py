@@ -4,8 +4,8 @@ With residuals r, their derivatives J by the fitted parameters and c by another 
 of r + J δ + c v give v and the change δ of the parameters. The misfit is the root mean square of the
 residuals in contact, which a long baseline does not hide. A drift v (m/s) makes the depth z − v t.
 
-E* of a medium that yields takes up a drift, and the residuals do not show it. It is read off a hold, from
-the depth over time at one force.
+In a medium that yields a drift changes E* and hardly the residuals. Its rate is that of the depth in a
+hold, where the force is constant.
 """
 
 import numpy as np
@@ -46,8 +46,8 @@ def nested_tests(solved, i):
         least, unit, follows = _TESTS[name]
         matrix = np.column_stack([jacobian, columns / noise[:, None]])
         step = _step(matrix, residual)
-        rest = residual + matrix @ step
-        factor = _rms(before[contact]) / _rms(rest[contact])
+        remainder = residual + matrix @ step
+        factor = _rms(before[contact]) / _rms(remainder[contact])
         if factor > least and (factor**2 - 1) * np.count_nonzero(contact) > SIGNIFICANT**2:
             change = step[0] / np.sqrt(solved.covariance[i, 0, 0])
             yield (
@@ -57,7 +57,7 @@ def nested_tests(solved, i):
             )
             # The next ones are tested beside it.
             jacobian = matrix
-            before = rest
+            before = remainder
     if yields and _increases(problem, i):
         drift = _drift(problem, state, i, contact) / noise
         yield from _in_a_hold(problem, state, i, contact, _step(jacobian, drift)[0])
@@ -85,14 +85,15 @@ def _columns(problem, state, i, contact, yields):
     if not turns or not _increases(problem, i):
         return
     if baseline and "drag" not in free:
-        yield "drag", -np.gradient(depth, problem.time[i])[:, None]
+        steps = np.gradient(problem.time[i])
+        yield "drag", -(np.gradient(depth) / np.maximum(steps, 1e-3 * steps.mean()))[:, None]
     if not yields:
         yield "drift", _drift(problem, state, i, contact)[:, None]
 
 
 def _increases(problem, i):
-    """Whether there are times that increase."""
-    return problem.time is not None and bool(np.all(np.diff(problem.time[i]) > 0))
+    """Whether there are times that increase, of single samples perhaps not."""
+    return problem.time is not None and 0 <= np.diff(problem.time[i]).min() < np.ptp(problem.time[i])
 
 
 def _drift(problem, state, i, contact):
