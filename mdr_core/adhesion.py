@@ -165,7 +165,7 @@ def contact_interval(profile, medium, lower, live_depth, low, high):
     stretched = stretch(medium, profile._radius(lower + length))
     # With the live depth, so that the state of loading is known as such.
     length = live_depth + stretched
-    return LiveInterval(*np.broadcast_arrays(lower, lower + length, length)), stretched
+    return LiveInterval.above(lower, length), stretched
 
 
 def depth_path(profile, medium, depth):
@@ -265,7 +265,7 @@ def force_path(profile, medium, force):
     lower, limit = np.where(ever, loaded.lower, 0.0), loaded.length
 
     def unloading(length):
-        interval = LiveInterval(lower, lower + length, length)
+        interval = LiveInterval.above(lower, length)
         return _tension(profile, interval, stretch(medium, profile._radius(interval.upper)), target, False)
 
     bottom = np.maximum(low - lower, 0.0)
@@ -281,7 +281,7 @@ def force_path(profile, medium, force):
     yielding = touches & (target == largest) & (lower > 0)
     depth = lower + np.where(yielding, d_c, length - stretched)
     length = np.where(yielding, d_c + stretched, length)
-    return depth, LiveInterval(lower, lower + length, length), -medium.E_star * stretched
+    return depth, LiveInterval.above(lower, length), -medium.E_star * stretched
 
 
 def loaded_interval(profile, medium, upper, before=0.0):
@@ -336,4 +336,4 @@ def pull_off_integral(profile, medium, interval):
 
 def last_interval(lower, low):
     """Live interval at the end of the stable range from `low` (m), or at the rim of the imprint."""
-    return LiveInterval(*np.broadcast_arrays(lower, np.maximum(low, lower), np.maximum(low - lower, 0.0)))
+    return LiveInterval.above(lower, np.maximum(low - lower, 0.0))

@@ -178,4 +178,4 @@ def _turning_interval(elastic, plastic_ratio, d_c):
     with np.errstate(invalid="ignore"):
         lower = np.where(elastic > d_c, plastic_ratio * d_c, 0.0)
     length = np.minimum(elastic, d_c)
-    return LiveInterval(lower, lower + length, length)
+    return LiveInterval.above(lower, length)

@@ -16,7 +16,7 @@ import numpy as np
 
 from .integrals import integrals
 from .live_interval import LiveInterval
-from .medium import Medium
+from .medium import Medium, critical_depth
 from .shapes.profile import Profile
 
 
@@ -78,10 +78,14 @@ class YieldRule(ABC):
         length = np.where(increase > 0, self.cap(upper), penetration)
         return LiveInterval(lower, upper, length), increase
 
+    def at(self, largest, depth):
+        """Live interval at each depth (m) where the largest depth so far is `largest` (m)."""
+        return interval_at(largest, depth, self.cap(largest))
+
     def path(self, depth):
         """Live interval after each point of a path of depths (m) along the last axis."""
         largest = np.maximum.accumulate(depth, axis=-1) if depth.ndim else depth
-        return interval_at(largest, depth, self.cap(largest))
+        return self.at(largest, depth)
 
     def yielding(self, interval):
         """Whether states are at the cap, so that loading goes on to yield."""
@@ -109,6 +113,11 @@ class ConstantCap(YieldRule):
     """Hardness q_c/a: the cap is the critical depth (m), infinite where nothing yields."""
 
     critical_depth: np.ndarray | float
+
+    @classmethod
+    def of(cls, profile, E_star, q_c):
+        """The rule for an effective modulus (Pa) and a yield constant (N/m)."""
+        return cls(profile, critical_depth(E_star, q_c))
 
     def cap(self, depth):
         return self.critical_depth
@@ -157,7 +166,7 @@ def yield_rule(profile: Profile, medium: Medium) -> YieldRule:
     >>> rule.path(np.array([0.5, 3.0, 2.5, 1.0])).length.tolist()
     [0.5, 1.0, 0.5, 0.0]
     """
-    return ConstantCap(profile, medium.critical_depth)
+    return ConstantCap.of(profile, medium.E_star, medium.q_c)
 
 
 def interval_at(largest, depth, cap):

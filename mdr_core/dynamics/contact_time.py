@@ -193,7 +193,7 @@ def _flow(profile, lower, length):
     """∫ a ds over live intervals (m²) with the digits that times need, from a table where there is one."""
     upper, table = lower + length, integrals(profile).table
     if table is None or not np.all(table.covers([lower.min(), upper.min(), upper.max()])):
-        return integrals(profile).radius_integral(LiveInterval(*np.broadcast_arrays(lower, upper, length)))
+        return integrals(profile).radius_integral(LiveInterval.above(lower, length))
     flow = table.area(upper) - table.area(lower)
     # Over these a difference of integrals has too few digits.
     short = length < 1e-4 * upper

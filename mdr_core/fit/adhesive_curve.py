@@ -47,7 +47,7 @@ def adhesive_states(profile, values, depth, contact):
     forces = -medium.E_star * length, force, slope, force - by_work, by_work
     load, force, slope, *gradient = (np.where(contact, each, 0.0) for each in forces)
     upper = np.where(contact, interval.upper, 0.0)
-    return LiveInterval(np.zeros_like(upper), upper, upper), load, force, slope, np.stack(gradient)
+    return LiveInterval.elastic(upper), load, force, slope, np.stack(gradient)
 
 
 def _end_of_contact(profile, values):

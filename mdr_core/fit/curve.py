@@ -20,9 +20,8 @@ import numpy as np
 
 from ..integrals import integrals
 from ..live_interval import LiveInterval
-from ..medium import critical_depth
 from ..quadrature import radius_rate
-from ..yielding import interval_at
+from ..yielding import ConstantCap
 from .adhesive_curve import adhesive_states, next_to_jumps
 
 #: All parameters in the order of a fit, those of the background, those fitted as logarithms, and those by
@@ -271,15 +270,16 @@ class CurveState:
 
         Above the known depth they are those at it.
         """
-        d_c, modulus = critical_depth(values["E_star"], values["q_c"]), 2 * values["E_star"]
+        rule, modulus = ConstantCap.of(profile, values["E_star"], values["q_c"]), 2 * values["E_star"]
         known, lag = profile.known_depth, 4 * values["eta"] / values["E_star"] * rate
         ahead = np.minimum(lag, 0.0)
-        interval = interval_at(np.minimum(largest, known), np.minimum(depth + ahead, known), d_c)
+        largest = np.minimum(largest, known)
+        interval = rule.at(largest, np.minimum(depth + ahead, known))
         contact = interval.length > 0
         a = np.where(contact, profile._radius(interval.upper), 0.0)
         c = np.where(contact & (interval.lower > 0), profile._radius(interval.lower), 0.0)
         force, memory_slope = modulus * integrals(profile).radius_integral(interval), -modulus * c
-        yielded = np.where(c > 0, -memory_slope * d_c, 0.0)
+        yielded = np.where(c > 0, -memory_slope * rule.cap(largest), 0.0)
         gradient = np.stack([force - yielded - modulus * a * ahead, yielded, 8 * a * rate])
         slope = modulus * a + np.where(loading, memory_slope, 0.0)
         memory_slope = np.where(loading, 0.0, memory_slope)
