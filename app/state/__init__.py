@@ -64,8 +64,7 @@ _DEFAULTS |= {name: next(iter(options)) for name, options in CHOICES.items()}
 _DEFAULTS |= {
     "preset": OPENING, "shape": "cone", "progress": 1.0, "samples": (), "tip_note": "",
     "hold": (), "tiles": (), "dark": False,
-    "curve": None, "fit_note": "",
-    "fixed": ("eta", "work_of_adhesion", "baseline", "tilt", "drag"),
+    "curve": None, "fit_note": "", "fixed": ("eta", "work_of_adhesion", "baseline", "tilt", "drag"),
 }  # fmt: skip
 
 

@@ -128,9 +128,8 @@ class Measured:
         force = force - state.baseline - state.tilt * depth
         if state.drag and time is not None:
             force = force - state.drag * np.gradient(depth, time)
-        depth = depth - state.contact_point
         fit = self.fit if self.fit is not None and agrees(state) else None
-        return Curve(depth, force, fit)
+        return Curve(depth - state.contact_point, force, fit)
 
     def corrected(self, role, chosen):
         """With another column or unit of "depth", "force" or "time", without a fit."""

@@ -15,7 +15,7 @@ _LISTS = ("hold", "tiles", "fixed")
 #: Names and options of earlier versions with their present names, and names that are ignored.
 _RENAMED = {"plots": "tiles", "tau": "eta", "rigid_tip": "modulus", "tangential_speed": "incoming_speed"}
 _IGNORED = re.compile(
-    "called|references|axes|heights|keep|inertia|surface|noise|frame_compliance|sweep_.*|.*_(from|to)"
+    "called|references|axes|heights|keep|inertia|surface|noise|sweep_.*|.*_(from|to|compliance)"
 )
 #: Names that mail programs and search engines append to links.
 _APPENDED = re.compile(
