@@ -6,6 +6,7 @@ from .. import _check
 from .._check import ArrayLike
 from ..integrals import tabulated
 from ..medium import Medium, check_pair
+from ..results.progress import progress
 from ..results.quantities import engineering
 from ..shapes.profile import Profile
 from .curve import BACKGROUND, PARAMETERS, REACH
@@ -160,10 +161,12 @@ def fit_indentation(
     _refuse_empty(measured, fixed)
     profile_table = tabulated(profile, _table_depth(profile, measured.depth, fixed))
     fits = []
-    for samples in measured.groups(bool(in_time)):
-        held = {name: value[samples.rows] for name, value in fixed.items()}
-        groups = grouped(samples.depth, samples.force, held, noise)
-        fits += [solved(profile_table, samples, held, noise, *group) for group in groups]
+    with progress(count, "curves") as done:
+        for samples in measured.groups(bool(in_time)):
+            held = {name: value[samples.rows] for name, value in fixed.items()}
+            for rows, *turns in grouped(samples.depth, samples.force, held, noise):
+                fits.append(solved(profile_table, samples, held, noise, rows, *turns))
+                done(rows.size)
     fit = collected(profile, measured, noise, fits)
     return fit[0] if measured.single else fit
 

@@ -1,7 +1,8 @@
 """Progress of long calculations, shown by tqdm where it is installed."""
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 from .._numeric import chunks
 
@@ -9,8 +10,9 @@ from .._numeric import chunks
 _DELAY = 2.0
 
 
-def tracked_chunks(size: int, most: int, unit: str) -> Iterator[slice]:
-    """Yields slices of at most `most` of `size` rows, and shows how many rows are done.
+@contextmanager
+def progress(size: int, unit: str) -> Iterator[Callable[[int], object]]:
+    """A function that is told how many more of `size` entries are done, and shows their number.
 
     Nothing is shown without tqdm, where the error output is no terminal (a pipe or a file), and in the
     threads of dask, which has a bar of its own. `unit` is the word for what is counted, in the plural.
@@ -18,11 +20,17 @@ def tracked_chunks(size: int, most: int, unit: str) -> Iterator[slice]:
     try:
         from tqdm.auto import tqdm
     except ImportError:
-        yield from chunks(size, most)
+        yield lambda count: None
         return
     # None hides the bar where the output is no terminal.
     hidden = None if threading.current_thread() is threading.main_thread() else True
     with tqdm(total=size, unit=f" {unit}", delay=_DELAY, disable=hidden, leave=False) as bar:
+        yield bar.update
+
+
+def tracked_chunks(size: int, most: int, unit: str) -> Iterator[slice]:
+    """Yields slices of at most `most` of `size` rows, with the progress of what is done with them."""
+    with progress(size, unit) as done:
         for rows in chunks(size, most):
             yield rows
-            bar.update(min(rows.stop, size) - rows.start)
+            done(min(rows.stop, size) - rows.start)
