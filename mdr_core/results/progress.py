@@ -12,7 +12,7 @@ _DELAY = 2.0
 
 @contextmanager
 def progress(size: int, unit: str) -> Iterator[Callable[[int], object]]:
-    """A function that is told how many more of `size` entries are done, and shows their number.
+    """A function to call with the number of further entries that are done; it shows their number of `size`.
 
     Nothing is shown without tqdm, where the error output is no terminal (a pipe or a file), and in the
     threads of dask, which has a bar of its own. `unit` is the word for what is counted, in the plural.
