@@ -91,8 +91,8 @@ class Sampled(Profile):
         Samples may lie on both sides of the axis at r = 0, in any order; the height of the tip is fitted.
         The fit is unbiased where the contact has many samples. Eight samples or more on one side that are
         missed by more than four times their noise, and by more than 0.5 % of their height, are refused.
-        Noise of the heights limits what is known of the tip: from 400 heights with a noise of 2 nm, at radii
-        of up to 0.5 µm on a tip of 1 µm radius, forces at a depth of 20 nm scatter by 4 %.
+        Noise of the heights limits what is known of the tip: from 400 heights with a noise of 2 nm at radii
+        up to 0.5 µm, on a tip of 1 µm radius, forces at a depth of 20 nm scatter by 4 %.
 
         Parameters
         ----------
