@@ -313,6 +313,14 @@ class Parameters:
                 values[name] = np.broadcast_to(value, shape)[index]
         return type(self)(**values)
 
+    def flat_entries(self, rows: Any, shape: tuple[int, ...]) -> Self:
+        """The profiles or media at rows of the flattened `shape` of an ensemble."""
+        if not self.shape:
+            return self
+        if isinstance(rows, slice):
+            rows = np.arange(*rows.indices(np.prod(shape, dtype=int)))
+        return self.entries(np.unravel_index(rows, shape), shape)
+
     def __eq__(self, other):
         if type(other) is not type(self):
             return NotImplemented

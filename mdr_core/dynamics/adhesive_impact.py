@@ -69,7 +69,7 @@ def adhesive_turning_interval(profile, medium, target, before):
     upper = np.empty(target.size)
     for rows in chunks(target.size, LONG):
         goal, first, least, imprint = (array[rows] for array in arrays)
-        entries, own = (Profile.flat_entries(thing, rows, shape) for thing in (profile, medium))
+        entries, own = profile.flat_entries(rows, shape), medium.flat_entries(rows, shape)
 
         def work(x, goal=goal, imprint=imprint, entries=entries, own=own):
             value, slope = _loading(entries, own, x, imprint)

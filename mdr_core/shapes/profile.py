@@ -113,14 +113,6 @@ class Profile(_check.Parameters, ABC):
             above = np.where(kink <= depth, kink, above)
         return above
 
-    def flat_entries(self, rows, shape):
-        """Profiles at rows of the flattened `shape` of an ensemble."""
-        if not self.shape:
-            return self
-        if isinstance(rows, slice):
-            rows = np.arange(*rows.indices(np.prod(shape, dtype=int)))
-        return self.entries(np.unravel_index(rows, shape), shape)
-
     def _of_radius(self, quantity, r, function):
         """`function` at checked radii |r| (m)."""
         r, known = np.abs(self._places(quantity, r)), np.min(self.known_radius, initial=np.inf)
