@@ -21,7 +21,7 @@ from .._numeric import chunks
 #: Gauss's points of a cell.
 _POINTS = np.array([[0.5 - np.sqrt(1 / 12)], [0.5 + np.sqrt(1 / 12)]])
 #: Impacts that are solved at a time, and halvings of their steps at most.
-_BLOCK, _HALVINGS = 32768, 7
+_BLOCK, _HALVINGS = 32768, 8
 #: Levels of a run, and instants at which slip ends, at most.
 _MOST, _INSTANTS = 2048, 8
 
@@ -141,7 +141,7 @@ class DryRun:
 
     def largest_force(self):
         """Largest force over 2μE* (m²), from a parabola through three instants, or lines to a kink."""
-        values, turn = np.abs(self.forces), len(self.loading.step)
+        values = np.abs(self.forces)
         i, columns = np.argmax(values, axis=0), np.arange(values.shape[1])
         near = np.clip(i, 2, len(values) - 3) + np.arange(-2, 3)[:, None]
         t, f = self.time[near, columns], values[near, columns]
@@ -156,7 +156,9 @@ class DryRun:
             after = slope[1] * late * (slope[2] - slope[3]) / (slope[1] - slope[3])
         smooth = np.abs(bend[1]) <= 3 * np.minimum(np.abs(bend[0]), np.abs(bend[2]))
         rise = np.where(smooth, rise, np.fmax(before, after))
-        sound = (bend[1] < 0) & (rise > 0) & (rise < np.inf) & (i == near[2]) & (i != turn)
+        # Steps of rounding have no slope.
+        long = np.min(t[1:] - t[:-1], axis=0) > 1e-9 * self.time[-1]
+        sound = (bend[1] < 0) & (rise > 0) & (rise < np.inf) & (i == near[2]) & long
         return values[i, columns] + np.where(sound, rise, 0.0)
 
     def uncertain(self, velocity):
@@ -193,22 +195,24 @@ def _time_to(rise, velocity, acceleration, step):
 def solve_dry(motions, inertia, velocity, tolerance):
     """Velocities (m/s) after impacts, largest forces over 2μE* (m²), their relative errors, and halvings.
 
-    Errors are half of what the last halving of the steps changed, or an eighth of what the one before did,
-    as two runs may agree by chance: more than the third and the twelfth of second order. Of velocity or
-    force, whichever is more; relative to the velocity at first contact, and to the force.
+    Errors are 0.6 of what the last halving of the steps changed, of second order a third. As two runs may
+    agree by chance there are three at least, and a change counts for a sixth in the next halving, for a
+    36th in the one after that, and so on. Of velocity or force, whichever changed more; relative to the
+    velocity at first contact, and to the force.
     """
     counts, result = first_counts(motions, inertia), np.zeros((5, velocity.size))
-    last = np.zeros(velocity.size)
+    lasting = np.zeros(velocity.size)
     rows, coarse, instants = np.arange(velocity.size), None, np.zeros((_INSTANTS, velocity.size))
     for halvings in range(_HALVINGS + 1):
         given = motions[rows], inertia[rows], velocity[rows], counts[:, rows], instants
         values, uncertain, instants = _run(*given)
         if coarse is not None:
             change = np.max(np.abs(values - coarse) / np.stack([velocity[rows], values[1]]), axis=0)
-            errors = np.maximum(np.maximum(change, last / 4) / 2, uncertain)
+            lasting = np.maximum(change, lasting / 6)
+            errors = np.maximum(0.6 * lasting, uncertain)
             result[:, rows] = [*values, *errors, np.full(rows.size, halvings)]
-            left = (errors[0] > tolerance) & (2 * counts[:, rows].sum(axis=0) <= _MOST)
-            rows, values, instants, last = rows[left], values[:, left], instants[:, left], change[left]
+            left = (errors[0] > tolerance) & (2 * counts[:, rows].sum(axis=0) <= _MOST) | (halvings == 1)
+            rows, values, instants, lasting = rows[left], values[:, left], instants[:, left], lasting[left]
             if not rows.size:
                 break
         coarse, counts = values, 2 * counts
@@ -223,7 +227,7 @@ def first_counts(motions, inertia):
     split = len(angles[0]) - len(angles[1])
     below = angles[0][:split].sum(axis=0)
     above = np.maximum(angles[0][split:].sum(axis=0), angles[1].sum(axis=0))
-    counts = np.minimum([2 * (2 + below), 5 * (1 + above)], _MOST / 4)
+    counts = np.minimum([2 + below, 2.5 * (1 + above)], _MOST / 8)
     counts = np.ceil(2 ** (np.ceil(3 * np.log2(counts)) / 3)).astype(int)
     counts[0] = np.where(motions.plastic_depth > 0, counts[0], 1)
     return counts

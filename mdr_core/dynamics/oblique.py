@@ -231,4 +231,4 @@ class ObliqueImpact(Entries, Result):
         True True
         """
         self._one("motion")
-        return oblique_motion(self, n, max(int(self._surface.halvings), 3))
+        return oblique_motion(self, n, max(int(self._surface.halvings), 4))
