@@ -21,7 +21,7 @@ from .._numeric import chunks
 #: Gauss's points of a cell.
 _POINTS = np.array([[0.5 - np.sqrt(1 / 12)], [0.5 + np.sqrt(1 / 12)]])
 #: Impacts that are solved at a time, and halvings of their steps at most.
-_BLOCK, _HALVINGS = 32768, 8
+_BLOCK, _HALVINGS = 32768, 7
 #: Levels of a run, and instants at which slip ends, at most.
 _MOST, _INSTANTS = 2048, 8
 
@@ -141,9 +141,18 @@ class DryRun:
 
     def largest_force(self):
         """Largest force over 2μE* (m²), from a parabola through three instants, or lines to a kink."""
-        values = np.abs(self.forces)
+        values, tiny = np.abs(self.forces), 1e-9 * self.time[-1]
         i, columns = np.argmax(values, axis=0), np.arange(values.shape[1])
-        near = np.clip(i, 2, len(values) - 3) + np.arange(-2, 3)[:, None]
+        # Levels may coincide, and a step of rounding has no slope.
+        near = [i]
+        for _ in range(2):
+            first, last = self.time[near[0], columns], self.time[near[-1], columns]
+            before, after = (
+                np.sum(self.time < first - tiny, axis=0),
+                np.sum(self.time <= last + tiny, axis=0),
+            )
+            near = [np.maximum(before - 1, 0), *near, np.minimum(after, len(values) - 1)]
+        near = np.stack(near)
         t, f = self.time[near, columns], values[near, columns]
         with np.errstate(divide="ignore", invalid="ignore"):
             slope = np.diff(f, axis=0) / np.diff(t, axis=0)
@@ -155,11 +164,9 @@ class DryRun:
             before = -slope[2] * early * (slope[0] - slope[1]) / (slope[0] - slope[2])
             after = slope[1] * late * (slope[2] - slope[3]) / (slope[1] - slope[3])
         smooth = np.abs(bend[1]) <= 3 * np.minimum(np.abs(bend[0]), np.abs(bend[2]))
-        rise = np.where(smooth, rise, np.fmax(before, after))
-        # Steps of rounding have no slope.
-        long = np.min(t[1:] - t[:-1], axis=0) > 1e-9 * self.time[-1]
-        sound = (bend[1] < 0) & (rise > 0) & (rise < np.inf) & (i == near[2]) & long
-        return values[i, columns] + np.where(sound, rise, 0.0)
+        rise = np.where(smooth, rise, np.where(bend[2] < bend[0], after, before))
+        sound = (bend[1] < 0) & (rise > 0) & (rise < np.inf) & np.all(np.diff(t, axis=0) > 0, axis=0)
+        return f[2] + np.where(sound, rise, 0.0)
 
     def uncertain(self, velocity):
         """Least errors of velocity (relative to one) and force where steps are too long for stick."""
@@ -195,23 +202,24 @@ def _time_to(rise, velocity, acceleration, step):
 def solve_dry(motions, inertia, velocity, tolerance):
     """Velocities (m/s) after impacts, largest forces over 2μE* (m²), their relative errors, and halvings.
 
-    Errors are 0.6 of what the last halving of the steps changed, of second order a third. As two runs may
-    agree by chance there are three at least, and a change counts for a sixth in the next halving, for a
-    36th in the one after that, and so on. Of velocity or force, whichever changed more; relative to the
-    velocity at first contact, and to the force.
+    Errors are 0.6 of what the last halving of the steps changed, of second order a third. As runs may agree
+    by chance there are three at least, a change counts for a sixth in the next halving, for a 36th in the
+    one after that, and so on, and no error of a run with n levels is less than 0.01/n². Of velocity or
+    force, whichever changed more; relative to the velocity at first contact, and to the force. Halvings
+    count from `first_counts`: the first run has half of them.
     """
-    counts, result = first_counts(motions, inertia), np.zeros((5, velocity.size))
+    counts, result = (first_counts(motions, inertia) + 1) // 2, np.zeros((5, velocity.size))
     lasting = np.zeros(velocity.size)
     rows, coarse, instants = np.arange(velocity.size), None, np.zeros((_INSTANTS, velocity.size))
-    for halvings in range(_HALVINGS + 1):
+    for halvings in range(-1, _HALVINGS + 1):
         given = motions[rows], inertia[rows], velocity[rows], counts[:, rows], instants
         values, uncertain, instants = _run(*given)
         if coarse is not None:
             change = np.max(np.abs(values - coarse) / np.stack([velocity[rows], values[1]]), axis=0)
-            lasting = np.maximum(change, lasting / 6)
-            errors = np.maximum(0.6 * lasting, uncertain)
+            lasting, total = np.maximum(change, lasting / 6), counts[:, rows].sum(axis=0)
+            errors = np.maximum(np.maximum(0.6 * lasting, 0.01 / total**2), uncertain)
             result[:, rows] = [*values, *errors, np.full(rows.size, halvings)]
-            left = (errors[0] > tolerance) & (2 * counts[:, rows].sum(axis=0) <= _MOST) | (halvings == 1)
+            left = (errors[0] > tolerance) & (2 * total <= _MOST) | (halvings == 0)
             rows, values, instants, lasting = rows[left], values[:, left], instants[:, left], lasting[left]
             if not rows.size:
                 break
@@ -220,14 +228,14 @@ def solve_dry(motions, inertia, velocity, tolerance):
 
 
 def first_counts(motions, inertia):
-    """Numbers of levels below and above the imprint of the first run, of few different values."""
+    """Numbers of levels below and above the imprint to begin with, of few different values."""
     branches = motions.branches((8, 8), np.zeros((0, inertia.size)))
     # How far elements that all stick oscillate in a step (rad).
     angles = [np.sqrt(inertia * motions.radii(x.middle)) * x.step for x in branches]
     split = len(angles[0]) - len(angles[1])
     below = angles[0][:split].sum(axis=0)
     above = np.maximum(angles[0][split:].sum(axis=0), angles[1].sum(axis=0))
-    counts = np.minimum([2 + below, 2.5 * (1 + above)], _MOST / 8)
+    counts = np.minimum([2 * (2 + below), 5 * (1 + above)], _MOST / 4)
     counts = np.ceil(2 ** (np.ceil(3 * np.log2(counts)) / 3)).astype(int)
     counts[0] = np.where(motions.plastic_depth > 0, counts[0], 1)
     return counts

@@ -12,9 +12,9 @@ from .quantities import engineering
 #: Slope up to which results are good, above which they are estimates, and above which the slope is
 #: probably a mistake; contact radius over the radius of the body; share of the wave speed;
 #: Tabor's parameter from which adhesion is that of the rim alone, and the range (m) of surface forces;
-#: relative error of a pull-off from facets.
+#: relative error of a pull-off from facets; d/d_c and m/m_t up to which errors of stick were measured.
 _SMALL, _STEEP, _NEEDLE, _BODY, _SLOW, _TABOR, _RANGE = 0.3, 0.5, 3.0, 0.5, 0.1, 5.0, 0.3e-9
-_FACETS = 0.02
+_FACETS, _DEEP, _LIGHT = 0.02, 1e3, 10.0
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,8 @@ class Limit:
     what : str
         Quantity that is bounded: "slope", "contact radius", "Poisson ratio", "viscosity", "speed", "fast
         limit", "Tabor's parameter", which must be larger than its bound, "facets" of samples with
-        adhesion, and for friction "coupling" and "slip direction".
+        adhesion, and for friction "coupling" and "slip direction", and where elements stick "tolerance",
+        "depth" over d_c and "mass" over the tangential one.
     value, bound : float
         Its largest value over all states, and the largest one for which the assumption is good.
     exceeded : bool
@@ -181,6 +182,26 @@ def friction_limits(medium):
     value = float(np.max(np.abs(medium.poisson / (4 - 2 * medium.poisson))))
     text = f"Slip is taken along the velocity; up to {value:.2g} of the slip is across it."
     yield Limit("slip direction", value, 0.2, value > 0.2, text, severe=False)
+
+
+def stick_limits(error, tolerance, depth, mass):
+    """Limits of impacts in which elements stick: largest error, allowed one, depth over d_c, m over m_t."""
+    exceeded = error > tolerance
+    text = f"The tangential velocity or force has an error of {error:.2g}, {tolerance:.2g} was asked for"
+    text += ": even the smallest steps are too long for how often elements that stick oscillate."
+    if not exceeded:
+        text = f"The error of the tangential velocity and force, {error:.2g}, is within the tolerance."
+    yield Limit("tolerance", error, tolerance, exceeded, text)
+    measured = (
+        f"; errors of the tangential motion were compared with a chain up to {_DEEP:g} d_c and for m_t of "
+        f"{1 / _LIGHT:g} m and more."
+    )
+    for what, value, bound, text in (
+        ("depth", depth, _DEEP, f"The depth reaches {depth:.3g} d_c"),
+        ("mass", mass, _LIGHT, f"The tangential mass is as small as {1 / mass:.3g} m"),
+    ):
+        over = value > bound * (1 + 1e-9)
+        yield Limit(what, value, bound, over, text + (measured if over else "."), severe=False)
 
 
 def speed_limit(speed, medium, density):
