@@ -52,6 +52,14 @@ class Case(NamedTuple):
         return mdr.oblique_impact(*given, tangential_mass=self.tangential_mass, **tolerance)
 
 
+#: Columns of the table.
+HEAD = (
+    "tolerance", "with stick", "tolerance met", "error of velocity: median / 99 % / largest",
+    "within 10⁻⁴", "covered by what is said, worst ratio", "error of force: median / 99 % / largest",
+    "within 10⁻⁴", "covered, worst ratio",
+)  # fmt: skip
+
+
 def chain(case, cells, steps):
     """W′/W₀ and the largest tangential force (N) by cells under a polygon, and so many steps of a branch.
 
@@ -160,21 +168,26 @@ def misses(cases, tolerance, references):
             yield Miss(*off, *errors, not next(x for x in hit.limits if x.what == "tolerance").exceeded)
 
 
-def table(count=300, tolerances=(5e-4, 1e-4, 1e-5), cells=2000):
-    """Rows of text for `accuracy`: one for each tolerance."""
+def random_impacts(count):
+    """So many of the `Case`s by turns of all shapes."""
     rng = np.random.default_rng(38)
-    cases = [Case.random(SHAPES[i % len(SHAPES)], rng) for i in range(count)]
+    return [Case.random(SHAPES[i % len(SHAPES)], rng) for i in range(count)]
+
+
+def table(count=300, tolerances=(5e-4, 1e-4, 1e-5), cells=2000):
+    """Rows of text under `HEAD`, one for each tolerance."""
+    cases = random_impacts(count)
     references = [limits(case, cells) for case in cases]
     for tolerance in tolerances:
         columns = (np.array(column) for column in zip(*misses(cases, tolerance, references), strict=True))
         velocity, force, said_velocity, said_force, met = columns
-        cells_of_row = [f"{tolerance:g}", f"{velocity.size} of {count}", f"{np.mean(met):.0%}"]
+        texts = [f"{tolerance:g}", f"{velocity.size} of {count}", f"{np.mean(met):.0%}"]
         for off, said in ((velocity, said_velocity), (force, said_force)):
             middle, most = np.quantile(off, (0.5, 0.99))
             share = off / said
-            cells_of_row += [f"{middle:.0e} / {most:.0e} / {off.max():.0e}", f"{np.mean(off <= 1e-4):.1%}"]
-            cells_of_row += [f"{np.mean(share <= 1):.1%}, {share.max():.1f}"]
-        yield cells_of_row
+            texts += [f"{middle:.0e} / {most:.0e} / {off.max():.0e}", f"{np.mean(off <= 1e-4):.1%}"]
+            texts += [f"{np.mean(share <= 1):.1%}, {share.max():.1f}"]
+        yield texts
 
 
 def main():
