@@ -315,6 +315,20 @@ def test_largest_force_beside_the_turning_point():
         assert abs(hit.max_tangential_force / force - 1) <= 3 * hit.errors.max_tangential_force
 
 
+def test_a_ring_that_slips_ahead_of_the_edge():
+    """At small tangential speeds it is narrower than the cells of three runs, which then err alike."""
+    profile, poisson, mu, psi = mdr.Paraboloid(2e-5), 0.5, 0.33, 0.0075
+    speed, mass = 20.0, 9e-11
+    medium = mdr.Medium(4e9, 3000.0)
+    depth = float(mdr.impact(profile, medium, mass, speed).max_depth)
+    along = psi * mu * speed / KAPPA
+    critical = float(medium.critical_depth)
+    case = Case(profile, 4e9, critical, poisson, mass, 2 * mass / 7, speed, along, mu, depth)
+    (ratio, _), _ = limits(case, 2000)
+    hit = case.solve(tolerance=5e-4)
+    assert abs(-hit.tangential_restitution - ratio) <= 3 * hit.errors.tangential_velocity
+
+
 @pytest.mark.parametrize("q_c", [1e-2, 1e-3, 1e-4])
 def test_deep_impacts_say_how_uncertain_they_are(q_c):
     """At d/d_c of 10⁶ and more elements that stick oscillate thousands of times: at rebound both speeds
