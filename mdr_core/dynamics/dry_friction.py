@@ -226,7 +226,7 @@ def solve_dry(motions, inertia, velocity, tolerance):
 
     Errors are 0.6 of what the last halving of the steps changed, of second order a third. As runs may agree
     by chance there are three at least, a change counts for a sixth in the next halving, for a 36th in the
-    one after that, and so on, and no error of a run with n levels is less than 0.01/n². Of velocity or
+    one after that, and so on, and no error of a run with n levels is less than 0.3/n². Of velocity or
     force, whichever changed more; relative to the velocity at first contact, and to the force. Halvings
     count from `first_counts`: the first run has half of them.
     """
@@ -239,7 +239,7 @@ def solve_dry(motions, inertia, velocity, tolerance):
         if coarse is not None:
             change = np.max(np.abs(values - coarse) / np.stack([velocity[rows], values[1]]), axis=0)
             lasting, total = np.maximum(change, lasting / 6), counts[:, rows].sum(axis=0)
-            errors = np.maximum(np.maximum(0.6 * lasting, 0.01 / total**2), uncertain)
+            errors = np.maximum(np.maximum(0.6 * lasting, 0.3 / total**2), uncertain)
             result[:, rows] = [*values, *errors, np.full(rows.size, halvings)]
             left = (errors[0] > tolerance) & (2 * total <= _MOST) | (halvings == 0)
             rows, values, instants, lasting = rows[left], values[:, left], instants[:, left], lasting[left]
