@@ -8,7 +8,7 @@ import pytest
 pytest.importorskip("mpmath")
 pytest.importorskip("dask")
 
-from .benchmarks import accuracy, fits
+from .benchmarks import accuracy, fits, oblique
 from .benchmarks.chart import figure
 from .benchmarks.report import collect
 from .benchmarks.tables import document, summary
@@ -73,6 +73,18 @@ def test_the_chain_covers_its_errors():
     for row in accuracy.chain_impacts((0.0, 1.0, 1e3), tolerance=1e-4):
         said, missed = map(float, row[1:])
         assert missed <= said <= 1e-4, row
+
+
+def test_oblique_impacts_keep_what_is_promised():
+    """Within the tolerance, and errors never ten times too small, in one impact of each shape."""
+    cases = oblique.random_impacts(12)
+    references = [oblique.limits(case, 1000) for case in cases]
+    found = list(oblique.misses(cases, 1e-4, references))
+    assert len(found) >= 6
+    for miss in found:
+        assert max(miss.velocity / miss.said_velocity, miss.force / miss.said_force) <= 10, miss
+    # 95 in 100 of many; one in twelve may be another.
+    assert sum(miss.velocity > miss.said_velocity for miss in found) <= 1
 
 
 def test_fits_keep_what_is_promised():

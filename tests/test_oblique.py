@@ -10,6 +10,7 @@ from mdr_core.dynamics.dry_levels import NormalMotions
 from mdr_core.dynamics.friction import slide, stick_instants
 from mdr_core.dynamics.levels import levels
 
+from .benchmarks.oblique import Case, limits
 from .shapes import SHAPES, name
 
 MASS, SPEED, MU = 1e-9, 0.1, 0.3
@@ -287,6 +288,47 @@ def test_errors_of_ensembles():
         assert share.max() < 5
 
 
+def test_coarse_runs_that_agree_by_chance():
+    """The first two runs agree to 2·10⁻⁵ and are off by 5·10⁻⁴; the chain's own error is 10⁻⁶."""
+    shape, medium = mdr.Cone(0.84645), mdr.Medium(2.697e8, 1398.4, poisson=0.0267)
+    given = 8.307e-9, 2.528e-8, 3939.0, 1886.0, 1.251
+    depth = float(mdr.impact(shape, medium, given[0], given[2]).max_depth)
+    case = Case(shape, 2.697e8, float(medium.critical_depth), 0.0267, *given, depth)
+    (ratio, _), _ = limits(case, 2000)
+    for tolerance in (1e-3, 1e-4, 1e-5):
+        hit = case.solve(tolerance=tolerance)
+        assert abs(-hit.tangential_restitution - ratio) <= 10 * hit.errors.tangential_velocity
+    assert -hit.tangential_restitution == pytest.approx(ratio, abs=2e-5)
+    assert -hit.tangential_restitution == pytest.approx(ratio, abs=hit.errors.tangential_velocity + 1e-6)
+
+
+def test_largest_force_beside_the_turning_point():
+    """A kink in the step after the turning point, which is a level in every run."""
+    case = Case(
+        mdr.TruncatedCone(1e-6, 0.3), 1e9, 1.828e-7, 0.3005, 1e-9, 1.403e-9, 0.56716, 0.0075407, 0.019545,
+        4.6029e-7,
+    )  # fmt: skip
+    (_, force), (_, unsure) = limits(case, 2000)
+    assert unsure < 1e-6 * force
+    for tolerance in (1e-3, 1e-4):
+        hit = case.solve(tolerance=tolerance)
+        assert abs(hit.max_tangential_force / force - 1) <= 3 * hit.errors.max_tangential_force
+
+
+def test_a_ring_that_slips_ahead_of_the_edge():
+    """At small tangential speeds it is narrower than the cells of three runs, which then err alike."""
+    profile, poisson, mu, psi = mdr.Paraboloid(2e-5), 0.5, 0.33, 0.0075
+    speed, mass = 20.0, 9e-11
+    medium = mdr.Medium(4e9, 3000.0)
+    depth = float(mdr.impact(profile, medium, mass, speed).max_depth)
+    along = psi * mu * speed / KAPPA
+    critical = float(medium.critical_depth)
+    case = Case(profile, 4e9, critical, poisson, mass, 2 * mass / 7, speed, along, mu, depth)
+    (ratio, _), _ = limits(case, 2000)
+    hit = case.solve(tolerance=5e-4)
+    assert abs(-hit.tangential_restitution - ratio) <= 3 * hit.errors.tangential_velocity
+
+
 @pytest.mark.parametrize("q_c", [1e-2, 1e-3, 1e-4])
 def test_deep_impacts_say_how_uncertain_they_are(q_c):
     """At d/d_c of 10⁶ and more elements that stick oscillate thousands of times: at rebound both speeds
@@ -460,3 +502,52 @@ def test_limits():
     limits = {limit.what: limit for limit in hit_at(1.0, medium=mdr.Medium(1e9, poisson=0.3)).limits}
     assert limits["coupling"].exceeded
     assert {"slope", "coupling", "slip direction"} <= limits.keys()
+
+
+def limit_of(what, hit):
+    return next(limit for limit in hit.limits if limit.what == what)
+
+
+class TestLimitsOfStick:
+    """Impacts beyond what the steps resolve, or errors were measured for, say so."""
+
+    def test_light_bodies(self):
+        hit = hit_at(0.5, medium=DRY, mass=1e-4 * MASS, tolerance=1e-5)
+        assert limit_of("tolerance", hit).level == "beyond"
+        assert limit_of("tolerance", hit).value == max(
+            hit.errors.tangential_velocity, hit.errors.max_tangential_force
+        )
+        assert limit_of("mass", hit).exceeded
+        assert limit_of("depth", hit).holds
+        assert "tolerance" in repr(hit)
+        # Just as far as errors were measured.
+        assert limit_of("mass", hit_at(0.5, mass=0.1 * MASS)).holds
+
+    def test_deep_ones(self):
+        hit = hit_at(0.5, medium=mdr.Medium(1e9, 0.1), tolerance=1e-2)
+        assert limit_of("depth", hit).exceeded
+        assert limit_of("depth", hit).value == hit.max_depth / hit.medium.critical_depth
+        assert limit_of("mass", hit).holds
+
+    def test_of_many_the_worst_that_sticks(self):
+        """Closed forms have no such limits."""
+        hits = hit_at(np.array([0.5, 5000.0]), medium=DRY, mass=np.array([BALL, 1e-3 * MASS]))
+        assert hits.slips_throughout.tolist() == [False, True]
+        assert limit_of("mass", hits).value == pytest.approx(MASS / BALL)
+        assert not {"tolerance", "depth", "mass"} & {limit.what for limit in hits[1].limits}
+
+    @pytest.mark.parametrize("eta", [0.0, 20.0])
+    def test_a_tolerance_that_is_met(self, eta):
+        hit = hit_at(0.5, medium=mdr.Medium(1e9, 10.0, eta), tolerance=1e-3)
+        assert limit_of("tolerance", hit).holds
+        assert limit_of("tolerance", hit).bound == 1e-3
+
+    @pytest.mark.parametrize("psi", [1e-6, 1e-3, 0.5])
+    def test_errors_are_possible_ones(self, psi):
+        """|W′| ≤ W₀ by energy, and |F_x| ≤ μF: the estimate alone was up to 6·10⁴."""
+        hit = hit_at(psi, medium=mdr.Medium(1e9, 1e-4), mass=1e-4 * MASS, tolerance=1e-5)
+        assert limit_of("tolerance", hit).exceeded
+        assert hit.errors.tangential_velocity <= 1 + abs(hit.tangential_restitution)
+        assert hit.errors.friction_work <= 1
+        most = max(1.0, MU * hit.max_force / hit.max_tangential_force)
+        assert hit.errors.max_tangential_force <= most

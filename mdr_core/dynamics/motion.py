@@ -13,19 +13,19 @@ def motion(hit, n, before_yield=0):
     refuse_adhesion(hit.medium, "the motion of an impact")
     hit._one("motion")
     course, medium, modulus = hit._course, hit.medium, 2 * hit.medium.E_star
+    rule, imprint = yield_rule(hit.profile, medium), hit.plastic_depth - hit.plastic_depth_increase
     time = instants(n, course.turning_time, course.end_time)
     if before_yield and hit.plastic_depth_increase > 0:
         # Just before yield, at even steps of the depth.
-        depth = medium.critical_depth * (1 - 1e-9) * np.linspace(0, 1, before_yield + 1)[1:]
-        time = np.union1d(time, course.loading.when(depth))
+        onset = rule.penetration(imprint, imprint) * (1 - 1e-9)
+        time = np.union1d(time, course.loading.when(onset * np.linspace(0, 1, before_yield + 1)[1:]))
     state, released = course.at(time), _released_energy(hit, course, time)
     uniform_load = 4 * medium.eta * np.maximum(state.velocity, 0.0)
     states = Indentation(hit.profile, medium, state.depth, state.interval, uniform_load, in_time=True)
     # Energy of the elements at the rim at their release, by parts: dissipated, or still stored in them.
     elastic = -medium.relaxation_time * np.minimum(state.velocity, 0.0)
     rim = elastic**2 * states.contact_radius / 2
-    imprint = state.interval.lower - state.increase
-    plastic = yield_rule(hit.profile, medium).plastic_integral(imprint, state.increase)
+    plastic = rule.plastic_integral(state.interval.lower - state.increase, state.increase)
     return Motion(
         time=time,
         depth=state.depth,

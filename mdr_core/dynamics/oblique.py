@@ -10,8 +10,9 @@ from .. import _check
 from .._check import Array, ArrayLike
 from ..medium import Medium, check_pair, refuse_adhesion, shape_with
 from ..results.base import Entries, Model, Result
-from ..results.limits import Limit, friction_limits
+from ..results.limits import Limit, friction_limits, stick_limits
 from ..shapes.profile import Profile
+from ..yielding import yield_rule
 from .impact import Impact, impact, quantity_of
 from .oblique_motion import ObliqueMotion, oblique_motion
 from .surface import EXACT, SurfaceSolution, solve_surface
@@ -56,8 +57,9 @@ def oblique_impact(
         Effective mass m_t (kg) at the contact point along the surface, 1/m_t = 1/m + R²/I, as by
         `Ball.tangential_mass`; by default m, that of a body that cannot turn.
     tolerance : float, optional
-        Error allowed in the tangential velocity relative to the tangential speed, and in work and largest
-        force relative to themselves (or to a hundredth of the tangential energy, where work is less).
+        Error allowed in the tangential velocity relative to the tangential speed and in the largest force
+        relative to itself; on a viscous medium in works, too, relative to themselves (or to a hundredth of
+        the tangential energy, where work is less). Where it is not met, `limits` say so.
 
     Returns
     -------
@@ -166,8 +168,23 @@ class ObliqueImpact(Entries, Result):
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """Where the model's assumptions end, as data: those of the normal impact, and those of friction."""
-        return (*(x for x in self.normal.limits if x.concerns == "result"), *friction_limits(self.medium))
+        """Where the model's assumptions end, as data: those of the normal impact, and those of friction.
+
+        Where elements stick, "tolerance" is whether it is met, and "depth" and "mass" are how far errors of
+        the tangential motion have been measured.
+        """
+        limits = (x for x in self.normal.limits if x.concerns == "result")
+        return (*limits, *friction_limits(self.medium), *self._stick_limits())
+
+    def _stick_limits(self):
+        sticks, surface = ~np.asarray(self.slips_throughout), self._surface
+        if not sticks.any():
+            return ()
+        error = np.maximum(surface.change_error, surface.force_error)
+        onset = yield_rule(self.profile, self.medium).onset()
+        values = error, surface.tolerance, self.max_depth / onset
+        values = (*values, self.mass / self.tangential_mass)
+        return stick_limits(*(float(np.max(np.broadcast_to(x, self.shape)[sticks])) for x in values))
 
     @property
     def slips_throughout(self) -> Any:

@@ -27,7 +27,8 @@ class SurfaceSolution(Entries):
     """Motion along the surface of one impact, or of many as arrays, with estimated errors.
 
     Change of the velocity over W₀, largest force (N), friction and viscous work (J) along the surface.
-    Errors of works are relative to ½ m_t W₀². Closed forms have 0 `halvings` of the steps of the first run.
+    Errors of works are relative to ½ m_t W₀², and `tolerance` is that of the velocity. Closed forms have 0
+    `halvings` of the steps of the first run.
     """
 
     relative_change: Array
@@ -40,6 +41,7 @@ class SurfaceSolution(Entries):
     viscous_error: Array
     halvings: Array
     slips_throughout: Array
+    tolerance: Array
 
 
 def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
@@ -75,7 +77,24 @@ def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
         values = _dry(hit, rows, tolerance, speed[rows], friction[rows], tangential_mass[rows])
         for name, value in values.items():
             columns[name][rows] = value
+    columns["tolerance"] = np.full(speed.size, float(tolerance))
+    _bound_errors(columns, friction * np.broadcast_to(hit.max_force, shape).ravel())
     return SurfaceSolution(**{name: _check.frozen(columns[name].reshape(shape)) for name in names})
+
+
+def _bound_errors(columns, most):
+    """Errors at most as large as energy and Coulomb's force `most` (N) allow: |W′| ≤ W₀, no work gained."""
+    force = columns["max_force"]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        largest = np.where(force > 0, np.maximum(most / force - 1, 1.0), 1.0)
+    bounds = {
+        "change_error": 1 + np.abs(1 + columns["relative_change"]),
+        "force_error": largest,
+        "friction_error": 1.0,
+        "viscous_error": 1.0,
+    }
+    for name, bound in bounds.items():
+        columns[name] = np.minimum(columns[name], bound)
 
 
 def _slip_throughout(hit, speed, friction, tangential_mass):

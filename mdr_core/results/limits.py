@@ -10,12 +10,24 @@ from ..shapes.sampled import Sampled
 from .quantities import engineering
 
 #: Slope up to which results are good, above which they are estimates, and above which the slope is
-#: probably a mistake; contact radius over the radius of the body; share of the wave speed;
-#: Tabor's parameter from which adhesion is that of the rim alone, and the range (m) of surface forces;
-#: relative error of a pull-off from facets; range of effective moduli (Pa) of the media that there are.
-_SMALL, _STEEP, _NEEDLE, _BODY, _SLOW, _TABOR, _RANGE = 0.3, 0.5, 3.0, 0.5, 0.1, 5.0, 0.3e-9
+#: probably a mistake.
+_SMALL = 0.3
+_STEEP = 0.5
+_NEEDLE = 3.0
+#: Contact radius over the radius of the body, and speed over the wave speed.
+_BODY = 0.5
+_SLOW = 0.1
+#: Tabor's parameter from which adhesion is that of the rim alone, and the range (m) of surface forces.
+_TABOR = 5.0
+_RANGE = 0.3e-9
+#: Relative error of a pull-off from facets.
 _FACETS = 0.02
-_SOFTEST, _STIFFEST = 1e3, 1e13
+#: Depth over d_c, and mass over the tangential one, up to which errors of stick were measured.
+_DEEP = 1e3
+_LIGHT = 10.0
+#: Range of the effective moduli (Pa) of the media that there are.
+_SOFTEST = 1e3
+_STIFFEST = 1e13
 
 
 @dataclass(frozen=True)
@@ -27,7 +39,8 @@ class Limit:
     what : str
         Quantity that is bounded: "slope", "contact radius", "modulus" below 1 kPa or above 10 TPa, "Poisson
         ratio", "viscosity", "speed", "fast limit", "Tabor's parameter", which must be larger than its
-        bound, "facets" of samples with adhesion, and for friction "coupling" and "slip direction".
+        bound, "facets" of samples with adhesion, for friction "coupling" and "slip direction", and where
+        elements stick "tolerance", "depth" over d_c and "mass" over the tangential one.
     value, bound : float
         Its largest value over all states, and the largest one for which the assumption is good.
     exceeded : bool
@@ -197,6 +210,26 @@ def friction_limits(medium):
     value = float(np.max(np.abs(medium.poisson / (4 - 2 * medium.poisson))))
     text = f"Slip is taken along the velocity; up to {value:.2g} of the slip is across it."
     yield Limit("slip direction", value, 0.2, value > 0.2, text, severe=False)
+
+
+def stick_limits(error, tolerance, depth, mass):
+    """Limits of impacts in which elements stick: largest error, allowed one, depth over d_c, m over m_t."""
+    exceeded = error > tolerance
+    text = f"The tangential velocity or force has an error of {error:.2g}, {tolerance:.2g} was asked for"
+    text += ": even the smallest steps are too long for how often elements that stick oscillate."
+    if not exceeded:
+        text = f"The error of the tangential velocity and force, {error:.2g}, is within the tolerance."
+    yield Limit("tolerance", error, tolerance, exceeded, text)
+    measured = (
+        f"; errors of the tangential motion were compared with a chain up to {_DEEP:g} d_c and for m_t of "
+        f"{1 / _LIGHT:g} m and more."
+    )
+    for what, value, bound, text in (
+        ("depth", depth, _DEEP, f"The depth reaches {depth:.3g} d_c"),
+        ("mass", mass, _LIGHT, f"The tangential mass is as small as {1 / mass:.3g} m"),
+    ):
+        over = value > bound * (1 + 1e-9)
+        yield Limit(what, value, bound, over, text + (measured if over else "."), severe=False)
 
 
 def speed_limit(speed, medium, density):
