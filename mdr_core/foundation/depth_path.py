@@ -81,7 +81,7 @@ def indent_in_time(
     """
     check_pair(profile, medium, "a path in time")
     refuse_adhesion(medium, "a path in time")
-    depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LARGEST))
+    depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
     time = check_times(time, depth, "depth")
     tolerance = _check.positive_number("tolerance", tolerance)
     nodes = _node_radii(profile, medium, depth, time)
@@ -216,7 +216,7 @@ class TimedIndentation(Result):
         Infinite at the contact radius while the dashpots carry load there.
         """
         self._one("pressure")
-        r, radius = _check.finite_array("radius", r, unit="m"), float(self.contact_radius)
+        r, radius = _check.finite_array("radius r", r, unit="m"), float(self.contact_radius)
         if radius == 0:
             return np.zeros(r.shape)[()]
         # The line load at 4000 coordinates is linear in between.
