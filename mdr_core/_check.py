@@ -46,10 +46,62 @@ def shown(value):
     return _short.repr(value)
 
 
+#: Names of the arguments that are not the last word of their quantity.
+_ARGUMENTS = {
+    "half-angle": "degrees",
+    "radius of the hardness": "radius",
+    "critical depth": "critical_depth",
+    "hardness class": "hardness",
+    "coordinate": "x",
+    "κₙ c": "coefficient",
+    "area A(h)": "coefficients",
+}
+
+
+class InvalidArgument(ValueError):
+    """An argument is refused. This is the base class of the errors of this module.
+
+    Attributes
+    ----------
+    quantity : str
+        The argument in the words of the message: "effective modulus E_star", "Cone slope".
+    argument : str
+        Its name in the call: "E_star", "slope".
+    value : object
+        The value that is refused, without its unit; of an array, its first invalid entry.
+    bound : str
+        The bound that is missed, in words: "must be finite and positive", "is negative".
+    unit, remedy : str
+        SI unit, and what to do; empty where there is none.
+
+    Examples
+    --------
+    >>> try:
+    ...     positive("Cone slope", -0.3)
+    ... except InvalidArgument as error:
+    ...     print(error.argument, error.value, error.bound, error.remedy, sep="; ")
+    slope; -0.3; must be finite and positive; check it
+    """
+
+    def __init__(self, message, quantity, value, bound, unit="", remedy=""):
+        super().__init__(message, quantity, value, bound, unit, remedy)
+        self.quantity = quantity
+        # The depth of the third of several curves is depth[2].
+        self.argument = _ARGUMENTS.get(quantity, quantity.split()[-1]).partition("[")[0]
+        self.value = value
+        self.bound = bound
+        self.unit = unit
+        self.remedy = remedy
+
+    def __str__(self):
+        return self.args[0]
+
+
 def one_of(quantity, value, known):
     """`value`, if it is one of the `known` names."""
     if not isinstance(value, str) or value not in known:
-        raise ValueError(f"{quantity} = {shown(value)} must be one of {', '.join(map(repr, known))}")
+        bound = f"must be one of {', '.join(map(repr, known))}"
+        raise InvalidArgument(f"{quantity} = {shown(value)} {bound}", quantity, value, bound)
     return value
 
 
@@ -61,8 +113,14 @@ def number(quantity, value, unit=""):
         if array.dtype.kind not in "iuf" or array.ndim:
             raise TypeError
     except (TypeError, ValueError):
-        raise ValueError(f"{quantity} must be one real number, got {shown(value)}") from None
+        raise _no_number(quantity, value, "one real number", unit) from None
     return float(array)
+
+
+def _no_number(quantity, value, what, unit):
+    """The error of a value that is not `what` it must be."""
+    bound = f"must be {what}"
+    return InvalidArgument(f"{quantity} {bound}, got {shown(value)}", quantity, value, bound, unit)
 
 
 def in_unit(quantity, value, unit):
@@ -73,15 +131,16 @@ def in_unit(quantity, value, unit):
     because they would be loaded into memory as a whole.
     """
     if hasattr(value, "dims") and hasattr(value, "coords"):
-        raise ValueError(
-            f"{quantity} has dimensions with names, {shown(value.dims)}, which would be lost: arrays "
-            "broadcast by the order of their axes; give its .values, transposed as needed"
+        bound = (
+            f"has dimensions with names, {shown(value.dims)}, which would be lost: arrays broadcast by the "
+            "order of their axes"
         )
+        remedy = "give its .values, transposed as needed"
+        raise InvalidArgument(f"{quantity} {bound}; {remedy}", quantity, value, bound, unit, remedy)
     if hasattr(type(value), "__dask_graph__") and not _carries_unit(value):
-        raise ValueError(
-            f"{quantity} is a lazy array, which would be taken into memory as a whole: .compute() it, "
-            "or give it to mdr_core.sweep, which keeps it lazy"
-        )
+        bound = "is a lazy array, which would be taken into memory as a whole"
+        remedy = ".compute() it, or give it to mdr_core.sweep, which keeps it lazy"
+        raise InvalidArgument(f"{quantity} {bound}: {remedy}", quantity, value, bound, unit, remedy)
     if isinstance(value, list | tuple) and any(map(_carries_unit, value)):
         return [in_unit(quantity, part, unit) for part in value]
     if not _carries_unit(value):
@@ -92,10 +151,9 @@ def in_unit(quantity, value, unit):
         value = value.to(wanted if wanted or hasattr(value, "unit") else "dimensionless")
         bare = value.magnitude if hasattr(value, "magnitude") else value.value
     except Exception as error:
-        wanted = unit or "a number without a unit"
-        raise ValueError(
-            f"{quantity} = {value!s:.80} cannot be converted to {wanted} ({type(error).__name__})"
-        ) from None
+        bound = f"cannot be converted to {unit or 'a number without a unit'} ({type(error).__name__})"
+        message = f"{quantity} = {value!s:.80} {bound}"
+        raise InvalidArgument(message, quantity, value, bound, unit) from None
     return np.asarray(in_unit(quantity, bare, ""))[()]
 
 
@@ -110,7 +168,8 @@ def positive(quantity, value, *, unit="", infinite=False, zero=False, within=(SM
     """
     value = in_unit(quantity, value, unit)
     many = isinstance(value, list | tuple | np.ndarray)
-    values = _real_array(quantity, value, "real numbers" if many else "one real number").copy()
+    what = "real numbers" if many else "one real number"
+    values = _real_array(quantity, value, what, unit).copy()
     values.setflags(write=False)
     with np.errstate(invalid="ignore"):
         bad = ~(values >= 0) if zero else ~(values > 0)
@@ -142,7 +201,7 @@ def set_positive(profile, **units):
     common_shape(type(profile).__name__, **{name: getattr(profile, name) for name in units})
 
 
-def _real_array(quantity, value, what="real numbers"):
+def _real_array(quantity, value, what="real numbers", unit=""):
     try:
         array = np.asarray(value)
         if array.dtype.kind not in "iuf" or array.ndim > _MOST_DIMENSIONS or np.ma.is_masked(value):
@@ -151,13 +210,13 @@ def _real_array(quantity, value, what="real numbers"):
         with np.errstate(over="ignore"):
             return array.astype(float, copy=False)
     except (TypeError, ValueError):
-        raise ValueError(f"{quantity} must be {what}, got {shown(value)}") from None
+        raise _no_number(quantity, value, what, unit) from None
 
 
 def finite_array(quantity, value, *, unit="", most=FARTHEST, missing=False):
     """A copy of `value` as a float array of numbers up to `most`, without infinity; NaN where `missing`."""
     # A result that keeps the array must not change with the argument.
-    array = _real_array(quantity, in_unit(quantity, value, unit)).copy()
+    array = _real_array(quantity, in_unit(quantity, value, unit), unit=unit).copy()
     large = np.isfinite(array) & (np.abs(array) > most)
     refuse(quantity, array, large, f"is beyond {most:g}", unit=unit, remedy="give it in SI units")
     remedy = "leave it out, or mend the data it comes from"
@@ -173,20 +232,24 @@ def force(quantity, value):
     return refuse(quantity, array, tiny, f"must be 0 or at least {SMALLEST:g}", unit="N")
 
 
-class InvalidEntries(ValueError):
+class InvalidEntries(InvalidArgument):
     """The error of `refuse`: `bad` says which entries of the `values` of a quantity are invalid."""
 
     def __init__(self, quantity, values, bad, bound, unit, remedy):
-        super().__init__(quantity, values, bad, bound, unit, remedy)
-        self.quantity, self.values, self.bad = quantity, values, np.broadcast_to(bad, values.shape)
-        self._bound, self._unit, self._remedy = bound, unit and f" {unit}", remedy and f"; {remedy}"
+        self.values = values
+        self.bad = np.broadcast_to(bad, values.shape)
+        value = values.flat[np.argmax(self.bad)].item()
+        super().__init__("", quantity, value, bound, unit, remedy)
+        # The text is composed when it is asked for; these make a copy of the error.
+        self.args = quantity, values, bad, bound, unit, remedy
 
     def message(self, entry, index, others=0):
         """Text on one entry of the flat values, at an index by which it is known."""
         where = f"[{', '.join(map(str, index))}]" if len(index) else ""
         more = f" (and {others} more of {self.values.size} entries)" if others else ""
-        value = f"{self.values.flat[entry]:g}{self._unit}"
-        return f"{self.quantity}{where} = {value} {self._bound}{more}{self._remedy}"
+        unit = f" {self.unit}" if self.unit else ""
+        remedy = f"; {self.remedy}" if self.remedy else ""
+        return f"{self.quantity}{where} = {self.values.flat[entry]:g}{unit} {self.bound}{more}{remedy}"
 
     def __str__(self):
         entry = np.argmax(self.bad)

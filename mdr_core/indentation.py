@@ -197,7 +197,7 @@ class Indentation(Result):
     def line_load(self, x: ArrayLike) -> Array:
         """Line load q(x) (N/m) of the 1D foundation at x (m); Popov (2015), Eqs. (1), (17), (18)."""
         self._one("line_load")
-        interval, x = self.live_interval, self._radii(x)
+        interval, x = self.live_interval, self._radii(x, "coordinate x")
         ring = interval.upper - self.profile._reduced(np.minimum(x, self.contact_radius))
         # For x < c the compression is the length of the interval, which has no rounding of a difference.
         inside = np.where(x < self.plastic_radius, interval.length, np.clip(ring, 0.0, interval.length))
@@ -295,5 +295,5 @@ class Indentation(Result):
         return plot_springs(self)
 
     @staticmethod
-    def _radii(r):
-        return np.abs(_check.finite_array("radius", r, unit="m"))
+    def _radii(r, quantity="radius r"):
+        return np.abs(_check.finite_array(quantity, r, unit="m"))

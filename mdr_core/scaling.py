@@ -195,8 +195,9 @@ def fast_limit(hit):
     with np.errstate(over="ignore", under="ignore"):
         depth = increasing_root(work, target, hit.max_depth, profile.known_depth)
     known = np.min(profile.known_depth, initial=_check.LARGEST)
-    bound = f"m/s presses deeper than the known depth of the profile, {known:g} m, in this limit"
-    _check.refuse("speed", np.asarray(hit.speed), np.isinf(depth), bound, remedy="reduce the speed")
+    bound = f"presses deeper than the known depth of the profile, {known:g} m, in this limit"
+    speed = np.asarray(hit.speed)
+    _check.refuse("speed", speed, np.isinf(depth), bound, unit="m/s", remedy="reduce the speed")
     a = profile._radius(depth)
     area, restitution = np.pi * a**2, np.sqrt(medium.E_star * a * d_c**2 / energy)
     exact = hit.max_depth, np.pi * hit.contact_radius**2, hit.restitution

@@ -216,7 +216,7 @@ def test_bad_arguments_are_refused():
         mdr.indent(mdr.Cone(0.3), 1e9, 1e-9)
     with pytest.raises(ValueError, match="is that of one state, but these are of shape"):
         mdr.indent(mdr.Cone(0.3), MEDIUM, [D_C, 2 * D_C]).pressure(0.0)
-    with pytest.raises(ValueError, match="radius = inf m must be finite"):
+    with pytest.raises(ValueError, match="radius r = inf m must be finite"):
         mdr.indent(mdr.Cone(0.3), MEDIUM, D_C).pressure(math.inf)
 
 

@@ -120,8 +120,9 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
             penetration, integrated = _integrated(bodies, penetration, mass, medium.E_star, in_time)
             interval, increase = rule.loading(penetration, imprint_depth)
     known = np.minimum(profile.known_depth, _check.LARGEST)
-    bound = f"m/s presses {too_deep}"
-    _check.refuse("speed", speed, ~(interval.upper <= known), bound, remedy="hit less hard")
+    unknown = ~(interval.upper <= known)
+    bound = f"presses {too_deep}"
+    _check.refuse("speed", speed, unknown, bound, unit="m/s", remedy="hit less hard")
     depth = interval.upper if not adhesive else _depth(rule, interval, stretched, increase)
     turning_point = Indentation(profile, medium, depth, interval, load, in_time=True)
     return Impact(profile, medium, mass[()], speed[()], turning_point, increase, integrated)

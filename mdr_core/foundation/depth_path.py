@@ -216,7 +216,7 @@ class TimedIndentation(Result):
         Infinite at the contact radius while the dashpots carry load there.
         """
         self._one("pressure")
-        r, radius = _check.finite_array("radius", r, unit="m"), float(self.contact_radius)
+        r, radius = _check.finite_array("radius r", r, unit="m"), float(self.contact_radius)
         if radius == 0:
             return np.zeros(r.shape)[()]
         # The line load at 4000 coordinates is linear in between.

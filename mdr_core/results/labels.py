@@ -67,7 +67,8 @@ class InvalidParticles:
 
     def add(self, places, error, index):
         """Notes the entries of an error at indices of a block, which is at `places` of the ensemble."""
-        name, number = error.quantity.split()[-1], error.values.ndim == 0
+        name = error.argument
+        number = error.values.ndim == 0
         if number and not self.dims.get(name):
             raise error
         all_dims = dict.fromkeys(dim for dims in self.dims.values() for dim in dims)

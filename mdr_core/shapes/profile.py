@@ -124,8 +124,8 @@ class Profile(_check.Parameters, ABC):
     def _of_radius(self, quantity, r, function):
         """`function` at checked radii |r| (m)."""
         r, known = np.abs(self._places(quantity, r)), np.min(self.known_radius, initial=np.inf)
-        bound = f"m is beyond the radius up to which the shape is known, {known:g} m"
-        _check.refuse("radius", r, r > self.known_radius, bound)
+        bound = f"is beyond the radius up to which the shape is known, {known:g} m"
+        _check.refuse(quantity, r, r > self.known_radius, bound, unit="m")
         with np.errstate(all="ignore"):
             return function(r)[()]
 

@@ -263,6 +263,7 @@ def area_samples(coefficients, height, samples, limit):
     slopes = scipy.optimize.isotonic_regression(np.diff(h) / np.diff(r), weights=np.diff(r)).x
     z = np.append(0.0, np.cumsum(slopes * np.diff(r)))
     far = np.abs(z - h) > 0.03 * np.maximum(h, 0.1 * height)
-    bound, remedy = "m is where the tip is concave by more than 3 %", "the contact would not be compact"
-    _check.refuse("area function: height", h, far, bound, remedy=remedy)
+    bound = "is where the tip is concave by more than 3 %"
+    remedy = "the contact would not be compact"
+    _check.refuse("area function: height", h, far, bound, unit="m", remedy=remedy)
     return r, z
