@@ -24,13 +24,13 @@ else:
 #: Type of a parameter of a profile or medium: given as any number or array, stored as float or array.
 Parameter = Any
 
-#: Bounds of quantities (SI), within which squares and products stay in double precision.
+#: Bounds of lengths, forces and moduli (SI), and of slopes.
+SHORTEST, LONGEST = 1e-25, 1e25
+
+#: Bounds of all other quantities (SI).
 SMALLEST, LARGEST = 1e-60, 1e60
 
-#: Bounds of the parameters of a profile, which are also divided by each other and squared.
-SHORTEST, LONGEST = 1e-30, 1e30
-
-# Bound of radii, whose squares stay in double precision.
+# Bound of radii, whose squares stay in double precision: a contact may be far wider than it is deep.
 FARTHEST = 1e140
 
 # NumPy broadcasts up to 32 dimensions, and a few are added internally.
@@ -53,7 +53,6 @@ _ARGUMENTS = {
     "critical depth": "critical_depth",
     "hardness class": "hardness",
     "coordinate": "x",
-    "κₙ c": "coefficient",
     "area A(h)": "coefficients",
 }
 
@@ -161,10 +160,10 @@ def _carries_unit(value):
     return (hasattr(value, "units") or hasattr(value, "unit")) and hasattr(value, "to")
 
 
-def positive(quantity, value, *, unit="", infinite=False, zero=False, within=(SMALLEST, LARGEST)):
+def positive(quantity, value, *, unit="", infinite=False, zero=False, within=None):
     """`value` as a float or a read-only array, if positive (or zero, or infinite, where allowed).
 
-    Finite numbers must lie `within` bounds, which hold for physical quantities in SI units.
+    Finite numbers must lie `within` two bounds, by default those of quantities of their unit.
     """
     value = in_unit(quantity, value, unit)
     many = isinstance(value, list | tuple | np.ndarray)
@@ -178,11 +177,19 @@ def positive(quantity, value, *, unit="", infinite=False, zero=False, within=(SM
     bound = f"must be {'' if infinite else 'finite and '}{'not negative' if zero else 'positive'}"
     remedy = f"give it in SI units ({unit})" if unit else "check it"
     refuse(quantity, values, bad, bound, unit=unit, remedy=remedy)
-    least, most = within
+    least, most = within or _bounds(unit, zero)
     outside = (values > 0) & (values < least) | (values > most) & (values < np.inf)
     bound = f"must {'be 0 or ' if zero else ''}lie between {least:g} and {most:g}"
     refuse(quantity, values, outside, bound, unit=unit, remedy=remedy)
     return values if values.ndim else float(values)
+
+
+def _bounds(unit, zero):
+    """Bounds of finite positive numbers of a unit, if they may be `zero` or not."""
+    if unit not in ("m", "N", "Pa"):
+        return SMALLEST, LARGEST
+    # Where 0 is meant, rounding may leave less than any length.
+    return SMALLEST if zero else SHORTEST, LONGEST
 
 
 def positive_number(quantity, value, *, unit="", **allowed):
@@ -194,8 +201,8 @@ def set_positive(profile, **units):
     """Replace each named field of a frozen profile by its checked value, a float or an array."""
     for name, unit in units.items():
         quantity = f"{type(profile).__name__} {name}"
-        # The coefficient of a power law may have any size.
-        within = (0.0, np.inf) if unit == "m^(1-n)" else (SHORTEST, LONGEST)
+        # The coefficient of a power law may have any size that double precision has.
+        within = (1e-300, 1e300) if unit == "m^(1-n)" else (SHORTEST, LONGEST)
         value = positive(quantity, getattr(profile, name), unit=unit, within=within)
         object.__setattr__(profile, name, value)
     common_shape(type(profile).__name__, **{name: getattr(profile, name) for name in units})
@@ -226,7 +233,7 @@ def finite_array(quantity, value, *, unit="", most=FARTHEST, missing=False):
 
 def force(quantity, value):
     """`value` as a float array of normal forces, which are not negative."""
-    array = finite_array(quantity, value, unit="N")
+    array = finite_array(quantity, value, unit="N", most=LONGEST)
     refuse(quantity, array, array < 0, "is negative", unit="N", remedy="there is no adhesion")
     tiny = (array > 0) & (array < SMALLEST)
     return refuse(quantity, array, tiny, f"must be 0 or at least {SMALLEST:g}", unit="N")

@@ -29,7 +29,7 @@ class _Path:
 
     def __post_init__(self):
         quantity = f"{type(self).__name__} {self._name}"
-        path = _check.finite_array(quantity, self._path, unit=self._unit)
+        path = _check.finite_array(quantity, self._path, unit=self._unit, most=_check.LONGEST)
         if path.ndim > 1 or not path.size:
             raise ValueError(f"{quantity} must be a number or a path, got shape {path.shape}")
         object.__setattr__(self, self._name, tuple(path.tolist()) if path.ndim else path.item())

@@ -223,12 +223,10 @@ class Medium(_check.Parameters):
         for i, (modulus, ratio) in enumerate(((E1, nu1), (E2, nu2)), start=1):
             modulus = _check.positive(f"Young's modulus E{i}", modulus, unit="Pa", infinite=True)
             ratio = _poisson(f"Poisson ratio nu{i}", ratio)
-            with np.errstate(over="ignore", under="ignore"):
-                compliance = compliance + (1 - ratio) * (1 + ratio) / modulus
+            compliance = compliance + (1 - ratio) * (1 + ratio) / modulus
         if np.any(compliance == 0):
             raise ValueError("E1 and E2 are both infinite; at least one body must be elastic")
-        with np.errstate(over="ignore"):
-            return cls(1 / compliance, q_c, eta, nu1, work_of_adhesion)
+        return cls(1 / compliance, q_c, eta, nu1, work_of_adhesion)
 
     @property
     def critical_depth(self) -> Array:

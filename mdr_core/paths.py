@@ -54,7 +54,7 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     3.0
     """
     check_pair(profile, medium)
-    depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
+    depth = _check.finite_array("depth", depth, unit="m", most=_check.LONGEST)
     depth = profile._known(paths_on(profile, medium, depth))
     if np.any(medium.work_of_adhesion):
         return Indentation(profile, medium, depth, *adhesion.depth_path(profile, medium, depth))
@@ -96,7 +96,10 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     """
     check_pair(profile, medium, "an indentation")
     adhesive = medium.work_of_adhesion > 0
-    force = _check.finite_array("force", force, unit="N") if adhesive else _check.force("force", force)
+    if adhesive:
+        force = _check.finite_array("force", force, unit="N", most=_check.LONGEST)
+    else:
+        force = _check.force("force", force)
     rule = yield_rule(profile, medium)
     limit = 2 * medium.E_star * rule.wall_integral()
     bound = f"must be less than the {limit:g} N at which the whole flat face yields"
@@ -105,9 +108,8 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
         return Indentation(profile, medium, *adhesion.force_path(profile, medium, force))
     integral = force / (2 * medium.E_star)
     largest = np.maximum.accumulate(integral, axis=-1) if integral.ndim else integral
-    with np.errstate(all="ignore"):
-        largest_depth = _loading_depth(rule, largest)
-    known = largest_depth <= min(profile.known_depth, _check.LARGEST)
+    largest_depth = _loading_depth(rule, largest)
+    known = largest_depth <= min(profile.known_depth, _check.LONGEST)
     bound = f"presses {profile._too_deep()}"
     _check.refuse("force", force, ~known, bound, unit="N", remedy="press less")
     loaded, _ = rule.loading(largest_depth)

@@ -192,9 +192,8 @@ def fast_limit(hit):
     def work(depth):
         return integrals(profile).radius_integral(LiveInterval.elastic(depth)), profile._radius(depth)
 
-    with np.errstate(over="ignore", under="ignore"):
-        depth = increasing_root(work, target, hit.max_depth, profile.known_depth)
-    known = np.min(profile.known_depth, initial=_check.LARGEST)
+    depth = increasing_root(work, target, hit.max_depth, profile.known_depth)
+    known = np.min(profile.known_depth, initial=_check.LONGEST)
     bound = f"presses deeper than the known depth of the profile, {known:g} m, in this limit"
     speed = np.asarray(hit.speed)
     _check.refuse("speed", speed, np.isinf(depth), bound, unit="m/s", remedy="reduce the speed")

@@ -288,7 +288,7 @@ def _hit_at_angle(profile, E_star, q_c, eta, poisson, **given):
 
 def _press(profile, E_star, q_c, work_of_adhesion, depth):
     medium = Medium(E_star, q_c, work_of_adhesion=work_of_adhesion)
-    depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST)
+    depth = _check.finite_array("depth", depth, unit="m", most=_check.LONGEST)
     shape = np.broadcast_shapes(profile.shape, medium.shape, depth.shape)
     depth = profile._known(np.broadcast_to(depth, shape))
     if np.any(np.asarray(work_of_adhesion) > 0):

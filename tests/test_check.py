@@ -57,7 +57,7 @@ def test_arrays_stay_what_they_are():
     ("make", "says"),
     [
         (lambda: mdr.Medium([1e9, [2e9]]), "E_star must be real numbers, got"),
-        (lambda: mdr.Medium(1e300), "E_star = 1e.300 Pa must lie between 1e-60 and 1e.60"),
+        (lambda: mdr.Medium(1e300), r"E_star = 1e\+300 Pa .* 1e-25 and 1e\+25; give it in SI"),
         (
             lambda: mdr.Medium.from_bodies([1e9, 2e9], [0.3, 0.3, 0.3]),
             r"E1 \(2,\), nu1 \(3,\) do not broadcast",
@@ -159,11 +159,9 @@ def test_eight_threads_get_the_same_results():
 
 
 def test_a_contact_beyond_double_precision_is_refused():
-    with pytest.raises(ValueError, match="depth = 1e-09 m has a contact beyond double precision"):
-        mdr.PowerLaw(1e-320, 2.0).contact_radius(1e-9)
     with pytest.raises(ValueError, match="depth = 1000 m has a contact beyond double precision"):
         mdr.indent(mdr.PowerLaw(1.0, 0.01), MEDIUM, 1e3)
-    with pytest.raises(ValueError, match=r"depth = 1e\+140 m is beyond 1e\+60; give it in SI units"):
+    with pytest.raises(ValueError, match=r"depth = 1e\+140 m is beyond 1e\+25; give it in SI units"):
         mdr.indent(mdr.Paraboloid(1e-6), MEDIUM, 1e140)
 
 

@@ -256,6 +256,8 @@ def test_forces_of_any_size_are_found():
             continue
         deepest = 3e-6 if isinstance(shape, mdr.Sphere) else 1e3 * D_C
         force = mdr.indent(shape, MEDIUM, np.geomspace(0.3 * D_C, deepest, 400)[:, None]).force[:, 0]
+        # The last ones under a cusp are beyond the bound of forces.
+        force = force[force <= 1e25]
         back = mdr.indent_to_force(shape, MEDIUM, force[:, None])
         np.testing.assert_allclose(back.force[:, 0], force, rtol=1e-12)
 
@@ -265,7 +267,7 @@ def test_force_that_no_depth_is_enough_for():
     tip, medium = mdr.PowerLaw(1e294, 50.0), mdr.Medium(1e10, 1e-3)
     force = mdr.indent(tip, medium, 1e-6).force
     assert mdr.indent_to_force(tip, medium, force).depth == pytest.approx(1e-6, rel=1e-9)
-    with pytest.raises(ValueError, match=r"presses deeper than the shape is known, 1e\+60 m"):
+    with pytest.raises(ValueError, match=r"presses deeper than the shape is known, 1e\+25 m"):
         mdr.indent_to_force(tip, medium, 1e9 * force)
 
 

@@ -41,9 +41,9 @@ def test_eq_7_known_coefficients():
     assert kappa(2.0) == pytest.approx(2.0, rel=2e-16)
 
 
-@pytest.mark.parametrize("n", [1e-6, 0.1, 1.0, 7.5, 50.0, 299.0, 301.0, 1e4])
+@pytest.mark.parametrize("n", [1e-6, 0.1, 1.0, 7.5, 50.0, 99.0])
 def test_eq_7_recurrence(n):
-    """κₙ κₙ₊₁ = (π/2)(n + 1), from the duplication of the gamma function; also across n = 300."""
+    """κₙ κₙ₊₁ = (π/2)(n + 1), from the duplication of the gamma function."""
     # Each κ carries the few roundings of two gamma functions.
     assert kappa(n) * kappa(n + 1) == pytest.approx(math.pi / 2 * (n + 1), rel=5e-15)
 
@@ -127,9 +127,10 @@ def test_limits_of_families():
         (lambda: mdr.Cone(slope=math.nan), "Cone slope = nan"),
         (lambda: mdr.Paraboloid(radius=-1.0), "Paraboloid radius = -1 m"),
         (lambda: mdr.PowerLaw(coefficient=1.0, exponent=0.0), "exponent = 0"),
-        (lambda: mdr.Hyperboloid(slope=1e-200, tip_radius=1.0), "between 1e-30 and 1e.30"),
-        (lambda: mdr.PowerLaw(coefficient=1.0, exponent=1e15), "must lie in 0.01 ≤ n ≤ 1000"),
-        (lambda: mdr.PowerLaw(coefficient=1e308, exponent=900.0), "leaves double precision"),
+        (lambda: mdr.Hyperboloid(slope=1e-200, tip_radius=1.0), r"between 1e-25 and 1e\+25"),
+        (lambda: mdr.PowerLaw(coefficient=1.0, exponent=1e15), "must lie in 0.01 ≤ n ≤ 100; FlatPunch"),
+        (lambda: mdr.PowerLaw(coefficient=1e308, exponent=50.0), r"1e\+308 m\^\(1-n\) must lie between"),
+        (lambda: kappa([2.0, 300.0]), r"exponent n\[1\] = 300 must be 0 or lie between 0 and 100"),
         (lambda: mdr.FlatPunch(radius=math.inf), "radius = inf m"),
         (lambda: mdr.TruncatedCone(flat_radius=1.0, slope="steep"), "slope must be one real number"),
         (lambda: mdr.Cone(slope=1.0).contact_radius(-1.0), "depth = -1 m is negative"),

@@ -66,7 +66,7 @@ def test_a_polynomial_is_a_slope():
     assert force == pytest.approx(mdr.indent(mdr.Paraboloid(R), medium, 1e-9).force, rel=1e-12)
 
 
-@pytest.mark.parametrize(("radius", "depth"), [(10.0, 1e9), (np.inf, 1e50)])
+@pytest.mark.parametrize(("radius", "depth"), [(10.0, 1e9), (np.inf, 1e24)])
 def test_depths_beyond_the_end_are_refused_far_out_too(radius, depth):
     """Where the search for the contact radius has passed from 1 m to the end of the shape."""
     with pytest.raises(ValueError, match="deeper than the Smooth shape is known"):

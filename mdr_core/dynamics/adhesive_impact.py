@@ -171,7 +171,7 @@ def capture_speeds(profile: Profile, medium: Medium, mass: ArrayLike) -> tuple[A
     def rebound(upper):
         return rebound_energy(profile, medium, loaded_interval(profile, medium, upper)[0])
 
-    known = min(float(np.min(profile.known_depth)), _check.LARGEST)
+    known = min(float(np.min(profile.known_depth)), _check.LONGEST)
     scales = [float(start.upper)]
     if d_c < np.inf:
         # The imprint holds a body where Δl(c) is about d_c.

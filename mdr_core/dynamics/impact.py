@@ -119,7 +119,7 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
             bodies = Bodies.of(profile, medium, mass, speed, imprint_depth, penetration)
             penetration, integrated = _integrated(bodies, penetration, mass, medium.E_star, in_time)
             interval, increase = rule.loading(penetration, imprint_depth)
-    known = np.minimum(profile.known_depth, _check.LARGEST)
+    known = np.minimum(profile.known_depth, _check.LONGEST)
     unknown = ~(interval.upper <= known)
     bound = f"presses {too_deep}"
     _check.refuse("speed", speed, unknown, bound, unit="m/s", remedy="hit less hard")

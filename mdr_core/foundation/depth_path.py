@@ -81,7 +81,7 @@ def indent_in_time(
     """
     check_pair(profile, medium, "a path in time")
     refuse_adhesion(medium, "a path in time")
-    depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LARGEST))
+    depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
     time = check_times(time, depth, "depth")
     tolerance = _check.positive_number("tolerance", tolerance)
     nodes = _node_radii(profile, medium, depth, time)

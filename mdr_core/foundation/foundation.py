@@ -155,7 +155,8 @@ class Foundation:
         >>> print(moved.force, moved.advance(3.0, dt=1.0).force)  # 2E*b d + 8ηb ḋ
         22.0 6.0
         """
-        depth = float(_check.finite_array("depth", _check.number("depth", depth, "m"), unit="m"))
+        depth = _check.number("depth", depth, "m")
+        depth = float(_check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
         dt = _check.positive_number("dt", dt, unit="s", infinite=True)
         ramp = self._ramp(depth - self.depth, dt, depth)
         return self._after(ramp, *element.advance(self._elements, ramp))

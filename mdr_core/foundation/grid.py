@@ -31,9 +31,8 @@ def cell_edges(profile, count, half_width, nodes=()):
 
 def _fixed_edges(profile, half_width, nodes):
     """Radii (m) of the axis, flat face, kinks, wall, nodes and half-width, distinct within rounding."""
-    with np.errstate(all="ignore"):
-        # At depth 0 the contact radius is that of the flat face.
-        own = profile.contact_radius(np.array([0.0, *profile.kinks]))
+    # At depth 0 the contact radius is that of the flat face.
+    own = profile.contact_radius(np.array([0.0, *profile.kinks]))
     radii = np.concatenate([own, [profile.wall], np.asarray(nodes, dtype=float)])
     radii = np.unique(radii[(radii > 0) & (radii < half_width * (1 - 1e-12))])
     distinct = np.diff(radii, prepend=0.0) > 1e-12 * half_width
@@ -76,7 +75,7 @@ def depth_bound(profile, medium, quantity, amount, start=0.0):
 
     if quantity == "momentum" and medium.eta == 0:
         return profile.known_depth
-    known = min(profile.known_depth, _check.LARGEST)
+    known = min(profile.known_depth, _check.LONGEST)
     target = amount + (taken_up(start)[0] if start > 0 else 0.0)
     depth = increasing_root(taken_up, target, max(min(limit, known, 1.0), start), known)
     return min(1.05 * float(depth), profile.known_depth)

@@ -90,7 +90,7 @@ class Profile(_check.Parameters, ABC):
 
     def contact_radius(self, depth: ArrayLike) -> Array:
         """Contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
-        depth = self._places("depth", depth, most=_check.LARGEST)
+        depth = self._places("depth", depth, most=_check.LONGEST)
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
         depth = self._known(depth)
         with np.errstate(all="ignore"):
@@ -144,4 +144,4 @@ class Profile(_check.Parameters, ABC):
 
     def _too_deep(self):
         """Text for a refusal of depths below `known_depth`."""
-        return f"deeper than {self._end_of_depth}, {np.min(self.known_depth, initial=_check.LARGEST):g} m"
+        return f"deeper than {self._end_of_depth}, {np.min(self.known_depth, initial=_check.LONGEST):g} m"

@@ -155,8 +155,8 @@ class OneLength(Profile):
 
 def _unit_radius(kind, depth):
     """u with G(u) = `depth` of a class of profiles, elementwise."""
-    # The largest depth over the smallest length.
-    limit = _check.LARGEST**3
+    # The largest depth over the smallest unit of depth, s²R.
+    limit = _check.LONGEST**4
     u = increasing_root(lambda u: (kind._G(u), kind._G_slope(u)), depth, 1.0, kind._end, largest=limit)
     return np.maximum(np.where(u < np.inf, u, kind._end), kind._edge)
 
