@@ -1,7 +1,6 @@
 """Checks of arguments, with errors that name the quantity, its value, the bound and a remedy."""
 
 import difflib
-import reprlib
 from collections.abc import Callable
 from dataclasses import fields
 from functools import cached_property, lru_cache, wraps
@@ -9,6 +8,8 @@ from inspect import signature
 from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 
 import numpy as np
+
+from ._errors import InvalidArgument, InvalidEntries, shown
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -35,65 +36,6 @@ FARTHEST = 1e140
 
 # NumPy broadcasts up to 32 dimensions, and a few are added internally.
 _MOST_DIMENSIONS = 16
-
-# The argument may be nested too deeply for its own repr, or be very long.
-_short = reprlib.Repr()
-_short.maxstring = _short.maxother = 80
-
-
-def shown(value):
-    """Short text of any argument, for a message."""
-    return _short.repr(value)
-
-
-#: Names of the arguments that are not the last word of their quantity.
-_ARGUMENTS = {
-    "half-angle": "degrees",
-    "radius of the hardness": "radius",
-    "critical depth": "critical_depth",
-    "hardness class": "hardness",
-    "coordinate": "x",
-    "area A(h)": "coefficients",
-}
-
-
-class InvalidArgument(ValueError):
-    """An argument is refused. This is the base class of the errors of this module.
-
-    Attributes
-    ----------
-    quantity : str
-        The argument in the words of the message: "effective modulus E_star", "Cone slope".
-    argument : str
-        Its name in the call: "E_star", "slope".
-    value : object
-        The value that is refused, without its unit; of an array, its first invalid entry.
-    bound : str
-        The bound that is missed, in words: "must be finite and positive", "is negative".
-    unit, remedy : str
-        SI unit, and what to do; empty where there is none.
-
-    Examples
-    --------
-    >>> try:
-    ...     positive("Cone slope", -0.3)
-    ... except InvalidArgument as error:
-    ...     print(error.argument, error.value, error.bound, error.remedy, sep="; ")
-    slope; -0.3; must be finite and positive; check it
-    """
-
-    def __init__(self, message, quantity, value, bound, unit="", remedy=""):
-        super().__init__(message, quantity, value, bound, unit, remedy)
-        self.quantity = quantity
-        # The depth of the third of several curves is depth[2].
-        self.argument = _ARGUMENTS.get(quantity, quantity.split()[-1]).partition("[")[0]
-        self.value = value
-        self.bound = bound
-        self.unit = unit
-        self.remedy = remedy
-
-    def __str__(self):
-        return self.args[0]
 
 
 def one_of(quantity, value, known):
@@ -197,6 +139,12 @@ def positive_number(quantity, value, *, unit="", **allowed):
     return positive(quantity, number(quantity, value, unit), unit=unit, **allowed)
 
 
+def store(thing, **values):
+    """Set fields of a frozen dataclass from its `__post_init__`, to values that have been checked."""
+    for name, value in values.items():
+        object.__setattr__(thing, name, value)
+
+
 def set_positive(profile, **units):
     """Replace each named field of a frozen profile by its checked value, a float or an array."""
     for name, unit in units.items():
@@ -204,7 +152,7 @@ def set_positive(profile, **units):
         # The coefficient of a power law may have any size that double precision has.
         within = (1e-300, 1e300) if unit == "m^(1-n)" else (SHORTEST, LONGEST)
         value = positive(quantity, getattr(profile, name), unit=unit, within=within)
-        object.__setattr__(profile, name, value)
+        store(profile, **{name: value})
     common_shape(type(profile).__name__, **{name: getattr(profile, name) for name in units})
 
 
@@ -237,30 +185,6 @@ def force(quantity, value):
     refuse(quantity, array, array < 0, "is negative", unit="N", remedy="there is no adhesion")
     tiny = (array > 0) & (array < SMALLEST)
     return refuse(quantity, array, tiny, f"must be 0 or at least {SMALLEST:g}", unit="N")
-
-
-class InvalidEntries(InvalidArgument):
-    """The error of `refuse`: `bad` says which entries of the `values` of a quantity are invalid."""
-
-    def __init__(self, quantity, values, bad, bound, unit, remedy):
-        self.values = values
-        self.bad = np.broadcast_to(bad, values.shape)
-        value = values.flat[np.argmax(self.bad)].item()
-        super().__init__("", quantity, value, bound, unit, remedy)
-        # The text is composed when it is asked for; these make a copy of the error.
-        self.args = quantity, values, bad, bound, unit, remedy
-
-    def message(self, entry, index, others=0):
-        """Text on one entry of the flat values, at an index by which it is known."""
-        where = f"[{', '.join(map(str, index))}]" if len(index) else ""
-        more = f" (and {others} more of {self.values.size} entries)" if others else ""
-        unit = f" {self.unit}" if self.unit else ""
-        remedy = f"; {self.remedy}" if self.remedy else ""
-        return f"{self.quantity}{where} = {self.values.flat[entry]:g}{unit} {self.bound}{more}{remedy}"
-
-    def __str__(self):
-        entry = np.argmax(self.bad)
-        return self.message(entry, np.unravel_index(entry, self.bad.shape), np.count_nonzero(self.bad) - 1)
 
 
 def refuse(quantity, array, bad, bound, *, unit="", remedy=""):

@@ -1,8 +1,6 @@
 """Drives of the indenter of a scene: paths of depth and force, and impacts of free bodies."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
-from typing import ClassVar
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,55 +8,16 @@ from . import _check
 from ._check import ArrayLike, Parameter
 from .dynamics.impact import solve_impact
 from .dynamics.oblique import FRICTION, oblique_impact
-from .foundation.depth_path import TimedIndentation, check_times, indent_in_time
+from .foundation.depth_path import check_times, indent_in_time
 from .foundation.force_path import creep
 from .foundation.impact import chain_impact
-from .indentation import Indentation
 from .medium import Medium
 from .paths import indent, indent_to_force
 from .results.base import CHAIN, CLOSED_FORM, SCALAR_ODE, Model
 
 
-class _Path:
-    """Base class of a path of a quantity, the first field of a subclass, with or without `time`."""
-
-    _unit: ClassVar[str]
-    _slowly: ClassVar[Callable[..., Indentation]]
-    _in_time: ClassVar[Callable[..., TimedIndentation]]
-    time: ArrayLike | None
-
-    def __post_init__(self):
-        quantity = f"{type(self).__name__} {self._name}"
-        path = _check.finite_array(quantity, self._path, unit=self._unit, most=_check.LONGEST)
-        if path.ndim > 1 or not path.size:
-            raise ValueError(f"{quantity} must be a number or a path, got shape {path.shape}")
-        object.__setattr__(self, self._name, tuple(path.tolist()) if path.ndim else path.item())
-        if self.time is not None:
-            object.__setattr__(self, "time", tuple(check_times(self.time, path, self._name).tolist()))
-
-    _name = property(lambda self: fields(self)[0].name)
-    _path = property(lambda self: getattr(self, self._name))
-
-    def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models for this drive, the cheapest exact one first."""
-        if medium.work_of_adhesion > 0:
-            return (CLOSED_FORM,)
-        return (CHAIN,) if self.time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
-
-    def solve(self, profile, medium, model):
-        """The `Indentation` along this path, or on the chain the `TimedIndentation`."""
-        if model == CLOSED_FORM:
-            return type(self)._slowly(profile, medium, self._path)
-        path, time = np.atleast_1d(self._path), self.time
-        if time is None:
-            # An infinitely slow path is a path without viscosity at any times.
-            time, medium = np.arange(float(path.size)), replace(medium, eta=0.0)
-        result = type(self)._in_time(profile, medium, path, np.asarray(time))
-        return result if np.ndim(self._path) else result[0]
-
-
 @dataclass(frozen=True)
-class DepthPath(_Path):
+class DepthPath:
     """Press along prescribed depths.
 
     Parameters
@@ -72,11 +31,24 @@ class DepthPath(_Path):
     depth: Parameter
     time: ArrayLike | None = None
 
-    _unit, _slowly, _in_time = "m", staticmethod(indent), staticmethod(indent_in_time)
+    def __post_init__(self):
+        depth = _path("DepthPath depth", self.depth, "m")
+        time = _times(self.time, depth, "depth")
+        _check.store(self, depth=_plain(depth), time=time)
+
+    def models(self, medium: Medium) -> tuple[Model, ...]:
+        """Names of the models for this drive, the cheapest exact one first."""
+        return _path_models(medium, self.time)
+
+    def solve(self, profile, medium, model):
+        """The `Indentation` along this path, or on the chain the `TimedIndentation`."""
+        if model == CLOSED_FORM:
+            return indent(profile, medium, self.depth)
+        return _on_chain(indent_in_time, profile, medium, self.depth, self.time)
 
 
 @dataclass(frozen=True)
-class ForcePath(_Path):
+class ForcePath:
     """Press with prescribed forces.
 
     Parameters
@@ -90,7 +62,56 @@ class ForcePath(_Path):
     force: Parameter
     time: ArrayLike | None = None
 
-    _unit, _slowly, _in_time = "N", staticmethod(indent_to_force), staticmethod(creep)
+    def __post_init__(self):
+        force = _path("ForcePath force", self.force, "N")
+        time = _times(self.time, force, "force")
+        _check.store(self, force=_plain(force), time=time)
+
+    def models(self, medium: Medium) -> tuple[Model, ...]:
+        """Names of the models for this drive, the cheapest exact one first."""
+        return _path_models(medium, self.time)
+
+    def solve(self, profile, medium, model):
+        """The `Indentation` along this path, or on the chain the `TimedIndentation`."""
+        if model == CLOSED_FORM:
+            return indent_to_force(profile, medium, self.force)
+        return _on_chain(creep, profile, medium, self.force, self.time)
+
+
+def _path(quantity, values, unit):
+    """Depths (m) or forces (N) as an array, if they are a number or a path."""
+    path = _check.finite_array(quantity, values, unit=unit, most=_check.LONGEST)
+    if path.ndim > 1 or not path.size:
+        raise ValueError(f"{quantity} must be a number or a path, got shape {path.shape}")
+    return path
+
+
+def _times(time, path, quantity):
+    """Times (s) of a path of a quantity as a tuple, None for an infinitely slow one."""
+    return None if time is None else _plain(check_times(time, path, quantity))
+
+
+def _plain(array):
+    """An array of one dimension as a tuple, of none as a number: scenes are compared, and kept as JSON."""
+    return tuple(array.tolist()) if array.ndim else array.item()
+
+
+def _path_models(medium, time):
+    """Names of the models for a path at some times (s), or infinitely slow."""
+    if medium.work_of_adhesion > 0:
+        return (CLOSED_FORM,)
+    return (CHAIN,) if time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
+
+
+def _on_chain(solve, profile, medium, path, time):
+    """The `TimedIndentation` of a path by `indent_in_time` or `creep`."""
+    values = np.atleast_1d(path)
+    if time is None:
+        # An infinitely slow path is a path without viscosity at any times.
+        time = np.arange(float(values.size))
+        medium = replace(medium, eta=0.0)
+    result = solve(profile, medium, values, np.asarray(time))
+    return result if np.ndim(path) else result[0]
 
 
 @dataclass(frozen=True)
@@ -110,10 +131,14 @@ class FreeImpact:
     plastic_depth: float = 0.0
 
     def __post_init__(self):
-        for name, unit in (("mass", "kg"), ("speed", "m/s"), ("plastic_depth", "m")):
-            quantity, value = f"FreeImpact {name}", getattr(self, name)
-            value = _check.positive_number(quantity, value, unit=unit, zero=name == "plastic_depth")
-            object.__setattr__(self, name, value)
+        _check.store(
+            self,
+            mass=_check.positive_number("FreeImpact mass", self.mass, unit="kg"),
+            speed=_check.positive_number("FreeImpact speed", self.speed, unit="m/s"),
+            plastic_depth=_check.positive_number(
+                "FreeImpact plastic_depth", self.plastic_depth, unit="m", zero=True
+            ),
+        )
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
         """Names of the models for this drive, the cheapest exact one first."""
@@ -154,15 +179,19 @@ class FreeObliqueImpact:
     tangential_mass: float | None = None
 
     def __post_init__(self):
-        if self.tangential_mass is None:
-            object.__setattr__(self, "tangential_mass", self.mass)
-        units = zip(fields(self), ("kg", "m/s", "m/s", "", "kg"), strict=True)
-        for name, unit in ((field.name, unit) for field, unit in units):
-            quantity = f"FreeObliqueImpact {name}"
-            value = _check.number(quantity, getattr(self, name), unit)
-            if name != "tangential_speed":
-                value = _check.positive(quantity, value, unit=unit, zero=name == "friction")
-            object.__setattr__(self, name, value)
+        tangential_mass = self.mass if self.tangential_mass is None else self.tangential_mass
+        _check.store(
+            self,
+            mass=_check.positive_number("FreeObliqueImpact mass", self.mass, unit="kg"),
+            speed=_check.positive_number("FreeObliqueImpact speed", self.speed, unit="m/s"),
+            tangential_speed=_check.number(
+                "FreeObliqueImpact tangential_speed", self.tangential_speed, "m/s"
+            ),
+            friction=_check.positive_number("FreeObliqueImpact friction", self.friction, zero=True),
+            tangential_mass=_check.positive_number(
+                "FreeObliqueImpact tangential_mass", tangential_mass, unit="kg"
+            ),
+        )
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
         """Names of the models for this drive."""

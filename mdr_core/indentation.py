@@ -49,7 +49,7 @@ class Indentation(Result):
 
     def __post_init__(self):
         # A copy: the caller may change the path later.
-        object.__setattr__(self, "depth", _check.frozen(np.array(self.depth)))
+        _check.store(self, depth=_check.frozen(np.array(self.depth)))
 
     def __getitem__(self, index: Any) -> "Indentation":
         shape = np.shape(self.depth)

@@ -66,8 +66,8 @@ def plastic_depth(largest_depth, critical_depth):
 
 def _poisson(quantity, ratio):
     """A Poisson ratio as a float array."""
-    ratio, bound = _check.finite_array(quantity, ratio), "must lie in −1 < ν ≤ 0.5"
-    return _check.refuse(quantity, ratio, ~((ratio > -1) & (ratio <= 0.5)), bound)
+    ratio = _check.finite_array(quantity, ratio)
+    return _check.refuse(quantity, ratio, (ratio <= -1) | (ratio > 0.5), "must lie in −1 < ν ≤ 0.5")
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,20 +113,19 @@ class Medium(_check.Parameters):
     work_of_adhesion: Parameter = 0.0
 
     def __post_init__(self):
-        set_ = object.__setattr__
-        set_(self, "E_star", _check.positive("effective modulus E_star", self.E_star, unit="Pa"))
-        q_c = _check.positive("yield constant q_c", self.q_c, unit="N/m", infinite=True)
-        set_(self, "q_c", q_c)
-        set_(self, "eta", _check.positive("viscosity eta", self.eta, unit="Pa·s", zero=True))
         poisson = _poisson("Poisson ratio poisson", self.poisson)
-        set_(self, "poisson", _check.frozen(poisson) if poisson.ndim else float(poisson))
-        w = _check.positive(
-            "work of adhesion work_of_adhesion", self.work_of_adhesion, unit="J/m²", zero=True
+        _check.store(
+            self,
+            E_star=_check.positive("effective modulus E_star", self.E_star, unit="Pa"),
+            q_c=_check.positive("yield constant q_c", self.q_c, unit="N/m", infinite=True),
+            eta=_check.positive("viscosity eta", self.eta, unit="Pa·s", zero=True),
+            poisson=_check.frozen(poisson) if poisson.ndim else float(poisson),
+            work_of_adhesion=_check.positive(
+                "work of adhesion work_of_adhesion", self.work_of_adhesion, unit="J/m²", zero=True
+            ),
         )
-        set_(self, "work_of_adhesion", w)
         _check.common_shape("medium", **self.__getstate__())
-        both = np.logical_and(np.asarray(self.eta) > 0, np.asarray(w) > 0)
-        if np.any(both):
+        if np.any((np.asarray(self.eta) > 0) & (np.asarray(self.work_of_adhesion) > 0)):
             raise ValueError(
                 "adhesion is not modelled on a viscous medium; set the viscosity eta or the work of "
                 "adhesion work_of_adhesion to 0"

@@ -47,7 +47,8 @@ class ScalingLaw:
 
     def __post_init__(self):
         _check.one_of("hardness class", self.hardness, _FORCE_POWER)
-        object.__setattr__(self, "exponent", _check.positive_number("ScalingLaw exponent", self.exponent))
+        exponent = _check.positive_number("ScalingLaw exponent", self.exponent)
+        _check.store(self, exponent=exponent)
 
     @property
     def force(self) -> int:
@@ -184,7 +185,8 @@ class FastLimit(Entries, Report):
 
 def fast_limit(hit):
     """The `FastLimit` of an `Impact`."""
-    profile, medium, energy = hit.profile, hit.medium, hit.mass * hit.speed**2 / 2
+    profile, medium = hit.profile, hit.medium
+    energy = hit.mass * hit.speed**2 / 2
     d_c = np.asarray(medium.critical_depth)
     _check.refuse("critical depth", d_c, np.isinf(d_c), "m: nothing yields", remedy="give q_c")
     target = np.broadcast_to(energy / (np.pi * medium.q_c), np.shape(hit.max_depth))
@@ -198,13 +200,18 @@ def fast_limit(hit):
     speed = np.asarray(hit.speed)
     _check.refuse("speed", speed, np.isinf(depth), bound, unit="m/s", remedy="reduce the speed")
     a = profile._radius(depth)
-    area, restitution = np.pi * a**2, np.sqrt(medium.E_star * a * d_c**2 / energy)
-    exact = hit.max_depth, np.pi * hit.contact_radius**2, hit.restitution
+    area = np.pi * a**2
+    restitution = np.sqrt(medium.E_star * a * d_c**2 / energy)
     # A body that adhesion holds has no restitution.
     with np.errstate(divide="ignore"):
-        pairs = zip((depth, area, restitution), exact, strict=True)
-        errors = [limit / value - 1 for limit, value in pairs]
-    return FastLimit(*(_check.frozen(values) for values in (depth, area, restitution, *errors)))
+        return FastLimit(
+            max_depth=_check.frozen(depth),
+            contact_area=_check.frozen(area),
+            restitution=_check.frozen(restitution),
+            max_depth_error=_check.frozen(depth / hit.max_depth - 1),
+            contact_area_error=_check.frozen(area / (np.pi * hit.contact_radius**2) - 1),
+            restitution_error=_check.frozen(restitution / hit.restitution - 1),
+        )
 
 
 def how_fast(hit):

@@ -165,6 +165,17 @@ def test_a_contact_beyond_double_precision_is_refused():
         mdr.indent(mdr.Paraboloid(1e-6), MEDIUM, 1e140)
 
 
+def test_what_rounding_leaves_for_zero_is_taken():
+    """sin π of a force, and the last digit of an imprint: less than the shortest length and force."""
+    cone = mdr.Cone(0.3)
+    path = mdr.indent_to_force(cone, MEDIUM, 1e-12 * np.sin([np.pi / 2, np.pi]))
+    # Elastic: d ∝ √F, so that √(sin π) of the depth is left.
+    assert path.depth[1] == pytest.approx(np.sqrt(np.sin(np.pi)) * path.depth[0], rel=1e-12)
+    # A part of 10⁻²⁰ of the depth is less than its rounding.
+    fresh, again = (mdr.impact(cone, MEDIUM, 1e-12, 0.1, plastic_depth=d).max_depth for d in (0.0, 1e-30))
+    assert again == pytest.approx(fresh, rel=1e-12)
+
+
 def test_no_indenters_at_all():
     assert mdr.impact(mdr.Sphere([]), MEDIUM, 1.0, 1.0).max_depth.shape == (0,)
 

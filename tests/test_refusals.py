@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core._check import InvalidArgument
+from mdr_core._errors import InvalidArgument
 
 CONE, MEDIUM = mdr.Cone(0.3), mdr.Medium(1e9, 10.0)
 NAMED = SimpleNamespace(dims=("speed",), coords={})

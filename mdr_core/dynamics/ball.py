@@ -23,7 +23,8 @@ def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
     """
     speed = _check.positive("speed", speed, unit="m/s")
     angle = _check.finite_array("angle", angle, unit="rad")
-    outside, remedy = np.abs(angle) >= np.pi / 2, "from degrees by numpy.radians"
+    outside = np.abs(angle) >= np.pi / 2
+    remedy = "from degrees by numpy.radians"
     _check.refuse("angle", angle, outside, "must lie within −π/2 … π/2", unit="rad", remedy=remedy)
     _check.common_shape("at_angle", speed=speed, angle=angle)
     return _check.frozen(speed * np.cos(angle)), _check.frozen(speed * np.sin(angle))
@@ -55,9 +56,10 @@ class Ball:
     hollow: bool = False
 
     def __post_init__(self):
-        for name, unit in (("mass", "kg"), ("radius", "m")):
-            object.__setattr__(self, name, _check.positive(f"Ball {name}", getattr(self, name), unit=unit))
-        _check.common_shape("Ball", mass=self.mass, radius=self.radius)
+        mass = _check.positive("Ball mass", self.mass, unit="kg")
+        radius = _check.positive("Ball radius", self.radius, unit="m")
+        _check.common_shape("Ball", mass=mass, radius=radius)
+        _check.store(self, mass=mass, radius=radius)
 
     @property
     def inertia(self) -> Array:

@@ -99,18 +99,21 @@ def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=Fal
     imprint_depth = _check.positive("plastic_depth", plastic_depth, unit="m", zero=True)
     shape = shape_with("impact", profile, medium, mass=mass, speed=speed, plastic_depth=imprint_depth)
     mass, speed, imprint_depth = (np.broadcast_to(values, shape) for values in (mass, speed, imprint_depth))
-    outside, too_deep = imprint_depth > profile.known_depth, profile._too_deep()
+    too_deep = profile._too_deep()
+    outside = imprint_depth > profile.known_depth
     _check.refuse("plastic_depth", imprint_depth, outside, f"is {too_deep}", unit="m")
     # The search may start far from the root, where powers leave double precision.
     adhesive = np.any(np.asarray(medium.work_of_adhesion) > 0)
     if adhesive and in_time:
         refuse_adhesion(medium, "an equation of motion")
-    rule, load = yield_rule(profile, medium), 0.0
+    rule = yield_rule(profile, medium)
+    load = 0.0
     with np.errstate(all="ignore"):
         energy = np.broadcast_to(mass * speed**2 / (4 * medium.E_star), shape)
         if adhesive:
             interval, stretched = adhesive_turning_interval(profile, medium, energy, imprint_depth)
-            increase, load = interval.lower - imprint_depth, -medium.E_star * stretched
+            increase = interval.lower - imprint_depth
+            load = -medium.E_star * stretched
         else:
             interval, increase = turning_interval(rule, energy, imprint_depth)
         integrated = None
@@ -133,15 +136,19 @@ def _integrated(bodies, penetration, mass, E_star, in_time):
 
     It is solved where the medium is viscous, or everywhere if `in_time`.
     """
-    shape, penetration = np.shape(penetration), penetration.ravel()
+    shape = np.shape(penetration)
+    penetration = penetration.ravel()
     velocity, time, work, deceleration = np.zeros((4, penetration.size))
     solved = (bodies.relaxation_time[:, 0] > 0) | in_time
     numbers = np.flatnonzero(solved)
     for block in chunks(numbers.size, 256):
         rows = numbers[block]
         solution = solve(bodies[rows])
-        penetration[rows], end = solution.turning_point.depth[:, 0], solution.end[:, 0]
-        velocity[rows], time[rows], work[rows] = end.velocity, end.time, end.work
+        end = solution.end[:, 0]
+        penetration[rows] = solution.turning_point.depth[:, 0]
+        velocity[rows] = end.velocity
+        time[rows] = end.time
+        work[rows] = end.work
         deceleration[rows] = solution.max_deceleration
     quantities = {
         "solved": solved.reshape(shape),
@@ -200,14 +207,30 @@ class Impact(ImpactResult):
         """How it was solved: by the energy balance in closed form, or by the equation of motion."""
         return CLOSED_FORM if self._integrated is None else SCALAR_ODE
 
-    max_depth = quantity_of("turning_point.depth", "Largest depth d_max (m), from the virgin surface.")
-    contact_radius = quantity_of("turning_point.contact_radius", "Largest contact radius a (m).")
-    plastic_radius = quantity_of("turning_point.plastic_radius", "Radius c (m) of the final plastic zone.")
-    plastic_depth = quantity_of("turning_point.plastic_depth", "Plastic depth d_p (m) that remains.")
-    stored_energy = quantity_of(
-        "turning_point.stored_energy",
-        "Elastic energy (J) at the turning point; without viscosity all of it is returned.",
-    )
+    @property
+    def max_depth(self) -> Array:
+        """Largest depth d_max (m), from the virgin surface."""
+        return self.turning_point.depth
+
+    @property
+    def contact_radius(self) -> Array:
+        """Largest contact radius a (m)."""
+        return self.turning_point.contact_radius
+
+    @property
+    def plastic_radius(self) -> Array:
+        """Radius c (m) of the final plastic zone."""
+        return self.turning_point.plastic_radius
+
+    @property
+    def plastic_depth(self) -> Array:
+        """Plastic depth d_p (m) that remains."""
+        return self.turning_point.plastic_depth
+
+    @property
+    def stored_energy(self) -> Array:
+        """Elastic energy (J) at the turning point; without viscosity all of it is returned."""
+        return self.turning_point.stored_energy
 
     def _merged(self, name, dry):
         """A quantity from the equation of motion where that was solved, else from a function without it."""
@@ -266,18 +289,19 @@ class Impact(ImpactResult):
         if self._adhesive:
             kinetic = self.mass * self.speed**2 / (4 * self.medium.E_star)
             return np.sqrt(np.maximum(self._rebound_energy, 0.0) / kinetic)
-        interval, rule = self.turning_point.live_interval, yield_rule(self.profile, self.medium)
+        interval = self.turning_point.live_interval
+        rule = yield_rule(self.profile, self.medium)
         increase = self.plastic_depth_increase
         return self._merged("restitution", lambda: dry_restitution(rule, interval, increase))
 
     @_check.frozen_property
     def contact_time(self):
         """Time (s) from first contact to the loss of contact; infinite for a captured body."""
-        inertia, interval = self.mass / (2 * self.medium.E_star), self.turning_point.live_interval
-        arguments = self.profile, inertia, self.speed, interval, self.plastic_depth_increase
+        inertia = self.mass / (2 * self.medium.E_star)
+        arguments = inertia, self.speed, self.turning_point.live_interval, self.plastic_depth_increase
         if self._adhesive:
-            return adhesive_contact_time(self.profile, self.medium, *arguments[1:])
-        return self._merged("contact_time", lambda: contact_time(*arguments))
+            return adhesive_contact_time(self.profile, self.medium, *arguments)
+        return self._merged("contact_time", lambda: contact_time(self.profile, *arguments))
 
     @property
     def fast_limit(self) -> FastLimit:

@@ -166,8 +166,8 @@ class TimedIndentation(Result):
     _state_fields = (*(set(_quantities) - {"plastic_radius"}), "_index")
 
     def __post_init__(self):
-        for name in self._state_fields:
-            object.__setattr__(self, name, _check.frozen(np.array(getattr(self, name))))
+        copies = {name: np.array(getattr(self, name)) for name in self._state_fields}
+        _check.store(self, **{name: _check.frozen(values) for name, values in copies.items()})
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:

@@ -96,7 +96,8 @@ class Foundation:
             return
         check_pair(self.profile, self.medium, "a foundation")
         refuse_adhesion(self.medium, "a foundation")
-        n, known = element_count(self.n), self.profile.known_radius
+        n = element_count(self.n)
+        known = self.profile.known_radius
         half_width = _check.positive_number("half_width", self.half_width, unit="m")
         if half_width > known:
             raise ValueError(
@@ -105,14 +106,13 @@ class Foundation:
             )
         nodes = _check.finite_array("nodes", self.nodes, unit="m").ravel()
         edges = cell_edges(self.profile, n // 2, half_width, nodes)
-        x, width = np.append(0.0, (edges[1:] + edges[:-1]) / 2), np.append(0.0, np.diff(edges))
+        x = np.append(0.0, (edges[1:] + edges[:-1]) / 2)
+        width = np.append(0.0, np.diff(edges))
         # The tolerance admits a half-width equal to the rounded contact radius.
         edge_depth = self.profile.reduced(min(half_width * (1 + 1e-9), known))
         edge_depth = np.inf if half_width >= self.profile.wall else edge_depth
         current = FoundationState(Elements.virgin(self.profile, x, width), edge_depth)
-        values = {"n": n, "half_width": half_width, "nodes": tuple(nodes.tolist()), "_current": current}
-        for name, value in values.items():
-            object.__setattr__(self, name, value)
+        _check.store(self, n=n, half_width=half_width, nodes=tuple(nodes.tolist()), _current=current)
 
     def __repr__(self) -> str:
         width, moves = engineering(self.half_width, "m"), len(self.history)

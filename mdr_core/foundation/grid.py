@@ -24,8 +24,10 @@ def cell_edges(profile, count, half_width, nodes=()):
     # One element per interval; the others are rounded such that their sum is right.
     extra = np.diff(np.floor((count - len(share)) * np.append(0, np.cumsum(share)) + 0.5).astype(int))
     extra[-1] += count - len(share) - extra.sum()
-    intervals = zip(fixed, fixed[1:], 1 + extra, _grading(profile, fixed), strict=False)
-    edges = [low + (high - low) * (np.arange(n) / n) ** p for low, high, n, p in intervals]
+    power = _grading(profile, fixed)
+    edges = []
+    for i, n in enumerate(1 + extra):
+        edges.append(fixed[i] + (fixed[i + 1] - fixed[i]) * (np.arange(n) / n) ** power[i])
     return np.concatenate([*edges, [half_width]])
 
 

@@ -115,7 +115,8 @@ class Profile(_check.Parameters, ABC):
 
     def _of_radius(self, quantity, r, function):
         """`function` at checked radii |r| (m)."""
-        r, known = np.abs(self._places(quantity, r)), np.min(self.known_radius, initial=np.inf)
+        r = np.abs(self._places(quantity, r))
+        known = np.min(self.known_radius, initial=np.inf)
         bound = f"is beyond the radius up to which the shape is known, {known:g} m"
         _check.refuse(quantity, r, r > self.known_radius, bound, unit="m")
         with np.errstate(all="ignore"):
@@ -131,7 +132,8 @@ class Profile(_check.Parameters, ABC):
         """`depth` (m), if the profile is known to it."""
         if np.all(self.known_depth == np.inf):
             return depth
-        too_deep, bound = depth > self.known_depth, f"is {self._too_deep()}"
+        too_deep = depth > self.known_depth
+        bound = f"is {self._too_deep()}"
         return _check.refuse("depth", depth, too_deep, bound, unit="m", remedy="press less deep")
 
     def _too_deep(self):

@@ -51,12 +51,12 @@ class Sampled(Profile):
             raise ValueError(f"Sampled has {r.size} samples, more than {_MOST_SAMPLES}; {remedy}")
         if r[0] != 0:
             raise ValueError(f"Sampled r[0] = {r[0]:g} m must be 0: add the sample at the tip")
-        tiny, bound = (r > 0) & (r < _check.SHORTEST), f"must be 0 or at least {_check.SHORTEST:g}"
+        tiny = (r > 0) & (r < _check.SHORTEST)
+        bound = f"must be 0 or at least {_check.SHORTEST:g}"
         _check.refuse("Sampled r", r, tiny, bound, unit="m", remedy="give it in SI units")
         back = np.append(False, np.diff(r) <= 0)
         _check.refuse("Sampled r", r, back, "does not ascend", unit="m", remedy="sort, and drop duplicates")
-        object.__setattr__(self, "r", tuple(r.tolist()))
-        object.__setattr__(self, "z", tuple((z - z[0]).tolist()))
+        _check.store(self, r=tuple(r.tolist()), z=tuple((z - z[0]).tolist()))
         self._refuse_concave()
 
     def __repr__(self) -> str:
@@ -268,7 +268,8 @@ class Sampled(Profile):
 
 def _lists(what, r, z, **bounds):
     """Check that radii and heights (m) are two lists of one length, and return them as arrays."""
-    r, z = (_check.finite_array(f"{what} {n}", v, unit="m", **bounds) for n, v in (("r", r), ("z", z)))
+    r = _check.finite_array(f"{what} r", r, unit="m", **bounds)
+    z = _check.finite_array(f"{what} z", z, unit="m", **bounds)
     if r.ndim != 1 or r.shape != z.shape or r.size < 2:
         shapes = f"got shapes {r.shape}, {z.shape}"
         raise ValueError(f"{what} r and z must be two lists of one length ≥ 2, {shapes}")

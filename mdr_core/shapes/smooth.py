@@ -49,9 +49,9 @@ class Smooth(Profile):
             raise ValueError(f"Smooth slope_function must be a function of the radius, got {given}")
         if not isinstance(self.slope_function, Hashable):
             # As those of NumPy's polynomials, whose methods are hashable.
-            object.__setattr__(self, "slope_function", self.slope_function.__call__)
+            _check.store(self, slope_function=self.slope_function.__call__)
         radius = _check.positive_number("Smooth radius", self.radius, unit="m", infinite=True)
-        object.__setattr__(self, "radius", radius)
+        _check.store(self, radius=radius)
 
     shape = ()
     known_radius = property(lambda self: self.radius)

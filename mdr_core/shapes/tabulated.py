@@ -155,7 +155,9 @@ class OneLength(Profile):
 
 def _unit_radius(kind, depth):
     """u with G(u) = `depth` of a class of profiles, elementwise."""
-    u = increasing_root(lambda u: (kind._G(u), kind._G_slope(u)), depth, 1.0, kind._end, largest=np.inf)
+    # The largest depth over the smallest unit of depth, s²R.
+    limit = _check.LONGEST**4
+    u = increasing_root(lambda u: (kind._G(u), kind._G_slope(u)), depth, 1.0, kind._end, largest=limit)
     return np.maximum(np.where(u < np.inf, u, kind._end), kind._edge)
 
 
