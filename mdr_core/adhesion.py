@@ -18,7 +18,7 @@ import numpy as np
 from . import _check
 from .integrals import integrals
 from .live_interval import LiveInterval
-from .medium import plastic_depth
+from .yielding import yield_rule
 
 #: Least a g′(a)/Δl of a stable state at given depth, and at given force.
 AT_DEPTH, AT_FORCE = 0.5, 1.5
@@ -182,7 +182,7 @@ def depth_path(profile, medium, depth):
 def first_contacts(profile, medium, depth):
     """Live intervals and line loads (N/m) of first loadings to depths (m), elementwise."""
     low = single_range(profile, medium, AT_DEPTH)
-    lower, touching = plastic_depth(depth, medium.critical_depth), depth >= 0
+    lower, touching = yield_rule(profile, medium).plastic_depth(depth), depth >= 0
     live_depth = np.maximum(np.where(lower > 0, medium.critical_depth, depth), 0.0)
     interval, stretched = contact_interval(profile, medium, lower, live_depth, low, profile.known_depth)
     _check.refuse("depth", depth, np.isnan(stretched), f"presses {profile._too_deep()}", unit="m")
@@ -194,7 +194,7 @@ def first_contacts(profile, medium, depth):
 def _one_path(profile, medium, depth):
     """Lower and upper end and length (m) of the live interval, and line load (N/m), along one path."""
     d_c, largest = medium.critical_depth, np.maximum.accumulate(depth)
-    lower = plastic_depth(largest, d_c)
+    lower = yield_rule(profile, medium).plastic_depth(largest)
     live_depth = np.where(lower > 0, d_c - (largest - depth), depth)
     # The bottom of the imprint is known to the rounding of the largest depth.
     live_depth = np.where(np.abs(live_depth) <= 4e-16 * largest, 0.0, live_depth)
@@ -288,7 +288,7 @@ def loaded_interval(profile, medium, upper, before=0.0):
     """Live interval [d_p, D] on loading up to D (m), over an imprint of depth `before` (m); and Δl (m)."""
     stretched = stretch(medium, profile._radius(upper))
     depth = upper - stretched
-    lower = np.maximum(before, plastic_depth(depth, medium.critical_depth))
+    lower = np.maximum(before, yield_rule(profile, medium).plastic_depth(depth))
     length = np.where(lower > before, medium.critical_depth + stretched, upper - before)
     return LiveInterval(*np.broadcast_arrays(lower, upper, length)), stretched
 

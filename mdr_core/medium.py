@@ -59,11 +59,6 @@ def yield_constant(E_star, critical_depth):
     return 2 / np.pi * E_star * critical_depth
 
 
-def plastic_depth(largest_depth, critical_depth):
-    """Plastic depth d_p = max(0, d_max − d_c) (m) that a largest depth d_max (m) leaves behind."""
-    return np.maximum(largest_depth - critical_depth, 0.0)
-
-
 def _poisson(quantity, ratio):
     """A Poisson ratio as a float array."""
     ratio = _check.finite_array(quantity, ratio)
