@@ -70,7 +70,7 @@ class InvalidArgument(ValueError):
     value : object
         The value that is refused, without its unit; of an array, its first invalid entry.
     bound : str
-        What it must be, or what is wrong with it: "must be finite and positive", "is negative".
+        The requirement, or what is wrong with the value: "must be finite and positive", "is negative".
     unit, remedy : str
         SI unit, and what to do; empty where there is none.
 
