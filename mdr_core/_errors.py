@@ -37,7 +37,7 @@ class InvalidArgument(ValueError):
     value : object
         The value that is refused, without its unit; of an array, its first invalid entry.
     bound : str
-        The bound that is missed, in words: "must be finite and positive", "is negative".
+        The requirement, or what is wrong with the value: "must be finite and positive", "is negative".
     unit, remedy : str
         SI unit, and what to do; empty where there is none.
 

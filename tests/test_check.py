@@ -223,6 +223,8 @@ def test_an_unknown_keyword_is_told_what_there_is(make, says):
             "depth",
             "this Impact has no 'depth'; .*'max_depth'",
         ),
+        # Fields have no class attribute.
+        (mdr.indent(mdr.Cone(0.3), MEDIUM, 1e-9), "depht", "this Indentation has no 'depht'; .* 'depth'"),
     ],
 )
 def test_an_unknown_name_is_told_the_nearest_one(owner, name, says):

@@ -162,3 +162,52 @@ class TestData:
             fit = mdr.fit_indentation(tip, *change(depth, force, noise), **free)
             assert words in fit.remarks[0]
             assert not mdr.fit_indentation(tip, depth, force, **free).remarks
+
+    @pytest.mark.parametrize("baseline", [0.0, None])
+    @pytest.mark.parametrize("noise", [0.0, 0.003, 0.01])
+    def test_columns_of_a_yielding_cone_pressed_only(self, baseline, noise):
+        """Its force is nearly linear in the depth: by the loading alone E* is not determined."""
+        depth = np.linspace(-20e-9, 600e-9, 400)
+        force = mdr.indent(CONE, mdr.Medium(70e9, 2e3), depth).force
+        force = force + noise * force.max() * np.random.default_rng(3).normal(size=force.size)
+        swapped = mdr.fit_indentation(CONE, force, depth, baseline=baseline)
+        assert "depth and force are swapped" in swapped.remarks[0]
+        # Held at 0 N, the baseline refuses forces that are all negative.
+        reversed_ = mdr.fit_indentation(CONE, -depth, -force, baseline=None)
+        assert "depth and force have the other sign" in reversed_.remarks[0]
+        fit = mdr.fit_indentation(CONE, depth, force, baseline=baseline)
+        assert not [remark for remark in fit.remarks if "straight line" in remark]
+
+
+NO_CONTACT = "no contact is seen"
+
+
+class TestContactIsSeen:
+    @pytest.mark.parametrize("shift", [-2.0, -1.0, 1.0, 2.0])
+    def test_in_a_curve_whose_retract_is_shifted(self, shift):
+        """By a share of the largest force, which takes up most of the variance: a drag is named first."""
+        largest = mdr.indent(BALL, GEL, DEPTH).force.max()
+        fit = elastic(extra=np.where(TIME > 1, shift * largest, 0.0))
+        assert fit.remarks[0].startswith("a drag of")
+        assert NO_CONTACT not in str(fit.remarks)
+
+    @pytest.mark.parametrize("rows", ["approach", "retract", "whole"])
+    def test_in_a_measured_curve_with_drag_and_pull_off(self, rows):
+        """The force in the last fifth of the depth varies by more than twice that of the others."""
+        segments = ["approach", "retract"] if rows == "whole" else [rows]
+        depth, force = np.hstack([measured("qi-noisy-2", segment) for segment in segments])
+        time = 1e-4 * np.arange(depth.size)
+        fit = mdr.fit_indentation(BALL, depth, force, time=time, q_c=np.inf, baseline=None)
+        assert NO_CONTACT not in str(fit.remarks)
+
+    @pytest.mark.parametrize("start", [-1e-7, 0.0, 2e-7, 5e-7])
+    def test_in_a_noisy_record_that_begins_at_contact_or_in_it(self, start):
+        """With noise of 20 % of the force: the contact explains half of the variance or more."""
+        depth = np.interp(TIME, [0, 1, 2], [start, 1e-6, start])
+        force = mdr.indent(BALL, GEL, depth).force
+        for seed in range(5):
+            noise = 0.2 * force.max() * np.random.default_rng(seed).normal(size=force.size)
+            fit = mdr.fit_indentation(BALL, depth, force + noise, q_c=np.inf, baseline=None)
+            assert NO_CONTACT not in str(fit.remarks)
+            alone = mdr.fit_indentation(BALL, depth, noise, q_c=np.inf, baseline=None)
+            assert NO_CONTACT in alone.remarks[0]

@@ -112,6 +112,18 @@ def test_the_report_of_a_fit_has_it_where_there_is_an_unloading():
     assert "Oliver" not in repr(mdr.fit_indentation(profile, depth[:60], force[:60], **held))
 
 
+@pytest.mark.parametrize(
+    "parameters", [{"eta": None}, {"eta": 1e6}, {"work_of_adhesion": None}, {"work_of_adhesion": 0.01}]
+)
+def test_a_report_leaves_it_out_of_media_whose_unloading_is_no_power_law(parameters):
+    """A viscous medium has another stiffness, one with adhesion another contact radius."""
+    profile, time = mdr.Cone(0.3), np.linspace(0.0, 1.0, DEPTH.size)
+    force = mdr.indent(profile, mdr.Medium(E), DEPTH).force
+    assert "Oliver" in repr(mdr.fit_indentation(profile, DEPTH, force, time=time, q_c=np.inf))
+    fit = mdr.fit_indentation(profile, DEPTH, force, time=time, q_c=np.inf, **parameters)
+    assert "Oliver" not in repr(fit)
+
+
 def test_its_error_in_a_report_is_also_that_of_the_contact_point():
     """Of 60 unloadings, the standard deviation of whose pulls is known to 9 %: four of these around 1.
 

@@ -11,16 +11,19 @@ from .nested import nested_tests
 
 #: All kinds of remarks, the most important first.
 KINDS = (
-    "units", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag", "drift", "misfit",
-    "jitter", "loading", "vague", "contact", "class", "elastic", "hardly yields", "noisy", "rest",
+    "units", "no contact", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag", "drift",
+    "misfit", "jitter", "loading", "vague", "contact", "class", "elastic", "hardly yields", "noisy", "rest",
     "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
-DOUBTS = {"units", "tilt", "drag", "drift", "misfit", "jitter", "class", "noisy"}
+DOUBTS = {"units", "no contact", "tilt", "drag", "drift", "misfit", "jitter", "class", "noisy"}
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
 #: Largest range of depth (m), and least share of the variance of the force that a contact explains.
 _LONGEST, _EXPLAINED = 1e-3, 0.75
+#: Least share that noise does not reach, and least ratio of the unexplained shares of other columns.
+_SEEN, _BENT = 0.25, 1.1
+_SWAPPED, _NO_CONTACT = "depth and force are swapped", "no contact is seen in this record"
 #: Least distance of the pull-off from that of the model, as a share of the range of depth.
 _PULL_OFF = 0.02
 #: Root mean square of correlated residuals over the range of force above which the model does not fit, of
@@ -32,7 +35,12 @@ def remarks_of(solved):
     """Remarks on each curve of `SolvedCurves`: a sentence by its kind, the same for all curves."""
     checks = _units, _ambiguous, _adhesion, _undetermined, _jitter, _class_b, _misfit, nested_tests
     curves = range(len(solved.rows))
-    return [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in curves]
+    remarks = [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in curves]
+    for each in remarks:
+        # The contact may be hidden by what a linear parameter describes.
+        if {"tilt", "drag", "drift"} & set(each):
+            each.pop("no contact", None)
+    return remarks
 
 
 def by_importance(remarks):
@@ -54,31 +62,49 @@ def _units(solved, i):
     squares = np.sum((solved.residual[i] * solved.noise[i]) ** 2)
     variance = np.sum((force - force.mean()) ** 2)
     line = variance * (1 - np.corrcoef(depth, force)[0, 1] ** 2)
-    if not problem.adhesive and squares > (1 - _EXPLAINED) * variance and line < 1.1 * squares:
-        others = {
-            "depth and force are swapped": (force, depth),
-            "the depth has the other sign, it must grow as the indenter goes in": (-depth, force),
-            "the force has the other sign, it must be positive in compression": (depth, -force),
-            "depth and force have the other sign": (-depth, -force),
-        }
-        shares = {cause: _share_of_contact(*pair) for cause, pair in others.items()}
-        cause = max(shares, key=shares.get)
-        if shares[cause] < max(_EXPLAINED, _share_of_contact(depth, force)):
-            cause = "no contact is seen in this record"
-        yield "units", f"a straight line fits the force as well as an indentation: {cause}"
-    elif not 1.0 <= E <= 1e13:
+    shares, own = _shares_of_others(depth, force), _share_of_contact(depth, force)
+    least, plausible = max(_EXPLAINED, own), 1.0 <= E <= 1e13
+    swapped = not plausible and shares.get(_SWAPPED, 0.0) >= least
+    cause = _SWAPPED if swapped else max(shares, key=shares.get)
+    other = shares[cause] >= least
+    unexplained = squares > (1 - _EXPLAINED) * variance
+    bent = other and 1 - own > _BENT * (1 - shares[cause])
+    if not problem.adhesive and line < 1.1 * squares and (unexplained or bent):
+        text = "a straight line fits the force as well as an indentation"
+        if other:
+            yield "units", f"{text}: {cause}"
+        elif not _contact_is_seen(depth, force):
+            yield "no contact", f"{text}: {_NO_CONTACT}"
+    elif not plausible:
         small = E < 1.0 and np.ptp(depth) < _LONGEST
-        cause = "no contact is seen in this record" if small else "give depth in m and force in N"
-        yield "units", f"E* = {engineering(E, 'Pa')} is that of no material: {cause}"
+        text = f"E* = {engineering(E, 'Pa')} is that of no material"
+        if small and not swapped and not _contact_is_seen(depth, force):
+            yield "no contact", f"{text}: {_NO_CONTACT}"
+        else:
+            yield "units", f"{text}: {_SWAPPED if swapped else 'give depth in m and force in N'}"
+
+
+def _shares_of_others(depth, force):
+    """`_share_of_contact` of the columns exchanged or with the other sign, by what is wrong then."""
+    others = {
+        "the depth has the other sign, it must grow as the indenter goes in": (-depth, force),
+        "the force has the other sign, it must be positive in compression": (depth, -force),
+        "depth and force have the other sign": (-depth, -force),
+    }
+    if np.ptp(force) < _LONGEST and 1.0 < np.ptp(depth) / np.ptp(force) ** 2 < 1e13:
+        others[_SWAPPED] = force, depth
+    return {cause: _share_of_contact(*pair) for cause, pair in others.items()}
+
+
+def _pressed(depth):
+    """The loading, or the unloading of a record that begins near its largest depth, as a slice."""
+    top = int(np.argmax(depth))
+    return slice(top + 1) if top > depth.size / 4 else slice(top, None)
 
 
 def _share_of_contact(depth, force):
-    """Share of the variance of the force that grows as (depth − z₀)^(3/2), with the best z₀.
-
-    On the loading, or on the unloading of a record that begins near its largest depth.
-    """
-    top = int(np.argmax(depth))
-    part = slice(top + 1) if top > depth.size / 4 else slice(top, None)
+    """Share of the variance of the force that grows as (depth − z₀)^(3/2), with the best z₀."""
+    part = _pressed(depth)
     depth, deviation, shares = depth[part], force[part] - force[part].mean(), [0.0]
     for point in np.linspace(depth.min(), depth.max(), 50)[:-1]:
         column = np.maximum(depth - point, 0.0) ** 1.5
@@ -86,6 +112,14 @@ def _share_of_contact(depth, force):
         product = max(column @ deviation, 0.0)
         shares.append(product**2 / max((column @ column) * (deviation @ deviation), 1e-300))
     return max(shares)
+
+
+def _contact_is_seen(depth, force):
+    """Whether the force grows with depth, or varies more at large depths than elsewhere."""
+    part = _pressed(depth)
+    fifths = np.array_split(force[part][np.argsort(depth[part])], 5)
+    *others, last = (np.std(fifth) for fifth in fifths)
+    return _share_of_contact(depth, force) > _SEEN or last > 2 * np.median(others)
 
 
 def _ambiguous(solved, i):

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 #: Parameters besides those of the medium; arrays with one entry per curve, and per sample.
 _FURTHER = ("contact_point", "baseline", "tilt", "drag")
 _OF_MEDIUM = ("E_star", "q_c", "eta", "work_of_adhesion")
+_NO_UNLOADING = ("eta", "work_of_adhesion")
 _OF_CURVES = (*_FURTHER, "covariance", "reduced_chi_square", "block_length")
 _OF_SAMPLES = ("depth", "force", "time", "residuals")
 
@@ -151,7 +152,9 @@ class IndentationFit(Fit):
 
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
-        if set(self._remarks[0]) & DOUBTS:
+        # The unloading of a viscous or adhesive medium is no power law of the depth.
+        free_or_positive = (x in self.standard_errors or getattr(self.medium, x) > 0 for x in _NO_UNLOADING)
+        if set(self._remarks[0]) & DOUBTS or any(free_or_positive):
             return
         # Without background the measured force is that of the contact plus the residual.
         force, shift = self.path.force + self.residuals, self.standard_errors.get("contact_point", 0.0)

@@ -61,7 +61,8 @@ class Report:
     if not TYPE_CHECKING:
 
         def __getattr__(self, name):
-            known = [each for each in dir(type(self)) if not each.startswith("_")]
+            names = {*dir(type(self)), *type(self).__dataclass_fields__}
+            known = sorted(each for each in names if not each.startswith("_"))
             raise no_attribute(f"this {type(self).__name__}", name, known)
 
     def __array__(self, *_: Any, **__: Any) -> NoReturn:
