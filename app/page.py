@@ -169,7 +169,7 @@ class Page:
         self.apply(change)
 
     def _take_tip(self, file):
-        self.apply(lambda state: changes.take_tip(state, *read_tip(decoded(file.read()))))
+        self.apply(lambda state: changes.take_tip(state, *read_tip(decoded(file.read()), file.name)))
 
     def _hold_toggled(self, event):
         if event.new != is_held(self.state):
