@@ -131,9 +131,16 @@ class Page:
             self._show_history()
 
     def apply(self, change: Any, refused: Any = None, mark: str | None = None) -> None:
-        """Apply a change; show a refusal as a notice, or by `refused`."""
+        """Apply a change; show a refusal as a notice, or by `refused`.
+
+        Fields forget what was refused in them when the scene is changed elsewhere than in a field.
+        """
+        before = self.state
         try:
             self.apply_or_raise(change, mark)
+            if self.state.scene_values != before.scene_values:
+                for numbers in (*self.controls.numbers.values(), self.fitting.place, self.fitting.noise):
+                    numbers.forget()
         except ValueError as error:
             (refused or self.notify)(str(error))
             self._show_panels()
@@ -162,7 +169,7 @@ class Page:
         self.apply(change)
 
     def _take_tip(self, file):
-        self.apply(lambda state: changes.take_tip(state, *read_tip(decoded(file.read()))))
+        self.apply(lambda state: changes.take_tip(state, *read_tip(decoded(file.read()), file.name)))
 
     def _hold_toggled(self, event):
         if event.new != is_held(self.state):

@@ -7,6 +7,7 @@ from pathlib import Path
 import panel as pn
 
 from .state.quantities import QUANTITIES
+from .state.units import written
 
 HERE = Path(__file__).parent
 JS = {path.stem: path.read_text(encoding="utf-8") for path in (HERE / "js").glob("*.js")}
@@ -18,6 +19,7 @@ FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": STYLE}
 _LABELS = {name: quantity.label for name, quantity in QUANTITIES.items()}
 #: Parts of messages of the core that do not apply to the page.
 _EXPONENT = re.compile(r"(\d(?:\.\d+)?)e([+-]?)0?(\d+)\b")
+_LENGTH = re.compile(r"(?<![\d.])(\d(?:\.\d+)?)(e[+-]?\d+) m(?![\w/·²³^])")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PYTHON = re.compile(
     r"Sampled\.fit:? "
@@ -31,10 +33,11 @@ def indexed(text):
 
 
 def plain(text):
-    """Message of the core in words of the page: labels for names, no indices."""
+    """Message of the core in words of the page: labels for names, no indices, lengths as 32 nm."""
     for name, label in _LABELS.items():
         text = text.replace(f"{label} {name} ", f"{label} ")
     text = _PYTHON.sub("", text)
+    text = _LENGTH.sub(lambda e: written(float(e[1] + e[2]), "length", len(e[1].replace(".", ""))), text)
     text = _EXPONENT.sub(lambda e: f"{e[1]} × 10{(e[2].strip('+') + e[3]).translate(_RAISED)}", text)
     return re.sub(r"\b[a-zA-Z]+_[a-z_]{2,}\b", lambda name: _LABELS.get(name[0], name[0]), text)
 

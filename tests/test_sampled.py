@@ -304,6 +304,30 @@ class TestFit:
         miss = float(re.search(r"by (\S+) m \(rms", str(refused.value))[1])
         assert 1e-8 < miss < 4e-8
 
+    @pytest.mark.parametrize("wavelength", [8e-9, 30e-9 * 2 * math.pi])
+    @pytest.mark.parametrize("rows", [100, 400, 2000])
+    @pytest.mark.parametrize("width", [8e-7, 2e-6])
+    def test_a_wave_is_found_among_noise_of_a_fifth_of_it(self, wavelength, rows, width):
+        """From 0.4 to 471 samples a wavelength: neighbours alone do not tell coarse waves from noise."""
+        r = np.linspace(0, width, rows)
+        z = self.shape.height(r / 2) + 5e-8 * np.sin(2 * math.pi * r / wavelength)
+        for seed in range(3):
+            with pytest.raises(ValueError, match="wavy or concave"):
+                mdr.Sampled.fit(r, z + 1e-8 * np.random.default_rng(seed).standard_normal(rows))
+
+    @pytest.mark.parametrize("rows", [50, 100, 400, 2000])
+    @pytest.mark.parametrize("width", [1, 5])
+    def test_noise_of_any_size_is_no_wave(self, rows, width):
+        """1, 10 or 50 nm on a tip of 90 nm, also if the instrument has averaged five neighbours."""
+        r = np.linspace(0, 6e-7, rows)
+        for seed in range(24):
+            size = [1e-9, 1e-8, 5e-8][seed % 3]
+            noise = np.random.default_rng(seed).standard_normal(rows + width - 1)
+            z = r**2 / 4e-6 + size * np.convolve(noise, np.ones(width) / width**0.5, "valid")
+            tip = mdr.Sampled.fit(r, z)
+            # A fitted height is known better than that of one row: two standard errors of two of these.
+            assert abs(np.ptp(tip.height([2e-7, 5e-7])) - 5.25e-8) < 2 * math.sqrt(2) * size
+
     @pytest.mark.parametrize("width", [1, 5])
     def test_noise_is_no_wave(self, width):
         """Noise of 2 nm on a tip of 80 nm, also if the instrument has averaged neighbours."""

@@ -65,7 +65,9 @@ class Number(pn.custom.JSComponent):
             except ValueError as error:
                 refused, self._unit = str(error), unit
             self._asked = False
-            self.param.update(refused=refused, answered=event.data["number"])
+            # A number in another unit may be the present one, so that nothing else shows the unit.
+            text = entry(self._value, self._unit)
+            self.param.update(text=text, refused=refused, answered=event.data["number"])
 
     def _change(self, message):
         if isinstance(message.get("text"), str):
@@ -81,19 +83,21 @@ class Number(pn.custom.JSComponent):
         """Show a number; zero in the unit that fits the value `like`.
 
         The unit is that of the preset's number until another one is typed. What others change is shown in
-        it, too, unless that takes a power of ten.
+        it, too, unless that takes a power of ten. A refusal stays until the number changes.
         """
         known, value = QUANTITIES[self.key], state[self.key]
         changed = value != self._value and not self._asked
         if self._preset != state.preset or (changed and not self._unit.fits(value)):
             self._unit = fitting(value, known.kind, like)
+        if value != self._value or self._preset != state.preset:
+            show(self, refused="")
         self._value = value
         # The middle of the slider stays while it moves.
         if self._preset != state.preset or not self._scale.reaches(value):
             middle = PRESETS[state.preset].values.get(self.key, value)
             self._scale, self._preset = Scale.about(known, middle, value), state.preset
         text, position = entry(value, self._unit), self._scale.position(value)
-        show(self, text=text, position=position, refused="")
+        show(self, text=text, position=position)
 
 
 class Numbers(pn.Column):
@@ -111,6 +115,11 @@ class Numbers(pn.Column):
             if each.key in names:
                 each.show(state, (likes or {}).get(each.key, 0.0))
             show(each, visible=each.key in names)
+
+    def forget(self) -> None:
+        """Show the present numbers instead of refused ones."""
+        for each in self:
+            show(each, refused="")
 
 
 class Upload(pn.custom.JSComponent):

@@ -47,12 +47,18 @@ class Uploaded:
         return self.data
 
 
-def read_tip(text: str) -> tuple[tuple[Any, Any], str]:
+def _named(name: str) -> str:
+    """Name of a file in a line of text."""
+    return " ".join(name.split())[:80]
+
+
+def read_tip(text: str, name: str = "the file") -> tuple[tuple[Any, Any], str]:
     """Radii and heights (m) of an uploaded tip, and a note; the header names the units.
 
     Long, noisy or two-sided data become the nearest convex tip, see `mdr.Sampled.fit`. Raises ValueError.
     """
-    r, z = samples_of(text, "the file", None, _MAX_ROWS)
+    name = _named(name)
+    r, z = samples_of(text, name, None, _MAX_ROWS)
     try:
         if len(r) <= MAX_SAMPLES:
             return (mdr.Sampled(r, z).r, z - z[0]), f"{len(r)} samples as they are"
@@ -63,7 +69,11 @@ def read_tip(text: str) -> tuple[tuple[Any, Any], str]:
     if min(r) < 0 < max(r):
         r = r - axis_of_symmetry(r, z)
     parts = np.array_split(np.argsort(r, kind="stable"), min(rows, _FITTED))
-    tip = mdr.Sampled.fit(*(np.array([np.mean(of[part]) for part in parts]) for of in (r, z)))
+    averages = [np.array([np.mean(of[part]) for part in parts]) for of in (r, z)]
+    try:
+        tip = mdr.Sampled.fit(*averages)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
     # On a convex polygon every other one of its vertices is convex too.
     subset = np.unique(np.linspace(0, len(tip.r) - 1, MAX_SAMPLES).round().astype(int))
     samples = np.array(tip.r)[subset], np.array(tip.z)[subset]
@@ -150,7 +160,7 @@ def read_curve(data: bytes, name: str) -> Measured:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"the file{Path(name).suffix}"
         path.write_bytes(data)
-        name = " ".join(name.split())[:80]
+        name = _named(name)
         try:
             return Measured(name, mdr.read_curve(path))
         except ValueError as error:

@@ -1,7 +1,7 @@
 """States as links: defaults are left out, and links are read as hostile input."""
 
 import re
-from math import atan2, hypot, inf, isfinite
+from math import atan2, hypot, isfinite, isinf, nan
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
@@ -20,6 +20,8 @@ _IGNORED = re.compile(
 #: Names that mail programs and search engines append to links.
 _APPENDED = re.compile(
     r"utm_.*|\w*clk?id|gclsrc|[gw]braid|igsh(id)?|mc_[ce]id|_ga|_gl|_hs\w+|li_fat_id|srsltid|bokeh-.*"
+    r"|mkt_tok|mibextid|si|vero_id|ref",
+    re.IGNORECASE,
 )
 #: Presets of version 0.6 that had a paraboloid for a ball, and what else their links do not say.
 _FORMER_PRESETS = {"striker-glass_epoxy": "ball-glass_epoxy", "striker-epoxy-elastic": "ball-epoxy-elastic"}
@@ -128,6 +130,8 @@ def _value(name: str, text: str) -> tuple[str, Any]:
     name = _RENAMED.get(name, name)
     if name in CHOICES and _RENAMED.get(text, text) in CHOICES[name]:
         return name, _RENAMED.get(text, text)
+    if not text.strip() and name in (*CHOICES, *QUANTITIES, "at"):
+        raise ValueError(f"{name:.40} in this link has no value")
     if name in QUANTITIES:
         return name, checked(name, _number(name, text))
     if name in _LISTS:
@@ -148,9 +152,10 @@ def _value(name: str, text: str) -> tuple[str, Any]:
 
 def _number(name: str, text: str) -> float:
     try:
-        value = float(text) if len(text) <= 40 else inf
+        value = float(text) if len(text) <= 40 else nan
     except ValueError:
-        value = inf
+        value = nan
     if not isfinite(value):
-        raise ValueError(f"{name:.40} = {text:.40} in this link is not a number")
+        wrong = "too large" if isinf(value) else "not a number"
+        raise ValueError(f"{name:.40} = {text:.40} in this link is {wrong}")
     return value

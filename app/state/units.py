@@ -29,7 +29,7 @@ UNITS = {
 #: Kinds by the names of their SI units, as the core has them: "N" is a force.
 KINDS = {unit.name: kind for kind, units in reversed(UNITS.items()) for unit in units if unit.factor == 1}
 KINDS |= {"": "number", "rad": "angle"}
-#: Units that are read, but not chosen.
+#: Units that are read, and shown where they were typed.
 _READ = {"length": (Unit("Å", 1e-10), Unit("um", 1e-6))}
 
 
@@ -107,21 +107,21 @@ def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
             raise ValueError(f"“{text:.40}” can be {whole:.40} or {part:.40}: type one of these")
         plain = part
     match = _NUMBER.fullmatch(plain) if len(plain) <= 40 else None
-    units = (*UNITS[kind], *_READ.get(kind, ()))
-    units = {name: unit for unit in units for name in (unit.name, unit.name.translate(_KEYBOARD))}
+    known = (*UNITS[kind], *_READ.get(kind, ()))
+    units = {name: unit for unit in known for name in (unit.name, unit.name.translate(_KEYBOARD))}
     if match and kind == "slope" and match[3] == "°" and 0 < float(match[1]) < 90:
         return 1 / tan(radians(float(match[1]))), shown
     if match and kind == "slope" and match[3] == "°":
         raise ValueError("the half-angle is above 0° and below 90°")
     if match is None or (match[3] and match[3] not in units):
-        known = ", ".join(unit.name for unit in UNITS[kind] if unit.name) or "°" * (kind == "slope")
-        raise ValueError(f"“{text:.40}” is not a number" + f" with one of the units {known}" * bool(known))
+        names = ", ".join(unit.name for unit in UNITS[kind] if unit.name) or "°" * (kind == "slope")
+        raise ValueError(f"“{text:.40}” is not a number" + f" with one of the units {names}" * bool(names))
     factor = units[match[3]].factor if match[3] else 1.0 if match[2] else shown.factor
     # 15 nm as 1.5e-08, not as 1.5000000000000002e-08.
     value = float(f"{float(match[1]) * factor:.15g}")
     if not isfinite(value):
         raise ValueError(f"“{text}” is too large")
-    typed = (unit for unit in UNITS[kind] if match[3] and unit.factor == factor)
+    typed = (unit for unit in known if match[3] and unit.factor == factor)
     return value, next(typed, shown)
 
 

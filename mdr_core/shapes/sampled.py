@@ -89,8 +89,10 @@ class Sampled(Profile):
         """Fit the convex profile nearest to noisy samples, by least squares in the height.
 
         Samples may lie on both sides of the axis at r = 0, in any order; the height of the tip is fitted.
-        The fit is unbiased where the contact has many samples. Eight samples or more on one side that are
-        missed by more than four times their noise, and by more than 0.5 % of their height, are refused.
+        The fit is unbiased where the contact has many samples. Samples on one side that are missed by more
+        than 0.5 % of their height are refused if this is not noise: if eight samples or more are missed by
+        more than four times the noise between neighbours, or if the misfit of 50 samples or more is a wave,
+        which has about half of its variance or more.
         Noise of the heights limits what is known of the tip: from 400 heights with a noise of 2 nm at radii
         up to 0.5 µm, on a tip of 1 µm radius, forces at a depth of 20 nm scatter by 4 %.
 

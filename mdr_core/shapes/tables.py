@@ -25,6 +25,9 @@ _BRACKETS = re.compile(r"[(\[]\s*([^(\[)\]\s]+)\s*[)\]]")
 #: Misfit of a convex profile, over the noise and over the height, above which samples have another shape.
 #: Noise that is averaged over five neighbours looks 2.9 times smaller.
 _MISFIT, _SHARE = 4.0, 0.005
+#: Mean square of the autocorrelation of residuals above which they are waves, number of samples from which
+#: it is known, and its lags. Noise that is averaged over five neighbours has none at these lags.
+_WAVY, _ENOUGH_FOR_WAVES, _LAGS = 0.15, 50, range(6, 26)
 #: Fewest samples whose noise is known.
 _ENOUGH = 8
 #: Largest number of characters of a line.
@@ -234,17 +237,27 @@ def _refuse_misfit(r, residual, height):
     """Refuse samples of which no convex profile is near: residuals (m) that are a curve, not noise.
 
     Their third differences are those of noise alone: those of a wave of eight samples or more are a tenth.
+    Waves of any length are correlated with themselves, also among noise.
     """
     order = np.argsort(r, kind="stable")
     residual = residual[order] - np.mean(residual)
-    miss, noise = np.std(residual), np.sqrt(np.mean(np.diff(residual, 3) ** 2) / 20)
-    if miss > max(_MISFIT * noise, _SHARE * height):
+    miss = np.std(residual)
+    if miss <= _SHARE * height:
+        return
+    noise = np.sqrt(np.mean(np.diff(residual, 3) ** 2) / 20)
+    if miss > _MISFIT * noise or (residual.size >= _ENOUGH_FOR_WAVES and _correlation(residual) > _WAVY):
         worst = r[order][np.argmax(np.abs(residual))]
         raise ValueError(
             f"Sampled.fit: the nearest convex profile misses the samples by {miss:.2g} m (rms, most at r = "
-            f"{worst:.2g} m), and their noise is {noise:.1g} m: the tip is wavy or concave, so that the "
-            "contact would not be compact; smooth the samples, or leave out those outside the convex part"
+            f"{worst:.2g} m), which is not noise: the tip is wavy or concave, so that the contact would "
+            "not be compact; smooth the samples, or leave out those outside the convex part"
         )
+
+
+def _correlation(residual):
+    """Mean square of the autocorrelation of residuals: a²/2 for waves with a share a of the variance."""
+    residual = residual / np.sqrt(np.sum(residual**2))
+    return np.mean([np.dot(residual[lag:], residual[:-lag]) ** 2 for lag in _LAGS])
 
 
 def area_samples(coefficients, height, samples, limit):

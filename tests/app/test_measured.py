@@ -36,6 +36,26 @@ def test_long_files_are_thinned_and_refused_in_words_of_the_page():
         fitting.fit(fitting.take(preset_state(), flat))
 
 
+def test_a_refused_tip_is_named_and_its_misfit_is_in_a_fitting_unit():
+    page, notices = Page(), []
+    page.notify = notices.append
+    r = np.linspace(0, 400, 200)
+    wavy = table({"r (nm)": r, "z (nm)": r**2 / 2000 + 50 * np.sin(r / 30)})
+    for text, why in (
+        (wavy, r"the nearest convex profile misses the samples by (\d\d) nm \(rms, most at r = \d+ nm\), "),
+        ("depth\n", "no samples; expected rows of numbers"),
+        ("r (nm), z (nm)\n0, 0\n1, x\n", "expected two numbers r, z, found"),
+        ("r, z\n0, 0\n1, 1\n", "the header must name the units of r and z"),
+    ):
+        page._take_tip(Uploaded("my  tip.csv", len(text), text.encode()))
+        found = re.match(rf"my tip\.csv(?:, line \d)?: {why}", notices[-1])
+        assert found, notices[-1]
+        if text is wavy:
+            # An rms of at most 50/√2 nm.
+            assert 10 < float(found[1]) < 36
+    assert page.state.shape == "cone"
+
+
 def test_the_measured_example_lies_over_its_tip_with_the_numbers_of_oliver_and_pharr():
     """E* by the unloading beside the fit, 69.6 GPa: its own numbers are tested in the core."""
     page = Page()

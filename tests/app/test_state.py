@@ -1,5 +1,6 @@
 """What one person can set, without a browser: numbers, choices, presets, links of both versions, tips."""
 
+import re
 from dataclasses import fields
 from math import pi, radians, tan
 from urllib.parse import urlencode
@@ -146,11 +147,34 @@ def test_a_hostile_link_is_refused(query):
         link.read(query)
 
 
+@pytest.mark.parametrize(
+    ("query", "says"),
+    [
+        ("max_depth=1e400", "max_depth = 1e400 in this link is too large"),
+        ("max_depth=-1e400", "max_depth = -1e400 in this link is too large"),
+        ("max_depth=deep", "max_depth = deep in this link is not a number"),
+        ("max_depth=nan", "max_depth = nan in this link is not a number"),
+        ("max_depth", "max_depth in this link has no value"),
+        ("max_depth=+", "max_depth in this link has no value"),
+        ("shape=", "shape in this link has no value"),
+        ("at=", "at in this link has no value"),
+    ],
+)
+def test_a_link_is_refused_for_what_is_wrong(query, says):
+    with pytest.raises(ValueError, match=f"^{re.escape(says)}$"):
+        link.read(query)
+
+
 def test_what_others_append_to_a_link_is_left_out_and_other_names_are_told():
     query = "utm_source=teams&max_depth=5e-09&fbclid=IwAR" + 9000 * "0" + "&utm_source=a&foo=1&hold=bar%3D2"
     state = link.read(query)
     assert (state.max_depth, link.write(state.replace(hold=()))) == (5e-9, "max_depth=5e-09")
     assert link.unknown(query) == ["foo", "bar"]
+    appended = "UTM_SOURCE=a&mkt_tok=b&mibextid=c&si=d&vero_id=e&ref=f&FBCLID=g&references=all"
+    assert link.unknown(appended) == []
+    assert link.read(appended) == preset_state()
+    # Names that only begin like these, or like a number of the page, are told.
+    assert link.unknown("size=1&refer=2&MAX_DEPTH=3") == ["size", "refer", "MAX_DEPTH"]
     state = preset_state(DROP).replace(progress=0.5, tiles=("sweep",), dark=True, hold=("at=1",))
     assert link.unknown(f"{link.write(state)}&tau=1&aim=speed&references=all&sweep_from=1") == []
 

@@ -1,6 +1,13 @@
 """Numbers typed into the form: none is lost, and each has the unit that a person saw or wrote."""
 
+from types import SimpleNamespace
+
 import pytest
+
+from app import changes
+from app.page import Page
+from app.state import preset_state
+from app.state.units import UNITS, read
 
 from .conftest import DROP, Explorer
 
@@ -85,3 +92,59 @@ def test_a_bare_number_has_the_unit_that_was_last_seen_and_only_typing_changes_i
     page.keyboard.press("Escape")
     shows(drop, "v_0", "1.5 m/s")
     assert drop.link("speed=1.5")["mass"] == "0.7"
+
+
+def sent(number, text):
+    """What a field shows after a text was typed: its text and refusal. Without a browser."""
+    number._on_message(SimpleNamespace(data={"text": text, "number": number.answered + 1}))
+    return number.text, number.refused
+
+
+def test_a_field_shows_the_unit_of_a_bare_number_also_where_the_number_stays():
+    page = Page()
+    (depth,) = page.controls.numbers["drive"]
+    assert sent(depth, "20 nm") == ("20 nm", "")
+    assert sent(depth, "0.02 µm") == ("0.02 µm", "")
+    assert sent(depth, "0.03") == ("0.03 µm", "")
+    assert page.state.max_depth == 3e-8
+    # A refused unit is not that of the next number.
+    assert sent(depth, "1e9 mm")[0] == "0.03 µm"
+    assert sent(depth, "0.04") == ("0.04 µm", "")
+
+
+def test_a_refusal_stays_while_an_earlier_number_is_solved_and_another_is_typed():
+    page = Page(f"preset={DROP}")
+    (speed,) = [each for each in page.controls.numbers["drive"] if each.key == "speed"]
+    modulus, _ = page.controls.numbers["medium"]
+    sent(speed, "6 m/s")
+    text, refused = sent(modulus, "abc")
+    assert "“abc” is not a number" in refused
+    # A result that is found at rest is drawn.
+    page.draw(page.state, again=True)
+    assert (modulus.text, modulus.refused) == (text, refused)
+    assert "“abc” is not a number" in sent(speed, "abc")[1]
+    page.draw(page.state, again=True)
+    assert "“abc” is not a number" in speed.refused
+    assert sent(speed, "4.5") == ("4.5 m/s", "")
+    assert modulus.refused == refused
+    # The present number is typed instead.
+    assert sent(modulus, text) == (text, "")
+
+
+def test_a_refusal_is_left_behind_with_its_number():
+    page = Page()
+    (depth,) = page.controls.numbers["drive"]
+    assert sent(depth, "abc")[1] != ""
+    page.apply_or_raise(lambda state: changes.put(state, "max_depth", 2e-8))
+    assert (depth.text, depth.refused) == ("20 nm", "")
+
+
+@pytest.mark.parametrize("shown", UNITS["length"])
+def test_an_angstrom_is_shown_as_such_in_any_field(shown):
+    page = Page()
+    (depth,) = page.controls.numbers["drive"]
+    sent(depth, f"{preset_state().max_depth / shown.factor!r} {shown.name}")
+    assert sent(depth, "9 Å") == ("9 Å", "")
+    assert page.state.max_depth == 9e-10
+    assert sent(depth, "12") == ("12 Å", "")
+    assert read("3 um", "length", shown)[1].name == "µm"

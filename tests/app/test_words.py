@@ -161,3 +161,5 @@ def test_python_and_raw_indices_are_not_on_the_page():
         read_tip("0, 0\n1, 1\n")
     assert plain(str(refused.value)).endswith("m, mm, µm, nm, pm, Å")
     assert plain("give depth_noise, about 54 pm") == "give depth noise, about 54 pm"
+    said = "by 3.2e-08 m (r = 1e-06 m), 2e-3 m/s, 1.5e-12 m², beyond 1e+30"
+    assert plain(said) == "by 32 nm (r = 1 µm), 2 × 10⁻³ m/s, 1.5 × 10⁻¹² m², beyond 1 × 10³⁰"
