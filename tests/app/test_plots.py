@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from itertools import product
 
 import bokeh.models as bk
 import numpy as np
@@ -105,6 +106,20 @@ def test_only_exceeded_assumptions_are_seen_and_the_rest_folds():
     steep = preset_state(DROP).replace(speed=500.0)
     html = readouts.warnings(follow(steep), steep)
     assert html[: html.index("<details>")].count('class="beyond"') >= 2
+
+
+def test_a_hold_of_a_medium_without_viscosity_says_that_nothing_changes():
+    """Creep of an elastic-plastic medium: depth and force are constant over the whole hold."""
+    for damping, pattern in product(("none", "eta"), ("creep", "hold", "cycles")):
+        state = state_with(GOLD, "path", pattern=pattern, damping=damping)
+        course = follow(state)
+        said = [text for _, text in readouts.limits(course, state) if "Without viscosity" in text]
+        assert len(said) == (damping == "none" and pattern != "cycles")
+        if said:
+            held = course.motion.time >= state.ramp_time
+            for values in (course.states.depth[held], course.states.force[held]):
+                # To the rounding of the search for the depth under a force.
+                assert np.ptp(values) <= 1e-9 * values.max()
 
 
 @pytest.mark.parametrize("shape", SHAPED)
