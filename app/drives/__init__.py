@@ -13,6 +13,9 @@ from mdr_core import adhesion
 from mdr_core.dynamics.oblique_motion import ObliqueMotion
 from mdr_core.live_interval import LiveInterval
 
+#: States of unloading at which a loop with adhesion is evaluated: its area is good to three digits.
+_LOOP = 80
+
 
 @dataclass(frozen=True, eq=False)
 class Course:
@@ -158,6 +161,34 @@ class Course:
             stiff = 2 * self.scene.medium.E_star * self.states.contact_radius[index]
             d, force = np.append(depth, d), np.append(force[0] + stiff * (depth - d[0]), force)
         return d, force
+
+    def adhesive_loop(self, index: int) -> tuple[Any, Any, Any]:
+        """Depths (m), ascending, and forces (N) of loading and of unloading at each of them.
+
+        Loading is to a state, or to the largest depth if that is before it, and unloading to the pull-off.
+        The depths are the same, so that the forces differ only where the curves do; they end there.
+        """
+        states, turn = self.states, min(index, self.peak)
+        # Below first contact the path is a small part of a deep one.
+        whole, below = (
+            unloaded(self.scene, states.live_interval[start], np.linspace(1, 0, _LOOP), True)
+            for start in (turn, 0)
+        )
+        largest, end = states.depth[turn], whole.depth[-1]
+        # The force jumps at first contact and at the pull-off.
+        step = 1e-9 * states.depth[self.peak]
+        even = largest * np.linspace(0, 1, _LOOP)
+        d = np.concatenate([states.depth[: turn + 1], even, whole.depth, below.depth])
+        d = np.concatenate([d[(d > end + step) | (d >= 0)], [-step, end, end - step]])
+        d = np.unique(np.minimum(d, largest))
+        bodies = self.scene.profile, self.scene.medium
+        loading = mdr.indent(*bodies, d).force
+        unloading = mdr.indent(*bodies, np.append(largest, d[::-1])).force[:0:-1]
+        unloading = np.where(d > end, unloading, np.where(d == end, whole.force[-1], 0.0))
+        # Both are found to about 10⁻¹².
+        unloading = np.where(np.isclose(loading, unloading, rtol=1e-9, atol=0), loading, unloading)
+        apart = slice(np.max(np.flatnonzero(loading != unloading), initial=0) + 2)
+        return d[apart], loading[apart], unloading[apart]
 
 
 def unloaded(scene: mdr.Scene, live: LiveInterval, share: Any, touching: Any) -> mdr.Indentation:

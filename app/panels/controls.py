@@ -243,10 +243,8 @@ class Controls:
         onset = f"Yield starts at d_c = π q_c/(2E*) = {written(made.critical_depth, 'length')} (19)"
         eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
         idle = "" if course.dashpots else "; no effect here: pressing is quasi-static"
-        rests = getattr(course.scene.drive, "time", None) is not None
         texts = {
-            "drive": f"Energy {energy}; speed of a fall from {height}" * (state.drive == "impact")
-            + "Without viscosity nothing changes at rest." * (rests and made.eta == 0),
+            "drive": f"Energy {energy}; speed of a fall from {height}" * (state.drive == "impact"),
             "shape": f"<figcaption>{marked(shape.height)}<br>{marked(shape.reduced)}</figcaption>"
             + marked(state.tip_note if state.shape == "sampled" else angle),
             "medium": linked(onset if made.q_c < inf else "Nothing yields: q_c = ∞"),

@@ -25,9 +25,10 @@ SILICA = ASSETS / "silica.csv"
 
 
 def take(state: State, curve: Measured | None) -> State:
-    """Compare with a measured curve, or with none."""
+    """Compare with a measured curve, or with none; what a fit holds is the default again."""
     tiles = ("residual",) if curve else tuple(tile for tile in state.tiles if tile != "residual")
-    return with_curve(state, curve).replace(contact_point=0.0, baseline=0.0, tiles=tiles)
+    placed = {"contact_point": 0.0, "baseline": 0.0, "fixed": State().fixed}
+    return with_curve(state, curve).replace(tiles=tiles, **placed)
 
 
 def silica(state: State) -> State:
@@ -36,10 +37,11 @@ def silica(state: State) -> State:
     Its depths count from first contact.
     """
     fixed = tuple(name for name in FITTED if name not in ("E_star", "q_c"))
-    state = state.replace(shape="cone", cone_slope=mdr.Cone.from_half_angle(70.3).slope, fixed=fixed)
+    state = state.replace(shape="cone", cone_slope=mdr.Cone.from_half_angle(70.3).slope)
     curve = read_curve(SILICA.read_bytes(), "Fused silica, Berkovich tip.csv")
     depth, state = float(curve.data[0].max()), take(state, curve)
-    return state.replace(drive="depth", max_depth=checked("max_depth", depth), progress=1.0)
+    pressed = {"drive": "depth", "max_depth": checked("max_depth", depth), "progress": 1.0}
+    return state.replace(fixed=fixed, **pressed)
 
 
 def fit(state: State) -> State:
@@ -96,8 +98,10 @@ def result(state: State) -> str:
 def unloading(state: State) -> str:
     """Numbers of Oliver and Pharr for the curve where it lies, as HTML; empty without an unloading.
 
-    They need first contact: found by a fit, or held by who knows it.
+    They need first contact: found by a fit, or held by who knows it. Empty beside a fit that tells them.
     """
+    if state.curve.fit is not None and "Oliver and Pharr" in state.curve.report:
+        return ""
     known = state.curve.fit is not None or "contact_point" in state.fixed
     curve = state.curve.placed(state)
     with suppress(ValueError):

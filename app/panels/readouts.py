@@ -104,6 +104,9 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
         yield "note", "Adhesion holds the body: e = 0. Unloading is drawn as if it were pulled off."
     if course.pending:
         yield "note", course.pending
+    rests = getattr(course.scene.drive, "time", None) is not None
+    if rests and course.scene.medium.eta == 0:
+        yield "note", "Without viscosity nothing changes while the depth or force is held."
     given = state.elasticity != "modulus"
     if course.adhesive:
         # The fast limit is one without adhesion.

@@ -83,32 +83,26 @@ def _hysteresis(view: View, i: int, back_d, back_F) -> dict:
 
     Work is lost where the force of loading is above that of unloading, and gained where it is below, in
     reach of adhesion that an imprint no longer has. The stored energy is no area below the curve, because
-    surfaces are separated, too: drawn is what comes back before the force is tension.
+    surfaces are separated, too: drawn is what comes back before the force is tension. Under a given force
+    the pull-off may be above first contact, before anything has yielded: no loop is closed then.
     """
-    states, turn = view.course.states, min(i, view.course.peak)
-    out_d, out_F = states.depth[turn : i + 1], states.force[turn : i + 1]
-    if states.contact_radius[i] > 0:
-        out_d, out_F = np.append(out_d, back_d), np.append(out_F, back_F)
-    start, end = states.depth[0], out_d[out_F != 0][-1:]
-    step = 1e-9 * states.depth[view.course.peak]
-    x = np.unique(np.concatenate([states.depth[: turn + 1], out_d, [start - step], end, end - step]))
-    F_in = np.interp(x, states.depth[: turn + 1], states.force[: turn + 1], left=0.0)
-    F_out = np.interp(x, out_d[::-1], out_F[::-1], left=0.0)
-    around = np.append(x, x[::-1])
+    d, F_in, F_out = view.course.adhesive_loop(i)
+    around = np.append(d, d[::-1])
     lost = around, np.append(np.maximum(F_in, F_out), F_out[::-1])
     gained = around, np.append(F_out, np.minimum(F_in, F_out)[::-1])
     returned = _before_tension(back_d, back_F)
     works = [abs(float(trapezoid(*row[::-1]))) for row in (lost, gained, returned)]
     texts = [written(work, "energy", 3) for work in (*works, works[0] - works[1])]
-    net = f" − {texts[1]} gained = {texts[3]}" if works[1] > 1e-3 * works[0] else ""
+    closed, gains = works[0] > works[1], works[0] > works[1] > 1e-3 * works[0]
+    net = f" − {texts[1]} gained = {texts[3]}" * gains
     left, top = view.axis("d").start, view.end("F")
     height = top - view.axis("F").start
     left += 0.02 * (view.end("d") - left)
     return {
-        "dissipated": lost,
-        "gained": gained if net else NOTHING,
+        "dissipated": lost if closed else NOTHING,
+        "gained": gained if gains else NOTHING,
         "given back": returned,
-        "W_a": (left, top - 0.02 * height, f"dissipated {texts[0]}{net}"),
+        "W_a": (left, top - 0.02 * height, f"dissipated {texts[0]}{net}" * closed),
         "W_U": (left, top - 0.08 * height, f"given back {texts[2]}" if works[2] > 0 else ""),
     }
 

@@ -12,7 +12,8 @@ from app.panels import fitting
 from app.plots import PLOTS
 from app.solve import scene_of
 from app.state import PRESETS, medium, preset_state, profile
-from app.state.files import FITTED, Uploaded, agrees, offered, read_curve
+from app.state.files import FITTED, MAX_BYTES, Uploaded, agrees, offered, read_curve
+from app.state.quantities import ASSETS
 
 from .states import example_curve, fitted, table, view_of
 from .test_page import unit as unit_of
@@ -54,6 +55,43 @@ def test_a_refused_tip_is_named_and_its_misfit_is_in_a_fitting_unit():
             # An rms of at most 50/√2 nm.
             assert 10 < float(found[1]) < 36
     assert page.state.shape == "cone"
+
+
+def test_the_manual_names_the_limits_of_files_and_messages():
+    text = (ASSETS / "docs" / "explorer.md").read_text(encoding="utf-8")
+    files, messages = re.search(r"Files are limited to (\d+) MB, messages to (\d+) MB", text).groups()
+    assert int(files) * 10**6 == MAX_BYTES
+    assert int(messages) * 10**6 == int(re.search(r"--websocket-max-message-size (\d+)", text)[1])
+
+
+def test_a_new_file_starts_with_the_default_holds():
+    """The example holds first contact at 0; a later curve begins elsewhere, 10 % of its depth into it."""
+    default, page = preset_state().fixed, Page()
+    assert "contact_point" not in default
+    for curve in (example_curve(), None):
+        page.apply(fitting.silica)
+        assert "contact_point" in page.state.fixed
+        page.apply(lambda state, curve=curve: fitting.take(state, curve))
+        assert page.state.fixed == default
+    page.apply(fitting.silica)
+    page.apply(lambda state: fitting.take(state, example_curve()))
+    assert "need first contact" in page.fitting.unloading.object
+    # The example curve is made under the tip of the opening.
+    page.apply(lambda state: state.replace(shape="cone", cone_slope=preset_state().cone_slope))
+    page.apply(fitting.fit)
+    # Ten standard errors of 0.4 % noise in 400 samples.
+    assert page.state.E_star == pytest.approx(1.3 * medium(preset_state()).E_star, rel=1e-2)
+
+
+def test_one_result_of_oliver_and_pharr_stands_beside_a_curve():
+    """That of the fit where it has one; it has none where the model does not fit, as for the example."""
+    for change in (fitting.silica, lambda state: fitting.take(state, example_curve())):
+        page = Page()
+        page.apply(change)
+        page.apply(fitting.fit)
+        panel = page.fitting
+        texts = [panel.said.object, panel.unloading.object]
+        assert sum(text.count("Oliver and Pharr") for text in texts) == 1
 
 
 def test_the_measured_example_lies_over_its_tip_with_the_numbers_of_oliver_and_pharr():

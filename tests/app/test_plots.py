@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from itertools import product
 
 import bokeh.models as bk
 import numpy as np
@@ -26,8 +27,10 @@ from mdr_core.results.figures import SPRINGS, line, mark
 
 from .conftest import DROP, ELASTIC, GOLD, PUNCH
 from .states import numbers, solved, state_with, view_of, viscous
+from .test_drawn import amounts
 from .test_drives import oblique_state
 
+PDMS = "microsphere-pdms"
 SHAPED = [shape for shape in SHAPES if shape != "sampled"]
 
 
@@ -107,6 +110,20 @@ def test_only_exceeded_assumptions_are_seen_and_the_rest_folds():
     assert html[: html.index("<details>")].count('class="beyond"') >= 2
 
 
+def test_a_hold_of_a_medium_without_viscosity_says_that_nothing_changes():
+    """Creep of an elastic-plastic medium: depth and force are constant over the whole hold."""
+    for damping, pattern in product(("none", "eta"), ("creep", "hold", "cycles")):
+        state = state_with(GOLD, "path", pattern=pattern, damping=damping)
+        course = follow(state)
+        said = [text for _, text in readouts.limits(course, state) if "Without viscosity" in text]
+        assert len(said) == (damping == "none" and pattern != "cycles")
+        if said:
+            held = course.motion.time >= state.ramp_time
+            for values in (course.states.depth[held], course.states.force[held]):
+                # To the rounding of the search for the depth under a force.
+                assert np.ptp(values) <= 1e-9 * values.max()
+
+
 @pytest.mark.parametrize("shape", SHAPED)
 def test_the_surface_lies_on_the_tip_in_contact_and_below_it_beside(shape):
     state = state_with(shape=shape)
@@ -177,6 +194,79 @@ def test_the_relief_has_the_pressure_on_every_cut():
     top = float(np.max(y[:half] - y[half:][::-1]))
     assert top == pytest.approx(np.max(view.pressure(view.course.now)[1]), rel=0.02)
     assert np.isfinite(rows["zone 12"][0]).all()
+
+
+def jkr_loss(E_star, w, R):
+    """Energy (J) of the elastic springs and the surfaces lost at first contact and at the pull-off, of JKR.
+
+    The springs at x are compressed by d − x²/R, with d = a²/R − √(2πaw/E*). At first contact d = 0, and at
+    the pull-off dd/da = 0.
+    """
+    stretch = np.sqrt(2 * np.pi * w / E_star)
+    a = (stretch * R * np.array([1, 1 / 4])) ** (2 / 3)
+    d = a**2 / R - stretch * np.sqrt(a)
+    stored = E_star * (d**2 * a - 2 * d * a**3 / (3 * R) + a**5 / (5 * R**2))
+    first, last = stored - np.pi * w * a**2
+    return last - first
+
+
+def polygon(x, y):
+    """Area of a polygon."""
+    return abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2
+
+
+@pytest.mark.parametrize(
+    ("key", "radius", "depth"),
+    [(ELASTIC, 1e-3, 1e-6), (ELASTIC, 1e-3, 1e-5), (ELASTIC, 1e-3, 1e-4), (PDMS, 50e-6, 3e-7)],
+)
+def test_elastic_adhesion_loses_what_jump_and_pull_off_take_at_every_depth(key, radius, depth):
+    """Above first contact loading and unloading are one curve: nothing else is lost, nothing is gained."""
+    shape = {"shape": "paraboloid", "paraboloid_radius": radius, "max_depth": depth}
+    state = state_with(key, plasticity="none", adhesion="work").replace(work_of_adhesion=0.05, **shape)
+    view, expected = view_of(state), jkr_loss(medium(state).E_star, 0.05, radius)
+    for i in range(0, len(view.course), 10):
+        rows = view.rows(PLOTS["force"], i)
+        assert np.isnan(rows["gained"][0]).all()
+        # Chords of some 10⁻⁴, and three digits.
+        assert polygon(*rows["dissipated"]) == pytest.approx(expected, rel=1e-3)
+        assert re.findall("dissipated|gained", rows["W_a"][2]) == ["dissipated"]
+        [said] = amounts(rows["W_a"][2])
+        assert said == pytest.approx(expected, rel=5e-3)
+
+
+def test_the_loop_of_yield_with_adhesion_is_plastic_work_and_what_the_surfaces_take():
+    """Yield, the jump into contact of JKR and the rim of the imprint, π w c²; before yield JKR's alone."""
+    state = state_with(PDMS, adhesion="work").replace(work_of_adhesion=0.05, max_depth=1.7672e-6)
+    view, made, R = view_of(state), medium(state), 50e-6
+    i, depth = view.course.peak, 1.7672e-6 - medium(state).critical_depth
+    a = (2 * np.pi * 0.05 * R**2 / made.E_star) ** (1 / 3)
+    plastic = made.critical_depth * 4 / 3 * made.E_star * R**0.5 * depth**1.5
+    expected = plastic + 0.3 * made.E_star * a**5 / R**2 + np.pi * 0.05 * R * depth
+    for each in (i, i + 20, len(view.course) - 1):
+        rows = view.rows(PLOTS["force"], each)
+        said = amounts(rows["W_a"][2])
+        assert said[:2] == pytest.approx(
+            [polygon(*rows[name]) for name in ("dissipated", "gained")], rel=5e-3
+        )
+        assert said[2] == pytest.approx(expected, rel=2e-3)
+    early = int(np.argmax(view.course.states.depth > 0.9 * made.critical_depth))
+    text = view.rows(PLOTS["force"], early)["W_a"][2]
+    assert amounts(text) == pytest.approx([jkr_loss(made.E_star, 0.05, R)], rel=2e-3)
+
+
+@pytest.mark.parametrize("drive", ["force", "impact"])
+def test_no_loop_with_adhesion_gains_and_energies_are_said_where_it_is_drawn(drive):
+    """A cone under a force is pulled off above first contact: no loop is closed before it yields."""
+    view = view_of(state_with(GOLD, drive, adhesion="work").replace(work_of_adhesion=0.5))
+    said = []
+    for i in range(0, len(view.course), 10):
+        rows = view.rows(PLOTS["force"], i)
+        seen = {name for name in ("dissipated", "gained") if np.isfinite(rows[name][0]).any()}
+        assert seen == set(re.findall("dissipated|gained", rows["W_a"][2]))
+        said.append(amounts(rows["W_a"][2]))
+        assert all(amount > 0 for amount in said[-1])
+    assert bool(said[0]) == (drive == "impact")
+    assert said[-1]
 
 
 def test_a_new_plot_is_one_entry():
