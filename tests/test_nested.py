@@ -104,9 +104,9 @@ class TestYielding:
     RAMP = np.interp(TIME, [0, 5, 80, 140], 1e-9 * np.array([-20, 0, 600, 500]))
     HOLD = np.interp(TIME, [0, 5, 60, 90, 130, 140], 1e-9 * np.array([-20, 0, 600, 545, 545, 500]))
 
-    def fit(self, depth, drift):
-        force = mdr.indent(CONE, METAL, depth).force
-        force = force + 2e-4 * force.max() * np.random.default_rng(6).normal(size=force.size)
+    def fit(self, depth, drift, noise=2e-4, metal=METAL):
+        force = mdr.indent(CONE, metal, depth).force
+        force = force + noise * force.max() * np.random.default_rng(6).normal(size=force.size)
         # Instruments write the same time twice where one part of the record ends and the next one begins.
         time = np.delete(np.insert(self.TIME, 400, self.TIME[400]), -1)
         return mdr.fit_indentation(CONE, depth + drift * self.TIME, force, time=time)
@@ -130,6 +130,20 @@ class TestYielding:
         assert float(said) == pytest.approx(-100 * (fit.medium.E_star / METAL.E_star - 1), rel=0.15)
         # Where nothing drifts nothing is said, of a common drift neither.
         assert not self.fit(self.HOLD, 0.0).remarks
+
+    @pytest.mark.parametrize("noise", [0.004, 0.01, 0.02])
+    def test_a_hold_is_seen_in_noise(self, noise):
+        """In 20 s at the largest load, with the noise of the force and none of the depth."""
+        depth = 1e-9 * np.interp(self.TIME, [0, 5, 85, 105, 140], [-20, 0, 300, 300, 250])
+        fit = self.fit(depth, 1e-10, noise, mdr.Medium(70e9, 2e3))
+        (remark,) = [text for text in fit.remarks if "hold at" in text]
+        rate = float(re.search(r"depth changes by (\S+) pm/s", remark)[1])
+        assert rate == pytest.approx(100, rel=0.05)
+        assert not [text for text in fit.remarks if "no hold" in text]
+        # A ramp is none, whatever the noise.
+        ramp = self.fit(self.RAMP, 1e-10, noise, mdr.Medium(70e9, 2e3))
+        assert "no hold tells the drift" in str(ramp)
+        assert not [text for text in ramp.remarks if "hold at" in text]
 
 
 class TestData:

@@ -109,7 +109,8 @@ def fit_indentation(
     the force, 1 % where the medium yields. A tilt, a drag and, of elastic media, a drift of the depth that
     would lower the residuals in contact clearly are reported with the change of E*, drag and drift only if
     `time` is given. The drift of a medium that yields is measured in a hold; without one the report states
-    the effect of 0.1 nm/s.
+    the effect of 0.1 nm/s. Neither is tested where E* is held or with adhesion. The numbers of Oliver and
+    Pharr in the report are those of a curve that the model fits, without viscosity and adhesion.
 
     **Standard errors** come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)², S the
     slope. In simulated curves deviations over errors have standard deviations of 0.9 to 1.2; with depth

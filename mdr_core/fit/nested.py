@@ -11,7 +11,7 @@ hold, where the force is constant.
 import numpy as np
 
 from ..results.quantities import engineering
-from .least_squares import SIGNIFICANT, SINGULAR
+from .least_squares import SIGNIFICANT, SINGULAR, roughness
 
 #: Least factor by which the misfit falls, unit, and what follows. A tilt lowers the misfit of measured
 #: curves without one up to 1.2 times.
@@ -26,6 +26,8 @@ _FEW, _SMALL = 10, 1e-5
 _TURNS, _REACHED = 0.1, 0.02
 #: Deviation of the force in a hold, its least force and duration, as shares of those of the curve.
 _HOLD_FORCE, _LEAST_FORCE, _HOLD_TIME = 0.005, 0.05, 0.05
+#: Standard deviations of noise that the force deviates by in a hold.
+_HOLD_NOISE = 5.0
 #: Least change of ln E* by a drift that is said, and a drift that is common (m/s).
 _LEAST_CHANGE, _COMMON = 0.005, 1e-10
 
@@ -126,13 +128,26 @@ def _in_a_hold(problem, state, i, contact, change):
 
 
 def _longest_hold(problem, state, i):
-    """The longest part of a curve in contact at one force, as a slice."""
-    force, time, load = problem.force[i], problem.time[i], problem.load[i, 0]
-    pressed, longest = state.force[i] > _LEAST_FORCE * load, slice(0, 1)
+    """The longest part of a curve in contact at one force, as a slice.
+
+    Compared are means over as many samples that their noise is within the deviation of a hold.
+    """
+    time, limit = problem.time[i], _HOLD_FORCE * problem.load[i, 0]
+    noise = _HOLD_NOISE * roughness(problem.force[[i]])[0, 0]
+    width = int(np.clip(np.ceil((noise / limit) ** 2), 1, max(_FEW, time.size // 50)))
+    limit = np.clip(noise / np.sqrt(width), limit, 4 * limit)
+    force = np.convolve(problem.force[i], np.full(width, 1 / width), "valid")
+    pressed, longest = state.force[i][: force.size] > _LEAST_FORCE * problem.load[i, 0], slice(0, 1)
     for start in range(0, force.size - _FEW, max(1, force.size // 100)):
-        if abs(force[start + _FEW] - force[start]) < _HOLD_FORCE * load:
-            away = ~pressed[start:] | (np.abs(force[start:] - force[start]) > _HOLD_FORCE * load)
-            part = slice(start, start + int(np.argmax(away)) if away.any() else force.size)
-            if part.stop > start and np.ptp(time[part]) > np.ptp(time[longest]):
+        if abs(force[start + _FEW] - force[start]) < limit:
+            away = ~pressed[start:] | (np.abs(force[start:] - force[start]) > limit)
+            stop = start + int(np.argmax(away)) if away.any() else force.size
+            # Without the samples that are averaged with those before and after the hold.
+            part = slice(start + width - 1, stop)
+            if part.stop - part.start < 2 or np.ptp(time[part]) <= np.ptp(time[longest]):
+                continue
+            # A slow ramp is within the noise sample by sample, but its trend is not.
+            trend = np.polyfit(time[part], problem.force[i][part], 1)[0] * np.ptp(time[part])
+            if abs(trend) < 2 * _HOLD_FORCE * problem.load[i, 0]:
                 longest = part
     return longest
