@@ -168,7 +168,14 @@ class Course:
         Loading is to a state, or to the largest depth if that is before it, and unloading to the pull-off.
         The depths are the same, so that the forces differ only where the curves do; they end there.
         """
-        states, turn = self.states, min(index, self.peak)
+        return self._largest_loop if index >= self.peak else self._loop(index)
+
+    @cached_property
+    def _largest_loop(self):
+        return self._loop(self.peak)
+
+    def _loop(self, turn):
+        states = self.states
         # Below first contact the path is a small part of a deep one.
         whole, below = (
             unloaded(self.scene, states.live_interval[start], np.linspace(1, 0, _LOOP), True)

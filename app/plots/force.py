@@ -96,13 +96,15 @@ def _hysteresis(view: View, i: int, back_d, back_F) -> dict:
     closed, gains = works[0] > works[1], works[0] > works[1] > 1e-3 * works[0]
     net = f" − {texts[1]} gained = {texts[3]}" * gains
     left, top = view.axis("d").start, view.end("F")
-    height = top - view.axis("F").start
-    left += 0.02 * (view.end("d") - left)
+    height, width = top - view.axis("F").start, view.end("d") - left
+    # An early loop may reach below the axis, which is that of the whole course.
+    seen = closed and d[0] > left - 1e-6 * width
+    left += 0.02 * width
     return {
         "dissipated": lost if closed else NOTHING,
         "gained": gained if gains else NOTHING,
         "given back": returned,
-        "W_a": (left, top - 0.02 * height, f"dissipated {texts[0]}{net}" * closed),
+        "W_a": (left, top - 0.02 * height, f"dissipated {texts[0]}{net}" if seen else ""),
         "W_U": (left, top - 0.08 * height, f"given back {texts[2]}" if works[2] > 0 else ""),
     }
 
