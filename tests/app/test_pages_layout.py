@@ -24,7 +24,7 @@ def test_the_page_stays_small():
     modules = list(APP.rglob("*.py"))
     assert len(modules) <= 34
     assert max(len(path.read_text(encoding="utf-8").splitlines()) for path in modules) <= 350
-    assert lines("py") <= 4744
+    assert lines("py") <= 4753
     assert lines("js") <= 178
     assert lines("css") <= 166
 
