@@ -22,6 +22,7 @@ from ..adhesion import (
     stretch_rate,
     tension_and_energy,
 )
+from ..live_interval import LiveInterval
 from ..medium import Medium, check_pair
 from ..shapes.profile import Profile
 from ..yielding import yield_rule
@@ -58,7 +59,10 @@ def _loading(profile, medium, upper, before):
 
 
 def adhesive_turning_interval(profile, medium, target, before):
-    """Live interval (m) and stretch Δl (m) at the turning point for kinetic energies `target` (m³)."""
+    """Live interval (m) and stretch Δl (m) at the turning point for kinetic energies `target` (m³).
+
+    The interval is infinite where the turning point is deeper than the known depth.
+    """
     shape, profile = target.shape, tabulated_for(profile, target.size)
     start, energy = touching(profile, medium, before)
     # The springs at the rim take some more than the jump into contact gives: four steps instead of ten.
@@ -66,7 +70,7 @@ def adhesive_turning_interval(profile, medium, target, before):
     guess = guess.upper + stretch(medium, profile._radius(np.minimum(guess.upper, profile.known_depth)))
     arrays = (target + energy, np.maximum(guess, start.upper), start.upper, before)
     arrays = [np.broadcast_to(array, shape).ravel() for array in arrays]
-    upper = np.empty(target.size)
+    upper, too_deep = np.empty(target.size), np.zeros(target.size, bool)
     for rows in chunks(target.size, LONG):
         goal, first, least, imprint = (array[rows] for array in arrays)
         entries, own = profile.flat_entries(rows, shape), medium.flat_entries(rows, shape)
@@ -77,7 +81,12 @@ def adhesive_turning_interval(profile, medium, target, before):
 
         known = np.broadcast_to(entries.known_depth, goal.shape)
         upper[rows] = crossing(work, np.minimum(first, known), least, known)
-    return loaded_interval(profile, medium, upper.reshape(shape), before)
+        ends = known < np.inf
+        if ends.any():
+            too_deep[rows] = ends & (work(np.where(ends, known, upper[rows]))[0] < 0)
+    interval, stretched = loaded_interval(profile, medium, upper.reshape(shape), before)
+    reached = np.where(too_deep.reshape(shape), np.inf, interval.upper)
+    return LiveInterval(interval.lower, reached, interval.length), stretched
 
 
 def rebound_energy(profile, medium, interval):
