@@ -193,7 +193,7 @@ class Medium(_check.Parameters):
     def from_hardness(
         cls, E_star: ArrayLike, hardness: ArrayLike, radius: ArrayLike, **other: ArrayLike
     ) -> "Medium":
-        """The medium of class (b) whose fully yielded contact of a radius has a given hardness: q_c = σ_c a.
+        """The medium of class (b) whose fully yielded contact of a radius has a hardness: q_c = σ_c a.
 
         For a hardness that is the same at every radius take `Medium(E_star, hardness=…)`.
 

@@ -245,11 +245,10 @@ class RadiusCap(YieldRule):
 
     def plastic_integral(self, imprint, increase):
         shape, (imprint, increase) = broadcast_flat(imprint, increase)
-        result = np.zeros(imprint.size)
-        yielding = np.flatnonzero(increase > 0)
+        result, yielding = np.zeros(imprint.size), np.flatnonzero(increase > 0)
         for block in chunks(yielding.size, max(1, 512 // (1 + len(self.profile.kinks)))):
             rows = yielding[block]
-            rule = self.flat_entries(rows, shape).entries((slice(None), None), rows.shape)
+            rule = self.flat_entries(rows, shape or (1,)).entries((slice(None), None), rows.shape)
             result[rows] = rule._plastic_sums(imprint[rows, None], increase[rows, None])
         return result.reshape(shape)[()]
 
