@@ -42,6 +42,9 @@ class YieldRule(ABC):
 
     profile: Profile
 
+    #: Whether the cap may fall with the contact radius.
+    falls = False
+
     @abstractmethod
     def cap(self, depth):
         """Largest elastic compression u_c (m) of the elements on loading to a depth (m)."""
@@ -193,6 +196,8 @@ class RadiusCap(YieldRule):
         """The rule for a medium."""
         share = np.pi / 2 / medium.E_star
         return cls(profile, share * medium.hardness, share * medium.q_c, share * medium.f_c)
+
+    falls = property(lambda self: bool(np.any(self.line)))
 
     @np.errstate(all="ignore")
     def cap(self, depth):

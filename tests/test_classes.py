@@ -79,6 +79,7 @@ NODE, WEIGHT = (1 + NODE) / 2, WEIGHT / 2
 
 def work(profile, medium, largest):
     """∫ F ds (J) up to a depth, from the forces of the elements; cut at the onset and at kinks."""
+
     def excess(s):
         return s - cap(medium, float(profile.contact_radius(s)))
 
