@@ -1,10 +1,13 @@
-"""The energy balance of an impact with adhesion.
+"""Impacts with adhesion by the energy balance.
 
 The surfaces touch at the bottom of the imprint with the kinetic energy T, where the contact jumps to a
 radius a₀ of the energy E₀. On loading T + E₀ = E + W_p + kinetic energy; from the turning point on E is
 conserved up to E₁ at the pull-off. So T (1 − e²) = W_p + W_a with W_a = E₁ − E₀, and the body is captured
 where E at the turning point is not larger than E₁. Energies here are over 2E* (m³).
 """
+
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -22,11 +25,65 @@ from ..adhesion import (
     stretch_rate,
     tension_and_energy,
 )
+from ..indentation import Indentation
 from ..live_interval import LiveInterval
 from ..medium import Medium, check_pair
 from ..shapes.profile import Profile
 from ..yielding import yield_rule
-from .energy_balance import tabulated_for, turning_interval
+from .energy_balance import turning_interval
+from .solution import Solution, tabulated_for
+
+
+@dataclass(frozen=True)
+class AdhesiveEnergyBalance(Solution):
+    """Impacts on a medium with adhesion."""
+
+    @classmethod
+    def of(cls, profile, medium, mass, speed, imprint_depth):
+        """The solution, with an infinite depth where the turning point is deeper than the known depth."""
+        energy = mass * speed**2 / (4 * medium.E_star)
+        interval, stretched = adhesive_turning_interval(profile, medium, energy, imprint_depth)
+        increase = interval.lower - imprint_depth
+        onset = yield_rule(profile, medium).onset(interval.lower)
+        depth = np.where(increase > 0, onset, interval.upper - stretched)
+        # Infinite with the interval.
+        depth = np.where(interval.upper < np.inf, depth, np.inf)
+        load = -medium.E_star * stretched
+        turning_point = Indentation(profile, medium, depth, interval, load, in_time=True)
+        return cls(mass, speed, turning_point, increase)
+
+    @property
+    def _profile(self):
+        return self.turning_point.profile
+
+    @cached_property
+    def _rebound_energy(self):
+        """Energy over 2E* (m³) after the pull-off, negative for a captured body."""
+        return rebound_energy(self._profile, self.medium, self.interval)
+
+    @property
+    def captured(self):
+        return self._rebound_energy <= 0
+
+    @property
+    def restitution(self):
+        """e, 0 for a captured body."""
+        kinetic = self.mass * self.speed**2 / (4 * self.medium.E_star)
+        return np.sqrt(np.maximum(self._rebound_energy, 0.0) / kinetic)
+
+    @property
+    def adhesive_work(self):
+        """The work between touching and pull-off; of a captured body all that yielding leaves."""
+        lower = self.interval.lower
+        first = touching(self._profile, self.medium, lower - self.plastic_depth_increase)[1]
+        work = 2 * self.medium.E_star * (pull_off(self._profile, self.medium, lower)[1] - first)
+        return np.where(self.captured, self.mass * self.speed**2 / 2 - self.plastic_work, work)
+
+    @property
+    def contact_time(self):
+        inertia = self.mass / (2 * self.medium.E_star)
+        arguments = inertia, self.speed, self.interval, self.plastic_depth_increase
+        return adhesive_contact_time(self._profile, self.medium, *arguments)
 
 
 def _energy(profile, medium, interval):

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 _MANY = 1000
 #: Lines of a result's `repr`.
 _MOST_LINES = 12
+#: Quantities that are given, not computed.
+_GIVEN = {"depth", "time", "mass", "speed", "tangential_speed", "friction", "tangential_mass"}
 
 
 def imported(name, what, packages=None):
@@ -113,8 +115,7 @@ class Report:
         for name, value in (self.to_dict() | self._parameters()).items():
             about = QUANTITIES[name].attributes if name in QUANTITIES else {}
             variables[name] = (dims, np.broadcast_to(value, self.shape), about)
-        given = {"depth", "time", "mass", "speed", "tangential_speed", "friction", "tangential_mass"}
-        given = (given | set(self._parameters())) & set(variables)
+        given = (_GIVEN | set(self._parameters())) & set(variables)
         given -= {"depth"} if "time" in variables else set()
         return xarray.Dataset(variables, attrs=self._attributes()).set_coords(sorted(given))
 
@@ -178,7 +179,7 @@ class Report:
         for name in self._shown:
             quantity, label = QUANTITIES[name], name.replace("_", " ")
             # Quantities of a large ensemble are shown if they are there already.
-            stored = name in self.__dataclass_fields__ or name in vars(self)
+            stored = name in _GIVEN or name in vars(self)
             text = engineering(getattr(self, name), quantity.unit) if stored or not many else f".{name}"
             yield f"{label} {quantity.symbol}", text
 
