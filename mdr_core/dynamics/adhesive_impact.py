@@ -31,59 +31,59 @@ from ..medium import Medium, check_pair
 from ..shapes.profile import Profile
 from ..yielding import yield_rule
 from .energy_balance import turning_interval
-from .solution import Solution, tabulated_for
+from .result import Impact, tabulated_for
 
 
-@dataclass(frozen=True)
-class AdhesiveEnergyBalance(Solution):
+@dataclass(frozen=True, eq=False, repr=False)
+class AdhesiveImpact(Impact):
     """Impacts on a medium with adhesion."""
-
-    @classmethod
-    def of(cls, profile, medium, mass, speed, imprint_depth):
-        """The solution, with an infinite depth where the turning point is deeper than the known depth."""
-        energy = mass * speed**2 / (4 * medium.E_star)
-        interval, stretched = adhesive_turning_interval(profile, medium, energy, imprint_depth)
-        increase = interval.lower - imprint_depth
-        onset = yield_rule(profile, medium).onset(interval.lower)
-        depth = np.where(increase > 0, onset, interval.upper - stretched)
-        # Infinite with the interval.
-        depth = np.where(interval.upper < np.inf, depth, np.inf)
-        load = -medium.E_star * stretched
-        turning_point = Indentation(profile, medium, depth, interval, load, in_time=True)
-        return cls(mass, speed, turning_point, increase)
-
-    @property
-    def _profile(self):
-        return self.turning_point.profile
 
     @cached_property
     def _rebound_energy(self):
         """Energy over 2E* (m³) after the pull-off, negative for a captured body."""
-        return rebound_energy(self._profile, self.medium, self.interval)
+        return rebound_energy(self.profile, self.medium, self.turning_point.live_interval)
 
-    @property
+    @_check.frozen_property
     def captured(self):
+        """Whether adhesion holds the body, so that it does not rebound."""
         return self._rebound_energy <= 0
 
-    @property
+    @_check.frozen_property
     def restitution(self):
-        """e, 0 for a captured body."""
+        """Coefficient of restitution e; 0 for a captured body."""
         kinetic = self.mass * self.speed**2 / (4 * self.medium.E_star)
         return np.sqrt(np.maximum(self._rebound_energy, 0.0) / kinetic)
 
-    @property
+    @_check.frozen_property
     def adhesive_work(self):
-        """The work between touching and pull-off; of a captured body all that yielding leaves."""
-        lower = self.interval.lower
-        first = touching(self._profile, self.medium, lower - self.plastic_depth_increase)[1]
-        work = 2 * self.medium.E_star * (pull_off(self._profile, self.medium, lower)[1] - first)
-        return np.where(self.captured, self.mass * self.speed**2 / 2 - self.plastic_work, work)
+        """Energy (J) that adhesion takes: the work between touching and pull-off.
 
-    @property
+        Of a captured body all that yielding leaves of its kinetic energy.
+        """
+        first = touching(self.profile, self.medium, self.plastic_depth - self.plastic_depth_increase)[1]
+        last = pull_off(self.profile, self.medium, self.plastic_depth)[1]
+        kinetic = self.mass * self.speed**2 / 2
+        work = 2 * self.medium.E_star * (last - first)
+        return np.where(self.captured, kinetic - self.plastic_work, work)
+
+    @_check.frozen_property
     def contact_time(self):
+        """Time (s) from touching to the pull-off; infinite for a captured body."""
         inertia = self.mass / (2 * self.medium.E_star)
-        arguments = inertia, self.speed, self.interval, self.plastic_depth_increase
-        return adhesive_contact_time(self._profile, self.medium, *arguments)
+        arguments = self.speed, self.turning_point.live_interval, self.plastic_depth_increase
+        return adhesive_contact_time(self.profile, self.medium, inertia, *arguments)
+
+
+def adhesive_impact(profile, medium, mass, speed, imprint_depth):
+    """Impacts over imprints of given plastic depth (m)."""
+    energy = mass * speed**2 / (4 * medium.E_star)
+    interval, stretched = adhesive_turning_interval(profile, medium, energy, imprint_depth)
+    increase = interval.lower - imprint_depth
+    onset = yield_rule(profile, medium).onset(interval.lower)
+    depth = np.where(increase > 0, onset, interval.upper - stretched)
+    load = -medium.E_star * stretched
+    turning_point = Indentation(profile, medium, depth, interval, load, in_time=True)
+    return AdhesiveImpact(mass[()], speed[()], turning_point, increase)
 
 
 def _energy(profile, medium, interval):

@@ -8,38 +8,41 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .. import _check
 from .._numeric import LONG, broadcast_flat, chunks, increasing_root
 from ..indentation import Indentation
 from ..integrals import integrals
 from ..live_interval import LiveInterval
 from ..yielding import yield_rule
 from .contact_time import contact_time
-from .solution import Solution, tabulated_for
+from .result import Impact, tabulated_for
 
 
-@dataclass(frozen=True)
-class EnergyBalance(Solution):
+@dataclass(frozen=True, eq=False, repr=False)
+class DryImpact(Impact):
     """Impacts on a medium without viscosity and adhesion."""
 
-    @classmethod
-    def of(cls, profile, medium, mass, speed, imprint_depth):
-        """The solution, with an infinite depth where the turning point is deeper than the known depth."""
-        energy = mass * speed**2 / (4 * medium.E_star)
-        interval, increase = turning_interval(yield_rule(profile, medium), energy, imprint_depth)
-        turning_point = Indentation(profile, medium, interval.upper, interval, in_time=True)
-        return cls(mass, speed, turning_point, increase)
-
-    @property
+    @_check.frozen_property
     def restitution(self):
         """e = √(U/(U + W_p)), with the sum in the place of the kinetic energy: it is never above 1."""
-        stored = 2 * self.medium.E_star * integrals(self.rule.profile).energy_integral(self.interval)
+        profile, modulus = self._rule.profile, 2 * self.medium.E_star
+        stored = modulus * integrals(profile).energy_integral(self.turning_point.live_interval)
         return np.sqrt(stored / (stored + self.plastic_work))
 
-    @property
+    @_check.frozen_property
     def contact_time(self):
+        """Time (s) from first contact to the loss of contact."""
         inertia = self.mass / (2 * self.medium.E_star)
-        profile = self.turning_point.profile
-        return contact_time(profile, inertia, self.speed, self.interval, self.plastic_depth_increase)
+        interval = self.turning_point.live_interval
+        return contact_time(self.profile, inertia, self.speed, interval, self.plastic_depth_increase)
+
+
+def dry_impact(profile, medium, mass, speed, imprint_depth):
+    """Impacts over imprints of given plastic depth (m)."""
+    energy = mass * speed**2 / (4 * medium.E_star)
+    interval, increase = turning_interval(yield_rule(profile, medium), energy, imprint_depth)
+    turning_point = Indentation(profile, medium, interval.upper, interval, in_time=True)
+    return DryImpact(mass[()], speed[()], turning_point, increase)
 
 
 def turning_interval(rule, target, before):
