@@ -133,7 +133,7 @@ class Impact(Entries, ImpactResult):
 
         Examples
         --------
-        >>> from mdr_core import Medium, Paraboloid
+        >>> from mdr_core import Medium, Paraboloid, impact
         >>> hit = impact(Paraboloid(radius=1.0), Medium(E_star=1.0), 1.0, 0.01)
         >>> print(round(hit.motion(101).time[-1] / (hit.max_depth / 0.01), 6))  # Hertz
         2.943275
