@@ -11,8 +11,9 @@ from ._check import no_attribute
 from .drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
 from .dynamics.adhesive_impact import capture_speeds
 from .dynamics.ball import Ball, at_angle
-from .dynamics.impact import Impact, impact
+from .dynamics.impact import impact
 from .dynamics.oblique import ObliqueImpact, oblique_impact
+from .dynamics.result import Impact
 from .fit.hardness import fit_hardness
 from .fit.indentation import fit_indentation
 from .fit.oliver_pharr import oliver_pharr

@@ -8,8 +8,8 @@ import numpy as np
 
 from ._check import one_of, shown
 from .drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
-from .dynamics.impact import Impact
 from .dynamics.oblique import ObliqueImpact
+from .dynamics.result import Impact
 from .foundation.depth_path import TimedIndentation
 from .foundation.impact import ChainImpact
 from .indentation import Indentation

@@ -35,8 +35,9 @@ import numpy as np
 
 from . import _check
 from .adhesion import first_contacts
-from .dynamics.impact import Impact, impact
+from .dynamics.impact import impact
 from .dynamics.oblique import ObliqueImpact, oblique_impact
+from .dynamics.result import Impact
 from .indentation import Indentation
 from .medium import Medium
 from .results.labels import InvalidParticles, check_alignment, indices, labelled

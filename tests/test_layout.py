@@ -22,9 +22,10 @@ ORDER = (
     "foundation.impact",
     "live_interval", "quadrature", "integrals", "closed_forms", "yielding", "adhesion", "onset",
     "fields", "stress", "indentation", "paths",
-    "dynamics.energy_balance", "dynamics.adhesive_impact", "dynamics.contact_time",
+    "dynamics.contact_time",
     "scaling", "dynamics.equation_of_motion", "dynamics.steps", "dynamics.legs", "dynamics.course",
-    "dynamics.motion", "dynamics.impact",
+    "dynamics.motion", "dynamics.result", "dynamics.energy_balance", "dynamics.adhesive_impact",
+    "dynamics.viscous_impact", "dynamics.impact",
     "dynamics.levels", "dynamics.friction", "dynamics.dry_levels", "dynamics.dry_friction",
     "dynamics.oblique_motion", "dynamics.surface", "dynamics.oblique", "dynamics.ball", "sweep",
     "fit.least_squares", "fit.oliver_pharr", "fit.measured", "fit.adhesive_curve", "fit.curve", "fit.start",
@@ -36,7 +37,8 @@ CHECKED = {
     "live_interval", "quadrature", "integrals", "closed_forms", "yielding", "adhesion", "fields",
     "indentation", "paths",
     "dynamics.impact", "dynamics.energy_balance", "dynamics.adhesive_impact", "dynamics.contact_time",
-    "dynamics.equation_of_motion", "dynamics.steps", "dynamics.legs", "dynamics.course", "dynamics.motion",
+    "dynamics.result", "dynamics.viscous_impact", "dynamics.equation_of_motion", "dynamics.steps",
+    "dynamics.legs", "dynamics.course", "dynamics.motion",
     "scaling", "shapes.tabulated", "stress",
 }  # fmt: skip
 

@@ -1,10 +1,13 @@
-"""The energy balance of an impact with adhesion.
+"""Impacts with adhesion by the energy balance.
 
 The surfaces touch at the bottom of the imprint with the kinetic energy T, where the contact jumps to a
 radius a₀ of the energy E₀. On loading T + E₀ = E + W_p + kinetic energy; from the turning point on E is
 conserved up to E₁ at the pull-off. So T (1 − e²) = W_p + W_a with W_a = E₁ − E₀, and the body is captured
 where E at the turning point is not larger than E₁. Energies here are over 2E* (m³).
 """
+
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -22,11 +25,65 @@ from ..adhesion import (
     stretch_rate,
     tension_and_energy,
 )
+from ..indentation import Indentation
 from ..live_interval import LiveInterval
 from ..medium import Medium, check_pair
 from ..shapes.profile import Profile
 from ..yielding import yield_rule
-from .energy_balance import tabulated_for, turning_interval
+from .energy_balance import turning_interval
+from .result import Impact, tabulated_for
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class AdhesiveImpact(Impact):
+    """Impacts on a medium with adhesion."""
+
+    @cached_property
+    def _rebound_energy(self):
+        """Energy over 2E* (m³) after the pull-off, negative for a captured body."""
+        return rebound_energy(self.profile, self.medium, self.turning_point.live_interval)
+
+    @_check.frozen_property
+    def captured(self):
+        """Whether adhesion holds the body, so that it does not rebound."""
+        return self._rebound_energy <= 0
+
+    @_check.frozen_property
+    def restitution(self):
+        """Coefficient of restitution e; 0 for a captured body."""
+        kinetic = self.mass * self.speed**2 / (4 * self.medium.E_star)
+        return np.sqrt(np.maximum(self._rebound_energy, 0.0) / kinetic)
+
+    @_check.frozen_property
+    def adhesive_work(self):
+        """Energy (J) that adhesion takes: the work between touching and pull-off.
+
+        Of a captured body all that yielding leaves of its kinetic energy.
+        """
+        first = touching(self.profile, self.medium, self.plastic_depth - self.plastic_depth_increase)[1]
+        last = pull_off(self.profile, self.medium, self.plastic_depth)[1]
+        kinetic = self.mass * self.speed**2 / 2
+        work = 2 * self.medium.E_star * (last - first)
+        return np.where(self.captured, kinetic - self.plastic_work, work)
+
+    @_check.frozen_property
+    def contact_time(self):
+        """Time (s) from touching to the pull-off; infinite for a captured body."""
+        inertia = self.mass / (2 * self.medium.E_star)
+        arguments = self.speed, self.turning_point.live_interval, self.plastic_depth_increase
+        return adhesive_contact_time(self.profile, self.medium, inertia, *arguments)
+
+
+def adhesive_impact(profile, medium, mass, speed, imprint_depth):
+    """Impacts over imprints of given plastic depth (m)."""
+    energy = mass * speed**2 / (4 * medium.E_star)
+    interval, stretched = adhesive_turning_interval(profile, medium, energy, imprint_depth)
+    increase = interval.lower - imprint_depth
+    onset = yield_rule(profile, medium).onset(interval.lower)
+    depth = np.where(increase > 0, onset, interval.upper - stretched)
+    load = -medium.E_star * stretched
+    turning_point = Indentation(profile, medium, depth, interval, load, in_time=True)
+    return AdhesiveImpact(mass[()], speed[()], turning_point, increase)
 
 
 def _energy(profile, medium, interval):

@@ -1,16 +1,48 @@
-"""The energy balance of an impact without viscosity: its maximum depth and its restitution.
+"""Impacts without viscosity by the energy balance: maximum depth and restitution, without time stepping.
 
 The indenter meets a medium with an imprint of plastic depth p₀ (0 if virgin). At the penetration y = d − p₀
 the work is that of the live interval, 2E* ∫(d − s) a ds, which is stored, and the plastic work.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .. import _check
 from .._numeric import LONG, broadcast_flat, chunks, increasing_root
-from ..integrals import integrals, tabulated
+from ..indentation import Indentation
+from ..integrals import integrals
 from ..live_interval import LiveInterval
+from ..yielding import yield_rule
+from .contact_time import contact_time
+from .result import Impact, tabulated_for
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DryImpact(Impact):
+    """Impacts on a medium without viscosity and adhesion."""
+
+    @_check.frozen_property
+    def restitution(self):
+        """e = √(U/(U + W_p)), with the sum in the place of the kinetic energy: it is never above 1."""
+        profile, modulus = self._rule.profile, 2 * self.medium.E_star
+        stored = modulus * integrals(profile).energy_integral(self.turning_point.live_interval)
+        return np.sqrt(stored / (stored + self.plastic_work))
+
+    @_check.frozen_property
+    def contact_time(self):
+        """Time (s) from first contact to the loss of contact."""
+        inertia = self.mass / (2 * self.medium.E_star)
+        interval = self.turning_point.live_interval
+        return contact_time(self.profile, inertia, self.speed, interval, self.plastic_depth_increase)
+
+
+def dry_impact(profile, medium, mass, speed, imprint_depth):
+    """Impacts over imprints of given plastic depth (m)."""
+    energy = mass * speed**2 / (4 * medium.E_star)
+    interval, increase = turning_interval(yield_rule(profile, medium), energy, imprint_depth)
+    turning_point = Indentation(profile, medium, interval.upper, interval, in_time=True)
+    return DryImpact(mass[()], speed[()], turning_point, increase)
 
 
 def turning_interval(rule, target, before):
@@ -41,23 +73,6 @@ def turning_interval(rule, target, before):
         result[:, rows] = depth * np.array([interval.lower, upper, interval.length, increase])
     *interval, increase = result.reshape(4, *shape)
     return LiveInterval(*interval), increase
-
-
-def tabulated_for(profile, count):
-    """The profile to solve `count` impacts with: a table if they are many and the known depth is finite."""
-    many = count > 16 and np.all(profile.known_depth < np.inf)
-    return tabulated(profile, profile.known_depth) if many else profile
-
-
-def dry_restitution(rule, interval, increase):
-    """Coefficient of restitution e = √(U/(U + W_p)) of an impact without viscosity.
-
-    From the live interval at the turning point and the increase (m) of the plastic depth.
-    """
-    rule = replace(rule, profile=tabulated_for(rule.profile, np.size(interval.length)))
-    stored = integrals(rule.profile).energy_integral(interval)
-    # U over the sum instead of U over the kinetic energy: never above 1.
-    return np.sqrt(stored / (stored + rule.plastic_integral(interval.lower - increase, increase)))
 
 
 def _penetration(rule, target, before):

@@ -13,8 +13,9 @@ from ..results.base import Entries, Model, Result
 from ..results.limits import Limit, friction_limits, stick_limits
 from ..shapes.profile import Profile
 from ..yielding import yield_rule
-from .impact import Impact, impact, quantity_of
+from .impact import impact, quantity_of
 from .oblique_motion import ObliqueMotion, oblique_motion
+from .result import Impact
 from .surface import EXACT, SurfaceSolution, solve_surface
 
 FRICTION = Model(

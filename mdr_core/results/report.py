@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 _MANY = 1000
 #: Lines of a result's `repr`.
 _MOST_LINES = 12
+#: Quantities that are given, not computed.
+_GIVEN = {"depth", "time", "mass", "speed", "tangential_speed", "friction", "tangential_mass"}
 
 
 def imported(name, what, packages=None):
@@ -40,13 +42,18 @@ class Report:
     _dimensions: ClassVar[tuple[str, ...]] = ("state",)
 
     @property
+    def _name(self) -> str:
+        """The name under which it is shown."""
+        return type(self).__name__
+
+    @property
     def shape(self) -> tuple[int, ...]:
         """Shape that all quantities have: () for one state or impact."""
         return np.shape(getattr(self, self._quantities[0]))
 
     def __len__(self) -> int:
         if not self.shape:
-            raise TypeError(f"this {type(self).__name__} is a single one and has no length; .shape is ()")
+            raise TypeError(f"this {self._name} is a single one and has no length; .shape is ()")
         return self.shape[0]
 
     def __bool__(self) -> bool:
@@ -54,7 +61,7 @@ class Report:
 
     def __iter__(self) -> Iterator[Self]:
         if not self.shape:
-            name = type(self).__name__
+            name = self._name
             raise TypeError(f"this {name} is a single one: there is nothing to iterate over")
         return (self[i] for i in range(self.shape[0]))
 
@@ -63,11 +70,11 @@ class Report:
         def __getattr__(self, name):
             names = {*dir(type(self)), *type(self).__dataclass_fields__}
             known = sorted(each for each in names if not each.startswith("_"))
-            raise no_attribute(f"this {type(self).__name__}", name, known)
+            raise no_attribute(f"this {self._name}", name, known)
 
     def __array__(self, *_: Any, **__: Any) -> NoReturn:
         raise TypeError(
-            f"a result ({type(self).__name__}) is many quantities, not one array: take one, as in result."
+            f"a result ({self._name}) is many quantities, not one array: take one, as in result."
             f"{self._shown[0]}, or all by to_pandas() or to_xarray()"
         )
 
@@ -113,8 +120,7 @@ class Report:
         for name, value in (self.to_dict() | self._parameters()).items():
             about = QUANTITIES[name].attributes if name in QUANTITIES else {}
             variables[name] = (dims, np.broadcast_to(value, self.shape), about)
-        given = {"depth", "time", "mass", "speed", "tangential_speed", "friction", "tangential_mass"}
-        given = (given | set(self._parameters())) & set(variables)
+        given = (_GIVEN | set(self._parameters())) & set(variables)
         given -= {"depth"} if "time" in variables else set()
         return xarray.Dataset(variables, attrs=self._attributes()).set_coords(sorted(given))
 
@@ -157,7 +163,7 @@ class Report:
 
     def _attributes(self):
         """Attributes of a table or a dataset, all of them texts."""
-        source, texts = self._source(), {"result": type(self).__name__}
+        source, texts = self._source(), {"result": self._name}
         if source:
             texts |= {"model": str(source.model), "indenter": described(source.profile)}
             texts["medium"] = described(source.medium)
@@ -167,7 +173,7 @@ class Report:
     def _title(self):
         shape, source = self.shape, self._source()
         size = f"{' × '.join(map(str, shape))} {self._noun}s" if shape else f"one {self._noun}"
-        return f"{type(self).__name__}: {size}{f', {source.model}' if source else ''}"
+        return f"{self._name}: {size}{f', {source.model}' if source else ''}"
 
     def _rows(self):
         """Pairs of a label and a text, one for each line of the `repr`."""
@@ -178,7 +184,7 @@ class Report:
         for name in self._shown:
             quantity, label = QUANTITIES[name], name.replace("_", " ")
             # Quantities of a large ensemble are shown if they are there already.
-            stored = name in self.__dataclass_fields__ or name in vars(self)
+            stored = name in _GIVEN or name in vars(self)
             text = engineering(getattr(self, name), quantity.unit) if stored or not many else f".{name}"
             yield f"{label} {quantity.symbol}", text
 
@@ -193,7 +199,7 @@ class Report:
             yield "limits", f"{', '.join(limit.what for limit in others)}: see .limits"
 
     def __getitem__(self, index: Any) -> Self:
-        raise TypeError(f"this {type(self).__name__} is a single one: it has no entries")
+        raise TypeError(f"this {self._name} is a single one: it has no entries")
 
     def __repr__(self) -> str:
         rows = [(label, f"{text:.140}") for label, text in self._rows()]
