@@ -75,9 +75,10 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
         As for `indent`.
     force : float or array_like
         Normal force (N); one number or a path along the last axis. At 0 the indenter rests on the bottom
-        of the imprint. With f_c > 0 the force on loading may fall after the onset of yield: the depth is
-        the first one that carries it, so that the path jumps there (`limits`). Negative only with adhesion: under more than the pull-off force the contact is
-        lost, the force is 0 and the depth that of the imprint, until a force ≥ 0 closes it again.
+        of the imprint. With f_c above 0 the force on loading may fall after the onset of yield: the depth
+        is the first one that carries it, and the path jumps there, which is said in `limits`. Negative
+        only with adhesion: under more than the pull-off force the contact is lost, the force is 0 and the
+        depth that of the imprint, until a force ≥ 0 closes it again.
 
     Returns
     -------
@@ -88,7 +89,8 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     ------
     ValueError
         If a force is not finite, negative without adhesion, larger than a flat face carries before all of
-        it yields (π b² σ_c(b), Popov 2015, Eq. (11)) or than f_c alone carries (π f_c), or presses deeper than the known depth of the profile.
+        it yields (π b² σ_c(b), Popov 2015, Eq. (11)) or than f_c carries alone (π f_c), or presses deeper
+        than the known depth of the profile.
 
     Examples
     --------
@@ -120,8 +122,8 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     loaded, _ = rule.loading(largest_depth)
     length = np.where(integral == largest, loaded.length, _live_length(profile, loaded, integral))
     depth = np.where(integral == largest, largest_depth, loaded.lower + length)
-    deepest = np.max(largest_depth, initial=0.0)
-    jumps = tuple((one[1], other[0]) for one, other in pairwise(branches) if other[0] < deepest)
+    end = np.max(largest_depth, initial=0.0)
+    jumps = tuple((one[1], other[0]) for one, other in pairwise(branches) if other[0] < end)
     return Indentation(profile, medium, depth, LiveInterval(loaded.lower, depth, length), jumps=jumps)
 
 

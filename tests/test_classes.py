@@ -1,6 +1,6 @@
-"""Every class of hardness: states against 45 digits, closed limits, and a chain whose cap follows the contact."""
+"""Every class of hardness: states against 45 digits, closed limits, impacts."""
 
-import math
+import itertools
 
 import numpy as np
 import pytest
@@ -55,7 +55,7 @@ def cap(medium, a):
 
 
 def spring_force(profile, medium, depth):
-    """Force (N) on loading, summed over the elements: each compressed by depth − g(x), at most by the cap."""
+    """Force (N) on loading: elements are compressed by depth − g(x), at most by the cap."""
     a = float(profile.contact_radius(depth))
     limit = cap(medium, a)
     if depth <= limit:
@@ -66,7 +66,7 @@ def spring_force(profile, medium, depth):
         plateau = limit * inner
     total, kinks = plateau, [float(profile.contact_radius(kink)) for kink in profile.kinks]
     edges = sorted({inner, a, *(x for x in kinks if inner < x < a)})
-    for low, high in zip(edges, edges[1:], strict=False):
+    for low, high in itertools.pairwise(edges):
         # x = low + h u⁴ unfolds roots at the lower end.
         x = low + (high - low) * NODE**4
         total += np.sum(WEIGHT * 4 * NODE**3 * (high - low) * (depth - profile.reduced(x)))
@@ -94,7 +94,7 @@ def work(profile, medium, largest):
     cuts = [0.0, passing(0.0), *profile.kinks, *(passing(kink) for kink in profile.kinks), largest]
     cuts = sorted({cut for cut in cuts if cut <= largest})
     total = 0.0
-    for low, high in zip(cuts, cuts[1:], strict=False):
+    for low, high in itertools.pairwise(cuts):
         s = low + (high - low) * NODE**4
         forces = np.array([spring_force(profile, medium, each) for each in s])
         total += np.sum(WEIGHT * 4 * NODE**3 * (high - low) * forces)
