@@ -16,7 +16,7 @@ at most, where a is the contact radius on loading: `RadiusCap`.
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import singledispatch
 
 import numpy as np
 
@@ -44,6 +44,9 @@ class YieldRule(ABC):
 
     #: Whether the cap may fall with the contact radius.
     falls = False
+    #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/ℓ for all, ℓ
+    #: being the live depth at the turning point of an impact on a virgin medium.
+    similar = None
 
     @abstractmethod
     def cap(self, depth):
@@ -102,9 +105,9 @@ class YieldRule(ABC):
         largest = np.maximum.accumulate(depth, axis=-1) if depth.ndim else depth
         return self.at(largest, depth)
 
-    def past_onset(self, imprint, distance):
-        """Live interval at a distance (m) of loading past the onset of yield over an imprint (m)."""
-        return self.loading(self.penetration(imprint, imprint) + distance, imprint)[0]
+    def past_onset(self, imprint, onset, distance):
+        """Live interval at a distance (m) of loading past the penetration `onset` (m) into an imprint."""
+        return self.loading(onset + distance, imprint)[0]
 
     def yielding(self, interval):
         """Whether states are at the cap, so that loading goes on to yield."""
@@ -119,6 +122,11 @@ class YieldRule(ABC):
     def wall_integral(self):
         """∫ a ds (m²) of a contact that has yielded throughout behind a wall, infinite without a wall."""
         return self.profile.wall * self.cap(np.inf)
+
+    @classmethod
+    def at_ratio(cls, profile, ratio):
+        """A rule for a `similar` profile, and a live interval at its cap with d_p/ℓ = `ratio`."""
+        raise NotImplementedError
 
     def turning_interval(self, energy):
         """Live interval at the turning point of an impact on a virgin medium, None without a closed form.
@@ -161,8 +169,14 @@ class ConstantCap(YieldRule):
         with np.errstate(invalid="ignore"):
             return np.where(increase > 0, self.critical_depth * integral, 0.0)
 
-    def past_onset(self, imprint, distance):
+    def past_onset(self, imprint, onset, distance):
         return LiveInterval.above(imprint + distance, self.critical_depth)
+
+    similar = property(lambda self: integrals(self.profile).similar)
+
+    @classmethod
+    def at_ratio(cls, profile, ratio):
+        return cls(profile, 1.0), LiveInterval.above(ratio, 1.0)
 
     def turning_interval(self, energy):
         return integrals(self.profile).turning_interval(energy, self.critical_depth)
@@ -253,7 +267,7 @@ class RadiusCap(YieldRule):
         result, yielding = np.zeros(imprint.size), np.flatnonzero(increase > 0)
         for block in chunks(yielding.size, max(1, 512 // (1 + len(self.profile.kinks)))):
             rows = yielding[block]
-            rule = self.flat_entries(rows, shape or (1,)).entries((slice(None), None), rows.shape)
+            rule = self.flat_entries(rows, shape).entries((slice(None), None), rows.shape)
             result[rows] = rule._plastic_sums(imprint[rows, None], increase[rows, None])
         return result.reshape(shape)[()]
 
@@ -291,7 +305,7 @@ class RadiusCap(YieldRule):
     def flat_entries(self, rows, shape):
         if isinstance(rows, slice):
             rows = np.arange(*rows.indices(np.prod(shape, dtype=int)))
-        return self.entries(np.unravel_index(rows, shape), shape)
+        return self.entries(np.unravel_index(rows, shape or (1,)), shape or (1,))
 
     def in_units_of(self, unit, length, depth):
         return replace(
@@ -315,34 +329,20 @@ def yield_rule(profile: Profile, medium: Medium) -> YieldRule:
     """
     if medium.inverse_to_radius:
         return ConstantCap.of(profile, medium.E_star, medium.q_c)
-    if np.any(medium.hardness) and not _convex(profile):
+    if np.any(medium.hardness) and not integrals(profile).convex:
         raise ValueError(
             "a hardness above 0 is not computed under a shape that is not convex: where g(x)/x falls, a "
             "contact that has yielded becomes elastic again; set hardness = 0, or take a convex shape"
         )
-    return RadiusCap.of(profile, medium)
+    if np.any(medium.q_c) or np.any(medium.f_c):
+        return RadiusCap.of(profile, medium)
+    return constant_hardness(profile).of(profile, medium)
 
 
-def _convex(profile):
-    """Whether g(x)/x nowhere falls, as under every convex shape."""
-    forms = integrals(profile)
-    if forms.elastic_exponent is not None:
-        # g ∝ xⁿ, with an elastic force ∝ d^(1 + 1/n).
-        return bool(np.all(forms.elastic_exponent <= 2))
-    return _growing_mean_slope(forms.unit[0])
-
-
-@lru_cache(maxsize=64)
-def _growing_mean_slope(profile):
-    """`_convex` at 256 radii between 10⁻¹² and 10³ m, as far as the profile is known."""
-    with np.errstate(all="ignore"):
-        for radius in np.geomspace(1e-12, 1e3, 256):
-            x = np.full(profile.shape, radius)
-            g, slope = profile._reduced(x), profile._reduced_slope(x)
-            known = (x <= profile.known_radius) & (g <= profile.known_depth)
-            if np.any(known & (x * slope < g * (1 - 1e-9))):
-                return False
-    return True
+@singledispatch
+def constant_hardness(profile: Profile) -> type[RadiusCap]:
+    """The rule for a constant hardness alone: closed forms if registered for the class of the profile."""
+    return RadiusCap
 
 
 def interval_at(largest, depth, cap):
