@@ -11,8 +11,8 @@ from ..integrals import integrals, tabulated
 from ..live_interval import LiveInterval
 
 #: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
-#: transition depth; and in units of the length of the live interval, whose lower end is close to the tip.
-_TRANSITIONS, _LENGTHS = np.array([1.0, 6.0]), 5 * 25.0 ** np.arange(6)
+#: transition depth.
+_TRANSITIONS = np.array([1.0, 6.0])
 
 
 def contact_time(rule, inertia, speed, interval, increase):
@@ -124,7 +124,7 @@ def time_over_root(rule, interval, increase):
     # and at which the upper end is.
     passed = column.penetration(kinks, before) - onset if kinks.size else kinks - before
     both = np.hstack([passed, kinks - before - onset])
-    all_breaks = np.hstack([breaks - before, _LENGTHS * onset])
+    all_breaks = np.hstack([breaks - before, rule.scales * onset])
     first = profile._kink_above(before[:, 0])[:, None]
     start = column.penetration(first, before) - onset
     span = increase + (length - onset)
