@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .. import _check
-from .._numeric import LONG, broadcast_flat, chunks, increasing_root, largest_value
+from .._numeric import LONG, broadcast_flat, chunks, increasing_root
 from ..indentation import Indentation
 from ..integrals import integrals
 from ..live_interval import LiveInterval
@@ -65,8 +65,15 @@ def _largest_area(rule, imprint, penetration):
         interval, _ = rule.loading(start + (penetration - start) * share**3, imprint)
         return integrals(rule.profile).radius_integral(interval)
 
-    low = np.zeros_like(start)
-    return np.fmax(largest_value(area, low, low + 1), area(low)[:, 0])
+    low, rows = np.zeros_like(start), np.arange(len(start))
+    high = low + 1
+    for _ in range(5):
+        shares = low + (high - low) * np.linspace(0, 1, 17)
+        values = area(shares)
+        best = np.clip(values.argmax(axis=1), 1, 15)
+        low, high = shares[rows, best - 1, None], shares[rows, best + 1, None]
+    # The last grid has 10⁵ places: an error of 10⁻⁹ next to a smooth maximum, none at the onset.
+    return values.max(axis=1)
 
 
 def turning_interval(rule, target, before):
