@@ -291,7 +291,8 @@ class RadiusCap(YieldRule):
                 y = start + (stop - start) * node**4
                 p = imprint + np.minimum(self.increase(y, imprint), increase)
                 work = self.cap(imprint + y) * self.profile._radius(p) * self.rate(imprint + y)
-                total += (work * (stop - start) * (4 * node**3 * weight)).sum(axis=1)
+                work = np.where(stop > start, work * (stop - start), 0.0)
+                total += (work * (4 * node**3 * weight)).sum(axis=1)
         return total
 
     def entries(self, index, shape):
