@@ -18,9 +18,9 @@ import numpy as np
 
 from ._numeric import LONG, chunks, gauss_legendre
 from .live_interval import LiveInterval
-from .quadrature import integrate, radius, radius_rate
+from .quadrature import integrate, kink_above, radius, radius_rate
 from .shapes.profile import Profile
-from .shapes.tabulated import Tabulated
+from .shapes.tabulated import OneLength, Tabulated
 
 #: Live intervals longer than this share of the depth are integrated as a difference of two integrals from
 #: the tip; the energy loses up to two digits by it.
@@ -85,8 +85,8 @@ class Integrals(ABC):
 
 @singledispatch
 def integrals(profile: Profile) -> Integrals:
-    """The `Integrals` of a profile: closed forms if they are registered for its class."""
-    return TableIntegrals(profile) if profile.unit else QuadratureIntegrals(profile)
+    """The `Integrals` of a profile: closed forms or a table if they are registered for its class."""
+    return QuadratureIntegrals(profile)
 
 
 @dataclass(frozen=True)
@@ -110,6 +110,8 @@ class QuadratureIntegrals(Integrals):
             return np.where(narrow, integrate(self.profile, interval, radius_rate, moment=0), a - c)
 
 
+@integrals.register(OneLength)
+@integrals.register(Tabulated)
 @dataclass(frozen=True)
 class TableIntegrals(Integrals):
     """Integrals of profiles with a table of their contact radius."""
@@ -165,8 +167,8 @@ def _table_integrals(profile, lower, upper, length, moments):
     result = np.empty((moments, length.size))
     if far.any():
         result[:, far] = _differences(profile.table, lower[far], upper[far], length[far], moments)
-    kink, near = profile._kink_above(lower), covered & ~far
-    distance = np.where(kink == profile._kink_above(upper), upper - kink, 0.0)
+    kink, near = kink_above(profile, lower), covered & ~far
+    distance = np.where(kink == kink_above(profile, upper), upper - kink, 0.0)
     for share, count in _SHORT:
         rows = np.flatnonzero(near & (length < share * distance))
         if rows.size:

@@ -68,6 +68,17 @@ def _zone_integrals(profile, function):
     return zeroth, first
 
 
+def kink_above(profile, depth):
+    """Depth (m) of the last kink above each depth (m), 0 for the tip."""
+    if profile.shape:
+        above = np.zeros_like(depth)
+        for kink in profile.kinks:
+            above = np.where(kink <= depth, kink, above)
+        return above
+    kinks = np.array([0.0, *profile.kinks])
+    return kinks[np.searchsorted(kinks, depth, side="right") - 1]
+
+
 def pieces(profile, lower, upper, length):
     """Cut live intervals where a(s) is not smooth.
 

@@ -9,6 +9,7 @@ from numpy.polynomial import chebyshev
 from .._numeric import chunks, cube_rise, cube_way, gauss_integrals, gauss_legendre
 from ..integrals import integrals, tabulated
 from ..live_interval import LiveInterval
+from ..quadrature import kink_above
 
 #: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
 #: transition depth; and in units of the length of the live interval, whose lower end is close to the tip.
@@ -161,7 +162,7 @@ def _edges(profile, upper, length, kinks, breaks):
     order = np.argsort(cuts, axis=1)
     cuts = np.take_along_axis(cuts, order, axis=1)
     roots = np.where((order < kinks.shape[1]) & (cuts > 0), cuts, -np.inf)
-    first = profile._kink_above(upper[:, 0])[:, None] - upper
+    first = kink_above(profile, upper[:, 0])[:, None] - upper
     return np.hstack([0 * length, cuts, length]), np.maximum.accumulate(np.hstack([first, roots]), axis=1)
 
 
@@ -199,7 +200,7 @@ def _flow(profile, lower, length):
     short = length < 1e-4 * upper
     if short.any():
         # Across a kink the difference must do.
-        short &= profile._kink_above(lower) == profile._kink_above(upper)
+        short &= kink_above(profile, lower) == kink_above(profile, upper)
         lower, length = (np.broadcast_to(array, short.shape)[short] for array in (lower, length))
         node, weight = gauss_legendre(2)
         values = table.covered_radius(lower[:, None] + length[:, None] * node)

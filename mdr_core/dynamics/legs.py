@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._numeric import cube_way
+from ..quadrature import kink_above
 from .equation_of_motion import Loading, MotionState, Unloading
 from .steps import DepthCoordinate, DepthSteps, VelocitySteps
 
@@ -61,7 +62,7 @@ def _load(bodies, tolerance):
     end = np.broadcast_to(profile.known_depth - imprint, zero.shape)
     edges = np.array([onset, *kinks, *(rule.penetration(kink, imprint) for kink in profile.kinks)])
     edges = np.sort(np.where((edges > 0) & (edges < end), edges, end), axis=0)
-    below = imprint - profile._kink_above(imprint)
+    below = imprint - kink_above(profile, imprint)
     base, rows = zero, np.arange(zero.size)
     for edge in [*edges, end]:
         # Behind a kink the radius is a power of the distance from it, else of that from the kink above.
@@ -81,7 +82,7 @@ def _unload(bodies, turning_state, tolerance):
     interval, _ = bodies.rule.loading(turning_state.depth, bodies.imprint_depth)
     equation = Unloading(bodies, interval.lower)
     state = MotionState(interval.length, zero.copy(), turning_state.time.copy(), turning_state.work.copy())
-    below = interval.lower - profile._kink_above(interval.lower)
+    below = interval.lower - kink_above(profile, interval.lower)
     for edge in [*(kink - interval.lower for kink in profile.kinks[::-1]), zero]:
         rows = np.flatnonzero(((edge >= 0) & (edge < state.depth) & (interval.upper < np.inf))[:, 0])
         root = np.cbrt(np.where(edge == 0, below, 0.0))

@@ -51,16 +51,12 @@ class Profile(_check.Parameters, ABC):
     #: Largest depth and radius (m) for which the profile is known.
     known_depth = np.inf
     known_radius = np.inf
-    _end_of_depth = "the shape is known"
     #: Radius (m) of the body that ends in the tip; the half-space needs a contact that is small against it.
     body_radius = np.inf
     #: Depths (m), ascending, at which the edge of the contact passes a kink of g, or reaches the wall.
     kinks = ()
     #: Depth (m) at which g changes from one power of x to another, None if it is not known.
     transition_depth = None
-    #: Of profiles with a table (`tabulated`): the unit profile, a length L and a depth H (m), with which
-    #: g(x) is H times g(x/L) of the unit profile.
-    unit = None
 
     @abstractmethod
     def _height(self, r): ...
@@ -106,13 +102,6 @@ class Profile(_check.Parameters, ABC):
         )
         return np.maximum(root, self.face_radius)
 
-    def _kink_above(self, depth):
-        """Depth (m) of the last kink above each depth (m), 0 for the tip."""
-        above = np.zeros_like(depth)
-        for kink in self.kinks:
-            above = np.where(kink <= depth, kink, above)
-        return above
-
     def _of_radius(self, quantity, r, function):
         """`function` at checked radii |r| (m)."""
         r = np.abs(self._places(quantity, r))
@@ -138,4 +127,4 @@ class Profile(_check.Parameters, ABC):
 
     def _too_deep(self):
         """Text for a refusal of depths below `known_depth`."""
-        return f"deeper than {self._end_of_depth}, {np.min(self.known_depth, initial=_check.LONGEST):g} m"
+        return f"deeper than the shape is known, {np.min(self.known_depth, initial=_check.LONGEST):g} m"

@@ -202,9 +202,5 @@ class Tabulated(Profile):
                 lambda s: self.profile._radius(np.minimum(s, self.known_depth)), edges, self.known_depth
             )
 
-    def _kink_above(self, depth):
-        kinks = np.array([0.0, *self.kinks])
-        return kinks[np.searchsorted(kinks, depth, side="right") - 1]
-
     def _radius(self, depth):
         return self.table.radius(depth)
