@@ -177,7 +177,12 @@ class Sampled(Profile):
     known_radius = property(lambda self: self.r[-1])
     known_depth = property(lambda self: float(self._g[-1]))
     face_radius = property(lambda self: float(self._r[np.count_nonzero(self._g == 0) - 1]))
-    kinks = cached_property(lambda self: tuple(g for g in self._g[1:-1].tolist() if g > 0))
+
+    @cached_property
+    def kinks(self):
+        """Depths (m) of the vertices at which the slope changes, outside a flat face."""
+        bent = (self._bend[1:] > 0) & (self._g[1:-1] > 0)
+        return tuple(self._g[1:-1][bent].tolist())
 
     @cached_property
     def transition_depth(self):
