@@ -1,8 +1,8 @@
 """Indentation and impact by the method of dimensionality reduction (MDR).
 
-Axisymmetric rigid indenters on an elastic half-space with a non-local yield criterion (hardness
-inversely proportional to the contact radius), mapped exactly onto a row of independent springs:
-V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
+Axisymmetric rigid indenters on an elastic half-space with a non-local yield criterion (a hardness that
+depends on the contact radius), mapped exactly onto a row of independent springs: V. L. Popov,
+Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 """
 
 from . import abel, sweep
@@ -23,7 +23,7 @@ from .foundation.foundation import Foundation
 from .foundation.impact import chain_impact
 from .indentation import Indentation
 from .medium import Medium
-from .onset import critical_force, yield_speed
+from .onset import critical_force, yield_depth, yield_speed
 from .paths import indent, indent_to_force
 from .reading import read_curve
 from .results.base import Motion
@@ -82,6 +82,7 @@ __all__ = [
     "oliver_pharr",
     "read_curve",
     "sweep",
+    "yield_depth",
     "yield_speed",
 ]
 

@@ -232,7 +232,6 @@ _INSTEAD = (
     | dict.fromkeys(("E", "modulus", "youngs_modulus", "nu"), _MODULUS)
     | dict.fromkeys(("velocity", "v", "v0", "energy"), _SPEED)
     | {
-        "hardness": "Medium.from_hardness(E_star, hardness, radius) takes a hardness",
         "critical_depth": "Medium.from_critical_depth(E_star, critical_depth) takes a critical depth",
         "viscosity": "The viscosity is `eta` (Pa·s)",
         "tau": "The viscosity is `eta` = E_star τ/4 (Pa·s)",

@@ -6,6 +6,8 @@ add a family, write a subclass of `ClosedForms` and register it for the class of
     @integrals.register(Wedge)
     class WedgeForms(Integrals): ...
 
+Rules of yield for a constant hardness alone are registered likewise, with `constant_hardness`.
+
 The live interval is [d_p, d], and a(s) the contact radius at the depth s. No formula is a difference of
 two elastic curves, which loses its digits where the interval is short: each is its length times a positive
 mean.
@@ -14,10 +16,11 @@ mean.
 import numpy as np
 import scipy
 
-from ._numeric import chunks, log1p_ratio, root
+from ._numeric import chunks, cube_rise, log1p_ratio, root
 from .integrals import Integrals, integrals
 from .live_interval import LiveInterval
 from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
+from .yielding import RadiusCap, constant_hardness
 
 _TINY = np.finfo(float).tiny
 
@@ -179,3 +182,111 @@ def _turning_interval(elastic, plastic_ratio, d_c):
         lower = np.where(elastic > d_c, plastic_ratio * d_c, 0.0)
     length = np.minimum(elastic, d_c)
     return LiveInterval.above(lower, length)
+
+
+@constant_hardness.register(Cone)
+def _(profile):
+    return ConeOfHardness
+
+
+@constant_hardness.register(Paraboloid)
+def _(profile):
+    return ParaboloidOfHardness
+
+
+class ConeOfHardness(RadiusCap):
+    """Constant hardness under a cone: u_c = κ s with κ = H/(E* slope), the same at all depths.
+
+    It yields from first touch on, or for κ ≥ 1 never. Over 2E*, U = κ²(3 − 2κ) d³/(3π slope) and
+    W_p = 2κ(1 − κ)² d³/(3π slope): the coefficient of restitution is √(κ(3 − 2κ)/(2 − κ)) at every speed.
+    """
+
+    similar = Cone(1.0)
+
+    @property
+    def _kappa(self):
+        return self.volume / (np.pi / 2 * self.profile.slope)
+
+    @classmethod
+    def at_ratio(cls, profile, ratio):
+        kappa = 1 / (1 + ratio)
+        return cls(profile, np.pi / 2 * profile.slope * kappa, 0.0, 0.0), LiveInterval.above(ratio, 1.0)
+
+    def _penetration(self, imprint, increase):
+        kappa = self._kappa
+        with np.errstate(divide="ignore", invalid="ignore"):
+            y = increase + kappa / (1 - kappa) * (imprint + increase)
+        return np.where(kappa < 1, y, np.inf)
+
+    def plastic_integral(self, imprint, increase):
+        # ∫ u_c a(p) dp with u_c = κ p/(1 − κ).
+        kappa = np.minimum(self._kappa, 1 - 1e-16)
+        factor = kappa / (1 - kappa) * 2 / (3 * np.pi * self.profile.slope)
+        return np.where(increase > 0, factor * cube_rise(imprint, increase), 0.0)[()]
+
+    def turning_interval(self, energy):
+        kappa = np.minimum(self._kappa, 1.0)
+        depth = np.cbrt(3 * np.pi * self.profile.slope * energy / (kappa * (2 - kappa)))
+        return LiveInterval(*np.broadcast_arrays((1 - kappa) * depth, depth, kappa * depth))
+
+
+class ParaboloidOfHardness(RadiusCap):
+    """Constant hardness under a paraboloid: u_c = √(d_y s), with d_y = R (π H/(2E*))² the depth of onset.
+
+    With r = √(s/d_y) the plastic depth is d_y (r² − r), and r = (1 + cosh t)/2 past the onset.
+    """
+
+    similar = Paraboloid(1.0)
+
+    @property
+    def _onset(self):
+        return self.volume**2 * self.profile.radius
+
+    @classmethod
+    def at_ratio(cls, profile, ratio):
+        r = 1 + ratio
+        return cls(profile, np.sqrt(1 / profile.radius), 0.0, 0.0), LiveInterval(r * ratio, r * r, r)
+
+    def _penetration(self, imprint, increase):
+        onset = self._onset
+        root_s = (np.sqrt(onset) + np.sqrt(onset + 4 * (imprint + increase))) / 2
+        return increase + np.sqrt(onset) * root_s
+
+    def plastic_integral(self, imprint, increase):
+        if np.any(imprint):
+            return super().plastic_integral(imprint, increase)
+        # ∫ u_c a(p) dp = √R d_y^(5/2) ∫ r √(r² − r) (2r − 1) dr.
+        onset = self._onset
+        sinh = 2 * np.sqrt(increase / onset)
+        t = np.arcsinh(sinh)
+        # (sinh 4t − 4t)/32, as a series where it cancels.
+        square = t * t
+        series = t * square * (1 / 3 + square * (4 / 15 + square * (32 / 315 + square * (64 / 2835))))
+        cosh = np.sqrt(1 + sinh * sinh)
+        power = np.where(t < 0.02, series, (sinh * cosh * (1 + 2 * sinh * sinh) - t) / 8)
+        return np.sqrt(self.profile.radius * onset) * onset**2 / 8 * (sinh**3 / 3 + power)
+
+    def turning_interval(self, energy):
+        onset = self._onset
+        work = (energy / (np.sqrt(self.profile.radius * onset) * onset**2)).ravel()
+        r = np.empty_like(work)
+        for rows in chunks(work.size):
+            r[rows] = _root_of_depth(work[rows])
+        r = r.reshape(np.shape(energy))
+        lower = onset * np.maximum(r * r - r, 0.0)
+        return LiveInterval(lower, onset * r * r, onset * np.minimum(r * r, r))
+
+
+def _root_of_depth(work):
+    """r = √(d/d_y) at which the work of loading over √R d_y^(5/2) has a value."""
+    elastic = (3.75 * work) ** 0.2
+    r = np.maximum(np.maximum(elastic, (2 * work) ** 0.25), 1.0)
+    for _ in range(6):
+        # 4/15 (r⁵ − q⁵) − ∫ sinh⁴ t dt/24 with q = √(r² − r), and its derivative 4/3 r (r³ − q³).
+        fall = np.log1p(-1 / r)
+        sinh = 2 * np.sqrt(r * r - r)
+        powers = sinh * (2 * r - 1) * (2 * sinh * sinh - 3) / 8 + 0.375 * np.arcsinh(sinh)
+        value = -(4 / 15) * r**5 * np.expm1(2.5 * fall) - powers / 24
+        slope = -(4 / 3) * r**4 * np.expm1(1.5 * fall)
+        r = np.maximum(r - (value - work) / slope, 1.0)
+    return np.where(elastic < 1, elastic, r)

@@ -13,7 +13,7 @@ from .integrals import integrals
 from .live_interval import LiveInterval
 from .medium import Medium
 from .results.base import CLOSED_FORM, Result
-from .results.limits import Limit, contact_limits
+from .results.limits import Limit, contact_limits, jump_limits
 from .shapes.profile import Profile
 from .stress import Stress, StressPeak
 from .yielding import yield_rule
@@ -28,7 +28,8 @@ class Indentation(Result):
     unloading from a viscous medium, where elements are released before their springs are relaxed.
     `uniform_load` is a line load (N/m) over the contact besides that of the live interval: 4ηḋ of the
     dashpots on loading, and with adhesion −E*Δl, where [d_p, D] with D = d + Δl is the live interval;
-    `in_time` says whether the states belong to a motion.
+    `in_time` says whether the states belong to a motion, and `jumps` are depths (m) between which a path
+    given by force jumps because the force falls there.
     """
 
     profile: Profile
@@ -37,6 +38,7 @@ class Indentation(Result):
     live_interval: LiveInterval
     uniform_load: np.ndarray | float = 0.0
     in_time: bool = False
+    jumps: tuple[tuple[float, float], ...] = ()
 
     #: Name of the model.
     model = CLOSED_FORM
@@ -61,7 +63,8 @@ class Indentation(Result):
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
         """Limits of the model for these states."""
-        return contact_limits(self.profile, self.medium, self.contact_radius, slow=not self.in_time)
+        limits = contact_limits(self.profile, self.medium, self.contact_radius, slow=not self.in_time)
+        return (*limits, *jump_limits(self.jumps))
 
     @property
     def _rule(self):

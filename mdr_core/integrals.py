@@ -41,7 +41,8 @@ class Integrals(ABC):
     #: Whether a(s) is a polynomial of √s from the tip on, for which quadrature needs no cuts.
     polynomial = False
 
-    #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/d_c for all.
+    #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/d_c for all,
+    #: under the hardness q_c/a.
     similar = None
 
     #: Exponent p of the elastic force F ∝ dᵖ.
@@ -81,6 +82,27 @@ class Integrals(ABC):
     def unit(self):
         """The unit profile, a length L and a depth H (m): g(x) is H times g(x/L) of the unit profile."""
         return self.profile, 1.0, 1.0
+
+    @property
+    def convex(self):
+        """Whether g(x)/x nowhere falls, as under every convex shape."""
+        if self.elastic_exponent is not None:
+            # g ∝ xⁿ, with F ∝ d^(1 + 1/n).
+            return bool(np.all(self.elastic_exponent <= 2))
+        return _growing_mean_slope(self.unit[0])
+
+
+@lru_cache(maxsize=64)
+def _growing_mean_slope(profile):
+    """Whether g(x)/x nowhere falls between 10⁻¹² and 10³ m, as far as the profile is known."""
+    with np.errstate(all="ignore"):
+        for radius in np.geomspace(1e-12, 1e3, 256):
+            x = np.full(profile.shape, radius)
+            g, slope = profile._reduced(x), profile._reduced_slope(x)
+            known = (x <= profile.known_radius) & (g <= profile.known_depth)
+            if np.any(known & (x * slope < g * (1 - 1e-9))):
+                return False
+    return True
 
 
 @singledispatch

@@ -1,6 +1,6 @@
-"""The medium: modulus, yield constant, viscosity, Poisson ratio and work of adhesion."""
+"""The medium: modulus, hardness, viscosity, Poisson ratio and work of adhesion."""
 
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
 
@@ -29,6 +29,12 @@ def refuse_adhesion(medium, what):
     """Refuses a medium with adhesion for a calculation `what` that has none."""
     if np.any(np.asarray(medium.work_of_adhesion) > 0):
         raise ValueError(f"{what} is not computed with adhesion; set work_of_adhesion = 0")
+
+
+def refuse_other_classes(medium, what, instead):
+    """Refuses a medium of another hardness than q_c/a for a quantity `what` of class (b)."""
+    if not medium.inverse_to_radius:
+        raise ValueError(f"{what} is of the hardness q_c/a alone, class (b); {instead}")
 
 
 def paths_on(profile, medium, depth):
@@ -65,9 +71,54 @@ def _poisson(quantity, ratio):
     return _check.refuse(quantity, ratio, (ratio <= -1) | (ratio > 0.5), "must lie in −1 < ν ≤ 0.5")
 
 
+def _hardness_constants(q_c, hardness, f_c):
+    """The three constants of the hardness, those that are not given by the rules of `Medium`."""
+    elastic = hardness is None and f_c is None
+    given = {
+        "q_c": (np.inf if elastic else 0.0) if q_c is None else q_c,
+        "hardness": 0.0 if hardness is None else hardness,
+        "f_c": 0.0 if f_c is None else f_c,
+    }
+    return {
+        "q_c": _check.positive(
+            "yield constant q_c", given["q_c"], unit="N/m", infinite=True, zero=not elastic
+        ),
+        "hardness": _check.positive("hardness", given["hardness"], unit="Pa", zero=True),
+        "f_c": _check.positive("yield constant f_c", given["f_c"], unit="N", zero=True),
+    }
+
+
+def _refuse_sum(medium):
+    """Refuses a hardness that is 0, and an infinite q_c beside another class."""
+    others = np.asarray(medium.hardness) + np.asarray(medium.f_c)
+    q_c = np.broadcast_to(medium.q_c, np.broadcast_shapes(np.shape(medium.q_c), others.shape))
+    for bad, bound, remedy in (
+        ((q_c == 0) & (others == 0), "leaves no hardness beside 0 of the others", "give one above 0"),
+        (
+            (q_c == np.inf) & (others > 0),
+            "means that nothing yields, beside a hardness or f_c above 0",
+            "give q_c = 0 or a finite one",
+        ),
+    ):
+        _check.refuse("yield constant q_c", q_c, bad, bound, unit="N/m", remedy=remedy)
+    if np.any((np.asarray(medium.work_of_adhesion) > 0) & (others > 0)):
+        raise ValueError(
+            "adhesion is modelled for the hardness q_c/a only; set the work of adhesion work_of_adhesion "
+            "to 0, or hardness and f_c"
+        )
+
+
 @dataclass(frozen=True, eq=False)
 class Medium(_check.Parameters):
-    """A visco-elastic half-space with hardness inversely proportional to the contact radius.
+    """A visco-elastic half-space with a hardness that is a function of the contact radius.
+
+    The mean pressure under a contact of radius a that has yielded throughout is the hardness
+
+        σ_c(a) = hardness + q_c/a + f_c/a²
+
+    the sum of the three classes of Popov (2015), section 1: (a) constant, (b) inversely proportional to the
+    radius, which the paper treats, (c) inversely proportional to the area. Of the three constants those
+    that are not given are 0; if none is given nothing yields.
 
     Parameters
     ----------
@@ -75,8 +126,8 @@ class Medium(_check.Parameters):
         Effective modulus E* (Pa), positive. A rigid indenter on a body of modulus E and
         Poisson ratio ν has E* = E/(1 − ν²).
     q_c : float, optional
-        Yield constant (N/m = J/m²): the mean pressure under a fully yielded contact of radius a
-        is q_c/a. Positive; infinite (the default) means that nothing yields.
+        Yield constant of class (b) (N/m = J/m²), not negative. Infinite, the default where neither
+        `hardness` nor `f_c` is given, means that nothing yields.
     eta : float, optional
         Dynamic viscosity η (Pa·s), not negative; 0 (the default) means rate-independent.
     poisson : float, optional
@@ -84,35 +135,46 @@ class Medium(_check.Parameters):
         The dashpots are exact for 1/2.
     work_of_adhesion : float, optional
         Work of adhesion w (J/m²), not negative: the energy that separates a unit area of the surfaces.
-        0 (the default) means no adhesion. It excludes viscosity.
+        0 (the default) means no adhesion. It excludes viscosity, and yield of another class than (b).
+    hardness : float, optional
+        Constant hardness H of class (a) (Pa), finite and not negative: glass, metals, ceramics.
+    f_c : float, optional
+        Yield constant of class (c) (N = J/m), finite and not negative.
 
     Parameters may be arrays that broadcast, for many impacts at once; properties are then arrays.
 
     Raises
     ------
     ValueError
-        If a parameter is not a number or out of its range, arrays do not broadcast, or both `eta` and
-        `work_of_adhesion` are positive.
+        If a parameter is not a number or out of its range, arrays do not broadcast, the hardness is 0,
+        `q_c` is infinite beside a `hardness` or `f_c`, both `eta` and `work_of_adhesion` are positive, or
+        `work_of_adhesion` and one of `hardness` and `f_c`.
 
     Examples
     --------
     >>> medium = Medium(E_star=100e9, q_c=2000.0)
     >>> print(round(medium.critical_depth * 1e9, 6))  # π q_c / (2 E*), in nm
     31.415927
+    >>> glass = Medium(E_star=70e9, hardness=9e9)
+    >>> print(glass.q_c, glass.hardness_at(1e-6))
+    0.0 9000000000.0
     """
 
     E_star: Parameter
-    q_c: Parameter = np.inf
+    q_c: Parameter = None
     eta: Parameter = 0.0
     poisson: Parameter = 0.5
     work_of_adhesion: Parameter = 0.0
+    _: KW_ONLY
+    hardness: Parameter = None
+    f_c: Parameter = None
 
     def __post_init__(self):
         poisson = _poisson("Poisson ratio poisson", self.poisson)
         _check.store(
             self,
             E_star=_check.positive("effective modulus E_star", self.E_star, unit="Pa"),
-            q_c=_check.positive("yield constant q_c", self.q_c, unit="N/m", infinite=True),
+            **_hardness_constants(self.q_c, self.hardness, self.f_c),
             eta=_check.positive("viscosity eta", self.eta, unit="Pa·s", zero=True),
             poisson=_check.frozen(poisson) if poisson.ndim else float(poisson),
             work_of_adhesion=_check.positive(
@@ -120,6 +182,7 @@ class Medium(_check.Parameters):
             ),
         )
         _check.common_shape("medium", **self.__getstate__())
+        _refuse_sum(self)
         if np.any((np.asarray(self.eta) > 0) & (np.asarray(self.work_of_adhesion) > 0)):
             raise ValueError(
                 "adhesion is not modelled on a viscous medium; set the viscosity eta or the work of "
@@ -130,7 +193,9 @@ class Medium(_check.Parameters):
     def from_hardness(
         cls, E_star: ArrayLike, hardness: ArrayLike, radius: ArrayLike, **other: ArrayLike
     ) -> "Medium":
-        """The medium whose fully yielded contact of some radius has a given hardness: q_c = σ_c a.
+        """The medium of class (b) whose fully yielded contact of a radius has a hardness: q_c = σ_c a.
+
+        For a hardness that is the same at every radius take `Medium(E_star, hardness=…)`.
 
         Parameters
         ----------
@@ -159,7 +224,7 @@ class Medium(_check.Parameters):
     def from_critical_depth(
         cls, E_star: ArrayLike, critical_depth: ArrayLike, **other: ArrayLike
     ) -> "Medium":
-        """The medium in which yield starts at a given depth: q_c = 2E* d_c/π, Popov (2015), Eq. (19).
+        """The medium of class (b) in which yield starts at a given depth: q_c = 2E* d_c/π, Eq. (19).
 
         Parameters
         ----------
@@ -190,9 +255,12 @@ class Medium(_check.Parameters):
         nu1: ArrayLike,
         E2: ArrayLike = np.inf,
         nu2: ArrayLike = 0.0,
-        q_c: ArrayLike = np.inf,
+        q_c: ArrayLike | None = None,
         eta: ArrayLike = 0.0,
         work_of_adhesion: ArrayLike = 0.0,
+        *,
+        hardness: ArrayLike | None = None,
+        f_c: ArrayLike | None = None,
     ) -> "Medium":
         """The medium equivalent to two elastic bodies in contact.
 
@@ -204,7 +272,7 @@ class Medium(_check.Parameters):
             Young's moduli (Pa), positive; infinite for a rigid body. Not both infinite.
         nu1, nu2 : float
             Poisson ratios, −1 < ν ≤ 1/2. The first is the medium's `poisson`: stresses are in body 1.
-        q_c, eta, work_of_adhesion : float
+        q_c, eta, work_of_adhesion, hardness, f_c : float
             As in `Medium`.
 
         Examples
@@ -220,17 +288,44 @@ class Medium(_check.Parameters):
             compliance = compliance + (1 - ratio) * (1 + ratio) / modulus
         if np.any(compliance == 0):
             raise ValueError("E1 and E2 are both infinite; at least one body must be elastic")
-        return cls(1 / compliance, q_c, eta, nu1, work_of_adhesion)
+        return cls(1 / compliance, q_c, eta, nu1, work_of_adhesion, hardness=hardness, f_c=f_c)
+
+    @property
+    def inverse_to_radius(self) -> bool:
+        """Whether the hardness is q_c/a alone, class (b) of the paper, or nothing yields."""
+        return not (np.any(self.hardness) or np.any(self.f_c))
 
     @property
     def critical_depth(self) -> Array:
-        """Indentation depth d_c = π q_c/(2E*) (m) at which yield starts, Popov (2015), Eq. (19)."""
+        """Indentation depth d_c = π q_c/(2E*) (m) at which yield starts, Popov (2015), Eq. (19).
+
+        Of class (b) alone; of any class `mdr_core.yield_depth(profile, medium)`.
+        """
+        refuse_other_classes(self, "the critical depth", "take yield_depth(profile, medium)")
         return critical_depth(self.E_star, self.q_c)
 
     @property
     def yield_line_load(self) -> Array:
-        """Largest line load π q_c/2 (N/m) that a 1D element carries, Popov (2015), Eq. (12)."""
+        """Largest line load π q_c/2 (N/m) that a 1D element carries, Popov (2015), Eq. (12).
+
+        Of class (b) alone; of any class it is π a σ_c(a)/2 in a contact of radius a, by `hardness_at`.
+        """
+        refuse_other_classes(self, "the largest line load", "it is π a σ_c(a)/2 by hardness_at(a)")
         return np.pi / 2 * self.q_c
+
+    def hardness_at(self, radius: ArrayLike) -> Array:
+        """Hardness σ_c = H + q_c/a + f_c/a² (Pa) of a contact of radius a (m), Popov (2015), section 1.
+
+        The mean pressure under a contact that has yielded throughout; infinite where nothing yields.
+
+        Examples
+        --------
+        >>> print(Medium(E_star=1e9, q_c=2.0, hardness=1e6).hardness_at(1e-6))
+        3000000.0
+        """
+        a = _check.positive("radius", radius, unit="m")
+        _check.common_shape("hardness_at", radius=a, medium=np.empty(self.shape))
+        return _check.frozen(self.hardness + np.asarray(self.q_c) / a + np.asarray(self.f_c) / a / a)
 
     @property
     def relaxation_time(self) -> Array:

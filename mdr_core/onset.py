@@ -1,4 +1,4 @@
-"""Onset of yield: force of an indentation and speed of an impact at which the first element yields."""
+"""Onset of yield: depth, force and impact speed at which the first element yields."""
 
 import numpy as np
 
@@ -12,10 +12,46 @@ from .yielding import yield_rule
 
 
 @_check.keywords_explained
-def critical_force(profile: Profile, medium: Medium) -> Array:
-    """Normal force F_c (N) at which yield starts, that of an elastic indentation to the critical depth.
+def yield_depth(profile: Profile, medium: Medium) -> Array:
+    """Indentation depth d_y (m) at which yield starts: the first one of s = u_c(a(s)).
 
-    F_c = 2E* ∫ a(s) ds over 0 < s < d_c; for a cone Popov (2015), Eq. (20).
+    u_c(a) = π a σ_c(a)/(2E*) is the largest elastic compression of the elements in a contact of radius a.
+    For the hardness q_c/a it is `medium.critical_depth` under every indenter, Popov (2015), Eq. (19).
+
+    Parameters
+    ----------
+    profile, medium
+        The indenter and the medium.
+
+    Returns
+    -------
+    float or ndarray
+        Depth (m), of the shape to which the parameters of both broadcast; infinite where nothing yields,
+        and 0 where a sharp tip yields from first touch on.
+
+    Raises
+    ------
+    ValueError
+        If yield starts deeper than the profile is known.
+
+    Examples
+    --------
+    Under a paraboloid on a medium of constant hardness H, d_y = R (π H/(2E*))²:
+
+    >>> from mdr_core import Paraboloid
+    >>> medium = Medium(E_star=np.pi, hardness=0.2)
+    >>> print(round(yield_depth(Paraboloid(radius=1.0), medium), 12))
+    0.01
+    """
+    return _check.frozen(_onset("yield_depth", profile, medium)[()])
+
+
+@_check.keywords_explained
+def critical_force(profile: Profile, medium: Medium) -> Array:
+    """Normal force F_c (N) at which yield starts, that of an elastic indentation to the depth of onset.
+
+    F_c = 2E* ∫ a(s) ds over 0 < s < d_y, the `yield_depth`; for a cone of hardness q_c/a Popov (2015),
+    Eq. (20).
 
     Parameters
     ----------
@@ -32,7 +68,7 @@ def critical_force(profile: Profile, medium: Medium) -> Array:
     Raises
     ------
     ValueError
-        If the critical depth is larger than the depth to which the profile is known.
+        If yield starts deeper than the profile is known.
 
     Examples
     --------
@@ -49,8 +85,8 @@ def critical_force(profile: Profile, medium: Medium) -> Array:
 def yield_speed(profile: Profile, medium: Medium, mass: ArrayLike) -> Array:
     """Speed v_y (m/s) of a free body above which an impact on a virgin medium without viscosity yields.
 
-    Its kinetic energy is the elastic energy at the critical depth: m v_y²/2 = 2E* ∫ (d_c − s) a(s) ds over
-    0 < s < d_c (Johnson, Contact Mechanics, 11.4, with the yield criterion of Popov (2015), Eq. (12)). The
+    Its kinetic energy is the elastic energy at the `yield_depth`: m v_y²/2 = 2E* ∫ (d_y − s) a(s) ds over
+    0 < s < d_y (Johnson, Contact Mechanics, 11.4, with the yield criterion of Popov (2015), Eq. (12)). The
     dashpots of a viscous medium take part of the energy, so that yield starts at a higher speed.
 
     Parameters
@@ -68,7 +104,7 @@ def yield_speed(profile: Profile, medium: Medium, mass: ArrayLike) -> Array:
     Raises
     ------
     ValueError
-        If a mass is not positive, or the critical depth is larger than the known depth of the profile.
+        If a mass is not positive, or yield starts deeper than the profile is known.
 
     Examples
     --------
@@ -87,8 +123,18 @@ def yield_speed(profile: Profile, medium: Medium, mass: ArrayLike) -> Array:
 
 def _at_onset(what, profile, medium, **values):
     """Where the medium yields at all, and the live interval of an elastic indentation to the onset."""
+    onset = _onset(what, profile, medium, **values)
+    yields = onset < np.inf
+    return yields, LiveInterval.elastic(np.where(yields, onset, 0.0))
+
+
+def _onset(what, profile, medium, **values):
+    """Depth (m) of the onset, infinite where nothing yields; refused if it is not known."""
     check_pair(profile, medium)
     shape = shape_with(what, profile, medium, **values)
-    onset = np.broadcast_to(yield_rule(profile, medium).onset(), shape)
-    yields = onset < np.inf
-    return yields, LiveInterval.elastic(profile._known(np.where(yields, onset, 0.0)))
+    rule = yield_rule(profile, medium)
+    onset = np.broadcast_to(rule.onset(), shape)
+    # Deeper than the profile is known an onset may be infinite, but the cap there is not.
+    unknown = (onset > profile.known_depth) & (rule.cap(profile.known_depth) < np.inf)
+    bound = f"is {profile._too_deep()}"
+    return _check.refuse("yield depth", onset, unknown, bound, unit="m")

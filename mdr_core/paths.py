@@ -1,5 +1,7 @@
 """Indentation along a prescribed path of depth or force, infinitely slowly."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from . import _check, adhesion
@@ -73,8 +75,10 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
         As for `indent`.
     force : float or array_like
         Normal force (N); one number or a path along the last axis. At 0 the indenter rests on the bottom
-        of the imprint. Negative only with adhesion: under more than the pull-off force the contact is
-        lost, the force is 0 and the depth that of the imprint, until a force ≥ 0 closes it again.
+        of the imprint. With f_c above 0 the force on loading may fall after the onset of yield: the depth
+        is the first one that carries it, and the path jumps there, which is said in `limits`. Negative
+        only with adhesion: under more than the pull-off force the contact is lost, the force is 0 and the
+        depth that of the imprint, until a force ≥ 0 closes it again.
 
     Returns
     -------
@@ -85,7 +89,8 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     ------
     ValueError
         If a force is not finite, negative without adhesion, larger than a flat face carries before all of
-        it yields (π q_c b, Popov 2015, Eq. (11)), or presses deeper than the known depth of the profile.
+        it yields (π b² σ_c(b), Popov 2015, Eq. (11)) or than f_c carries alone (π f_c), or presses deeper
+        than the known depth of the profile.
 
     Examples
     --------
@@ -102,33 +107,77 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
         force = _check.force("force", force)
     rule = yield_rule(profile, medium)
     limit = 2 * medium.E_star * rule.wall_integral()
-    bound = f"must be less than the {limit:g} N at which the whole flat face yields"
+    carrier = "the whole flat face yields" if profile.wall < np.inf else "all of the contact yields, π f_c"
+    bound = f"must be less than the {limit:g} N at which {carrier}"
     _check.refuse("force", force, force >= limit, bound, unit="N", remedy="press to a depth instead")
     if adhesive:
         return Indentation(profile, medium, *adhesion.force_path(profile, medium, force))
     integral = force / (2 * medium.E_star)
     largest = np.maximum.accumulate(integral, axis=-1) if integral.ndim else integral
-    largest_depth = _loading_depth(rule, largest)
+    branches = _growing_branches(rule)
+    largest_depth = _loading_depth(rule, branches, largest)
     known = largest_depth <= min(profile.known_depth, _check.LONGEST)
     bound = f"presses {profile._too_deep()}"
     _check.refuse("force", force, ~known, bound, unit="N", remedy="press less")
     loaded, _ = rule.loading(largest_depth)
     length = np.where(integral == largest, loaded.length, _live_length(profile, loaded, integral))
     depth = np.where(integral == largest, largest_depth, loaded.lower + length)
-    return Indentation(profile, medium, depth, LiveInterval(loaded.lower, depth, length))
+    end = np.max(largest_depth, initial=0.0)
+    jumps = tuple((one[1], other[0]) for one, other in pairwise(branches) if other[0] < end)
+    return Indentation(profile, medium, depth, LiveInterval(loaded.lower, depth, length), jumps=jumps)
 
 
-def _loading_depth(rule, area):
-    """Depth (m) at which a first loading has ∫ a ds = `area` (m²), elementwise."""
+def _loading_depth(rule, branches, area):
+    """The first depth (m) at which a first loading has ∫ a ds = `area` (m²), elementwise."""
+    onset, result = rule.onset(), np.full(area.shape, np.inf)
+    for low, high, least in branches:
 
-    def loading(depth):
+        def loading(depth, low=low, least=least):
+            interval, _ = rule.loading(depth)
+            width = rule.yielding_width(interval)
+            slope = np.where(interval.lower > 0, width, rule.profile._radius(depth))
+            value = integrals(rule.profile).radius_integral(interval)
+            # Shallower than the branch a straight line, which stays below what was not reached before.
+            rate = least / max(low, 1e-300)
+            return np.where(depth < low, rate * depth, value), np.where(depth < low, rate, slope)
+
+        start = np.clip(onset if 0 < onset < np.inf else 1.0, low, high)
+        depth = increasing_root(loading, area, start, high)
+        result = np.minimum(result, depth)
+    return result
+
+
+def _growing_branches(rule):
+    """Depths (m) between which the force of a first loading grows, and ∫ a ds (m²) at the first of them.
+
+    With f_c above 0 the force may fall after the onset of yield.
+    """
+    end, onset = rule.profile.known_depth, float(rule.onset())
+    branches = [(0.0, end, 0.0)]
+    if not rule.falls or not onset < end:
+        return branches
+
+    @np.errstate(all="ignore")
+    def growing(depth):
         interval, _ = rule.loading(depth)
-        width = rule.yielding_width(interval)
-        slope = np.where(interval.lower > 0, width, rule.profile._radius(depth))
-        return integrals(rule.profile).radius_integral(interval), slope
+        # Where the force goes to π f_c only the rounding of the radii is left of its slope.
+        return rule.yielding_width(interval) >= -1e-14 * rule.profile._radius(interval.upper)
 
-    onset = rule.onset()
-    return increasing_root(loading, area, onset if onset < np.inf else 1.0, rule.profile.known_depth)
+    depth = onset * (1 + np.geomspace(1e-9, 1e9, 721))
+    depth = np.append(onset, np.append(depth[depth < end], end if end < np.inf else []))
+    grows = growing(depth)
+    # The elastic branch ends at the onset.
+    grows[0] = True
+    for i in np.flatnonzero(grows[1:] != grows[:-1]):
+        low, high = depth[i], depth[i + 1]
+        while high - low > 4e-16 * high and low < (middle := (low + high) / 2) < high:
+            low, high = (middle, high) if growing(middle) == grows[i] else (low, middle)
+        if grows[i]:
+            branches[-1] = (branches[-1][0], low, branches[-1][2])
+        else:
+            least = integrals(rule.profile).radius_integral(rule.loading(high)[0])
+            branches.append((high, end, float(least)))
+    return branches
 
 
 def _live_length(profile, largest, area):

@@ -14,6 +14,7 @@ from ._check import Array, ArrayLike
 from ._numeric import increasing_root
 from .integrals import integrals
 from .live_interval import LiveInterval
+from .medium import refuse_other_classes
 from .results.base import Entries
 from .results.limits import Limit
 from .results.report import Report
@@ -186,6 +187,7 @@ class FastLimit(Entries, Report):
 def fast_limit(hit):
     """The `FastLimit` of an `Impact`."""
     profile, medium = hit.profile, hit.medium
+    refuse_other_classes(medium, "the fast limit", "ScalingLaw has the powers of each class")
     energy = hit.mass * hit.speed**2 / 2
     d_c = np.asarray(medium.critical_depth)
     _check.refuse("critical depth", d_c, np.isinf(d_c), "m: nothing yields", remedy="give q_c")
@@ -216,7 +218,9 @@ def fast_limit(hit):
 
 def how_fast(hit):
     """`Limit`s of the fast limit (23), (24) for an `Impact`, from its errors; none without yield."""
-    if np.any(np.isinf(hit.medium.critical_depth)) or not np.any(hit.plastic_depth_increase > 0):
+    if not (hit.medium.inverse_to_radius and np.any(hit.plastic_depth_increase > 0)):
+        return ()
+    if np.any(np.isinf(hit.medium.critical_depth)):
         return ()
     equations, first = "Eqs. (23), (24)", np.all(hit.plastic_depth == hit.plastic_depth_increase)
     try:

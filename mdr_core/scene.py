@@ -15,6 +15,7 @@ from .foundation.impact import ChainImpact
 from .indentation import Indentation
 from .medium import Medium, check_pair
 from .results.base import Model
+from .results.quantities import at_default
 from .shapes import power, rounded, sampled, truncated
 from .shapes.profile import Profile
 
@@ -26,6 +27,7 @@ _PROFILES = (
 _DRIVES = (DepthPath, ForcePath, FreeImpact, FreeObliqueImpact)
 #: Values of entries that are optional in a file.
 _OPTIONAL = {"time": None, "poisson": 0.5, "work_of_adhesion": 0.0, "plastic_depth": 0.0}
+_OPTIONAL |= {"hardness": None, "f_c": None}
 _FORMAT, _VERSION = "mdr-scene", 1
 
 
@@ -161,9 +163,8 @@ def _constructed(value):
     """A value as a call of its class."""
     if not is_dataclass(value):
         return repr(np.asarray(value).tolist())
-    own = {each.name: getattr(value, each.name) for each in fields(value) if each.init}
-    defaults = {each.name: each.default for each in fields(value)}
-    given = [f"{name}={_constructed(part)}" for name, part in own.items() if part != defaults[name]]
+    own = [(each, getattr(value, each.name)) for each in fields(value) if each.init]
+    given = [f"{each.name}={_constructed(part)}" for each, part in own if not at_default(each, part)]
     return f"mdr.{type(value).__name__}({', '.join(given)})"
 
 

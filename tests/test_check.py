@@ -195,7 +195,7 @@ def test_stress_at_a_radius_next_to_nothing():
         (lambda: mdr.Cone(angle=20), r"Cone has no parameter 'angle'; it has slope\. .*from_half_angle"),
         (lambda: mdr.Sphere(R=1.0), r"Sphere has no parameter 'R'; it has radius\. .*half of the diameter"),
         (lambda: mdr.Medium(E=1e9), r"Medium has no parameter 'E'; it has E_star, q_c, eta, .*from_bodies"),
-        (lambda: mdr.Medium(1e9, hardness=1e9), "Medium has no parameter 'hardness'; .*from_hardness"),
+        (lambda: mdr.Medium(1e9, viscosity=1.0), "Medium has no parameter 'viscosity'; .*`eta`"),
         (
             lambda: mdr.impact(mdr.Cone(0.3), MEDIUM, mass=1.0, velocity=1),
             r"impact has no parameter 'velocity'; it has profile, medium, mass, speed, .*`speed`",

@@ -20,7 +20,7 @@ ORDER = (
     "foundation.foundation",
     "foundation.fronts", "foundation.depth_path", "foundation.force_path", "foundation.free_body",
     "foundation.impact",
-    "live_interval", "quadrature", "integrals", "closed_forms", "yielding", "adhesion", "onset",
+    "live_interval", "quadrature", "integrals", "yielding", "closed_forms", "adhesion", "onset",
     "fields", "stress", "indentation", "paths",
     "dynamics.contact_time",
     "scaling", "dynamics.equation_of_motion", "dynamics.steps", "dynamics.legs", "dynamics.course",
@@ -34,7 +34,7 @@ ORDER = (
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {
-    "live_interval", "quadrature", "integrals", "closed_forms", "yielding", "adhesion", "fields",
+    "live_interval", "quadrature", "integrals", "yielding", "closed_forms", "adhesion", "fields",
     "indentation", "paths",
     "dynamics.impact", "dynamics.energy_balance", "dynamics.adhesive_impact", "dynamics.contact_time",
     "dynamics.result", "dynamics.viscous_impact", "dynamics.equation_of_motion", "dynamics.steps",

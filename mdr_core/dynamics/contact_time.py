@@ -16,20 +16,20 @@ from ..quadrature import kink_above
 _TRANSITIONS, _LENGTHS = np.array([1.0, 6.0]), 5 * 25.0 ** np.arange(6)
 
 
-def contact_time(profile, inertia, speed, interval, increase):
+def contact_time(rule, inertia, speed, interval, increase):
     """Time (s) from first contact to its loss, elementwise.
 
-    From inertia m/(2E*) (m s²), speed v₀ (m/s), and, of full shape, the live interval at the turning point
-    and the increase (m) of the plastic depth.
+    From the `YieldRule`, inertia m/(2E*) (m s²), speed v₀ (m/s), and, of full shape, the live interval at
+    the turning point and the increase (m) of the plastic depth.
     """
-    shape = np.shape(interval.upper)
+    shape, profile = np.shape(interval.upper), rule.profile
     factor = np.broadcast_to(np.sqrt(inertia / 2), shape).ravel()
     lower, upper, length, increase = map(
         np.ravel, (interval.lower, interval.upper, interval.length, increase)
     )
     passage = np.broadcast_to(upper.reshape(shape) / speed, shape).ravel()
     virgin = increase == lower
-    exponent, similar = integrals(profile).elastic_exponent, integrals(profile).similar
+    exponent, similar = integrals(profile).elastic_exponent, rule.similar
     elastic = virgin & (lower == 0) & (exponent is not None)
     by_ratio = virgin & (lower > 0) & (similar is not None)
     time = np.empty(upper.shape)
@@ -37,7 +37,8 @@ def contact_time(profile, inertia, speed, interval, increase):
         ratio = np.broadcast_to(elastic_time(exponent), shape).ravel()
         time[elastic] = ratio[elastic] * passage[elastic]
     if by_ratio.any():
-        time[by_ratio] = _similar_time(similar, lower[by_ratio] / length[by_ratio]) * passage[by_ratio]
+        ratio = _similar_time(type(rule), similar, lower[by_ratio] / length[by_ratio])
+        time[by_ratio] = ratio * passage[by_ratio]
     remainder = np.flatnonzero(~(elastic | by_ratio))
     if remainder.size:
         profile = tabulated(profile, upper[remainder].max())
@@ -52,7 +53,9 @@ def contact_time(profile, inertia, speed, interval, increase):
         stop = start + max(32, 2048 // (1 + inside[start]))
         rows = remainder[order[start:stop]]
         turning = LiveInterval(lower[rows], upper[rows], length[rows]).in_units_of(depth[rows])
-        ratio = time_over_root(unit.flat_entries(rows, shape), turning, increase[rows] / depth[rows])
+        own = rule.flat_entries(rows, shape)
+        own = own.in_units_of(unit.flat_entries(rows, shape), root[rows] ** 2, depth[rows])
+        ratio = time_over_root(own, turning, increase[rows] / depth[rows])
         time[rows] = ratio / root[rows] * factor[rows]
         start = stop
     return time.reshape(shape)[()]
@@ -64,72 +67,89 @@ def elastic_time(p):
     return 2 * np.sqrt(np.pi) * gamma(1 + q) / gamma(0.5 + q)
 
 
-def _similar_time(profile, ratio):
-    """Contact time over d_max/v₀ of profiles similar to this one, as a function of d_p/d_c > 0."""
+def _similar_time(kind, profile, ratio):
+    """Contact time over d_max/v₀ of profiles similar to this one, as a function of d_p/ℓ > 0.
+
+    `kind` is the class of the rule of yield, and ℓ the live depth at the turning point, d_c for q_c/a.
+    """
     result = np.empty_like(ratio)
     for rows in chunks(ratio.size):
-        # A series in √(d_p/d_c) at the onset of yield, in its inverse where d_p ≫ d_c.
+        # A series in √(d_p/ℓ) at the onset of yield, in its inverse where d_p ≫ ℓ.
         root = np.sqrt(ratio[rows])
-        result[rows] = chebyshev.chebval(2 * (root / (1 + root)) - 1, _table(profile))
+        result[rows] = chebyshev.chebval(2 * (root / (1 + root)) - 1, _table(kind, profile))
     return result
 
 
 @lru_cache
-def _table(profile):
-    """Chebyshev coefficients of `_similar_time` in 2v − 1, with v = √X/(1 + √X) and X = d_p/d_c."""
+def _table(kind, profile):
+    """Chebyshev coefficients of `_similar_time` in 2v − 1, with v = √X/(1 + √X) and X = d_p/ℓ."""
 
     def time(place):
-        X = ((1 + place) / (1 - place)) ** 2
-        return _ratio(profile, X + 1, X)
+        return _ratio(*kind.at_ratio(profile, ((1 + place) / (1 - place)) ** 2))
 
     return chebyshev.chebtrim(chebyshev.chebinterpolate(time, 71), 1e-15)
 
 
-def _ratio(profile, depth, X):
-    """Contact time over d_max/v₀ of impacts on a virgin medium, from d_max (m) and X = d_p/d_c."""
-    interval = LiveInterval(depth * X / (1 + X), depth, depth / (1 + X))
-    plastic = interval.length * integrals(profile).radius_integral(LiveInterval.elastic(interval.lower))
-    energy = integrals(profile).energy_integral(interval) + plastic
-    return time_over_root(profile, interval, interval.lower) * np.sqrt(energy) / depth
+def _ratio(rule, interval):
+    """Contact time over d_max/v₀ of impacts on a virgin medium, from the live intervals at the end."""
+    plastic = rule.plastic_integral(0 * interval.lower, interval.lower)
+    energy = integrals(rule.profile).energy_integral(interval) + plastic
+    return time_over_root(rule, interval, interval.lower) * np.sqrt(energy) / interval.upper
 
 
-def time_over_root(profile, interval, increase):
+def time_over_root(rule, interval, increase):
     """∫ ds/√(∫∫ a ds ds) over unloading and loading (m^(−1/2)), one impact a row.
 
     The kinetic energy is 2E* times the inner integral, which is the work up to the turning point.
-    Unloading is one stretch of depth, loading two: deeper than d_c both ends of the live interval move. In
+    Unloading is one stretch of depth, loading two: past the onset both ends of the live interval move. In
     each piece of a stretch the work is integrated from the turning point back, so that it never cancels.
     """
+    profile, count = rule.profile, len(increase)
     lower, length, increase = interval.lower[:, None], interval.length[:, None], increase[:, None]
     before, stretch = lower - increase, partial(_stretch, profile)
+    column = rule.entries((slice(None), None), (count,))
+    onset = np.where(increase > 0, column.penetration(before, before), length)
     kinks = np.column_stack(profile.kinks) if profile.kinks else np.empty((1, 0))
     kinks = kinks[:, (kinks < interval.upper.max()).any(axis=0)]
     breaks = np.empty((1, 0))
     if profile.transition_depth is not None:
         breaks = np.atleast_2d(np.multiply.outer(profile.transition_depth, _TRANSITIONS))
-    time, _ = stretch(lambda s, rows: (lower[rows], s), lower, length, kinks - lower, breaks - lower)
-    # Loading deeper than the critical depth.
-    both = np.hstack([kinks - before, kinks - before - length])
-    all_breaks = np.hstack([breaks - before, _LENGTHS * length])
-    yielding = partial(stretch, lambda s, rows: (before[rows] + s, length[rows]))
-    time_below, work = yielding(before, increase, both, all_breaks)
+    first = kink_above(profile, lower[:, 0])[:, None] - lower
+    time, _ = stretch(lambda s, rows: (lower[rows], s), first, length, kinks - lower, breaks - lower)
+
+    def yielding(s, rows):
+        own = rule.entries((rows[:, None],), (count,)).past_onset(before[rows], onset[rows], s)
+        return own.lower, own.length
+
+    # Loading past the onset: depths from there at which the lower end of the live interval is at a kink,
+    # and at which the upper end is.
+    passed = column.penetration(kinks, before) - onset if kinks.size else kinks - before
+    both = np.hstack([passed, kinks - before - onset])
+    all_breaks = np.hstack([breaks - before, _LENGTHS * onset])
+    first = kink_above(profile, before[:, 0])[:, None]
+    start = column.penetration(first, before) - onset
+    span = increase + (length - onset)
+    time_below, work = stretch(yielding, start, span, both, all_breaks)
     # Loading down to it, and about the further distance to rest if nothing yielded.
-    force = _flow(profile, before[:, 0], interval.length)
-    a = profile._radius(before[:, 0] + interval.length)
-    distance = (2 * work / (force + np.sqrt(force**2 + 2 * a * work)))[:, None]
-    elastic = partial(stretch, lambda s, rows: (before[rows], s))
-    time_above, _ = elastic(before, length, kinks - before, breaks - before, distance, work)
+    force = _flow(profile, before[:, 0], onset[:, 0])
+    a = profile._radius(before[:, 0] + onset[:, 0])
+    total = force + np.sqrt(force**2 + 2 * a * work)
+    # Under a sharp tip that yields from first touch on there is none of it.
+    distance = (2 * work / np.where(total > 0, total, np.inf))[:, None]
+    elastic = partial(stretch, lambda s, rows: (before[rows], s), first - before, onset)
+    time_above, _ = elastic(kinks - before, breaks - before, distance, work)
     return time + time_below + time_above
 
 
-def _stretch(profile, interval_at, upper, length, kinks, breaks, distance=0.0, work=0.0):
-    """∫ ds/√W over a stretch of depth that starts at `upper` (m), and the work W from there on.
+def _stretch(profile, interval_at, first, length, kinks, breaks, distance=0.0, work=0.0):
+    """∫ ds/√W over a stretch of depth, and the work W from its start on.
 
-    `interval_at` gives the lower end and the length of the live interval at depths from the start; pieces
-    end at depths `kinks` from there, (N, K), where the force has a kink, and at `breaks`. At the end of the
-    stretch `work` remains, and the `distance` (m) to the turning point.
+    `interval_at` gives the lower end and the length of the live interval at depths from the start; `first`
+    is the depth from there, not positive, at which a(s) starts as a root; pieces end at depths `kinks` from
+    there, (N, K), where the force has a kink, and at `breaks`. At the end of the stretch `work` remains,
+    and the `distance` (m) to the turning point.
     """
-    edges, origins = _edges(profile, upper, length, kinks, breaks)
+    edges, origins = _edges(first, length, kinks, breaks)
     rows, k = np.nonzero(np.diff(edges) > 0)
     start, origin = edges[rows, k], origins[rows, k]
     size, remainder = edges[rows, k + 1] - start, (length - edges[:, 1:] + distance)[rows, k]
@@ -155,14 +175,13 @@ def _stretch(profile, interval_at, upper, length, kinks, breaks, distance=0.0, w
     return time, works[:, 0]
 
 
-def _edges(profile, upper, length, kinks, breaks):
+def _edges(first, length, kinks, breaks):
     """Depths between pieces of stretches, ascending, and for each piece where a(s) starts as a root."""
     cuts = np.hstack([kinks, np.broadcast_to(breaks, (len(length), breaks.shape[1]))])
     cuts = np.clip(cuts, 0.0, length)
     order = np.argsort(cuts, axis=1)
     cuts = np.take_along_axis(cuts, order, axis=1)
     roots = np.where((order < kinks.shape[1]) & (cuts > 0), cuts, -np.inf)
-    first = kink_above(profile, upper[:, 0])[:, None] - upper
     return np.hstack([0 * length, cuts, length]), np.maximum.accumulate(np.hstack([first, roots]), axis=1)
 
 

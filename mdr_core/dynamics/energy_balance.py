@@ -33,8 +33,8 @@ class DryImpact(Impact):
     def contact_time(self):
         """Time (s) from first contact to the loss of contact."""
         inertia = self.mass / (2 * self.medium.E_star)
-        interval = self.turning_point.live_interval
-        return contact_time(self.profile, inertia, self.speed, interval, self.plastic_depth_increase)
+        rule, interval = yield_rule(self.profile, self.medium), self.turning_point.live_interval
+        return contact_time(rule, inertia, self.speed, interval, self.plastic_depth_increase)
 
 
 def dry_impact(profile, medium, mass, speed, imprint_depth):
@@ -111,7 +111,7 @@ def _first_guess(rule, target, before):
     onset = rule.penetration(before, before)
     table, imprint = integrals(rule.profile).table, before.any()
     if table is None:
-        return np.where(np.isinf(onset), 1.0, onset)
+        return np.where((onset > 0) & (onset < np.inf), onset, 1.0)
     elastic = table.depth_of_volume(target)
     if imprint:
         # Not deeper than a flat punch of the plastic radius.

@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
-from ..medium import Medium, check_pair, refuse_adhesion, shape_with
+from ..medium import Medium, check_pair, refuse_adhesion, refuse_other_classes, shape_with
 from ..results.base import Entries, Model, Result
 from ..results.limits import Limit, friction_limits, stick_limits
 from ..shapes.profile import Profile
@@ -86,6 +86,8 @@ def oblique_impact(
     """
     check_pair(profile, medium)
     refuse_adhesion(medium, "an oblique impact")
+    instead = "set hardness = 0 and f_c = 0, or take impact() for the normal motion"
+    refuse_other_classes(medium, "an oblique impact", instead)
     mass = _check.positive("mass", mass, unit="kg")
     speed = _check.positive("speed", speed, unit="m/s")
     tangential_mass = mass if tangential_mass is None else tangential_mass

@@ -40,7 +40,8 @@ class Limit:
         Quantity that is bounded: "slope", "contact radius", "modulus" below 1 kPa or above 10 TPa, "Poisson
         ratio", "viscosity", "speed", "fast limit", "Tabor's parameter", which must be larger than its
         bound, "facets" of samples with adhesion, for friction "coupling" and "slip direction", and where
-        elements stick "tolerance", "depth" over d_c and "mass" over the tangential one.
+        elements stick "tolerance", "depth" over d_c and "mass" over the tangential one; and the length (m)
+        of a "jump" of a path given by force.
     value, bound : float
         Its largest value over all states, and the largest one for which the assumption is good.
     exceeded : bool
@@ -198,6 +199,16 @@ def _viscosity_limit(medium):
         f"{engineering(value, 's')}. Use indent_in_time or creep for a path in time."
     )
     return Limit("viscosity", value, 0.0, True, text, severe=False)
+
+
+def jump_limits(jumps):
+    """Limits of a path given by force that jumps between depths (m)."""
+    for first, last in jumps:
+        text = (
+            "On loading the force falls after yield has started: a path given by force jumps from "
+            f"{engineering(first, 'm')} past {engineering(last, 'm')}. Give depths to follow it."
+        )
+        yield Limit("jump", float(last - first), 0.0, True, text, severe=False)
 
 
 def friction_limits(medium):

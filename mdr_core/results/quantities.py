@@ -69,6 +69,8 @@ QUANTITIES = {
         # Parameters of media and shapes.
         ("E_star", "E*", "Pa", "effective modulus"),
         ("q_c", "q_c", "N/m", "yield constant"),
+        ("hardness", "H", "Pa", "constant hardness"),
+        ("f_c", "f_c", "N", "yield constant of class (c)"),
         ("eta", "η", "Pa·s", "viscosity"),
         ("poisson", "ν", "", "Poisson ratio"),
         ("work_of_adhesion", "w", "J/m²", "work of adhesion"),
@@ -126,12 +128,19 @@ def _digits(value):
     return f"{float(text):.0f}" if "e+05" in text or "e+04" in text else text
 
 
+def at_default(field, value):
+    """Whether a parameter has its default: constants of the hardness that are not given become 0 or ∞."""
+    if field.name in ("q_c", "hardness", "f_c"):
+        return value in (0.0, np.inf)
+    return value == field.default
+
+
 def described(thing):
     """One line on a profile or a medium: its name, and its parameters that are not at their defaults."""
     parts = [type(thing).__name__]
     for name, field in thing.__dataclass_fields__.items():
         known, value = QUANTITIES.get(name), getattr(thing, name)
-        if np.ndim(value) == 0 and value == field.default:
+        if np.ndim(value) == 0 and at_default(field, value):
             continue
         try:
             text = engineering(value, known.unit if known else "")
