@@ -13,7 +13,7 @@ from ..medium import Medium, check_pair, yield_constant
 from ..results.quantities import engineering
 from ..scaling import HardnessClass, class_of, straight_line
 from ..shapes.profile import Profile
-from .least_squares import Fit
+from .report import Fit
 
 
 @_check.keywords_explained

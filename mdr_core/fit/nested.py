@@ -11,7 +11,7 @@ hold, where the force is constant.
 import numpy as np
 
 from ..results.quantities import engineering
-from .least_squares import SIGNIFICANT, SINGULAR, roughness
+from .errors import SIGNIFICANT, SINGULAR, roughness
 
 #: Least factor by which the misfit falls, unit, and what follows. A tilt lowers the misfit of measured
 #: curves without one up to 1.2 times.
@@ -34,14 +34,17 @@ _LEAST_CHANGE, _COMMON = 0.005, 1e-10
 
 def nested_tests(solved, i):
     """Remarks on what a tilt, a drag or a drift changes in curve i of `SolvedCurves`."""
-    problem, (_, state) = solved.problem, solved.values_and_states
+    problem, (_, state) = solved.curves, solved.values_and_states
     contact, noise = state.live_interval.length[i] > 0, solved.noise[i]
-    residual, jacobian = solved.residual[i], solved.jacobian[i][:, ~solved.at_bound[i]]
-    if "E_star" not in problem.free or solved.at_bound[i, 0] or problem.adhesive:
+    residual, jacobian = (
+        solved.minimum.residual[i],
+        solved.minimum.jacobian[i][:, ~solved.minimum.at_bound[i]],
+    )
+    if "E_star" not in problem.free or solved.minimum.at_bound[i, 0] or problem.adhesive:
         return
     if np.count_nonzero(contact) < _FEW:
         return
-    yields = not (problem.memoryless or solved.elastic[i])
+    yields = not (problem.held_elastic or solved.elastic[i])
     before = residual
     small = _rms((residual * noise)[contact]) < _SMALL * problem.load[i, 0]
     for name, columns in () if small else _columns(problem, state, i, contact, yields):

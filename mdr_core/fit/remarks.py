@@ -6,7 +6,8 @@ import numpy as np
 
 from ..medium import critical_depth
 from ..results.quantities import engineering
-from .least_squares import SIGNIFICANT, SINGULAR, autocorrelation, roughness
+from .depth_noise import turning_points_of
+from .errors import SIGNIFICANT, SINGULAR, autocorrelation, roughness
 from .nested import nested_tests
 
 #: All kinds of remarks, the most important first.
@@ -55,11 +56,11 @@ def missing(count, samples):
 
 def _units(solved, i):
     """Columns that are swapped or of the other sign, records without contact, and data in other units."""
-    problem, values = solved.problem, solved.values_and_states[0]
+    problem, values = solved.curves, solved.values_and_states[0]
     if "E_star" not in problem.free:
         return
     depth, force, E = problem.depth[i], problem.force[i], values["E_star"][i, 0]
-    squares = np.sum((solved.residual[i] * solved.noise[i]) ** 2)
+    squares = np.sum((solved.minimum.residual[i] * solved.noise[i]) ** 2)
     variance = np.sum((force - force.mean()) ** 2)
     line = variance * (1 - np.corrcoef(depth, force)[0, 1] ** 2)
     shares, own = _shares_of_others(depth, force), _share_of_contact(depth, force)
@@ -124,15 +125,15 @@ def _contact_is_seen(depth, force):
 
 def _ambiguous(solved, i):
     """Parameters at a bound, a second minimum."""
-    problem, squares = solved.problem, np.sum(solved.residual[i] ** 2)
-    for name, at_bound in zip(problem.free, solved.at_bound[i], strict=False):
+    problem, squares = solved.curves, np.sum(solved.minimum.residual[i] ** 2)
+    for name, at_bound in zip(problem.free, solved.minimum.at_bound[i], strict=False):
         if at_bound and name == "eta":
             yield "inviscid", "no viscosity within the noise: η = 0; hold eta = 0"
         elif at_bound:
             yield f"bound:{name}", f"{name} is at the bound of its search: hold it, or check the data"
     noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
-    if solved.rival_squares[i] - squares <= SIGNIFICANT**2 * noise:
-        rival, _ = problem.rows([i]).parameters(solved.rival[[i]])
+    if solved.rival.squares[i] - squares <= SIGNIFICANT**2 * noise:
+        rival = problem.rows([i]).values(solved.rival.x[[i]])
         E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
         text = f"E* = {E} with contact at {point} fits about as well: hold contact_point or E_star"
         yield "second minimum", text
@@ -140,7 +141,7 @@ def _ambiguous(solved, i):
 
 def _adhesion(solved, i):
     """A work of adhesion that is hardly determined, and a pull-off at another depth than in the model."""
-    problem, (values, state) = solved.problem, solved.values_and_states
+    problem, (values, state) = solved.curves, solved.values_and_states
     if not problem.adhesive:
         return
     force = (problem.force - problem.background(values))[i]
@@ -174,7 +175,7 @@ def _depth_of_loss(depth, contact):
 def _undetermined(solved, i):
     """Parameters that the data do not determine."""
     values, state = solved.values_and_states
-    errors = dict(zip(solved.problem.free, np.sqrt(np.diag(solved.covariance[i])).tolist(), strict=True))
+    errors = dict(zip(solved.curves.free, np.sqrt(np.diag(solved.covariance[i])).tolist(), strict=True))
     if solved.elastic[i] and "q_c" in errors:
         largest = engineering(state.depth[i].max(), "m")
         yield (
@@ -188,7 +189,7 @@ def _undetermined(solved, i):
         yield "hardly yields", text
     unloading = np.count_nonzero((state.live_interval.length[i] > 0) & ~state.loading[i])
     error = errors.get("E_star", 0.0)
-    if solved.problem.memoryless:
+    if solved.curves.held_elastic:
         if _VAGUE < error < np.inf:
             yield "vague", f"the data hardly determine E* (to {100 * error:.2g} %): hold E_star"
     elif unloading < 2 and error > _VAGUE_LOADING:
@@ -212,13 +213,13 @@ def _undetermined(solved, i):
 
 def _jitter(solved, i):
     """Depths that go back and forth although they are taken as exact: without memory they may."""
-    depth = solved.problem.depth[[i]]
+    depth = solved.curves.depth[[i]]
     steps = np.diff(depth[0])
     reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
     noise = roughness(depth)[0, 0]
     # On unloading alone the first depth is the largest.
     unloading = depth[0].max() - depth[0, 0] < 5 * noise
-    exact = not (solved.problem.depth_noise or solved.problem.memoryless)
+    exact = not (solved.curves.depth_noise or solved.curves.held_elastic)
     if exact and not unloading and reversals > max(4, 0.05 * steps.size):
         yield (
             "jitter",
@@ -232,11 +233,16 @@ def _class_b(solved, i):
 
     Tested by one linear step on the residuals, with −∂F/∂d_p the derivative by the largest depth so far.
     """
-    problem, (values, state) = solved.problem, solved.values_and_states
+    problem, (values, state) = solved.curves, solved.values_and_states
     d_c = critical_depth(values["E_star"], values["q_c"])[i, 0]
-    memory_slope, jacobian, residual = state.memory_slope[i], solved.jacobian[i], solved.residual[i]
+    memory_slope, jacobian, residual = (
+        state.memory_slope[i],
+        solved.minimum.jacobian[i],
+        solved.minimum.residual[i],
+    )
     unloading = ~state.loading[i] & ((state.live_interval.length[i] > 0) | (memory_slope < 0))
-    if problem.turning_points.shape[1] < 2 or d_c == np.inf or not unloading.any():
+    turning_points, _ = turning_points_of(problem.depth[i], problem.force[i], problem.depth_noise)
+    if len(turning_points) < 2 or d_c == np.inf or not unloading.any():
         return
     depth = state.live_interval.lower[i] + d_c
     mean = np.mean(depth[unloading])
@@ -244,7 +250,7 @@ def _class_b(solved, i):
     column = change / solved.noise[i]
     if problem.depth_noise:
         # Free turning depths would absorb the trend; each is known about as well as one sample.
-        count, width = problem.free_turning_points, jacobian.shape[1]
+        count, width = problem.turning_points.shape[1], jacobian.shape[1]
         pins = np.eye(count, width, width - count) * problem.length[i] / problem.depth_noise
         jacobian = np.vstack([jacobian, pins])
         column, residual = (np.append(values, np.zeros(count)) for values in (column, residual))
@@ -266,13 +272,13 @@ def _class_b(solved, i):
 
 def _misfit(solved, i):
     """Residuals that are not noise."""
-    problem, residual = solved.problem, solved.residual[i]
-    freedom, chi = max(residual.size - solved.x.shape[1], 1), solved.reduced_chi_square[i]
+    problem, residual = solved.curves, solved.minimum.residual[i]
+    freedom, chi = max(residual.size - solved.minimum.x.shape[1], 1), solved.reduced_chi_square[i]
     correlation = autocorrelation(residual[solved.orders[i]])
     size = np.sqrt(np.mean((residual * solved.noise[i]) ** 2)) / problem.load[i, 0]
-    largest = _MISFIT if problem.memoryless else _MISFIT_YIELDING
+    largest = _MISFIT if problem.held_elastic else _MISFIT_YIELDING
     if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
-        cause = "not an elastic medium" if problem.memoryless else "not class (b)"
+        cause = "not an elastic medium" if problem.held_elastic else "not class (b)"
         remedy = "; give time, which tells drag and drift" * (problem.time is None and not problem.adhesive)
         yield (
             "misfit",

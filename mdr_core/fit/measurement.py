@@ -99,7 +99,7 @@ def _padded(name, values, unit):
     if np.ma.is_masked(values):
         raise ValueError(f"{name} has masked samples: leave them out of depth and force")
     if not isinstance(values, list | tuple) or not any(map(np.ndim, values)):
-        return _check.finite_array(name, values, unit=unit, most=_check.LARGEST, missing=True)
+        return _check.finite_array(name, values, unit=unit, most=_check.LONGEST, missing=True)
     rows = [_padded(f"{name}[{i}]", row, unit) for i, row in enumerate(values)]
     if any(row.ndim != 1 for row in rows):
         raise ValueError(f"{name} as a list must have one array (N,) for each curve")
