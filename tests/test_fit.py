@@ -1,6 +1,7 @@
 """Fits return the medium that the measurements were made with."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -249,10 +250,12 @@ class TestRealCurves:
         assert not any("fits about as well" in remark for remark in fit.remarks)
 
     def test_misfit_of_silica(self):
+        """In terms of the force 1.3 % is the least that is possible; weights by a depth noise have more."""
         depth, force, _ = silica()
-        # Residuals in terms of the force, whatever the noise is made of.
+        fit = mdr.fit_indentation(mdr.Cone.berkovich(), depth, force)
+        assert "residuals (1.3 % of the force)" in " ".join(fit.remarks)
         fit = mdr.fit_indentation(mdr.Cone.berkovich(), depth, force, depth_noise=1e-9)
-        assert "residuals (1.3 % of the force)" in fit.remarks[-1]
+        assert 1.3 <= float(re.search(r"residuals \((\S+) % of the force", fit.remarks[-1])[1]) < 2
 
     @pytest.mark.parametrize("q_c", [Q, np.inf])
     def test_made_unloading_alone(self, q_c):
@@ -282,8 +285,8 @@ class TestHardness:
         state = mdr.indent(profile, MEDIUM, self.DEPTH)
         fit = mdr.fit_hardness(profile, state.mean_pressure, state.contact_radius, E_star=E)
         assert fit.medium.q_c == pytest.approx(Q, rel=1e-11)
-        assert fit.class_.hardness == "b"
-        assert fit.class_.slope == pytest.approx(-1.0, rel=1e-10)
+        assert fit.hardness_class == "b"
+        assert fit.slope == pytest.approx(-1.0, rel=1e-10)
 
     @pytest.mark.parametrize(("power", "name"), [(0.0, "a"), (-1.0, "b"), (-2.0, "c"), (-0.5, None)])
     def test_class(self, power, name):
@@ -291,8 +294,8 @@ class TestHardness:
         a = np.geomspace(1e-7, 1e-6, 9)
         noise = np.exp(0.01 * np.random.default_rng(8).normal(size=9))
         fit = mdr.fit_hardness(mdr.Cone(0.3), 1e6 * (a / 1e-7) ** power * noise, a, E_star=E)
-        assert fit.class_.hardness == name
-        assert abs(fit.class_.slope - power) < 4 * fit.class_.slope_error
+        assert fit.hardness_class == name
+        assert abs(fit.slope - power) < 4 * fit.slope_error
         assert (name == "b") != any("not class (b)" in remark for remark in fit.remarks)
 
     def test_elastic_contacts_are_refused(self):

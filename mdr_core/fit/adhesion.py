@@ -32,9 +32,7 @@ class AdhesiveCurves(Curves):
 
     contact: np.ndarray | None = None
 
-    @property
-    def adhesive(self):
-        return True
+    adhesive = True
 
     def states_at(self, values, depth):
         return adhesive_states(self.profile, values, depth, self.contact)
@@ -56,10 +54,6 @@ class AdhesiveCurves(Curves):
             minimum = replace(self, contact=contact).minimum(start)
             start = minimum.x
         return minimum
-
-    def settled(self, minimum):
-        curves = replace(self, contact=self.contact_of_data(minimum.x))
-        return curves, curves.minimum(minimum.x)
 
     def contact_of_model(self, x):
         """Which samples are in contact (R, N) in the model at scaled parameters x."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..shapes.profile import Profile
 from .least_squares import least_squares
-from .model import background_columns, states
+from .model import states
 from .parameters import BACKGROUND, PARAMETERS
 
 #: Standard deviations of samples that are not to weigh, in units of those they would have.
@@ -36,6 +36,9 @@ class Curves:
     time: np.ndarray | None
     depth_noise: float
     held: dict[str, np.ndarray]
+
+    #: Whether there is adhesion.
+    adhesive = False
 
     def rows(self, rows):
         """The curves at some rows."""
@@ -69,11 +72,6 @@ class Curves:
         return np.abs(self.rate).max(axis=1, keepdims=True)
 
     @cached_property
-    def radius(self):
-        """Contact radius (m) at a depth of `length` (R, 1)."""
-        return self.profile._radius(np.minimum(self.length, self.profile.known_depth))
-
-    @cached_property
     def free(self):
         """Names of the free parameters."""
         return tuple(name for name in PARAMETERS if name not in self.held)
@@ -83,20 +81,10 @@ class Curves:
         """Whether the media are held elastic: the order of the samples does not matter."""
         return bool(np.all(np.isinf(self.held.get("q_c", 0.0))))
 
-    @property
-    def adhesive(self):
-        """Whether there is adhesion."""
-        return False
-
     @cached_property
     def background_columns(self):
         """Derivatives of the background by its parameters, by name."""
-        return background_columns(self.depth, self.rate)
-
-    @cached_property
-    def _viscous_rate(self):
-        """Rates (m/s) where the medium is viscous, else 0."""
-        return self.rate if np.any(self.held.get("eta", 1.0)) else 0.0
+        return {"baseline": np.ones_like(self.depth), "tilt": self.depth, "drag": self.rate}
 
     def values(self, x):
         """Parameters by name (R, 1), and depths at turning points (R, K) as `turning_depth`."""
@@ -137,7 +125,7 @@ class Curves:
         """States of the model with the samples at depths (m) from first contact."""
         turning_depth = values["turning_depth"] - values["contact_point"]
         largest, loading = self.largest_so_far(depth, turning_depth)
-        return states(self.profile, values, depth, largest, loading, self._viscous_rate)
+        return states(self.profile, values, depth, largest, loading, self.rate)
 
     def states(self, x):
         """Parameters by name, and the states of the model that belong to the samples."""
@@ -177,12 +165,8 @@ class Curves:
         return least_squares(lambda x, rows: self.rows(rows).residuals(x), start, *self.bounds(start))
 
     def search(self, start):
-        """`Minimum` near a start: `minimum`, unless samples have to be assigned to parts of the curve."""
+        """`minimum`, unless samples have to be assigned to parts of the curve."""
         return self.minimum(start)
-
-    def settled(self, minimum):
-        """The problem with its samples assigned to parts of the curve as they fit best, and its minimum."""
-        return self, minimum
 
     def first_turning_depth(self):
         """Measured depths (m) at turning points (R, K)."""

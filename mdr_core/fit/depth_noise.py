@@ -6,16 +6,13 @@ both noises (orthogonal distances: Boggs, Byrd & Schnabel, SIAM J. Sci. Stat. Co
 residual is the distance in units of √(σ_F² + (S σ_d)²), S the slope at that point.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from .curves import Curves
 from .errors import roughness
-
-#: Most searches with turning points at other samples.
-_SEARCHES = 5
 
 
 @dataclass(frozen=True)
@@ -82,36 +79,8 @@ class NoisyDepthCurves(Curves):
         own = last[..., None] == np.arange(self.turning_points.shape[1])
         return np.where(own, state.memory_slope[..., None], 0.0)
 
-    def settled(self, minimum):
-        curves = self
-        for _ in range(_SEARCHES if self.turning_points.size else 0):
-            before, curves = curves, curves.with_best_turning_points(minimum.x)
-            if np.array_equal(before.turning_points, curves.turning_points):
-                break
-            minimum = curves.minimum(minimum.x)
-        return curves, minimum
-
-    def with_best_turning_points(self, x):
-        """The curves with each turning point at the sample for which its two branches fit best."""
-        sample, turning_points = np.arange(self.depth.shape[1]), self.turning_points.copy()
-        stops = np.hstack([self.loading_starts[:, 1:], np.full((len(self.depth), 1), sample.size)])
-        for k in range(turning_points.shape[1]):
-            start, stop = self.loading_starts[:, k], stops[:, k]
-            squares = []
-            for index in (stop - 1, start):
-                trial = self.turning_points.copy()
-                trial[:, k] = index
-                squares.append(replace(self, turning_points=trial).residuals(x)[0] ** 2)
-            gain = np.cumsum(squares[0] - squares[1], axis=1)
-            between = (sample >= start[:, None]) & (sample < stop[:, None])
-            turning_points[:, k] = np.argmin(np.where(between, gain, np.inf), axis=1)
-        return replace(self, turning_points=turning_points)
-
     def first_turning_depth(self):
-        """Measured depths (m) at the turning points (R, K), means of five samples."""
-        last = self.depth.shape[1] - 1
-        neighbours = np.clip(self.turning_points[..., None] + np.arange(-2, 3), 0, last)
-        return np.take_along_axis(self.depth[:, None], neighbours, axis=2).mean(axis=2)
+        return np.take_along_axis(self.depth, self.turning_points, axis=1)
 
 
 def with_depth_noise(curves):

@@ -10,7 +10,7 @@ from ..results.progress import progress
 from ..results.quantities import engineering
 from ..shapes.profile import Profile
 from .measurement import measurement
-from .parameters import IN_TIME, PARAMETERS, REACH, held_values
+from .parameters import PARAMETERS, REACH, held_values
 from .result import IndentationFit, collected
 from .solution import problems, solved
 
@@ -149,19 +149,13 @@ def fit_indentation(
     check_pair(profile, Medium(1.0), "a fit")
     measured = measurement(depth, force, time, force_noise)
     count = len(measured.depth)
-    values = {
-        "E_star": E_star,
-        "q_c": q_c,
-        "eta": eta,
-        "work_of_adhesion": work_of_adhesion,
-        "contact_point": contact_point,
-        "baseline": baseline,
-        "tilt": tilt,
-        "drag": drag,
-    }
-    held = {name: held_values(name, value, count) for name, value in values.items() if value is not None}
+    held = held_values(
+        count, E_star=E_star, q_c=q_c, eta=eta, work_of_adhesion=work_of_adhesion,
+        contact_point=contact_point, baseline=baseline, tilt=tilt, drag=drag,
+    )  # fmt: skip
     noise = _check.positive_number("depth_noise", depth_noise, unit="m") if depth_noise else 0.0
-    in_time = [name for name in IN_TIME if name not in held or held[name].any()]
+    needs_time = (name for name, parameter in PARAMETERS.items() if parameter.in_time)
+    in_time = [name for name in needs_time if name not in held or held[name].any()]
     if in_time and time is None:
         raise ValueError(f"{' and '.join(in_time)} need time, the times (s) of the samples: give time=")
     if "work_of_adhesion" not in held or held["work_of_adhesion"].any():

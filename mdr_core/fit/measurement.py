@@ -1,10 +1,12 @@
 """Measured curves: their samples, those that are left out, and rates of depth from times."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from .. import _check
+from .._numeric import chunks
 
 #: A rate jumps where it changes by this share of the largest one, and so many times as much as two samples
 #: before and after.
@@ -42,26 +44,30 @@ class Measurement:
     lengths: np.ndarray
     single: bool
 
-    @property
+    @cached_property
     def used(self):
         """Samples with finite values (R, N)."""
         given = (self.depth, self.force, self.time, self.force_noise)
         return np.logical_and.reduce([np.isfinite(values) for values in given if values is not None])
 
     def groups(self, in_time):
-        """Yields `Samples` of curves with equally many; rates are 0 unless `in_time`."""
-        used = self.used
-        counts = np.count_nonzero(used, axis=1)
+        """Yields `Samples` of 64 curves at most with equally many; rates are 0 unless `in_time`."""
+        counts = np.count_nonzero(self.used, axis=1)
         for count in np.unique(counts):
-            rows = np.flatnonzero(counts == count)
-            depth, force, time, noise = (
-                values if values is None else values[rows][used[rows]].reshape(rows.size, count)
-                for values in (self.depth, self.force, self.time, self.force_noise)
-            )
-            rate, corner = np.zeros_like(depth), np.zeros(depth.shape, bool)
-            if in_time:
-                rate, corner = _rates(depth, time)
-            yield Samples(rows, depth, force, rate, corner, noise, time)
+            same = np.flatnonzero(counts == count)
+            for part in chunks(same.size, 64):
+                yield self._samples(same[part], count, in_time)
+
+    def _samples(self, rows, count, in_time):
+        used = self.used[rows]
+        depth, force, time, noise = (
+            values if values is None else values[rows][used].reshape(rows.size, count)
+            for values in (self.depth, self.force, self.time, self.force_noise)
+        )
+        rate, corner = (
+            _rates(depth, time) if in_time else (np.zeros_like(depth), np.zeros(depth.shape, bool))
+        )
+        return Samples(rows, depth, force, rate, corner, noise, time)
 
 
 def measurement(depth, force, time, force_noise):

@@ -73,8 +73,3 @@ def states(profile, values, depth, largest, loading, rate):
         slope = slope + 2 * uniform_load * np.where(growing, growth_rate, 0.0)
     memory_slope = np.where(loading, 0.0, memory_slope)
     return States(depth, loading, interval, uniform_load, force, slope, memory_slope, gradient)
-
-
-def background_columns(depth, rate):
-    """Derivatives of the background by its parameters, at measured depths (m) and rates (m/s)."""
-    return {"baseline": np.ones_like(depth), "tilt": depth, "drag": rate}

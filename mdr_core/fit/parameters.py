@@ -1,7 +1,7 @@
 """The parameters of a fit: their units, the values that they may have, and how they are searched.
 
 A search is in scaled parameters x of about 1: logarithms, or numbers in a unit that the data give. One more
-parameter is a row of `PARAMETERS`, an argument of `fit_indentation`, and a derivative of the force in
+parameter is an argument of `fit_indentation`, a row of `PARAMETERS`, and a derivative of the force in
 `model.py`.
 """
 
@@ -23,44 +23,39 @@ _FARTHEST = 16.0
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter of the medium, of the background or of the position, searched in a unit of the data.
+    """A parameter, searched in units (R, 1) that `unit` gives of `Curves`.
 
-    `start` gives its first value from a `Trial` of `start.py`, `unit` its unit (R, 1) from `Curves`; it may
-    be held at any number, or at positive ones if it is `positive`, with 0 and infinity where these mean
-    something. It is searched from `least` on. `in_time` says whether it needs times.
+    It is held at positive numbers or, if `zero` or `infinite`, at these. `start` is its first value for a
+    trial medium of `start.py`; `in_time` says whether it needs times.
     """
 
     quantity: Quantity
-    of: str
-    start: Callable[[Any], Any]
-    unit: Callable[[Any], Any] | None = None
-    positive: bool = True
+    start: Callable[[Any], float] | None = None
+    unit: Callable[[Any], np.ndarray] | None = None
     zero: bool = False
     infinite: bool = False
     in_time: bool = False
-    least: float = -np.inf
 
     def checked(self, name, value):
         """A value at which it may be held, a number or an array."""
-        if not self.positive:
-            return _check.finite_array(name, value, unit=self.quantity.unit)
-        return _check.positive(name, value, unit=self.quantity.unit, zero=self.zero, infinite=self.infinite)
-
-    def value(self, x, curves):
-        """Value (R, 1) of a scaled parameter."""
-        return self.unit(curves) * x
-
-    def scaled(self, value, curves):
-        """Scaled parameter (R, 1) of a value."""
-        return value / self.unit(curves)
+        allowed = {"zero": self.zero, "infinite": self.infinite}
+        return _check.positive(name, value, unit=self.quantity.unit, **allowed)
 
     def rate(self, value, curves):
         """Derivative (R, 1) of the value by the scaled parameter."""
         return self.unit(curves)
 
+    def value(self, x, curves):
+        """Value (R, 1) of a scaled parameter."""
+        return self.rate(None, curves) * x
+
+    def scaled(self, value, curves):
+        """Scaled parameter (R, 1) of a value."""
+        return value / self.rate(value, curves)
+
     def bounds(self, start, curves):
         """Least and largest scaled parameter (R, 1) in a search from a start."""
-        return np.full_like(start, self.least), np.full_like(start, np.inf)
+        return -np.inf, np.inf
 
 
 class Logarithm(Parameter):
@@ -79,7 +74,14 @@ class Logarithm(Parameter):
         return start - _FARTHEST, start + _FARTHEST
 
 
-class ContactPoint(Parameter):
+class Background(Parameter):
+    """A parameter of the force without contact, of any sign."""
+
+    def checked(self, name, value):
+        return _check.finite_array(name, value, unit=self.quantity.unit)
+
+
+class ContactPoint(Background):
     """The measured depth at first contact, searched as the logarithm of the largest depth of contact."""
 
     def value(self, x, curves):
@@ -96,77 +98,53 @@ class ContactPoint(Parameter):
         return np.log(1e-4 * curves.length), np.log(longest)
 
 
-#: All parameters, in the order of a fit.
-PARAMETERS = {
-    "E_star": Logarithm(QUANTITIES["E_star"], "medium", lambda trial: trial.E_star),
+class Viscosity(Parameter):
+    """The viscosity, in units of one with which dashpots carry the range of force at the largest speed."""
+
+    def rate(self, value, curves):
+        radius = curves.profile._radius(np.minimum(curves.length, curves.profile.known_depth))
+        return curves.load / (8 * radius * curves.speed)
+
+    def bounds(self, start, curves):
+        return 0.0, np.inf
+
+
+#: Parameters of the medium, with their starts for a trial medium, and of the background.
+MEDIUM = {
+    "E_star": Logarithm(QUANTITIES["E_star"], lambda trial: trial.E_star),
     "q_c": Logarithm(
-        QUANTITIES["q_c"],
-        "medium",
-        lambda trial: yield_constant(trial.E_star, trial.critical_depth),
-        infinite=True,
+        QUANTITIES["q_c"], lambda trial: yield_constant(trial.E_star, trial.d_c), infinite=True
     ),
-    "eta": Parameter(
-        QUANTITIES["eta"],
-        "medium",
-        lambda trial: trial.E_star * trial.relaxation_time / 4,
-        lambda curves: curves.load / (8 * curves.radius * curves.speed),
-        zero=True,
-        in_time=True,
-        least=0.0,
+    "eta": Viscosity(
+        QUANTITIES["eta"], lambda trial: trial.E_star * trial.tau / 4, zero=True, in_time=True
     ),
     "work_of_adhesion": Logarithm(
-        QUANTITIES["work_of_adhesion"],
-        "medium",
-        lambda trial: trial.E_star * trial.adhesion_length,
-        zero=True,
-    ),
-    "contact_point": ContactPoint(
-        Quantity("z₀", "m", "contact point"),
-        "position",
-        lambda trial: trial.contact_point,
-        positive=False,
-    ),
-    "baseline": Parameter(
-        Quantity("F₀", "N", "baseline"),
-        "background",
-        lambda trial: trial.background["baseline"],
-        lambda curves: curves.load,
-        positive=False,
-    ),
-    "tilt": Parameter(
-        Quantity("F₁", "N/m", "tilt of the baseline"),
-        "background",
-        lambda trial: trial.background["tilt"],
-        lambda curves: curves.load / curves.length,
-        positive=False,
-    ),
-    "drag": Parameter(
-        Quantity("ζ", "N·s/m", "drag"),
-        "background",
-        lambda trial: trial.background["drag"],
-        lambda curves: curves.load / curves.speed,
-        positive=False,
-        in_time=True,
+        QUANTITIES["work_of_adhesion"], lambda trial: trial.E_star * trial.kappa, zero=True
     ),
 }
+BACKGROUND = {
+    "baseline": Background(Quantity("F₀", "N", "baseline"), unit=lambda curves: curves.load),
+    "tilt": Background(
+        Quantity("F₁", "N/m", "tilt of the baseline"), unit=lambda curves: curves.load / curves.length
+    ),
+    "drag": Background(
+        Quantity("ζ", "N·s/m", "drag"), unit=lambda curves: curves.load / curves.speed, in_time=True
+    ),
+}
+#: All parameters, in the order of a fit.
+PARAMETERS = MEDIUM | {"contact_point": ContactPoint(Quantity("z₀", "m", "contact point"))} | BACKGROUND
 
 
-def _names(what):
-    return tuple(name for name, parameter in PARAMETERS.items() if parameter.of == what)
-
-
-#: Names of the parameters of the medium, and of the background.
-MEDIUM, BACKGROUND = _names("medium"), _names("background")
-#: Names of those that need times.
-IN_TIME = tuple(name for name, parameter in PARAMETERS.items() if parameter.in_time)
-
-
-def held_values(name, value, count):
-    """Values (R,) at which a parameter of `count` curves is held."""
-    if isinstance(value, str):
-        raise ValueError(
-            f"{name} = {value!r} must be a number, which holds it, or None, which makes it free"
-        )
-    value = PARAMETERS[name].checked(name, value)
-    _check.common_shape("fit_indentation", **{name: value, "curves": np.empty(count)})
-    return np.broadcast_to(value, (count,)).astype(float)
+def held_values(count, **values):
+    """Values (R,) of the parameters of `count` curves that are held, by name: those that are not None."""
+    held = {}
+    for name, value in values.items():
+        if isinstance(value, str):
+            raise ValueError(
+                f"{name} = {value!r} must be a number, which holds it, or None, which makes it free"
+            )
+        if value is not None:
+            value = PARAMETERS[name].checked(name, value)
+            _check.common_shape("fit_indentation", **{name: value, "curves": np.empty(count)})
+            held[name] = np.broadcast_to(value, (count,)).astype(float)
+    return held

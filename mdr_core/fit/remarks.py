@@ -132,8 +132,8 @@ def _ambiguous(solved, i):
         elif at_bound:
             yield f"bound:{name}", f"{name} is at the bound of its search: hold it, or check the data"
     noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
-    if solved.rival.squares[i] - squares <= SIGNIFICANT**2 * noise:
-        rival = problem.rows([i]).values(solved.rival.x[[i]])
+    if solved.rival_squares[i] - squares <= SIGNIFICANT**2 * noise:
+        rival = problem.rows([i]).values(solved.rival[[i]])
         E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
         text = f"E* = {E} with contact at {point} fits about as well: hold contact_point or E_star"
         yield "second minimum", text

@@ -1,11 +1,10 @@
 """Solution of curves: the best minimum of several starts, compared with an elastic medium; its errors."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from .._numeric import chunks
 from ..medium import critical_depth
 from .adhesion import AdhesiveCurves
 from .curves import NO_WEIGHT, Curves
@@ -21,21 +20,18 @@ _AS_WELL, _ABOUT_AS_WELL = 2.0, 9.0
 
 
 @dataclass(frozen=True)
-class Rival:
-    """Second-best minimum of each curve: scaled parameters (R, P), sum of squares (R,), ∞ if none."""
-
-    x: np.ndarray
-    squares: np.ndarray
-
-
-@dataclass(frozen=True)
 class Solution:
-    """Solution of the curves `rows` of a measurement, and whether media are elastic (R,), or nearly so."""
+    """Solution of the curves `rows` of a measurement, and whether media are elastic (R,), or nearly so.
+
+    `rival` is the second-best minimum in scaled parameters (R, P), with its sum of squares (R,), which is
+    infinite where there is none.
+    """
 
     rows: np.ndarray
     curves: Curves
     minimum: Minimum
-    rival: Rival
+    rival: np.ndarray
+    rival_squares: np.ndarray
     elastic: np.ndarray
     hardly_yields: np.ndarray
     noise_known: bool
@@ -96,49 +92,41 @@ def problems(profile, measured, held, depth_noise, in_time):
     """Yields numbers of measured curves, and their `Curves`, which have equally many parameters."""
     adhesive = "work_of_adhesion" not in held or held["work_of_adhesion"].any()
     for samples in measured.groups(in_time):
-        for part in chunks(samples.rows.size, 64):
-            rows = samples.rows[part]
-            fixed = {name: value[rows] for name, value in held.items()}
-            time = None if samples.time is None else samples.time[part]
-            curves = Curves(
-                profile=profile,
-                depth=samples.depth[part],
-                force=samples.force[part],
-                sigma=_sigma(samples, part, fixed, depth_noise),
-                rate=samples.rate[part],
-                time=time,
-                depth_noise=depth_noise,
-                held=fixed,
-            )
-            if depth_noise:
-                yield from ((rows[subset], noisy) for subset, noisy in with_depth_noise(curves))
-            else:
-                yield rows, curves.as_kind(AdhesiveCurves) if adhesive else curves
+        rows, depth, force, rate = samples.rows, samples.depth, samples.force, samples.rate
+        fixed = {name: value[rows] for name, value in held.items()}
+        sigma = _sigma(samples, fixed, depth_noise)
+        curves = Curves(profile, depth, force, sigma, rate, samples.time, depth_noise, fixed)
+        if depth_noise:
+            yield from ((rows[subset], noisy) for subset, noisy in with_depth_noise(curves))
+        else:
+            yield rows, curves.as_kind(AdhesiveCurves) if adhesive else curves
 
 
-def _sigma(samples, part, held, depth_noise):
+def _sigma(samples, held, depth_noise):
     """Standard deviation of the force (R, N): given, estimated, or its range where it is not known."""
-    depth, force = samples.depth[part], samples.force[part]
+    force = samples.force
     size = np.ptp(force, axis=1, keepdims=True)
     if samples.force_noise is not None:
-        size = samples.force_noise[part]
+        size = samples.force_noise
     elif depth_noise:
         # Without memory and rates the order of time means nothing; in that of depth the force is smooth.
         if np.all(np.isinf(held.get("q_c", 0.0))) and not samples.rate.any():
-            force = np.take_along_axis(force, np.argsort(depth, axis=1), axis=1)
+            force = np.take_along_axis(force, np.argsort(samples.depth, axis=1), axis=1)
         size = np.maximum(roughness(force), 1e-6 * size)
-    return np.where(samples.corner[part], NO_WEIGHT, 1.0) * size
+    return np.where(samples.corner, NO_WEIGHT, 1.0) * size
 
 
 def solved(rows, curves, noise_known):
     """`Solution` of the curves with these numbers."""
-    minimum, rival = _best_minimum(curves)
-    curves, minimum = curves.settled(minimum)
+    minimum, *rival = _best_minimum(curves)
+    if curves.adhesive:
+        curves = replace(curves, contact=curves.contact_of_data(minimum.x))
+        minimum = curves.minimum(minimum.x)
     if "q_c" in curves.held:
         elastic, hardly_yields = np.isinf(curves.held["q_c"]), np.zeros(len(rows), bool)
     else:
         minimum, elastic, hardly_yields = _compared_with_elastic(curves, minimum, noise_known)
-    return Solution(rows, curves, minimum, rival, elastic, hardly_yields, noise_known)
+    return Solution(rows, curves, minimum, *rival, elastic, hardly_yields, noise_known)
 
 
 def _best_minimum(curves):
@@ -156,7 +144,7 @@ def _best_minimum(curves):
         rival[rows[second]] = np.where(better[:, None], x, trial.x)[second]
         rival_squares[rows[second]] = worse[second]
         best = best.replaced(rows, trial, better)
-    return best, Rival(rival, rival_squares)
+    return best, rival, rival_squares
 
 
 def _compared_with_elastic(curves, minimum, noise_known):

@@ -13,7 +13,7 @@ from ..live_interval import LiveInterval
 from ..medium import critical_depth, yield_constant
 from ..yielding import interval_at
 from .adhesion import in_contact
-from .parameters import BACKGROUND, PARAMETERS, REACH
+from .parameters import BACKGROUND, MEDIUM, REACH
 
 #: Trial depths of contact at the largest depth, in units of the range of depth.
 _DEPTHS = np.geomspace(3e-3, 1 + REACH, 48)
@@ -31,17 +31,23 @@ _STARTS, _CLOSE = 4, 20.0
 class Trial:
     """The best medium for a contact point (m), with its sum of squares.
 
-    E* (Pa), critical depth (m), relaxation time 4η/E* (s), `adhesion_length` w/E* (m), and the parameters
-    of the background by name, as far as they are free.
+    E* (Pa), critical depth d_c (m), relaxation time τ = 4η/E* (s) and κ = w/E* (m); `background` has the
+    free parameters of the background by name.
     """
 
     squares: float
     contact_point: float
     E_star: float
-    critical_depth: float
-    relaxation_time: float
-    adhesion_length: float
+    d_c: float
+    tau: float
+    kappa: float
     background: dict[str, float]
+
+    def value(self, name):
+        """Value of a free parameter."""
+        if name == "contact_point":
+            return self.contact_point
+        return MEDIUM[name].start(self) if name in MEDIUM else self.background[name]
 
 
 def first_guesses(curves):
@@ -60,7 +66,7 @@ def first_guesses(curves):
         rows = np.array([i for i, minima in enumerate(guesses) if len(minima) > k])
         values = {"turning_depth": turning_depth[rows]}
         for name in curves.free:
-            values[name] = np.array([[PARAMETERS[name].start(guesses[i][k])] for i in rows])
+            values[name] = np.array([[guesses[i][k].value(name)] for i in rows])
         yield rows, curves.rows(rows).scaled(values)
 
 
