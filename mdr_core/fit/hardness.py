@@ -132,7 +132,7 @@ def _class(a, q_c):
 def _remarks(yielded, hardness_class, reason, error):
     if not yielded.all():
         count = f"{np.count_nonzero(~yielded)} of {yielded.size} measurements"
-        yield f"{count} have the pressure of an elastic contact: they do not determine q_c and were left out"
+        yield f"{count} are as hard as an elastic contact: they do not determine q_c and were left out"
     if hardness_class not in ("b", None) or reason.startswith("none"):
         yield f"not class (b), which q_c is defined for: {reason}"
     if error == np.inf:

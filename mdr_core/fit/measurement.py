@@ -14,23 +14,6 @@ _JUMP, _ISOLATED = 0.03, 10.0
 
 
 @dataclass(frozen=True)
-class Samples:
-    """Samples of the curves `rows` of a measurement, with equally many each, arrays (R, N).
-
-    Depth (m), its rate (m/s), force (N) and its standard deviation (N), None where it is to be estimated;
-    time (s), None where it is not known. At a `corner` the rate jumps, and that of the sample is not known.
-    """
-
-    rows: np.ndarray
-    depth: np.ndarray
-    force: np.ndarray
-    rate: np.ndarray
-    corner: np.ndarray
-    force_noise: np.ndarray | None
-    time: np.ndarray | None
-
-
-@dataclass(frozen=True)
 class Measurement:
     """Measured curves, one a row (R, N), NaN where there is no sample; `lengths` are as given (R,).
 
@@ -50,24 +33,18 @@ class Measurement:
         given = (self.depth, self.force, self.time, self.force_noise)
         return np.logical_and.reduce([np.isfinite(values) for values in given if values is not None])
 
-    def groups(self, in_time):
-        """Yields `Samples` of 64 curves at most with equally many; rates are 0 unless `in_time`."""
+    def groups(self):
+        """Yields curves with equally many samples: their numbers, depth, force, time and force noise.
+
+        They are arrays (R, N) of at most 64 curves; of times and noise that are not given None.
+        """
         counts = np.count_nonzero(self.used, axis=1)
         for count in np.unique(counts):
             same = np.flatnonzero(counts == count)
-            for part in chunks(same.size, 64):
-                yield self._samples(same[part], count, in_time)
-
-    def _samples(self, rows, count, in_time):
-        used = self.used[rows]
-        depth, force, time, noise = (
-            values if values is None else values[rows][used].reshape(rows.size, count)
-            for values in (self.depth, self.force, self.time, self.force_noise)
-        )
-        rate, corner = (
-            _rates(depth, time) if in_time else (np.zeros_like(depth), np.zeros(depth.shape, bool))
-        )
-        return Samples(rows, depth, force, rate, corner, noise, time)
+            for rows in (same[part] for part in chunks(same.size, 64)):
+                given = self.depth, self.force, self.time, self.force_noise
+                used = self.used[rows]
+                yield rows, *(v if v is None else v[rows][used].reshape(-1, count) for v in given)
 
 
 def measurement(depth, force, time, force_noise):
@@ -115,8 +92,8 @@ def _padded(name, values, unit):
     return padded
 
 
-def _rates(depth, time):
-    """Rates (m/s) by central differences, and where they jump."""
+def rates(depth, time):
+    """Rates (m/s) by central differences, and at which samples they jump, arrays (R, N)."""
     remedy = "sort the samples, drop repeated times, and count time on from one segment to the next"
     back = np.diff(time, prepend=-np.inf, axis=1) <= 0
     _check.refuse("time", time, back, "does not increase", unit="s", remedy=remedy)

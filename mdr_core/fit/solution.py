@@ -11,6 +11,7 @@ from .curves import NO_WEIGHT, Curves
 from .depth_noise import with_depth_noise
 from .errors import autocorrelation, block_factors, block_length, covariances, roughness
 from .least_squares import Minimum
+from .measurement import rates
 from .start import first_guesses
 
 #: Logarithm of q_c that stands for infinity.
@@ -91,29 +92,27 @@ class Solution:
 def problems(profile, measured, held, depth_noise, in_time):
     """Yields numbers of measured curves, and their `Curves`, which have equally many parameters."""
     adhesive = "work_of_adhesion" not in held or held["work_of_adhesion"].any()
-    for samples in measured.groups(in_time):
-        rows, depth, force, rate = samples.rows, samples.depth, samples.force, samples.rate
+    for rows, depth, force, time, force_noise in measured.groups():
+        rate, corner = rates(depth, time) if in_time else (np.zeros_like(depth), False)
         fixed = {name: value[rows] for name, value in held.items()}
-        sigma = _sigma(samples, fixed, depth_noise)
-        curves = Curves(profile, depth, force, sigma, rate, samples.time, depth_noise, fixed)
+        curves = Curves(profile, depth, force, force_noise, rate, time, depth_noise, fixed)
+        sigma = _sigma(curves) * np.where(corner, NO_WEIGHT, np.ones_like(depth))
+        curves = replace(curves, sigma=sigma)
         if depth_noise:
             yield from ((rows[subset], noisy) for subset, noisy in with_depth_noise(curves))
         else:
             yield rows, curves.as_kind(AdhesiveCurves) if adhesive else curves
 
 
-def _sigma(samples, held, depth_noise):
-    """Standard deviation of the force (R, N): given, estimated, or its range where it is not known."""
-    force = samples.force
-    size = np.ptp(force, axis=1, keepdims=True)
-    if samples.force_noise is not None:
-        size = samples.force_noise
-    elif depth_noise:
-        # Without memory and rates the order of time means nothing; in that of depth the force is smooth.
-        if np.all(np.isinf(held.get("q_c", 0.0))) and not samples.rate.any():
-            force = np.take_along_axis(force, np.argsort(samples.depth, axis=1), axis=1)
-        size = np.maximum(roughness(force), 1e-6 * size)
-    return np.where(samples.corner, NO_WEIGHT, 1.0) * size
+def _sigma(curves):
+    """Standard deviation of the force (N): given, estimated, or its range where it is not known."""
+    if curves.sigma is not None or not curves.depth_noise:
+        return curves.load if curves.sigma is None else curves.sigma
+    force = curves.force
+    # Without memory and rates the order of time means nothing; in that of depth the force is smooth.
+    if curves.held_elastic and not curves.rate.any():
+        force = np.take_along_axis(force, np.argsort(curves.depth, axis=1), axis=1)
+    return np.maximum(roughness(force), 1e-6 * curves.load)
 
 
 def solved(rows, curves, noise_known):
