@@ -49,9 +49,10 @@ def by_importance(remarks):
     return dict(sorted(remarks.items(), key=lambda item: KINDS.index(item[0].partition(":")[0])))
 
 
-def missing(count, samples):
+def missing(used, samples):
     """A remark on samples that are left out."""
-    return {"missing": f"left out: {count} of {samples} samples, without a number"} if count else {}
+    text = f"left out: {samples - used} of {samples} samples, without a number"
+    return {"missing": text} if used < samples else {}
 
 
 def _units(solved, i):
@@ -106,13 +107,13 @@ def _pressed(depth):
 def _share_of_contact(depth, force):
     """Share of the variance of the force that grows as (depth − z₀)^(3/2), with the best z₀."""
     part = _pressed(depth)
-    depth, deviation, shares = depth[part], force[part] - force[part].mean(), [0.0]
-    for point in np.linspace(depth.min(), depth.max(), 50)[:-1]:
-        column = np.maximum(depth - point, 0.0) ** 1.5
-        column = column - column.mean()
-        product = max(column @ deviation, 0.0)
-        shares.append(product**2 / max((column @ column) * (deviation @ deviation), 1e-300))
-    return max(shares)
+    depth, deviation = depth[part], force[part] - force[part].mean()
+    points = np.linspace(depth.min(), depth.max(), 50)[:-1, None]
+    columns = np.maximum(depth - points, 0.0) ** 1.5
+    columns -= columns.mean(axis=1, keepdims=True)
+    product = np.maximum(columns @ deviation, 0.0)
+    power = np.sum(columns**2, axis=1) * (deviation @ deviation)
+    return np.max(product**2 / np.maximum(power, 1e-300))
 
 
 def _contact_is_seen(depth, force):

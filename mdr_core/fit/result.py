@@ -14,7 +14,7 @@ from ..medium import Medium
 from ..results.quantities import described, engineering
 from ..results.report import imported
 from .oliver_pharr import OLIVER_PHARR, oliver_pharr
-from .parameters import MEDIUM, PARAMETERS
+from .parameters import BACKGROUND, MEDIUM, PARAMETERS
 from .remarks import DOUBTS, by_importance, missing, remarks_of
 from .report import Fit, with_error
 
@@ -22,10 +22,7 @@ if TYPE_CHECKING:
     import xarray
 
 #: Fields with one entry per curve, and with one per sample.
-_OF_CURVES = (
-    *(name for name in PARAMETERS if name not in MEDIUM),
-    *("covariance", "reduced_chi_square", "block_length"),
-)
+_OF_CURVES = ("contact_point", *BACKGROUND, "covariance", "reduced_chi_square", "block_length")
 _OF_SAMPLES = ("depth", "force", "time", "residuals")
 
 
@@ -189,31 +186,24 @@ def collected(profile, measured, depth_noise, solutions):
     groups = [_arrays(solution, measured.used[solution.rows]) for solution in solutions]
     joined = {name: np.concatenate([group[name] for group in groups])[order] for name in groups[0]}
     remarks = [each for solution in solutions for each in remarks_of(solution)]
-    left_out = measured.lengths - np.count_nonzero(measured.used, axis=1)
-    counts = zip(left_out, measured.lengths, strict=True)
+    counts = zip(np.count_nonzero(measured.used, axis=1), measured.lengths, strict=True)
     remarks = [by_importance(remarks[i] | missing(*pair)) for i, pair in zip(order, counts, strict=True)]
+    medium = Medium(**{name: joined.pop(name) for name in MEDIUM})
+    ends = (joined.pop(name) for name in ("lower", "upper", "live_depth"))
+    states = joined.pop("path_depth"), LiveInterval(*ends), joined.pop("uniform_load")
+    path = Indentation(profile, medium.entries(np.s_[:, None]), *states, bool(np.any(medium.eta)))
+    joined |= {name: getattr(measured, name) for name in ("depth", "force", "time")}
+    if measured.force_noise is not None:
+        joined["force_noise"] = measured.force_noise
     errors = np.sqrt(np.einsum("rpp->rp", joined["covariance"]))
-    media = {name: joined[name] for name in MEDIUM}
-    path = Indentation(
-        profile=profile,
-        medium=Medium(**{name: value[:, None] for name, value in media.items()}),
-        depth=joined["path_depth"],
-        live_interval=LiveInterval(joined["lower"], joined["upper"], joined["live_depth"]),
-        uniform_load=joined["uniform_load"],
-        in_time=bool(np.any(joined["eta"])),
-    )
-    values = {name: joined[name] for name in (*_OF_CURVES, "residuals")}
-    values |= {name: getattr(measured, name) for name in ("depth", "force", "time")}
-    known = measured.force_noise is not None
-    values["force_noise"] = measured.force_noise if known else joined["force_noise"]
     free = solutions[0].curves.free
     fit = IndentationFit(
         profile=profile,
-        medium=Medium(**media),
+        medium=medium,
         path=path,
         depth_noise=depth_noise,
         standard_errors={name: _check.frozen(errors[:, i]) for i, name in enumerate(free)},
-        **{name: value if value is None else _check.frozen(value) for name, value in values.items()},
+        **{name: value if value is None else _check.frozen(value) for name, value in joined.items()},
         _remarks=tuple(remarks),
         _lengths=measured.lengths,
     )
