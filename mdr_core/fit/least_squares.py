@@ -23,6 +23,11 @@ class Minimum:
         """Sums of squares (R,)."""
         return np.sum(self.residual**2, axis=1)
 
+    @property
+    def freedom(self):
+        """Degrees of freedom, at least 1."""
+        return max(self.residual.shape[1] - self.x.shape[1], 1)
+
     def replaced(self, rows, other, better):
         """With the minima of `other`, which has the problems `rows`, where they are `better`."""
         arrays = {name: values.copy() for name, values in vars(self).items()}

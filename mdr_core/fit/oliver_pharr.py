@@ -15,15 +15,12 @@ from ..shapes.profile import Profile
 from .least_squares import least_squares
 from .report import with_error
 
-#: Quantities of the results.
-OLIVER_PHARR = {
-    "stiffness": QUANTITIES["stiffness"],
+#: Quantities of the results, and others.
+OLIVER_PHARR = QUANTITIES | {
     "contact_depth": Quantity("h_c", "m", "contact depth"),
-    "E_star": QUANTITIES["E_star"],
     "hardness": Quantity("H", "Pa", "hardness"),
     "exponent": Quantity("m", "", "exponent"),
 }
-
 #: Bounds of force and stiffness, in units of those of the samples, and of the exponent.
 _LOWER, _UPPER = np.array([[0.1, 1e-3, 0.5]]), np.array([[10.0, 1e3, 50.0]])
 #: Shares of the largest force from and to which the unloading is fitted: those of the result, and others.
@@ -174,7 +171,7 @@ class OliverPharr(Report):
     standard_errors: dict[str, float]
 
     _dimensions = ("unloading",)
-    _quantities = _shown = tuple(OLIVER_PHARR)
+    _quantities = _shown = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
 
     def to_dict(self) -> dict[str, float]:
         """Values by name, in SI units, and their standard errors, whose names end in `_error`."""

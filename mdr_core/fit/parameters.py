@@ -17,6 +17,8 @@ from ..results.quantities import QUANTITIES, Quantity
 
 #: The contact point is searched down to so many ranges of depth below the record.
 REACH = 30.0
+_ADHESION = QUANTITIES["work_of_adhesion"]
+_TILT, _DRAG = Quantity("F₁", "N/m", "tilt of the baseline"), Quantity("ζ", "N·s/m", "drag")
 #: Largest change of a logarithm in a search.
 _FARTHEST = 16.0
 
@@ -109,7 +111,7 @@ class Viscosity(Parameter):
         return 0.0, np.inf
 
 
-#: Parameters of the medium, with their starts for a trial medium, and of the background.
+#: Parameters of the medium, with their starts for a trial medium, and of the background with their units.
 MEDIUM = {
     "E_star": Logarithm(QUANTITIES["E_star"], lambda trial: trial.E_star),
     "q_c": Logarithm(
@@ -118,18 +120,12 @@ MEDIUM = {
     "eta": Viscosity(
         QUANTITIES["eta"], lambda trial: trial.E_star * trial.tau / 4, zero=True, in_time=True
     ),
-    "work_of_adhesion": Logarithm(
-        QUANTITIES["work_of_adhesion"], lambda trial: trial.E_star * trial.kappa, zero=True
-    ),
+    "work_of_adhesion": Logarithm(_ADHESION, lambda trial: trial.E_star * trial.kappa, zero=True),
 }
 BACKGROUND = {
     "baseline": Background(Quantity("F₀", "N", "baseline"), unit=lambda curves: curves.load),
-    "tilt": Background(
-        Quantity("F₁", "N/m", "tilt of the baseline"), unit=lambda curves: curves.load / curves.length
-    ),
-    "drag": Background(
-        Quantity("ζ", "N·s/m", "drag"), unit=lambda curves: curves.load / curves.speed, in_time=True
-    ),
+    "tilt": Background(_TILT, unit=lambda curves: curves.load / curves.length),
+    "drag": Background(_DRAG, unit=lambda curves: curves.load / curves.speed, in_time=True),
 }
 #: All parameters, in the order of a fit.
 PARAMETERS = MEDIUM | {"contact_point": ContactPoint(Quantity("z₀", "m", "contact point"))} | BACKGROUND
@@ -138,13 +134,11 @@ PARAMETERS = MEDIUM | {"contact_point": ContactPoint(Quantity("z₀", "m", "cont
 def held_values(count, **values):
     """Values (R,) of the parameters of `count` curves that are held, by name: those that are not None."""
     held = {}
-    for name, value in values.items():
-        if isinstance(value, str):
-            raise ValueError(
-                f"{name} = {value!r} must be a number, which holds it, or None, which makes it free"
-            )
-        if value is not None:
-            value = PARAMETERS[name].checked(name, value)
-            _check.common_shape("fit_indentation", **{name: value, "curves": np.empty(count)})
-            held[name] = np.broadcast_to(value, (count,)).astype(float)
+    for name in (name for name, value in values.items() if value is not None):
+        if isinstance(values[name], str):
+            text = "must be a number, which holds it, or None, which makes it free"
+            raise ValueError(f"{name} = {values[name]!r} {text}")
+        value = PARAMETERS[name].checked(name, values[name])
+        _check.common_shape("fit_indentation", **{name: value, "curves": np.empty(count)})
+        held[name] = np.broadcast_to(value, (count,)).astype(float)
     return held

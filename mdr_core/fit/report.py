@@ -91,12 +91,11 @@ class Fit(Report):
         """Correlations above 0.9 of two parameters of one fit, by their names."""
         if self.shape:
             raise TypeError("correlations are those of one fit: pick it, as in fit[0].correlations")
-        sigma, correlations = np.sqrt(np.diag(self.covariance)), {}
-        for (i, first), (j, second) in combinations(enumerate(self.standard_errors), 2):
+        sigma, names, correlations = np.sqrt(np.diag(self.covariance)), list(self.standard_errors), {}
+        for i, j in combinations(range(len(names)), 2):
             if 0 < sigma[i] * sigma[j] < np.inf:
-                value = float(self.covariance[i, j] / sigma[i] / sigma[j])
-                correlations |= {(first, second): value} if abs(value) > 0.9 else {}
-        return correlations
+                correlations[names[i], names[j]] = float(self.covariance[i, j] / sigma[i] / sigma[j])
+        return {pair: value for pair, value in correlations.items() if abs(value) > 0.9}
 
     def _rows(self):
         yield "indenter", described(self.profile)
@@ -112,14 +111,13 @@ class Fit(Report):
 
     def _text(self, name, value, unit):
         """A value with its standard error, or the median of those of many fits."""
+        text = engineering(value, unit)
         if name not in self.standard_errors:
-            return f"{engineering(value, unit)} (held)"
+            return f"{text} (held)"
         error = self.standard_errors[name]
         if not np.ndim(value):
             return with_error(value, error, unit)
-        if not np.size(value):
-            return engineering(value, unit)
-        return f"{engineering(value, unit)}, ± {engineering(np.median(error), unit)}"
+        return f"{text}, ± {engineering(np.median(error), unit)}" if np.size(value) else text
 
     def _quality(self):
         """Rows on how well the model fits."""

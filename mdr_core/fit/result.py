@@ -127,18 +127,16 @@ class IndentationFit(Fit):
         dims, parameters = self._dims(), list(self.standard_errors)
         variables = {}
         for name, value in self.to_dict().items():
-            attributes = PARAMETERS[name.removesuffix("_error")].quantity.attributes
-            variables[name] = dims, value, attributes
-        variables["reduced_chi_square"] = dims, self.reduced_chi_square
-        variables["block_length"] = dims, self.block_length
+            variables[name] = dims, value, PARAMETERS[name.removesuffix("_error")].quantity.attributes
+        for name in ("reduced_chi_square", "block_length"):
+            variables[name] = dims, getattr(self, name)
         noise = (*dims, "sample") if self.force_noise.ndim > len(dims) else dims
         variables["force_noise"] = noise, self.force_noise, {"units": "N"}
         samples = {name: getattr(self, name) for name in _OF_SAMPLES}
-        samples["model"] = self.force - self.residuals
-        units = {"depth": "m", "time": "s"}
-        for name, values in samples.items():
-            if values is not None:
-                variables[name] = (*dims, "sample"), values, {"units": units.get(name, "N")}
+        samples = {name: values for name, values in samples.items() if values is not None}
+        for name, values in (samples | {"model": self.force - self.residuals}).items():
+            units = {"depth": "m", "time": "s"}.get(name, "N")
+            variables[name] = (*dims, "sample"), values, {"units": units}
         variables["covariance"] = (*dims, "parameter", "other_parameter"), self.covariance
         attributes = self._attributes() | {"indenter": described(self.profile), "model": str(self.model)}
         attributes["remarks"] = "\n".join(self.remarks)

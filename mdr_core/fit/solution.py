@@ -51,12 +51,7 @@ class Solution:
     @cached_property
     def reduced_chi_square(self):
         """Sum of squares over the degrees of freedom (R,)."""
-        return self.minimum.squares / self.freedom
-
-    @property
-    def freedom(self):
-        """Degrees of freedom, at least 1."""
-        return _freedom(self.minimum)
+        return self.minimum.squares / self.minimum.freedom
 
     @cached_property
     def orders(self):
@@ -87,6 +82,10 @@ class Solution:
             factors = block_factors(residual[i, order], jacobian[i, order], length)[:free]
             covariance[i] *= factors[:, None] * factors
         return covariance
+
+    def errors(self, i):
+        """Standard errors of the scaled free parameters of one curve by name."""
+        return dict(zip(self.curves.free, np.sqrt(np.diag(self.covariance[i])).tolist(), strict=True))
 
 
 def problems(profile, measured, held, depth_noise, in_time):
@@ -164,15 +163,10 @@ def _compared_with_elastic(curves, minimum, noise_known):
     yielding, unyielding = subset.minimum(start), subset.minimum(without_yield)
     first, second, third = minimum.squares[rows], yielding.squares, unyielding.squares
     least = np.minimum(first, second)
-    noise = 1.0 if noise_known else np.minimum(least, third) / _freedom(minimum)
+    noise = 1.0 if noise_known else np.minimum(least, third) / minimum.freedom
     gain = (third - least) / np.maximum(noise, 1e-300)
     nearer = (gain <= _AS_WELL) | (third <= 1e-24 * minimum.residual.shape[1])
     elastic[rows] = nearer
     hardly_yields[rows] = (gain <= _ABOUT_AS_WELL) & ~nearer
     minimum = minimum.replaced(rows, yielding, (second < first) & ~nearer)
     return minimum.replaced(rows, unyielding, nearer), elastic, hardly_yields
-
-
-def _freedom(minimum):
-    """Degrees of freedom, at least 1."""
-    return max(minimum.residual.shape[1] - minimum.x.shape[1], 1)

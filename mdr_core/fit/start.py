@@ -45,9 +45,8 @@ class Trial:
 
     def value(self, name):
         """Value of a free parameter."""
-        if name == "contact_point":
-            return self.contact_point
-        return MEDIUM[name].start(self) if name in MEDIUM else self.background[name]
+        values = self.background | {"contact_point": self.contact_point}
+        return MEDIUM[name].start(self) if name in MEDIUM else values[name]
 
 
 def first_guesses(curves):
