@@ -76,19 +76,16 @@ def fit_hardness(
     variance = np.sum(weight * deviation**2) / max(a.size - 1, 1)
     error = float(np.sqrt(variance / np.sum(weight))) if a.size > 1 else np.inf
     q_c = float(np.exp(mean))
-    slope, slope_error, hardness_class, reason = _class(a, values)
+    power_law = _class(a, values)
     return HardnessFit(
-        profile=profile,
-        medium=Medium(E_star, q_c),
+        profile,
+        Medium(E_star, q_c),
         standard_errors={"q_c": q_c * error},
         covariance=_check.frozen([[(q_c * error) ** 2]]),
         residuals=_check.frozen(deviation * np.sqrt(weight)),
-        hardness_class=hardness_class,
-        slope=slope,
-        slope_error=slope_error,
-        reason=reason,
         q_c_values=_check.frozen(values),
-        remarks=tuple(_remarks(yielded, hardness_class, reason, error)),
+        remarks=tuple(_remarks(yielded, error, power_law)),
+        **power_law,
     )
 
 
@@ -119,21 +116,21 @@ def _critical_depths(profile, depth, area):
 
 def _class(a, q_c):
     """Power of the radius a in q_c/a with its error, the class that has this power, and the reason."""
-    if np.unique(a).size < 2:
-        return np.nan, np.inf, None, "insufficient: one radius determines no class"
-    slope, error = straight_line(np.log(a), np.log(q_c / a))
-    return (
-        slope,
-        error,
-        *class_of({"a": (0.0, 0.1), "b": (-1.0, 0.1), "c": (-2.0, 0.1)}, slope, error, "radii"),
-    )
+    slope, error = np.nan, np.inf
+    name, reason = None, "insufficient: one radius determines no class"
+    if np.unique(a).size > 1:
+        slope, error = straight_line(np.log(a), np.log(q_c / a))
+        powers = {"a": (0.0, 0.1), "b": (-1.0, 0.1), "c": (-2.0, 0.1)}
+        name, reason = class_of(powers, slope, error, "radii")
+    return {"hardness_class": name, "reason": reason, "slope": slope, "slope_error": error}
 
 
-def _remarks(yielded, hardness_class, reason, error):
+def _remarks(yielded, error, power_law):
+    name, reason = power_law["hardness_class"], power_law["reason"]
     if not yielded.all():
         count = f"{np.count_nonzero(~yielded)} of {yielded.size} measurements"
         yield f"{count} are as hard as an elastic contact: they do not determine q_c and were left out"
-    if hardness_class not in ("b", None) or reason.startswith("none"):
+    if name not in ("b", None) or reason.startswith("none"):
         yield f"not class (b), which q_c is defined for: {reason}"
     if error == np.inf:
         yield "a single measurement determines no error of q_c: give three or more"

@@ -28,11 +28,11 @@ class Parameter:
     """A parameter, searched in units (R, 1) that `unit` gives of `Curves`.
 
     It is held at positive numbers or, if `zero` or `infinite`, at these. `start` is its first value for a
-    trial medium of `start.py`; `in_time` says whether it needs times.
+    trial medium t of `start.py`; `in_time` says whether it needs times.
     """
 
     quantity: Quantity
-    start: Callable[[Any], float] | None = None
+    start: Callable[[dict], np.ndarray] | None = None
     unit: Callable[[Any], np.ndarray] | None = None
     zero: bool = False
     infinite: bool = False
@@ -113,14 +113,10 @@ class Viscosity(Parameter):
 
 #: Parameters of the medium, with their starts for a trial medium, and of the background with their units.
 MEDIUM = {
-    "E_star": Logarithm(QUANTITIES["E_star"], lambda trial: trial.E_star),
-    "q_c": Logarithm(
-        QUANTITIES["q_c"], lambda trial: yield_constant(trial.E_star, trial.d_c), infinite=True
-    ),
-    "eta": Viscosity(
-        QUANTITIES["eta"], lambda trial: trial.E_star * trial.tau / 4, zero=True, in_time=True
-    ),
-    "work_of_adhesion": Logarithm(_ADHESION, lambda trial: trial.E_star * trial.kappa, zero=True),
+    "E_star": Logarithm(QUANTITIES["E_star"], lambda t: t["E_star"]),
+    "q_c": Logarithm(QUANTITIES["q_c"], lambda t: yield_constant(t["E_star"], t["d_c"]), infinite=True),
+    "eta": Viscosity(QUANTITIES["eta"], lambda t: t["E_star"] * t["tau"] / 4, zero=True, in_time=True),
+    "work_of_adhesion": Logarithm(_ADHESION, lambda t: t["E_star"] * t["kappa"], zero=True),
 }
 BACKGROUND = {
     "baseline": Background(Quantity("F₀", "N", "baseline"), unit=lambda curves: curves.load),

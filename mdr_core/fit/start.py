@@ -4,8 +4,6 @@ The force is E* times a function of the contact point, the critical depth, and t
 work of adhesion, and a background: E* and the parameters of the background follow by linear regression.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..integrals import integrals
@@ -27,28 +25,6 @@ _STRETCHES = np.geomspace(0.03, 4.0, 14)
 _STARTS, _CLOSE = 4, 20.0
 
 
-@dataclass(frozen=True)
-class Trial:
-    """The best medium for a contact point (m), with its sum of squares.
-
-    E* (Pa), critical depth d_c (m), relaxation time τ = 4η/E* (s) and κ = w/E* (m); `background` has the
-    free parameters of the background by name.
-    """
-
-    squares: float
-    contact_point: float
-    E_star: float
-    d_c: float
-    tau: float
-    kappa: float
-    background: dict[str, float]
-
-    def value(self, name):
-        """Value of a free parameter."""
-        values = self.background | {"contact_point": self.contact_point}
-        return MEDIUM[name].start(self) if name in MEDIUM else values[name]
-
-
 def first_guesses(curves):
     """Starts of a search, the best first, each with its rows and their scaled parameters.
 
@@ -60,25 +36,15 @@ def first_guesses(curves):
     table = depths, integrals(curves.profile).radius_integral(LiveInterval.elastic(depths)), radius
     turning_depth = curves.first_turning_depth()
     count = len(curves.depth)
-    guesses = [_minima(_trials(curves.rows([row]), turning_depth[[row]], table)) for row in range(count)]
+    guesses = [_guesses(curves.rows([row]), turning_depth[[row]], table) for row in range(count)]
     for k in range(max(map(len, guesses))):
         rows = np.array([i for i, minima in enumerate(guesses) if len(minima) > k])
-        values = {"turning_depth": turning_depth[rows]}
-        for name in curves.free:
-            values[name] = np.array([[guesses[i][k].value(name)] for i in rows])
-        yield rows, curves.rows(rows).scaled(values)
+        values = {name: np.array([[guesses[i][k][name]] for i in rows]) for name in curves.free}
+        yield rows, curves.rows(rows).scaled(values | {"turning_depth": turning_depth[rows]})
 
 
-def _minima(trials):
-    """The minima over the contact points that are nearly as good as the best one, which is the first."""
-    squares = np.array([np.inf, *(trial.squares for trial in trials), np.inf])
-    minima = (squares[1:-1] <= squares[:-2]) & (squares[1:-1] < squares[2:])
-    minima &= squares[1:-1] <= _CLOSE * squares.min()
-    return sorted((trials[i] for i in np.flatnonzero(minima)), key=lambda trial: trial.squares)[:_STARTS]
-
-
-def _trials(curve, turning_depth, table):
-    """A `Trial` for each contact point of one curve."""
+def _guesses(curve, turning_depth, table):
+    """Free parameters of one curve by name at the minima over its contact points, the best first."""
     held = {name: float(value[0]) for name, value in curve.held.items()}
     depth = curve.depth[0]
     top, length = float(curve.top[0, 0]), float(curve.length[0, 0])
@@ -90,29 +56,25 @@ def _trials(curve, turning_depth, table):
     largest_depth = np.maximum(top - points, 1e-3 * length)[:, None]
     if curve.adhesive:
         media = _adhesive_media(curve, held, largest_depth)
-        unit_force = _adhesive_force(depth[samples], points, media[2], table)
+        unit_force = _adhesive_force(depth[samples], points, media["kappa"], table)
     else:
         media = _media(curve, held, largest_depth)
-        largest, _ = curve.largest_so_far(curve.depth, turning_depth)
-        unit_force = _unit_force(
-            largest[:, samples] - points[:, None, None],
-            depth[samples] - points[:, None, None],
-            curve.rate[0, samples],
-            *(values[..., None] for values in media[:2]),
-            table,
-        )
+        largest = curve.largest_so_far(curve.depth, turning_depth)[0][:, samples]
+        point, rate = points[:, None, None], curve.rate[0, samples]
+        unit_force = _unit_force(largest - point, depth[samples] - point, rate, media, table)
     best, E_star, squares, background = _regression(curve, held, samples, unit_force, media)
-    rows = np.arange(points.size)
-    media = [values[rows, best].tolist() for values in media]
-    columns = squares.tolist(), points.tolist(), E_star.tolist(), *media
-    return [
-        Trial(*row, {name: float(values[i]) for name, values in background.items()})
-        for i, row in enumerate(zip(*columns, strict=True))
-    ]
+    trials = {name: values[np.arange(points.size), best] for name, values in media.items()}
+    trials["E_star"] = E_star
+    values = {name: parameter.start(trials) for name, parameter in MEDIUM.items()}
+    values |= background | {"contact_point": points}
+    around = np.concatenate([[np.inf], squares, [np.inf]])
+    minima = (squares <= around[:-2]) & (squares < around[2:]) & (squares <= _CLOSE * squares.min())
+    chosen = sorted(np.flatnonzero(minima), key=lambda i: squares[i])[:_STARTS]
+    return [{name: float(values[name][i]) for name in curve.free} for i in chosen]
 
 
 def _media(curve, held, depth):
-    """Trial d_c (m), relaxation times (s) and w/E* (m) at trial largest depths (Z, 1), arrays (Z, M)."""
+    """Trial d_c (m), τ = 4η/E* (s) and κ = w/E* (m) by name, arrays (Z, M), at largest depths (Z, 1)."""
     if curve.held_elastic or {"E_star", "q_c"} <= set(held):
         d_c = np.full_like(depth, critical_depth(held.get("E_star", 1.0), held["q_c"]))
     else:
@@ -124,7 +86,7 @@ def _media(curve, held, depth):
     else:
         tau = depth * _LAGS / max(float(curve.speed[0, 0]), 1e-300)
     d_c, tau = np.repeat(d_c, tau.shape[1], axis=1), np.tile(tau, (1, d_c.shape[1]))
-    return d_c, tau, np.zeros_like(d_c)
+    return {"d_c": d_c, "tau": tau, "kappa": np.zeros_like(d_c)}
 
 
 def _adhesive_media(curve, held, depth):
@@ -134,12 +96,13 @@ def _adhesive_media(curve, held, depth):
     else:
         radius = curve.profile._radius(np.minimum(depth, curve.profile.known_depth))
         kappa = (depth * _STRETCHES) ** 2 / (2 * np.pi * radius)
-    return np.full_like(kappa, np.inf), np.zeros_like(kappa), kappa
+    return {"d_c": np.full_like(kappa, np.inf), "tau": np.zeros_like(kappa), "kappa": kappa}
 
 
-def _unit_force(largest, depth, rate, d_c, tau, table):
-    """Force over E* (m²) of media with critical depths (m) and relaxation times (s), from a table."""
+def _unit_force(largest, depth, rate, media, table):
+    """Force over E* (m²) of trial media, from a table."""
     depths, area, radius = table
+    d_c, tau = media["d_c"][..., None], media["tau"][..., None]
     lag = tau * rate
     interval = interval_at(largest, depth + np.minimum(lag, 0.0), d_c)
     force = 2 * (np.interp(interval.upper, depths, area) - np.interp(interval.lower, depths, area))
@@ -178,11 +141,11 @@ def _regression(curve, held, samples, unit_force, media):
     deviation, projected = weight * force - basis @ (basis.T @ (weight * force)), weighted
     if free:
         projected = weighted - (weighted @ basis) @ basis.T
-    d_c, _, kappa = media
+    d_c = media["d_c"]
     if "E_star" in held:
         E_star = np.full_like(d_c, held["E_star"])
     elif held.get("work_of_adhesion"):
-        E_star = held["work_of_adhesion"] / kappa
+        E_star = held["work_of_adhesion"] / media["kappa"]
     elif held.get("q_c", np.inf) < np.inf:
         E_star = held["q_c"] / yield_constant(1.0, d_c)
     else:
