@@ -147,6 +147,20 @@ class TestIndentation:
         assert held.medium.E_star == pytest.approx(E, rel=1e-9)
         assert not held.remarks
 
+    @pytest.mark.parametrize("profile", [mdr.Cone(0.3), mdr.Paraboloid(1e-6)], ids=name)
+    def test_hardly_yielding_curves_fit_as_well_as_the_truth(self, profile):
+        """Least squares have no larger sum than the true medium, for d_c from 0.7 to 1 of the depth."""
+        E_star, d_c = np.full(40, E), 60e-9 * np.linspace(0.7, 1.0, 40)
+        medium = mdr.Medium.from_critical_depth(E_star[:, None], d_c[:, None])
+        depth, random = np.tile(OUT, (40, 1)), np.random.default_rng(6)
+        force = curve(profile, medium, depth)
+        force = force + 0.004 * force.max() * random.normal(size=force.shape)
+        free = mdr.fit_indentation(profile, depth, force)
+        true = mdr.fit_indentation(profile, depth, force, E_star=E_star, q_c=medium.q_c[:, 0])
+        squares, least = (np.sum(fit.residuals**2, axis=1) for fit in (free, true))
+        # An elastic medium is taken where yield gains less than twice the variance.
+        assert np.all(squares <= least + 2.1 * least / OUT.size)
+
     def test_loading_alone_hardly_determines_the_modulus(self):
         profile = mdr.Cone(0.3)
         depth, force = noisy(profile, 1, seed=4, depth=OUT[:100])

@@ -43,17 +43,17 @@ class Parameter:
         allowed = {"zero": self.zero, "infinite": self.infinite}
         return _check.positive(name, value, unit=self.quantity.unit, **allowed)
 
-    def rate(self, value, curves):
-        """Derivative (R, 1) of the value by the scaled parameter."""
-        return self.unit(curves)
-
     def value(self, x, curves):
         """Value (R, 1) of a scaled parameter."""
-        return self.rate(None, curves) * x
+        return self.unit(curves) * x
 
     def scaled(self, value, curves):
         """Scaled parameter (R, 1) of a value."""
-        return value / self.rate(value, curves)
+        return value / self.unit(curves)
+
+    def rate(self, value, curves):
+        """Derivative (R, 1) of the value by the scaled parameter."""
+        return self.unit(curves)
 
     def bounds(self, start, curves):
         """Least and largest scaled parameter (R, 1) in a search from a start."""
@@ -100,22 +100,26 @@ class ContactPoint(Background):
         return np.log(1e-4 * curves.length), np.log(longest)
 
 
-class Viscosity(Parameter):
-    """The viscosity, in units of one with which dashpots carry the range of force at the largest speed."""
-
-    def rate(self, value, curves):
-        radius = curves.profile._radius(np.minimum(curves.length, curves.profile.known_depth))
-        return curves.load / (8 * radius * curves.speed)
+class NotNegative(Parameter):
+    """A parameter that is 0 or positive."""
 
     def bounds(self, start, curves):
         return 0.0, np.inf
+
+
+def _viscosity(curves):
+    """Viscosity (Pa·s) with which the dashpots carry the range of force at the largest speed."""
+    radius = curves.profile._radius(np.minimum(curves.length, curves.profile.known_depth))
+    return curves.load / (8 * radius * curves.speed)
 
 
 #: Parameters of the medium, with their starts for a trial medium, and of the background with their units.
 MEDIUM = {
     "E_star": Logarithm(QUANTITIES["E_star"], lambda t: t["E_star"]),
     "q_c": Logarithm(QUANTITIES["q_c"], lambda t: yield_constant(t["E_star"], t["d_c"]), infinite=True),
-    "eta": Viscosity(QUANTITIES["eta"], lambda t: t["E_star"] * t["tau"] / 4, zero=True, in_time=True),
+    "eta": NotNegative(
+        QUANTITIES["eta"], lambda t: t["E_star"] * t["tau"] / 4, _viscosity, zero=True, in_time=True
+    ),
     "work_of_adhesion": Logarithm(_ADHESION, lambda t: t["E_star"] * t["kappa"], zero=True),
 }
 BACKGROUND = {
