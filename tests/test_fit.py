@@ -1,13 +1,14 @@
 """Fits return the medium that the measurements were made with."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core.fit.least_squares import with_error
+from mdr_core.fit.report import with_error
 
 from .shapes import SHAPES, name
 
@@ -146,6 +147,20 @@ class TestIndentation:
         assert held.medium.E_star == pytest.approx(E, rel=1e-9)
         assert not held.remarks
 
+    @pytest.mark.parametrize("profile", [mdr.Cone(0.3), mdr.Paraboloid(1e-6)], ids=name)
+    def test_hardly_yielding_curves_fit_as_well_as_the_truth(self, profile):
+        """Least squares have no larger sum than the true medium, for d_c from 0.7 to 1 of the depth."""
+        E_star, d_c = np.full(40, E), 60e-9 * np.linspace(0.7, 1.0, 40)
+        medium = mdr.Medium.from_critical_depth(E_star[:, None], d_c[:, None])
+        depth, random = np.tile(OUT, (40, 1)), np.random.default_rng(6)
+        force = curve(profile, medium, depth)
+        force = force + 0.004 * force.max() * random.normal(size=force.shape)
+        free = mdr.fit_indentation(profile, depth, force)
+        true = mdr.fit_indentation(profile, depth, force, E_star=E_star, q_c=medium.q_c[:, 0])
+        squares, least = (np.sum(fit.residuals**2, axis=1) for fit in (free, true))
+        # An elastic medium is taken where yield gains less than twice the variance.
+        assert np.all(squares <= least + 2.1 * least / OUT.size)
+
     def test_loading_alone_hardly_determines_the_modulus(self):
         profile = mdr.Cone(0.3)
         depth, force = noisy(profile, 1, seed=4, depth=OUT[:100])
@@ -199,7 +214,7 @@ class TestIndentation:
             ({"depth": [OUT, OUT], "force": [OUT, OUT[:-1]]}, r"curve 1: depth\[1\] \d+, force\[1\] \d+"),
             ({"depth": [OUT, OUT[:0]], "force": [OUT, OUT[:0]]}, "curve 1: 0 samples do not determine"),
             ({"depth": [OUT, OUT], "force": [OUT, OUT * np.nan]}, "curve 1: 0 samples do not determine"),
-            ({"force": 1e-200 * curve(mdr.Cone(0.3))}, "range of force.* N must be at least 1e-60"),
+            ({"force": 1e-200 * curve(mdr.Cone(0.3))}, "range of force.* N must be at least 1e-25"),
         ],
     )
     def test_refusals(self, change, message):
@@ -249,10 +264,12 @@ class TestRealCurves:
         assert not any("fits about as well" in remark for remark in fit.remarks)
 
     def test_misfit_of_silica(self):
+        """In terms of the force 1.3 % is the least that is possible; weights by a depth noise have more."""
         depth, force, _ = silica()
-        # Residuals in terms of the force, whatever the noise is made of.
+        fit = mdr.fit_indentation(mdr.Cone.berkovich(), depth, force)
+        assert "residuals (1.3 % of the force)" in " ".join(fit.remarks)
         fit = mdr.fit_indentation(mdr.Cone.berkovich(), depth, force, depth_noise=1e-9)
-        assert "residuals (1.3 % of the force)" in fit.remarks[-1]
+        assert 1.3 <= float(re.search(r"residuals \((\S+) % of the force", fit.remarks[-1])[1]) < 2
 
     @pytest.mark.parametrize("q_c", [Q, np.inf])
     def test_made_unloading_alone(self, q_c):
@@ -282,8 +299,8 @@ class TestHardness:
         state = mdr.indent(profile, MEDIUM, self.DEPTH)
         fit = mdr.fit_hardness(profile, state.mean_pressure, state.contact_radius, E_star=E)
         assert fit.medium.q_c == pytest.approx(Q, rel=1e-11)
-        assert fit.class_.hardness == "b"
-        assert fit.class_.slope == pytest.approx(-1.0, rel=1e-10)
+        assert fit.hardness_class == "b"
+        assert fit.slope == pytest.approx(-1.0, rel=1e-10)
 
     @pytest.mark.parametrize(("power", "name"), [(0.0, "a"), (-1.0, "b"), (-2.0, "c"), (-0.5, None)])
     def test_class(self, power, name):
@@ -291,8 +308,8 @@ class TestHardness:
         a = np.geomspace(1e-7, 1e-6, 9)
         noise = np.exp(0.01 * np.random.default_rng(8).normal(size=9))
         fit = mdr.fit_hardness(mdr.Cone(0.3), 1e6 * (a / 1e-7) ** power * noise, a, E_star=E)
-        assert fit.class_.hardness == name
-        assert abs(fit.class_.slope - power) < 4 * fit.class_.slope_error
+        assert fit.hardness_class == name
+        assert abs(fit.slope - power) < 4 * fit.slope_error
         assert (name == "b") != any("not class (b)" in remark for remark in fit.remarks)
 
     def test_elastic_contacts_are_refused(self):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core.fit.adhesive_curve import adhesive_states
+from mdr_core.fit.adhesion import adhesive_states
 
 from .shapes import SHAPES, name
 
@@ -63,15 +63,15 @@ def test_derivatives_are_those_of_the_force(profile):
         E, w = np.exp(logarithms)[:, None, None]
         return adhesive_states(profile, {"E_star": E, "work_of_adhesion": w}, depth + shift, True)
 
-    _, _, force, slope, gradient = states()
-    step = 1e-6
-    for i, expected in enumerate(gradient):
-        difference = states(start + step * np.eye(2)[i])[2] - states(start - step * np.eye(2)[i])[2]
-        error = np.abs(difference / (2 * step) - expected)[0]
-        assert np.sort(error)[-2] < 1e-6 * np.abs(force).max()
-    difference = states(shift=1e-14)[2] - states(shift=-1e-14)[2]
-    error = np.abs(difference / 2e-14 - slope)[0]
-    assert np.sort(error)[-2] < 1e-5 * np.abs(slope).max()
+    state, step = states(), 1e-6
+    for i, parameter in enumerate(("E_star", "work_of_adhesion")):
+        change = step * np.eye(2)[i]
+        difference = states(start + change).force - states(start - change).force
+        error = np.abs(difference / (2 * step) - np.exp(start[i]) * state.gradient[parameter])[0]
+        assert np.sort(error)[-2] < 1e-6 * np.abs(state.force).max()
+    difference = states(shift=1e-14).force - states(shift=-1e-14).force
+    error = np.abs(difference / 2e-14 - state.slope)[0]
+    assert np.sort(error)[-2] < 1e-5 * np.abs(state.slope).max()
 
 
 def test_errors_are_those_of_repeated_measurements():

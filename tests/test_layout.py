@@ -28,9 +28,10 @@ ORDER = (
     "dynamics.viscous_impact", "dynamics.impact",
     "dynamics.levels", "dynamics.friction", "dynamics.dry_levels", "dynamics.dry_friction",
     "dynamics.oblique_motion", "dynamics.surface", "dynamics.oblique", "dynamics.ball", "sweep",
-    "fit.least_squares", "fit.oliver_pharr", "fit.measured", "fit.adhesive_curve", "fit.curve", "fit.start",
+    "fit.parameters", "fit.least_squares", "fit.errors", "fit.report", "fit.oliver_pharr", "fit.hardness",
+    "fit.measurement", "fit.model", "fit.curves", "fit.adhesion", "fit.depth_noise", "fit.start",
     "fit.solution", "fit.nested", "fit.remarks", "fit.figures", "fit.result", "fit.indentation",
-    "fit.hardness", "drives", "scene", "results.figures", "__init__",
+    "drives", "scene", "results.figures", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {

@@ -1,31 +1,16 @@
 """Measured curves: their samples, those that are left out, and rates of depth from times."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from .. import _check
+from .._numeric import chunks
 
 #: A rate jumps where it changes by this share of the largest one, and so many times as much as two samples
 #: before and after.
 _JUMP, _ISOLATED = 0.03, 10.0
-
-
-@dataclass(frozen=True)
-class Samples:
-    """Samples of the curves `rows` of a measurement, with equally many each, arrays (R, N).
-
-    Depth (m), its rate (m/s), force (N) and its standard deviation (N), None where it is to be estimated;
-    time (s), None where it is not known. At a `corner` the rate jumps, and that of the sample is not known.
-    """
-
-    rows: np.ndarray
-    depth: np.ndarray
-    force: np.ndarray
-    rate: np.ndarray
-    corner: np.ndarray
-    force_noise: np.ndarray | None
-    time: np.ndarray | None
 
 
 @dataclass(frozen=True)
@@ -42,26 +27,24 @@ class Measurement:
     lengths: np.ndarray
     single: bool
 
-    @property
+    @cached_property
     def used(self):
         """Samples with finite values (R, N)."""
         given = (self.depth, self.force, self.time, self.force_noise)
         return np.logical_and.reduce([np.isfinite(values) for values in given if values is not None])
 
-    def groups(self, in_time):
-        """Yields `Samples` of curves with equally many; rates are 0 unless `in_time`."""
-        used = self.used
-        counts = np.count_nonzero(used, axis=1)
+    def groups(self):
+        """Yields curves with equally many samples: their numbers, depth, force, time and force noise.
+
+        They are arrays (R, N) of at most 64 curves; of times and noise that are not given None.
+        """
+        counts = np.count_nonzero(self.used, axis=1)
         for count in np.unique(counts):
-            rows = np.flatnonzero(counts == count)
-            depth, force, time, noise = (
-                values if values is None else values[rows][used[rows]].reshape(rows.size, count)
-                for values in (self.depth, self.force, self.time, self.force_noise)
-            )
-            rate, corner = np.zeros_like(depth), np.zeros(depth.shape, bool)
-            if in_time:
-                rate, corner = _rates(depth, time)
-            yield Samples(rows, depth, force, rate, corner, noise, time)
+            same = np.flatnonzero(counts == count)
+            for rows in (same[part] for part in chunks(same.size, 64)):
+                given = self.depth, self.force, self.time, self.force_noise
+                used = self.used[rows]
+                yield rows, *(v if v is None else v[rows][used].reshape(-1, count) for v in given)
 
 
 def measurement(depth, force, time, force_noise):
@@ -99,7 +82,7 @@ def _padded(name, values, unit):
     if np.ma.is_masked(values):
         raise ValueError(f"{name} has masked samples: leave them out of depth and force")
     if not isinstance(values, list | tuple) or not any(map(np.ndim, values)):
-        return _check.finite_array(name, values, unit=unit, most=_check.LARGEST, missing=True)
+        return _check.finite_array(name, values, unit=unit, most=_check.LONGEST, missing=True)
     rows = [_padded(f"{name}[{i}]", row, unit) for i, row in enumerate(values)]
     if any(row.ndim != 1 for row in rows):
         raise ValueError(f"{name} as a list must have one array (N,) for each curve")
@@ -109,8 +92,8 @@ def _padded(name, values, unit):
     return padded
 
 
-def _rates(depth, time):
-    """Rates (m/s) by central differences, and where they jump."""
+def rates(depth, time):
+    """Rates (m/s) by central differences, and at which samples they jump, arrays (R, N)."""
     remedy = "sort the samples, drop repeated times, and count time on from one segment to the next"
     back = np.diff(time, prepend=-np.inf, axis=1) <= 0
     _check.refuse("time", time, back, "does not increase", unit="s", remedy=remedy)
