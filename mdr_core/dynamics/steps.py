@@ -9,12 +9,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .. import _numeric
+from .._numeric import collocate, gauss_integrals, gauss_legendre, largest_value, last_coefficient
 from .._numeric import cube_rise, cube_way
 from ..results.base import Entries
 from .equation_of_motion import Loading, MotionState, Unloading
 
-_NODES, _WEIGHTS = _numeric.gauss_legendre(24)
+_NODES, _WEIGHTS = gauss_legendre(24)
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Steps(Entries):
 
     def at(self, share):
         """The `MotionState` at shares of the steps, of shape (N, K)."""
-        matrix = _numeric.gauss_integrals(_NODES.size, share.ravel()).reshape(*share.shape, -1)
+        matrix = gauss_integrals(_NODES.size, share.ravel()).reshape(*share.shape, -1)
         return self.state(share, np.einsum("nkj,nsj->snk", matrix, self.slopes))
 
     def end(self):
@@ -74,13 +74,13 @@ class Steps(Entries):
             (slope, _, _), jacobian = slopes(unknown)
             return slope, jacobian
 
-        unknown, settled = _numeric.collocate(slope_and_jacobian, self._first_unknown(), self.length)
+        unknown, settled = collocate(slope_and_jacobian, self._first_unknown(), self.length)
         step = replace(self, slopes=np.stack(slopes(unknown)[0], axis=1))
         end, bodies = step.end(), self.equation.bodies
         # Near zero the work counts against a part of the kinetic energy.
         work = np.abs(end.work) + 1e-3 * bodies.inertia * bodies.speed**2
         size = np.hstack([self._size(end), np.abs(end.time), work])
-        error = np.max(_numeric.last_coefficient(step.slopes) * np.abs(self.length) / size, axis=1)
+        error = np.max(last_coefficient(step.slopes) * np.abs(self.length) / size, axis=1)
         return step, np.where(settled & (error < np.inf), error, np.inf)
 
     def largest_deceleration(self):
@@ -92,7 +92,7 @@ class Steps(Entries):
             return -acceleration
 
         best, edges = self.decelerations().argmax(axis=1), np.array([0.0, *_NODES, 1.0])
-        return _numeric.largest_value(deceleration, edges[best, None], edges[best + 2, None])
+        return largest_value(deceleration, edges[best, None], edges[best + 2, None])
 
 
 class DepthSteps(Steps):
