@@ -14,8 +14,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..adhesion import AT_DEPTH, contact_interval, stable_ranges, stretch, stretch_rate, tension_integral
-from ..live_interval import LiveInterval
+from ..contact.adhesion import (
+    AT_DEPTH,
+    contact_interval,
+    stable_ranges,
+    stretch,
+    stretch_rate,
+    tension_integral,
+)
+from ..contact.live_interval import LiveInterval
 from ..medium import Medium
 from .curves import NO_WEIGHT, Curves
 from .model import States

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..shapes.profile import Profile
+from ..profiles.profile import Profile
 from .least_squares import least_squares
 from .model import states
 from .parameters import BACKGROUND, PARAMETERS

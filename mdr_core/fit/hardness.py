@@ -6,13 +6,13 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
-from .._numeric import increasing_root
-from ..integrals import integrals
-from ..live_interval import LiveInterval
+from ..contact.integrals import integrals
+from ..contact.live_interval import LiveInterval
+from ..impacts.scaling import class_of, straight_line
 from ..medium import Medium, check_pair, yield_constant
+from ..numerics.roots import increasing_root
+from ..profiles.profile import Profile
 from ..results.quantities import engineering
-from ..scaling import class_of, straight_line
-from ..shapes.profile import Profile
 from .report import Fit
 
 

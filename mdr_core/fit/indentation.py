@@ -4,11 +4,11 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..integrals import tabulated
+from ..contact.integrals import tabulated
 from ..medium import Medium, check_pair
+from ..profiles.profile import Profile
 from ..results.progress import progress
 from ..results.quantities import engineering
-from ..shapes.profile import Profile
 from .measurement import measurement
 from .parameters import PARAMETERS, REACH, held_values
 from .result import IndentationFit, collected

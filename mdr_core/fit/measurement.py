@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from .. import _check
-from .._numeric import chunks
+from ..numerics.blocks import chunks
 
 #: A rate jumps where it changes by this share of the largest one, and so many times as much as two samples
 #: before and after.

@@ -15,10 +15,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..integrals import integrals
-from ..live_interval import LiveInterval
-from ..quadrature import radius_rate
-from ..yielding import ConstantCap
+from ..contact.integrals import integrals
+from ..contact.live_interval import LiveInterval
+from ..contact.quadrature import radius_rate
+from ..contact.yielding import ConstantCap
 
 
 @dataclass(frozen=True)

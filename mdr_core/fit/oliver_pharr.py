@@ -7,11 +7,11 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from .._numeric import increasing_root
 from ..medium import Medium, check_pair
+from ..numerics.roots import increasing_root
+from ..profiles.profile import Profile
 from ..results.quantities import QUANTITIES, Quantity, described
 from ..results.report import Report
-from ..shapes.profile import Profile
 from .least_squares import least_squares
 from .report import with_error
 

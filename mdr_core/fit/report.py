@@ -8,10 +8,10 @@ import numpy as np
 
 from .._check import Array
 from ..medium import Medium
+from ..profiles.profile import Profile
 from ..results.base import Model
 from ..results.quantities import described, engineering, prefixed
 from ..results.report import Report
-from ..shapes.profile import Profile
 from .parameters import MEDIUM, PARAMETERS
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ import numpy as np
 
 from .. import _check
 from .._check import Array
-from ..indentation import Indentation
-from ..live_interval import LiveInterval
+from ..contact.indentation import Indentation
+from ..contact.live_interval import LiveInterval
 from ..medium import Medium
 from ..results.quantities import described, engineering
 from ..results.report import imported

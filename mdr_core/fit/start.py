@@ -6,10 +6,10 @@ work of adhesion, and a background: E* and the parameters of the background foll
 
 import numpy as np
 
-from ..integrals import integrals
-from ..live_interval import LiveInterval
+from ..contact.integrals import integrals
+from ..contact.live_interval import LiveInterval
+from ..contact.yielding import interval_at
 from ..medium import critical_depth, yield_constant
-from ..yielding import interval_at
 from .adhesion import in_contact
 from .parameters import BACKGROUND, MEDIUM, REACH
 
