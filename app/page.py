@@ -10,7 +10,7 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS
 from panel.io.location import Location
 
-from mdr_core.shapes.tables import decoded
+from mdr_core.profiles.samples import decoded
 
 from . import changes
 from .drives import Course

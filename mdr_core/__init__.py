@@ -6,35 +6,35 @@ Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 """
 
 from . import abel, sweep
-from . import closed_forms as closed_forms  # registers the closed forms of the shapes
 from ._check import no_attribute
+from .contact import closed_forms as closed_forms  # registers the closed forms of the shapes
+from .contact.indentation import Indentation
+from .contact.loading import indent, indent_to_force
+from .contact.onset_of_yield import critical_force, yield_depth, yield_speed
 from .drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
-from .dynamics.adhesive_impact import capture_speeds
-from .dynamics.ball import Ball, at_angle
-from .dynamics.impact import impact
-from .dynamics.oblique import ObliqueImpact, oblique_impact
-from .dynamics.result import Impact
 from .fit.hardness import fit_hardness
 from .fit.indentation import fit_indentation
 from .fit.oliver_pharr import oliver_pharr
+from .foundation.chain_impact import chain_impact
 from .foundation.depth_path import TimedIndentation, indent_in_time
 from .foundation.force_path import creep
 from .foundation.foundation import Foundation
-from .foundation.impact import chain_impact
-from .indentation import Indentation
+from .impacts.adhesive import capture_speeds
+from .impacts.impact import impact
+from .impacts.result import Impact
+from .impacts.scaling import ScalingLaw, hardness_class
 from .medium import Medium
-from .onset import critical_force, yield_depth, yield_speed
-from .paths import indent, indent_to_force
+from .oblique.ball import Ball, at_angle
+from .oblique.oblique_impact import ObliqueImpact, oblique_impact
+from .profiles.power import Cone, FlatPunch, Paraboloid, PowerLaw
+from .profiles.profile import Profile
+from .profiles.rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
+from .profiles.sampled import Sampled
+from .profiles.smooth import Smooth
+from .profiles.truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
 from .reading import read_curve
 from .results.base import Motion
-from .scaling import ScalingLaw, hardness_class
 from .scene import Scene
-from .shapes.power import Cone, FlatPunch, Paraboloid, PowerLaw
-from .shapes.profile import Profile
-from .shapes.rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
-from .shapes.sampled import Sampled
-from .shapes.smooth import Smooth
-from .shapes.truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
 
 __all__ = [
     "Ball",

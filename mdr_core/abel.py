@@ -7,7 +7,9 @@ import scipy
 
 from . import _check
 from ._check import Array, ArrayLike
-from ._numeric import chunks, root, tanh_sinh
+from .numerics.blocks import chunks
+from .numerics.gauss import tanh_sinh
+from .numerics.stable import root
 
 # Steps of the quadrature, tried in this order, and largest relative difference between two of them: the
 # error of the finer rule is about the square of that of the coarser.

@@ -6,13 +6,13 @@ import numpy as np
 
 from . import _check
 from ._check import ArrayLike, Parameter
-from .dynamics.impact import solve_impact
-from .dynamics.oblique import FRICTION, oblique_impact
+from .contact.loading import indent, indent_to_force
+from .foundation.chain_impact import chain_impact
 from .foundation.depth_path import check_times, indent_in_time
 from .foundation.force_path import creep
-from .foundation.impact import chain_impact
+from .impacts.impact import solve_impact
 from .medium import Medium
-from .paths import indent, indent_to_force
+from .oblique.oblique_impact import FRICTION, oblique_impact
 from .results.base import CHAIN, CLOSED_FORM, SCALAR_ODE, Model
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from . import _check
 from ._check import Array, ArrayLike, Parameter, shown
-from .shapes.profile import Profile
+from .profiles.profile import Profile
 
 
 def check_pair(profile, medium, what=None):

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from ._check import Array, frozen
+from .profiles.samples import UNITS, Table, decoded, read_table
 from .results.report import Report, imported
-from .shapes.tables import UNITS, Table, decoded, read_table
 
 #: Kind of the units of each quantity, and words in the names of its columns.
 _KINDS = {"depth": "length", "force": "force", "time": "time"}

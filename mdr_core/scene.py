@@ -7,17 +7,17 @@ from dataclasses import asdict, dataclass, fields, is_dataclass
 import numpy as np
 
 from ._check import one_of, shown
+from .contact.indentation import Indentation
 from .drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
-from .dynamics.oblique import ObliqueImpact
-from .dynamics.result import Impact
+from .foundation.chain_impact import ChainImpact
 from .foundation.depth_path import TimedIndentation
-from .foundation.impact import ChainImpact
-from .indentation import Indentation
+from .impacts.result import Impact
 from .medium import Medium, check_pair
+from .oblique.oblique_impact import ObliqueImpact
+from .profiles import power, rounded, sampled, truncated
+from .profiles.profile import Profile
 from .results.base import Model
 from .results.quantities import at_default
-from .shapes import power, rounded, sampled, truncated
-from .shapes.profile import Profile
 
 _PROFILES = (
     power.FlatPunch, power.Cone, power.Paraboloid, power.PowerLaw, rounded.Sphere, rounded.Hyperboloid,

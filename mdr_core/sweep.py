@@ -34,20 +34,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _check
-from .adhesion import first_contacts
-from .dynamics.impact import impact
-from .dynamics.oblique import ObliqueImpact, oblique_impact
-from .dynamics.result import Impact
-from .indentation import Indentation
+from .contact.adhesion import first_contacts
+from .contact.indentation import Indentation
+from .contact.yielding import yield_rule
+from .impacts.impact import impact
+from .impacts.result import Impact
 from .medium import Medium
-from .results.labels import InvalidParticles, check_alignment, indices, labelled
+from .oblique.oblique_impact import ObliqueImpact, oblique_impact
+from .profiles.profile import Profile
+from .profiles.sampled import Sampled
+from .profiles.smooth import Smooth
 from .results.progress import tracked_chunks
 from .results.quantities import QUANTITIES, described
 from .results.report import imported
-from .shapes.profile import Profile
-from .shapes.sampled import Sampled
-from .shapes.smooth import Smooth
-from .yielding import yield_rule
+from .results.sweep_arguments import InvalidParticles, check_alignment, indices, labelled
 
 if TYPE_CHECKING:
     import xarray

@@ -41,7 +41,7 @@ cap = mdr.Sphere([1e-6, 2e-6]).contact_radius(1e-9)
 fit = mdr.fit_indentation(tip, path.depth, path.force, E_star=1e9, contact_point=0.0)
 told: str = " ".join(fit.remarks) + f"{fit.medium.q_c} ± {fit.standard_errors['q_c']}"
 hard = mdr.fit_hardness(mdr.Cone(0.3), [1e9, 5e8, 2.5e8], [1e-7, 2e-7, 4e-7], E_star=1e11)
-kind: str | None = hard.class_.hardness
+kind: str | None = hard.hardness_class
 ball = mdr.Ball(1e-9, 1e-5)
 bounce = mdr.oblique_impact(
     mdr.Paraboloid(1e-5), medium, 1e-9, *mdr.at_angle(0.1, 0.5), 0.3, tangential_mass=ball.tangential_mass

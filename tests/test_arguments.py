@@ -42,6 +42,7 @@ CALLS = {
     "contact_radius": (CONE.contact_radius, {"depth": np.abs(DEPTH)}),
     "creep": (mdr.creep, {"profile": CONE, "medium": VISCOUS, "force": np.abs(FORCE), "time": TIME}),
     "critical_force": (mdr.critical_force, {"profile": mdr.Cone(TWO), "medium": MEDIUM}),
+    "yield_depth": (mdr.yield_depth, {"profile": mdr.Cone(TWO), "medium": MEDIUM}),
     "fit_hardness": (mdr.fit_hardness, {"profile": CONE, "radius": 1e-7 * ONE, "E_star": 1e9}),
     "fit_indentation": (mdr.fit_indentation, {"depth": DEPTH, "force": FORCE, "force_noise": NOISE}),
     "fit_indentation of many": (

@@ -46,9 +46,9 @@ def test_examples_in_docstrings(module):
 
 def test_the_example_of_a_shape_of_ones_own_is_run():
     """Examples of classes count only where their module says that they are its own."""
-    profile = importlib.import_module("mdr_core.shapes.profile")
+    profile = importlib.import_module("mdr_core.profiles.profile")
     examples = [test.name for test in doctest.DocTestFinder().find(profile) if test.examples]
-    assert "mdr_core.shapes.profile.Profile" in examples
+    assert "mdr_core.profiles.profile.Profile" in examples
 
 
 def test_examples_in_the_readme():
@@ -155,7 +155,7 @@ def test_equation_has_a_function_and_a_test(row):
         for part in function.split("."):
             # Fields of a dataclass are no attributes of its class, everything named here is.
             thing = getattr(thing, part)
-    named = re.findall(r"`(\w+\.py)::(\w+)`", tests)
+    named = re.findall(r"`([\w/]+\.py)::(\w+)`", tests)
     assert named
     for file, test in named:
         assert f"def {test}(" in (ROOT / "tests" / file).read_text(encoding="utf-8")

@@ -12,34 +12,34 @@ import mdr_core as mdr
 PACKAGE = Path(mdr.__file__).parent
 # From the bottom up; a module may import what stands before it.
 ORDER = (
-    "_errors", "_check", "_numeric", "abel", "shapes.tables", "shapes.profile", "shapes.power",
-    "shapes.tabulated", "shapes.rounded", "shapes.truncated", "shapes.sampled", "shapes.smooth", "medium",
-    "results.quantities", "results.limits", "results.report", "results.base", "results.labels",
-    "results.progress", "reading",
-    "foundation.refinement", "foundation.cap", "foundation.element", "foundation.grid",
-    "foundation.foundation",
+    "_errors", "_check", "numerics.stable", "numerics.blocks", "numerics.gauss", "numerics.collocation",
+    "numerics.roots", "abel", "profiles.samples", "profiles.profile", "profiles.power",
+    "profiles.radius_table", "profiles.rounded", "profiles.truncated", "profiles.sampled",
+    "profiles.smooth", "medium", "results.quantities", "results.limits", "results.report",
+    "results.base", "results.sweep_arguments", "results.progress", "reading", "foundation.refinement",
+    "foundation.cap", "foundation.element", "foundation.grid", "foundation.foundation",
     "foundation.fronts", "foundation.depth_path", "foundation.force_path", "foundation.free_body",
-    "foundation.impact",
-    "live_interval", "quadrature", "integrals", "yielding", "closed_forms", "adhesion", "onset",
-    "fields", "stress", "indentation", "paths",
-    "dynamics.contact_time",
-    "scaling", "dynamics.equation_of_motion", "dynamics.steps", "dynamics.legs", "dynamics.course",
-    "dynamics.motion", "dynamics.result", "dynamics.energy_balance", "dynamics.adhesive_impact",
-    "dynamics.viscous_impact", "dynamics.impact",
-    "dynamics.levels", "dynamics.friction", "dynamics.dry_levels", "dynamics.dry_friction",
-    "dynamics.oblique_motion", "dynamics.surface", "dynamics.oblique", "dynamics.ball", "sweep",
-    "fit.least_squares", "fit.oliver_pharr", "fit.measured", "fit.adhesive_curve", "fit.curve", "fit.start",
-    "fit.solution", "fit.nested", "fit.remarks", "fit.figures", "fit.result", "fit.indentation",
-    "fit.hardness", "drives", "scene", "results.figures", "__init__",
+    "foundation.chain_impact", "contact.live_interval", "contact.quadrature", "contact.integrals",
+    "contact.yielding", "contact.closed_forms", "contact.adhesion", "contact.onset_of_yield",
+    "contact.pressure", "contact.stress", "contact.indentation", "contact.loading",
+    "impacts.contact_time", "impacts.scaling", "impacts.equation_of_motion",
+    "impacts.collocation_steps", "impacts.motion_solver", "impacts.dense_motion", "impacts.motion",
+    "impacts.result", "impacts.energy_balance", "impacts.adhesive", "impacts.viscous", "impacts.impact",
+    "oblique.depth_levels", "oblique.viscous_friction", "oblique.dry_levels", "oblique.dry_friction",
+    "oblique.oblique_motion", "oblique.tangential_motion", "oblique.oblique_impact", "oblique.ball",
+    "sweep", "fit.parameters", "fit.least_squares", "fit.errors", "fit.report", "fit.oliver_pharr",
+    "fit.hardness", "fit.measurement", "fit.model", "fit.curves", "fit.adhesion", "fit.depth_noise",
+    "fit.start", "fit.solution", "fit.nested", "fit.remarks", "fit.figures", "fit.result",
+    "fit.indentation", "drives", "scene", "results.figures", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {
-    "live_interval", "quadrature", "integrals", "yielding", "closed_forms", "adhesion", "fields",
-    "indentation", "paths",
-    "dynamics.impact", "dynamics.energy_balance", "dynamics.adhesive_impact", "dynamics.contact_time",
-    "dynamics.result", "dynamics.viscous_impact", "dynamics.equation_of_motion", "dynamics.steps",
-    "dynamics.legs", "dynamics.course", "dynamics.motion",
-    "scaling", "shapes.tabulated", "stress",
+    "contact.live_interval", "contact.quadrature", "contact.integrals", "contact.yielding",
+    "contact.closed_forms", "contact.adhesion", "contact.pressure", "contact.indentation",
+    "contact.loading", "impacts.impact", "impacts.energy_balance", "impacts.adhesive",
+    "impacts.contact_time", "impacts.result", "impacts.viscous", "impacts.equation_of_motion",
+    "impacts.collocation_steps", "impacts.motion_solver", "impacts.dense_motion", "impacts.motion",
+    "impacts.scaling", "profiles.radius_table", "contact.stress",
 }  # fmt: skip
 
 
@@ -90,7 +90,7 @@ def test_the_chain_imports_nothing_that_it_checks():
         reached |= new
         new = set().union(*(IMPORTS[name] for name in new)) - reached
     # The search has gone down to the bottom.
-    assert {"medium", "shapes.profile", "_check"} <= reached
+    assert {"medium", "profiles.profile", "_check"} <= reached
     assert not reached & CHECKED
 
 

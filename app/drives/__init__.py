@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core import adhesion
-from mdr_core.dynamics.oblique_motion import ObliqueMotion
-from mdr_core.live_interval import LiveInterval
+from mdr_core.contact import adhesion
+from mdr_core.contact.live_interval import LiveInterval
+from mdr_core.oblique.oblique_motion import ObliqueMotion
 
 #: States of unloading at which a loop with adhesion is evaluated: its area is good to three digits.
 _LOOP = 80

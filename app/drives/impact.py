@@ -6,8 +6,8 @@ from math import pi, sin
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.dynamics.motion import motion as motion_of
-from mdr_core.dynamics.oblique_motion import along_surface, oblique_motion
+from mdr_core.impacts.motion import motion as motion_of
+from mdr_core.oblique.oblique_motion import along_surface, oblique_motion
 
 from ..state.quantities import QUANTITIES
 from . import Course, Drive, nearest, path_progress

@@ -8,7 +8,7 @@ import numpy as np
 
 import mdr_core as mdr
 from mdr_core import abel
-from mdr_core.live_interval import LiveInterval
+from mdr_core.contact.live_interval import LiveInterval
 from mdr_core.medium import refuse_adhesion
 
 from . import Course, Drive, nearest, path_progress

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core.fit.errors import roughness
 from mdr_core.fit.indentation import IndentationFit
-from mdr_core.fit.least_squares import roughness
+from mdr_core.profiles.samples import axis_of_symmetry, samples_of
 from mdr_core.reading import MeasuredCurve, curve_of
-from mdr_core.shapes.tables import axis_of_symmetry, samples_of
 
 from . import State, checked, medium, profile
 from .units import written

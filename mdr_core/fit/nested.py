@@ -11,7 +11,7 @@ hold, where the force is constant.
 import numpy as np
 
 from ..results.quantities import engineering
-from .least_squares import SIGNIFICANT, SINGULAR, roughness
+from .errors import SIGNIFICANT, SINGULAR, roughness
 
 #: Least factor by which the misfit falls, unit, and what follows. A tilt lowers the misfit of measured
 #: curves without one up to 1.2 times.
@@ -34,24 +34,27 @@ _LEAST_CHANGE, _COMMON = 0.005, 1e-10
 
 def nested_tests(solved, i):
     """Remarks on what a tilt, a drag or a drift changes in curve i of `SolvedCurves`."""
-    problem, (_, state) = solved.problem, solved.values_and_states
+    curves, (_, state) = solved.curves, solved.values_and_states
     contact, noise = state.live_interval.length[i] > 0, solved.noise[i]
-    residual, jacobian = solved.residual[i], solved.jacobian[i][:, ~solved.at_bound[i]]
-    if "E_star" not in problem.free or solved.at_bound[i, 0] or problem.adhesive:
+    residual, jacobian = (
+        solved.minimum.residual[i],
+        solved.minimum.jacobian[i][:, ~solved.minimum.at_bound[i]],
+    )
+    if "E_star" not in curves.free or solved.minimum.at_bound[i, 0] or curves.adhesive:
         return
     if np.count_nonzero(contact) < _FEW:
         return
-    yields = not (problem.memoryless or solved.elastic[i])
+    yields = not (curves.held_elastic or solved.elastic[i])
     before = residual
-    small = _rms((residual * noise)[contact]) < _SMALL * problem.load[i, 0]
-    for name, columns in () if small else _columns(problem, state, i, contact, yields):
+    small = _rms((residual * noise)[contact]) < _SMALL * curves.load[i, 0]
+    for name, columns in () if small else _columns(curves, state, i, contact, yields):
         least, unit, follows = _TESTS[name]
         matrix = np.column_stack([jacobian, columns / noise[:, None]])
         step = _step(matrix, residual)
         remainder = residual + matrix @ step
         factor = _rms(before[contact]) / _rms(remainder[contact])
         if factor > least and (factor**2 - 1) * np.count_nonzero(contact) > SIGNIFICANT**2:
-            change = step[0] / np.sqrt(solved.covariance[i, 0, 0])
+            change = step[0] / solved.errors(i)["E_star"]
             yield (
                 name,
                 f"a {name} of {engineering(step[-1], unit)} lowers the misfit in contact {factor:.2g} "
@@ -60,9 +63,9 @@ def nested_tests(solved, i):
             # The next ones are tested beside it.
             jacobian = matrix
             before = remainder
-    if yields and _increases(problem, i):
-        drift = _drift(problem, state, i, contact) / noise
-        yield from _in_a_hold(problem, state, i, contact, _step(jacobian, drift)[0])
+    if yields and _increases(curves, i):
+        drift = _drift(curves, state, i, contact) / noise
+        yield from _in_a_hold(curves, state, i, contact, _step(jacobian, drift)[0])
 
 
 def _rms(values):
@@ -75,40 +78,40 @@ def _step(matrix, residual):
     return np.linalg.lstsq(matrix / scale, -residual, rcond=SINGULAR)[0] / scale
 
 
-def _columns(problem, state, i, contact, yields):
+def _columns(curves, state, i, contact, yields):
     """Yields each name with the derivatives (N, K) of measured minus modelled force."""
-    depth, free = problem.depth[i], problem.free
+    depth, free = curves.depth[i], curves.free
     baseline = np.count_nonzero(~contact) >= _FEW
     if baseline and "tilt" not in free:
         yield "tilt", -np.column_stack([np.ones_like(depth), depth - depth.mean()])
     inside = depth[contact]
     before = np.argmax(inside > inside.max() - _REACHED * np.ptp(inside))
     turns = min(before, inside.size - before) >= max(_FEW, _TURNS * inside.size)
-    if not turns or not _increases(problem, i):
+    if not turns or not _increases(curves, i):
         return
     if baseline and "drag" not in free:
-        steps = np.gradient(problem.time[i])
+        steps = np.gradient(curves.time[i])
         yield "drag", -(np.gradient(depth) / np.maximum(steps, 1e-3 * steps.mean()))[:, None]
     if not yields:
-        yield "drift", _drift(problem, state, i, contact)[:, None]
+        yield "drift", _drift(curves, state, i, contact)[:, None]
 
 
-def _increases(problem, i):
+def _increases(curves, i):
     """Whether there are times that increase, of single samples perhaps not."""
-    return problem.time is not None and 0 <= np.diff(problem.time[i]).min() < np.ptp(problem.time[i])
+    return curves.time is not None and 0 <= np.diff(curves.time[i]).min() < np.ptp(curves.time[i])
 
 
-def _drift(problem, state, i, contact):
+def _drift(curves, state, i, contact):
     """Derivative (N·s/m) of measured minus modelled force by a drift from first contact on."""
-    depth, time = problem.depth[i], problem.time[i] - problem.time[i][np.argmax(contact)]
+    depth, time = curves.depth[i], curves.time[i] - curves.time[i][np.argmax(contact)]
     reached = np.where(depth >= np.maximum.accumulate(depth), np.arange(depth.size), 0)
     return state.slope[i] * time + state.memory_slope[i] * time[np.maximum.accumulate(reached)]
 
 
-def _in_a_hold(problem, state, i, contact, change):
+def _in_a_hold(curves, state, i, contact, change):
     """Remark on the drift in a hold, else on a common one; `change` is that of ln E* by 1 m/s."""
-    depth, time = problem.depth[i], problem.time[i]
-    duration, hold = time[-1] - time[np.argmax(contact)], _longest_hold(problem, state, i)
+    depth, time = curves.depth[i], curves.time[i]
+    duration, hold = time[-1] - time[np.argmax(contact)], _longest_hold(curves, state, i)
     if hold.stop - hold.start < _FEW or time[hold][-1] - time[hold][0] < _HOLD_TIME * duration:
         if abs(change) * _COMMON > _LEAST_CHANGE:
             yield (
@@ -121,23 +124,23 @@ def _in_a_hold(problem, state, i, contact, change):
     if abs(rate * change) > _LEAST_CHANGE:
         yield (
             "rest",
-            f"in the hold at {engineering(problem.force[i][hold.start], 'N')} the depth changes by "
+            f"in the hold at {engineering(curves.force[i][hold.start], 'N')} the depth changes by "
             f"{engineering(rate, 'm/s')}: creep, or a drift, which from first contact on changes E* by "
             f"{100 * change * rate:+.2g} %",
         )
 
 
-def _longest_hold(problem, state, i):
+def _longest_hold(curves, state, i):
     """The longest part of a curve in contact at one force, as a slice.
 
     Compared are means over as many samples that their noise is within the deviation of a hold.
     """
-    time, limit = problem.time[i], _HOLD_FORCE * problem.load[i, 0]
-    noise = _HOLD_NOISE * roughness(problem.force[[i]])[0, 0]
+    time, limit = curves.time[i], _HOLD_FORCE * curves.load[i, 0]
+    noise = _HOLD_NOISE * roughness(curves.force[[i]])[0, 0]
     width = int(np.clip(np.ceil((noise / limit) ** 2), 1, max(_FEW, time.size // 50)))
     limit = np.clip(noise / np.sqrt(width), limit, 4 * limit)
-    force = np.convolve(problem.force[i], np.full(width, 1 / width), "valid")
-    pressed, longest = state.force[i][: force.size] > _LEAST_FORCE * problem.load[i, 0], slice(0, 1)
+    force = np.convolve(curves.force[i], np.full(width, 1 / width), "valid")
+    pressed, longest = state.force[i][: force.size] > _LEAST_FORCE * curves.load[i, 0], slice(0, 1)
     for start in range(0, force.size - _FEW, max(1, force.size // 100)):
         if abs(force[start + _FEW] - force[start]) < limit:
             away = ~pressed[start:] | (np.abs(force[start:] - force[start]) > limit)
@@ -147,7 +150,7 @@ def _longest_hold(problem, state, i):
             if part.stop - part.start < 2 or np.ptp(time[part]) <= np.ptp(time[longest]):
                 continue
             # A slow ramp is within the noise sample by sample, but its trend is not.
-            trend = np.polyfit(time[part], problem.force[i][part], 1)[0] * np.ptp(time[part])
-            if abs(trend) < 2 * _HOLD_FORCE * problem.load[i, 0]:
+            trend = np.polyfit(time[part], curves.force[i][part], 1)[0] * np.ptp(time[part])
+            if abs(trend) < 2 * _HOLD_FORCE * curves.load[i, 0]:
                 longest = part
     return longest

@@ -7,13 +7,20 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from .._numeric import increasing_root
 from ..medium import Medium, check_pair
-from ..results.quantities import described
+from ..numerics.roots import increasing_root
+from ..profiles.profile import Profile
+from ..results.quantities import QUANTITIES, Quantity, described
 from ..results.report import Report
-from ..shapes.profile import Profile
-from .least_squares import FITTED_QUANTITIES, least_squares, with_error
+from .least_squares import least_squares
+from .report import with_error
 
+#: Quantities of the results, and others.
+OLIVER_PHARR = QUANTITIES | {
+    "contact_depth": Quantity("h_c", "m", "contact depth"),
+    "hardness": Quantity("H", "Pa", "hardness"),
+    "exponent": Quantity("m", "", "exponent"),
+}
 #: Bounds of force and stiffness, in units of those of the samples, and of the exponent.
 _LOWER, _UPPER = np.array([[0.1, 1e-3, 0.5]]), np.array([[10.0, 1e3, 50.0]])
 #: Shares of the largest force from and to which the unloading is fitted: those of the result, and others.
@@ -65,8 +72,8 @@ def oliver_pharr(
     1e+10 1.5e+09 2
     """
     check_pair(profile, Medium(1.0), "an unloading")
-    depth = _check.finite_array("depth", depth, unit="m", most=_check.LARGEST, missing=True)
-    force = _check.finite_array("force", force, unit="N", most=_check.LARGEST, missing=True)
+    depth = _check.finite_array("depth", depth, unit="m", most=_check.LONGEST, missing=True)
+    force = _check.finite_array("force", force, unit="N", most=_check.LONGEST, missing=True)
     if depth.shape != force.shape or depth.ndim != 1:
         raise ValueError(f"depth {depth.shape} and force {force.shape} must be of one curve, (N,) both")
     used = np.isfinite(depth) & np.isfinite(force)
@@ -130,12 +137,12 @@ def _power_law(h, force):
         return F * u * power - y, np.stack(columns, axis=-1)
 
     start = np.array([[1.0, np.polyfit(x, y, 1)[0], 1.5]])
-    x, residual, jacobian = least_squares(function, start, _LOWER, _UPPER)
-    if np.any((x <= _LOWER) | (x >= _UPPER)):
+    minimum = least_squares(function, start, _LOWER, _UPPER)
+    if minimum.at_bound.any():
         raise ValueError("the upper half of the unloading is no power law: check the order of the samples")
-    _, s, vt = np.linalg.svd(jacobian[0], full_matrices=False)
-    scatter = np.sqrt(np.sum(residual**2) / (h.size - 3))
-    return x[0] * size, size[:, None] * vt.T * scatter / s
+    _, s, vt = np.linalg.svd(minimum.jacobian[0], full_matrices=False)
+    scatter = np.sqrt(minimum.squares[0] / (h.size - 3))
+    return minimum.x[0] * size, size[:, None] * vt.T * scatter / s
 
 
 def _radius_at_height(profile, height):
@@ -173,6 +180,6 @@ class OliverPharr(Report):
     def _rows(self):
         yield "indenter", described(self.profile)
         for name, error in self.standard_errors.items():
-            quantity = FITTED_QUANTITIES[name]
+            quantity = OLIVER_PHARR[name]
             text = with_error(getattr(self, name), error, quantity.unit)
             yield f"{quantity.long_name} {quantity.symbol}", text

@@ -6,7 +6,8 @@ import numpy as np
 
 from ..medium import critical_depth
 from ..results.quantities import engineering
-from .least_squares import SIGNIFICANT, SINGULAR, autocorrelation, roughness
+from .depth_noise import turning_points_of
+from .errors import SIGNIFICANT, SINGULAR, autocorrelation, roughness
 from .nested import nested_tests
 
 #: All kinds of remarks, the most important first.
@@ -34,8 +35,8 @@ _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
 def remarks_of(solved):
     """Remarks on each curve of `SolvedCurves`: a sentence by its kind, the same for all curves."""
     checks = _units, _ambiguous, _adhesion, _undetermined, _jitter, _class_b, _misfit, nested_tests
-    curves = range(len(solved.rows))
-    remarks = [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in curves]
+    count = len(solved.rows)
+    remarks = [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in range(count)]
     for each in remarks:
         # The contact may be hidden by what a linear parameter describes.
         if {"tilt", "drag", "drift"} & set(each):
@@ -48,18 +49,19 @@ def by_importance(remarks):
     return dict(sorted(remarks.items(), key=lambda item: KINDS.index(item[0].partition(":")[0])))
 
 
-def missing(count, samples):
+def missing(used, samples):
     """A remark on samples that are left out."""
-    return {"missing": f"left out: {count} of {samples} samples, without a number"} if count else {}
+    text = f"left out: {samples - used} of {samples} samples, without a number"
+    return {"missing": text} if used < samples else {}
 
 
 def _units(solved, i):
     """Columns that are swapped or of the other sign, records without contact, and data in other units."""
-    problem, values = solved.problem, solved.values_and_states[0]
-    if "E_star" not in problem.free:
+    curves, values = solved.curves, solved.values_and_states[0]
+    if "E_star" not in curves.free:
         return
-    depth, force, E = problem.depth[i], problem.force[i], values["E_star"][i, 0]
-    squares = np.sum((solved.residual[i] * solved.noise[i]) ** 2)
+    depth, force, E = curves.depth[i], curves.force[i], values["E_star"][i, 0]
+    squares = np.sum((solved.minimum.residual[i] * solved.noise[i]) ** 2)
     variance = np.sum((force - force.mean()) ** 2)
     line = variance * (1 - np.corrcoef(depth, force)[0, 1] ** 2)
     shares, own = _shares_of_others(depth, force), _share_of_contact(depth, force)
@@ -69,7 +71,7 @@ def _units(solved, i):
     other = shares[cause] >= least
     unexplained = squares > (1 - _EXPLAINED) * variance
     bent = other and 1 - own > _BENT * (1 - shares[cause])
-    if not problem.adhesive and line < 1.1 * squares and (unexplained or bent):
+    if not curves.adhesive and line < 1.1 * squares and (unexplained or bent):
         text = "a straight line fits the force as well as an indentation"
         if other:
             yield "units", f"{text}: {cause}"
@@ -105,13 +107,13 @@ def _pressed(depth):
 def _share_of_contact(depth, force):
     """Share of the variance of the force that grows as (depth − z₀)^(3/2), with the best z₀."""
     part = _pressed(depth)
-    depth, deviation, shares = depth[part], force[part] - force[part].mean(), [0.0]
-    for point in np.linspace(depth.min(), depth.max(), 50)[:-1]:
-        column = np.maximum(depth - point, 0.0) ** 1.5
-        column = column - column.mean()
-        product = max(column @ deviation, 0.0)
-        shares.append(product**2 / max((column @ column) * (deviation @ deviation), 1e-300))
-    return max(shares)
+    depth, deviation = depth[part], force[part] - force[part].mean()
+    points = np.linspace(depth.min(), depth.max(), 50)[:-1, None]
+    columns = np.maximum(depth - points, 0.0) ** 1.5
+    columns -= columns.mean(axis=1, keepdims=True)
+    product = np.maximum(columns @ deviation, 0.0)
+    power = np.sum(columns**2, axis=1) * (deviation @ deviation)
+    return np.max(product**2 / np.maximum(power, 1e-300))
 
 
 def _contact_is_seen(depth, force):
@@ -124,15 +126,15 @@ def _contact_is_seen(depth, force):
 
 def _ambiguous(solved, i):
     """Parameters at a bound, a second minimum."""
-    problem, squares = solved.problem, np.sum(solved.residual[i] ** 2)
-    for name, at_bound in zip(problem.free, solved.at_bound[i], strict=False):
+    curves, squares = solved.curves, np.sum(solved.minimum.residual[i] ** 2)
+    for name, at_bound in zip(curves.free, solved.minimum.at_bound[i], strict=False):
         if at_bound and name == "eta":
             yield "inviscid", "no viscosity within the noise: η = 0; hold eta = 0"
         elif at_bound:
             yield f"bound:{name}", f"{name} is at the bound of its search: hold it, or check the data"
     noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
     if solved.rival_squares[i] - squares <= SIGNIFICANT**2 * noise:
-        rival, _ = problem.rows([i]).parameters(solved.rival[[i]])
+        rival = curves.rows([i]).values(solved.rival[[i]])
         E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
         text = f"E* = {E} with contact at {point} fits about as well: hold contact_point or E_star"
         yield "second minimum", text
@@ -140,22 +142,19 @@ def _ambiguous(solved, i):
 
 def _adhesion(solved, i):
     """A work of adhesion that is hardly determined, and a pull-off at another depth than in the model."""
-    problem, (values, state) = solved.problem, solved.values_and_states
-    if not problem.adhesive:
+    curves, (values, state) = solved.curves, solved.values_and_states
+    if not curves.adhesive:
         return
-    force = (problem.force - problem.background(values))[i]
-    noise = problem.sigma[i] * (1.0 if solved.noise_known else np.sqrt(solved.reduced_chi_square[i]))
-    column = problem.free.index("work_of_adhesion") if "work_of_adhesion" in problem.free else None
-    error = 0.0 if column is None else np.sqrt(solved.covariance[i, column, column])
+    force = (curves.force - curves.background(values))[i]
+    noise = curves.sigma[i] * (1.0 if solved.noise_known else np.sqrt(solved.reduced_chi_square[i]))
+    error = solved.errors(i).get("work_of_adhesion", 0.0)
     if error > _VAGUE:
         cause = "" if np.any(force < -SIGNIFICANT * noise) else "; there is no tension beyond the noise"
         share = f"to {100 * error:.2g} %" if error < np.inf else "not at all"
-        yield (
-            "adhesion",
-            f"the forces in contact hardly determine w ({share}{cause}): hold work_of_adhesion",
-        )
-    depth = problem.depth[i]
-    lost = [_depth_of_loss(depth, held) for held in (problem.contact[i], state.live_interval.length[i] > 0)]
+        text = f"the forces in contact hardly determine w ({share}{cause}): hold work_of_adhesion"
+        yield "adhesion", text
+    depth = curves.depth[i]
+    lost = [_depth_of_loss(depth, held) for held in (curves.contact[i], state.live_interval.length[i] > 0)]
     if abs(lost[1] - lost[0]) > _PULL_OFF * np.ptp(depth):
         measured, model, difference = (engineering(z, "m") for z in (*lost, lost[1] - lost[0]))
         yield (
@@ -174,7 +173,7 @@ def _depth_of_loss(depth, contact):
 def _undetermined(solved, i):
     """Parameters that the data do not determine."""
     values, state = solved.values_and_states
-    errors = dict(zip(solved.problem.free, np.sqrt(np.diag(solved.covariance[i])).tolist(), strict=True))
+    errors = solved.errors(i)
     if solved.elastic[i] and "q_c" in errors:
         largest = engineering(state.depth[i].max(), "m")
         yield (
@@ -188,15 +187,13 @@ def _undetermined(solved, i):
         yield "hardly yields", text
     unloading = np.count_nonzero((state.live_interval.length[i] > 0) & ~state.loading[i])
     error = errors.get("E_star", 0.0)
-    if solved.problem.memoryless:
+    if solved.curves.held_elastic:
         if _VAGUE < error < np.inf:
             yield "vague", f"the data hardly determine E* (to {100 * error:.2g} %): hold E_star"
     elif unloading < 2 and error > _VAGUE_LOADING:
-        yield (
-            "loading",
-            f"loading alone hardly determines E* (here to {100 * error:.2g} %): record the unloading, or "
-            "hold E_star",
-        )
+        share = f"to {100 * error:.2g} %"
+        text = f"loading alone hardly determines E* ({share}): record the unloading, or hold E_star"
+        yield "loading", text
     elif error > _VAGUE:
         d_c = engineering(critical_depth(values["E_star"], values["q_c"])[i, 0], "m")
         yield (
@@ -212,13 +209,13 @@ def _undetermined(solved, i):
 
 def _jitter(solved, i):
     """Depths that go back and forth although they are taken as exact: without memory they may."""
-    depth = solved.problem.depth[[i]]
+    depth = solved.curves.depth[[i]]
     steps = np.diff(depth[0])
     reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
     noise = roughness(depth)[0, 0]
     # On unloading alone the first depth is the largest.
     unloading = depth[0].max() - depth[0, 0] < 5 * noise
-    exact = not (solved.problem.depth_noise or solved.problem.memoryless)
+    exact = not (solved.curves.depth_noise or solved.curves.held_elastic)
     if exact and not unloading and reversals > max(4, 0.05 * steps.size):
         yield (
             "jitter",
@@ -232,20 +229,22 @@ def _class_b(solved, i):
 
     Tested by one linear step on the residuals, with −∂F/∂d_p the derivative by the largest depth so far.
     """
-    problem, (values, state) = solved.problem, solved.values_and_states
+    curves, (values, state) = solved.curves, solved.values_and_states
     d_c = critical_depth(values["E_star"], values["q_c"])[i, 0]
-    memory_slope, jacobian, residual = state.memory_slope[i], solved.jacobian[i], solved.residual[i]
+    memory_slope = state.memory_slope[i]
+    jacobian, residual = solved.minimum.jacobian[i], solved.minimum.residual[i]
     unloading = ~state.loading[i] & ((state.live_interval.length[i] > 0) | (memory_slope < 0))
-    if problem.turning_points.shape[1] < 2 or d_c == np.inf or not unloading.any():
+    turning_points, _ = turning_points_of(curves.depth[i], curves.force[i], curves.depth_noise)
+    if len(turning_points) < 2 or d_c == np.inf or not unloading.any():
         return
     depth = state.live_interval.lower[i] + d_c
     mean = np.mean(depth[unloading])
     change = np.where(unloading, memory_slope * d_c * (depth / mean - 1), 0.0)
     column = change / solved.noise[i]
-    if problem.depth_noise:
+    if curves.depth_noise:
         # Free turning depths would absorb the trend; each is known about as well as one sample.
-        count, width = problem.free_turning_points, jacobian.shape[1]
-        pins = np.eye(count, width, width - count) * problem.length[i] / problem.depth_noise
+        count, width = curves.turning_points.shape[1], jacobian.shape[1]
+        pins = np.eye(count, width, width - count) * curves.length[i] / curves.depth_noise
         jacobian = np.vstack([jacobian, pins])
         column, residual = (np.append(values, np.zeros(count)) for values in (column, residual))
     basis, s, _ = np.linalg.svd(jacobian, full_matrices=False)
@@ -266,14 +265,14 @@ def _class_b(solved, i):
 
 def _misfit(solved, i):
     """Residuals that are not noise."""
-    problem, residual = solved.problem, solved.residual[i]
-    freedom, chi = max(residual.size - solved.x.shape[1], 1), solved.reduced_chi_square[i]
+    curves, residual = solved.curves, solved.minimum.residual[i]
+    freedom, chi = solved.minimum.freedom, solved.reduced_chi_square[i]
     correlation = autocorrelation(residual[solved.orders[i]])
-    size = np.sqrt(np.mean((residual * solved.noise[i]) ** 2)) / problem.load[i, 0]
-    largest = _MISFIT if problem.memoryless else _MISFIT_YIELDING
+    size = np.sqrt(np.mean((residual * solved.noise[i]) ** 2)) / curves.load[i, 0]
+    largest = _MISFIT if curves.held_elastic else _MISFIT_YIELDING
     if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
-        cause = "not an elastic medium" if problem.memoryless else "not class (b)"
-        remedy = "; give time, which tells drag and drift" * (problem.time is None and not problem.adhesive)
+        cause = "not an elastic medium" if curves.held_elastic else "not class (b)"
+        remedy = "; give time, which tells drag and drift" * (curves.time is None and not curves.adhesive)
         yield (
             "misfit",
             f"the residuals ({100 * size:.2g} % of the force) follow a curve (correlation of neighbours "

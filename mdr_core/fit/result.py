@@ -2,31 +2,27 @@
 
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .. import _check
 from .._check import Array
-from ..indentation import Indentation
-from ..live_interval import LiveInterval
+from ..contact.indentation import Indentation
+from ..contact.live_interval import LiveInterval
 from ..medium import Medium
 from ..results.quantities import described, engineering
 from ..results.report import imported
-from .curve import PARAMETERS
-from .least_squares import FITTED_QUANTITIES, Fit, with_error
-from .oliver_pharr import oliver_pharr
+from .oliver_pharr import OLIVER_PHARR, oliver_pharr
+from .parameters import BACKGROUND, MEDIUM, PARAMETERS
 from .remarks import DOUBTS, by_importance, missing, remarks_of
+from .report import Fit, with_error
 
 if TYPE_CHECKING:
     import xarray
 
-#: Parameters besides those of the medium; arrays with one entry per curve, and per sample.
-_FURTHER = ("contact_point", "baseline", "tilt", "drag")
-_OF_MEDIUM = ("E_star", "q_c", "eta", "work_of_adhesion")
-_NO_UNLOADING = ("eta", "work_of_adhesion")
-_OF_CURVES = (*_FURTHER, "covariance", "reduced_chi_square", "block_length")
+#: Fields with one entry per curve, and with one per sample.
+_OF_CURVES = ("contact_point", *BACKGROUND, "covariance", "reduced_chi_square", "block_length")
 _OF_SAMPLES = ("depth", "force", "time", "residuals")
 
 
@@ -63,8 +59,7 @@ class IndentationFit(Fit):
     _remarks: tuple[dict[str, str], ...]
     _lengths: np.ndarray
 
-    _medium_parameters = _OF_MEDIUM
-    _further_parameters = _FURTHER
+    _names = tuple(PARAMETERS)
     _zero_unless_asked = ("eta", "tilt", "drag", "work_of_adhesion")
     _dimensions = ("curve",)
 
@@ -130,20 +125,18 @@ class IndentationFit(Fit):
         """
         xarray = imported("xarray", "to_xarray()")
         dims, parameters = self._dims(), list(self.standard_errors)
-        variables = {
-            name: (dims, value, FITTED_QUANTITIES[name.removesuffix("_error")].attributes)
-            for name, value in self.to_dict().items()
-        }
-        variables["reduced_chi_square"] = dims, self.reduced_chi_square
-        variables["block_length"] = dims, self.block_length
+        variables = {}
+        for name, value in self.to_dict().items():
+            variables[name] = dims, value, PARAMETERS[name.removesuffix("_error")].quantity.attributes
+        for name in ("reduced_chi_square", "block_length"):
+            variables[name] = dims, getattr(self, name)
         noise = (*dims, "sample") if self.force_noise.ndim > len(dims) else dims
         variables["force_noise"] = noise, self.force_noise, {"units": "N"}
         samples = {name: getattr(self, name) for name in _OF_SAMPLES}
-        samples["model"] = self.force - self.residuals
-        units = {"depth": "m", "time": "s"}
-        for name, values in samples.items():
-            if values is not None:
-                variables[name] = (*dims, "sample"), values, {"units": units.get(name, "N")}
+        samples = {name: values for name, values in samples.items() if values is not None}
+        for name, values in (samples | {"model": self.force - self.residuals}).items():
+            units = {"depth": "m", "time": "s"}.get(name, "N")
+            variables[name] = (*dims, "sample"), values, {"units": units}
         variables["covariance"] = (*dims, "parameter", "other_parameter"), self.covariance
         attributes = self._attributes() | {"indenter": described(self.profile), "model": str(self.model)}
         attributes["remarks"] = "\n".join(self.remarks)
@@ -153,8 +146,10 @@ class IndentationFit(Fit):
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
         # The unloading of a viscous or adhesive medium is no power law of the depth.
-        free_or_positive = (x in self.standard_errors or getattr(self.medium, x) > 0 for x in _NO_UNLOADING)
-        if set(self._remarks[0]) & DOUBTS or any(free_or_positive):
+        for name in ("eta", "work_of_adhesion"):
+            if name in self.standard_errors or getattr(self.medium, name) > 0:
+                return
+        if set(self._remarks[0]) & DOUBTS:
             return
         # Without background the measured force is that of the contact plus the residual.
         force, shift = self.path.force + self.residuals, self.standard_errors.get("contact_point", 0.0)
@@ -162,10 +157,10 @@ class IndentationFit(Fit):
             result = oliver_pharr(self.profile, self.path.depth, force)
             shifted = oliver_pharr(self.profile, self.path.depth + shift, force)
             texts = []
-            for name, unit in (("E_star", "Pa"), ("hardness", "Pa")):
+            for name in ("E_star", "hardness"):
                 value = getattr(result, name)
                 error = np.hypot(result.standard_errors[name], getattr(shifted, name) - value)
-                texts.append(f"{FITTED_QUANTITIES[name].symbol} {with_error(value, error, unit)}")
+                texts.append(f"{OLIVER_PHARR[name].symbol} {with_error(value, error, 'Pa')}")
             yield "Oliver and Pharr", ", ".join(texts)
 
     def _limits(self):
@@ -183,54 +178,62 @@ class IndentationFit(Fit):
             yield "standard errors", text
 
 
-def collected(profile, measured, depth_noise, fits):
-    """One result of all `SolvedCurves`, in the order of the curves."""
-    order = np.argsort(np.concatenate([fit.rows for fit in fits]))
-    arrays = [_arrays(fit, measured.used[fit.rows]) for fit in fits]
-    joined = {name: np.concatenate([group[name] for group in arrays])[order] for name in arrays[0]}
-    remarks = list(chain.from_iterable(map(remarks_of, fits)))
-    counts = zip(measured.lengths - np.count_nonzero(measured.used, axis=1), measured.lengths, strict=True)
+def collected(profile, measured, depth_noise, solutions):
+    """One result of all solutions, in the order of the curves."""
+    order = np.argsort(np.concatenate([solution.rows for solution in solutions]))
+    groups = [_arrays(solution, measured.used[solution.rows]) for solution in solutions]
+    joined = {name: np.concatenate([group[name] for group in groups])[order] for name in groups[0]}
+    remarks = [each for solution in solutions for each in remarks_of(solution)]
+    counts = zip(np.count_nonzero(measured.used, axis=1), measured.lengths, strict=True)
     remarks = [by_importance(remarks[i] | missing(*pair)) for i, pair in zip(order, counts, strict=True)]
+    medium = Medium(**{name: joined.pop(name) for name in MEDIUM})
+    ends = (joined.pop(name) for name in ("lower", "upper", "live_depth"))
+    states = joined.pop("path_depth"), LiveInterval(*ends), joined.pop("uniform_load")
+    path = Indentation(profile, medium.entries(np.s_[:, None]), *states, bool(np.any(medium.eta)))
+    joined |= {name: getattr(measured, name) for name in ("depth", "force", "time")}
+    if measured.force_noise is not None:
+        joined["force_noise"] = measured.force_noise
     errors = np.sqrt(np.einsum("rpp->rp", joined["covariance"]))
-    media = {name: joined[name] for name in _OF_MEDIUM}
-    interval = LiveInterval(joined["lower"], joined["upper"], joined["length"])
-    path = Indentation(
-        profile, Medium(**{name: value[:, None] for name, value in media.items()}), joined["path_depth"],
-        interval, joined["uniform_load"], bool(np.any(joined["eta"])),
-    )  # fmt: skip
-    noise = joined["force_noise"] if measured.force_noise is None else measured.force_noise
-    measurements = {name: getattr(measured, name) for name in ("depth", "force", "time")}
-    names = (*_OF_CURVES, "residuals")
-    values = {name: joined[name] for name in names} | measurements | {"force_noise": noise}
-    return IndentationFit(
-        profile=profile, medium=Medium(**media), path=path, depth_noise=depth_noise,
-        standard_errors={name: _check.frozen(errors[:, i]) for i, name in enumerate(fits[0].problem.free)},
-        **{name: value if value is None else _check.frozen(value) for name, value in values.items()},
-        _remarks=tuple(remarks), _lengths=measured.lengths,
-    )  # fmt: skip
+    free = solutions[0].curves.free
+    fit = IndentationFit(
+        profile=profile,
+        medium=medium,
+        path=path,
+        depth_noise=depth_noise,
+        standard_errors={name: _check.frozen(errors[:, i]) for i, name in enumerate(free)},
+        **{name: value if value is None else _check.frozen(value) for name, value in joined.items()},
+        _remarks=tuple(remarks),
+        _lengths=measured.lengths,
+    )
+    return fit[0] if measured.single else fit
 
 
-def _arrays(fit, used):
-    """Arrays of `SolvedCurves` by name, one row a curve, one column a sample that was given."""
-    problem, (values, state) = fit.problem, fit.values_and_states
-    units = problem.units(values)
-    residuals = fit.residual * fit.noise
-    if problem.adhesive:
+def _arrays(solution, used):
+    """Arrays of a `Solution` by name, one row a curve, one column a sample that was given."""
+    curves, (values, state) = solution.curves, solution.values_and_states
+    units = curves.units(values)[:, : len(curves.free)]
+    residuals = solution.minimum.residual * solution.noise
+    if curves.adhesive:
         # The path follows the model, the search has contact where the data have it.
-        residuals = problem.force - problem.background(values) - state.force
-    values = {name: np.broadcast_to(values[name], (len(fit.rows), 1))[:, 0] for name in PARAMETERS}
-    chi, sigma = fit.reduced_chi_square, np.median(problem.sigma, axis=1)
-    states = {
-        "residuals": residuals, "path_depth": state.depth,
-        "lower": state.live_interval.lower, "upper": state.live_interval.upper,
-        "length": state.live_interval.length, "uniform_load": state.uniform_load,
-    }  # fmt: skip
+        residuals = curves.force - curves.background(values) - state.force
+    samples = {
+        "residuals": residuals,
+        "path_depth": state.depth,
+        "lower": state.live_interval.lower,
+        "upper": state.live_interval.upper,
+        "live_depth": state.live_interval.length,
+        "uniform_load": state.uniform_load,
+    }
+    # A sample that is left out has the state of the one before.
     before = np.maximum(np.cumsum(used, axis=1) - 1, 0)
-    states = {name: np.take_along_axis(array, before, axis=1) for name, array in states.items()}
-    states["residuals"][~used] = np.nan
-    return values | states | {
-        "covariance": fit.covariance * (units[:, :, None] * units[:, None, :]),
-        "reduced_chi_square": chi if fit.noise_known else np.full_like(chi, np.nan),
-        "force_noise": sigma if fit.noise_known else sigma * np.sqrt(chi),
-        "block_length": fit.block_length,
-    }  # fmt: skip
+    samples = {name: np.take_along_axis(array, before, axis=1) for name, array in samples.items()}
+    samples["residuals"][~used] = np.nan
+    chi, sigma = solution.reduced_chi_square, np.median(curves.sigma, axis=1)
+    parameters = {name: np.broadcast_to(values[name], (len(chi), 1))[:, 0] for name in PARAMETERS}
+    of_curves = {
+        "covariance": solution.covariance * (units[:, :, None] * units[:, None, :]),
+        "reduced_chi_square": chi if solution.noise_known else np.full_like(chi, np.nan),
+        "force_noise": sigma if solution.noise_known else sigma * np.sqrt(chi),
+        "block_length": solution.block_length,
+    }
+    return parameters | samples | of_curves

@@ -9,9 +9,9 @@ import numpy as np
 from .. import _check, abel
 from .._check import Array, ArrayLike
 from ..medium import Medium, check_pair, refuse_adhesion
+from ..profiles.profile import Profile
 from ..results.base import CHAIN, Result
 from ..results.limits import Limit, contact_limits
-from ..shapes.profile import Profile
 from . import element
 from .cap import elastic_limit, plastic_depth, refuse_hardness
 from .element import Elements, Ramp

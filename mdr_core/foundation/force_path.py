@@ -8,9 +8,9 @@ import scipy
 
 from .. import _check
 from .._check import ArrayLike
-from .._numeric import root_in_bracket
 from ..medium import Medium, check_pair, refuse_adhesion
-from ..shapes.profile import Profile
+from ..numerics.roots import root_in_bracket
+from ..profiles.profile import Profile
 from .cap import elastic_limit, flat_face_load, plastic_depth, refuse_hardness
 from .depth_path import TimedIndentation, check_times, follow
 from .foundation import Foundation

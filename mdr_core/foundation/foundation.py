@@ -9,8 +9,8 @@ import numpy as np
 
 from .. import _check
 from ..medium import Medium, check_pair, refuse_adhesion
+from ..profiles.profile import Profile
 from ..results.quantities import described, engineering
-from ..shapes.profile import Profile
 from . import element
 from .cap import elastic_limit, refuse_hardness
 from .element import Elements, Ramp

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._numeric import root_in_bracket
+from ..numerics.roots import root_in_bracket
 from ..results.base import Motion
 from . import element
 from .cap import elastic_limit, plastic_depth

@@ -6,7 +6,7 @@ With an edge at every kink and jump of the line load, sums over the elements are
 import numpy as np
 
 from .. import _check
-from .._numeric import increasing_root
+from ..numerics.roots import increasing_root
 from .cap import elastic_limit
 
 

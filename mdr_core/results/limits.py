@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import _check
-from ..shapes.power import Cone
-from ..shapes.sampled import Sampled
+from ..profiles.power import Cone
+from ..profiles.sampled import Sampled
 from .quantities import engineering
 
 #: Slope up to which results are good, above which they are estimates, and above which the slope is

@@ -11,11 +11,11 @@ from time import process_time
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.fit.least_squares import with_error
+from mdr_core.fit.report import with_error
 
+from ..fit.test_fit import AFM, HERTZ, REFERENCE, measured, silica
+from ..fit.test_fit_in_time import fit_of, in_time
 from ..shapes import name
-from ..test_fit import AFM, HERTZ, REFERENCE, measured, silica
-from ..test_fit_in_time import fit_of, in_time
 
 TABLE = Path(__file__).parents[2] / "assets" / "fits.md"
 RADII = np.linspace(0.0, 4e-7, 60)

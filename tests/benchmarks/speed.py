@@ -8,6 +8,7 @@ from dataclasses import fields
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core.profiles.radius_table import OneLength
 
 from ..shapes import SHAPES, name
 from .harness import seconds
@@ -68,7 +69,9 @@ def _ensembles(count):
     speed = np.minimum(random.lognormal(np.log(0.05), 1.5, count), 5.0)
     tip = mdr.Sampled(5e-7 * np.arange(61), 5e-8 * np.arange(61) + 1e-7 * np.arange(61.0) ** 2)
     paraboloids = [mdr.Paraboloid(1e-5 * size)]
-    others = [type(s)(*(getattr(s, f.name) * size for f in fields(s))) for s in SHAPES if s.unit]
+    others = [
+        type(s)(*(getattr(s, f.name) * size for f in fields(s))) for s in SHAPES if isinstance(s, OneLength)
+    ]
     units = None
     for shape in (*paraboloids, *others, tip):
         what = "impacts on one Sampled tip" if shape is tip else f"different impacts, {name(shape)}"

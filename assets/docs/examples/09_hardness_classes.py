@@ -21,10 +21,10 @@ materials = {
     "made metal, h* = 2 µm": (0.5e9 * np.sqrt(1 + 2e-6 / h), 130e9),
     "made glass": (np.full(h.size, 9e9), 70e9),
 }
-for name, (hardness, E_star) in materials.items():
-    fit = mdr.fit_hardness(tip, hardness, a, E_star=E_star)
-    print(f"{name}: {fit.class_.reason}")
-    plt.loglog(a * 1e6, hardness / 1e9, "o-", label=f"{name}: slope {fit.class_.slope:.2f}")
+for name, (mean_pressure, E_star) in materials.items():
+    fit = mdr.fit_hardness(tip, mean_pressure, a, E_star=E_star)
+    print(f"{name}: {fit.reason}")
+    plt.loglog(a * 1e6, mean_pressure / 1e9, "o-", label=f"{name}: slope {fit.slope:.2f}")
 plt.plot(a * 1e6, 4 * a[0] / a, "k--", label="class (b): slope −1")
 plt.gca().set(xlabel="contact radius a (µm)", ylabel="hardness (GPa)")
 plt.legend()

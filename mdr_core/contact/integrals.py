@@ -1,0 +1,236 @@
+"""Integrals over the live interval: each increment of depth is a flat punch of radius a(s).
+
+    radius_integral   ∫ a(s) ds over the depths s in [d_p, d]    force
+    energy_integral   ∫ (d − s) a(s) ds                          stored energy
+    radius_drop       a(d) − a(d_p)                              stiffness while yielding
+
+for arrays of states. They are geometry only: the caller multiplies by the modulus. `fields` has the
+integrals that depend on the radius r. A profile has closed forms, or a table of a(s), or is integrated by
+quadrature: `integrals` chooses, for all that is asked of it.
+"""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from functools import lru_cache, singledispatch
+from typing import Any
+
+import numpy as np
+
+from ..numerics.blocks import LONG, chunks
+from ..numerics.gauss import gauss_legendre
+from ..profiles.profile import Profile
+from ..profiles.radius_table import OneLength, Tabulated
+from .live_interval import LiveInterval
+from .quadrature import integrate, kink_above, radius, radius_rate
+
+#: Live intervals longer than this share of the depth are integrated as a difference of two integrals from
+#: the tip; the energy loses up to two digits by it.
+_LONG = 0.15
+#: Numbers of Gauss nodes for shorter ones, by their length over the distance from the last kink.
+_SHORT = ((0.03, 4), (0.15, 6), (0.5, 10))
+
+
+@dataclass(frozen=True)
+class Integrals(ABC):
+    """Integrals over the live interval under one profile or an ensemble, elementwise.
+
+    The first three are required. Everything else says here that there is no closed form, and no table.
+    """
+
+    profile: Any
+
+    #: Whether a(s) is a polynomial of √s from the tip on, for which quadrature needs no cuts.
+    polynomial = False
+
+    #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/d_c for all,
+    #: under the hardness q_c/a.
+    similar = None
+
+    #: Exponent p of the elastic force F ∝ dᵖ.
+    elastic_exponent = None
+
+    #: `RadiusTable` of the unit profile.
+    table = None
+
+    @abstractmethod
+    def radius_integral(self, interval):
+        """∫ a(s) ds (m²)."""
+
+    @abstractmethod
+    def energy_integral(self, interval):
+        """∫ (d − s) a(s) ds (m³)."""
+
+    @abstractmethod
+    def radius_drop(self, interval):
+        """a(d) − a(d_p) (m): where the medium has yielded, the width of the elastic ring."""
+
+    def radius_and_energy(self, interval):
+        """`radius_integral` and `energy_integral`, at the cost of one where a table has both."""
+        return self.radius_integral(interval), self.energy_integral(interval)
+
+    def pressure_integral(self, interval, r):
+        """∫ ds/√(a(s)² − r²) over a(s) > r, for one state and radii r ≥ 0 (m)."""
+        return None
+
+    def turning_interval(self, target, d_c):
+        """Live interval at the turning point of an impact on a virgin medium of critical depth d_c (m).
+
+        `target` is the kinetic energy over 2E* (m³).
+        """
+        return None
+
+    @property
+    def unit(self):
+        """The unit profile, a length L and a depth H (m): g(x) is H times g(x/L) of the unit profile."""
+        return self.profile, 1.0, 1.0
+
+    @property
+    def convex(self):
+        """Whether g(x)/x nowhere falls, as under every convex shape."""
+        if self.elastic_exponent is not None:
+            # g ∝ xⁿ, with F ∝ d^(1 + 1/n).
+            return bool(np.all(self.elastic_exponent <= 2))
+        return _growing_mean_slope(self.unit[0])
+
+
+@lru_cache(maxsize=64)
+def _growing_mean_slope(profile):
+    """Whether g(x)/x nowhere falls between 10⁻¹² and 10³ m, as far as the profile is known."""
+    with np.errstate(all="ignore"):
+        for radius in np.geomspace(1e-12, 1e3, 256):
+            x = np.full(profile.shape, radius)
+            g, slope = profile._reduced(x), profile._reduced_slope(x)
+            known = (x <= profile.known_radius) & (g <= profile.known_depth)
+            if np.any(known & (x * slope < g * (1 - 1e-9))):
+                return False
+    return True
+
+
+@singledispatch
+def integrals(profile: Profile) -> Integrals:
+    """The `Integrals` of a profile: closed forms or a table if they are registered for its class."""
+    return QuadratureIntegrals(profile)
+
+
+@dataclass(frozen=True)
+class QuadratureIntegrals(Integrals):
+    """Integrals of any profile by quadrature."""
+
+    def radius_integral(self, interval):
+        return integrate(self.profile, interval, radius, moment=0)
+
+    def energy_integral(self, interval):
+        return integrate(self.profile, interval, radius, moment=1)
+
+    def radius_drop(self, interval):
+        a, c = self.profile._radius(interval.upper), self.profile._radius(interval.lower)
+        narrow = interval.length < 1e-2 * interval.upper
+        if not np.any(narrow):
+            return a - c
+        # ∫ da: the difference of the radii has few digits in a short interval. At the very tip, where it
+        # has all of them, the rate may be infinite.
+        with np.errstate(invalid="ignore"):
+            return np.where(narrow, integrate(self.profile, interval, radius_rate, moment=0), a - c)
+
+
+@integrals.register(OneLength)
+@integrals.register(Tabulated)
+@dataclass(frozen=True)
+class TableIntegrals(Integrals):
+    """Integrals of profiles with a table of their contact radius."""
+
+    @property
+    def unit(self):
+        return self.profile.unit
+
+    @property
+    def table(self):
+        return self.profile.table
+
+    def radius_integral(self, interval):
+        return self._from_table(interval, 1)[0]
+
+    def energy_integral(self, interval):
+        return self._from_table(interval, 2)[1]
+
+    def radius_and_energy(self, interval):
+        return self._from_table(interval, 2)
+
+    def radius_drop(self, interval):
+        unit, length, depth = self.unit
+        return length * QuadratureIntegrals(unit).radius_drop(interval.in_units_of(depth))
+
+    def _from_table(self, interval, moments):
+        """∫ (d − s)^k a(s) ds for k below `moments` (1 or 2), from the table of the unit profile."""
+        unit, *scales = self.unit
+        shape = np.shape(interval.length)
+        ends = [np.ravel(end) for end in (interval.lower, interval.upper, interval.length)]
+        if self.profile.shape:
+            scales = [np.broadcast_to(scale, shape).ravel() for scale in scales]
+        result = np.empty((moments, ends[0].size))
+        for rows in chunks(result.shape[1], LONG):
+            length, depth = (scale[rows] for scale in scales) if self.profile.shape else scales
+            lower, upper, live_depth = (end[rows] / depth for end in ends)
+            # In ascending order: a search in the table is several times as fast next to the last one.
+            order, block = np.argsort(upper), result[:, rows]
+            block[:, order] = _table_integrals(unit, lower[order], upper[order], live_depth[order], moments)
+            block *= length * depth ** np.arange(1, moments + 1)[:, None]
+        return result.reshape(moments, *shape)
+
+
+def _table_integrals(profile, lower, upper, length, moments):
+    """∫ (d − s)^k a(s) ds of one profile for k below `moments`, from its table and flat arrays.
+
+    Long intervals as differences, short ones with a few nodes if no kink is near, others by `_integrate`.
+    """
+    covered = profile.table.covers(lower) & profile.table.covers(upper)
+    far = covered & (length >= _LONG * upper)
+    if far.all():
+        return _differences(profile.table, lower, upper, length, moments)
+    result = np.empty((moments, length.size))
+    if far.any():
+        result[:, far] = _differences(profile.table, lower[far], upper[far], length[far], moments)
+    kink, near = kink_above(profile, lower), covered & ~far
+    distance = np.where(kink == kink_above(profile, upper), upper - kink, 0.0)
+    for share, count in _SHORT:
+        rows = np.flatnonzero(near & (length < share * distance))
+        if rows.size:
+            node, weight = gauss_legendre(count)
+            values = profile.table.covered_radius(lower[rows, None] + length[rows, None] * node)
+            for k in range(moments):
+                mean = np.einsum("ij,j", values, weight * (1 - node) ** k)
+                result[k, rows] = mean * length[rows] ** (k + 1)
+            near[rows] = False
+    rows = np.flatnonzero(near | ~covered)
+    if rows.size:
+        interval = LiveInterval(lower[rows], upper[rows], length[rows])
+        for k in range(moments):
+            result[k, rows] = integrate(profile, interval, radius, moment=k)
+    return result
+
+
+def _differences(table, lower, upper, length, moments):
+    """`_table_integrals` over long intervals."""
+    result = np.array([integral(upper) for integral in (table.area, table.volume)[:moments]])
+    # Both are 0 at the tip, where elastic intervals start.
+    if lower.any():
+        area = table.area(lower)
+        result[0] -= area
+        if moments > 1:
+            result[1] -= table.volume(lower)
+            result[1] -= length * area
+    return result
+
+
+def tabulated(profile, known_depth):
+    """A profile that gives its contact radius and integrals quickly, down to a depth (m) or to its own end.
+
+    Ensembles, and profiles that have closed forms or a table, are returned as they are.
+    """
+    if profile.shape or not isinstance(integrals(profile), QuadratureIntegrals):
+        return profile
+    known_depth = min(2.0 ** np.ceil(np.log2(np.max(known_depth))), np.min(profile.known_depth))
+    return _tabulated(profile, float(known_depth))
+
+
+_tabulated = lru_cache(maxsize=16)(Tabulated)

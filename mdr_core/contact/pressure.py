@@ -1,0 +1,111 @@
+"""Integrals over the live interval that depend on the radius r, for one state and many radii.
+
+    pressure_integral      ∫ ds/√(a(s)² − r²) over a(s) > r    contact pressure, Popov (2015), Eq. (10)
+    displacement_integral  ∫ h(r, a(s)) ds                     surface displacement, residual imprint
+
+Each increment of depth is a flat punch of radius a(s), as in `integrals`.
+"""
+
+import numpy as np
+
+from ..numerics.blocks import chunks
+from ..numerics.gauss import tanh_sinh
+from ..numerics.stable import log1p_ratio, root
+from .integrals import integrals
+from .live_interval import LiveInterval
+from .quadrature import nodes, pieces
+
+
+def _punches(profile, interval):
+    """Starts of the pieces of a state above d_p (m); radii and increments (m) of their flat punches."""
+    ends = (np.atleast_1d(end) for end in (interval.lower, interval.upper, interval.length))
+    _, _, start, stop, offset = pieces(profile, *ends)
+    node, weight = nodes(start, stop, offset, tanh_sinh())
+    return start, profile._radius(interval.lower + node), weight
+
+
+def pressure_integral(profile, interval, r):
+    """∫ ds/√(a(s)² − r²) over a(s) > r in the live interval (dimensionless), at radii r ≥ 0 (m).
+
+    Of one state. Infinite where the contact pressure is: at the rim of a flat face, and under a sharp tip
+    as long as the medium has not yielded there.
+    """
+    result = integrals(profile).pressure_integral(interval, r)
+    if result is not None:
+        return result
+    result = np.zeros_like(r)
+    if interval.length == 0:
+        return result
+    start, radius, weight = _punches(profile, interval)
+    depth = interval.lower + np.append(start, interval.length)
+    edges = profile._radius(depth)
+    # Next to a kink the rounding of r counts; between other pieces they overlap a little.
+    kink = np.isclose(
+        depth[:, None], [0.0, interval.lower, interval.upper, *profile.kinks], rtol=1e-9, atol=0.0
+    ).any(axis=1)
+    starts = np.where(kink, edges, np.maximum(edges * (1 - 1e-3), np.append(0.0, edges[:-1])))
+    for rows in chunks(r.size, 1024):
+        result[rows] = _pressure(profile, radius, weight, edges, starts, r[rows])
+    result[(r == edges[-1]) & (r == profile.wall)] = np.inf
+    return result
+
+
+def _pressure(profile, radius, weight, edges, starts, r):
+    """`pressure_integral` at radii r, from the punches of all pieces and the edges of the pieces (m)."""
+    total = np.zeros_like(r)
+    # Number of the piece that contains r, −1 below all of them.
+    own = np.searchsorted(starts, r, side="right") - 1
+    with np.errstate(all="ignore"):
+        sharp = profile._reduced_slope(np.zeros(1))[0] > 0
+        # Under a tip that is not sharp the integrand has no singularity on the axis.
+        own = np.where((r == 0) & (own == 0) & ~sharp, -1, own)
+        for piece in range(len(radius)):
+            rows = own < piece
+            if rows.any():
+                total[rows] += (weight[piece] / root(radius[piece], r[rows, None])).sum(axis=1)
+        rows = np.flatnonzero((own >= 0) & (own < len(radius)))
+        if rows.size:
+            total[rows] += _pressure_from(profile, r[rows], edges[own[rows] + 1])
+    return total
+
+
+def _pressure_from(profile, r, end):
+    """∫ g′(x) dx/√(x² − r²) from r > 0 to `end` (m), with x = r cosh λ; infinite where g′(r) is.
+
+    In λ the integrand is not singular, however close r is to a kink below it, to `end` or to 0.
+    """
+    node, weight = tanh_sinh()
+    width = log1p_ratio(end - r + root(end, r), r)[:, None]
+    angle = width * node
+    x = np.exp(angle + np.log(r / 2)[:, None]) * (1 + np.exp(-2 * angle))
+    # Not below r, and not on a kink at the end, where g′ is the slope on its other side.
+    x = np.clip(x, r[:, None], np.nextafter(end, 0.0)[:, None])
+    integral = (width * weight * profile._reduced_slope(x)).sum(axis=1)
+    return np.where(np.isinf(profile._reduced_slope(r)) | (r == 0), np.inf, integral)
+
+
+def displacement_integral(profile, interval, r):
+    """∫ h(r, a(s)) ds over the live interval (m), for one state and radii r ≥ 0 (m).
+
+    h is the surface displacement of a flat punch of radius a per unit of its indentation: 1 for
+    r < a and (2/π) arcsin(a/r) outside.
+    """
+    if interval.length == 0:
+        return np.zeros_like(r)
+    a, c = (profile._radius(np.asarray(end)) for end in (interval.upper, interval.lower))
+    inside = r < a
+    result = np.full_like(r, interval.length)
+    # Under the indenter this displacement and the imprint add up to d − z(r).
+    ring = inside if interval.lower == 0 else inside & (r >= c)
+    if ring.any():
+        result[ring] = interval.upper - profile._height(r[ring])
+        if interval.lower > 0:
+            result[ring] -= displacement_integral(profile, LiveInterval.elastic(interval.lower), r[ring])
+        result[ring] = np.clip(result[ring], 0.0, interval.length)
+    if not inside.all():
+        _, radii, weight = (array.ravel() for array in _punches(profile, interval))
+        outside = r[~inside]
+        for rows in chunks(outside.size, 1024):
+            outside[rows] = np.arcsin(np.minimum(radii / outside[rows, None], 1.0)) @ weight
+        result[~inside] = 2 / np.pi * outside
+    return result

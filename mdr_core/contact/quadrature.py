@@ -1,0 +1,143 @@
+"""Quadrature over the live interval, for any profile.
+
+A profile enters by its contact radius a(s), by g′(x) and by its kinks. At depths much larger than the
+critical depth the interval is much shorter than the depths at its ends. Nodes are therefore counted from
+d_p, so that no integral over a short interval is a difference of two elastic curves.
+"""
+
+from functools import lru_cache
+
+import numpy as np
+
+from ..numerics.blocks import chunks
+from ..numerics.gauss import gauss_legendre
+
+
+def radius(profile, depth):
+    """Contact radius a(s) (m)."""
+    return profile._radius(depth)
+
+
+def radius_rate(profile, depth):
+    """da/ds (dimensionless); 0 at a wall."""
+    with np.errstate(divide="ignore"):
+        return 1 / profile._reduced_slope(profile._radius(depth))
+
+
+def integrate(profile, interval, function, moment):
+    """∫ (d − s)^moment function(s) ds over the live interval by quadrature, elementwise."""
+    shape = np.shape(interval.length)
+    lower, upper, length = (np.ravel(end) for end in (interval.lower, interval.upper, interval.length))
+    result = np.zeros_like(length)
+    # In an ensemble of profiles with kinks every one has cuts of its own.
+    single = profile.shape and _has_cuts(profile)
+    for rows in chunks(length.size, 1 if single else max(16, 2**16 // (1 + len(profile.kinks)))):
+        entries = profile.flat_entries(rows.start if single else rows, shape)
+        result[rows] = _sums(entries, lower[rows], upper[rows], length[rows], function, moment)
+    return result.reshape(shape)
+
+
+def _sums(profile, lower, upper, length, function, moment):
+    """`integrate` over flat arrays, piece by piece."""
+    row, zone, start, stop, offset = pieces(profile, lower, upper, length)
+    remainder = length[row] - stop
+    # A piece between two cuts of one state is the same for all states.
+    inner, total = np.zeros(row.size, bool), np.empty(row.size)
+    inner[1:-1] = (row[2:] == row[:-2]) & _has_cuts(profile)
+    if inner.any():
+        zeroth, first = (integral[zone[inner]] for integral in _zone_integrals(profile, function))
+        total[inner] = first + remainder[inner] * zeroth if moment else zeroth
+    outer = ~inner
+    node, weight = nodes(start[outer], stop[outer], offset[outer], gauss_legendre(24))
+    values = weight * function(profile.entries((row[outer], None)), lower[row[outer], None] + node)
+    if moment:
+        values *= length[row[outer], None] - node
+    total[outer] = values.sum(axis=1)
+    return np.bincount(row, total, minlength=length.size)
+
+
+@lru_cache(maxsize=64)
+def _zone_integrals(profile, function):
+    """∫ function(s) ds and ∫ (s₁ − s) function(s) ds over each zone between two cuts, s₁ its upper cut."""
+    cuts, origins = _cuts(profile)
+    zeroth, first = np.zeros((2, len(origins)))
+    lower, width = cuts[:-1], np.diff(cuts)
+    node, weight = nodes(np.zeros_like(width), width, lower - origins[1:-1], gauss_legendre(24))
+    values = weight * function(profile, lower[:, None] + node)
+    zeroth[1:-1] = values.sum(axis=1)
+    first[1:-1] = (values * (width[:, None] - node)).sum(axis=1)
+    return zeroth, first
+
+
+def kink_above(profile, depth):
+    """Depth (m) of the last kink above each depth (m), 0 for the tip."""
+    if profile.shape:
+        above = np.zeros_like(depth)
+        for kink in profile.kinks:
+            above = np.where(kink <= depth, kink, above)
+        return above
+    kinks = np.array([0.0, *profile.kinks])
+    return kinks[np.searchsorted(kinks, depth, side="right") - 1]
+
+
+def pieces(profile, lower, upper, length):
+    """Cut live intervals where a(s) is not smooth.
+
+    Returns
+    -------
+    row, zone : ndarray, shape (P,)
+        Number of the state that each piece belongs to, and number of the zone between cuts that it lies in.
+    start, stop : ndarray, shape (P,)
+        Ends of the piece as depths above d_p (m), which are free of the rounding of the depths.
+    offset : ndarray, shape (P,)
+        Depth (m) of its start, counted from the kink above it or from the tip.
+    """
+    cuts, origins = _cuts(profile)
+    unit = np.ones_like(upper) if _has_cuts(profile) else np.where(upper > 0, upper, 1.0)
+    first = np.searchsorted(cuts, lower / unit, side="right")
+    count = np.maximum(np.searchsorted(cuts, upper / unit) - first, 0) + 1
+    row, total = np.repeat(np.arange(len(count)), count), np.cumsum(count)
+    zone = first[row] + np.arange(len(row)) - (total - count)[row]
+    start = np.clip(np.concatenate([[0.0], cuts])[zone] * unit[row] - lower[row], 0.0, length[row])
+    start[total - count] = 0.0
+    stop = np.append(start[1:], 0.0)
+    stop[total - 1] = length
+    rows = stop > start
+    row, zone, start, stop = row[rows], zone[rows], start[rows], stop[rows]
+    return row, zone, start, stop, np.maximum(lower[row] + start - origins[zone] * unit[row], 0.0)
+
+
+def nodes(start, stop, offset, rule):
+    """Nodes of a rule on [0, 1] in pieces, as depths above d_p (m), and their weights (m).
+
+    From a kink at the depth f on, the contact radius is smooth in σ = (s − f)^(1/4), whether it grows as a
+    root, as a power with thirds, or linearly: the nodes are even in σ.
+    """
+    low, high = (np.sqrt(np.sqrt(depth)) for depth in (offset, offset + (stop - start)))
+    # high − low without cancellation.
+    width = (stop - start) / ((high * high + low * low) * (high + low))
+    low, width, (node, weight) = low[:, None], width[:, None], rule
+    step = width * node
+    depth = start[:, None] + step * (4 * low**3 + step * (6 * low**2 + step * (4 * low + step)))
+    return depth, 4 * width * weight * (low + step) ** 3
+
+
+def _has_cuts(profile):
+    """Whether the depths at which a(s) is not smooth are known."""
+    return profile.transition_depth is not None or len(profile.kinks) > 0
+
+
+def _cuts(profile):
+    """Depths (m) at which live intervals are cut, and that of the kink or tip above each zone between them.
+
+    Where the depths at which the profile changes are not known, both are shares of the largest depth.
+    """
+    if not _has_cuts(profile):
+        return 1e-2 ** np.arange(4, 0, -1.0), np.zeros(5)
+    kinks = np.array(profile.kinks, dtype=float)
+    origins = np.append(0.0, kinks)
+    # As far below a kink as the kink is deep, a(s) goes over to another power.
+    transitions = origins + np.maximum(origins, profile.transition_depth or 0.0)
+    transitions = transitions[(transitions > 0) & (transitions < np.append(kinks, np.inf))]
+    cuts = np.unique(np.concatenate([kinks, transitions]))
+    return cuts, origins[np.searchsorted(kinks, np.append(0.0, cuts), side="right")]

@@ -1,0 +1,360 @@
+"""The rule of yield: the plastic depth that a loading leaves behind, and the work that it takes.
+
+On loading to a depth s every 1D element is compressed elastically by at most u_c(s), the *cap*, which is
+the same for all elements. An element at x keeps the plastic part max(0, p(s) − g(x)) with p = s − u_c(s).
+One number therefore stands for the whole history: the plastic depth d_p = max(0, largest p). The state at
+depth d is the live interval [d_p, d].
+
+For the hardness q_c/a the cap is the critical depth d_c = π q_c/(2E*) at every depth (Popov 2015,
+Eqs. (11), (12), (19)): `ConstantCap`. For the hardness σ_c(a) = H + q_c/a + f_c/a² a contact of radius a
+that has yielded throughout carries π a² σ_c(a), so that its elements are compressed by
+
+    u_c(a) = π a σ_c(a)/(2E*) = (π/2E*)(H a + q_c + f_c/a)
+
+at most, where a is the contact radius on loading: `RadiusCap`.
+"""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, replace
+from functools import singledispatch
+
+import numpy as np
+
+from .. import _check
+from ..medium import Medium, critical_depth
+from ..numerics.blocks import broadcast_flat, chunks
+from ..numerics.gauss import gauss_legendre
+from ..numerics.roots import increasing_root
+from ..profiles.profile import Profile
+from .integrals import integrals
+from .live_interval import LiveInterval
+
+#: Gauss nodes of the plastic work in each piece.
+_NODES = 24
+_TINY = np.finfo(float).tiny
+
+
+@dataclass(frozen=True)
+class YieldRule(ABC):
+    """How a medium yields under a profile, elementwise for arrays of depths.
+
+    A subclass gives the cap, the depth at which loading reaches a plastic depth, the rate of the plastic
+    depth, and the plastic work.
+    """
+
+    profile: Profile
+
+    #: Whether the cap may fall with the contact radius.
+    falls = False
+    #: Distances past the onset of yield, over the penetration there, between which motions are smooth.
+    scales = 5 * 25.0 ** np.arange(6)
+    #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/ℓ for all, ℓ
+    #: being the live depth at the turning point of an impact on a virgin medium.
+    similar = None
+
+    @abstractmethod
+    def cap(self, depth):
+        """Largest elastic compression u_c (m) of the elements on loading to a depth (m)."""
+
+    @abstractmethod
+    def penetration(self, plastic_depth, imprint):
+        """Penetration (m) below the bottom of an imprint at which loading reaches a plastic depth (m)."""
+
+    @abstractmethod
+    def rate(self, depth):
+        """dp/ds of the plastic depth by the depth (m) of loading."""
+
+    @abstractmethod
+    def plastic_integral(self, imprint, increase):
+        """Plastic work over 2E* (m³) while the plastic depth grows from `imprint` by `increase` (m)."""
+
+    @abstractmethod
+    def entries(self, index, shape):
+        """The rule at an index of an ensemble of this shape."""
+
+    @abstractmethod
+    def flat_entries(self, rows, shape):
+        """The rule at rows of the flattened `shape` of an ensemble."""
+
+    @abstractmethod
+    def in_units_of(self, unit, length, depth):
+        """The rule for the `unit` profile of a profile with a length and a depth (m)."""
+
+    def onset(self, imprint=0.0):
+        """Depth (m) at which yield starts over an imprint of plastic depth `imprint` (m)."""
+        return imprint + self.penetration(imprint, imprint)
+
+    def plastic_depth(self, largest):
+        """Plastic depth d_p (m) that a largest depth (m) leaves behind."""
+        return np.maximum(largest - self.cap(largest), 0.0)
+
+    def increase(self, penetration, imprint):
+        """Increase (m) of the plastic depth at a penetration (m) below the bottom of an imprint."""
+        return np.maximum(self.plastic_depth(imprint + penetration) - imprint, 0.0)
+
+    def loading(self, penetration, imprint=0.0):
+        """Live interval at a penetration y ≥ 0 (m) below the bottom of an imprint, and the `increase`."""
+        increase = self.increase(penetration, imprint)
+        lower = imprint + increase
+        upper = np.maximum(imprint + penetration, lower)
+        length = np.where(increase > 0, self.cap(upper), penetration)
+        return LiveInterval(lower, upper, length), increase
+
+    def at(self, largest, depth):
+        """Live interval at each depth (m) where the largest depth so far is `largest` (m)."""
+        return interval_at(largest, depth, self.cap(largest))
+
+    def path(self, depth):
+        """Live interval after each point of a path of depths (m) along the last axis."""
+        largest = np.maximum.accumulate(depth, axis=-1) if depth.ndim else depth
+        return self.at(largest, depth)
+
+    def past_onset(self, imprint, onset, distance):
+        """Live interval at a distance (m) of loading past the penetration `onset` (m) into an imprint."""
+        return self.loading(onset + distance, imprint)[0]
+
+    def yielding(self, interval):
+        """Whether states are at the cap, so that loading goes on to yield."""
+        # The cap is computed again, with other rounding where arrays have other lengths.
+        return (interval.lower > 0) & (interval.length >= self.cap(interval.upper) * (1 - 1e-14))
+
+    def yielding_width(self, interval):
+        """a − c dp/ds (m) on loading at the cap: the stiffness over 2E*."""
+        c = self.profile._radius(interval.lower)
+        return integrals(self.profile).radius_drop(interval) + c * (1 - self.rate(interval.upper))
+
+    def wall_integral(self):
+        """∫ a ds (m²) of a contact that has yielded throughout behind a wall, infinite without a wall."""
+        return self.profile.wall * self.cap(np.inf)
+
+    @classmethod
+    def at_ratio(cls, profile, ratio):
+        """A rule for a `similar` profile, and a live interval at its cap with d_p/ℓ = `ratio`."""
+        raise NotImplementedError
+
+    def turning_interval(self, energy):
+        """Live interval at the turning point of an impact on a virgin medium, None without a closed form.
+
+        `energy` is the kinetic energy over 2E* (m³).
+        """
+        return None
+
+
+@dataclass(frozen=True)
+class ConstantCap(YieldRule):
+    """Hardness q_c/a: the cap is the critical depth (m), infinite where nothing yields."""
+
+    critical_depth: np.ndarray | float
+
+    @classmethod
+    def of(cls, profile, E_star, q_c):
+        """The rule for an effective modulus (Pa) and a yield constant (N/m)."""
+        return cls(profile, critical_depth(E_star, q_c))
+
+    def cap(self, depth):
+        return self.critical_depth
+
+    def penetration(self, plastic_depth, imprint):
+        return (plastic_depth - imprint) + self.critical_depth
+
+    def rate(self, depth):
+        return 1.0
+
+    def increase(self, penetration, imprint):
+        # Without the rounding of the imprint's depth.
+        return np.maximum(penetration - self.critical_depth, 0.0)
+
+    def yielding_width(self, interval):
+        return integrals(self.profile).radius_drop(interval)
+
+    def plastic_integral(self, imprint, increase):
+        integral = integrals(self.profile).radius_integral(LiveInterval.above(imprint, increase))
+        # An infinite cap times 0 where nothing yields.
+        with np.errstate(invalid="ignore"):
+            return np.where(increase > 0, self.critical_depth * integral, 0.0)
+
+    def past_onset(self, imprint, onset, distance):
+        return LiveInterval.above(imprint + distance, self.critical_depth)
+
+    similar = property(lambda self: integrals(self.profile).similar)
+
+    @classmethod
+    def at_ratio(cls, profile, ratio):
+        return cls(profile, 1.0), LiveInterval.above(ratio, 1.0)
+
+    def turning_interval(self, energy):
+        return integrals(self.profile).turning_interval(energy, self.critical_depth)
+
+    def entries(self, index, shape):
+        cap = np.broadcast_to(self.critical_depth, shape)[index]
+        return ConstantCap(self.profile.entries(index, shape), cap)
+
+    def flat_entries(self, rows, shape):
+        cap = np.broadcast_to(self.critical_depth, shape).reshape(-1)[rows]
+        return ConstantCap(self.profile.flat_entries(rows, shape), cap)
+
+    def in_units_of(self, unit, length, depth):
+        return ConstantCap(unit, self.critical_depth / depth)
+
+
+@dataclass(frozen=True)
+class RadiusCap(YieldRule):
+    """Hardness H + q_c/a + f_c/a²: the cap u_c = A a + B + C/a of the contact radius a on loading.
+
+    A, B, C are `volume` π H/(2E*) (dimensionless), `surface` π q_c/(2E*) (m) and `line` π f_c/(2E*) (m²).
+    Where g(x)/x does not fall, nor for A = 0 anywhere, u_c/s falls with s: p = s − u_c grows once it is 0.
+    """
+
+    volume: np.ndarray | float
+    surface: np.ndarray | float
+    line: np.ndarray | float
+
+    @classmethod
+    def of(cls, profile, medium):
+        """The rule for a medium."""
+        share = np.pi / 2 / medium.E_star
+        return cls(profile, share * medium.hardness, share * medium.q_c, share * medium.f_c)
+
+    falls = property(lambda self: bool(np.any(self.line)))
+    scales = 0.5 * 50.0 ** np.arange(6)
+
+    @np.errstate(all="ignore")
+    def cap(self, depth):
+        return self._cap(self.profile._radius(np.maximum(depth, 0.0)))
+
+    def _cap(self, a):
+        return self.volume * a + self.surface + self.line / np.maximum(a, _TINY)
+
+    @np.errstate(all="ignore")
+    def rate(self, depth):
+        return 1 - self._cap_rate(self.profile._radius(depth))
+
+    def _cap_rate(self, a):
+        """du_c/ds at contact radii (m)."""
+        rate = (self.volume - self.line / a / a) / self.profile._reduced_slope(a)
+        return np.where(a < self.profile.wall, rate, 0.0)
+
+    def penetration(self, plastic_depth, imprint):
+        return self._penetration(imprint, plastic_depth - imprint)
+
+    def _penetration(self, imprint, increase):
+        """Penetration (m) at which loading increases the plastic depth p₀ of an imprint: y = Δ + u_c.
+
+        The depth is s = p₀ + y, at which s/(p₀ + Δ + u_c(s)), a growing function of s, is 1.
+        """
+        plastic_depth = imprint + increase
+
+        def ratio(depth):
+            a = self.profile._radius(depth)
+            total = plastic_depth + self._cap(a)
+            return depth / total, (total - depth * self._cap_rate(a)) / total / total
+
+        with np.errstate(all="ignore"):
+            # Under a sharp tip that yields from first touch on the ratio is larger everywhere.
+            sought = np.where(ratio(np.asarray(_check.SMALLEST))[0] < 1, 1.0, 0.0)
+            near = plastic_depth + self.cap(plastic_depth)
+            start = np.where((plastic_depth > 0) & (near < np.inf), near, 1.0)
+            depth = increasing_root(ratio, sought, start, self.profile.known_depth)
+            return np.where(depth < np.inf, increase + self.cap(depth), np.inf)
+
+    def increase(self, penetration, imprint):
+        # Without the rounding of the imprint's depth.
+        return np.maximum(penetration - self.cap(imprint + penetration), 0.0)
+
+    def wall_integral(self):
+        wall = np.asarray(self.profile.wall)
+        # a u_c at the wall; without one f_c alone carries a finite load.
+        parts = (self.volume * wall if np.any(self.volume) else 0.0) + self.surface
+        return (parts * wall if np.any(parts) else 0.0) + self.line
+
+    def plastic_integral(self, imprint, increase):
+        shape, (imprint, increase) = broadcast_flat(imprint, increase)
+        result, yielding = np.zeros(imprint.size), np.flatnonzero(increase > 0)
+        for block in chunks(yielding.size, max(1, 512 // (1 + len(self.profile.kinks)))):
+            rows = yielding[block]
+            rule = self.flat_entries(rows, shape).entries((slice(None), None), rows.shape)
+            result[rows] = rule._plastic_sums(imprint[rows, None], increase[rows, None])
+        return result.reshape(shape)[()]
+
+    @np.errstate(all="ignore")
+    def _plastic_sums(self, imprint, increase):
+        """∫ u_c a(p) dp of loadings, one a row of (N, 1), from kink to kink of a(s) and a(p)."""
+        first, last = self._penetration(imprint, 0 * increase), self._penetration(imprint, increase)
+        last = np.minimum(last, self.profile.known_depth - imprint)
+        rises = [kink - imprint for kink in self.profile.kinks]
+        passed = [self._penetration(imprint, rise) for rise in rises]
+        cuts = np.hstack([first, *rises, *passed, first * (1 + self.scales), last])
+        cuts = np.sort(np.clip(cuts, first, last), axis=1)
+        node, weight = gauss_legendre(_NODES)
+        total = np.zeros(len(imprint))
+        for start, stop in zip(cuts.T[:, :, None], cuts.T[1:, :, None], strict=False):
+            if np.any(stop > start):
+                # Past a kink and past the onset a(p) is a power of the distance, of a fourth at least.
+                y = start + (stop - start) * node**4
+                p = imprint + np.minimum(self.increase(y, imprint), increase)
+                work = self.cap(imprint + y) * self.profile._radius(p) * self.rate(imprint + y)
+                work = np.where(stop > start, work * (stop - start), 0.0)
+                total += (work * (4 * node**3 * weight)).sum(axis=1)
+        return total
+
+    def entries(self, index, shape):
+        def entry(values):
+            return np.broadcast_to(values, shape)[index] if np.ndim(values) else values
+
+        return replace(
+            self,
+            profile=self.profile.entries(index, shape),
+            volume=entry(self.volume),
+            surface=entry(self.surface),
+            line=entry(self.line),
+        )
+
+    def flat_entries(self, rows, shape):
+        if isinstance(rows, slice):
+            rows = np.arange(*rows.indices(np.prod(shape, dtype=int)))
+        return self.entries(np.unravel_index(rows, shape or (1,)), shape or (1,))
+
+    def in_units_of(self, unit, length, depth):
+        return replace(
+            self,
+            profile=unit,
+            volume=self.volume * (length / depth),
+            surface=self.surface / depth,
+            line=self.line / depth / length,
+        )
+
+
+def yield_rule(profile: Profile, medium: Medium) -> YieldRule:
+    """The rule by which a medium yields under a profile.
+
+    Examples
+    --------
+    >>> from mdr_core import Cone
+    >>> rule = yield_rule(Cone(slope=1.0), Medium.from_critical_depth(1.0, critical_depth=1.0))
+    >>> rule.path(np.array([0.5, 3.0, 2.5, 1.0])).length.tolist()
+    [0.5, 1.0, 0.5, 0.0]
+    """
+    if medium.inverse_to_radius:
+        return ConstantCap.of(profile, medium.E_star, medium.q_c)
+    if np.any(medium.hardness) and not integrals(profile).convex:
+        raise ValueError(
+            "a hardness above 0 is not computed under a shape that is not convex: where g(x)/x falls, a "
+            "contact that has yielded becomes elastic again; set hardness = 0, or take a convex shape"
+        )
+    if np.any(medium.q_c) or np.any(medium.f_c):
+        return RadiusCap.of(profile, medium)
+    return constant_hardness(profile).of(profile, medium)
+
+
+@singledispatch
+def constant_hardness(profile: Profile) -> type[RadiusCap]:
+    """The rule for a constant hardness alone: closed forms if registered for the class of the profile."""
+    return RadiusCap
+
+
+def interval_at(largest, depth, cap):
+    """Live interval at each depth (m) where the largest depth so far (m) had this cap (m)."""
+    lower = np.maximum(largest - cap, 0.0)
+    # The length is the depth before the first yield, and afterwards the cap less the depth of unloading.
+    length = np.maximum(np.minimum(depth, cap - (largest - depth)), 0.0)
+    return LiveInterval(lower, np.maximum(depth, lower), length)

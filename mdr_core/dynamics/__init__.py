@@ -1,1 +1,0 @@
-"""Impacts of free bodies: depth, contact time and restitution, normal and oblique."""

@@ -1,0 +1,75 @@
+"""The force of a contact with its derivatives: elastic, yielding and viscous, with a linear background.
+
+With a = a(e) the radius of the contact, c = a(d_p) that of the plastic zone, u_c the cap and d_max the
+largest depth so far,
+
+    F = 2E* ∫ a ds + 8η a max(ḋ, 0)     over [d_p, e],  e = d + min(τḋ, 0),  τ = 4η/E*
+    ∂F/∂E* = 2 ∫ a ds − 2c u_c − 2a min(τḋ, 0)       ∂F/∂q_c = π c       ∂F/∂η = 8a ḋ
+    ∂F/∂d = 2E* a                                     ∂F/∂d_max = −2E* c
+
+On a first loading d_max is d itself, and the last two add up. At e elements are released. The measured
+force is F + F₀ + F₁ z + ζ ż at the measured depth z.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..contact.integrals import integrals
+from ..contact.live_interval import LiveInterval
+from ..contact.quadrature import radius_rate
+from ..contact.yielding import ConstantCap
+
+
+@dataclass(frozen=True)
+class States:
+    """States of the contact at the samples of R curves, arrays (R, N).
+
+    `loading` says whether the depth (m) is the largest so far; `uniform_load` is the line load (N/m) of
+    dashpots, 4ηḋ, or of adhesion; `slope` is ∂F/∂d (N/m), `memory_slope` ∂F/∂d_max where the depth is not
+    the largest so far, `gradient` the derivatives of the force by the parameters of the medium, by name.
+    """
+
+    depth: np.ndarray
+    loading: np.ndarray
+    live_interval: LiveInterval
+    uniform_load: np.ndarray
+    force: np.ndarray
+    slope: np.ndarray
+    memory_slope: np.ndarray
+    gradient: dict[str, np.ndarray]
+
+
+def states(profile, values, depth, largest, loading, rate):
+    """`States` at depths (m) and rates (m/s), with the largest depths (m) so far.
+
+    `values` are the parameters by name. Above the known depth the states are those at it.
+    """
+    E_star, known = values["E_star"], profile.known_depth
+    rule, modulus = ConstantCap.of(profile, E_star, values["q_c"]), 2 * E_star
+    lag = 4 * values["eta"] / E_star * rate
+    ahead = np.minimum(lag, 0.0)
+    largest = np.minimum(largest, known)
+    interval = rule.at(largest, np.minimum(depth + ahead, known))
+    contact = interval.length > 0
+    a = np.where(contact, profile._radius(interval.upper), 0.0)
+    c = np.where(contact & (interval.lower > 0), profile._radius(interval.lower), 0.0)
+    area = integrals(profile).radius_integral(interval)
+    gradient = {
+        "E_star": 2 * (area - np.where(c > 0, c * rule.cap(largest), 0.0) - a * ahead),
+        "q_c": np.pi * c,
+        "eta": 8 * a * rate,
+    }
+    force = modulus * area
+    memory_slope = -modulus * c
+    slope = modulus * a + np.where(loading, memory_slope, 0.0)
+    uniform_load = np.where(contact, E_star * np.maximum(lag, 0.0), 0.0)
+    if uniform_load.any():
+        force = force + 2 * uniform_load * a
+        # da/dd may be infinite at first contact: that at the mean distance of samples is the largest.
+        inside = np.maximum(interval.upper, np.ptp(depth, axis=1, keepdims=True) / depth.shape[1])
+        growing = contact & (a < profile.wall)
+        growth_rate = radius_rate(profile, np.minimum(inside, known))
+        slope = slope + 2 * uniform_load * np.where(growing, growth_rate, 0.0)
+    memory_slope = np.where(loading, 0.0, memory_slope)
+    return States(depth, loading, interval, uniform_load, force, slope, memory_slope, gradient)

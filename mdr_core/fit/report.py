@@ -1,0 +1,128 @@
+"""Base class of fits: values and standard errors of their parameters, and how they are printed."""
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from .._check import Array
+from ..medium import Medium
+from ..profiles.profile import Profile
+from ..results.base import Model
+from ..results.quantities import described, engineering, prefixed
+from ..results.report import Report
+from .parameters import MEDIUM, PARAMETERS
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+LEAST_SQUARES = Model("least squares", "the medium whose model has the least squares of residuals")
+
+
+def with_error(value, error, unit):
+    """A number and its standard error as text, with one prefix and two digits of the error.
+
+    An error below 10⁻⁶ of the number is that of the arithmetic, and left out.
+    """
+    if value == np.inf:
+        return "∞"
+    if error == np.inf:
+        number, _, unit = engineering(value, unit).partition(" ")
+        return f"{number} ± ∞ {unit}".rstrip()
+    factor, unit = prefixed(max(abs(value), error), unit)
+    value, error = value / factor, error / factor
+    if error <= 1e-6 * abs(value):
+        return f"{value:.6g} {unit}".rstrip()
+    digits = max(0, 1 - int(np.floor(np.log10(error))))
+    return f"{value:.{digits}f} ± {error:.{digits}f} {unit}".rstrip()
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Fit(Report):
+    """Base class of fits: values and standard errors of the parameters by name, and their report.
+
+    Attributes
+    ----------
+    profile, medium
+        The indenter, and the medium with fitted and held parameters.
+    standard_errors : dict
+        Standard errors of the free parameters by name, in their units; infinite where undetermined.
+    covariance : ndarray
+        Covariance of the free parameters, in that order.
+    residuals : ndarray
+        Measured minus fitted values.
+    remarks : tuple of str
+        Parameters that the data do not determine, and deviations from the model.
+    """
+
+    profile: Profile
+    medium: Medium
+    standard_errors: dict[str, Any]
+    covariance: Array
+    residuals: Array
+
+    model = LEAST_SQUARES
+    _shown = ("medium",)
+    _dimensions = ("fit",)
+    #: Names of all parameters, free or held, and of those that are not shown where they are held at 0.
+    _names: ClassVar[tuple[str, ...]] = ("E_star", "q_c")
+    _zero_unless_asked: ClassVar[tuple[str, ...]] = ()
+
+    def _values(self):
+        """Values of all parameters by name."""
+        return {name: getattr(self.medium if name in MEDIUM else self, name) for name in self._names}
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the fitted medium: () for one fit."""
+        return self.medium.shape
+
+    def to_dict(self) -> "dict[str, float | NDArray[np.float64]]":
+        """Values of all parameters by name, in SI units, and the standard errors of the free ones.
+
+        The name of an error ends in `_error`.
+        """
+        errors = {f"{name}_error": error for name, error in self.standard_errors.items()}
+        return {name: v if np.ndim(v) else float(v) for name, v in (self._values() | errors).items()}
+
+    @property
+    def correlations(self) -> dict[tuple[str, str], float]:
+        """Correlations above 0.9 of two parameters of one fit, by their names."""
+        if self.shape:
+            raise TypeError("correlations are those of one fit: pick it, as in fit[0].correlations")
+        sigma, names, correlations = np.sqrt(np.diag(self.covariance)), list(self.standard_errors), {}
+        for i, j in combinations(range(len(names)), 2):
+            if 0 < sigma[i] * sigma[j] < np.inf:
+                correlations[names[i], names[j]] = float(self.covariance[i, j] / sigma[i] / sigma[j])
+        return {pair: value for pair, value in correlations.items() if abs(value) > 0.9}
+
+    def _rows(self):
+        yield "indenter", described(self.profile)
+        for name, value in self._values().items():
+            free = name in self.standard_errors
+            if free or np.any(value) or name not in self._zero_unless_asked:
+                quantity = PARAMETERS[name].quantity
+                yield f"{quantity.long_name} {quantity.symbol}", self._text(name, value, quantity.unit)
+        yield from self._quality()
+        if not self.shape:
+            for (first, second), value in self.correlations.items():
+                yield "correlation", f"{first}, {second}: {value:+.3f}"
+
+    def _text(self, name, value, unit):
+        """A value with its standard error, or the median of those of many fits."""
+        text = engineering(value, unit)
+        if name not in self.standard_errors:
+            return f"{text} (held)"
+        error = self.standard_errors[name]
+        if not np.ndim(value):
+            return with_error(value, error, unit)
+        return f"{text}, ± {engineering(np.median(error), unit)}" if np.size(value) else text
+
+    def _quality(self):
+        """Rows on how well the model fits."""
+        yield from ()
+
+    def _limit_rows(self, most):
+        yield from (("remark", remark) for remark in self.remarks)
+        yield from super()._limit_rows(most)

@@ -1,0 +1,203 @@
+"""Impact of a free rigid body on the chain: also with viscosity, and on the imprint of earlier impacts.
+
+Each run has twice the elements and half the steps of the one before; both errors are of second order.
+"""
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from .. import _check
+from ..medium import Medium, check_pair, refuse_adhesion
+from ..profiles.profile import Profile
+from ..results.base import CHAIN, ImpactResult, Motion, instants
+from ..results.limits import Limit, contact_limits
+from .cap import plastic_depth, refuse_hardness
+from .foundation import Foundation, element_count
+from .free_body import ImpactSolver, foundation_before, impact_depth_bound
+from .refinement import refine
+
+#: Elements, and steps per time scale, of the coarsest run; number of runs.
+_ELEMENTS, _STEPS, _RUNS = 150, 12, 8
+#: Quantities that are refined, and their smallest errors as a share of the correction by extrapolation.
+_TRUST = {
+    "restitution": 0.1, "max_depth": 0.2, "max_force": 2.0, "contact_time": 1.0,
+    "stored_energy": 0.0, "plastic_work": 0.0, "viscous_work": 0.0,
+}  # fmt: skip
+
+
+@_check.keywords_explained
+def chain_impact(
+    profile: Profile,
+    medium: Medium,
+    mass: float,
+    speed: float,
+    *,
+    start: Foundation | None = None,
+    n: int | None = None,
+    tolerance: float = 1e-6,
+) -> "ChainImpact":
+    """Solve the impact of a free body on the chain of springs with yield cap and dashpots.
+
+    Parameters
+    ----------
+    profile, medium
+        The indenter, and the medium, with or without viscosity.
+    mass, speed : float
+        Mass m (kg), and speed v₀ (m/s) at the start, positive.
+    start : Foundation, optional
+        The foundation before the impact, at the depth where the body starts; by default undeformed at first
+        contact. Its moves are repeated on the grids of the solver.
+    n : int, optional
+        A fixed number of elements, whose error is not estimated; by default it is refined.
+    tolerance : float, optional
+        Largest error of the rebound speed relative to `speed`, and of the largest depth relative to itself;
+        positive. Elements and steps are refined until it is reached, at most seven times.
+
+    Returns
+    -------
+    ChainImpact
+        With the estimated `error`, and estimates for each quantity in `errors`. They hold for relaxation
+        times up to 10³ contact times.
+
+    Raises
+    ------
+    ValueError
+        If mass or speed is not positive, `start` has another profile or medium, or the largest depth
+        exceeds the known depth of the profile.
+
+    Examples
+    --------
+    A flat punch on a medium that does not yield is a damped oscillator until its force is zero. At half of
+    the critical damping, e = exp(−ζφ/√(1 − ζ²)) with tan φ = 2ζ√(1 − ζ²)/(2ζ² − 1):
+
+    >>> from mdr_core import FlatPunch, Medium
+    >>> hit = chain_impact(FlatPunch(radius=0.5), Medium(E_star=1.0, eta=0.25), 1.0, 1.0)
+    >>> print(round(hit.restitution, 5))  # ζ = 1/2: exp(−2π/(3√3))
+    0.29844
+    """
+    check_pair(profile, medium, "an impact on the chain")
+    refuse_adhesion(medium, "an impact on the chain")
+    refuse_hardness(medium)
+    mass = _check.positive_number("mass", mass, unit="kg")
+    speed = _check.positive_number("speed", speed, unit="m/s")
+    tolerance = _check.positive_number("tolerance", tolerance)
+    count, history = None if n is None else element_count(n), _history(profile, medium, start)
+    bound = impact_depth_bound(profile, medium, mass, speed, history)
+
+    def solve(elements, depth, steps):
+        foundation = foundation_before(profile, medium, history, count or elements, depth)
+        return ImpactSolver(foundation, mass, speed, steps, bound)
+
+    # A first run determines the largest depth, at whose radius the next one has an edge.
+    runs = [solve(_ELEMENTS, bound, _STEPS / 2)]
+
+    def run(level):
+        runs.append(solve(_ELEMENTS * 2**level, runs[-1].motion.depth.max(), _STEPS * 2**level))
+        return np.array([runs[-1].quantities[name] for name in _TRUST])
+
+    trust = np.array([*_TRUST.values()])
+    # Errors are relative to the quantity itself, for the restitution (rebound over impact speed) to 1.
+    floor = np.array([1.0 if name == "restitution" else 0.0 for name in _TRUST])
+    limit, errors = refine(run, tolerance, _RUNS, 2, orders=(2,), runs=3, trust=trust, floor=floor)
+    quantities = dict(zip(_TRUST, limit.tolist(), strict=True))
+    errors = dict(zip(_TRUST, errors.tolist(), strict=True))
+    error = max(errors["restitution"], errors["max_depth"])
+    # Close to zero, the limit may be negative within its error.
+    restitution = quantities["restitution"] = max(0.0, quantities["restitution"])
+    errors["restitution"] = errors["restitution"] / restitution if restitution > 0 else np.inf
+    errors = ChainErrors(**{name: errors[name] for name in ChainErrors._fields})
+    return ChainImpact(
+        profile, medium, mass, speed, **quantities, error=error, errors=errors,
+        foundation=runs[-1].foundation, _motion=runs[-1].motion,
+    )  # fmt: skip
+
+
+def _history(profile, medium, start):
+    """Moves of the foundation `start`, if it has this profile and medium."""
+    if start is None:
+        return ()
+    if not isinstance(start, Foundation):
+        raise TypeError(f"start must be a Foundation, as made by advance, got {type(start).__name__}")
+    if start.profile != profile or start.medium != medium:
+        raise ValueError(
+            f"start is a foundation under {start.profile!r} on {start.medium!r}, which differ from the "
+            "profile and medium of this impact; give the same"
+        )
+    return start.history
+
+
+class ChainErrors(NamedTuple):
+    """Estimated errors of a `ChainImpact`, each relative to the quantity; infinite where that is zero."""
+
+    restitution: float
+    max_depth: float
+    max_force: float
+    contact_time: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ChainImpact(ImpactResult):
+    """One impact on the chain; made by `chain_impact`.
+
+    Quantities are limits for vanishing steps and elements. For a fixed number of elements, limits and
+    errors are those of the steps alone.
+    """
+
+    profile: Profile
+    medium: Medium
+    mass: float
+    speed: float
+    #: Coefficient of restitution, rebound speed over impact speed.
+    restitution: float
+    #: Largest indentation depth d_max (m), largest force (N), time (s) from first contact to its end.
+    max_depth: float
+    max_force: float
+    contact_time: float
+    #: Elastic energy (J) at the turning point.
+    stored_energy: float
+    #: Energies (J) dissipated by yielding, and by the dashpots including the final relaxation.
+    plastic_work: float
+    viscous_work: float
+    #: Estimated error that the tolerance bounds: the larger one of rebound speed (over `speed`) and depth.
+    error: float
+    errors: ChainErrors
+    #: The foundation when contact ends, from which another impact may start.
+    foundation: Foundation = field(repr=False)
+    _motion: Motion = field(repr=False)
+
+    model = CHAIN
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """Limits of the model's assumptions for this impact."""
+        return contact_limits(self.profile, self.medium, self.contact_radius)
+
+    def motion(self, n: int | None = None) -> Motion:
+        """The `Motion` of the finest run at every step, or interpolated at n equally spaced instants.
+
+        Its energies sum to the initial energy for every step size.
+        """
+        steps = replace(self._motion, impact=self)
+        if n is None:
+            return steps
+        time = instants(n, steps.time[steps.turning_index], steps.time[-1], steps.time[0])
+        values = {name: np.interp(time, steps.time, column) for name, column in steps.to_dict().items()}
+        return Motion(**(values | {"time": time}), impact=self)
+
+    @property
+    def contact_radius(self) -> float:
+        """Largest contact radius a (m)."""
+        return self.profile.contact_radius(self.max_depth)
+
+    @property
+    def plastic_depth(self) -> float:
+        """Plastic depth d_p (m) after the impact."""
+        return float(plastic_depth(self.medium, self.max_depth))
+
+    @property
+    def plastic_radius(self) -> float:
+        """Plastic radius c (m) after the impact."""
+        return self.profile.contact_radius(self.plastic_depth) if self.plastic_depth > 0 else 0.0

@@ -1,0 +1,1 @@
+"""Normal impacts of a free body."""

@@ -1,0 +1,263 @@
+"""Impacts with adhesion by the energy balance.
+
+The surfaces touch at the bottom of the imprint with the kinetic energy T, where the contact jumps to a
+radius a₀ of the energy E₀. On loading T + E₀ = E + W_p + kinetic energy; from the turning point on E is
+conserved up to E₁ at the pull-off. So T (1 − e²) = W_p + W_a with W_a = E₁ − E₀, and the body is captured
+where E at the turning point is not larger than E₁. Energies here are over 2E* (m³).
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .. import _check
+from .._check import Array, ArrayLike
+from ..contact.adhesion import (
+    AT_DEPTH,
+    contact_interval,
+    crossing,
+    last_interval,
+    loaded_interval,
+    single_range,
+    stretch,
+    stretch_rate,
+    tension_and_energy,
+)
+from ..contact.indentation import Indentation
+from ..contact.live_interval import LiveInterval
+from ..contact.yielding import yield_rule
+from ..medium import Medium, check_pair
+from ..numerics.blocks import LONG, chunks
+from ..numerics.gauss import gauss_legendre
+from ..profiles.profile import Profile
+from .energy_balance import turning_interval
+from .result import Impact, tabulated_for
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class AdhesiveImpact(Impact):
+    """Impacts on a medium with adhesion."""
+
+    @cached_property
+    def _rebound_energy(self):
+        """Energy over 2E* (m³) after the pull-off, negative for a captured body."""
+        return rebound_energy(self.profile, self.medium, self.turning_point.live_interval)
+
+    @_check.frozen_property
+    def captured(self):
+        """Whether adhesion holds the body, so that it does not rebound."""
+        return self._rebound_energy <= 0
+
+    @_check.frozen_property
+    def restitution(self):
+        """Coefficient of restitution e; 0 for a captured body."""
+        kinetic = self.mass * self.speed**2 / (4 * self.medium.E_star)
+        return np.sqrt(np.maximum(self._rebound_energy, 0.0) / kinetic)
+
+    @_check.frozen_property
+    def adhesive_work(self):
+        """Energy (J) that adhesion takes: the work between touching and pull-off.
+
+        Of a captured body all that yielding leaves of its kinetic energy.
+        """
+        first = touching(self.profile, self.medium, self.plastic_depth - self.plastic_depth_increase)[1]
+        last = pull_off(self.profile, self.medium, self.plastic_depth)[1]
+        kinetic = self.mass * self.speed**2 / 2
+        work = 2 * self.medium.E_star * (last - first)
+        return np.where(self.captured, kinetic - self.plastic_work, work)
+
+    @_check.frozen_property
+    def contact_time(self):
+        """Time (s) from touching to the pull-off; infinite for a captured body."""
+        inertia = self.mass / (2 * self.medium.E_star)
+        arguments = self.speed, self.turning_point.live_interval, self.plastic_depth_increase
+        return adhesive_contact_time(self.profile, self.medium, inertia, *arguments)
+
+
+def adhesive_impact(profile, medium, mass, speed, imprint_depth):
+    """Impacts over imprints of given plastic depth (m)."""
+    energy = mass * speed**2 / (4 * medium.E_star)
+    interval, stretched = adhesive_turning_interval(profile, medium, energy, imprint_depth)
+    increase = interval.lower - imprint_depth
+    onset = yield_rule(profile, medium).onset(interval.lower)
+    depth = np.where(increase > 0, onset, interval.upper - stretched)
+    load = -medium.E_star * stretched
+    turning_point = Indentation(profile, medium, depth, interval, load, in_time=True)
+    return AdhesiveImpact(mass[()], speed[()], turning_point, increase)
+
+
+def _energy(profile, medium, interval):
+    radius = profile._radius(interval.upper)
+    return tension_and_energy(profile, interval, radius, stretch(medium, radius))[1]
+
+
+def touching(profile, medium, before):
+    """Live interval (m) and energy (m³) after the jump into contact at an imprint's depth `before` (m)."""
+    before = np.asarray(before) if np.any(before) else np.zeros(())
+    low = single_range(profile, medium, AT_DEPTH)
+    interval, _ = contact_interval(profile, medium, before, np.zeros_like(before), low, np.inf)
+    return interval, _energy(profile, medium, interval)
+
+
+def pull_off(profile, medium, lower):
+    """Live interval (m) and energy (m³) where the contact is lost over an imprint of depth `lower` (m)."""
+    interval = last_interval(np.asarray(lower), single_range(profile, medium, AT_DEPTH))
+    return interval, _energy(profile, medium, interval)
+
+
+def _loading(profile, medium, upper, before):
+    """E + W_p (m³) on loading up to D = `upper` (m), and its derivative (m²)."""
+    interval, stretched = loaded_interval(profile, medium, upper, before)
+    radius = profile._radius(upper)
+    tension, energy = tension_and_energy(profile, interval, radius, stretched)
+    plastic = yield_rule(profile, medium).plastic_integral(before, interval.lower - before)
+    rate = 1 - stretch_rate(profile, radius, stretched) / (2 * radius)
+    return energy + plastic, tension * rate
+
+
+def adhesive_turning_interval(profile, medium, target, before):
+    """Live interval (m) and stretch Δl (m) at the turning point for kinetic energies `target` (m³).
+
+    The interval is infinite where the turning point is deeper than the known depth.
+    """
+    shape, profile = target.shape, tabulated_for(profile, target.size)
+    start, energy = touching(profile, medium, before)
+    # The springs at the rim take some more than the jump into contact gives: four steps instead of ten.
+    guess, _ = turning_interval(yield_rule(profile, medium), target - 3 * energy, before)
+    guess = guess.upper + stretch(medium, profile._radius(np.minimum(guess.upper, profile.known_depth)))
+    arrays = (target + energy, np.maximum(guess, start.upper), start.upper, before)
+    arrays = [np.broadcast_to(array, shape).ravel() for array in arrays]
+    upper, too_deep = np.empty(target.size), np.zeros(target.size, bool)
+    for rows in chunks(target.size, LONG):
+        goal, first, least, imprint = (array[rows] for array in arrays)
+        entries, own = profile.flat_entries(rows, shape), medium.flat_entries(rows, shape)
+
+        def work(x, goal=goal, imprint=imprint, entries=entries, own=own):
+            value, slope = _loading(entries, own, x, imprint)
+            return value - goal, slope
+
+        known = np.broadcast_to(entries.known_depth, goal.shape)
+        upper[rows] = crossing(work, np.minimum(first, known), least, known)
+        ends = known < np.inf
+        if ends.any():
+            too_deep[rows] = ends & (work(np.where(ends, known, upper[rows]))[0] < 0)
+    interval, stretched = loaded_interval(profile, medium, upper.reshape(shape), before)
+    reached = np.where(too_deep.reshape(shape), np.inf, interval.upper)
+    return LiveInterval(interval.lower, reached, interval.length), stretched
+
+
+def rebound_energy(profile, medium, interval):
+    """Energy (m³) that a body has left after the pull-off, negative where it is captured."""
+    return _energy(profile, medium, interval) - pull_off(profile, medium, interval.lower)[1]
+
+
+def adhesive_contact_time(profile, medium, inertia, speed, interval, increase):
+    """Time (s) from touching to the pull-off, infinite for captured bodies, by quadrature over D.
+
+    `inertia` is the mass over 2E*.
+    """
+    before = interval.lower - increase
+    start, _ = touching(profile, medium, before)
+    end, lost = pull_off(profile, medium, interval.lower)
+    low = single_range(profile, medium, AT_DEPTH)
+    yielding, _ = contact_interval(
+        profile, medium, before, np.where(increase > 0, medium.critical_depth, 0.0), low, np.inf
+    )
+    turn, (node, weight) = interval.upper, gauss_legendre(64)
+    total, time = inertia * speed**2 / 2 + touching(profile, medium, before)[1], 0.0
+    last = _energy(profile, medium, interval)
+    # D = D₁ e^(−u²): the speed goes as u next to the turning point D₁, and a(D) is a power of D at the tip.
+    first, end, cut = (
+        np.sqrt(np.log(turn / np.maximum(low, 1e-13 * turn)))
+        for low in (start.upper, end.upper, np.where(increase > 0, yielding.upper, turn))
+    )
+    for share, load in zip(node, weight, strict=True):
+        for low, width in ((0.0, cut), (cut, first - cut)):
+            u = low + share * width
+            upper = turn * np.exp(-(u**2))
+            energy, _ = _loading(profile, medium, upper, before)
+            rate = _step(profile, medium, upper, total - energy, inertia)
+            time = time + load * width * 2 * u * upper * rate
+        upper = turn * np.exp(-((share * end) ** 2))
+        left = last - _energy(profile, medium, last_interval(interval.lower, upper))
+        rate = _step(profile, medium, upper, left, inertia)
+        time = time + load * end * 2 * share * end * upper * rate
+    return np.where(last > lost, time, np.inf)
+
+
+def _step(profile, medium, upper, kinetic, inertia):
+    """dt/dD (s/m) at D = `upper` (m) with a kinetic energy (m³)."""
+    radius = profile._radius(upper)
+    rate = 1 - stretch_rate(profile, radius, stretch(medium, radius)) / (2 * radius)
+    with np.errstate(all="ignore"):
+        return np.where(kinetic > 0, rate * np.sqrt(inertia / (2 * kinetic)), 0.0)
+
+
+@_check.keywords_explained
+def capture_speeds(profile: Profile, medium: Medium, mass: ArrayLike) -> tuple[Array, Array]:
+    """Speeds (m/s) between which a body bounces off a virgin medium with adhesion.
+
+    Slower bodies are captured because their kinetic energy is less than the work of adhesion, and on a
+    medium that yields faster ones because the imprint holds them.
+
+    Parameters
+    ----------
+    profile, medium
+        One indenter and one medium.
+    mass : float or array_like
+        Mass m (kg), positive.
+
+    Returns
+    -------
+    low, high : float or ndarray
+        The two speeds, of the shape of `mass`; 0 and infinity where there is no such end, NaN for both
+        where bodies of all speeds are captured.
+
+    Raises
+    ------
+    ValueError
+        If a mass is not positive, or parameters are arrays.
+
+    Examples
+    --------
+    An elastic paraboloid needs 7.092196 (w⁵R⁴/E*²)^(1/3) (Johnson and Pollock 1994):
+
+    >>> from mdr_core import Paraboloid
+    >>> medium = Medium(E_star=1.0, work_of_adhesion=1.0)
+    >>> low, high = capture_speeds(Paraboloid(radius=1.0), medium, mass=2.0)
+    >>> print(round(low**2, 6), high)
+    7.092196 inf
+    """
+    check_pair(profile, medium, "a pair of capture speeds")
+    mass = _check.positive("mass", mass, unit="kg")
+    if medium.work_of_adhesion == 0:
+        return _check.frozen(np.zeros(np.shape(mass))), _check.frozen(np.full(np.shape(mass), np.inf))
+    d_c, (start, energy) = medium.critical_depth, touching(profile, medium, 0.0)
+
+    def rebound(upper):
+        return rebound_energy(profile, medium, loaded_interval(profile, medium, upper)[0])
+
+    known = min(float(np.min(profile.known_depth)), _check.LONGEST)
+    scales = [float(start.upper)]
+    if d_c < np.inf:
+        # The imprint holds a body where Δl(c) is about d_c.
+        radius = medium.E_star * d_c**2 / (2 * np.pi * medium.work_of_adhesion)
+        with np.errstate(all="ignore"):
+            scales += [d_c, float(profile._reduced(np.asarray(min(radius, profile.known_radius))))]
+    spaced = np.geomspace(1e-6, 1e6, 601)
+    upper = np.unique(np.concatenate([scale * spaced for scale in scales if scale < np.inf]))
+    upper = start.upper + upper[start.upper + upper <= known]
+    bounces = rebound(upper) > 0
+    change = np.flatnonzero(bounces[1:] != bounces[:-1])
+    low, high = upper[change], upper[change + 1]
+    for _ in range(100):
+        middle = (low + high) / 2
+        same = (rebound(middle) > 0) == bounces[change]
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    speed = np.sqrt(2 * np.maximum(_loading(profile, medium, low, 0.0)[0] - energy, 0.0))
+    ends = np.array([np.nan, np.nan])
+    if bounces.any():
+        ends[:] = (0.0 if bounces[0] else speed[0]), (np.inf if bounces[-1] else speed[-1])
+    low, high = (end * np.sqrt(2 * medium.E_star / mass) for end in ends)
+    return _check.frozen(low), _check.frozen(high)

@@ -1,0 +1,154 @@
+"""Steps of an equation of motion by collocation, in the depth or in the velocity, many impacts at once.
+
+The unknown of a step is the velocity as a function of the depth, or near the turning point the depth as a
+function of the velocity: every step ends at a known depth or velocity. The unknown is a polynomial through
+24 Gauss nodes, from Newton's method; time and viscous work are integrals over the step.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..numerics.collocation import collocate, last_coefficient
+from ..numerics.gauss import gauss_integrals, gauss_legendre
+from ..numerics.roots import largest_value
+from ..numerics.stable import cube_rise, cube_way
+from ..results.base import Entries
+from .equation_of_motion import Loading, MotionState, Unloading
+
+_NODES, _WEIGHTS = gauss_legendre(24)
+
+
+@dataclass(frozen=True)
+class DepthCoordinate(Entries):
+    """Coordinate δ of depths q = base + (root + δ)³ − root³ (m), one impact a row of (N, 1).
+
+    Behind a kink or vertex a(s) is a fractional power of the distance (root³ at `base`), but smooth in δ.
+    """
+
+    base: np.ndarray
+    root: np.ndarray
+
+    def depth(self, delta):
+        """Depths (m) at coordinates."""
+        return self.base + cube_rise(self.root, delta)
+
+    def delta(self, depth):
+        """Coordinates of depths (m)."""
+        return cube_way(self.root, depth - self.base)
+
+
+@dataclass(frozen=True)
+class Steps(Entries):
+    """Steps of impacts, one a row, from states `start`: base class of steps in depth and in velocity.
+
+    The variable of a step goes from `origin` on by `length` (N, 1). `slopes` (N, 3, 24) are the rates of
+    the unknown, of time and of work at the nodes.
+    """
+
+    equation: Loading | Unloading
+    coordinate: DepthCoordinate
+    start: MotionState
+    origin: np.ndarray
+    length: np.ndarray
+    slopes: np.ndarray | None = None
+
+    def at(self, share):
+        """The `MotionState` at shares of the steps, of shape (N, K)."""
+        matrix = gauss_integrals(_NODES.size, share.ravel()).reshape(*share.shape, -1)
+        return self.state(share, np.einsum("nkj,nsj->snk", matrix, self.slopes))
+
+    def end(self):
+        """The `MotionState` at the ends (N, 1): more exact than between the nodes."""
+        return self.state(1.0, (self.slopes @ _WEIGHTS).T[..., None])
+
+    def state(self, share, integrals):
+        """The `MotionState` at shares of the steps, from the integrals of `slopes` up to there."""
+        change, time, work = self.length * integrals
+        depth, velocity = self._depth_and_velocity(self.origin + self.length * share, change)
+        return MotionState(depth, velocity, self.start.time + time, self.start.work + work)
+
+    def solved(self):
+        """The steps with their slopes, and estimates of their relative errors, infinite where unsolved."""
+        slopes = self._slopes(self.origin + self.length * _NODES)
+
+        def slope_and_jacobian(unknown):
+            (slope, _, _), jacobian = slopes(unknown)
+            return slope, jacobian
+
+        unknown, settled = collocate(slope_and_jacobian, self._first_unknown(), self.length)
+        step = replace(self, slopes=np.stack(slopes(unknown)[0], axis=1))
+        end, bodies = step.end(), self.equation.bodies
+        # Near zero the work counts against a part of the kinetic energy.
+        work = np.abs(end.work) + 1e-3 * bodies.inertia * bodies.speed**2
+        size = np.hstack([self._size(end), np.abs(end.time), work])
+        error = np.max(last_coefficient(step.slopes) * np.abs(self.length) / size, axis=1)
+        return step, np.where(settled & (error < np.inf), error, np.inf)
+
+    def largest_deceleration(self):
+        """The largest deceleration (m/s²) within each step, next to the node where it is largest."""
+
+        def deceleration(share):
+            state = self.at(share)
+            _, acceleration, _ = self.equation.rates(*self.equation.load(state.depth), state.velocity)
+            return -acceleration
+
+        best, edges = self.decelerations().argmax(axis=1), np.array([0.0, *_NODES, 1.0])
+        return largest_value(deceleration, edges[best, None], edges[best + 2, None])
+
+
+class DepthSteps(Steps):
+    """Steps in the coordinate δ of the depth, with the velocity as their unknown."""
+
+    def _first_unknown(self):
+        return self.start.velocity
+
+    def _size(self, end):
+        # A velocity that falls to zero counts against a part of the first one.
+        return np.abs(end.velocity) + np.abs(self.start.velocity) / 10
+
+    def _depth_and_velocity(self, delta, change):
+        return self.coordinate.depth(delta), self.start.velocity + change
+
+    def _slopes(self, delta):
+        """Function from the unknown to slopes of unknown, time and work, and ∂(first)/∂(unknown)."""
+        load, radius = self.equation.load(self.coordinate.depth(delta))
+        damping, depth_rate = self.equation.damping(radius), 3 * (self.coordinate.root + delta) ** 2
+
+        def slopes(velocity):
+            rate, acceleration, power = self.equation.rates(load, radius, velocity)
+            time = depth_rate / rate
+            return (acceleration * time, time, power * time), -(damping + acceleration / rate) * time
+
+        return slopes
+
+    def decelerations(self):
+        """Decelerations (m/s²) at the nodes."""
+        return -self.slopes[:, 0] / self.slopes[:, 1]
+
+
+class VelocitySteps(Steps):
+    """Steps in the velocity, with the depth as their unknown."""
+
+    def _first_unknown(self):
+        return self.start.depth
+
+    def _size(self, end):
+        return np.abs(end.depth)
+
+    def _depth_and_velocity(self, velocity, change):
+        return self.start.depth + change, velocity
+
+    def _slopes(self, velocity):
+        def slopes(depth):
+            load, radius = self.equation.load(depth)
+            rate, acceleration, power = self.equation.rates(load, radius, velocity)
+            stiffness = self.equation.stiffness(depth, radius, velocity)
+            jacobian = stiffness * velocity / self.equation.bodies.inertia / acceleration**2
+            return (rate / acceleration, 1 / acceleration, power / acceleration), jacobian
+
+        return slopes
+
+    def decelerations(self):
+        """Decelerations (m/s²) at the nodes."""
+        return -1 / self.slopes[:, 1]

@@ -1,0 +1,117 @@
+"""Motion of one impact: the solution of its equation of motion, at any time."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..contact.live_interval import LiveInterval
+from ..contact.yielding import yield_rule
+from ..numerics.gauss import gauss_integrals
+from .equation_of_motion import Bodies, MotionState
+from .motion_solver import solve
+
+#: Parts of a step in which Newton's method starts.
+_CELLS = 64
+
+
+class Branch:
+    """Loading or unloading of one impact, as polynomials: penetration y or live depth ℓ, and velocity."""
+
+    def __init__(self, steps):
+        self._steps = [step for _, step in steps]
+        self._slopes = np.concatenate([step.slopes for step in self._steps])
+        self.start, self.end = self._steps[0].start[0, 0], self._steps[-1].end()[0, 0]
+        shares = np.linspace(0.0, 1.0, _CELLS + 1)
+        self._places = np.add.outer(np.arange(len(self._steps)), shares).ravel()
+        self._table = self._states(self._places)
+
+    def at(self, time):
+        """The `MotionState` at times (s)."""
+        return self._where("time", time)
+
+    def when(self, depth):
+        """Times (s) at depths (m): of y on loading, of ℓ on unloading."""
+        return self._where("depth", depth).time
+
+    def nodes(self, count):
+        """The `MotionState` at `count` equal shares of every step."""
+        return self._states(np.linspace(0, len(self._steps), len(self._steps) * (count - 1) + 1))
+
+    def _states(self, place):
+        """The `MotionState` at places: the number of a step, and a share of it."""
+        number = np.minimum(place.astype(int), len(self._steps) - 1)
+        share, states = place - number, MotionState(*np.empty((4, place.size)))
+        matrix = gauss_integrals(self._slopes.shape[2], share)
+        integrals = np.einsum("kj,ksj->sk", matrix, self._slopes[number])
+        for i, step in enumerate(self._steps):
+            rows = number == i
+            states.store(rows, step.state(share[None, rows], integrals[:, None, rows])[0])
+        return states
+
+    def _where(self, name, values):
+        """The `MotionState` where depth or time, which are monotonic, have given values."""
+        start, end = getattr(self.start, name), getattr(self.end, name)
+        sign = np.sign(end - start)
+        table = np.maximum.accumulate(sign * getattr(self._table, name))
+        place = np.interp(sign * values, table, self._places)
+        low, states, rows = np.floor(place * _CELLS) / _CELLS, self._states(place), np.arange(values.size)
+        for _ in range(20):
+            # Newton's method, with a difference for the derivative, which may vanish at an end of a step,
+            # where the depth is a cube of δ: a miss within rounding must not move the place there.
+            miss = values[rows] - getattr(states, name)[rows]
+            far = np.abs(miss) > 1e-14 * max(abs(start), abs(end))
+            rows, miss = rows[far], miss[far]
+            if not rows.size:
+                break
+            shift = np.where(place[rows] - np.floor(place[rows]) < 0.5, 1e-6, -1e-6)
+            beside = getattr(self._states(place[rows] + shift), name)
+            rate = np.maximum(sign * (beside - getattr(states, name)[rows]) / shift, 1e-300)
+            place[rows] = np.clip(place[rows] + sign * miss / rate, low[rows], low[rows] + 1 / _CELLS)
+            states.store(rows, self._states(place[rows]))
+        # The ends are known better than from the polynomials.
+        states.store(sign * values <= sign * start, self.start)
+        states.store(sign * values >= sign * end, self.end)
+        return states
+
+
+class DenseState(NamedTuple):
+    """States of one impact (SI); viscous work over 2E* with the energy that released elements will lose."""
+
+    depth: np.ndarray
+    velocity: np.ndarray
+    interval: LiveInterval
+    increase: np.ndarray
+    viscous_work: np.ndarray
+
+
+class DenseMotion:
+    """Motion of one `Impact` to the loss of contact: two branches, and the times (s) of their ends."""
+
+    def __init__(self, hit):
+        self._turning_point, self._increase = hit.turning_point, hit.plastic_depth_increase
+        self._imprint_depth = np.asarray(hit.plastic_depth - self._increase)
+        self._penetration = self._turning_point.live_interval.length + self._increase
+        arguments = hit.mass, hit.speed, self._imprint_depth, self._penetration
+        solution = solve(Bodies.of(hit.profile, hit.medium, *arguments), 1e-10)
+        self.loading, self.unloading = Branch(solution.loading), Branch(solution.unloading)
+        self.turning_time, self.end_time = self.loading.end.time, self.unloading.end.time
+
+    def at(self, time):
+        """The `DenseState` at an array of times (s) since first contact."""
+        pressed = time <= self.turning_time
+        state = MotionState(*np.empty((4, time.size)))
+        for branch, rows in ((self.loading, pressed), (self.unloading, ~pressed)):
+            state.store(rows, branch.at(time[rows]))
+        # The penetration at the turning point is that of the impact, to the last digit.
+        largest = self._penetration
+        y = np.where(time < self.turning_time, np.minimum(state.depth, largest), largest)
+        medium, final = self._turning_point.medium, self._turning_point.live_interval
+        rule = yield_rule(self._turning_point.profile, medium)
+        interval, increase = rule.loading(y, self._imprint_depth)
+        lower = np.where(pressed, interval.lower, final.lower)
+        length = np.where(pressed, interval.length, state.depth)
+        upper = np.where(pressed, interval.upper, lower + length)
+        unloading_depth = upper - medium.relaxation_time * np.minimum(state.velocity, 0.0)
+        depth = np.where(pressed, self._imprint_depth + y, unloading_depth)
+        increase = np.where(pressed, increase, self._increase)
+        return DenseState(depth, state.velocity, LiveInterval(lower, upper, length), increase, state.work)

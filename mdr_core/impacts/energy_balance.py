@@ -1,0 +1,156 @@
+"""Impacts without viscosity by the energy balance: maximum depth and restitution, without time stepping.
+
+The indenter meets a medium with an imprint of plastic depth p₀ (0 if virgin). At the penetration y = d − p₀
+the work is that of the live interval, 2E* ∫(d − s) a ds, which is stored, and the plastic work.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .. import _check
+from ..contact.indentation import Indentation
+from ..contact.integrals import integrals
+from ..contact.live_interval import LiveInterval
+from ..contact.yielding import yield_rule
+from ..numerics.blocks import LONG, broadcast_flat, chunks
+from ..numerics.roots import increasing_root
+from .contact_time import contact_time
+from .result import Impact, tabulated_for
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DryImpact(Impact):
+    """Impacts on a medium without viscosity and adhesion."""
+
+    @_check.frozen_property
+    def restitution(self):
+        """e = √(U/(U + W_p)), with the sum in the place of the kinetic energy: it is never above 1."""
+        profile, modulus = self._rule.profile, 2 * self.medium.E_star
+        stored = modulus * integrals(profile).energy_integral(self.turning_point.live_interval)
+        return np.sqrt(stored / (stored + self.plastic_work))
+
+    @_check.frozen_property
+    def max_force(self):
+        """Largest force (N): that at the turning point, or with f_c above 0 it may be an earlier one."""
+        force, shape = self.turning_point.force, np.shape(self.mass)
+        if not self._rule.falls:
+            return force
+        increase, interval = self.plastic_depth_increase, self.turning_point.live_interval
+        rule = self._rule.flat_entries(slice(None), shape).entries((slice(None), None), (np.size(force),))
+        imprint = np.reshape(interval.lower - increase, (-1, 1))
+        largest = _largest_area(rule, imprint, np.reshape(interval.length + increase, (-1, 1)))
+        return np.fmax(force, 2 * self.medium.E_star * largest.reshape(shape))
+
+    @_check.frozen_property
+    def contact_time(self):
+        """Time (s) from first contact to the loss of contact."""
+        inertia = self.mass / (2 * self.medium.E_star)
+        rule, interval = yield_rule(self.profile, self.medium), self.turning_point.live_interval
+        return contact_time(rule, inertia, self.speed, interval, self.plastic_depth_increase)
+
+
+def dry_impact(profile, medium, mass, speed, imprint_depth):
+    """Impacts over imprints of given plastic depth (m)."""
+    energy = mass * speed**2 / (4 * medium.E_star)
+    interval, increase = turning_interval(yield_rule(profile, medium), energy, imprint_depth)
+    turning_point = Indentation(profile, medium, interval.upper, interval, in_time=True)
+    return DryImpact(mass[()], speed[()], turning_point, increase)
+
+
+def _largest_area(rule, imprint, penetration):
+    """Largest ∫ a ds (m²) on loading from the onset of yield to penetrations (m), one a row of (N, 1)."""
+    start = np.minimum(rule.penetration(imprint, imprint), penetration)
+
+    def area(share):
+        interval, _ = rule.loading(start + (penetration - start) * share**3, imprint)
+        return integrals(rule.profile).radius_integral(interval)
+
+    low, rows = np.zeros_like(start), np.arange(len(start))
+    high = low + 1
+    for _ in range(5):
+        shares = low + (high - low) * np.linspace(0, 1, 17)
+        values = area(shares)
+        best = np.clip(values.argmax(axis=1), 1, 15)
+        low, high = shares[rows, best - 1, None], shares[rows, best + 1, None]
+    # The last grid has 10⁵ places: an error of 10⁻⁹ next to a smooth maximum, none at the onset.
+    return values.max(axis=1)
+
+
+def turning_interval(rule, target, before):
+    """Live interval at the turning point of a dry impact, and the increase Δ (m) of the plastic depth.
+
+    Elementwise for kinetic energies `target` over 2E* (m³), to whose shape the imprint's depth `before` (m)
+    and the parameters of the `YieldRule` broadcast. The interval is infinite where the turning point is
+    deeper than the known depth.
+    """
+    interval = None if np.any(before) else rule.turning_interval(target)
+    if interval is not None:
+        return interval, interval.lower
+    shape = target.shape
+    rule = replace(rule, profile=tabulated_for(rule.profile, target.size))
+    unit, *scales = integrals(rule.profile).unit
+    rule = rule.flat_entries(slice(None), shape)
+    # Apart from the results, arrays are no longer than a block.
+    _, arrays = broadcast_flat(target, before, *scales)
+    result = np.empty((4, target.size))
+    for rows in chunks(target.size, LONG):
+        energy, imprint, length, depth = (array[rows] for array in arrays)
+        part = rule.flat_entries(rows, (target.size,))
+        part = part.in_units_of(unit.flat_entries(rows, shape), length, depth)
+        imprint = imprint / depth
+        y = _penetration(part, energy / (length * depth**2), imprint)
+        interval, increase = part.loading(np.where(np.isinf(y), 0.0, y), imprint)
+        upper = np.where(np.isinf(y), np.inf, interval.upper)
+        result[:, rows] = depth * np.array([interval.lower, upper, interval.length, increase])
+    *interval, increase = result.reshape(4, *shape)
+    return LiveInterval(*interval), increase
+
+
+def _penetration(rule, target, before):
+    """y = d − p₀ (m) at which the work over 2E* is `target` (m³); infinite below the known depth.
+
+    The work grows about as a power of y: Newton's method on their logarithms.
+    """
+
+    def work(y, rows):
+        part = rule.flat_entries(rows, target.shape)
+        interval, increase = part.loading(y, before[rows])
+        force, stored = integrals(part.profile).radius_and_energy(interval)
+        return stored + part.plastic_integral(before[rows], increase), force
+
+    highest = np.broadcast_to(rule.profile.known_depth - before, target.shape)
+    with np.errstate(all="ignore"):
+        y = np.minimum(_first_guess(rule, target, before), highest)
+        rows = np.arange(y.size)
+        for _ in range(12):
+            value, slope = work(y[rows], rows)
+            step = np.log(target[rows] / value) * value / (slope * y[rows])
+            new = np.minimum(y[rows] * np.exp(step), highest[rows])
+            # At the known depth the work is still less than the energy.
+            y[rows] = np.where((y[rows] == highest[rows]) & (step > 1e-13), np.inf, new)
+            # After a step of 10⁻⁷ the next one would be its square, which is rounding.
+            rows = rows[~(np.abs(step) < 1e-7) & (y[rows] < np.inf)]
+            if not rows.size:
+                return y
+        # The first guess was poor, or left double precision: in a bracket.
+        y[rows] = increasing_root(lambda y: work(y, rows), target[rows], 1.0, highest[rows])
+    return y
+
+
+def _first_guess(rule, target, before):
+    """Penetration (m) to about 10⁻⁴ from the table of a profile, else that of the onset of yield."""
+    onset = rule.penetration(before, before)
+    table, imprint = integrals(rule.profile).table, before.any()
+    if table is None:
+        return np.where((onset > 0) & (onset < np.inf), onset, 1.0)
+    elastic = table.depth_of_volume(target)
+    if imprint:
+        # Not deeper than a flat punch of the plastic radius.
+        punch = np.sqrt(2 * target / table.radius(before))
+        elastic = np.where(before > 0, np.minimum(elastic, punch), elastic)
+    # The mean of a force that goes as the power 3/2 of the depth is nearly that in the middle.
+    cap = rule.cap(before + elastic)
+    middle = table.depth_of_area(target / cap + (table.area(before) if imprint else 0.0))
+    yielding = middle - cap * cap / (48 * middle) + cap / 2 - before
+    return np.where(elastic > onset, np.maximum(yielding, onset), elastic)

@@ -1,0 +1,109 @@
+"""Impact of a free rigid body.
+
+On a medium without viscosity it is solved by the energy balance and quadrature, without time stepping, on a
+viscous one by the equation of motion.
+"""
+
+from functools import cached_property
+from operator import attrgetter
+
+import numpy as np
+
+from .. import _check
+from .._check import Array, ArrayLike
+from ..medium import Medium, check_pair, refuse_adhesion, shape_with
+from ..profiles.profile import Profile
+from .adhesive import adhesive_impact
+from .energy_balance import dry_impact
+from .result import Impact
+from .viscous import viscous_impact
+
+
+@_check.keywords_explained
+def impact(
+    profile: Profile,
+    medium: Medium,
+    mass: ArrayLike,
+    speed: ArrayLike,
+    *,
+    plastic_depth: ArrayLike = 0.0,
+) -> Impact:
+    """Let a body of given mass hit the medium at given speed, with no other force acting.
+
+    Contact starts at the bottom of the imprint (depth 0 on a virgin medium), and ends at zero force, with
+    adhesion at the pull-off.
+
+    Parameters
+    ----------
+    profile : Profile
+        The indenter.
+    medium : Medium
+        The medium; viscous if `eta` is positive.
+    mass, speed : float or array_like
+        Mass m (kg), and speed v₀ (m/s) at first contact, positive.
+    plastic_depth : float or array_like, optional
+        Plastic depth (m) of a relaxed imprint of the same indenter: for repeated impacts, the
+        `plastic_depth` of the previous one. 0 (the default) is a virgin medium.
+
+    Returns
+    -------
+    Impact
+        Quantities of the shape to which all arguments broadcast: one impact or a million.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or the indenter would go deeper than its profile is known.
+
+    Examples
+    --------
+    Restitution of a cone whose largest depth is five times the critical depth:
+
+    >>> from mdr_core import Cone, Medium, indent
+    >>> medium = Medium(E_star=1.0, q_c=1.0)
+    >>> state = indent(Cone(slope=1.0), medium, 5 * medium.critical_depth)
+    >>> energy = state.stored_energy + state.plastic_work
+    >>> hit = impact(Cone(slope=1.0), medium, 2.0, energy**0.5)
+    >>> print(round(hit.restitution, 9))
+    0.461643536
+    """
+    return solve_impact(profile, medium, mass, speed, plastic_depth)
+
+
+def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=False):
+    """`impact`; `in_time` the equation of motion is solved also where there is no viscosity."""
+    check_pair(profile, medium)
+    mass = _check.positive("mass", mass, unit="kg")
+    speed = _check.positive("speed", speed, unit="m/s")
+    imprint_depth = _check.positive("plastic_depth", plastic_depth, unit="m", zero=True)
+    shape = shape_with("impact", profile, medium, mass=mass, speed=speed, plastic_depth=imprint_depth)
+    mass, speed, imprint_depth = (np.broadcast_to(values, shape) for values in (mass, speed, imprint_depth))
+    too_deep = profile._too_deep()
+    outside = imprint_depth > profile.known_depth
+    _check.refuse("plastic_depth", imprint_depth, outside, f"is {too_deep}", unit="m")
+    # The search may start far from the root, where powers leave double precision.
+    with np.errstate(all="ignore"):
+        hit = _solved(profile, medium, mass, speed, imprint_depth, in_time)
+    known = np.minimum(profile.known_depth, _check.LONGEST)
+    unknown = ~(hit.turning_point.live_interval.upper <= known)
+    bound = f"presses {too_deep}"
+    _check.refuse("speed", speed, unknown, bound, unit="m/s", remedy="hit less hard")
+    return hit
+
+
+def _solved(profile, medium, mass, speed, imprint_depth, in_time):
+    """The `Impact` by the solver for its medium, with an infinite depth below the known depth."""
+    if np.any(np.asarray(medium.work_of_adhesion) > 0):
+        if in_time:
+            refuse_adhesion(medium, "an equation of motion")
+        return adhesive_impact(profile, medium, mass, speed, imprint_depth)
+    if in_time or np.any(np.asarray(medium.eta) > 0):
+        return viscous_impact(profile, medium, mass, speed, imprint_depth, in_time)
+    return dry_impact(profile, medium, mass, speed, imprint_depth)
+
+
+def quantity_of(path: str, doc: str) -> "cached_property[Array]":
+    """A property that is one of a state or result in this result, as in "turning_point.depth"."""
+    quantity = cached_property(attrgetter(path))
+    quantity.__doc__ = doc
+    return quantity

@@ -1,0 +1,147 @@
+"""Impacts of a free rigid body, as results."""
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+
+from .. import _check
+from .._check import Array
+from ..contact.indentation import Indentation
+from ..contact.integrals import tabulated
+from ..contact.yielding import yield_rule
+from ..medium import Medium
+from ..profiles.profile import Profile
+from ..results.base import CLOSED_FORM, Entries, ImpactResult, Model, Motion
+from ..results.limits import Limit, contact_limits
+from .dense_motion import DenseMotion
+from .motion import motion
+from .scaling import FastLimit, fast_limit, how_fast
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Impact(Entries, ImpactResult):
+    """One impact or many; made by `impact`. `result[i]` picks one.
+
+    `turning_point` is the state of largest depth; `plastic_depth_increase` (m) is due to this impact alone.
+    A subclass is the solution by one solver.
+    """
+
+    mass: Array
+    speed: Array
+    turning_point: Indentation
+    plastic_depth_increase: Array
+
+    _name = "Impact"
+    #: How it was solved: by the energy balance in closed form, or by the equation of motion.
+    model: ClassVar[Model] = CLOSED_FORM
+
+    @property
+    @abstractmethod
+    def restitution(self) -> Array:
+        """Coefficient of restitution e, speed after over speed before; 0 for a captured body."""
+
+    @property
+    @abstractmethod
+    def contact_time(self) -> Array:
+        """Time (s) from first contact to the loss of contact; infinite for a captured body."""
+
+    @property
+    def profile(self) -> Profile:
+        """The indenter."""
+        return self.turning_point.profile
+
+    @property
+    def medium(self) -> Medium:
+        """The medium."""
+        return self.turning_point.medium
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """Where the model's assumptions end for these impacts, and the fast limit (23), (24), as data."""
+        limits = contact_limits(self.profile, self.medium, self.contact_radius)
+        return (*limits, *how_fast(self))
+
+    @cached_property
+    def _dense_motion(self):
+        return DenseMotion(self)
+
+    @property
+    def max_depth(self) -> Array:
+        """Largest depth d_max (m), from the virgin surface."""
+        return self.turning_point.depth
+
+    @property
+    def contact_radius(self) -> Array:
+        """Largest contact radius a (m)."""
+        return self.turning_point.contact_radius
+
+    @property
+    def plastic_radius(self) -> Array:
+        """Radius c (m) of the final plastic zone."""
+        return self.turning_point.plastic_radius
+
+    @property
+    def plastic_depth(self) -> Array:
+        """Plastic depth d_p (m) that remains."""
+        return self.turning_point.plastic_depth
+
+    @property
+    def stored_energy(self) -> Array:
+        """Elastic energy (J) at the turning point; without viscosity all of it is returned."""
+        return self.turning_point.stored_energy
+
+    @property
+    def max_force(self) -> Array:
+        """Largest force (N), with adhesion that at the turning point; a viscous one is before it."""
+        return self.turning_point.force
+
+    @_check.frozen_property
+    def plastic_work(self):
+        """Energy (J) dissipated by yielding in this impact."""
+        increase = self.plastic_depth_increase
+        integral = self._rule.plastic_integral(self.plastic_depth - increase, increase)
+        return 2 * self.medium.E_star * integral
+
+    @property
+    def viscous_work(self) -> Array:
+        """Energy (J) dissipated by viscosity, during the contact and by relaxation after it."""
+        return np.zeros(np.shape(self.mass))[()]
+
+    @cached_property
+    def _rule(self):
+        """The rule of yield."""
+        profile = tabulated_for(self.profile, np.size(self.plastic_depth_increase))
+        return yield_rule(profile, self.medium)
+
+    @property
+    def fast_limit(self) -> FastLimit:
+        """The impact in the limit of Popov (2015), Eqs. (23), (24), with its error: a `FastLimit`."""
+        return fast_limit(self)
+
+    def motion(self, n: int = 200) -> Motion:
+        """The motion of one impact at n instants, from first contact to the loss of contact.
+
+        Instants are equally spaced before the turning point, and again after it.
+
+        Parameters
+        ----------
+        n : int
+            Number of instants, at least 2.
+
+        Examples
+        --------
+        >>> from mdr_core import Medium, Paraboloid, impact
+        >>> hit = impact(Paraboloid(radius=1.0), Medium(E_star=1.0), 1.0, 0.01)
+        >>> print(round(hit.motion(101).time[-1] / (hit.max_depth / 0.01), 6))  # Hertz
+        2.943275
+        """
+        return motion(self, n)
+
+
+def tabulated_for(profile, count):
+    """The profile to solve `count` impacts with: a table if they are many and the known depth is finite."""
+    many = count > 16 and np.all(profile.known_depth < np.inf)
+    return tabulated(profile, profile.known_depth) if many else profile

@@ -1,0 +1,243 @@
+"""Scaling laws of very fast impacts, and the class of hardness of a material.
+
+Popov (2015), section 1, distinguishes three classes of plasticity: hardness (a) constant, (b) inversely
+proportional to the contact radius, (c) inversely proportional to the contact area. In a fully yielded
+contact the force is proportional to a^i with i = 2, 1, 0.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .. import _check
+from .._check import Array, ArrayLike
+from ..contact.integrals import integrals
+from ..contact.live_interval import LiveInterval
+from ..medium import refuse_other_classes
+from ..numerics.roots import increasing_root
+from ..results.base import Entries
+from ..results.limits import Limit
+from ..results.report import Report
+
+_FORCE_POWER = {"a": 2, "b": 1, "c": 0}
+#: Largest relative error at which the fast limit holds.
+_MAX_ERROR = 0.1
+
+
+@dataclass(frozen=True)
+class ScalingLaw:
+    """Powers of the impact energy W in the limit of very fast impacts on a class of hardness.
+
+    With F ∝ aⁱ and a ∝ d^(1/n), the work is proportional to d^((n + i)/n), the elastic energy to F²/a.
+
+    Parameters
+    ----------
+    hardness : {"a", "b", "c"}
+        Class: hardness constant, ∝ 1/radius, ∝ 1/area.
+    exponent : float
+        Exponent n of the indenter z = c rⁿ, positive: 1 for a cone, 2 for a paraboloid.
+
+    Examples
+    --------
+    >>> ScalingLaw("b", 1.0).area  # Popov (2015), Eq. (24)
+    1.0
+    """
+
+    hardness: str
+    exponent: float
+
+    def __post_init__(self):
+        _check.one_of("hardness class", self.hardness, _FORCE_POWER)
+        exponent = _check.positive_number("ScalingLaw exponent", self.exponent)
+        _check.store(self, exponent=exponent)
+
+    @property
+    def force(self) -> int:
+        """Power i = 2, 1, 0 of the contact radius in the force at full yield."""
+        return _FORCE_POWER[self.hardness]
+
+    @property
+    def radius(self) -> float:
+        """Power of W in the contact radius."""
+        return 1 / (self.exponent + self.force)
+
+    @property
+    def depth(self) -> float:
+        """Power of W in the depth: 1 in class (c)."""
+        return self.exponent * self.radius
+
+    @property
+    def area(self) -> float:
+        """Power of W in the contact area: 1 for a cone in class (b)."""
+        return 2 * self.radius
+
+    @property
+    def volume(self) -> float:
+        """Power of W in the expelled volume: 1 in class (a)."""
+        return (self.exponent + 2) * self.radius
+
+    @property
+    def restitution(self) -> float:
+        """Power of the *speed* in the coefficient of restitution."""
+        return (self.force - 1 - self.exponent) * self.radius
+
+
+@dataclass(frozen=True)
+class HardnessClass:
+    """Class of hardness of measured imprints; made by `hardness_class` and `fit_hardness`.
+
+    `hardness` is the class, None where none or several fit, and `reason` the reason in words; `slope` is
+    the measured power with its standard error `slope_error`, infinite for two points; `laws` the
+    `ScalingLaw` of each class, where the power is one of the energy.
+    """
+
+    hardness: str | None
+    slope: float
+    slope_error: float
+    laws: dict[str, ScalingLaw] = field(repr=False)
+    reason: str
+
+
+def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> HardnessClass:
+    """Class of hardness from the radii of imprints of fast impacts as a function of energy.
+
+    The slope of ln(radius) over ln(energy) is compared with 1/(n + i). A class fits within two standard
+    errors, or within 10 %, because real impacts are only approximately fast.
+
+    Parameters
+    ----------
+    energy, radius : array_like
+        Energies (J) dissipated by the impacts, at least two different ones, and radii (m) of the imprints.
+    exponent : float
+        Exponent n of the indenter z = c rⁿ.
+
+    Examples
+    --------
+    >>> from mdr_core import Cone, Medium, impact
+    >>> hit = impact(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), 1e-6, [1.0, 3.0, 10.0])
+    >>> hardness_class(hit.plastic_work, hit.plastic_radius, exponent=1.0).hardness
+    'b'
+    """
+    energy = np.atleast_1d(_check.positive("energy", energy, unit="J"))
+    radius = np.atleast_1d(_check.positive("radius", radius, unit="m"))
+    x, y = np.log(energy.ravel()), np.log(radius.ravel())
+    if energy.shape != radius.shape or np.all(x == x[:1]):
+        bound = "must be of the same shape, with at least two different energies"
+        raise ValueError(f"energy {energy.shape} and radius {radius.shape} {bound}")
+    laws = {name: ScalingLaw(name, exponent) for name in _FORCE_POWER}
+    slope, error = straight_line(x, y)
+    expected = {name: (law.radius, _MAX_ERROR * law.radius) for name, law in laws.items()}
+    hardness, reason = class_of(expected, slope, error)
+    return HardnessClass(hardness, slope, error, laws, reason)
+
+
+def straight_line(x, y):
+    """Slope of y over x by least squares, and its standard error: infinite for two different x."""
+    x, y = x - x.mean(), y - y.mean()
+    slope = (x @ y) / (x @ x)
+    residual = y - slope * x
+    if np.unique(x).size <= 2:
+        return float(slope), np.inf
+    return float(slope), float(np.sqrt(residual @ residual / (x.size - 2) / (x @ x)))
+
+
+def class_of(expected, slope, error, points="energies"):
+    """The class that fits a measured power, None if there is not exactly one, and the reason in words.
+
+    `expected` has the power of each class, and the tolerance of it if two standard errors are smaller.
+    """
+    if error == np.inf:
+        return (
+            None,
+            f"insufficient: two {points} leave no error of the slope {slope:.3g}; give three or more",
+        )
+    powers = ", ".join(f"{name}: {power:.3g}" for name, (power, _) in expected.items())
+    measured = f"the slope {slope:.3g} ± {error:.2g}, where the classes have {powers}"
+    fits = [n for n, (power, limit) in expected.items() if abs(slope - power) <= max(2 * error, limit)]
+    if len(fits) == 1:
+        return fits[0], f"class {fits[0]} alone fits {measured}"
+    return None, f"{'none' if not fits else 'more than one class'} fits {measured}"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FastLimit(Entries, Report):
+    """Impact in the limit of a fully yielded contact, and its errors against the exact solution.
+
+    Popov (2015), Eqs. (23), (24): the work is π q_c ∫ a dd, for a cone q_c d²/s, and the whole contact
+    is damaged. The coefficient of restitution is √(U/W) with U = E* a d_c².
+
+    Largest depth (m), contact area (m²) and coefficient of restitution in this limit, with their relative
+    errors, which are large where the limit does not hold.
+    """
+
+    max_depth: Array
+    contact_area: Array
+    restitution: Array
+    max_depth_error: Array
+    contact_area_error: Array
+    restitution_error: Array
+
+    _quantities = _shown = (
+        "max_depth", "contact_area", "restitution", "max_depth_error", "contact_area_error",
+        "restitution_error",
+    )  # fmt: skip
+    _dimensions = ("impact",)
+
+
+def fast_limit(hit):
+    """The `FastLimit` of an `Impact`."""
+    profile, medium = hit.profile, hit.medium
+    refuse_other_classes(medium, "the fast limit", "ScalingLaw has the powers of each class")
+    energy = hit.mass * hit.speed**2 / 2
+    d_c = np.asarray(medium.critical_depth)
+    _check.refuse("critical depth", d_c, np.isinf(d_c), "m: nothing yields", remedy="give q_c")
+    target = np.broadcast_to(energy / (np.pi * medium.q_c), np.shape(hit.max_depth))
+
+    def work(depth):
+        return integrals(profile).radius_integral(LiveInterval.elastic(depth)), profile._radius(depth)
+
+    depth = increasing_root(work, target, hit.max_depth, profile.known_depth)
+    known = np.min(profile.known_depth, initial=_check.LONGEST)
+    bound = f"presses deeper than the known depth of the profile, {known:g} m, in this limit"
+    speed = np.asarray(hit.speed)
+    _check.refuse("speed", speed, np.isinf(depth), bound, unit="m/s", remedy="reduce the speed")
+    a = profile._radius(depth)
+    area = np.pi * a**2
+    restitution = np.sqrt(medium.E_star * a * d_c**2 / energy)
+    # A body that adhesion holds has no restitution.
+    with np.errstate(divide="ignore"):
+        return FastLimit(
+            max_depth=_check.frozen(depth),
+            contact_area=_check.frozen(area),
+            restitution=_check.frozen(restitution),
+            max_depth_error=_check.frozen(depth / hit.max_depth - 1),
+            contact_area_error=_check.frozen(area / (np.pi * hit.contact_radius**2) - 1),
+            restitution_error=_check.frozen(restitution / hit.restitution - 1),
+        )
+
+
+def how_fast(hit):
+    """`Limit`s of the fast limit (23), (24) for an `Impact`, from its errors; none without yield."""
+    if not (hit.medium.inverse_to_radius and np.any(hit.plastic_depth_increase > 0)):
+        return ()
+    if np.any(np.isinf(hit.medium.critical_depth)):
+        return ()
+    equations, first = "Eqs. (23), (24)", np.all(hit.plastic_depth == hit.plastic_depth_increase)
+    try:
+        limit = hit.fast_limit
+    except ValueError as error:
+        text = f"{equations} do not hold: {error}."
+        return (Limit("fast limit", np.inf, _MAX_ERROR, True, text, equations),)
+    errors = limit.contact_area_error, limit.max_depth_error
+    area, depth = (float(np.ravel(error)[np.argmax(np.abs(error))]) for error in errors)
+    # Without yield errors may cross zero by chance, hence the share of the viscous work is a criterion too.
+    viscous = float(np.max(hit.viscous_work / (hit.mass * hit.speed**2 / 2)))
+    value = max(abs(area), abs(depth), viscous)
+    exceeded = value > _MAX_ERROR or not first
+    errors = f"{100 * area:+.3g} % of the area, {100 * depth:+.3g} % of the depth".replace("-", "−")
+    text = f"The fast limit, {equations}, {'does not hold and ' * exceeded}is off by {errors}"
+    if viscous > _MAX_ERROR:
+        text += f", and viscosity takes {100 * viscous:.3g} % of the energy"
+    if not first:
+        text += ", because it is for the first impact on a spot"
+    return (Limit("fast limit", value, _MAX_ERROR, exceeded, f"{text}.", equations),)

@@ -1,0 +1,1 @@
+"""Numerics that know nothing of mechanics: quadrature, collocation, roots, stable functions."""

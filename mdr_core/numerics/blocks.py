@@ -1,0 +1,17 @@
+"""Arrays in blocks that fit into the cache."""
+
+import numpy as np
+
+#: Rows of a block where each block takes about a thousand calls of NumPy.
+LONG = 2**14
+
+
+def chunks(size, most=8192):
+    """Slices of at most `most` rows, so that the arrays of a block fit into the cache."""
+    return (slice(start, start + most) for start in range(0, size, most))
+
+
+def broadcast_flat(*arrays):
+    """Shape to which arrays broadcast, and flat views of them that can be sliced."""
+    arrays = np.broadcast_arrays(*arrays)
+    return arrays[0].shape, [part.ravel() if part.flags.c_contiguous else part.flat for part in arrays]

@@ -1,0 +1,91 @@
+"""Roots and largest values of functions, elementwise."""
+
+import numpy as np
+
+from .. import _check
+
+
+def largest_value(function, low, high):
+    """Largest value of a function with one maximum between `low` and `high` (N, 1), one a row.
+
+    `function` takes arguments of shape (N, K). Two grids, and the parabola through the best three points.
+    """
+    rows = np.arange(len(low))
+    for _ in range(2):
+        places = low + (high - low) * np.linspace(0, 1, 17)
+        values = function(places)
+        best = np.clip(values.argmax(axis=1), 1, 15)
+        low, high = places[rows, best - 1, None], places[rows, best + 1, None]
+    before, there, after = (values[rows, best + side] for side in (-1, 0, 1))
+    bend = 2 * there - before - after
+    top = there + (after - before) ** 2 / (8 * np.maximum(bend, 1e-300))
+    return np.where(np.abs(after - before) < 2 * bend, top, values.max(axis=1))
+
+
+@np.errstate(all="ignore")
+def increasing_root(function, target, start, highest=np.inf, *, largest=_check.LARGEST, quantity="depth"):
+    """Positive x with function(x) = target, elementwise, for a function that grows about as a power.
+
+    Newton's method on ln f against ln x inside a bracket, with bisection where a step leaves it and, after
+    a dozen steps, at every other one: Newton's method alone may alternate between both sides of a kink.
+
+    Parameters
+    ----------
+    function : callable
+        Values and derivatives at an array x > 0, up to `highest`.
+    target, start : array_like
+        Values to be reached, and first guesses of x.
+    highest : float or ndarray
+        Largest x at which the function is known; the result is infinite where the target is not reached.
+    largest : float
+        The result is infinite where it would be larger.
+    quantity : str
+        Name of x, for the error that is raised if the iteration does not converge.
+    """
+    target = np.asarray(target, dtype=float)
+    x = np.zeros(target.shape) + np.minimum(start, highest)
+    low, high = np.zeros_like(x), np.zeros_like(x) + highest
+    reachable = high == np.inf
+    if not reachable.all():
+        reachable |= target <= function(np.where(reachable, x, high))[0]
+    sought = (target > 0) & reachable
+    eps = np.finfo(float).eps
+    best, least, stalled = x.copy(), np.full(x.shape, np.inf), np.zeros(x.shape, int)
+    for iteration in range(200):
+        value, slope = function(x)
+        high, low = np.where(value >= target, x, high), np.where(value <= target, x, low)
+        miss = np.log(target / value)
+        stalled = np.where(np.abs(miss) < least, 0, stalled + 1)
+        best, least = np.where(stalled == 0, x, best), np.fmin(np.abs(miss), least)
+        # The slope is infinite at the edge of a flat face and at some kinks, and a step there is 0.
+        new = x * np.exp(np.clip(np.where(slope < np.inf, miss * value / (slope * x), np.nan), -3, 3))
+        middle = np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 16)
+        middle = np.where(high < np.inf, middle, 16 * x)
+        inside = (new > low) & (new < high) & (iteration < 12 or iteration % 2 == 0)
+        new = np.where(inside, new, middle)
+        # Rounding of f ends the iteration where no step comes closer any more.
+        settled = (np.abs(new - x) <= 4 * eps * x) | (high - low <= 4 * eps * low) | (least <= 8 * eps)
+        settled |= (stalled > 0) & (least <= 1e-14) | (stalled > 1) & (least <= 1e-13)
+        reachable &= low < largest
+        if np.all(settled | ~sought | ~reachable):
+            return np.where(reachable, np.where(target > 0, best, 0.0), np.inf)
+        x = np.where(sought, new, x)
+    raise ValueError(f"no {quantity} was found in 200 steps; check that all quantities are in SI units")
+
+
+def root_in_bracket(function, x, low, high, close):
+    """Result at the root of an increasing function, by Newton's method from x inside a bracket.
+
+    `function` gives its value, its slope and a result at x; the root is found to within `close`.
+    """
+    for count in range(80):
+        value, slope, result = function(x)
+        miss = value / slope
+        if abs(miss) <= close or high - low <= close:
+            break
+        low, high = (x, high) if miss < 0 else (low, x)
+        x -= miss
+        # Bisection at every other step, where the function has a kink or jumps.
+        if not low < x < high or (count > 5 and count % 2 and high - low < np.inf):
+            x = (low + high) / 2
+    return result

@@ -1,0 +1,28 @@
+"""Functions that avoid cancellation."""
+
+import numpy as np
+
+
+def cube_rise(begin, step):
+    """(b + δ)³ − b³ without cancellation."""
+    return step * (3 * begin * begin + step * (3 * begin + step))
+
+
+def cube_way(begin, rise):
+    """δ at (b + δ)³ − b³ = `rise`, the inverse of `cube_rise`."""
+    end = np.cbrt(begin**3 + rise)
+    squares = begin * begin + begin * end + end * end
+    step = np.divide(rise, squares, out=np.zeros_like(rise), where=rise > 0)
+    return np.where(rise < np.inf, step, np.inf)
+
+
+def root(x, r):
+    """√(x² − r²) of two lengths without cancellation or underflow, 0 for x < r."""
+    return np.sqrt(np.maximum(x - r, 0.0)) * np.sqrt(x + r)
+
+
+def log1p_ratio(above, below):
+    """ln(1 + above/below), also where the quotient leaves double precision; infinite over 0."""
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        ratio = above / below
+        return np.where(ratio < np.inf, np.log1p(ratio), np.log(above) - np.log(below))

@@ -1,0 +1,1 @@
+"""Oblique impacts with friction."""

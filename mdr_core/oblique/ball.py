@@ -1,0 +1,98 @@
+"""Angles of incidence, and balls that spin, for oblique impacts."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from .._check import Array, ArrayLike
+from .oblique_impact import ObliqueImpact
+
+
+def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
+    """Normal and tangential speed (m/s) of a body at some speed (m/s) and angle of incidence (rad).
+
+    The angle is that to the normal, π/2 less the angle of attack, between −π/2 and π/2. Use as in
+    `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
+
+    Examples
+    --------
+    >>> print(*(round(part, 9) for part in at_angle(2.0, np.radians(30.0))))
+    1.732050808 1.0
+    """
+    speed = _check.positive("speed", speed, unit="m/s")
+    angle = _check.finite_array("angle", angle, unit="rad")
+    outside = np.abs(angle) >= np.pi / 2
+    remedy = "from degrees by numpy.radians"
+    _check.refuse("angle", angle, outside, "must lie within −π/2 … π/2", unit="rad", remedy=remedy)
+    _check.common_shape("at_angle", speed=speed, angle=angle)
+    return _check.frozen(speed * np.cos(angle)), _check.frozen(speed * np.sin(angle))
+
+
+@dataclass(frozen=True)
+class Ball:
+    """A ball that may spin: the speed of its contact point, and the change of its spin by an impact.
+
+    With spin Ω (rad/s) and the speed V of the centre, the contact point has the speed W = V + RΩ: backspin
+    is positive, and the ball rolls if V = −RΩ.
+
+    Parameters
+    ----------
+    mass, radius : float or array_like
+        Mass m (kg), radius R (m).
+    hollow : bool, optional
+        A thin wall, with I = 2mR²/3, instead of a solid ball, with I = 2mR²/5.
+
+    Examples
+    --------
+    >>> solid, hollow = Ball(7.0, 1.0), Ball(5.0, 1.0, hollow=True)
+    >>> print(round(solid.tangential_mass, 9), round(hollow.tangential_mass, 9))
+    2.0 2.0
+    """
+
+    mass: Any
+    radius: Any
+    hollow: bool = False
+
+    def __post_init__(self):
+        mass = _check.positive("Ball mass", self.mass, unit="kg")
+        radius = _check.positive("Ball radius", self.radius, unit="m")
+        _check.common_shape("Ball", mass=mass, radius=radius)
+        _check.store(self, mass=mass, radius=radius)
+
+    @property
+    def inertia(self) -> Array:
+        """Moment of inertia I (kg m²) about an axis through the centre."""
+        return (2 / 3 if self.hollow else 2 / 5) * self.mass * self.radius**2
+
+    @property
+    def tangential_mass(self) -> Array:
+        """Effective mass m_t (kg) at the contact point along the surface, 1/m_t = 1/m + R²/I."""
+        return 1 / (1 / self.mass + self.radius**2 / self.inertia)
+
+    def contact_speed(self, tangential_speed: ArrayLike, spin: ArrayLike) -> Array:
+        """Speed W (m/s) of the contact point, from that of the centre (m/s) and a spin (rad/s)."""
+        speed = _check.finite_array("tangential_speed", tangential_speed, unit="m/s")
+        return (speed + self.radius * _check.finite_array("spin", spin, unit="rad/s"))[()]
+
+    def rebound(
+        self, hit: ObliqueImpact, tangential_speed: ArrayLike, spin: ArrayLike = 0.0
+    ) -> "tuple[Array, Array]":
+        """Tangential speed of the centre (m/s) and spin (rad/s) after an impact, from those before.
+
+        The same impulse m_t ΔW changes both: m ΔV = m_t ΔW, I ΔΩ = R m_t ΔW.
+
+        Examples
+        --------
+        >>> from mdr_core import FlatPunch, Medium, oblique_impact
+        >>> ball = Ball(mass=1.0, radius=1.0)
+        >>> hit = oblique_impact(FlatPunch(1.0), Medium(1.0), 1.0, 1.0, 3.5, 0.5, tangential_mass=2 / 7)
+        >>> speed, spin = ball.rebound(hit, 3.5)
+        >>> print(round(speed, 6), round(spin, 6))  # it rolls at 5/7 of its speed
+        2.5 -2.5
+        """
+        impulse = hit.tangential_mass * hit.velocity_change
+        speed = _check.finite_array("tangential_speed", tangential_speed, unit="m/s") + impulse / self.mass
+        spin = _check.finite_array("spin", spin, unit="rad/s") + self.radius * impulse / self.inertia
+        return speed[()], spin[()]

@@ -1,0 +1,254 @@
+"""Oblique impact of a free rigid body, on a medium with friction."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from .. import _check
+from .._check import Array, ArrayLike
+from ..contact.yielding import yield_rule
+from ..impacts.impact import impact, quantity_of
+from ..impacts.result import Impact
+from ..medium import Medium, check_pair, refuse_adhesion, refuse_other_classes, shape_with
+from ..profiles.profile import Profile
+from ..results.base import Entries, Model, Result
+from ..results.limits import Limit, friction_limits, stick_limits
+from .oblique_motion import ObliqueMotion, oblique_motion
+from .tangential_motion import EXACT, SurfaceSolution, solve_surface
+
+FRICTION = Model(
+    "chain with friction",
+    "the normal motion does not feel the tangential one and is solved on its own; along the surface every "
+    "element sticks or slips for itself",
+)
+
+
+@_check.keywords_explained
+def oblique_impact(
+    profile: Profile,
+    medium: Medium,
+    mass: ArrayLike,
+    speed: ArrayLike,
+    tangential_speed: ArrayLike,
+    friction: ArrayLike,
+    *,
+    tangential_mass: ArrayLike | None = None,
+    tolerance: float = 1e-5,
+) -> "ObliqueImpact":
+    """Let a body hit the medium with a speed along the surface as well, under Coulomb's friction.
+
+    Every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν) times as stiff and as
+    viscous (Mindlin; outlook of Popov 2015). It sticks while its load is at most μ times the normal load of
+    spring and dashpot, and slips otherwise. Yield limits the normal springs only.
+
+    Parameters
+    ----------
+    profile, medium
+        The indenter, and the medium; its `poisson` is ν.
+    mass, speed : float or array_like
+        Mass m (kg) and normal speed v₀ (m/s) at first contact, positive.
+    tangential_speed : float or array_like
+        Speed W₀ (m/s) of the contact point along the surface, of any sign: see `at_angle`, and for bodies
+        that spin `Ball.contact_speed`.
+    friction : float or array_like
+        Coefficient of friction μ, the same for stick and slip; 0 and infinity are allowed.
+    tangential_mass : float or array_like, optional
+        Effective mass m_t (kg) at the contact point along the surface, 1/m_t = 1/m + R²/I, as by
+        `Ball.tangential_mass`; by default m, that of a body that cannot turn.
+    tolerance : float, optional
+        Error allowed in the tangential velocity relative to the tangential speed and in the largest force
+        relative to itself; on a viscous medium in works, too, relative to themselves (or to a hundredth of
+        the tangential energy, where work is less). Where it is not met, `limits` say so.
+
+    Returns
+    -------
+    ObliqueImpact
+        Quantities of the shape to which all arguments broadcast, with estimates of their `errors`.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or the indenter would go deeper than its profile is known.
+
+    Examples
+    --------
+    A ball that slips throughout, Maw, Barber & Fawcett (1976): with ψ = κW/(μv) and χ = κm/(2m_t),
+    ψ₂ = ψ₁ − 4χ, here ψ₁ = 4 and χ = 7/6.
+
+    >>> from mdr_core import Ball, Medium, Paraboloid
+    >>> ball, medium = Ball(mass=1e-3, radius=5e-3), Medium(E_star=1e9)
+    >>> mass = ball.tangential_mass
+    >>> hit = oblique_impact(Paraboloid(5e-3), medium, 1e-3, 1.0, 3.0, 0.5, tangential_mass=mass)
+    >>> print(round(hit.tangential_velocity * (2 / 3) / 0.5, 9))
+    -0.666666667
+    """
+    check_pair(profile, medium)
+    refuse_adhesion(medium, "an oblique impact")
+    instead = "set hardness = 0 and f_c = 0, or take impact() for the normal motion"
+    refuse_other_classes(medium, "an oblique impact", instead)
+    mass = _check.positive("mass", mass, unit="kg")
+    speed = _check.positive("speed", speed, unit="m/s")
+    tangential_mass = mass if tangential_mass is None else tangential_mass
+    signed = _check.finite_array("tangential_speed", tangential_speed, unit="m/s", most=_check.LARGEST)
+    tiny = (signed != 0) & (np.abs(signed) < _check.SMALLEST)
+    bound = f"must be 0 or at least {_check.SMALLEST:g}"
+    surface = {
+        "tangential_speed": _check.refuse("tangential_speed", signed, tiny, bound, unit="m/s"),
+        "friction": _check.positive("friction", friction, infinite=True, zero=True),
+        "tangential_mass": _check.positive("tangential_mass", tangential_mass, unit="kg"),
+    }
+    tolerance = _check.positive_number("tolerance", tolerance)
+    shape = shape_with("oblique_impact", profile, medium, mass=mass, speed=speed, **surface)
+    surface = {name: _check.frozen(np.broadcast_to(value, shape)) for name, value in surface.items()}
+    hit = impact(profile, medium, np.broadcast_to(mass, shape)[()], np.broadcast_to(speed, shape)[()])
+    return ObliqueImpact(normal=hit, **surface, _surface=solve_surface(hit, tolerance, **surface))
+
+
+class ObliqueErrors(NamedTuple):
+    """Estimated relative errors of an `ObliqueImpact`.
+
+    Those of coefficients of restitution are relative to 1, of the velocity to W₀, of the friction work to
+    ½ m_t W₀², of the viscous work to the whole kinetic energy; all others to the quantity.
+    """
+
+    restitution: Array
+    tangential_velocity: Array
+    tangential_restitution: Array
+    max_tangential_force: Array
+    contact_time: Array
+    friction_work: Array
+    plastic_work: Array
+    viscous_work: Array
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ObliqueImpact(Entries, Result):
+    """Oblique impacts, one or many; made by `oblique_impact`. `result[i]` picks one of many.
+
+    `normal` is the `Impact` along the normal, with all of its quantities.
+    """
+
+    normal: Impact
+    #: Speed W₀ (m/s) of the contact point along the surface before; friction coefficient μ; mass m_t (kg).
+    tangential_speed: Array
+    friction: Array
+    tangential_mass: Array
+    _surface: SurfaceSolution
+    #: How the tangential motion was solved.
+    model: ClassVar[Model] = FRICTION
+    _quantities = (
+        "mass", "speed", "tangential_speed", "friction", "tangential_mass", "restitution",
+        "tangential_velocity", "tangential_restitution", "rebound_angle", "max_depth", "max_force",
+        "max_tangential_force", "contact_time", "friction_work", "plastic_work", "viscous_work",
+    )  # fmt: skip
+    _shown = (
+        "speed", "tangential_speed", "restitution", "tangential_velocity", "max_tangential_force",
+        "friction_work", "plastic_work", "viscous_work",
+    )  # fmt: skip
+    _dimensions = ("impact",)
+
+    mass = quantity_of("normal.mass", "Mass m (kg).")
+    speed = quantity_of("normal.speed", "Normal speed v₀ (m/s) before.")
+    restitution = quantity_of("normal.restitution", "Normal coefficient of restitution e.")
+    contact_time = quantity_of("normal.contact_time", "Time (s) from first contact to the loss of contact.")
+    max_depth = quantity_of("normal.max_depth", "Largest depth (m).")
+    max_force = quantity_of("normal.max_force", "Largest normal force (N).")
+    plastic_work = quantity_of("normal.plastic_work", "Energy (J) dissipated by yielding.")
+    max_tangential_force = quantity_of("_surface.max_force", "Largest tangential force (N), without sign.")
+    friction_work = quantity_of("_surface.friction_work", "Energy (J) dissipated by slip.")
+
+    @property
+    def profile(self) -> Profile:
+        """The indenter."""
+        return self.normal.profile
+
+    @property
+    def medium(self) -> Medium:
+        """The medium."""
+        return self.normal.medium
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """Where the model's assumptions end, as data: those of the normal impact, and those of friction.
+
+        Where elements stick, "tolerance" is whether it is met, and "depth" and "mass" are how far errors of
+        the tangential motion have been measured.
+        """
+        limits = (x for x in self.normal.limits if x.concerns == "result")
+        return (*limits, *friction_limits(self.medium), *self._stick_limits())
+
+    def _stick_limits(self):
+        sticks, surface = ~np.asarray(self.slips_throughout), self._surface
+        if not sticks.any():
+            return ()
+        error = np.maximum(surface.change_error, surface.force_error)
+        onset = yield_rule(self.profile, self.medium).onset()
+        values = error, surface.tolerance, self.max_depth / onset
+        values = (*values, self.mass / self.tangential_mass)
+        return stick_limits(*(float(np.max(np.broadcast_to(x, self.shape)[sticks])) for x in values))
+
+    @property
+    def slips_throughout(self) -> Any:
+        """Whether all elements slip during the whole contact: then the velocity has a closed form."""
+        return self._surface.slips_throughout
+
+    @property
+    def velocity_change(self) -> Array:
+        """Change ΔW (m/s) of the contact point's velocity along the surface."""
+        return (self._surface.relative_change * self.tangential_speed)[()]
+
+    @property
+    def tangential_velocity(self) -> Array:
+        """Velocity W′ (m/s) of the contact point along the surface after, with its sign."""
+        return (self.tangential_speed + self.velocity_change)[()]
+
+    @property
+    def tangential_restitution(self) -> Array:
+        """Tangential restitution e_t = −W′/W₀: −1 without friction; for W₀ = 0 that of slow impacts."""
+        return (-1 - self._surface.relative_change)[()]
+
+    @property
+    def rebound_angle(self) -> Array:
+        """Angle (rad) from the normal at which the contact point leaves, with the sign of its velocity."""
+        return np.arctan2(self.tangential_velocity, self.normal.rebound_speed)[()]
+
+    @property
+    def viscous_work(self) -> Array:
+        """Energy (J) dissipated by all dashpots, normal and tangential, during the contact and after it."""
+        return (self.normal.viscous_work + self._surface.viscous_work)[()]
+
+    @property
+    def errors(self) -> ObliqueErrors:
+        """Estimated relative errors by the name of the quantity, as in `errors.friction_work`."""
+        surface, exact = self._surface, np.full(self.shape, EXACT)[()]
+        energy = self.tangential_mass * self.tangential_speed**2 / 2
+        viscous = surface.viscous_error * energy + EXACT * self.normal.viscous_work
+        return ObliqueErrors(
+            restitution=EXACT * self.restitution,
+            tangential_velocity=surface.change_error,
+            tangential_restitution=surface.change_error,
+            max_tangential_force=surface.force_error,
+            contact_time=exact,
+            friction_work=surface.friction_error,
+            plastic_work=exact,
+            viscous_work=viscous / (energy + self.mass * self.speed**2 / 2),
+        )
+
+    def motion(self, n: int = 200) -> ObliqueMotion:
+        """The motion of one impact at n instants, normal and tangential, with stick and slip.
+
+        Instants are equally spaced before the turning point, and again after it. The elements are those of
+        the finest run.
+
+        Examples
+        --------
+        >>> from mdr_core import Medium, Paraboloid
+        >>> hit = oblique_impact(Paraboloid(1.0), Medium(1.0), 1.0, 0.01, 0.01, 0.3, tangential_mass=2 / 7)
+        >>> motion = hit.motion(50)
+        >>> print(motion.stick_radius[0] == 0, (motion.stick_radius > 0).any())
+        True True
+        """
+        self._one("motion")
+        return oblique_motion(self, self.normal.motion(n), max(int(self._surface.halvings), 3))

@@ -1,0 +1,237 @@
+"""Friction along the surface of a viscous medium under a given normal motion, element by element.
+
+Every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν) times as stiff (Mindlin).
+Per κE* its load is Q = s + τṡ, and the normal load allows |Q| ≤ B = (μ/κ)(ℓ − (g − p)₊), with the live
+depth ℓ and the plastic depth p:
+
+    stick    ṡ = W      |Q| ≤ B             slip    Q = ±B, s follows         released    Q = 0, s relaxes
+    the body            m_t Ẇ = −2κE* ∫Q dx
+
+1. The edges of the elements are the contact radii at levels of depth, and the steps of time lie between the
+   instants at which loading and unloading pass these: an element is covered or released within one step.
+2. The depth of an element is its mean ḡ = ∫g dx/Δx: the normal force is then exact at every level.
+3. Over a step Q is linear in time, and s is then exact. The momentum balance is piecewise linear.
+4. Work is the mean load times the displacement, friction work the mean load times the slip: the energies
+   sum to a constant for any step. Results converge with the square of the step.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..contact.integrals import integrals
+from ..contact.live_interval import LiveInterval
+from ..contact.yielding import yield_rule
+
+#: κW₀/μ over the normal speed below which everything sticks.
+SLOWEST = 1e-7
+
+
+def bound_ratio(hit, speed, friction):
+    """(μ/κ)/W₀ (s/m) at a tangential speed: the ratio of B to the normal load, for a speed of 1.
+
+    A body without speed has the largest ratio, at which everything sticks.
+    """
+    largest = 1 / (SLOWEST * float(hit.speed))
+    return min(friction / float(hit.medium.tangential_ratio) / abs(speed), largest) if speed else largest
+
+
+class SurfaceElements(NamedTuple):
+    """Elements between levels: outer edges, widths, mean depths (m), delays (shares of the first step)."""
+
+    edge: np.ndarray
+    width: np.ndarray
+    mean_depth: np.ndarray
+    delay: np.ndarray
+
+    @classmethod
+    def of(cls, profile, depth):
+        """Elements with their edges at the contact radii of levels of depth (m)."""
+        edge = np.maximum.accumulate(profile._radius(depth))
+        width, rise = np.diff(edge), np.diff(depth)
+        area = integrals(profile).radius_integral(LiveInterval(depth[:-1], depth[1:], rise))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            delay = np.where(width > 0, (edge[1:] - area / rise) / width, 0.5).clip(0.0, 1.0)
+        mean_depth = np.append(0.0, depth[:-1] + delay * rise)
+        # There are no elements behind a wall.
+        count = 1 + int(np.max(np.flatnonzero(width), initial=-1) + 1)
+        width, delay = np.append(edge[0], width), np.append(0.0, delay)
+        return cls(edge[:count], width[:count], mean_depth[:count], delay[:count])
+
+
+def _partly_yielded(profile, elements, levels, plastic_depth):
+    """The element in which the plastic zone ends, at each level: its number, its mean (g − p)₊ (m)."""
+    number = np.searchsorted(levels.depth, plastic_depth, side="right")
+    top = np.maximum(levels.depth[np.minimum(number, levels.depth.size - 1)], plastic_depth)
+    area = integrals(profile).radius_integral(LiveInterval(plastic_depth, top, top - plastic_depth))
+    number = np.minimum(number, elements.width.size - 1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        mean = (profile._radius(top) * (top - plastic_depth) - area) / elements.width[number]
+    return number, np.where(np.isfinite(mean), np.maximum(mean, 0.0), 0.0)
+
+
+class RunQuantities(NamedTuple):
+    """Results of a run in its units: change of the velocity, largest force, friction and viscous work."""
+
+    change: float
+    force: float
+    friction: float
+    viscous: float
+
+
+def _largest(time, values):
+    """Largest value, from the parabola through three instants."""
+    i = int(np.argmax(values))
+    if not 1 < i < values.size - 2 or np.any(np.diff(time[i - 2 : i + 3]) <= 0):
+        return values[i]
+    slope = np.diff(values[i - 2 : i + 3]) / np.diff(time[i - 2 : i + 3])
+    bend = np.diff(slope) / (time[i : i + 3] - time[i - 2 : i + 1])
+    early, late = time[i] - time[i - 1], time[i + 1] - time[i]
+    top = (slope[1] * late + slope[2] * early) / (early + late)
+    # At a kink the parabola means nothing.
+    kink = abs(bend[1]) > 3 * max(abs(bend[0]), abs(bend[2]))
+    return values[i] if kink or bend[1] >= 0 else values[i] - top**2 / (4 * bend[1])
+
+
+def slide(hit, levels, inertia, ratio, instants=()):
+    """One `FrictionRun` of a body of speed 1: C = `inertia` (1/(m s²)), B = `ratio` × normal load."""
+    tau = float(hit.medium.relaxation_time)
+    interval, _ = yield_rule(hit.profile, hit.medium).loading(levels.depth)
+    elements = SurfaceElements.of(hit.profile, levels.depth)
+    plastic_depth = interval.lower
+    load = interval.length + tau * levels.velocity
+    number, partial = _partly_yielded(hit.profile, elements, levels, plastic_depth)
+    time = np.append(levels.loading_time, levels.unloading_time[1:])
+    run = FrictionRun(elements, inertia, tau, time, instants)
+    total = elements.width.size
+    for i in range(levels.depth.size):
+        count, old = min(i + 1, total), min(i, total)
+        rise = np.maximum(elements.mean_depth[:count] - plastic_depth[i], 0.0)
+        if plastic_depth[i] > 0 and number[i] < count:
+            rise[number[i]] = partial[i]
+        # An element covered at a speed begins with the load of its dashpot.
+        run.cover(old, count, ratio * tau * levels.velocity[max(i - 1, 0)])
+        run.step(i, np.maximum(ratio * (load[i] - rise), 0.0), slice(old, count))
+    rise = np.maximum(elements.mean_depth - hit.plastic_depth, 0.0)
+    for k in range(1, levels.live_depth.size):
+        count = min(levels.depth.size - k, total)
+        bound = np.zeros(run.count)
+        bound[:count] = np.maximum(ratio * (levels.live_depth[k] - rise[:count]), 0.0)
+        run.step(levels.depth.size - 1 + k, bound, slice(count, run.count))
+        run.release(count)
+    return run
+
+
+def stick_instants(hit, run, ratio):
+    """Instants (s) at which all elements that slip begin to stick, as they do together.
+
+    Slip ends where the velocity equals the rate of the bound, W = ±(μ/κ) v, or W = 0 while yielding.
+    """
+    time, velocity, instants = run.time, hit._dense_motion.at(run.time).velocity, []
+    for excess in (run.velocities - ratio * velocity, run.velocities + ratio * velocity, run.velocities):
+        i = np.flatnonzero(excess[:-1] * excess[1:] < 0)
+        instants.append(time[i] + (time[i + 1] - time[i]) * excess[i] / (excess[i] - excess[i + 1]))
+    return np.concatenate(instants)
+
+
+class FrictionRun:
+    """One run in units of the initial tangential speed: the elements during it, and its records.
+
+    Each element in contact has a load Q and a displacement s (s). Records at every time (s) are velocity,
+    force over 2κE* (m s), stored, viscous and friction energy over 2κE* (m s²); `element_states` are
+    loads of elements, and whether they stick, by the numbers of the requested `instants`.
+    """
+
+    def __init__(self, elements, inertia, tau, time, instants):
+        self.elements, self.inertia, self.tau, self.time = elements, inertia, tau, time
+        self.load, self.s, self.bound = np.zeros((3, elements.width.size))
+        self.count, self.velocity, self.rate, self.stored, self.released = 0, 1.0, 0.0, 0.0, 0.0
+        self.velocities, self.forces, self.energies, self.viscous, self.friction = np.zeros((5, time.size))
+        middle = (time[1:] + time[:-1]) / 2
+        self.instants, self.element_states = np.searchsorted(middle, instants).tolist(), {}
+
+    @property
+    def quantities(self):
+        """The `RunQuantities`, after all elements have relaxed."""
+        change, force = self.velocities[-1] - 1.0, _largest(self.time, np.abs(self.forces))
+        return RunQuantities(change, force, self.friction[-1], self.viscous[-1] + self.energies[-1])
+
+    def cover(self, old, count, bound):
+        """Covers elements at a speed at which they carry at most `bound`."""
+        self.count = count
+        self.load[old:count] = np.clip(self.tau * self.velocity, -bound, bound)
+        self.bound[old:count] = bound
+
+    def step(self, i, bound, changing):
+        """A step to the instant i, with bounds there; `changing` elements are covered or released."""
+        h = self.time[i] - self.time[i - 1] if i else 0.0
+        n, width = self.count, self.elements.width[: self.count]
+        start_load, s = self.load[:n], self.s[:n]
+        dt = np.full(n, h)
+        dt[changing] *= 1 - self.elements.delay[changing]
+        velocity, trial, slip_share, mean = self._balance(h, dt, width, start_load, s, bound)
+        load = np.minimum(np.maximum(trial, -bound), bound)
+        displacement = dt * ((self.velocity + velocity) / 2)
+        self.rate = (velocity - self.velocity) / h if h else 0.0
+        work, remaining = (width * mean) @ displacement, np.exp(-2 * h / self.tau)
+        end_s, slip_work = self._relaxed(
+            dt, s, displacement, slip_share, start_load, trial, load, velocity - self.velocity
+        )
+        gain, friction = width @ (end_s**2 - s**2) / 2, width @ slip_work
+        viscous = work - friction - gain + (1 - remaining) * self.released
+        self.released *= remaining
+        self.velocity, self.load[:n], self.s[:n], self.bound[:n] = velocity, load, end_s, bound
+        self.stored += gain
+        self.velocities[i], self.forces[i] = velocity, width @ load
+        self.energies[i] = self.stored + self.released
+        if i:
+            self.viscous[i] = self.viscous[i - 1] + viscous
+            self.friction[i] = self.friction[i - 1] + friction
+        if i in self.instants:
+            self.element_states[i] = load, slip_share == 0
+
+    def _balance(self, h, dt, width, start_load, s, bound):
+        """Velocity at the end of a step, loads if all stuck, shares of the step that slip, mean loads.
+
+        Load and bound are linear in time until they meet: a stuck element with some `room` to its bound,
+        which stick would exceed by `excess`, then slips. W₁ − W + C ∫∫Q dx dt = 0 grows with W₁.
+        """
+        weight, reach = self.inertia * width * dt / 2, dt / 2 + self.tau
+        base, known = s + dt * (self.velocity / 2), weight @ start_load - self.velocity
+        stiffness, w, low, high = weight * reach, self.velocity + h * self.rate, -np.inf, np.inf
+        # Without any room the whole step slips, if it does.
+        allowed = self.bound[: bound.size] * (1 + 1e-15) + 1e-290
+        for _ in range(100):
+            trial = base + reach * w
+            sign = np.copysign(1.0, trial)
+            excess, room = np.maximum(np.abs(trial) - bound, 0.0), allowed - sign * start_load
+            slip_share = excess / (room + excess)
+            end_load = trial - sign * excess * slip_share
+            residual = w + known + weight @ end_load
+            low, high = (low, w) if residual > 0 else (w, high)
+            new = w - residual / (1 + stiffness @ (1 - slip_share) ** 2)
+            if abs(new - w) <= 1e-12:
+                break
+            w = new if low < new < high or high - low == np.inf else (low + high) / 2
+        return w, trial, slip_share, (start_load + end_load) / 2
+
+    def _relaxed(self, dt, s, displacement, slip_share, start_load, trial, load, gain):
+        """s after a step, and friction work: stick first, then τṡ + s = Q with a load linear in time."""
+        stuck = 1 - slip_share
+        slip_s, slip_load = s + stuck * displacement, start_load + stuck * (trial - start_load)
+        dt = np.maximum(slip_share * dt, 1e-300)
+        z, rise, mean = dt / self.tau, load - slip_load, (load + slip_load) / 2
+        fade = -np.expm1(-z)
+        # 1 − (1 − e^(−z))/z, without cancellation.
+        late = np.where(z > 1e-3, 1 - fade / z, z / 2 - z * z / 6)
+        end_s = slip_s + fade * (slip_load - slip_s) + late * rise
+        # ∫Qṡ dt by parts, with ∫s dt known; the velocity of the surface is linear in time, too.
+        elastic = load * end_s - slip_load * slip_s - rise * (mean - (end_s - slip_s) / z)
+        slip_work = mean * slip_share * displacement + rise * slip_share * gain * dt / 12 - elastic
+        return end_s, slip_work
+
+    def release(self, count):
+        """Releases the elements from a number on; the energy that they store relaxes."""
+        rows = slice(count, self.count)
+        energy = self.elements.width[rows] @ self.s[rows] ** 2 / 2
+        self.stored, self.released, self.count = self.stored - energy, self.released + energy, count

@@ -1,0 +1,1 @@
+"""Profiles: geometry of indenters."""

@@ -1,0 +1,130 @@
+"""Base class of profiles: height z(r), reduced height g(x), its slope g′(x) and its kinks."""
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+
+from .. import _check
+from .._check import Array, ArrayLike
+from ..numerics.roots import increasing_root
+
+
+class Profile(_check.Parameters, ABC):
+    """Profile of a rigid axisymmetric indenter, with its tip at the origin and its height growing outward.
+
+    Lengths are in m. A profile of your own is a frozen dataclass with the methods
+    `_height`, `_reduced` and `_reduced_slope` for arrays of radii r ≥ 0. Where it has a flat face, a wall,
+    kinks or an end it also gives `face_radius`, `wall`, `kinks`, `known_depth` and `known_radius`.
+    Parameters may be arrays that broadcast with each other, with radii and with depths: an ensemble of
+    indenters for `impact`.
+
+    Examples
+    --------
+    The sum of a cone and a paraboloid, z = s r + r²/(2R). The transform to g (Popov 2015, Eq. (3)) is
+    linear, so that their reduced heights add up:
+
+    >>> from dataclasses import dataclass
+    >>> import numpy as np
+    >>> from mdr_core import Medium, Profile, indent
+    >>> @dataclass(frozen=True)
+    ... class Pencil(Profile):
+    ...     slope: float
+    ...     radius: float
+    ...
+    ...     def _height(self, r):
+    ...         return self.slope * r + r**2 / (2 * self.radius)
+    ...
+    ...     def _reduced(self, x):
+    ...         return np.pi / 2 * self.slope * x + x**2 / self.radius
+    ...
+    ...     def _reduced_slope(self, x):
+    ...         return np.pi / 2 * self.slope + 2 * x / self.radius
+    >>> state = indent(Pencil(0.1, 1e-6), Medium(E_star=1e9, q_c=1.0), 20e-9)
+    >>> print(f"a = {state.contact_radius * 1e9:.3f} nm, F = {state.force * 1e6:.4f} µN")
+    a = 83.227 nm, F = 0.2538 µN
+    """
+
+    #: Radius (m) of a vertical wall, where depth grows at constant contact radius.
+    wall = np.inf
+    #: Radius (m) of a flat face at the tip: the contact radius at depth 0.
+    face_radius = 0.0
+    #: Largest depth and radius (m) for which the profile is known.
+    known_depth = np.inf
+    known_radius = np.inf
+    #: Radius (m) of the body that ends in the tip; the half-space needs a contact that is small against it.
+    body_radius = np.inf
+    #: Depths (m), ascending, at which the edge of the contact passes a kink of g, or reaches the wall.
+    kinks = ()
+    #: Depth (m) at which g changes from one power of x to another, None if it is not known.
+    transition_depth = None
+
+    @abstractmethod
+    def _height(self, r): ...
+
+    @abstractmethod
+    def _reduced(self, x): ...
+
+    @abstractmethod
+    def _reduced_slope(self, x): ...
+
+    def height(self, r: ArrayLike) -> Array:
+        """Height z(r) (m) above the tip at radii r (m); even in r."""
+        return self._of_radius("radius r", r, self._height)
+
+    def reduced(self, x: ArrayLike) -> Array:
+        """Height g(x) (m) of the equivalent 1D profile, Popov (2015), Eq. (3); even in x."""
+        return self._of_radius("coordinate x", x, self._reduced)
+
+    def reduced_slope(self, x: ArrayLike) -> Array:
+        """Slope g′(x) (dimensionless) of the equivalent 1D profile; on a kink, that of its outer side.
+
+        Odd in x; infinite at the sharp edge of a flat face, and at the radius of a wall and outside.
+        """
+        sign = np.where(_check.finite_array("coordinate x", x, unit="m") < 0, -1.0, 1.0)
+        slope = self._of_radius("coordinate x", x, self._reduced_slope)
+        return (sign * np.where(np.abs(x) >= self.wall, np.inf, slope))[()]
+
+    def contact_radius(self, depth: ArrayLike) -> Array:
+        """Contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
+        depth = self._places("depth", depth, most=_check.LONGEST)
+        _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
+        depth = self._known(depth)
+        with np.errstate(all="ignore"):
+            radius = self._radius(depth)
+        _check.refuse("depth", depth, np.isinf(radius), "has a contact beyond double precision", unit="m")
+        return radius[()]
+
+    def _radius(self, depth):
+        """Contact radius (m) at depths (m) from 0 to the known depth."""
+
+        root = increasing_root(
+            lambda x: (self._reduced(x), self._reduced_slope(x)), depth, 1.0, self.known_radius
+        )
+        return np.maximum(root, self.face_radius)
+
+    def _of_radius(self, quantity, r, function):
+        """`function` at checked radii |r| (m)."""
+        r = np.abs(self._places(quantity, r))
+        known = np.min(self.known_radius, initial=np.inf)
+        bound = f"is beyond the radius up to which the shape is known, {known:g} m"
+        _check.refuse(quantity, r, r > self.known_radius, bound, unit="m")
+        with np.errstate(all="ignore"):
+            return function(r)[()]
+
+    def _places(self, quantity, values, most=_check.FARTHEST):
+        """Radii or depths (m), checked and broadcast to the ensemble."""
+        values = _check.finite_array(quantity, values, unit="m", most=most)
+        given = {quantity: values, "indenters": np.empty(self.shape)}
+        return np.broadcast_to(values, _check.common_shape(type(self).__name__, **given))
+
+    def _known(self, depth):
+        """`depth` (m), if the profile is known to it."""
+        if np.all(self.known_depth == np.inf):
+            return depth
+        too_deep = depth > self.known_depth
+        bound = f"is {self._too_deep()}"
+        return _check.refuse("depth", depth, too_deep, bound, unit="m", remedy="press less deep")
+
+    def _too_deep(self):
+        """Text for a refusal of depths below `known_depth`."""
+        return f"deeper than the shape is known, {np.min(self.known_depth, initial=_check.LONGEST):g} m"

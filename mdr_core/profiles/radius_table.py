@@ -1,0 +1,206 @@
+"""The contact radius of a profile and its integrals over the depth, as piecewise polynomials.
+
+Ensembles of impacts need a(s), ∫ a ds and ∫∫ a ds ds. For profiles with one length and one depth of their
+own (`OneLength`) these are functions of one variable, tabulated once for the class; `Tabulated` has the
+table of one profile.
+"""
+
+from dataclasses import dataclass, fields
+from functools import cached_property, lru_cache, partial
+
+import numpy as np
+import scipy
+
+from .. import _check
+from ..numerics.roots import increasing_root
+from .profile import Profile
+
+#: Chebyshev points on [0, 1] in which a(s) is interpolated, and the matrix that takes values there to the
+#: last two Chebyshev coefficients.
+_COUNT = 10
+_NODE = (1 + np.cos(np.pi * (np.arange(_COUNT) + 0.5) / _COUNT)) / 2
+_TO_LAST = np.linalg.inv(np.polynomial.chebyshev.chebvander(2 * _NODE - 1, _COUNT - 1))[-2:]
+
+
+class RadiusTable:
+    """Contact radius a(s) (m) of one profile, ∫ a ds (m²) and ∫∫ a ds ds (m³) from depth 0 on.
+
+    Panels between the edges are halved until a polynomial of degree 9 is a(s) to rounding. From depth 0 to
+    the first edge a(s) is the radius of the face plus a power of s, for which the panel has a parabola with
+    the same integrals.
+
+    `radius` is a(s) (m) at arrays of depths (m); `edges` are depths (m), ascending: the first and the last
+    one of the table, and all kinks between them. Powers of depths over `unit` (m) must stay within double
+    precision.
+    """
+
+    def __init__(self, radius, edges, unit=1.0):
+        edges = np.asarray(edges) / unit
+        self.unit, (self.start, self.end), self._function = unit, edges[[0, -1]], radius
+        low, powers = _panels(lambda depth: radius(depth * unit), edges)
+        face, half, a = radius(edges[0] * unit * np.array([0.0, 0.5, 1.0]))
+        p = np.log2((a - face) / (half - face)) if half > face else 1.0
+        first = np.array([1 - 3 / (2 + p), 2 / (2 + p) - 0.5, 0.0]) * 12 / (1 + p) * (a - face)
+        first[2] = face
+        first = np.append(np.zeros(_COUNT - 3), first / edges[0] ** np.array([2, 1, 0]))
+        self._radius = scipy.interpolate.PPoly(
+            np.column_stack([first, powers]), np.concatenate([[0.0], low, edges[-1:]])
+        )
+        # These continue from panel to panel, from 0 at depth 0.
+        self._area = self._radius.antiderivative()
+        self._volume = self._area.antiderivative()
+
+    def covers(self, depth):
+        """Whether depths (m) are in the table: 0, and those from its first edge to its last one."""
+        depth = np.asarray(depth) / self.unit
+        return ((depth >= self.start) | (depth == 0)) & (depth <= self.end)
+
+    def radius(self, depth):
+        """a(s) (m) at any depths (m)."""
+        covered = self.covers(depth)
+        if covered.all():
+            return self.covered_radius(depth)
+        result, depth = np.empty(covered.shape), np.asarray(depth)
+        result[covered] = self.covered_radius(depth[covered])
+        result[~covered] = self._function(depth[~covered])
+        return result
+
+    def covered_radius(self, depth):
+        """a(s) (m) at depths (m) that the table covers."""
+        return self._radius(depth / self.unit)
+
+    def area(self, depth):
+        """∫ a ds (m²) from the tip to depths (m)."""
+        return self._area(depth / self.unit) * self.unit
+
+    def volume(self, depth):
+        """∫∫ a ds ds (m³) from the tip to depths (m)."""
+        return self._volume(depth / self.unit) * self.unit**2
+
+    def depth_of_area(self, area):
+        """Depth (m) at which ∫ a ds has a value (m²), to about 10⁻⁴ of it."""
+        return np.exp(np.interp(np.log(area), *self._inverses[0]))
+
+    def depth_of_volume(self, volume):
+        """Depth (m) at which ∫∫ a ds ds has a value (m³), to about 10⁻⁴ of it."""
+        return np.exp(np.interp(np.log(volume), *self._inverses[1]))
+
+    @cached_property
+    def _inverses(self):
+        """Logarithms of ∫ a ds (m²) and of depths (m), and of ∫∫ a ds ds (m³) and of depths."""
+        edges = self._radius.x[1:] * self.unit
+        depth = np.append(np.linspace(edges[:-1], edges[1:], 4, endpoint=False).T, edges[-1])
+        return [(np.log(integral(depth)), np.log(depth)) for integral in (self.area, self.volume)]
+
+
+def _panels(radius, edges):
+    """Lower edges of panels, ascending, and coefficients of their polynomials, highest power first."""
+    low, high, panels = edges[:-1], edges[1:], []
+    while low.size:
+        width = high - low
+        values = radius(low[:, None] + width[:, None] * _NODE)
+        rough = np.abs(values @ _TO_LAST.T).max(axis=1) > 1e-15 * values.min(axis=1)
+        # Panels that are limited by the rounding of a(s) or of the depth are not halved.
+        below = low - edges[np.searchsorted(edges, low, side="right") - 1]
+        rough &= width > np.maximum(below / 8, 2.0**-44 * high)
+        powers = np.linalg.solve(np.vander(_NODE), values.T) / width ** np.arange(_COUNT)[::-1, None]
+        panels.append((low[~rough], powers.T[~rough]))
+        low, high = low[rough], high[rough]
+        low, high = np.append(low, (low + high) / 2), np.append((low + high) / 2, high)
+    low, powers = (np.concatenate(arrays) for arrays in zip(*panels, strict=True))
+    order = np.argsort(low)
+    return low[order], powers[order].T
+
+
+class OneLength(Profile):
+    """Base class of profiles with one length L and one depth H: z = H Z(r/L), g = H G(x/L).
+
+    A subclass gives `_length` and `_depth` (L and H, m), and Z, G and G′ as functions of arrays u = r/L.
+    The inverse of G comes from a table, made once for the class.
+    """
+
+    _length: float
+    _depth: float
+    #: u at which G starts to grow, 0, or 1 at the edge of a flat face; and the largest u.
+    _edge, _end = 0.0, np.inf
+
+    def __post_init__(self):
+        # A parameter is a slope, or a length.
+        units = {field.name: "" if field.name == "slope" else "m" for field in fields(self)}
+        _check.set_positive(self, **units)
+
+    face_radius = property(lambda self: self._edge * self._length)
+    transition_depth = property(lambda self: self._depth)
+    unit = property(lambda self: (_unit(type(self)), self._length, self._depth))
+    #: The `RadiusTable` of the unit profile.
+    table = property(lambda self: _unit_table(type(self)))
+
+    def _height(self, r):
+        return self._depth * self._Z(r / self._length)
+
+    def _reduced(self, x):
+        return self._depth * self._G(x / self._length)
+
+    def _reduced_slope(self, x):
+        u = x / self._length
+        # Radii outside an edge must stay outside after rounding.
+        u = np.where(x > self._length, np.maximum(u, np.nextafter(1.0, 2.0)), u)
+        return self._depth / self._length * self._G_slope(u)
+
+    def _radius(self, depth):
+        # Rounding must not lead out of the range of u.
+        u = np.minimum(np.maximum(self.table.radius(depth / self._depth), self._edge), self._end)
+        return self._length * u
+
+
+def _unit_radius(kind, depth):
+    """u with G(u) = `depth` of a class of profiles, elementwise."""
+    # The largest depth over the smallest unit of depth, s²R.
+    limit = _check.LONGEST**4
+    u = increasing_root(lambda u: (kind._G(u), kind._G_slope(u)), depth, 1.0, kind._end, largest=limit)
+    return np.maximum(np.where(u < np.inf, u, kind._end), kind._edge)
+
+
+@lru_cache
+def _unit(kind):
+    """The profile of a class with parameters of 1."""
+    return kind(*(1.0 for _ in fields(kind)))
+
+
+@lru_cache
+def _unit_table(kind):
+    """The `RadiusTable` of the unit profile of a class; the kinks of these are at the unit of depth."""
+    edges = np.ldexp(1.0, np.arange(-100, 101))
+    end = min(_unit(kind).known_depth, edges[-1])
+    with np.errstate(all="ignore"):
+        return RadiusTable(partial(_unit_radius, kind), np.append(edges[edges < end], end))
+
+
+@dataclass(frozen=True, eq=False)
+class Tabulated(Profile):
+    """A profile with the contact radius of another one from a table, down to a depth (m)."""
+
+    profile: Profile
+    known_depth: float
+
+    unit = property(lambda self: (self, 1.0, 1.0))
+    kinks = property(lambda self: self.profile.kinks)
+    transition_depth = property(lambda self: self.profile.transition_depth)
+    wall = property(lambda self: self.profile.wall)
+    face_radius = property(lambda self: self.profile.face_radius)
+    known_radius = property(lambda self: self.profile.known_radius)
+    _height = property(lambda self: self.profile._height)
+    _reduced = property(lambda self: self.profile._reduced)
+    _reduced_slope = property(lambda self: self.profile._reduced_slope)
+
+    @cached_property
+    def table(self):
+        kinks = [kink for kink in self.kinks if kink < self.known_depth] + [self.known_depth]
+        edges = np.append(np.ldexp(kinks[0], np.arange(-64, 0)), kinks)
+        with np.errstate(all="ignore"):
+            return RadiusTable(
+                lambda s: self.profile._radius(np.minimum(s, self.known_depth)), edges, self.known_depth
+            )
+
+    def _radius(self, depth):
+        return self.table.radius(depth)

@@ -1,1 +1,0 @@
-"""Indenter shapes: geometry only."""

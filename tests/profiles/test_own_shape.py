@@ -1,0 +1,223 @@
+"""A shape that is not in the library is solved throughout, from z, g, g′ and its kinks alone."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+import mdr_core as mdr
+
+from ..shapes import name
+
+MEDIUM = mdr.Medium(E_star=1e9, q_c=10.0)
+D_C = MEDIUM.critical_depth
+MASS, SPEED = 1e-9, 0.1
+
+
+@dataclass(frozen=True)
+class Told(mdr.Profile):
+    """A shape of the library, of which no more is told than what a shape must tell."""
+
+    known: mdr.Profile
+
+    face_radius = property(lambda self: self.known.face_radius)
+    kinks = property(lambda self: self.known.kinks)
+
+    def _height(self, r):
+        return self.known._height(r)
+
+    def _reduced(self, x):
+        return self.known._reduced(x)
+
+    def _reduced_slope(self, x):
+        # Infinite at a sharp edge.
+        with np.errstate(divide="ignore"):
+            return self.known._reduced_slope(x)
+
+
+@dataclass(frozen=True)
+class Pencil(mdr.Profile):
+    """A cone on top of a paraboloid, z = s r + r²/(2R)."""
+
+    slope: float
+    radius: float
+
+    def _height(self, r):
+        return self.slope * r + r**2 / (2 * self.radius)
+
+    def _reduced(self, x):
+        return np.pi / 2 * self.slope * x + x**2 / self.radius
+
+    def _reduced_slope(self, x):
+        return np.pi / 2 * self.slope + 2 * x / self.radius
+
+
+KNOWN = (
+    mdr.Cone(slope=0.3),
+    mdr.Paraboloid(radius=1e-5),
+    mdr.PowerLaw(coefficient=1e11, exponent=3.0),
+    mdr.PowerLaw(coefficient=2e-4, exponent=0.5),
+    mdr.Hyperboloid(slope=0.3, tip_radius=1e-6),
+    mdr.RoundedCone(tip_radius=1e-6, slope=0.3),
+    mdr.TruncatedCone(flat_radius=1e-6, slope=0.3),
+    mdr.RoundedPunch(flat_radius=1e-6, edge_radius=1e-5),
+)
+
+
+@pytest.mark.parametrize("known", KNOWN, ids=name)
+class TestToldAgain:
+    @pytest.mark.parametrize("path", [(0.3,), (3.0,), (3.0, 2.6), (1e3, 1e3 - 0.4)])
+    def test_indentation(self, known, path):
+        told, exact = (
+            mdr.indent(shape, MEDIUM, np.array(path) * D_C)[-1] for shape in (Told(known), known)
+        )
+        # What is promised for every shape.
+        for quantity in ("contact_radius", "plastic_radius", "force", "stored_energy", "plastic_work"):
+            assert getattr(told, quantity) == pytest.approx(getattr(exact, quantity), rel=1e-12), quantity
+        r = np.array([1e-3, 0.3, 0.9, 0.999]) * exact.contact_radius
+        np.testing.assert_allclose(told.pressure(r), exact.pressure(r), rtol=1e-10)
+        np.testing.assert_allclose(told.surface(r), exact.surface(r), rtol=1e-10)
+        force = mdr.indent_to_force(Told(known), MEDIUM, mdr.indent(known, MEDIUM, 3 * D_C).force)
+        assert force.depth == pytest.approx(3 * D_C, rel=1e-12)
+
+    @pytest.mark.parametrize("share", [0.0, 0.3])
+    def test_impact(self, known, share):
+        dry = mdr.impact(known, MEDIUM, MASS, SPEED)
+        medium = mdr.Medium(MEDIUM.E_star, MEDIUM.q_c, share * dry.contact_time * MEDIUM.E_star / 4)
+        told, exact = (mdr.impact(shape, medium, MASS, SPEED) for shape in (Told(known), known))
+        for quantity in ("max_depth", "restitution", "contact_time", "max_force", "plastic_work"):
+            # 1e-9 is promised of each.
+            assert getattr(told, quantity) == pytest.approx(getattr(exact, quantity), rel=2e-9), quantity
+
+    def test_chain(self, known):
+        half_width = known.contact_radius(3 * D_C)
+        told, exact = (
+            mdr.Foundation(shape, MEDIUM, 200, half_width).advance(3 * D_C)
+            for shape in (Told(known), known)
+        )
+        # The elements stand alike, but for the rounding of where kinks are.
+        assert told.force == pytest.approx(exact.force, rel=1e-12)
+
+
+class TestPencil:
+    shape = Pencil(slope=0.1, radius=1e-6)
+
+    def radius(self, depth):
+        """The root of x²/R + (π/2) s x = d."""
+        half = np.pi / 4 * self.shape.slope * self.shape.radius
+        return depth * self.shape.radius / (half + np.sqrt(half**2 + depth * self.shape.radius))
+
+    @pytest.mark.parametrize("times", [0.3, 1 + 1e-5, 3.0, 100.0])
+    def test_force_and_pressure_by_quadrature(self, times):
+        state = mdr.indent(self.shape, MEDIUM, times * D_C)
+        a, c = (self.radius(d) for d in (state.depth, max(state.depth - D_C, 0.0)))
+        assert state.contact_radius == pytest.approx(a, rel=1e-14)
+        ends = max(state.depth - D_C, 0.0), state.depth
+        # Quad's own accuracy.
+        force = 2 * MEDIUM.E_star * quad(self.radius, *ends, epsabs=0, epsrel=1e-12)[0]
+        assert state.force == pytest.approx(force, rel=1e-11)
+        r = 0.7 * a
+
+        def punches(t):
+            # x = max(r, c) + t² takes out the root at its lower end.
+            x = max(r, c) + t * t
+            return 2 * t * self.shape._reduced_slope(x) / np.sqrt((x - r) * (x + r))
+
+        pressure = (
+            MEDIUM.E_star / np.pi * quad(punches, 0, np.sqrt(a - max(r, c)), epsabs=0, epsrel=1e-12)[0]
+        )
+        assert state.pressure(r) == pytest.approx(pressure, rel=1e-10)
+
+    def test_impact_against_the_chain(self):
+        medium = mdr.Medium(MEDIUM.E_star, MEDIUM.q_c, eta=20.0)
+        hit = mdr.impact(self.shape, medium, MASS, SPEED)
+        chain = mdr.chain_impact(self.shape, medium, MASS, SPEED)
+        assert hit.restitution == pytest.approx(chain.restitution, abs=chain.error)
+        assert hit.max_depth == pytest.approx(chain.max_depth, rel=chain.error)
+        assert 0.1 < hit.restitution < 0.9
+
+
+class Capped(Pencil):
+    """A pencil whose kink is told: where both halves are as deep."""
+
+    kinks = property(lambda self: (2 * self.radius * (np.pi / 2 * self.slope) ** 2,))
+
+
+@pytest.mark.parametrize("eta", [0.0, 3.0])
+@pytest.mark.parametrize("kind", [Pencil, Capped], ids=["smooth", "with a kink"])
+def test_many_at_once(kind, eta):
+    """Arrays of parameters: the impacts of the entries, one by one."""
+    slopes, radii, speeds = np.array([0.1, 0.2, 0.3]), np.array([1e-6, 2e-6, 1e-5]), [0.1, 0.2, 0.05]
+    medium = mdr.Medium(1e9, 10.0, eta)
+    hits = mdr.impact(kind(slopes, radii), medium, MASS, speeds)
+    for i, (slope, radius) in enumerate(zip(slopes, radii, strict=True)):
+        one = mdr.impact(kind(float(slope), float(radius)), medium, MASS, speeds[i])
+        for quantity in ("max_depth", "max_force", "restitution", "contact_time", "plastic_work"):
+            # What is promised of times and viscous impacts, which take steps of their own.
+            assert getattr(hits, quantity)[i] == pytest.approx(getattr(one, quantity), rel=1e-9), quantity
+
+
+def test_a_shape_that_may_change_is_refused():
+    @dataclass
+    class Loose(Pencil.__base__):
+        slope: float
+        _height = _reduced = _reduced_slope = Pencil._height
+
+    for use in (
+        lambda: mdr.indent(Loose(0.1), MEDIUM, 1e-9),
+        lambda: mdr.impact(Loose(0.1), MEDIUM, 1e-9, 0.1),
+        lambda: mdr.chain_impact(Loose(0.1), MEDIUM, 1e-9, 0.1),
+    ):
+        with pytest.raises(TypeError, match=r"Loose must not change .* @dataclass\(frozen=True\)"):
+            use()
+
+
+@dataclass(frozen=True)
+class Polygon(mdr.Profile):
+    """A generator of straight lines between vertices, g = x Σ Δs arccos(b/x) over the vertices b < x."""
+
+    vertices: tuple[tuple[float, float], ...]
+
+    @property
+    def kinks(self):
+        return tuple(self._reduced(self._radii[1:-1]))
+
+    @property
+    def _radii(self):
+        return np.array(self.vertices)[:, 0]
+
+    def _changes(self, x):
+        """Changes of slope at the vertices, and for each of them arccos(b/x) and its tangent."""
+        r, z = np.transpose(self.vertices)
+        change = np.diff(np.diff(z) / np.diff(r), prepend=0.0, append=0.0)
+        change[-1] = 0.0
+        tangent = np.sqrt(np.maximum(np.subtract.outer(x, r), 0.0) * np.add.outer(x, r)) / np.maximum(
+            r, 1e-300
+        )
+        return change, np.arctan(tangent), tangent
+
+    def _height(self, r):
+        return np.interp(r, *np.transpose(self.vertices))
+
+    def _reduced(self, x):
+        change, angle, _ = self._changes(x)
+        return x * (angle @ change)
+
+    def _reduced_slope(self, x):
+        change, angle, tangent = self._changes(x)
+        return (angle + np.where(angle > 0, 1 / tangent, 0.0)) @ change
+
+
+def test_a_polygon_has_a_contact_radius_at_any_depth():
+    """The slope of g is infinite at each of 59 kinks, between which a root must not be lost."""
+    r = np.linspace(0.0, 2e-3, 61)
+    polygon = Polygon(tuple(zip(r.tolist(), (r**2 / 2e-3 + 0.05 * r).tolist(), strict=True)))
+    depth = np.append(10 ** np.random.default_rng(1).uniform(-9, -3.2, 20_000), 3.5575617283436532e-06)
+    radius = polygon.contact_radius(depth)
+    with np.errstate(divide="ignore"):
+        # The rounding of the depth, and of the radius by the slope of g.
+        close = 8 * np.finfo(float).eps * (depth + radius * polygon._reduced_slope(radius))
+    assert np.all(np.abs(polygon._reduced(radius) - depth) <= close)
+    alone = polygon.contact_radius(3.5575617283436532e-06)
+    assert alone == pytest.approx(radius[-1], rel=1e-14)
