@@ -1,28 +1,44 @@
 """The yield cap of the elements: how far their springs are compressed elastically.
 
-Popov (2015), Eqs. (12), (17)–(19). It is the chain's own, and shares no code with the rule of yield that
-the chain bears witness of.
+Popov (2015), Eqs. (12), (17)–(19), with the hardness σ_c(a) at the contact radius a of the largest depth.
+It is the chain's own, and shares no code with the rule of yield that the chain bears witness of.
 """
 
 import numpy as np
 
-from ..medium import refuse_other_classes
+from .. import _check
+from ..numerics.roots import increasing_root
 
 
-def refuse_hardness(medium):
-    """Refuses a medium whose elements have another cap in a larger contact."""
-    instead = "elements of the foundation have one cap; set hardness = 0 and f_c = 0"
-    refuse_other_classes(medium, "a foundation", instead)
+def elastic_limit(profile, medium, largest):
+    """Largest elastic compression u_c = π a σ_c(a)/(2E*) (m) of the elements after a largest depth (m)."""
+    if medium.inverse_to_radius:
+        return medium.critical_depth
+    with np.errstate(divide="ignore"):
+        a = profile.contact_radius(np.maximum(largest, 0.0))
+        line = np.divide(medium.f_c, a) if medium.f_c else 0.0
+        return np.pi / (2 * medium.E_star) * (medium.hardness * a + medium.q_c + line)
 
 
-def elastic_limit(medium):
-    """Largest elastic compression d_c = π q_c/(2E*) (m) of the elements."""
-    return medium.critical_depth
-
-
-def plastic_depth(medium, largest):
+def plastic_depth(profile, medium, largest):
     """Plastic part (m) of the element at the axis after a largest depth (m)."""
-    return np.maximum(largest - elastic_limit(medium), 0.0)
+    return np.maximum(largest - elastic_limit(profile, medium, largest), 0.0)
+
+
+def onset_depth(profile, medium):
+    """Depth (m) at which the first element yields; infinite where none does within the known depth."""
+    if medium.inverse_to_radius:
+        return medium.critical_depth
+
+    def ratio(depth):
+        """Depth over elastic limit, which grows with depth, and about its derivative."""
+        value = depth / elastic_limit(profile, medium, depth)
+        before = depth * (1 - 1e-6)
+        return value, (value - before / elastic_limit(profile, medium, before)) / (1e-6 * depth)
+
+    if ratio(_check.SHORTEST)[0] > 1:
+        return 0.0
+    return float(increasing_root(ratio, 1.0, 1.0, profile.known_depth))
 
 
 def flat_face_load(medium, radius):

@@ -13,7 +13,7 @@ from ..profiles.profile import Profile
 from ..results.base import CHAIN, Result
 from ..results.limits import Limit, contact_limits
 from . import element
-from .cap import elastic_limit, plastic_depth, refuse_hardness
+from .cap import elastic_limit, plastic_depth
 from .element import Elements, Ramp
 from .foundation import Foundation
 from .fronts import force_and_radius
@@ -81,7 +81,6 @@ def indent_in_time(
     """
     check_pair(profile, medium, "a path in time")
     refuse_adhesion(medium, "a path in time")
-    refuse_hardness(medium)
     depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
     time = check_times(time, depth, "depth")
     tolerance = _check.positive_number("tolerance", tolerance)
@@ -98,7 +97,7 @@ def indent_in_time(
     record, errors = refine(run, tolerance, levels, 4)
     return TimedIndentation(
         profile, medium, time, depth,
-        plastic_depth=plastic_depth(medium, np.maximum.accumulate(depth)),
+        plastic_depth=plastic_depth(profile, medium, np.maximum.accumulate(depth)),
         error=float(errors[:4].max()),
         _index=np.arange(depth.size), _path_time=np.array(time), _path_depth=np.array(depth),
         **dict(zip(_RECORD, record.T, strict=True)),
@@ -124,7 +123,7 @@ def _node_radii(profile, medium, depth, time):
         turns = np.sort(turns[np.argsort(-depth[turns])[:_MAX_EDGE_DEPTHS]])
         depth, time = depth[turns], time[turns]
     lag = medium.relaxation_time * np.append(0.0, np.diff(depth) / np.diff(time))
-    level = np.concatenate([depth, depth + np.minimum(lag, 0.0), plastic_depth(medium, depth)])
+    level = np.concatenate([depth, depth + np.minimum(lag, 0.0), plastic_depth(profile, medium, depth)])
     level = np.unique(level[level > 0])
     return profile.contact_radius(level) if level.size else np.empty(0)
 
@@ -201,10 +200,12 @@ class TimedIndentation(Result):
         count = int(np.max(index)) + 1
         travel = np.diff(self._path_depth, prepend=0.0)
         duration = np.append(np.inf, np.diff(self._path_time))
-        ramps = zip(self._path_depth[:count], travel, duration, strict=False)
+        largest = np.maximum.accumulate(np.maximum(self._path_depth, 0.0))
+        limits = elastic_limit(self.profile, medium, largest) + 0 * largest
+        ramps = zip(self._path_depth[:count], travel, duration, limits, strict=False)
         load, elastic = np.empty((2, count, x.size))
-        for i, piece in enumerate(ramps):
-            ramp = Ramp(*piece, medium.relaxation_time, elastic_limit(medium))
+        for i, (depth, *piece, limit) in enumerate(ramps):
+            ramp = Ramp(depth, *piece, medium.relaxation_time, limit)
             elements, _ = element.advance(elements, ramp)
             elastic[i] = elements.elastic
             load[i] = np.where(elements.contact, medium.E_star * (elastic[i] + ramp.lag), 0.0)

@@ -2,7 +2,7 @@
 
 The element at x is compressed by u = d − g(x) while it is in contact with the indenter:
 
-    u_p ← max(u_p, u − d_c),   u_e = u − u_p,   q = E* u_e + 4η ḋ   (Popov 2015, Eqs. (1), (11)-(18)).
+    u_p ← max(u_p, u − u_c),   u_e = u − u_p,   q = E* u_e + 4η ḋ   (Popov 2015, Eqs. (1), (11)-(18)).
 
 It is released where q reaches zero, at u_e = −τḋ, and relaxes as u_e ∝ exp(−t/τ). Contact returns where
 the indenter reaches the surface of the relaxing element. Along a ramp of constant ḋ each of these events is
@@ -43,9 +43,10 @@ class Elements:
 
 @dataclass(frozen=True)
 class Ramp:
-    """A straight piece of a path of depth in time, and the medium's τ (s) and elastic limit d_c (m).
+    """A straight piece of a path of depth in time; the medium's τ (s), its elastic limit u_c (m) there.
 
     `travel` (m) ends at `depth` (m): a difference of depths may cancel. The `duration` (s) may be infinite.
+    `yield_travel` is the depth over the plastic depth gained while elements yield, 1 for a constant limit.
     """
 
     depth: float
@@ -53,6 +54,7 @@ class Ramp:
     duration: float
     tau: float
     elastic_limit: float
+    yield_travel: float = 1.0
 
     @property
     def lag(self):
@@ -71,7 +73,8 @@ class Exchange:
 
     In contact, `stroke` is the change of compression (m), `mean` the mean elastic part (m) over it,
     `duration` the time (s), and `spring_share` the fraction of the stroke before the yield cap; without
-    contact stroke and duration are 0. `relaxed` is the energy (m²) dissipated out of contact.
+    contact stroke and duration are 0. `relaxed` is the energy (m²) dissipated out of contact, and `plastic`
+    that by yielding.
     """
 
     ramp: Ramp
@@ -80,6 +83,7 @@ class Exchange:
     duration: np.ndarray
     spring_share: np.ndarray | float
     relaxed: np.ndarray
+    plastic: np.ndarray
 
     @property
     def impulse(self):
@@ -125,13 +129,15 @@ def _press(elements, ramp, penetration):
     first = np.where(contact, first, elastic)
     stroke = np.where(contact, penetration - first, 0.0)
     excess = np.maximum(penetration - ramp.elastic_limit, 0.0)
-    # The elastic part is constant along the stroke at the yield cap.
-    spring_share = 1 - excess / np.maximum(stroke, 1e-300)
-    mean = elastic - spring_share * ((elastic - first) / 2)
+    # Along the stroke at the yield cap the elastic part goes linearly from `capped` to its end.
+    spring_share = 1 - ramp.yield_travel * excess / np.maximum(stroke, 1e-300)
+    capped = elastic + excess * (1 - ramp.yield_travel)
+    mean = (elastic + capped) / 2 - spring_share * ((elastic - first) / 2)
     penetration = np.where(contact, elastic, penetration)
     plastic = elements.plastic + excess
     new = replace(elements, penetration=penetration, elastic=elastic, plastic=plastic, contact=contact)
-    return new, Exchange(ramp, stroke, mean, duration, spring_share, _released_energy(initial, first))
+    relaxed, work = _released_energy(initial, first), excess * (elastic + capped) / 2
+    return new, Exchange(ramp, stroke, mean, duration, spring_share, relaxed, work)
 
 
 def _pressed_contact(elements, ramp, penetration, touching):
@@ -184,7 +190,7 @@ def _withdraw(elements, ramp, penetration):
         duration = np.where(held, ramp.duration, stroke / ramp.travel * ramp.duration)
     new = replace(elements, penetration=penetration, elastic=elastic, contact=contact)
     energy = _released_energy(initial, first) + _released_energy(last, elastic)
-    return new, Exchange(ramp, stroke, mean, duration, 1.0, energy)
+    return new, Exchange(ramp, stroke, mean, duration, 1.0, energy, np.zeros_like(first))
 
 
 def _withdrawn_contact(elements, ramp, penetration, candidates):

@@ -8,10 +8,10 @@ import scipy
 
 from .. import _check
 from .._check import ArrayLike
-from ..medium import Medium, check_pair, refuse_adhesion
+from ..medium import Medium, check_pair, refuse_adhesion, refuse_other_classes
 from ..numerics.roots import root_in_bracket
 from ..profiles.profile import Profile
-from .cap import elastic_limit, flat_face_load, plastic_depth, refuse_hardness
+from .cap import flat_face_load, plastic_depth
 from .depth_path import TimedIndentation, check_times, follow
 from .foundation import Foundation
 from .fronts import force_and_radius
@@ -70,7 +70,8 @@ def creep(
     """
     check_pair(profile, medium, "a path in time")
     refuse_adhesion(medium, "a path in time")
-    refuse_hardness(medium)
+    instead = "take indent_in_time, or set hardness = 0 and f_c = 0"
+    refuse_other_classes(medium, "a path of force in time", instead)
     force = _check.force("force", force)
     time = check_times(time, force, "force")
     tolerance = _check.positive_number("tolerance", tolerance)
@@ -99,7 +100,7 @@ def creep(
     return TimedIndentation(
         profile, medium, time, depth, force, radius,
         **dict(zip(("stored_energy", "plastic_work", "viscous_work"), energies, strict=True)),
-        plastic_depth=plastic_depth(medium, np.maximum.accumulate(depth)),
+        plastic_depth=plastic_depth(profile, medium, np.maximum.accumulate(depth)),
         error=float(errors[0]), _index=index, _path_time=path_time, _path_depth=path_depth,
     )  # fmt: skip
 
@@ -153,7 +154,7 @@ def _step(foundation, dt, force, guess, bound, close):
     def excess(travel):
         moved = foundation.advance(foundation.depth + travel, dt)
         elements, lag = moved._elements, moved._current.lag
-        spring = (elements.elastic < elastic_limit(medium)) + medium.relaxation_time / dt
+        spring = (elements.elastic < moved._limit) + medium.relaxation_time / dt
         total, radius = force_and_radius(moved)
         stiffness = max(moved._total(elements.contact * spring), 1e-300)
         slope = foundation.profile.reduced_slope(radius)

@@ -12,7 +12,7 @@ from ..medium import Medium, check_pair, refuse_adhesion
 from ..profiles.profile import Profile
 from ..results.quantities import described, engineering
 from . import element
-from .cap import elastic_limit, refuse_hardness
+from .cap import elastic_limit, onset_depth
 from .element import Elements, Ramp
 from .grid import cell_edges
 
@@ -37,10 +37,15 @@ class FoundationState:
     elements: Elements
     #: Depth (m) at which the contact reaches the half-width.
     edge_depth: float
+    #: Depth (m) at which the first element yields.
+    onset: float
     depth: float = 0.0
+    #: Largest depth (m) so far, whose contact radius sets the elastic limit.
+    largest: float = 0.0
     #: τḋ (m) at the present rate of the depth.
     lag: float = 0.0
     viscous_work: float = 0.0
+    plastic_work: float = 0.0
     history: tuple[tuple[float, float], ...] = ()
 
 
@@ -49,8 +54,10 @@ class Foundation:
     """The 1D foundation of Popov (2015), Fig. 1, as a row of independent elements.
 
     Each of the n elements between −half_width and half_width is a spring Δk = E*Δx, which carries at most
-    π q_c/2 per length, in parallel with a dashpot Δγ = 4ηΔx (Eqs. (1), (12)). A foundation is immutable:
-    `advance` returns a new one, exact for a straight ramp of depth. Independent of `indent` and `impact`.
+    π q_c/2 per length, in parallel with a dashpot Δγ = 4ηΔx (Eqs. (1), (12)); with another hardness at most
+    π a σ_c(a)/2, where a is the contact radius at the largest depth. A foundation is immutable: `advance`
+    returns a new one, exact for a straight ramp of depth (plastic work to second order). Independent of
+    `indent` and `impact`.
 
     Parameters
     ----------
@@ -96,7 +103,6 @@ class Foundation:
             return
         check_pair(self.profile, self.medium, "a foundation")
         refuse_adhesion(self.medium, "a foundation")
-        refuse_hardness(self.medium)
         n = element_count(self.n)
         known = self.profile.known_radius
         half_width = _check.positive_number("half_width", self.half_width, unit="m")
@@ -112,7 +118,8 @@ class Foundation:
         # The tolerance admits a half-width equal to the rounded contact radius.
         edge_depth = self.profile.reduced(min(half_width * (1 + 1e-9), known))
         edge_depth = np.inf if half_width >= self.profile.wall else edge_depth
-        current = FoundationState(Elements.virgin(self.profile, x, width), edge_depth)
+        onset = onset_depth(self.profile, self.medium)
+        current = FoundationState(Elements.virgin(self.profile, x, width), edge_depth, onset)
         _check.store(self, n=n, half_width=half_width, nodes=tuple(nodes.tolist()), _current=current)
 
     def __repr__(self) -> str:
@@ -159,13 +166,35 @@ class Foundation:
         depth = _check.number("depth", depth, "m")
         depth = float(_check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
         dt = _check.positive_number("dt", dt, unit="s", infinite=True)
-        ramp = self._ramp(depth - self.depth, dt, depth)
-        return self._after(ramp, *element.advance(self._elements, ramp))
+        moved, travel = self, depth - self.depth
+        for end in self._ends(depth):
+            share = (end - moved.depth) / travel if travel else 1.0
+            ramp = moved._ramp(end - moved.depth, dt * share, end)
+            moved = moved._after(ramp, *element.advance(moved._elements, ramp))
+        current = replace(moved._current, history=(*self.history, (depth, dt)))
+        return replace(moved, _current=current)
+
+    def _ends(self, depth):
+        """Depths (m) of ramps to a depth: one, or where the elastic limit changes many past the onset."""
+        start = max(self._current.largest, self._current.onset)
+        if self.medium.inverse_to_radius or depth <= start:
+            return [depth]
+        # Between the ends of a ramp the plastic depth is taken as linear: an error of second order in 1/n.
+        shares = (np.arange(self.n // 4 + 1) / (self.n // 4)) ** 2
+        ends = start + (depth - start) * shares
+        return [*ends[(ends > self.depth) & (ends < depth)].tolist(), depth]
 
     def _ramp(self, travel, dt, depth=None):
         """`Ramp` from the present depth by a travel (m) in a time (s), to a rounded depth (m) if given."""
-        medium, depth = self.medium, self.depth + travel if depth is None else depth
-        return Ramp(depth, travel, dt, medium.relaxation_time, elastic_limit(medium))
+        profile, medium = self.profile, self.medium
+        depth, before = self.depth + travel if depth is None else depth, self._current.largest
+        limit, ratio = elastic_limit(profile, medium, max(before, depth)), 1.0
+        start = max(before, self._current.onset)
+        if depth > start and not medium.inverse_to_radius:
+            gain = depth - limit - max(start - elastic_limit(profile, medium, start), 0.0)
+            # Less is rounding, next to the onset or to the largest depth.
+            ratio = (depth - start) / gain if gain > 1e-9 * depth else 1.0
+        return Ramp(depth, travel, dt, medium.relaxation_time, limit, ratio)
 
     def _after(self, ramp, elements, exchange, rate=None):
         """Foundation with these elements at the end of a ramp, at the rate (m/s) of the ramp or another."""
@@ -179,9 +208,16 @@ class Foundation:
                 f"depth = {ramp.depth:g} m; give at least that"
             )
         lag = ramp.lag if rate is None else ramp.tau * rate
-        work = self.viscous_work + self._total(exchange.viscous)
-        history = (*self.history, (ramp.depth, ramp.duration))
-        new = FoundationState(elements, edge_depth, float(ramp.depth), lag, work, history)
+        new = replace(
+            self._current,
+            elements=elements,
+            depth=float(ramp.depth),
+            largest=max(self._current.largest, float(ramp.depth)),
+            lag=lag,
+            viscous_work=self.viscous_work + self._total(exchange.viscous),
+            plastic_work=self.plastic_work + self._total(exchange.plastic),
+            history=(*self.history, (ramp.depth, ramp.duration)),
+        )
         return replace(self, _current=new)
 
     def _total(self, values):
@@ -191,6 +227,11 @@ class Foundation:
     @property
     def _elements(self):
         return self._current.elements
+
+    @property
+    def _limit(self):
+        """Largest elastic compression (m) of the elements at present."""
+        return elastic_limit(self.profile, self.medium, self._current.largest)
 
     @property
     def _load(self):
@@ -261,9 +302,8 @@ class Foundation:
 
     @property
     def plastic_work(self) -> float:
-        """Energy Σ (π q_c/2) u_p Δx (J) dissipated by yielding so far."""
-        limit = elastic_limit(self.medium)
-        return self._total(self._elements.plastic) * limit if limit < np.inf else 0.0
+        """Energy Σ ∫ E* u_c du_p Δx (J) dissipated by yielding so far."""
+        return self._current.plastic_work
 
 
 def _mirrored(values):

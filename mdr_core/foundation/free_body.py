@@ -37,7 +37,7 @@ def impact_depth_bound(profile, medium, mass, speed, history):
         depth_bound(profile, medium, "work", momentum * speed / 2, start),
         depth_bound(profile, medium, "momentum", momentum, start),
     )
-    if bound > _MAX_DEPTH_RATIO * elastic_limit(medium):
+    if bound > _MAX_DEPTH_RATIO * elastic_limit(profile, medium, bound):
         raise ValueError(
             f"speed = {speed:g} m/s presses to {bound:g} m, over {_MAX_DEPTH_RATIO:g} critical depths, "
             "where the live depth is lost in rounding; reduce the speed, or use impact"
@@ -48,7 +48,7 @@ def impact_depth_bound(profile, medium, mass, speed, history):
 def foundation_before(profile, medium, history, n, depth):
     """Foundation after earlier moves, with edges at the radii of these and of a depth (m) to come."""
     level = np.array([earlier_depth(history), depth])
-    level = np.append(level, plastic_depth(medium, level))
+    level = np.append(level, plastic_depth(profile, medium, level))
     nodes = profile.contact_radius(level[level > 0]) if n >= 16 else ()
     outer = min((1.02 + 2 / n) * level.max(), profile.known_depth)
     foundation = Foundation(profile, medium, n, profile.contact_radius(outer), nodes=tuple(nodes))
@@ -74,10 +74,11 @@ class ImpactSolver:
         self.mass, self.speed, self.velocity, self.acceleration = mass, speed, speed, 0.0
         self.time, self.records, medium = 0.0, [], foundation.medium
         self.earlier_depth, self.tau = earlier_depth(foundation.history), medium.relaxation_time
-        self.yield_depth = max(self.earlier_depth, elastic_limit(medium))
+        self.yield_depth = max(self.earlier_depth, foundation._current.onset)
         # Velocities are computed to twelve digits of the velocity that damping leaves.
         tau = max(self.tau, bound * 1e-9 / speed)
-        self.precision = 1e-12 * min(speed, min(bound, elastic_limit(medium)) / tau)
+        limit = elastic_limit(foundation.profile, medium, bound)
+        self.precision = 1e-12 * min(speed, min(bound, limit) / tau)
         self._record()
         self._solve()
 
@@ -229,6 +230,6 @@ class ImpactSolver:
         end = max(end, time[-2])
         time[-1], depth[-1] = end, depth[-1] + columns["velocity"][-1] * (end - time[-1])
         largest_depth = np.maximum(np.maximum.accumulate(depth), self.earlier_depth)
-        d_p = plastic_depth(foundation.medium, largest_depth)
+        d_p = plastic_depth(foundation.profile, foundation.medium, largest_depth)
         radius = np.where(d_p > 0, foundation.profile.contact_radius(d_p), 0.0)
         return Motion(**columns, plastic_depth=d_p, plastic_radius=radius)

@@ -7,8 +7,6 @@ is where the gap between indenter and surface closes, extrapolated from the gaps
 
 import numpy as np
 
-from .cap import elastic_limit
-
 
 def force_and_radius(foundation):
     """Force (N) including the fronts, and outer radius (m) of the contact, 0 without contact."""
@@ -52,7 +50,7 @@ def _narrow_ring(foundation, load, last, front):
     elements, x, width = foundation._elements, foundation._elements.x, foundation._elements.width
     yielded = int(np.count_nonzero(elements.plastic)) - 1
     virgin = elements.elastic[last + 1] == 0 == elements.plastic[last + 1]
-    lag, limit = foundation._current.lag, elastic_limit(foundation.medium)
+    lag, limit = foundation._current.lag, foundation._limit
     capped = lag >= 0 and elements.elastic[yielded] == limit
     if not (0 < yielded <= last < yielded + 3 and capped and virgin):
         return None

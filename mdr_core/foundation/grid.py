@@ -59,7 +59,9 @@ def depth_bound(profile, medium, quantity, amount, start=0.0):
     The quantity is "force" (N) or "work" (J) of the springs, ∫F dd = 2E* ∫ (u_e²/2 + d_c u_p) dx, or
     "momentum" (N s) of the dashpots, 8η ∫ a dd = 8η ∫ u dx. At most the known depth.
     """
-    limit = elastic_limit(medium)
+    if quantity == "work" and not medium.inverse_to_radius:
+        return _depth_of_work(profile, medium, amount, start)
+    limit = elastic_limit(profile, medium, start)
 
     def taken_up(depth):
         """The quantity at a depth, and its derivative."""
@@ -81,3 +83,23 @@ def depth_bound(profile, medium, quantity, amount, start=0.0):
     target = amount + (taken_up(start)[0] if start > 0 else 0.0)
     depth = increasing_root(taken_up, target, max(min(limit, known, 1.0), start), known)
     return min(1.05 * float(depth), profile.known_depth)
+
+
+def _depth_of_work(profile, medium, amount, start):
+    """`depth_bound` of a work (J) where the elastic limit changes with depth: a sum of forces."""
+    share = (np.arange(64) + 0.5) / 64
+
+    def work(end):
+        depth = start + (end - start) * share[:, None]
+        radius = profile.contact_radius(depth)
+        u = np.maximum(depth - profile.reduced(share * radius), 0.0)
+        springs = np.minimum(u, elastic_limit(profile, medium, depth))
+        return 2 * medium.E_star * np.mean(springs * radius) * (end - start)
+
+    low, high = start, min(max(2 * start, _check.SHORTEST), profile.known_depth)
+    while work(high) < amount and high < min(profile.known_depth, _check.LONGEST):
+        low, high = high, min(2 * high, profile.known_depth)
+    for _ in range(6):
+        middle = (low + high) / 2
+        low, high = (middle, high) if work(middle) < amount else (low, middle)
+    return min(1.05 * high, profile.known_depth)
