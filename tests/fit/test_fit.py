@@ -317,6 +317,12 @@ class TestHardness:
         with pytest.raises(ValueError, match="nothing has yielded"):
             mdr.fit_hardness(mdr.Cone(0.3), 1.01 * state.mean_pressure, state.contact_radius, E_star=E)
 
+    @pytest.mark.parametrize("radius", [0.9e-6, 2.1e-6])
+    def test_radii_outside_of_a_profile_are_refused(self, radius):
+        tip = mdr.Sampled([0.0, 1e-6, 2e-6], [0.0, 0.0, 1e-6])
+        with pytest.raises(ValueError, match="is not between the flat face"):
+            mdr.fit_hardness(tip, [1e9, 1e9], [1.5e-6, radius], E_star=1e10)
+
 
 @pytest.mark.parametrize(
     ("value", "error", "unit", "text"),
