@@ -33,7 +33,7 @@ _LEAST_CHANGE, _COMMON = 0.005, 1e-10
 
 
 def nested_tests(solved, i):
-    """Remarks on what a tilt, a drag or a drift changes in curve i of `SolvedCurves`."""
+    """Remarks on what a tilt, a drag or a drift changes in curve i of a `Solution`."""
     curves, (_, state) = solved.curves, solved.values_and_states
     contact, noise = state.live_interval.length[i] > 0, solved.noise[i]
     residual, jacobian = (
