@@ -83,7 +83,7 @@ def test_imprints_tell_the_class(hardness, n):
     scatter = 1 + 0.03 * np.random.default_rng(5).standard_normal(12)
     radius = 1e-6 * (energy / 1e-9) ** mdr.ScalingLaw(hardness, n).radius * scatter
     found = mdr.hardness_class(energy, radius, exponent=n)
-    assert found.hardness == hardness
+    assert found.hardness_class == hardness
     assert abs(found.slope - mdr.ScalingLaw(hardness, n).radius) < 4 * found.slope_error
     assert found.slope_error < 0.01
 
@@ -104,5 +104,5 @@ def test_bad_imprints_are_refused(arguments, says):
 
 
 def test_unknown_class_is_refused():
-    with pytest.raises(ValueError, match="hardness class = 'd' must be one of"):
+    with pytest.raises(ValueError, match="hardness_class = 'd' must be one of"):
         mdr.ScalingLaw("d", 1.0)
