@@ -86,7 +86,7 @@ class ScalingLaw:
 class HardnessClass:
     """Class of hardness of measured imprints; made by the function `hardness_class`.
 
-    `hardness_class` is its letter, None where none or several fit, and `reason` the reason in words; `slope`
+    `hardness_class` is its letter, None where none or several fit, `reason` the reason in words; `slope`
     is the measured power with its standard error `slope_error`, infinite for two points; `laws` the
     `ScalingLaw` of each class, where the power is one of the energy.
     """
