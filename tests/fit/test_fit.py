@@ -338,3 +338,14 @@ class TestHardness:
 )
 def test_values_with_errors(value, error, unit, text):
     assert with_error(value, error, unit) == text
+
+
+def test_the_error_of_a_modulus_alone_is_that_of_a_regression():
+    """F = E* k(d) with a known noise σ: the standard error is σ/√Σk²."""
+    depth = np.linspace(0.0, 50e-9, 40)
+    force = mdr.indent(mdr.Cone(0.3), mdr.Medium(1e9), depth).force
+    noise = 0.01 * force[-1]
+    held = {"q_c": np.inf, "contact_point": 0.0, "force_noise": noise}
+    fit = mdr.fit_indentation(mdr.Cone(0.3), depth, force, **held)
+    expected = noise / np.sqrt(np.sum((force / 1e9) ** 2))
+    assert fit.standard_errors["E_star"] == pytest.approx(expected, rel=1e-9)
