@@ -70,7 +70,9 @@ def impacts(
     shape: "Shape",
     *,
     E_star: "Given",
-    q_c: "Given" = np.inf,
+    q_c: "Given | None" = None,
+    hardness: "Given | None" = None,
+    f_c: "Given | None" = None,
     eta: "Given" = 0.0,
     work_of_adhesion: "Given" = 0.0,
     mass: "Given",
@@ -86,9 +88,9 @@ def impacts(
     ----------
     shape : type or Profile
         Class of the indenters, whose parameters follow by name, or a single indenter.
-    E_star, q_c, eta, work_of_adhesion : float or DataArray
-        Effective modulus (Pa), yield constant (N/m), viscosity (Pa·s) and work of adhesion (J/m²) of the
-        `Medium`.
+    E_star, q_c, hardness, f_c, eta, work_of_adhesion : float or DataArray
+        Effective modulus (Pa), the constants of the hardness (N/m, Pa, N), viscosity (Pa·s) and work of
+        adhesion (J/m²) of the `Medium`, with its defaults.
     mass, speed : float or DataArray
         Mass (kg) and speed (m/s) at first contact.
     plastic_depth : float or DataArray
@@ -126,7 +128,8 @@ def impacts(
     >>> dict(table.sizes), table.restitution.round(4).values.tolist()[1]
     ({'radius': 2, 'speed': 3}, [1.0, 0.5426, 0.1184])
     """
-    parameters = {"E_star": E_star, "q_c": q_c, "eta": eta, "work_of_adhesion": work_of_adhesion}
+    parameters = {"E_star": E_star, "eta": eta, "work_of_adhesion": work_of_adhesion}
+    parameters |= _hardness(q_c, hardness, f_c)
     parameters |= {"mass": mass, "speed": speed, "plastic_depth": plastic_depth}
     return _sweep(Impact, _hit, shape, parameters, shape_parameters, quantities, invalid)
 
@@ -135,7 +138,9 @@ def oblique_impacts(
     shape: "Shape",
     *,
     E_star: "Given",
-    q_c: "Given" = np.inf,
+    q_c: "Given | None" = None,
+    hardness: "Given | None" = None,
+    f_c: "Given | None" = None,
     eta: "Given" = 0.0,
     poisson: "Given" = 0.5,
     mass: "Given",
@@ -164,7 +169,8 @@ def oblique_impacts(
     >>> (table.friction_work * 1e9).round(3).values  # nJ; in full slip 2µmv(W − µv)
     array([8.16, 7.16, 0.  ])
     """
-    parameters = {"E_star": E_star, "q_c": q_c, "eta": eta, "poisson": poisson, "mass": mass}
+    parameters = {"E_star": E_star, "eta": eta, "poisson": poisson, "mass": mass}
+    parameters |= _hardness(q_c, hardness, f_c)
     parameters |= {"speed": speed, "tangential_speed": tangential_speed, "friction": friction}
     parameters["tangential_mass"] = mass if tangential_mass is None else tangential_mass
     hit = partial(_hit_at_angle, tolerance=tolerance)
@@ -175,7 +181,9 @@ def indentations(
     shape: "Shape",
     *,
     E_star: "Given",
-    q_c: "Given" = np.inf,
+    q_c: "Given | None" = None,
+    hardness: "Given | None" = None,
+    f_c: "Given | None" = None,
     work_of_adhesion: "Given" = 0.0,
     depth: "Given",
     quantities: str | Iterable[str] = ("force",),
@@ -195,7 +203,8 @@ def indentations(
     >>> print(indentations(Cone, slope=slope, E_star=1e9, depth=1e-6).force.round(6).values)  # N
     [0.006366 0.003183]
     """
-    parameters = {"E_star": E_star, "q_c": q_c, "work_of_adhesion": work_of_adhesion, "depth": depth}
+    parameters = {"E_star": E_star, "work_of_adhesion": work_of_adhesion, "depth": depth}
+    parameters |= _hardness(q_c, hardness, f_c)
     return _sweep(Indentation, _press, shape, parameters, shape_parameters, quantities, invalid)
 
 
@@ -278,17 +287,25 @@ def _in_blocks(solve, shape, values, own, names, refused):
     return tuple(results) if len(names) > 1 else results[0]
 
 
-def _hit(profile, E_star, q_c, eta, work_of_adhesion, mass, speed, plastic_depth):
-    medium = Medium(E_star, q_c, eta, work_of_adhesion=work_of_adhesion)
+def _hardness(q_c, hardness, f_c):
+    """The constants of the hardness that are given; q_c = ∞ without any."""
+    constants = {"q_c": q_c, "hardness": hardness, "f_c": f_c}
+    given = {name: value for name, value in constants.items() if value is not None}
+    return given or {"q_c": np.inf}
+
+
+def _hit(profile, E_star, eta, work_of_adhesion, mass, speed, plastic_depth, **hardness):
+    medium = Medium(E_star, eta=eta, work_of_adhesion=work_of_adhesion, **hardness)
     return impact(profile, medium, mass, speed, plastic_depth=plastic_depth)
 
 
-def _hit_at_angle(profile, E_star, q_c, eta, poisson, **given):
-    return oblique_impact(profile, Medium(E_star, q_c, eta, poisson), **given)
+def _hit_at_angle(profile, E_star, eta, poisson, q_c=None, hardness=None, f_c=None, **given):
+    medium = Medium(E_star, q_c, eta, poisson, hardness=hardness, f_c=f_c)
+    return oblique_impact(profile, medium, **given)
 
 
-def _press(profile, E_star, q_c, work_of_adhesion, depth):
-    medium = Medium(E_star, q_c, work_of_adhesion=work_of_adhesion)
+def _press(profile, E_star, work_of_adhesion, depth, **hardness):
+    medium = Medium(E_star, work_of_adhesion=work_of_adhesion, **hardness)
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LONGEST)
     shape = np.broadcast_shapes(profile.shape, medium.shape, depth.shape)
     depth = profile._known(np.broadcast_to(depth, shape))

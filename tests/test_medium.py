@@ -1,5 +1,6 @@
 """The medium: Popov (2015), Eqs. (1), (2), (12), (19)."""
 
+import dataclasses
 import math
 
 import pytest
@@ -102,3 +103,39 @@ def test_medium_from_a_hardness():
         mdr.Medium.from_hardness(95e9, 1e9, 100e-9, q_c=3.0)
     with pytest.raises(ValueError, match="hardness = -1 Pa"):
         mdr.Medium.from_hardness(95e9, -1.0, 100e-9)
+
+
+class TestHardness:
+    """σ_c = hardness + q_c/a + f_c/a², of which what is not given is 0."""
+
+    def test_the_sum_at_a_radius(self):
+        medium = mdr.Medium(E_star=1e9, q_c=2.0, hardness=3e6, f_c=4e-6)
+        assert medium.hardness_at(2e-6) == pytest.approx(3e6 + 1e6 + 1e6, rel=1e-15)
+        assert mdr.Medium(1e9).hardness_at([1.0, 2.0]).tolist() == [math.inf] * 2
+        with pytest.raises(ValueError, match="radius = 0 m must be finite and positive"):
+            medium.hardness_at(0.0)
+
+    def test_what_is_not_given(self):
+        assert (mdr.Medium(1e9, hardness=1e6).q_c, mdr.Medium(1e9, f_c=1.0).q_c) == (0.0, 0.0)
+        assert mdr.Medium(1e9, 5.0).hardness == mdr.Medium(1e9, 5.0).f_c == 0.0
+        glass = mdr.Medium.from_bodies(70e9, 0.2, hardness=9e9)
+        assert (glass.q_c, glass.hardness, glass.poisson) == (0.0, 9e9, 0.2)
+        assert repr(glass.entries(())) == repr(glass)
+
+    @pytest.mark.parametrize(
+        ("arguments", "says"),
+        [
+            ({"hardness": -1.0}, "hardness = -1 Pa must be finite and not negative"),
+            ({"f_c": math.inf}, "f_c = inf N must be finite"),
+            ({"hardness": 0.0}, "q_c = 0 N/m leaves no hardness beside 0 of the others; give one above 0"),
+            ({"q_c": math.inf, "hardness": 1e9}, "q_c = inf N/m means that nothing yields, beside"),
+            ({"q_c": [1.0, 0.0], "f_c": [0.0, 0.0]}, r"q_c\[1\] = 0 N/m leaves no hardness"),
+        ],
+    )
+    def test_refusals(self, arguments, says):
+        with pytest.raises(ValueError, match=says):
+            mdr.Medium(E_star=1e9, **arguments)
+
+    def test_a_hardness_for_an_elastic_medium_is_refused(self):
+        with pytest.raises(ValueError, match="means that nothing yields"):
+            dataclasses.replace(mdr.Medium(1e9), hardness=1e6)

@@ -194,3 +194,20 @@ def test_poisson_ratio_is_kept_and_scenes_without_are_incompressible():
 def test_the_name_of_a_file_is_no_scene(name):
     with pytest.raises(ValueError, match=r"scene: .* is the name of a file.*read_text\(\)"):
         mdr.Scene.from_json(name)
+
+
+def test_scenes_of_every_class_of_hardness():
+    for given in ({"hardness": 9e9}, {"f_c": 1e-3, "q_c": 5.0}, {"q_c": 5.0}, {}):
+        scene = mdr.Scene(mdr.Cone(0.3), mdr.Medium(70e9, **given), mdr.FreeImpact(1e-9, 0.1))
+        assert mdr.Scene.from_json(scene.to_json()) == scene
+        arguments = ", ".join(
+            f"{name}={given[name]!r}" for name in ("q_c", "hardness", "f_c") if name in given
+        )
+        assert f"mdr.Medium(E_star=70000000000.0{', ' * bool(given)}{arguments})" in scene.to_python()
+
+
+def test_a_file_from_before_classes_of_hardness_is_read():
+    scene = mdr.Scene(mdr.Cone(0.3), mdr.Medium(70e9, 5.0), mdr.FreeImpact(1e-9, 0.1))
+    data = json.loads(scene.to_json())
+    del data["medium"]["hardness"], data["medium"]["f_c"]
+    assert mdr.Scene.from_json(json.dumps(data)) == scene

@@ -105,7 +105,7 @@ def test_results_say_what_they_are():
     ("change", "says"),
     [
         ({"quantities": ("restitution", "colour")}, "quantity = 'colour' must be one of"),
-        ({"hardness": 1.0}, "hardness is not a parameter of the sweep or of Sphere, which has radius"),
+        ({"slope": 1.0}, "slope is not a parameter of the sweep or of Sphere, which has radius"),
         ({"radius": None}, "radius must be one real number, got None"),
         ({"speed": np.ones(3)}, "speed is an array without names of dimensions"),
         ({"speed": SPEED.assign_attrs(units="mm/s")}, "speed is given in mm/s: give numbers in m/s"),
@@ -362,3 +362,19 @@ class TestLazily:
                 assert len(client.scheduler_info()["workers"]) == 2
                 total = float(self.stream().restitution.sum().compute())
         assert total == pytest.approx(float(self.stream().compute().restitution.sum()), rel=1e-12)
+
+
+def test_sweeps_over_a_hardness():
+    hardness = xr.DataArray([1e9, 9e9], dims="hardness")
+    given = {"radius": 1e-5, "E_star": 70e9, "hardness": hardness}
+    table = sweep.impacts(mdr.Sphere, mass=1e-12, speed=10.0, **given)
+    pressed = sweep.indentations(mdr.Sphere, depth=1e-6, f_c=1e-3, **given)
+    for i, value in enumerate(hardness.values):
+        hit = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(70e9, hardness=value), 1e-12, 10.0)
+        assert table.restitution.values[i] == pytest.approx(hit.restitution, rel=1e-13)
+        state = mdr.indent(mdr.Sphere(1e-5), mdr.Medium(70e9, hardness=value, f_c=1e-3), 1e-6)
+        assert pressed.force.values[i] == pytest.approx(state.force, rel=1e-13)
+    with pytest.raises(ValueError, match="an oblique impact is of the hardness q_c/a"):
+        sweep.oblique_impacts(
+            mdr.Sphere, mass=1e-12, speed=10.0, tangential_speed=1.0, friction=0.1, **given
+        )

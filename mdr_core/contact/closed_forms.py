@@ -206,7 +206,7 @@ class ConeOfHardness(RadiusCap):
 
     @property
     def _kappa(self):
-        return self.volume / (np.pi / 2 * self.profile.slope)
+        return np.divide(self.volume, np.pi / 2 * self.profile.slope)
 
     @classmethod
     def at_ratio(cls, profile, ratio):

@@ -132,7 +132,11 @@ class Indentation(Result):
 
     @_check.frozen_property
     def plastic_work(self):
-        """Work W_p = d_c φ(d_p) (J) dissipated by yielding so far; φ(d) is the elastic force."""
+        """Work W_p = 2E* ∫ u_c a(p) dp (J) dissipated by yielding so far.
+
+        p is the plastic depth on loading and u_c the cap of the elements. For the hardness q_c/a it is
+        d_c φ(d_p) with the elastic force φ(d).
+        """
         depth = np.asarray(self.plastic_depth)
         return 2 * self.medium.E_star * self._rule.plastic_integral(np.zeros_like(depth), depth)
 
@@ -163,7 +167,10 @@ class Indentation(Result):
 
     @_check.frozen_property
     def stiffness(self):
-        """Stiffness dF/dd (N/m): 2E* a, and 2E* (a − c) for loading beyond the largest depth so far."""
+        """Stiffness dF/dd (N/m): 2E* a, and 2E* (a − c dp/ds) for loading beyond the largest depth so far.
+
+        The plastic depth p grows as the depth s for the hardness q_c/a.
+        """
         if self._adhesive:
             return adhesion.stiffness(self)
         width, interval = self.contact_radius, self.live_interval

@@ -30,7 +30,7 @@ from .integrals import integrals
 from .live_interval import LiveInterval
 
 #: Gauss nodes of the plastic work in each piece.
-_NODES = 32
+_NODES = 24
 _TINY = np.finfo(float).tiny
 
 
@@ -46,6 +46,8 @@ class YieldRule(ABC):
 
     #: Whether the cap may fall with the contact radius.
     falls = False
+    #: Distances past the onset of yield, over the penetration there, between which motions are smooth.
+    scales = 5 * 25.0 ** np.arange(6)
     #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/ℓ for all, ℓ
     #: being the live depth at the turning point of an impact on a virgin medium.
     similar = None
@@ -214,6 +216,7 @@ class RadiusCap(YieldRule):
         return cls(profile, share * medium.hardness, share * medium.q_c, share * medium.f_c)
 
     falls = property(lambda self: bool(np.any(self.line)))
+    scales = 0.5 * 50.0 ** np.arange(6)
 
     @np.errstate(all="ignore")
     def cap(self, depth):
@@ -279,7 +282,8 @@ class RadiusCap(YieldRule):
         first, last = self._penetration(imprint, 0 * increase), self._penetration(imprint, increase)
         last = np.minimum(last, self.profile.known_depth - imprint)
         rises = [kink - imprint for kink in self.profile.kinks]
-        cuts = np.hstack([first, *rises, *(self._penetration(imprint, rise) for rise in rises), last])
+        passed = [self._penetration(imprint, rise) for rise in rises]
+        cuts = np.hstack([first, *rises, *passed, first * (1 + self.scales), last])
         cuts = np.sort(np.clip(cuts, first, last), axis=1)
         node, weight = gauss_legendre(_NODES)
         total = np.zeros(len(imprint))
@@ -289,7 +293,8 @@ class RadiusCap(YieldRule):
                 y = start + (stop - start) * node**4
                 p = imprint + np.minimum(self.increase(y, imprint), increase)
                 work = self.cap(imprint + y) * self.profile._radius(p) * self.rate(imprint + y)
-                total += (work * (stop - start) * (4 * node**3 * weight)).sum(axis=1)
+                work = np.where(stop > start, work * (stop - start), 0.0)
+                total += (work * (4 * node**3 * weight)).sum(axis=1)
         return total
 
     def entries(self, index, shape):

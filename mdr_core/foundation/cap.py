@@ -6,6 +6,14 @@ the chain bears witness of.
 
 import numpy as np
 
+from ..medium import refuse_other_classes
+
+
+def refuse_hardness(medium):
+    """Refuses a medium whose elements have another cap in a larger contact."""
+    instead = "elements of the foundation have one cap; set hardness = 0 and f_c = 0"
+    refuse_other_classes(medium, "a foundation", instead)
+
 
 def elastic_limit(medium):
     """Largest elastic compression d_c = π q_c/(2E*) (m) of the elements."""

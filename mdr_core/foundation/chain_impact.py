@@ -14,7 +14,7 @@ from ..medium import Medium, check_pair, refuse_adhesion
 from ..profiles.profile import Profile
 from ..results.base import CHAIN, ImpactResult, Motion, instants
 from ..results.limits import Limit, contact_limits
-from .cap import plastic_depth
+from .cap import plastic_depth, refuse_hardness
 from .foundation import Foundation, element_count
 from .free_body import ImpactSolver, foundation_before, impact_depth_bound
 from .refinement import refine
@@ -80,6 +80,7 @@ def chain_impact(
     """
     check_pair(profile, medium, "an impact on the chain")
     refuse_adhesion(medium, "an impact on the chain")
+    refuse_hardness(medium)
     mass = _check.positive_number("mass", mass, unit="kg")
     speed = _check.positive_number("speed", speed, unit="m/s")
     tolerance = _check.positive_number("tolerance", tolerance)

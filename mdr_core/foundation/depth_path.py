@@ -13,7 +13,7 @@ from ..profiles.profile import Profile
 from ..results.base import CHAIN, Result
 from ..results.limits import Limit, contact_limits
 from . import element
-from .cap import elastic_limit, plastic_depth
+from .cap import elastic_limit, plastic_depth, refuse_hardness
 from .element import Elements, Ramp
 from .foundation import Foundation
 from .fronts import force_and_radius
@@ -81,6 +81,7 @@ def indent_in_time(
     """
     check_pair(profile, medium, "a path in time")
     refuse_adhesion(medium, "a path in time")
+    refuse_hardness(medium)
     depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
     time = check_times(time, depth, "depth")
     tolerance = _check.positive_number("tolerance", tolerance)

@@ -11,7 +11,7 @@ from .._check import ArrayLike
 from ..medium import Medium, check_pair, refuse_adhesion
 from ..numerics.roots import root_in_bracket
 from ..profiles.profile import Profile
-from .cap import elastic_limit, flat_face_load, plastic_depth
+from .cap import elastic_limit, flat_face_load, plastic_depth, refuse_hardness
 from .depth_path import TimedIndentation, check_times, follow
 from .foundation import Foundation
 from .fronts import force_and_radius
@@ -70,6 +70,7 @@ def creep(
     """
     check_pair(profile, medium, "a path in time")
     refuse_adhesion(medium, "a path in time")
+    refuse_hardness(medium)
     force = _check.force("force", force)
     time = check_times(time, force, "force")
     tolerance = _check.positive_number("tolerance", tolerance)

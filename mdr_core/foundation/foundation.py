@@ -12,7 +12,7 @@ from ..medium import Medium, check_pair, refuse_adhesion
 from ..profiles.profile import Profile
 from ..results.quantities import described, engineering
 from . import element
-from .cap import elastic_limit
+from .cap import elastic_limit, refuse_hardness
 from .element import Elements, Ramp
 from .grid import cell_edges
 
@@ -96,6 +96,7 @@ class Foundation:
             return
         check_pair(self.profile, self.medium, "a foundation")
         refuse_adhesion(self.medium, "a foundation")
+        refuse_hardness(self.medium)
         n = element_count(self.n)
         known = self.profile.known_radius
         half_width = _check.positive_number("half_width", self.half_width, unit="m")

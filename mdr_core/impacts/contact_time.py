@@ -14,8 +14,8 @@ from ..numerics.gauss import gauss_integrals, gauss_legendre
 from ..numerics.stable import cube_rise, cube_way
 
 #: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
-#: transition depth; and in units of the length of the live interval, whose lower end is close to the tip.
-_TRANSITIONS, _LENGTHS = np.array([1.0, 6.0]), 5 * 25.0 ** np.arange(6)
+#: transition depth.
+_TRANSITIONS = np.array([1.0, 6.0])
 
 
 def contact_time(rule, inertia, speed, interval, increase):
@@ -127,7 +127,7 @@ def time_over_root(rule, interval, increase):
     # and at which the upper end is.
     passed = column.penetration(kinks, before) - onset if kinks.size else kinks - before
     both = np.hstack([passed, kinks - before - onset])
-    all_breaks = np.hstack([breaks - before, _LENGTHS * onset])
+    all_breaks = np.hstack([breaks - before, rule.scales * onset])
     first = kink_above(profile, before[:, 0])[:, None]
     start = column.penetration(first, before) - onset
     span = increase + (length - onset)

@@ -5,12 +5,14 @@ import itertools
 import numpy as np
 import pytest
 from mpmath import mp, mpf
+from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 import mdr_core as mdr
+from mdr_core.contact.yielding import ConstantCap, RadiusCap
 
 from ..reference import Reference
-from ..shapes import name
+from ..shapes import SHAPES, name
 
 E = 70e9
 #: Scale of the hardness (Pa), and of lengths (m).
@@ -51,20 +53,22 @@ class State(Reference):
 
 
 def cap(medium, a):
-    return np.pi / (2 * medium.E_star) * a * medium.hardness_at(a)
+    """Largest elastic compression u_c (m) at a contact radius (m)."""
+    a = max(a, 1e-300)
+    return np.pi / (2 * medium.E_star) * (medium.hardness * a + medium.q_c + medium.f_c / a)
 
 
-def spring_force(profile, medium, depth):
-    """Force (N) on loading: elements are compressed by depth − g(x), at most by the cap."""
-    a = float(profile.contact_radius(depth))
-    limit = cap(medium, a)
-    if depth <= limit:
-        inner = profile.face_radius
-        plateau = depth * inner
-    else:
-        inner = float(profile.contact_radius(depth - limit))
-        plateau = limit * inner
-    total, kinks = plateau, [float(profile.contact_radius(kink)) for kink in profile.kinks]
+def spring_force(profile, medium, depth, largest):
+    """Force (N) of the elements after a largest depth: compressed by depth − g(x), less what is plastic."""
+    plastic = max(largest - cap(medium, float(profile.contact_radius(largest))), 0.0)
+    if depth <= plastic:
+        return 0.0
+    inner, a = (float(profile.contact_radius(each)) for each in (plastic, depth))
+    inner = inner if plastic > 0 else profile.face_radius
+    total, kinks = (
+        (depth - plastic) * inner,
+        [float(profile.contact_radius(kink)) for kink in profile.kinks],
+    )
     edges = sorted({inner, a, *(x for x in kinks if inner < x < a)})
     for low, high in itertools.pairwise(edges):
         # x = low + h u⁴ unfolds roots at the lower end.
@@ -96,7 +100,7 @@ def work(profile, medium, largest):
     total = 0.0
     for low, high in itertools.pairwise(cuts):
         s = low + (high - low) * NODE**4
-        forces = np.array([spring_force(profile, medium, each) for each in s])
+        forces = np.array([spring_force(profile, medium, each, each) for each in s])
         total += np.sum(WEIGHT * 4 * NODE**3 * (high - low) * forces)
     return total
 
@@ -122,3 +126,245 @@ def test_states_against_elements_in_45_digits(shape, mixture):
         assert states.plastic_work[0] + states.stored_energy[0] == pytest.approx(
             work(shape, medium, largest), rel=1e-9
         )
+
+
+@pytest.mark.parametrize("mixture", MIXTURES)
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+def test_the_plastic_depth_grows_with_depth(shape, mixture):
+    """So that the largest depth stands for the largest plastic depth of the whole loading."""
+    if isinstance(shape, mdr.PowerLaw) and shape.exponent < 1 and medium_of(mixture).hardness:
+        with pytest.raises(ValueError, match="not convex"):
+            mdr.indent(shape, medium_of(mixture), 1e-9)
+        return
+    depth = np.geomspace(1e-10, 1e-5, 2000)
+    plastic = mdr.indent(shape, medium_of(mixture), depth[:, None]).plastic_depth[:, 0]
+    # The rounding of a difference of depths.
+    assert np.all(np.diff(plastic) >= -1e-15 * depth[1:])
+
+
+class TestClosedLimits:
+    """Constant hardness under a cone and a paraboloid."""
+
+    @pytest.mark.parametrize("kappa", [1e-3, 0.3, 0.9])
+    def test_a_cone(self, kappa):
+        cone, medium = mdr.Cone(slope=0.3), mdr.Medium(E, hardness=kappa * E * 0.3)
+        state = mdr.indent(cone, medium, [1e-9, 1e-6])
+        np.testing.assert_allclose(state.plastic_radius, (1 - kappa) * state.contact_radius, rtol=1e-14)
+        np.testing.assert_allclose(state.mean_pressure, medium.hardness * (1 - kappa / 2), rtol=1e-14)
+        hit = mdr.impact(cone, medium, 1e-9, [1e-3, 1.0, 1e3])
+        e = np.sqrt(kappa * (3 - 2 * kappa) / (2 - kappa))
+        np.testing.assert_allclose(hit.restitution, e, rtol=1e-11)
+
+        # Loading is that of a force ∝ d². In units of d_max and of 2E*/(π slope) the energy at the turning
+        # point is κ(2 − κ)/3, and at s = 1 − u² on unloading u² ((1 + s + s²)/3 − (1 − κ)²) of it is back.
+        def slowness(u):
+            s = 1 - u * u
+            return 2 / np.sqrt(((1 + s + s * s) / 3 - (1 - kappa) ** 2) * 3 / (kappa * (2 - kappa)))
+
+        unloading, _ = quad(slowness, 0, np.sqrt(kappa), epsabs=0, epsrel=1e-11)
+        expected = 2.80436421065 / 2 + unloading
+        np.testing.assert_allclose(hit.contact_time * hit.speed / hit.max_depth, expected, rtol=1e-9)
+
+    @pytest.mark.parametrize("kappa", [1.0, 2.0])
+    def test_a_flat_cone_never_yields(self, kappa):
+        cone, medium = mdr.Cone(slope=0.5), mdr.Medium(1.0, hardness=0.5 * kappa)
+        assert mdr.yield_depth(cone, medium) == mdr.yield_speed(cone, medium, 1.0) == np.inf
+        assert mdr.critical_force(cone, medium) == np.inf
+        assert (
+            mdr.indent(cone, medium, 1.0).plastic_depth
+            == mdr.impact(cone, medium, 1.0, 1.0).plastic_work
+            == 0
+        )
+
+    def test_a_paraboloid(self):
+        ball, medium = mdr.Paraboloid(radius=1e-5), mdr.Medium(E, hardness=9e9)
+        onset = mdr.yield_depth(ball, medium)
+        assert onset == pytest.approx((np.pi * 9e9 / (2 * E)) ** 2 * 1e-5, rel=1e-14)
+        ratio = np.array([0.5, 1 + 1e-6, 3.0, 1e4])
+        state = mdr.indent(ball, medium, onset * ratio)
+        expected = np.maximum(ratio - np.sqrt(ratio), 0.0)
+        np.testing.assert_allclose(state.plastic_depth / onset, expected, rtol=0, atol=1e-15 * ratio.max())
+        # The mean pressure at the onset is 2H/3, as of every elastic paraboloid under its own line load.
+        assert mdr.indent(ball, medium, onset).mean_pressure == pytest.approx(6e9, rel=1e-14)
+
+    def test_johnsons_exponent(self):
+        """e ∝ v^(−1/4) under a ball of constant hardness, within 2 % from 30 times the yield speed on."""
+        ball, medium = mdr.Paraboloid(radius=1e-5), mdr.Medium(E, hardness=9e9)
+        speed = mdr.yield_speed(ball, medium, 1e-12) * np.array([29.9, 30.1, 1e3, 1.01e3, 1e5, 1.01e5])
+        e = mdr.impact(ball, medium, 1e-12, speed).restitution
+        slope = (np.diff(np.log(e)) / np.diff(np.log(speed)))[::2]
+        np.testing.assert_allclose(slope, -0.25, rtol=0.02)
+        assert abs(slope[2] + 0.25) < 1e-4
+
+    def test_line_processes_alone_carry_no_more_than_their_force(self):
+        """F = π f_c − E* α u_c² under a cone, α = 2/(π slope)."""
+        cone, medium = mdr.Cone(slope=0.3), mdr.Medium(E, f_c=1e-3)
+        state = mdr.indent(cone, medium, 1e-6)
+        u = cap(medium, state.contact_radius)
+        assert state.force == pytest.approx(np.pi * 1e-3 - E * 2 / (np.pi * 0.3) * u**2, rel=1e-12)
+        assert mdr.indent_to_force(cone, medium, state.force).depth == pytest.approx(1e-6, rel=1e-9)
+        with pytest.raises(ValueError, match="all of the contact yields, π f_c"):
+            mdr.indent_to_force(cone, medium, np.pi * 1e-3)
+
+    @pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.Paraboloid(1e-5)], ids=name)
+    def test_closed_forms_are_the_quadrature(self, shape):
+        """The rule of the two shapes against that of any shape."""
+        closed = mdr.impact(shape, mdr.Medium(E, hardness=9e9), 1e-12, np.geomspace(0.1, 1e4, 40))
+        depth, zero = np.asarray(closed.plastic_depth), np.zeros(40)
+        general = RadiusCap.of(shape, closed.medium).plastic_integral(zero, depth)
+        np.testing.assert_allclose(closed.plastic_work, 2 * E * general, rtol=1e-9, atol=1e-30)
+        np.testing.assert_allclose(
+            closed.stored_energy + closed.plastic_work, 0.5e-12 * closed.speed**2, rtol=1e-13
+        )
+
+    @pytest.mark.parametrize("shape", SHAPES, ids=name)
+    def test_a_cap_without_slope_is_that_of_class_b(self, shape):
+        general, constant = RadiusCap(shape, 0.0, 1e-9, 0.0), ConstantCap(shape, 1e-9)
+        depth = np.array([0.5e-9, 1.0000001e-9, 1e-8, 1e-6])
+        for one, other in zip(general.loading(depth), constant.loading(depth), strict=True):
+            for end in ("lower", "upper", "length"):
+                first, last = (getattr(each, end, each) for each in (one, other))
+                np.testing.assert_allclose(first, last, rtol=1e-14, atol=1e-22)
+        imprint, increase = np.array([0.0, 0.0, 1e-7]), np.array([1e-12, 1e-6, 3e-9])
+        one, other = (rule.plastic_integral(imprint, increase) for rule in (general, constant))
+        np.testing.assert_allclose(one, other, rtol=1e-10)
+
+
+def rebound(profile, medium, mass, speed):
+    """Restitution and contact time by Newton's equation with the force of the elements."""
+    tau = medium.relaxation_time
+    size = float(profile.contact_radius(1e-8))
+
+    def loading(_, y):
+        drag = 8 * medium.eta * float(profile.contact_radius(max(y[0], 0.0))) * y[1]
+        return y[1], -(spring_force(profile, medium, max(y[0], 0.0), max(y[0], 0.0)) + drag) / mass
+
+    def turned(_, y):
+        return y[1]
+
+    turned.terminal = True
+    scale = 100 * np.sqrt(mass / (2 * medium.E_star * size))
+    exact = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-20}
+    first = solve_ivp(loading, (0, scale), (0.0, speed), events=turned, **exact)
+    largest = first.y[0, -1]
+
+    def unloading(_, y):
+        # On unloading elements are released at g = d + τḋ.
+        return y[1], -spring_force(profile, medium, y[0] + tau * min(y[1], 0.0), largest) / mass
+
+    def released(_, y):
+        return y[0] + tau * y[1] - (largest - cap(medium, float(profile.contact_radius(largest))))
+
+    released.terminal, released.direction = True, -1
+    last = solve_ivp(unloading, (0, scale), (largest, 0.0), events=released, **exact)
+    return largest, -last.y[1, -1] / speed, first.t[-1] + last.t[-1]
+
+
+@pytest.mark.parametrize("eta", [0.0, 5.0])
+@pytest.mark.parametrize(("index", "mixture"), [(1, "H"), (3, "H+q+f"), (4, "H+q"), (5, "q+f")])
+def test_impacts_against_newtons_equation_over_elements(index, mixture, eta):
+    """DOP853 with steps of 10⁻¹¹; where yield starts its force has a kink."""
+    shape, medium = PROFILES[index], medium_of(mixture, eta=eta)
+    hit = mdr.impact(shape, medium, 1e-12, 20.0)
+    assert hit.plastic_work > 0.05 * 0.5e-12 * 20.0**2
+    depth, e, time = rebound(shape, medium, 1e-12, 20.0)
+    assert hit.max_depth == pytest.approx(depth, rel=1e-8)
+    assert hit.restitution == pytest.approx(e, abs=1e-8)
+    assert hit.contact_time == pytest.approx(time, rel=1e-7)
+
+
+@pytest.mark.parametrize("mixture", MIXTURES)
+@pytest.mark.parametrize("shape", PROFILES, ids=name)
+def test_energy_balance_and_equation_of_motion_agree(shape, mixture):
+    """Also over an imprint; the second ends where a path to its depth ends."""
+    medium, speed = medium_of(mixture), np.array([0.3, 3.0, 20.0])
+    first = mdr.impact(shape, medium, 1e-12, speed)
+    second = mdr.impact(shape, medium, 1e-12, 1.5 * speed, plastic_depth=first.plastic_depth)
+    for hit in (first, second):
+        work = hit.stored_energy + hit.plastic_work
+        np.testing.assert_allclose(work, 1e-12 * hit.speed**2 / 2, rtol=1e-12)
+        for i in range(3):
+            motion = hit[i].motion(3)
+            assert -motion.velocity[-1] / hit.speed[i] == pytest.approx(hit.restitution[i], abs=1e-10)
+            assert motion.time[-1] == pytest.approx(hit.contact_time[i], rel=1e-9)
+            energy = motion.kinetic_energy + motion.stored_energy + motion.plastic_work
+            np.testing.assert_allclose(energy, 1e-12 * hit.speed[i] ** 2 / 2, rtol=1e-9)
+        # One by one, and in an ensemble of media.
+        again = mdr.impact(shape, medium, 1e-12, hit.speed[2], plastic_depth=hit.plastic_depth[2] * 0)
+        media = mdr.Medium(E, [medium.q_c, 100.0], hardness=[medium.hardness, 0.0], f_c=[medium.f_c, 0.0])
+        many = mdr.impact(shape, media, 1e-12, hit.speed[2])
+        assert many.restitution[0] == pytest.approx(again.restitution, rel=1e-13)
+        assert many.contact_time[0] == pytest.approx(again.contact_time, rel=1e-11)
+    path = mdr.indent(shape, medium, [first.max_depth[2], 0.0, second.max_depth[2]])
+    assert second.max_depth[2] == path.depth[2]
+    assert second.plastic_depth[2] == pytest.approx(path.plastic_depth[2], rel=1e-12)
+    assert second.turning_point.force[2] == pytest.approx(path.force[2], rel=1e-11)
+
+
+class TestFallingForce:
+    """Line processes under a truncated cone: the force falls by 2 % after the onset."""
+
+    cone, medium = mdr.TruncatedCone(flat_radius=1.0, slope=0.3), mdr.Medium(1.0, f_c=0.2 / np.pi)
+
+    def test_a_path_by_force_jumps(self):
+        depth = np.linspace(0.01, 1.5, 6000)
+        force = mdr.indent(self.cone, self.medium, depth[:, None]).force[:, 0]
+        onset = mdr.critical_force(self.cone, self.medium)
+        later = depth > mdr.yield_depth(self.cone, self.medium)
+        assert force[later].min() == pytest.approx(0.978 * onset, rel=1e-3)
+        for share in (0.5, 0.999, 1.001, 1.02):
+            state = mdr.indent_to_force(self.cone, self.medium, share * onset)
+            first = depth[np.argmax(force >= share * onset)]
+            assert 0 <= first - state.depth <= depth[1] - depth[0]
+            assert state.force == pytest.approx(share * onset, rel=1e-12)
+            jumps = [limit.sentence for limit in state.limits if limit.what == "jump"]
+            assert len(jumps) == (share > 1)
+            assert all("95.43 mm past" in sentence for sentence in jumps)
+
+    def test_the_largest_force_of_an_impact_may_be_that_at_the_onset(self):
+        speed = 1.5 * mdr.yield_speed(self.cone, self.medium, 1.0)
+        hit = mdr.impact(self.cone, self.medium, 1.0, [speed, 9 * speed])
+        assert hit.max_force[0] == pytest.approx(mdr.critical_force(self.cone, self.medium), rel=1e-12)
+        assert hit.turning_point.force[0] < 0.99 * hit.max_force[0]
+        assert hit.max_force[1] == hit.turning_point.force[1]
+
+
+def test_onset_deeper_than_the_known_shape_is_refused():
+    tip = mdr.Sampled([0.0, 1e-6, 2e-6], [0.0, 1e-8, 4e-8])
+    with pytest.raises(ValueError, match="yield depth = inf m is deeper than"):
+        mdr.yield_depth(tip, mdr.Medium(1e9, hardness=1e9))
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda cone, glass: glass.critical_depth, r"class \(b\); take yield_depth"),
+        (lambda cone, glass: glass.yield_line_load, r"class \(b\); it is π a σ_c\(a\)/2"),
+        (
+            lambda cone, glass: mdr.impact(cone, glass, 1e-9, 1.0).fast_limit,
+            "the fast limit is of the hardness",
+        ),
+        (
+            lambda cone, glass: mdr.oblique_impact(cone, glass, 1e-9, 1.0, 1.0, 0.1),
+            "an oblique impact is of",
+        ),
+        (lambda cone, glass: mdr.Medium(E, hardness=1e9, work_of_adhesion=0.1), "adhesion is modelled for"),
+    ],
+)
+def test_what_is_of_class_b_alone_is_refused(call, says):
+    with pytest.raises(ValueError, match=says):
+        call(mdr.Cone(0.3), mdr.Medium(E, hardness=9e9))
+
+
+def test_other_classes_have_no_limit_of_the_fast_impact():
+    hit = mdr.impact(mdr.Cone(0.3), mdr.Medium(E, hardness=1e9), 1e-9, 1.0)
+    assert hit.restitution < 1
+    assert "fast limit" not in {limit.what for limit in hit.limits}
+
+
+def test_smooth_shapes_are_checked_to_be_convex():
+    glass = mdr.Medium(E, hardness=1e9)
+    with pytest.raises(ValueError, match="not convex"):
+        mdr.indent(mdr.Smooth(lambda r: 1 / (1 + r / 1e-6)), glass, 1e-9)
+    smooth = mdr.indent(mdr.Smooth(lambda r: r / 1e-5), glass, 1e-8)
+    assert smooth.force == pytest.approx(mdr.indent(mdr.Paraboloid(1e-5), glass, 1e-8).force, rel=1e-10)
