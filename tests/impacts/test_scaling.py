@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.stats import linregress
 
 import mdr_core as mdr
 
@@ -85,7 +86,10 @@ def test_imprints_tell_the_class(hardness, n):
     found = mdr.hardness_class(energy, radius, exponent=n)
     assert found.hardness_class == hardness
     assert abs(found.slope - mdr.ScalingLaw(hardness, n).radius) < 4 * found.slope_error
-    assert found.slope_error < 0.01
+    line = linregress(np.log(energy), np.log(radius))
+    # The rounding of twelve terms.
+    assert found.slope == pytest.approx(line.slope, rel=1e-12)
+    assert found.slope_error == pytest.approx(line.stderr, rel=1e-10)
 
 
 @pytest.mark.parametrize(
