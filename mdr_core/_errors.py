@@ -19,7 +19,6 @@ _ARGUMENTS = {
     "half-angle": "degrees",
     "radius of the hardness": "radius",
     "critical depth": "critical_depth",
-    "hardness class": "hardness",
     "coordinate": "x",
     "area A(h)": "coefficients",
 }

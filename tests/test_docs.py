@@ -161,6 +161,26 @@ def test_equation_has_a_function_and_a_test(row):
         assert f"def {test}(" in (ROOT / "tests" / file).read_text(encoding="utf-8")
 
 
+def test_the_code_in_an_hour_names_what_there_is():
+    """Files from the package on, with functions and classes after two colons."""
+    named = re.findall(r"`([\w/]+\.py)(?:::([\w.]+))?`", (DOCS / "code.md").read_text("utf-8"))
+    assert len(named) > 40
+    for file, names in named:
+        if file.startswith("tests/"):
+            assert (ROOT / file).is_file(), file
+            continue
+        thing = importlib.import_module("mdr_core." + file.removesuffix(".py").replace("/", "."))
+        for part in filter(None, names.split(".")):
+            thing = getattr(thing, part)
+
+
+def test_the_code_in_an_hour_follows_every_folder():
+    text = (DOCS / "code.md").read_text("utf-8")
+    folders = {path.parent.name for path in Path(mdr.__file__).parent.glob("*/__init__.py")}
+    assert len(folders) >= 8
+    assert all(f"{folder}/" in text for folder in folders)
+
+
 def test_every_equation_of_the_paper_is_in_the_table():
     numbers = set()
     for row in ROWS:

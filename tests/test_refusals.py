@@ -127,7 +127,7 @@ def test_what_an_error_carries(kind):
         (lambda: mdr.Medium.from_critical_depth(1e9, -1.0), "critical_depth"),
         (lambda: mdr.Medium.from_bodies(1e9, 0.6), "nu1"),
         (lambda: mdr.Medium(1e9, work_of_adhesion=-1.0), "work_of_adhesion"),
-        (lambda: mdr.ScalingLaw("d", 1.0), "hardness"),
+        (lambda: mdr.ScalingLaw("d", 1.0), "hardness_class"),
         (lambda: mdr.Sampled.from_area_function([24.5, np.nan], 1e-6), "coefficients"),
         (lambda: mdr.Sampled.from_area_function([-24.5], 1e-6), "coefficients"),
         (lambda: mdr.abel.stress_from_line_load([0.0, np.inf], [1.0, 0.0], 0.5), "x"),

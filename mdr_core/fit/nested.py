@@ -33,19 +33,16 @@ _LEAST_CHANGE, _COMMON = 0.005, 1e-10
 
 
 def nested_tests(solved, i):
-    """Remarks on what a tilt, a drag or a drift changes in curve i of `SolvedCurves`."""
-    curves, (_, state) = solved.curves, solved.values_and_states
+    """Remarks on what a tilt, a drag or a drift changes in curve i of a `Solution`."""
+    curves, minimum, (_, state) = solved.curves, solved.minimum, solved.values_and_states
     contact, noise = state.live_interval.length[i] > 0, solved.noise[i]
-    residual, jacobian = (
-        solved.minimum.residual[i],
-        solved.minimum.jacobian[i][:, ~solved.minimum.at_bound[i]],
-    )
-    if "E_star" not in curves.free or solved.minimum.at_bound[i, 0] or curves.adhesive:
+    if "E_star" not in curves.free or minimum.at_bound[i, 0] or curves.adhesive:
         return
     if np.count_nonzero(contact) < _FEW:
         return
     yields = not (curves.held_elastic or solved.elastic[i])
-    before = residual
+    residual = before = minimum.residual[i]
+    jacobian = minimum.jacobian[i][:, ~minimum.at_bound[i]]
     small = _rms((residual * noise)[contact]) < _SMALL * curves.load[i, 0]
     for name, columns in () if small else _columns(curves, state, i, contact, yields):
         least, unit, follows = _TESTS[name]

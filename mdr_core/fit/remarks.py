@@ -33,7 +33,7 @@ _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
 
 
 def remarks_of(solved):
-    """Remarks on each curve of `SolvedCurves`: a sentence by its kind, the same for all curves."""
+    """Remarks on each curve of a `Solution`: a sentence by its kind, the same for all curves."""
     checks = _units, _ambiguous, _adhesion, _undetermined, _jitter, _class_b, _misfit, nested_tests
     count = len(solved.rows)
     remarks = [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in range(count)]

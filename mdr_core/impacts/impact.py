@@ -70,7 +70,7 @@ def impact(
     return solve_impact(profile, medium, mass, speed, plastic_depth)
 
 
-def solve_impact(profile, medium, mass, speed, plastic_depth=0.0, *, in_time=False):
+def solve_impact(profile, medium, mass, speed, plastic_depth, *, in_time=False):
     """`impact`; `in_time` the equation of motion is solved also where there is no viscosity."""
     check_pair(profile, medium)
     mass = _check.positive("mass", mass, unit="kg")

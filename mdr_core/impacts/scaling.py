@@ -32,7 +32,7 @@ class ScalingLaw:
 
     Parameters
     ----------
-    hardness : {"a", "b", "c"}
+    hardness_class : {"a", "b", "c"}
         Class: hardness constant, ∝ 1/radius, ∝ 1/area.
     exponent : float
         Exponent n of the indenter z = c rⁿ, positive: 1 for a cone, 2 for a paraboloid.
@@ -43,18 +43,18 @@ class ScalingLaw:
     1.0
     """
 
-    hardness: str
+    hardness_class: str
     exponent: float
 
     def __post_init__(self):
-        _check.one_of("hardness class", self.hardness, _FORCE_POWER)
+        _check.one_of("hardness_class", self.hardness_class, _FORCE_POWER)
         exponent = _check.positive_number("ScalingLaw exponent", self.exponent)
         _check.store(self, exponent=exponent)
 
     @property
     def force(self) -> int:
         """Power i = 2, 1, 0 of the contact radius in the force at full yield."""
-        return _FORCE_POWER[self.hardness]
+        return _FORCE_POWER[self.hardness_class]
 
     @property
     def radius(self) -> float:
@@ -84,14 +84,14 @@ class ScalingLaw:
 
 @dataclass(frozen=True)
 class HardnessClass:
-    """Class of hardness of measured imprints; made by `hardness_class` and `fit_hardness`.
+    """Class of hardness of measured imprints; made by the function `hardness_class`.
 
-    `hardness` is the class, None where none or several fit, and `reason` the reason in words; `slope` is
-    the measured power with its standard error `slope_error`, infinite for two points; `laws` the
+    `hardness_class` is its letter, None where none or several fit, `reason` the reason in words; `slope`
+    is the measured power with its standard error `slope_error`, infinite for two points; `laws` the
     `ScalingLaw` of each class, where the power is one of the energy.
     """
 
-    hardness: str | None
+    hardness_class: str | None
     slope: float
     slope_error: float
     laws: dict[str, ScalingLaw] = field(repr=False)
@@ -115,7 +115,7 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
     --------
     >>> from mdr_core import Cone, Medium, impact
     >>> hit = impact(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), 1e-6, [1.0, 3.0, 10.0])
-    >>> hardness_class(hit.plastic_work, hit.plastic_radius, exponent=1.0).hardness
+    >>> hardness_class(hit.plastic_work, hit.plastic_radius, exponent=1.0).hardness_class
     'b'
     """
     energy = np.atleast_1d(_check.positive("energy", energy, unit="J"))
@@ -127,8 +127,8 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
     laws = {name: ScalingLaw(name, exponent) for name in _FORCE_POWER}
     slope, error = straight_line(x, y)
     expected = {name: (law.radius, _MAX_ERROR * law.radius) for name, law in laws.items()}
-    hardness, reason = class_of(expected, slope, error)
-    return HardnessClass(hardness, slope, error, laws, reason)
+    name, reason = class_of(expected, slope, error)
+    return HardnessClass(name, slope, error, laws, reason)
 
 
 def straight_line(x, y):

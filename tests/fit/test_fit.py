@@ -317,6 +317,12 @@ class TestHardness:
         with pytest.raises(ValueError, match="nothing has yielded"):
             mdr.fit_hardness(mdr.Cone(0.3), 1.01 * state.mean_pressure, state.contact_radius, E_star=E)
 
+    @pytest.mark.parametrize("radius", [0.9e-6, 2.1e-6])
+    def test_radii_outside_of_a_profile_are_refused(self, radius):
+        tip = mdr.Sampled([0.0, 1e-6, 2e-6], [0.0, 0.0, 1e-6])
+        with pytest.raises(ValueError, match="is not between the flat face"):
+            mdr.fit_hardness(tip, [1e9, 1e9], [1.5e-6, radius], E_star=1e10)
+
 
 @pytest.mark.parametrize(
     ("value", "error", "unit", "text"),
@@ -332,3 +338,16 @@ class TestHardness:
 )
 def test_values_with_errors(value, error, unit, text):
     assert with_error(value, error, unit) == text
+
+
+def test_the_error_of_a_modulus_alone_is_that_of_a_regression():
+    """F = E* k(d) with a known noise σ: the standard error is σ/√Σk²."""
+    depth = np.linspace(0.0, 50e-9, 40)
+    force = mdr.indent(mdr.Cone(0.3), mdr.Medium(1e9), depth).force
+    noise = 0.01 * force[-1]
+    measured = force + np.random.default_rng(4).normal(0.0, noise, depth.size)
+    held = {"q_c": np.inf, "contact_point": 0.0, "force_noise": noise}
+    fit = mdr.fit_indentation(mdr.Cone(0.3), depth, measured, **held)
+    assert fit.block_length == 1
+    expected = noise / np.sqrt(np.sum((force / 1e9) ** 2))
+    assert fit.standard_errors["E_star"] == pytest.approx(expected, rel=1e-9)

@@ -69,6 +69,15 @@ def test_states_of_creep_agree_in_themselves():
         assert 2 * trapezoid(path[i].line_load(x), x) == pytest.approx(path.force[i], rel=1e-5)
 
 
+def test_the_path_that_elements_follow_carries_the_force():
+    """It is a path of depth in time; other elements carry on it what is prescribed."""
+    cone, soft = mdr.Cone(0.3), mdr.Medium(1e6, 1.0, eta=2.5e5)
+    path = mdr.creep(cone, soft, [0.0, 0.1, 0.1, 0.01, 0.01], [0.0, 0.1, 5.0, 5.5, 9.0])
+    again = mdr.indent_in_time(cone, soft, path._path_depth, path._path_time, tolerance=1e-5)
+    # Both are chains of a finite number of elements: their errors in force are some 10⁻³.
+    np.testing.assert_allclose(again.force[path._index], path.force, rtol=0, atol=2e-3 * 0.1)
+
+
 def test_no_force_makes_no_contact():
     path = mdr.creep(mdr.Sphere(1e-3), MEDIUM, [0.0, 0.0], [0.0, 1.0])
     assert path.depth.tolist() == path.contact_radius.tolist() == [0.0, 0.0]

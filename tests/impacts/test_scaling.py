@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.stats import linregress
 
 import mdr_core as mdr
 
@@ -83,9 +84,12 @@ def test_imprints_tell_the_class(hardness, n):
     scatter = 1 + 0.03 * np.random.default_rng(5).standard_normal(12)
     radius = 1e-6 * (energy / 1e-9) ** mdr.ScalingLaw(hardness, n).radius * scatter
     found = mdr.hardness_class(energy, radius, exponent=n)
-    assert found.hardness == hardness
+    assert found.hardness_class == hardness
     assert abs(found.slope - mdr.ScalingLaw(hardness, n).radius) < 4 * found.slope_error
-    assert found.slope_error < 0.01
+    line = linregress(np.log(energy), np.log(radius))
+    # The rounding of twelve terms.
+    assert found.slope == pytest.approx(line.slope, rel=1e-12)
+    assert found.slope_error == pytest.approx(line.stderr, rel=1e-10)
 
 
 @pytest.mark.parametrize(
@@ -104,5 +108,5 @@ def test_bad_imprints_are_refused(arguments, says):
 
 
 def test_unknown_class_is_refused():
-    with pytest.raises(ValueError, match="hardness class = 'd' must be one of"):
+    with pytest.raises(ValueError, match="hardness_class = 'd' must be one of"):
         mdr.ScalingLaw("d", 1.0)

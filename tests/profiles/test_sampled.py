@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from mdr_core.profiles.samples import axis_of_symmetry
 
 from ..shapes import integrate, lower_hull
 
@@ -401,3 +402,15 @@ class TestAreaFunction:
 def test_many_samples_are_not_listed():
     assert repr(HULL) == f"Sampled({len(HULL.r)} samples to r = 1e-05 m, z = {HULL.z[-1]:g} m)"
     assert repr(mdr.Sampled([0, 1], [0, 2])) == "Sampled(r=(0.0, 1.0), z=(0.0, 2.0))"
+
+
+@pytest.mark.parametrize("noise", [0.0, 2e-9])
+def test_the_axis_of_a_tip_that_is_measured_on_both_sides(noise):
+    """Both sides of a paraboloid differ by a square of the distance from its axis."""
+    axis, r = 0.12e-6, 1e-6 * np.linspace(-1.0, 1.3, 301)
+    z = (r - axis) ** 2 / 2e-6 + np.random.default_rng(5).normal(0.0, noise, r.size)
+    # Linear interpolation between samples; noise over the mean slope of 0.5 and the root of their number.
+    tolerance = 1e-3 * 1e-6 + 4 * noise / 0.5 / np.sqrt(r.size)
+    assert axis_of_symmetry(r, z) == pytest.approx(axis, abs=tolerance)
+    # The order of the samples does not matter.
+    assert axis_of_symmetry(r[::-1], z[::-1]) == pytest.approx(axis, abs=tolerance)
