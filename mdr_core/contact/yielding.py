@@ -251,7 +251,7 @@ class RadiusCap(YieldRule):
 
         with np.errstate(all="ignore"):
             # Under a sharp tip that yields from first touch on the ratio is larger everywhere.
-            sought = np.where(ratio(np.asarray(_check.SMALLEST))[0] < 1, 1.0, 0.0)
+            sought = np.where(ratio(np.asarray(_check.SHORTEST))[0] < 1, 1.0, 0.0)
             near = plastic_depth + self.cap(plastic_depth)
             start = np.where((plastic_depth > 0) & (near < np.inf), near, 1.0)
             depth = increasing_root(ratio, sought, start, self.profile.known_depth)

@@ -40,8 +40,9 @@ class Limit:
         Quantity that is bounded: "slope", "contact radius", "modulus" below 1 kPa or above 10 TPa, "Poisson
         ratio", "viscosity", "speed", "fast limit", "Tabor's parameter", which must be larger than its
         bound, "facets" of samples with adhesion, for friction "coupling" and "slip direction", and where
-        elements stick "tolerance", "depth" over d_c and "mass" over the tangential one; and the length (m)
-        of a "jump" of a path given by force.
+        elements stick "tolerance", "depth" over d_c and "mass" over the tangential one; with a constant
+        hardness "flow", the area of a contact that flows over that of the model; and the length (m) of a
+        "jump" of a path given by force.
     value, bound : float
         Its largest value over all states, and the largest one for which the assumption is good.
     exceeded : bool
@@ -81,6 +82,7 @@ def contact_limits(profile, medium, radius, *, slow=False):
     if np.any(np.asarray(medium.eta) > 0):
         limits.append(_viscosity_limit(medium) if slow else _poisson_limit(medium))
     limits.extend(_modulus_limit(medium))
+    limits.extend(_flow_limit(medium))
     return (*limits, *_tabor_limit(profile, medium), *_facet_limit(profile, medium))
 
 
@@ -132,6 +134,17 @@ def _modulus_limit(medium):
         yield Limit("modulus", softest, _SOFTEST, True, text.format(engineering(softest, "Pa")))
     if stiffest > _STIFFEST:
         yield Limit("modulus", stiffest, _STIFFEST, True, text.format(engineering(stiffest, "Pa")))
+
+
+def _flow_limit(medium):
+    """Contact area of a contact that flows over that of this model, if there is a constant hardness."""
+    if np.any(np.asarray(medium.hardness) > 0):
+        text = (
+            "On loading the contact radius is the elastic one, for a ball a² = R d; a contact that flows "
+            "goes to 2 R d. Under a ball yield starts at a mean pressure of 2H/3, and restitution is about "
+            "0.7 of Johnson's law for metals."
+        )
+        yield Limit("flow", 2.0, 1.0, True, text, severe=False)
 
 
 def _tabor_limit(profile, medium):

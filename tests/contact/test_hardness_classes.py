@@ -359,7 +359,10 @@ def test_what_is_of_class_b_alone_is_refused(call, says):
 def test_other_classes_have_no_limit_of_the_fast_impact():
     hit = mdr.impact(mdr.Cone(0.3), mdr.Medium(E, hardness=1e9), 1e-9, 1.0)
     assert hit.restitution < 1
-    assert "fast limit" not in {limit.what for limit in hit.limits}
+    limits = {limit.what: limit for limit in hit.limits}
+    assert "fast limit" not in limits
+    assert "0.7 of Johnson's law" in limits["flow"].sentence
+    assert limits["flow"].level == "note"
 
 
 def test_smooth_shapes_are_checked_to_be_convex():
