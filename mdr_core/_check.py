@@ -182,7 +182,9 @@ def finite_array(quantity, value, *, unit="", most=FARTHEST, missing=False):
 def force(quantity, value):
     """`value` as a float array of normal forces, which are not negative."""
     array = finite_array(quantity, value, unit="N", most=LONGEST)
-    refuse(quantity, array, array < 0, "is negative", unit="N", remedy="there is no adhesion")
+    refuse(
+        quantity, array, array < 0, "is negative", unit="N", remedy="a tension needs work_of_adhesion > 0"
+    )
     tiny = (array > 0) & (array < SMALLEST)
     return refuse(quantity, array, tiny, f"must be 0 or at least {SMALLEST:g}", unit="N")
 

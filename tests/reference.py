@@ -162,7 +162,7 @@ class Reference:
             return mpf(0)
         inside = self.plastic_depth * self.flat
         past = Reference.__new__(Reference)
-        past.__dict__ = self.__dict__ | {"live": mpf(0), "c": mpf(0)}
+        past.__dict__ = self.__dict__ | {"live_interval": mpf(0), "c": mpf(0)}
         return (
             2
             * self.modulus

@@ -1,7 +1,7 @@
 """Closed forms of profiles, a class for each family: powers of the radius.
 
 A profile with an entry here is solved by its formulas, every other one by quadrature or from a table. To
-add a family, write a subclass of `ClosedForms` and register it for the class of its profiles:
+add a family, write a subclass of `Integrals` and register it for the class of its profiles:
 
     @integrals.register(Wedge)
     class WedgeForms(Integrals): ...

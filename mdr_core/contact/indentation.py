@@ -60,7 +60,7 @@ class Indentation(Result):
         profile, medium = self.profile.entries(index, shape), self.medium.entries(index, shape)
         load = self.uniform_load[index] if np.ndim(self.uniform_load) else self.uniform_load
         depth, interval = np.asarray(self.depth[index]), self.live_interval[index]
-        return Indentation(profile, medium, depth, interval, load, self.in_time)
+        return Indentation(profile, medium, depth, interval, load, self.in_time, self.jumps)
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
@@ -111,7 +111,10 @@ class Indentation(Result):
 
     @_check.frozen_property
     def mean_pressure(self):
-        """Mean contact pressure F/(π a²) (Pa), the hardness at this radius; 0 without contact."""
+        """Mean contact pressure F/(π a²) (Pa); 0 without contact.
+
+        Less than the hardness at this radius, because the outer ring of the contact is elastic.
+        """
         a = np.asarray(self.contact_radius)
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.where(a > 0, self.force / a / a / np.pi, 0.0)

@@ -158,14 +158,14 @@ def adhesive_contact_time(profile, medium, inertia, speed, interval, increase):
     `inertia` is the mass over 2E*.
     """
     before = interval.lower - increase
-    start, _ = touching(profile, medium, before)
+    start, energy = touching(profile, medium, before)
     end, lost = pull_off(profile, medium, interval.lower)
     low = single_range(profile, medium, AT_DEPTH)
     yielding, _ = contact_interval(
         profile, medium, before, np.where(increase > 0, medium.critical_depth, 0.0), low, np.inf
     )
     turn, (node, weight) = interval.upper, gauss_legendre(64)
-    total, time = inertia * speed**2 / 2 + touching(profile, medium, before)[1], 0.0
+    total, time = inertia * speed**2 / 2 + energy, 0.0
     last = _energy(profile, medium, interval)
     # D = D₁ e^(−u²): the speed goes as u next to the turning point D₁, and a(D) is a power of D at the tip.
     first, end, cut = (

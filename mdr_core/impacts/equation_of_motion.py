@@ -9,8 +9,8 @@ y = d − p₀ into an imprint of plastic depth p₀, the plastic depth p, the l
     loading     μ v̇ = −(Φ + τ a v)     ẏ = v              ẇ = τ a v²        until v = 0
     unloading   μ v̇ = −Φ               ℓ̇ = v + τ v̇       ẇ = τ a v ℓ̇     until ℓ = 0
 
-2E* w is the viscous work, with the energy that released elements are still to lose. `steps` and `legs`
-solve these equations, in the depth q = y or ℓ and the velocity v.
+2E* w is the viscous work, with the energy that released elements are still to lose. `motion_solver`
+solves these equations, in the depth q = y or ℓ and the velocity v.
 """
 
 from dataclasses import dataclass, replace

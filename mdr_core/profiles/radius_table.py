@@ -116,7 +116,8 @@ class OneLength(Profile):
     """Base class of profiles with one length L and one depth H: z = H Z(r/L), g = H G(x/L).
 
     A subclass gives `_length` and `_depth` (L and H, m), and Z, G and G′ as functions of arrays u = r/L.
-    The inverse of G comes from a table, made once for the class.
+    Both scales must be 1 where all parameters are 1. A parameter named `slope` has no unit, others are m.
+    The inverse of G comes from a table, made once for the class at its first use.
     """
 
     _length: float
@@ -163,8 +164,14 @@ def _unit_radius(kind, depth):
 
 @lru_cache
 def _unit(kind):
-    """The profile of a class with parameters of 1."""
-    return kind(*(1.0 for _ in fields(kind)))
+    """The profile of a class with parameters of 1, which has the length and the depth 1."""
+    unit = kind(*(1.0 for _ in fields(kind)))
+    if (unit._length, unit._depth) != (1.0, 1.0):
+        raise TypeError(
+            f"{kind.__name__} with parameters of 1 has the length {unit._length:g} and the depth "
+            f"{unit._depth:g}; a OneLength must have 1 and 1: take other parameters, or derive from Profile"
+        )
+    return unit
 
 
 @lru_cache

@@ -321,6 +321,12 @@ class TestFallingForce:
             assert len(jumps) == (share > 1)
             assert all("95.43 mm past" in sentence for sentence in jumps)
 
+    def test_a_part_of_a_path_says_that_the_path_jumps(self):
+        onset = mdr.critical_force(self.cone, self.medium)
+        path = mdr.indent_to_force(self.cone, self.medium, np.array([0.5, 1.02]) * onset)
+        for part in (path, path[1:], path[1]):
+            assert "jump" in [limit.what for limit in part.limits]
+
     def test_the_largest_force_of_an_impact_may_be_that_at_the_onset(self):
         speed = 1.5 * mdr.yield_speed(self.cone, self.medium, 1.0)
         hit = mdr.impact(self.cone, self.medium, 1.0, [speed, 9 * speed])
