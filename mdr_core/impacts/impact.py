@@ -4,13 +4,10 @@ On a medium without viscosity it is solved by the energy balance and quadrature,
 viscous one by the equation of motion.
 """
 
-from functools import cached_property
-from operator import attrgetter
-
 import numpy as np
 
 from .. import _check
-from .._check import Array, ArrayLike
+from .._check import ArrayLike
 from ..medium import Medium, check_pair, refuse_adhesion, shape_with
 from ..profiles.profile import Profile
 from .adhesive import adhesive_impact
@@ -100,10 +97,3 @@ def _solved(profile, medium, mass, speed, imprint_depth, in_time):
     if in_time or np.any(np.asarray(medium.eta) > 0):
         return viscous_impact(profile, medium, mass, speed, imprint_depth, in_time)
     return dry_impact(profile, medium, mass, speed, imprint_depth)
-
-
-def quantity_of(path: str, doc: str) -> "cached_property[Array]":
-    """A property that is one of a state or result in this result, as in "turning_point.depth"."""
-    quantity = cached_property(attrgetter(path))
-    quantity.__doc__ = doc
-    return quantity

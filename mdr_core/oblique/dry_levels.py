@@ -1,6 +1,6 @@
 """Normal motions without viscosity at levels of depth, for many impacts at a time: a grid for friction.
 
-Arrays have a row for each level, and a column for each impact.
+Arrays have a row for each level or step, and a column for each impact.
 """
 
 from dataclasses import dataclass
@@ -13,23 +13,24 @@ from ..contact.live_interval import LiveInterval
 from ..contact.yielding import YieldRule, yield_rule
 
 
-class Branch(NamedTuple):
-    """Loading or unloading. At levels: depth and plastic depth (m), velocity (m/s) and acceleration (m/s²).
+class DryLevels(NamedTuple):
+    """Instants at which loading passes levels of depth, and unloading those that lie above the imprint.
 
+    The turning point is that of number `turn`. At each instant: depth, plastic depth (m), velocity (m/s).
     For the steps between them: time (s), and depth and plastic depth (m) when half of it has passed.
     """
 
+    turn: int
     depth: np.ndarray
     plastic_depth: np.ndarray
     velocity: np.ndarray
-    acceleration: np.ndarray
     step: np.ndarray
     middle: np.ndarray
     middle_plastic_depth: np.ndarray
 
     @classmethod
-    def of(cls, depth, plastic_depth, velocity, acceleration):
-        """The branch with steps of fourth order, Δd = h (v₀ + v₁)/2 + h² (a₀ − a₁)/12."""
+    def of(cls, turn, depth, plastic_depth, velocity, acceleration):
+        """Levels with steps of fourth order, Δd = h (v₀ + v₁)/2 + h² (a₀ − a₁)/12."""
         rise, mean = np.diff(depth, axis=0), (velocity[1:] + velocity[:-1]) / 2
         bend = -np.diff(acceleration, axis=0) / 12
         root = np.copysign(np.sqrt(np.maximum(mean**2 + 4 * bend * rise, 0.0)), mean)
@@ -39,7 +40,13 @@ class Branch(NamedTuple):
         # The onset of yield is a level: over a step either nothing yields, or both depths rise alike.
         before, after = plastic_depth[:-1], plastic_depth[1:]
         middle_plastic_depth = np.clip(after - (depth[1:] - middle), before, after)
-        return cls(depth, plastic_depth, velocity, acceleration, step, middle, middle_plastic_depth)
+        return cls(turn, depth, plastic_depth, velocity, step, middle, middle_plastic_depth)
+
+    @property
+    def time(self):
+        """Times (s) since first contact, of instants and of the middles between them."""
+        half = np.repeat(self.step / 2, 2, axis=0)
+        return np.vstack([0 * half[:1], np.cumsum(half, axis=0)])
 
 
 @dataclass(frozen=True)
@@ -83,55 +90,44 @@ class NormalMotions:
         """Contact radii (m) at levels of depth (m)."""
         return self.at_levels(self.profile._radius, depth)
 
-    def branches(self, counts, instants):
-        """Loading and unloading: with levels in so many parts below and above the imprint.
+    def levels(self, below, above, depths=()):
+        """The `DryLevels` with so many steps of loading below the imprint, and so many above it.
 
-        Depths at `instants`, (M, n), are levels as well; so are the onset of yield and the kinks.
+        Some `depths` (m) of all impacts are levels as well; so are the onset of yield and the kinks.
         """
         end, size = self.plastic_depth, self.live_depth
-        kinks = [np.broadcast_to(kink, end.shape) for kink in self.profile.kinks]
-        onset = np.broadcast_to(self.rule.onset(), end.shape)
-        extra = np.vstack([np.stack([onset, *kinks]), instants])
-        below, above = (np.linspace(0.0, 1.0, count + 1)[:, None] for count in counts)
+        known = self.rule.onset(), *self.profile.kinks, *depths
+        extra = np.array([np.broadcast_to(depth, end.shape) for depth in known])
+        below, above = (np.linspace(0.0, 1.0, count + 1)[:, None] for count in (below, above))
         # In equal parts of √(d_max − d) below, about equal times; above closer towards both ends.
         root = np.sqrt(end + size)
         below = below[:-1] * (root - np.sqrt(size))
-        below = np.vstack([below * (2 * root - below), np.clip(extra, 0.0, end), end])
-        above = np.vstack([size * np.sin(np.pi / 2 * above[1:]) ** 2, np.clip(extra - end, 0.0, size)])
+        below = np.vstack([below * (2 * root - below), np.minimum(extra, end), end])
+        extra = np.where(extra < end + size, np.maximum(extra - end, 0.0), 0.0)
+        above = np.vstack([size * np.sin(np.pi / 2 * above[1:]) ** 2, extra])
         below, above = np.sort(below, axis=0), np.sort(above, axis=0)
-        loading = self._loading(np.vstack([below, end + above]))
-        return loading, self._unloading(np.vstack([above[::-1], 0 * size]))
+        depth = np.vstack([below, end + above])
+        loaded, _ = self.rule.loading(depth)
+        lower = np.vstack([loaded.lower, np.broadcast_to(end, above.shape)])
+        length = np.vstack([loaded.length, above[-2::-1], 0 * size])
+        return self._moving(len(depth) - 1, np.vstack([depth, end + length[len(depth) :]]), lower, length)
 
-    def _loading(self, depth):
-        interval, _ = self.rule.loading(depth)
-        lower = interval.lower
-        work, area = self._work_and_area(lower, interval.length)
+    def _moving(self, turn, depth, lower, length):
+        """`DryLevels` from depths and live intervals (m) at all instants."""
+        area = self.at_levels(self._area, lower, length)
+        # Kinetic energy over 2E* (m³): what the springs hold more at the turning point, and what yields
+        # until then.
+        stored = self._energy(self.plastic_depth, self.live_depth)
+        work = stored - self.at_levels(self._energy, lower, length)
         ahead = np.maximum(self.plastic_depth - lower, 0.0)
         if np.any(ahead > 0):
             work += self.at_levels(self.rule.plastic_integral, lower, ahead)
-        velocity = self._velocity(work, depth[-1] - depth, area)
-        velocity[0], velocity[-1] = self.speed, 0.0
-        return Branch.of(depth, lower, velocity, -self.rate * area)
-
-    def _unloading(self, live_depth):
-        lower = np.broadcast_to(self.plastic_depth, live_depth.shape)
-        work, area = self._work_and_area(lower, live_depth)
-        velocity = -self._velocity(work, live_depth[0] - live_depth, area)
-        velocity[0] = 0.0
-        return Branch.of(lower + live_depth, lower, velocity, -self.rate * area)
-
-    def _velocity(self, work, gap, area):
-        """Speeds (m/s) from works (m³), at least that of the force at a level over the gap (m) to the top.
-
-        Beside the turning point the work is rounding, and steps would have any length.
-        """
-        return np.sqrt(2 * self.rate * np.maximum(work, gap * area))
-
-    def _work_and_area(self, lower, length):
-        """Energy stored at the turning point less that at levels, over 2E* (m³), and ∫a ds there (m²)."""
-        stored = self._energy(self.plastic_depth, self.live_depth)
-        work = stored - self.at_levels(self._energy, lower, length)
-        return work, self.at_levels(self._area, lower, length)
+        # Beside the turning point the work is rounding, and steps would have any length. It is at least
+        # that of the force at the level.
+        speed = np.sqrt(2 * self.rate * np.maximum(work, (depth[turn] - depth) * area))
+        speed[0], speed[turn] = self.speed, 0.0
+        velocity = np.vstack([speed[:turn], -speed[turn:]])
+        return DryLevels.of(turn, depth, lower, velocity, -self.rate * area)
 
     def _energy(self, lower, length):
         return integrals(self.profile).energy_integral(LiveInterval.above(lower, length))

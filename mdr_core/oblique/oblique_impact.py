@@ -9,7 +9,7 @@ import numpy as np
 from .. import _check
 from .._check import Array, ArrayLike
 from ..contact.yielding import yield_rule
-from ..impacts.impact import impact, quantity_of
+from ..impacts.impact import impact
 from ..impacts.result import Impact
 from ..medium import Medium, check_pair, refuse_adhesion, refuse_other_classes, shape_with
 from ..profiles.profile import Profile
@@ -149,15 +149,50 @@ class ObliqueImpact(Entries, Result):
     )  # fmt: skip
     _dimensions = ("impact",)
 
-    mass = quantity_of("normal.mass", "Mass m (kg).")
-    speed = quantity_of("normal.speed", "Normal speed v₀ (m/s) before.")
-    restitution = quantity_of("normal.restitution", "Normal coefficient of restitution e.")
-    contact_time = quantity_of("normal.contact_time", "Time (s) from first contact to the loss of contact.")
-    max_depth = quantity_of("normal.max_depth", "Largest depth (m).")
-    max_force = quantity_of("normal.max_force", "Largest normal force (N).")
-    plastic_work = quantity_of("normal.plastic_work", "Energy (J) dissipated by yielding.")
-    max_tangential_force = quantity_of("_surface.max_force", "Largest tangential force (N), without sign.")
-    friction_work = quantity_of("_surface.friction_work", "Energy (J) dissipated by slip.")
+    @property
+    def mass(self) -> Array:
+        """Mass m (kg)."""
+        return self.normal.mass
+
+    @property
+    def speed(self) -> Array:
+        """Normal speed v₀ (m/s) before."""
+        return self.normal.speed
+
+    @property
+    def restitution(self) -> Array:
+        """Normal coefficient of restitution e."""
+        return self.normal.restitution
+
+    @property
+    def contact_time(self) -> Array:
+        """Time (s) from first contact to the loss of contact."""
+        return self.normal.contact_time
+
+    @property
+    def max_depth(self) -> Array:
+        """Largest depth (m)."""
+        return self.normal.max_depth
+
+    @property
+    def max_force(self) -> Array:
+        """Largest normal force (N)."""
+        return self.normal.max_force
+
+    @property
+    def plastic_work(self) -> Array:
+        """Energy (J) dissipated by yielding."""
+        return self.normal.plastic_work
+
+    @property
+    def max_tangential_force(self) -> Array:
+        """Largest tangential force (N), without sign."""
+        return self._surface.max_force
+
+    @property
+    def friction_work(self) -> Array:
+        """Energy (J) dissipated by slip."""
+        return self._surface.friction_work
 
     @property
     def profile(self) -> Profile:

@@ -1,12 +1,11 @@
 """The motion of one oblique impact over time: the normal motion, and one run along the surface."""
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .._check import Array
-from ..impacts.impact import quantity_of
 from ..results.base import Motion, MotionResult
 from .depth_levels import levels
 from .dry_friction import DryRun, first_counts
@@ -23,6 +22,8 @@ class ObliqueMotion(MotionResult):
 
     Attributes
     ----------
+    time, depth, velocity, force, contact_radius, plastic_radius, plastic_work : ndarray
+        As of the normal `Motion`.
     tangential_velocity, tangential_force : ndarray
         Velocity W (m/s) of the contact point along the surface, and the force (N) against it.
     stick_radius, slip_radius : ndarray
@@ -39,6 +40,13 @@ class ObliqueMotion(MotionResult):
         The normal `Motion`, with `normal.states`, and the `ObliqueImpact`.
     """
 
+    time: Array
+    depth: Array
+    velocity: Array
+    force: Array
+    contact_radius: Array
+    plastic_radius: Array
+    plastic_work: Array
     tangential_velocity: Array
     tangential_force: Array
     stick_radius: Array
@@ -53,13 +61,6 @@ class ObliqueMotion(MotionResult):
     normal: Motion
     impact: Any
 
-    time = quantity_of("normal.time", "Time (s) since first contact.")
-    depth = quantity_of("normal.depth", "Indentation depth (m).")
-    velocity = quantity_of("normal.velocity", "Rate (m/s) of the depth.")
-    force = quantity_of("normal.force", "Normal force (N).")
-    contact_radius = quantity_of("normal.contact_radius", "Contact radius (m).")
-    plastic_radius = quantity_of("normal.plastic_radius", "Radius (m) of the plastic zone.")
-    plastic_work = quantity_of("normal.plastic_work", "Energy (J) dissipated by yielding.")
     _quantities = (
         "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "tangential_velocity",
         "tangential_force", "stick_radius", "slip_radius", "kinetic_energy", "stored_energy",
@@ -71,10 +72,8 @@ class ObliqueMotion(MotionResult):
     )  # fmt: skip
 
     def __getitem__(self, index: Any) -> "ObliqueMotion":
-        names = set(self._quantities) & {field.name for field in fields(self)}
-        instants = {name: getattr(self, name)[index] for name in names}
-        load, sticks, normal = self.tangential_line_load[index], self.sticks[index], self.normal[index]
-        return replace(self, **instants, tangential_line_load=load, sticks=sticks, normal=normal)
+        names = *self._quantities, "tangential_line_load", "sticks", "normal"
+        return replace(self, **{name: getattr(self, name)[index] for name in names})
 
 
 def oblique_motion(hit, normal, halvings):
@@ -89,39 +88,43 @@ def oblique_motion(hit, normal, halvings):
 def along_surface(normal, speed, friction, mass, halvings, impact=None):
     """The `ObliqueMotion` under a normal `Motion` from one run; errors are known of an `impact` only."""
     hit = normal.impact
+    same = "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "plastic_work"
     stiffness = 2 * float(hit.medium.tangential_ratio) * float(hit.medium.E_star)
     inertia, ratio = stiffness / mass, bound_ratio(hit, speed, friction)
-    records = (_viscous_records if hit.medium.eta > 0 else _dry_records)(
-        hit, normal, inertia, ratio, halvings
-    )
-    stuck, edges = records.sticks.any(axis=1), records.edges
-    first = records.sticks.argmax(axis=1)
-    last = records.sticks.shape[1] - records.sticks[:, ::-1].argmax(axis=1)
-    velocity, energy = records.velocity * speed, stiffness * speed**2
+    solve = _viscous_run if hit.medium.eta > 0 else _dry_run
+    run, width, states = solve(hit, normal, inertia, ratio, halvings)
+    edges, load = np.append(0.0, np.cumsum(width)), np.zeros((len(states), width.size))
+    sticks = np.zeros(load.shape, bool)
+    for row, (loads, sticking) in enumerate(states):
+        load[row, : loads.size], sticks[row, : loads.size] = loads, sticking
+    sticks &= width > 0
+    stuck, first = sticks.any(axis=1), sticks.argmax(axis=1)
+    last = width.size - sticks[:, ::-1].argmax(axis=1)
+    velocity, energy = run.velocity * speed, stiffness * speed**2
     # Rounding errors would be left at loss of contact.
     most = friction * np.abs(normal.force)
     return ObliqueMotion(
+        **{name: getattr(normal, name) for name in same},
         tangential_velocity=velocity,
-        tangential_force=np.clip(stiffness * speed * records.force, -most, most),
+        tangential_force=np.clip(stiffness * speed * run.force, -most, most),
         stick_radius=np.where(stuck, edges[last], 0.0),
         slip_radius=np.where(stuck, edges[first], 0.0),
         kinetic_energy=normal.kinetic_energy + mass * velocity**2 / 2,
-        stored_energy=normal.stored_energy + energy * records.stored,
-        viscous_work=normal.viscous_work + energy * records.viscous,
-        friction_work=energy * records.friction,
+        stored_energy=normal.stored_energy + energy * run.stored,
+        viscous_work=normal.viscous_work + energy * run.viscous,
+        friction_work=energy * run.friction,
         x=(edges[1:] + edges[:-1]) / 2,
-        tangential_line_load=stiffness / 2 * speed * records.load,
-        sticks=records.sticks,
+        tangential_line_load=stiffness / 2 * speed * load,
+        sticks=sticks,
         normal=normal,
         impact=impact,
     )
 
 
-class _Records(NamedTuple):
+class _Run(NamedTuple):
     """A run along the surface at the instants of a motion, for an initial speed of 1.
 
-    Velocity, force over 2κE* (m s), stored energy and works over 2κE* (m s²), edges of elements (m), their
-    loads over κE* (s), and whether they stick.
+    Velocity, force over 2κE* (m s), stored energy and works over 2κE* (m s²).
     """
 
     velocity: np.ndarray
@@ -129,37 +132,34 @@ class _Records(NamedTuple):
     stored: np.ndarray
     viscous: np.ndarray
     friction: np.ndarray
-    edges: np.ndarray
-    load: np.ndarray
-    sticks: np.ndarray
-
-    @classmethod
-    def of(cls, *quantities, width, states):
-        """From quantities, widths of elements, and loads and stick of the elements in contact."""
-        load, sticks = np.zeros((len(states), width.size)), np.zeros((len(states), width.size), bool)
-        for row, (loads, sticking) in enumerate(states):
-            load[row, : loads.size], sticks[row, : loads.size] = loads, sticking
-        return cls(*quantities, np.append(0.0, np.cumsum(width)), load, sticks & (width > 0))
 
 
-def _viscous_records(hit, normal, inertia, ratio, halvings):
+def _viscous_run(hit, normal, inertia, ratio, halvings):
+    """The `_Run`, widths of elements (m), and at each instant their loads over κE* (s), and which stick."""
     run = slide(hit, levels(hit, inertia, halvings, normal.time), inertia, ratio, normal.time)
     quantities = run.velocities, run.forces, run.energies, run.viscous, run.friction
     states = [run.element_states[i] for i in run.instants]
-    return _Records.of(*(x[run.instants] for x in quantities), width=run.elements.width, states=states)
+    return _Run(*(x[run.instants] for x in quantities)), run.elements.width, states
 
 
-def _dry_records(hit, normal, inertia, ratio, halvings):
+def _dry_run(hit, normal, inertia, ratio, halvings):
+    """The same without viscosity."""
     motions, inertia = NormalMotions.of(hit, np.array([0])), np.array([inertia])
     counts = first_counts(motions, inertia)[:, 0] * 2 ** int(halvings)
     # At higher speeds all elements slip as well, with the same loads, but these would be lost to rounding.
     start = 1 / np.maximum(ratio, 1 / (2 * (1 + inertia / motions.rate) * motions.speed))
-    run = DryRun(motions, inertia, start, counts, normal.depth[:, None])
-    at = [int(np.argmin(np.abs(run.time[:, 0] - time))) for time in normal.time]
+    run = DryRun(motions, inertia, start, counts, normal.depth)
+    time, width = run.levels.time[::2, 0], run.width[:, 0]
+    at = [int(np.argmin(np.abs(time - instant))) for instant in normal.time]
     run.solve(recorded=at)
-    states = [(ratio * load[:, 0], sticks[:, 0]) for load, sticks in map(run.element_states.get, at)]
-    loss, width = ratio * (start - run.velocities[at, 0]), run.width[:, 0]
-    stored = np.array([width[: load.size] @ load**2 / 2 for load, _ in states])
+    states, forces, stored = [], [], []
+    for i, normal_force in zip(at, normal.force / (2 * hit.medium.E_star), strict=True):
+        load, bound = (values[:, 0] for values in run.element_states[i])
+        covered = width[: load.size]
+        states.append((ratio * load, np.abs(load) < bound * (1 - 1e-9)))
+        # The sum of all bounds is the normal force, which is known.
+        forces.append(ratio * covered @ load / max(covered @ bound, 1e-300) * normal_force)
+        stored.append(ratio**2 * covered @ load**2 / 2)
+    loss = ratio * (start - run.velocities[at, 0])
     friction = loss * (2 - loss) / (2 * inertia) - stored
-    quantities = 1 - loss, ratio * run.forces[at, 0], stored, np.zeros(len(at)), friction
-    return _Records.of(*quantities, width=width, states=states)
+    return _Run(1 - loss, np.array(forces), np.array(stored), 0 * loss, friction), width, states

@@ -16,7 +16,7 @@ from ..results.progress import tracked_chunks
 from .depth_levels import MOST_LEVELS, levels
 from .dry_friction import solve_dry
 from .dry_levels import NormalMotions
-from .viscous_friction import SLOWEST, RunQuantities, bound_ratio, slide, stick_instants
+from .viscous_friction import SLOWEST, RunQuantities, bound_ratio, slide
 
 #: Relative error of the normal motion, and of closed forms that follow from it.
 EXACT = 1e-9
@@ -50,11 +50,8 @@ def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
     The arguments are arrays of the shape of the normal `Impact`.
     """
     shape, names = hit.shape, [field.name for field in fields(SurfaceSolution)]
-    given = np.abs(tangential_speed), friction, tangential_mass
-    speed, friction, tangential_mass = (np.ravel(value) for value in given)
-    eta, plastic_work = (
-        np.broadcast_to(value, shape).ravel() for value in (hit.medium.eta, hit.plastic_work)
-    )
+    speed, friction, tangential_mass = _flat(hit, np.abs(tangential_speed), friction, tangential_mass)
+    eta, plastic_work = _flat(hit, hit.medium.eta, hit.plastic_work)
     columns = _slip_throughout(hit, speed, friction, tangential_mass)
     slips = columns["slips_throughout"]
     viscous = (eta > 0) & (~slips | ((plastic_work > 0) & (friction > 0)))
@@ -66,9 +63,8 @@ def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
         if slips[row]:
             # Only how much of the work is viscous is not known in closed form.
             values = {name: values[name] for name in ("viscous_work", "viscous_error", "halvings")}
-            values["friction_work"] = (
-                columns["friction_work"][row] + columns["viscous_work"][row] - values["viscous_work"]
-            )
+            both = columns["friction_work"][row] + columns["viscous_work"][row]
+            values["friction_work"] = both - values["viscous_work"]
             values["friction_error"] = values["viscous_error"] = values["viscous_error"] + EXACT
         for name, value in values.items():
             columns[name][row] = value
@@ -78,30 +74,19 @@ def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
         for name, value in values.items():
             columns[name][rows] = value
     columns["tolerance"] = np.full(speed.size, float(tolerance))
-    _bound_errors(columns, friction * np.broadcast_to(hit.max_force, shape).ravel())
     return SurfaceSolution(**{name: _check.frozen(columns[name].reshape(shape)) for name in names})
 
 
-def _bound_errors(columns, most):
-    """Errors at most as large as energy and Coulomb's force `most` (N) allow: |W′| ≤ W₀, no work gained."""
-    force = columns["max_force"]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        largest = np.where(force > 0, np.maximum(most / force - 1, 1.0), 1.0)
-    bounds = {
-        "change_error": 1 + np.abs(1 + columns["relative_change"]),
-        "force_error": largest,
-        "friction_error": 1.0,
-        "viscous_error": 1.0,
-    }
-    for name, bound in bounds.items():
-        columns[name] = np.minimum(columns[name], bound)
+def _flat(hit, *values):
+    """Values of impacts as flat arrays."""
+    return (np.broadcast_to(value, hit.shape).ravel() for value in values)
 
 
 def _slip_throughout(hit, speed, friction, tangential_mass):
     """Fields of a `SurfaceSolution` as flat arrays, right where all elements slip throughout."""
-    given = hit.speed, hit.restitution, hit.mass, hit.max_force, hit.viscous_work
-    given = (np.broadcast_to(x, hit.shape).ravel() for x in (*given, hit.medium.tangential_ratio))
-    normal_speed, restitution, mass, max_force, viscous_work, kappa = given
+    normal_speed, restitution, mass = _flat(hit, hit.speed, hit.restitution, hit.mass)
+    given = hit.max_force, hit.viscous_work, hit.medium.tangential_ratio
+    max_force, viscous_work, kappa = _flat(hit, *given)
     with np.errstate(invalid="ignore"):
         change = -friction * mass / tangential_mass * (1 + restitution) * normal_speed
         slowest = friction / kappa * normal_speed
@@ -126,11 +111,8 @@ def _slip_throughout(hit, speed, friction, tangential_mass):
 
 def _dry(hit, rows, tolerance, speed, friction, tangential_mass):
     """Fields of impacts at flat rows without viscosity, in which some elements stick."""
-    shape, medium = hit.shape, hit.medium
-    given = medium.tangential_ratio, medium.E_star, hit.speed, hit.max_force
-    kappa, E_star, normal_speed, max_force = (
-        np.broadcast_to(value, shape).ravel()[rows] for value in given
-    )
+    given = hit.medium.tangential_ratio, hit.medium.E_star, hit.speed, hit.max_force
+    kappa, E_star, normal_speed, max_force = (value[rows] for value in _flat(hit, *given))
     motions = NormalMotions.of(hit, rows)
     # Without speed as with the friction at which everything sticks.
     slowest = SLOWEST * normal_speed
@@ -139,6 +121,7 @@ def _dry(hit, rows, tolerance, speed, friction, tangential_mass):
     after, force, change_error, force_error, halvings = solve_dry(motions, inertia, velocity, tolerance)
     # Friction takes energy: no step may leave more than there was.
     remaining = np.clip(after / velocity, -1.0, 1.0)
+    change_error = np.minimum(change_error, 1 + np.abs(remaining))
     force = np.minimum(2 * kappa * E_star * speed / velocity * force, friction * max_force)
     return {
         "relative_change": remaining - 1,
@@ -146,7 +129,7 @@ def _dry(hit, rows, tolerance, speed, friction, tangential_mass):
         "friction_work": tangential_mass * speed**2 / 2 * np.maximum(1 - remaining**2, 0.0),
         "change_error": change_error,
         "force_error": force_error,
-        "friction_error": 2 * change_error,
+        "friction_error": np.minimum(change_error * (2 * np.abs(remaining) + change_error), 1.0),
         "viscous_error": np.zeros(rows.size),
         "halvings": halvings,
     }
@@ -175,19 +158,12 @@ def _viscous(hit, tolerance, speed, friction, tangential_mass):
 
 def _limits(hit, inertia, ratio, tolerance):
     """Limits of `RunQuantities` for vanishing steps, their estimated errors, and the number of halvings."""
-    run, last_limit = slide(hit, levels(hit, inertia, 0), inertia, ratio), None
-    for halvings in range(1, 8):
-        # The instants at which stick begins are known from the last run.
-        grid = levels(hit, inertia, halvings, stick_instants(hit, run, ratio))
-        coarse, run = run.quantities, slide(hit, grid, inertia, ratio)
-        if halvings == 1:
-            continue
-        fine = np.array(run.quantities)
-        limit = fine + (fine - coarse) / 3
-        errors = np.abs(limit - fine) * (0.5 if last_limit is None else 0.1)
-        if last_limit is not None:
-            errors = np.maximum(errors, np.abs(limit - last_limit))
-        last_limit = limit
+    run = slide(hit, levels(hit, inertia, 1), inertia, ratio)
+    for halvings in range(2, 8):
+        grid, coarse = levels(hit, inertia, halvings), np.array(run.quantities)
+        run = slide(hit, grid, inertia, ratio)
+        limit = run.quantities + (run.quantities - coarse) / 3
+        errors = np.abs(limit - run.quantities)
         _, force, friction, viscous = limit
         # Work counts relative to itself, or to a hundredth of the energy along the surface, 1/(2C).
         smallest = 0.005 / inertia

@@ -1,18 +1,18 @@
-"""Friction along the surface of a viscous medium under a given normal motion, element by element.
+"""Friction along the surface of a viscous medium, for one impact at a time: section 13 of the theory.
 
-Every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν) times as stiff (Mindlin).
-Per κE* its load is Q = s + τṡ, and the normal load allows |Q| ≤ B = (μ/κ)(ℓ − (g − p)₊), with the live
-depth ℓ and the plastic depth p:
+Lengths along the surface are those of a body of speed 1. An element with the displacement s has the load
+Q = s + τṡ, and |Q| ≤ B, μ/κ times its normal load. It sticks with ṡ = W, the velocity of the contact point,
+or slips with |Q| = B; released, it relaxes with Q = 0. With C = 2κE*/m_t the velocity follows Ẇ = −C ∫Q dx.
 
-    stick    ṡ = W      |Q| ≤ B             slip    Q = ±B, s follows         released    Q = 0, s relaxes
-    the body            m_t Ẇ = −2κE* ∫Q dx
-
-1. The edges of the elements are the contact radii at levels of depth, and the steps of time lie between the
-   instants at which loading and unloading pass these: an element is covered or released within one step.
-2. The depth of an element is its mean ḡ = ∫g dx/Δx: the normal force is then exact at every level.
-3. Over a step Q is linear in time, and s is then exact. The momentum balance is piecewise linear.
+1. Levels of depth are the edges of elements. A step lies between two instants at which the edge of the
+   contact passes a level: it covers or releases one element.
+2. An element stands for its mean depth ∫g dx/Δx: the normal force is then exact at every level.
+3. Over a step load and bound are linear in time until they meet, and s is then exact. The balance of
+   momentum is solved for the velocity at the end.
 4. Work is the mean load times the displacement, friction work the mean load times the slip: the energies
-   sum to a constant for any step. Results converge with the square of the step.
+   sum to a constant for any step.
+
+Errors are of second order in the step.
 """
 
 from typing import NamedTuple
@@ -22,6 +22,7 @@ import numpy as np
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
+from ..numerics.roots import largest_value
 
 #: κW₀/μ over the normal speed below which everything sticks.
 SLOWEST = 1e-7
@@ -79,18 +80,34 @@ class RunQuantities(NamedTuple):
     viscous: float
 
 
-def _largest(time, values):
-    """Largest value, from the parabola through three instants."""
-    i = int(np.argmax(values))
-    if not 1 < i < values.size - 2 or np.any(np.diff(time[i - 2 : i + 3]) <= 0):
-        return values[i]
-    slope = np.diff(values[i - 2 : i + 3]) / np.diff(time[i - 2 : i + 3])
-    bend = np.diff(slope) / (time[i : i + 3] - time[i - 2 : i + 1])
-    early, late = time[i] - time[i - 1], time[i + 1] - time[i]
-    top = (slope[1] * late + slope[2] * early) / (early + late)
-    # At a kink the parabola means nothing.
-    kink = abs(bend[1]) > 3 * max(abs(bend[0]), abs(bend[2]))
-    return values[i] if kink or bend[1] >= 0 else values[i] - top**2 / (4 * bend[1])
+def largest_force(time, force):
+    """Largest |force| of each column, with a row for each instant; at a kink, where slip begins, as well.
+
+    Between two instants the force is the lesser of two parabolas, each through three instants on one side.
+    """
+    force = np.abs(force)
+    at, largest = np.argmax(force, axis=0), np.max(force, axis=0)
+    for first in (at - 1, at):
+        near = np.clip(first + np.arange(-2, 4)[:, None], 0, len(time) - 1)
+        t, f = (np.take_along_axis(values, near, axis=0)[..., None] for values in (time, force))
+        steps = np.diff(t[..., 0], axis=0)
+
+        def between(place, t=t, f=f):
+            return np.minimum(_parabola(t[:3], f[:3], place), _parabola(t[3:], f[3:], place))
+
+        with np.errstate(divide="ignore", invalid="ignore"):
+            top = largest_value(between, t[2], t[3])
+        # Parabolas through uneven steps mean nothing.
+        even = steps.min(axis=0) > 0.1 * steps.max(axis=0)
+        largest = np.where(even, np.maximum(largest, top), largest)
+    return largest
+
+
+def _parabola(t, f, place):
+    """Values at places of parabolas through three points each."""
+    slope, last_slope = np.diff(f, axis=0) / np.diff(t, axis=0)
+    bend = (last_slope - slope) / (t[2] - t[0])
+    return f[0] + (place - t[0]) * (slope + (place - t[1]) * bend)
 
 
 def slide(hit, levels, inertia, ratio, instants=()):
@@ -122,18 +139,6 @@ def slide(hit, levels, inertia, ratio, instants=()):
     return run
 
 
-def stick_instants(hit, run, ratio):
-    """Instants (s) at which all elements that slip begin to stick, as they do together.
-
-    Slip ends where the velocity equals the rate of the bound, W = ±(μ/κ) v, or W = 0 while yielding.
-    """
-    time, velocity, instants = run.time, hit._dense_motion.at(run.time).velocity, []
-    for excess in (run.velocities - ratio * velocity, run.velocities + ratio * velocity, run.velocities):
-        i = np.flatnonzero(excess[:-1] * excess[1:] < 0)
-        instants.append(time[i] + (time[i + 1] - time[i]) * excess[i] / (excess[i] - excess[i + 1]))
-    return np.concatenate(instants)
-
-
 class FrictionRun:
     """One run in units of the initial tangential speed: the elements during it, and its records.
 
@@ -153,8 +158,9 @@ class FrictionRun:
     @property
     def quantities(self):
         """The `RunQuantities`, after all elements have relaxed."""
-        change, force = self.velocities[-1] - 1.0, _largest(self.time, np.abs(self.forces))
-        return RunQuantities(change, force, self.friction[-1], self.viscous[-1] + self.energies[-1])
+        (force,) = largest_force(self.time[:, None], self.forces[:, None])
+        viscous = self.viscous[-1] + self.energies[-1]
+        return RunQuantities(self.velocities[-1] - 1.0, force, self.friction[-1], viscous)
 
     def cover(self, old, count, bound):
         """Covers elements at a speed at which they carry at most `bound`."""

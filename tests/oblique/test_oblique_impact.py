@@ -8,7 +8,7 @@ import mdr_core as mdr
 from mdr_core.oblique.depth_levels import levels
 from mdr_core.oblique.dry_friction import DryRun
 from mdr_core.oblique.dry_levels import NormalMotions
-from mdr_core.oblique.viscous_friction import slide, stick_instants
+from mdr_core.oblique.viscous_friction import slide
 
 from ..benchmarks.oblique import Case, limits
 from ..shapes import SHAPES, name
@@ -95,7 +95,8 @@ class TestMaw:
     def test_elements_find_slip_throughout(self):
         """The same rows where the closed form is known: the impulse is that of the normal force.
 
-        Exactly without viscosity, from any number of levels.
+        Without viscosity of second order, for the cell at the edge of the contact: 1/16 with four times the
+        levels, of which a quarter is asked for.
         """
         hit = hit_at(4.5, medium=VISCOUS)
         run, coarse = (_run(hit, halvings).quantities for halvings in (3, 2))
@@ -104,10 +105,10 @@ class TestMaw:
         )
         for medium in (ELASTIC, DRY):
             hit = hit_at(4.5, medium=medium)
-            run = _dry_run(hit, 4).solve()
-            assert run.velocity[0] - run.velocities[0, 0] == pytest.approx(
-                hit.velocity_change * KAPPA / MU, rel=1e-12
-            )
+            runs = [_dry_run(hit, count).solve() for count in (16, 64)]
+            found = np.array([run.velocities[-1, 0] - run.velocities[0, 0] for run in runs])
+            coarse, fine = np.abs(found / (hit.velocity_change * KAPPA / MU) - 1)
+            assert fine < min(coarse / 4, 1e-4)
 
     def test_small_angles_begin_with_stick_and_large_ones_with_slip(self):
         for psi, sticks in ((0.9, True), (1.5, False)):
@@ -193,9 +194,9 @@ def test_against_superposition(psi):
     assert -hit_at(psi, tolerance=1e-5).tangential_restitution == pytest.approx(jaeger(psi), abs=5e-5)
 
 
-def _run(hit, halvings, instants=()):
+def _run(hit, halvings):
     stiffness = 2 * KAPPA * hit.medium.E_star
-    grid = levels(hit.normal, stiffness / hit.tangential_mass, halvings, instants)
+    grid = levels(hit.normal, stiffness / hit.tangential_mass, halvings)
     hold = hit.friction / KAPPA / hit.tangential_speed
     return slide(hit.normal, grid, stiffness / hit.tangential_mass, hold)
 
@@ -204,17 +205,16 @@ def _dry_run(hit, count):
     motions, inertia = NormalMotions.of(hit.normal, np.array([0])), 2 * KAPPA * hit.medium.E_star
     velocity = np.array([KAPPA * hit.tangential_speed / MU])
     inertia = np.array([inertia / hit.tangential_mass])
-    return DryRun(motions, inertia, velocity, (count, count), np.zeros((0, 1)))
+    return DryRun(motions, inertia, velocity, (count, count))
 
 
 def test_viscous_errors_of_second_order():
-    """With levels where stick begins, about a quarter of the error is left by twice the levels."""
+    """Changes by three halvings more are a 64th, or twice that: stick begins at any place in a step."""
     hit = hit_at(1.8, medium=VISCOUS)
-    instants = stick_instants(hit.normal, _run(hit, 4), MU / KAPPA / hit.tangential_speed)
-    runs = [_run(hit, halvings, instants).quantities for halvings in range(4)]
+    runs = [_run(hit, halvings).quantities for halvings in range(5)]
     values = np.array([(run.change, run.friction) for run in runs])
-    differences = np.abs(np.diff(values, axis=0))
-    np.testing.assert_allclose(differences[:-1] / differences[1:], 4.0, rtol=0.25)
+    first, *_, last = np.abs(np.diff(values, axis=0))
+    assert np.all(last <= first / 32)
 
 
 @pytest.mark.parametrize("medium", [ELASTIC, DRY, VISCOUS], ids=["elastic", "yielding", "viscous"])
@@ -240,9 +240,12 @@ def test_limit_of_vanishing_viscosity(psi, q_c):
     dry, *viscous = (
         hit_at(psi, medium=mdr.Medium(1e9, q_c, eta), tolerance=1e-6) for eta in (0.0, 2e-4, 4e-4)
     )
+    # Velocities are relative to W₀, of which the finest steps leave more than 10⁻⁶.
+    scales = {"tangential_velocity": dry.tangential_speed}
     for quantity in ("tangential_velocity", "max_tangential_force", "friction_work"):
         near, far = (getattr(hit, quantity) for hit in viscous)
-        assert getattr(dry, quantity) == pytest.approx(2 * near - far, rel=2e-5), quantity
+        value = getattr(dry, quantity)
+        assert abs(value - (2 * near - far)) <= 2e-5 * scales.get(quantity, value), quantity
 
 
 def random_impacts(count):
@@ -315,6 +318,18 @@ def test_largest_force_beside_the_turning_point():
         assert abs(hit.max_tangential_force / force - 1) <= 3 * hit.errors.max_tangential_force
 
 
+def test_largest_force_at_a_bent_kink():
+    """The force bends before a flat face begins to slip: straight lines met 12 times the error away."""
+    case = Case(
+        mdr.TruncatedCone(1e-6, 0.3), 1e9, 8.7500807e-7, 0.39949586, 1e-9, 1.64091981e-9, 0.476678959,
+        0.0228282743, 0.05493976, 3.24228446e-7,
+    )  # fmt: skip
+    (_, force), (_, unsure) = limits(case, 2000)
+    assert unsure < 1e-6 * force
+    hit = case.solve(tolerance=5e-4)
+    assert abs(hit.max_tangential_force / force - 1) <= hit.errors.max_tangential_force <= 5e-4
+
+
 def test_a_ring_that_slips_ahead_of_the_edge():
     """At small tangential speeds it is narrower than the cells of three runs, which then err alike."""
     profile, poisson, mu, psi = mdr.Paraboloid(2e-5), 0.5, 0.33, 0.0075
@@ -359,11 +374,9 @@ def test_levels_beside_the_turning_point(shape, medium):
     hit = mdr.impact(shape, medium, MASS, SPEED)
     motions = NormalMotions.of(hit, np.array([0]))
     for units in (1, 2, 8, 1e4):
-        instants = np.full((1, 1), hit.max_depth * (1 - units * 2.0**-53))
-        loading, unloading = motions.branches((32, 32), instants)
-        total = loading.step.sum() + unloading.step.sum()
+        found = motions.levels(32, 32, [hit.max_depth * (1 - units * 2.0**-53)])
         # Of fourth order in the levels.
-        assert total == pytest.approx(hit.contact_time, rel=1e-6)
+        assert found.step.sum() == pytest.approx(hit.contact_time, rel=1e-6)
 
 
 @pytest.mark.parametrize(
