@@ -213,8 +213,8 @@ class Medium(_check.Parameters):
         >>> print(Medium.from_hardness(95e9, hardness=1e9, radius=100e-9).q_c)
         100.0
         """
-        if "q_c" in other:
-            raise ValueError("q_c and hardness both determine where yield starts; give one of them")
+        if "q_c" in other or "f_c" in other:
+            raise ValueError("q_c or f_c and hardness both determine where yield starts; give one of them")
         hardness = _check.positive("hardness", hardness, unit="Pa")
         radius = _check.positive("radius of the hardness", radius, unit="m")
         _check.common_shape("medium", hardness=hardness, radius=radius)
@@ -241,8 +241,10 @@ class Medium(_check.Parameters):
         >>> print(round(medium.q_c, 9), round(medium.critical_depth * 1e9, 9))
         1.273239545 2.0
         """
-        if "q_c" in other:
-            raise ValueError("q_c and critical_depth both determine where yield starts; give one of them")
+        if {"q_c", "hardness", "f_c"} & other.keys():
+            raise ValueError(
+                "q_c, hardness or f_c and critical_depth both determine where yield starts; give one"
+            )
         E_star = _check.positive("effective modulus E_star", E_star, unit="Pa")
         depth = _check.positive("critical depth", critical_depth, unit="m")
         _check.common_shape("medium", E_star=E_star, critical_depth=depth)

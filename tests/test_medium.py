@@ -99,7 +99,7 @@ def test_medium_from_a_hardness():
     # Deep below the critical depth the mean pressure at a radius is q_c/a: Popov (2015), Eq. (11).
     state = mdr.indent(mdr.Cone(0.01), medium, 1e4 * medium.critical_depth)
     assert state.mean_pressure * state.contact_radius == pytest.approx(medium.q_c, rel=1e-4)
-    with pytest.raises(ValueError, match="q_c and hardness both"):
+    with pytest.raises(ValueError, match="q_c or f_c and hardness both"):
         mdr.Medium.from_hardness(95e9, 1e9, 100e-9, q_c=3.0)
     with pytest.raises(ValueError, match="hardness = -1 Pa"):
         mdr.Medium.from_hardness(95e9, -1.0, 100e-9)
@@ -135,6 +135,13 @@ class TestHardness:
     def test_refusals(self, arguments, says):
         with pytest.raises(ValueError, match=says):
             mdr.Medium(E_star=1e9, **arguments)
+
+    def test_what_determines_class_b_goes_with_no_other_class(self):
+        for given in ({"hardness": 1e9}, {"f_c": 1.0}):
+            with pytest.raises(ValueError, match="both determine where yield starts; give one"):
+                mdr.Medium.from_critical_depth(1e9, 1e-9, **given)
+        with pytest.raises(ValueError, match="both determine where yield starts; give one"):
+            mdr.Medium.from_hardness(1e9, 1e6, 1e-6, f_c=1.0)
 
     def test_a_hardness_for_an_elastic_medium_is_refused(self):
         with pytest.raises(ValueError, match="means that nothing yields"):
