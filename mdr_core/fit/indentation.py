@@ -1,16 +1,19 @@
 """The medium from measured force–depth curves."""
 
+from types import EllipsisType
+
 import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
 from ..contact.integrals import tabulated
+from ..contact.yielding import yield_rule
 from ..medium import Medium, check_pair
 from ..profiles.profile import Profile
 from ..results.progress import progress
 from ..results.quantities import engineering
 from .measurement import measurement
-from .parameters import PARAMETERS, REACH, held_values
+from .parameters import PARAMETERS, REACH, hardness_by_default, held_values
 from .result import IndentationFit, collected
 from .solution import problems, solved
 
@@ -23,7 +26,9 @@ def fit_indentation(
     *,
     time: ArrayLike | None = None,
     E_star: ArrayLike | None = None,
-    q_c: ArrayLike | None = None,
+    q_c: ArrayLike | EllipsisType | None = ...,
+    hardness: ArrayLike | EllipsisType | None = ...,
+    f_c: ArrayLike | EllipsisType | None = ...,
     eta: ArrayLike | None = 0.0,
     contact_point: ArrayLike | None = None,
     baseline: ArrayLike | None = 0.0,
@@ -36,8 +41,8 @@ def fit_indentation(
     """Fit a medium to a measured force–depth curve by least squares: the inverse of `indent`.
 
     Parameters that are None are free, numbers are held. The curve should have an unloading: it determines
-    E*, the loading q_c. The model is the force of the contact with a background F₀ + F₁ z + ζ ż, where z is
-    the measured depth.
+    E*, the loading the hardness. The model is the force of the contact with a background F₀ + F₁ z + ζ ż,
+    where z is the measured depth.
 
     Parameters
     ----------
@@ -53,8 +58,13 @@ def fit_indentation(
         on drag and drift that are left out. The rate ż is the central difference of the depths, so that a
         noisy depth makes a noisy rate: average neighbouring samples first. Where the rate jumps from one
         sample to the next, the sample has no weight.
-    E_star, q_c : float, optional
-        Effective modulus (Pa) and yield constant (N/m); `q_c=inf` holds the medium elastic.
+    E_star : float, optional
+        Effective modulus (Pa).
+    q_c, hardness, f_c : float, optional
+        Constants of the hardness σ_c(a) = hardness + q_c/a + f_c/a² (N/m, Pa, N) as in `Medium`: those that
+        are not given are 0, and if none is given q_c is free. So `hardness=None` alone is a glass or a
+        metal, class (a), and `q_c=None, hardness=None` a hardness with a size effect. `q_c=inf` holds the
+        medium elastic. `hardness` and `f_c` are not fitted together with `eta` or `work_of_adhesion`.
     eta : float, optional
         Viscosity η (Pa·s) of the medium, 0 by default; see Notes.
     contact_point : float, optional
@@ -80,7 +90,9 @@ def fit_indentation(
     ------
     ValueError
         If data are infinite, of different shapes, have no force above the baseline, or fewer samples than
-        free parameters; if `eta` or `drag` are not 0 and `time` is missing or does not increase.
+        free parameters; if `eta` or `drag` are not 0 and `time` is missing or does not increase; if
+        `hardness` or `f_c` is not 0 and `eta` or `work_of_adhesion` is not, or `hardness` is not 0 and the
+        shape is not convex.
 
     Notes
     -----
@@ -154,9 +166,11 @@ def fit_indentation(
     measured = measurement(depth, force, time, force_noise)
     count = len(measured.depth)
     held = held_values(
-        count, E_star=E_star, q_c=q_c, eta=eta, work_of_adhesion=work_of_adhesion,
-        contact_point=contact_point, baseline=baseline, tilt=tilt, drag=drag,
+        count, E_star=E_star, **hardness_by_default(hardness=hardness, q_c=q_c, f_c=f_c), eta=eta,
+        work_of_adhesion=work_of_adhesion, contact_point=contact_point, baseline=baseline, tilt=tilt,
+        drag=drag,
     )  # fmt: skip
+    _refuse_with_other_classes(profile, held)
     noise = _check.positive_number("depth_noise", depth_noise, unit="m") if depth_noise else 0.0
     needs_time = (name for name, parameter in PARAMETERS.items() if parameter.in_time)
     in_time = [name for name in needs_time if name not in held or held[name].any()]
@@ -187,6 +201,22 @@ def _refuse_with_adhesion(held, noise):
     for name, given in (("eta", "eta" not in held or held["eta"].any()), ("depth_noise", noise > 0)):
         if given:
             raise ValueError(f"work_of_adhesion is not fitted together with {name}: hold one of them at 0")
+
+
+def _refuse_with_other_classes(profile, held):
+    """Refuses what is fitted with a hardness q_c/a only, class (b)."""
+
+    def used(name):
+        return name not in held or held[name].any()
+
+    if used("hardness"):
+        # Refuses shapes that are not convex.
+        yield_rule(profile, Medium(1.0, hardness=1.0))
+    for name in ("eta", "work_of_adhesion"):
+        if used(name) and (used("hardness") or used("f_c")):
+            raise ValueError(
+                f"{name} is not fitted together with hardness or f_c: hold it at 0, or hold these at 0"
+            )
 
 
 def _refuse_empty(measured, held):

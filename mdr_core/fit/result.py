@@ -14,7 +14,7 @@ from ..medium import Medium
 from ..results.quantities import described, engineering
 from ..results.report import imported
 from .oliver_pharr import OLIVER_PHARR, oliver_pharr
-from .parameters import BACKGROUND, MEDIUM, PARAMETERS
+from .parameters import BACKGROUND, CLASSES, MEDIUM, PARAMETERS
 from .remarks import DOUBTS, by_importance, missing, remarks_of
 from .report import Fit, with_error
 
@@ -60,7 +60,7 @@ class IndentationFit(Fit):
     _lengths: np.ndarray
 
     _names = tuple(PARAMETERS)
-    _zero_unless_asked = ("eta", "tilt", "drag", "work_of_adhesion")
+    _zero_unless_asked = (*CLASSES.values(), "eta", "tilt", "drag", "work_of_adhesion")
     _dimensions = ("curve",)
 
     @property
@@ -142,6 +142,13 @@ class IndentationFit(Fit):
         attributes["remarks"] = "\n".join(self.remarks)
         names = {"parameter": parameters, "other_parameter": parameters}
         return xarray.Dataset(variables, names, attributes | {"depth_noise": self.depth_noise})
+
+    def _text(self, name, value, unit):
+        # Whichever constant was fitted, an elastic medium has q_c = ∞, and 0 of the others.
+        fitted = set(self.standard_errors) & set(CLASSES.values())
+        if fitted and name in CLASSES.values() and not self.shape and self.medium.q_c == np.inf:
+            return "∞"
+        return super()._text(name, value, unit)
 
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
