@@ -6,14 +6,13 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..contact.integrals import tabulated
 from ..contact.yielding import yield_rule
 from ..medium import Medium, check_pair
 from ..profiles.profile import Profile
 from ..results.progress import progress
 from ..results.quantities import engineering
 from .measurement import measurement
-from .parameters import PARAMETERS, REACH, hardness_by_default, held_values
+from .parameters import PARAMETERS, hardness_by_default, held_values
 from .result import IndentationFit, collected
 from .solution import problems, solved
 
@@ -179,11 +178,10 @@ def fit_indentation(
     if "work_of_adhesion" not in held or held["work_of_adhesion"].any():
         _refuse_with_adhesion(held, noise)
     _refuse_empty(measured, held)
-    profile_table = tabulated(profile, _table_depth(profile, measured.depth, held))
     noise_known = measured.force_noise is not None or noise > 0
     solutions = []
     with progress(count, "curves") as done:
-        for rows, curves in problems(profile_table, measured, held, noise, bool(in_time)):
+        for rows, curves in problems(profile, measured, held, noise):
             solutions.append(solved(rows, curves, noise_known))
             done(rows.size)
     return collected(profile, measured, noise, solutions)
@@ -239,14 +237,3 @@ def _refuse_empty(measured, held):
     height = highest - lowest
     bound = f"must be at least {_check.SHORTEST:g}"
     _check.refuse("range of force", height, height < _check.SHORTEST, bound, unit="N", remedy="check it")
-
-
-def _table_depth(profile, depth, held):
-    """Depth (m) to which the profile is tabulated: that of the farthest contact point."""
-    top = np.nanmax(depth, axis=1)
-    limit = (1 + REACH) * float((top - np.nanmin(depth, axis=1)).max())
-    if "contact_point" in held:
-        largest = top - held["contact_point"]
-        limit = max(limit, 1.01 * float(largest.max()))
-        profile._known(largest)
-    return min(limit, profile.known_depth)

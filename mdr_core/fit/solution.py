@@ -5,13 +5,14 @@ from functools import cached_property
 
 import numpy as np
 
+from ..contact.integrals import tabulated
 from .adhesion import AdhesiveCurves
 from .curves import NO_WEIGHT, Curves
 from .depth_noise import with_depth_noise
 from .errors import autocorrelation, block_factors, block_length, covariances, roughness
 from .least_squares import Minimum
 from .measurement import rates
-from .parameters import CLASSES
+from .parameters import CLASSES, PARAMETERS, REACH
 from .start import first_guesses
 
 #: Constant of the hardness, in any unit, that stands for infinity.
@@ -91,9 +92,11 @@ class Solution:
         return dict(zip(self.curves.free, np.sqrt(np.diag(self.covariance[i])).tolist(), strict=True))
 
 
-def problems(profile, measured, held, depth_noise, in_time):
+def problems(profile, measured, held, depth_noise):
     """Yields numbers of measured curves, and their `Curves`, which have equally many parameters."""
-    adhesive = "work_of_adhesion" not in held or held["work_of_adhesion"].any()
+    profile = tabulated(profile, _table_depth(profile, measured.depth, held))
+    used = [name for name in PARAMETERS if name not in held or held[name].any()]
+    adhesive, in_time = "work_of_adhesion" in used, any(PARAMETERS[name].in_time for name in used)
     for rows, depth, force, time, force_noise in measured.groups():
         rate, corner = rates(depth, time) if in_time else (np.zeros_like(depth), False)
         fixed = {name: value[rows] for name, value in held.items()}
@@ -104,6 +107,17 @@ def problems(profile, measured, held, depth_noise, in_time):
             yield from ((rows[subset], noisy) for subset, noisy in with_depth_noise(curves))
         else:
             yield rows, curves.as_kind(AdhesiveCurves) if adhesive else curves
+
+
+def _table_depth(profile, depth, held):
+    """Depth (m) to which the profile is tabulated: that of the farthest contact point."""
+    top = np.nanmax(depth, axis=1)
+    limit = (1 + REACH) * float((top - np.nanmin(depth, axis=1)).max())
+    if "contact_point" in held:
+        largest = top - held["contact_point"]
+        limit = max(limit, 1.01 * float(largest.max()))
+        profile._known(largest)
+    return min(limit, profile.known_depth)
 
 
 def _sigma(curves):

@@ -1,5 +1,7 @@
 """Fits of media of every class of hardness, and the verdict on the class."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -205,6 +207,97 @@ class TestRemarks:
         assert "not class (c)" in str(fit.remarks)
 
 
+#: Each class alone, with caps of a quarter of the largest depth under the paraboloid.
+ALONE = {"a": {"hardness": 0.4e9}, "b": {"q_c": 100.0}, "c": {"f_c": 2.4e-5}}
+
+
+class TestVerdict:
+    PROFILE = PROFILES[1]
+
+    @pytest.mark.parametrize("letter", ALONE)
+    def test_made_curves(self, letter):
+        """The misfit of its own class is the noise, known to 5 % from 200 samples; others are larger."""
+        force = made(self.PROFILE, ALONE[letter], 1, seed=7)[0]
+        fit = mdr.fit_indentation(self.PROFILE, OUT + 3e-9, force)
+        assert list(fit.classes) == ["a", "b", "c"]
+        own = fit.classes[letter]
+        assert own.misfit == pytest.approx(0.004, rel=0.15)
+        for constant, value in ALONE[letter].items():
+            assert getattr(own.medium, constant) == pytest.approx(value, rel=0.02)
+        assert min(each.misfit for other, each in fit.classes.items() if other != letter) > 1.5 * own.misfit
+        assert f"class of hardness        ({letter}): misfit" in repr(fit)
+
+    def test_of_the_fit_itself(self):
+        """With all that the fit was given: noise of force and depth, a held contact point, a baseline."""
+        force = made(self.PROFILE, ALONE["a"], 3, seed=8) + 1e-6
+        depth = OUT + 2e-10 * np.random.default_rng(9).normal(size=force.shape)
+        given = {
+            "contact_point": 0.0,
+            "baseline": None,
+            "depth_noise": 2e-10,
+            "force_noise": 1e-7,
+        }
+        fit = mdr.fit_indentation(self.PROFILE, depth, force, hardness=None, **given)
+        own, load = fit.classes["a"], (fit.force - fit.baseline[:, None]).max(axis=1)
+        # The same problem twice.
+        assert own.medium.hardness == pytest.approx(fit.medium.hardness, rel=1e-9)
+        assert own.misfit == pytest.approx(np.sqrt(np.mean(fit.residuals**2, axis=1)) / load, rel=1e-9)
+        single = fit[1].classes
+        for letter, each in fit.classes.items():
+            # The minimum is known to the square root of rounding.
+            assert single[letter].misfit == pytest.approx(each.misfit[1], rel=1e-6)
+
+    def test_found_when_first_read(self):
+        force = made(self.PROFILE, ALONE["a"], 2, seed=8)
+        fit = mdr.fit_indentation(self.PROFILE, np.tile(OUT, (2, 1)), force)
+        assert "class of hardness" not in repr(fit)
+        assert "classes" not in vars(fit)
+        assert fit.classes is fit.classes
+
+    def test_without_a_verdict(self):
+        """Elastic and viscous media have none; a shape that is not convex none of class (a)."""
+        elastic = mdr.fit_indentation(self.PROFILE, OUT, made(self.PROFILE, {}), q_c=np.inf)
+        assert (
+            elastic.classes == mdr.fit_indentation(self.PROFILE, OUT, made(self.PROFILE, {})).classes == {}
+        )
+        force = made(self.PROFILE, ALONE["b"])
+        time = np.linspace(0.0, 1.0, OUT.size)
+        assert mdr.fit_indentation(self.PROFILE, OUT, force, time=time, eta=None).classes == {}
+        profile = mdr.PowerLaw(coefficient=1e-4, exponent=0.8)
+        concave = mdr.fit_indentation(profile, OUT, made(profile, {"q_c": 1e-3}))
+        assert list(concave.classes) == ["b", "c"]
+
+    def test_noise_that_hides_the_class(self):
+        force = made(self.PROFILE, ALONE["a"], 1, seed=7, noise=0.5)[0]
+        assert "not told, (" in repr(mdr.fit_indentation(self.PROFILE, OUT, force, contact_point=0.0))
+
+    def test_records_that_are_not_one_loading_and_one_unloading(self):
+        twice = np.concatenate([OUT, 1.5 * OUT])
+        for depth, words in (
+            (OUT[:100], "has no unloading"),
+            (twice, "has 2 loadings"),
+            (OUT, "one unloading"),
+        ):
+            force = made(self.PROFILE, ALONE["a"], depth=depth)
+            lines = repr(mdr.fit_indentation(self.PROFILE, depth, force, hardness=None)).splitlines()
+            (line,) = (each for each in lines if "the class presumes" in each)
+            assert line.endswith(words)
+            assert "a known tip that is not worn" in line
+
+    def test_pressures_of_silica(self):
+        """H, the mean pressure of a cone H (1 − κ/2) with κ = H/(E* s), and Oliver and Pharr's hardness."""
+        depth, force = real("silica")
+        fit = mdr.fit_indentation(BERKOVICH, depth, force, hardness=None)
+        H, modulus = fit.medium.hardness, fit.medium.E_star
+        mean = H * (1 - H / modulus / BERKOVICH.slope / 2)
+        other = mdr.oliver_pharr(BERKOVICH, depth - fit.contact_point, force).hardness
+        # The rows are of the fitted force, and of the measured one with noise of 0.3 %.
+        found = [
+            float(text) for text in re.findall(r"(?:²\)  *|, |H )([\d.]+)(?: ± [\d.]+)? GPa", repr(fit))
+        ]
+        assert 1e9 * np.array(found[-3:]) == pytest.approx([mean, H, other], rel=0.01)
+
+
 # Residuals (rms, % of the largest force) by an independent fit: of (a) at most, of (b) at least.
 BOUNDS = {"silica": (0.35, 0.7), "quartz": (0.41, 0.82), "nial": (1.2, 2.4), "steel": (2.7, 3.2)}
 
@@ -222,3 +315,7 @@ def test_measured_curves_of_class_a(file):
         # An independent fit by brute force: H 14.3 GPa, E* 82.7 GPa.
         assert constant.medium.hardness == pytest.approx(14.3e9, rel=0.03)
         assert constant.medium.E_star == pytest.approx(82.7e9, rel=0.01)
+    misfits = {letter: each.misfit for letter, each in inverse.classes.items()}
+    assert misfits["a"] == pytest.approx(misfit(constant), rel=1e-6)
+    assert min(misfits, key=misfits.get) == "a"
+    assert ("not told, (a) or (b)" in repr(inverse)) == (file == "steel")
