@@ -117,14 +117,26 @@ def fit_indentation(
     what depth. The samples next to a jump into or out of contact have no weight; `path` and `residuals`
     have the jumps of the model. Not together with `eta` or `depth_noise`.
 
+    **Classes.** Glass, metals and ceramics have a constant hardness, class (a); composites, PDMS and gold
+    at the nanoscale q_c/a, class (b); a hardness that is larger when the contact is small is the sum of
+    both. `fit.classes` has the fits of each class alone, and the report of one curve those that its samples
+    do not rule out. This presumes a tip that is known, and one loading without pop-ins and one unloading.
+    Two constants at once often are not told apart, which a remark says.
+
+    E* and the hardness are those of the model, whose contact radius on loading has the sink-in of an
+    elastic contact. A contact that flows has less: on fused silica E* is 82.7 GPa, of Oliver and Pharr
+    69.6 GPa. The hardness is the pressure where all of the contact yields, 14.3 GPa; the mean pressure over
+    the model's contact, whose rim is elastic, is 10.8 GPa; Oliver and Pharr's hardness, over their larger
+    contact, is 9.1 GPa, which is what indenters report. The report names all three.
+
     **Not in the model**: relaxation over more than one time, adhesion that changes between approach and
-    retract, poroelastic flow, layers, finite thickness, and hardness that does not fall with the contact
-    radius (glass, most metals). Residuals then follow a curve; a remark says so where they exceed 5 % of
-    the force, 1 % where the medium yields. A tilt, a drag and, of elastic media, a drift of the depth that
-    would lower the residuals in contact clearly are reported with the change of E*, drag and drift only if
-    `time` is given. The drift of a medium that yields is measured in a hold; without one the report states
-    the effect of 0.1 nm/s. Neither is tested where E* is held or with adhesion. The numbers of Oliver and
-    Pharr in the report are those of a curve that the model fits, without viscosity and adhesion.
+    retract, poroelastic flow, layers, finite thickness. Residuals then follow a curve; a remark says so
+    where they exceed 5 % of the force, 1 % where the medium yields. A tilt, a drag and, of elastic media, a
+    drift of the depth that would lower the residuals in contact clearly are reported with the change of E*,
+    drag and drift only if `time` is given. The drift of a medium that yields is measured in a hold; without
+    one the report states the effect of 0.1 nm/s. Neither is tested where E* is held or with adhesion. The
+    numbers of Oliver and Pharr in the report are those of a curve that the model fits, without viscosity
+    and adhesion.
 
     **Standard errors** come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)², S the
     slope. In simulated curves deviations over errors have standard deviations of 0.9 to 1.2; with depth

@@ -212,7 +212,7 @@ class IndentationFit(Fit):
                 error = np.hypot(result.standard_errors[name], getattr(shifted, name) - value)
                 texts.append(f"{OLIVER_PHARR[name].symbol} {with_error(value, error, 'Pa')}")
             a = engineering(np.sqrt(force.max() / (np.pi * result.hardness)), "m")
-            model = "; the model's sink-in is elastic, so that its E* and H are larger" * self._yields
+            model = "; the model's contact has elastic sink-in" * self._yields
             yield "Oliver and Pharr", f"{', '.join(texts)} over a = {a}{model}"
 
     def _limits(self):
