@@ -112,7 +112,7 @@ def test_arguments_are_not_touched_and_not_kept(name):
     function, arguments = CALLS[name]
     parameters = inspect.signature(function).parameters
     arguments = {key: copied(value) for key, value in arguments.items()}
-    others = {"profile": CONE, "medium": MEDIUM, "mean_pressure": 1e8 / ONE, "hardness": 1e8 / ONE}
+    others = {"profile": CONE, "medium": MEDIUM, "mean_pressure": 1e8 / ONE}
     others = {key: value for key, value in others.items() if key in parameters and key not in arguments}
     given = {
         key: np.array(value) for key, value in arguments.items() if isinstance(value, np.ndarray | list)

@@ -115,6 +115,7 @@ def adhesive_states(profile, values, depth, contact):
     return States(
         depth=depth,
         loading=depth >= np.maximum.accumulate(depth, axis=1),
+        cap=np.full_like(values["E_star"], np.inf),
         live_interval=LiveInterval.elastic(np.where(contact, interval.upper, 0.0)),
         uniform_load=np.where(contact, -medium.E_star * length, 0.0),
         force=np.where(contact, force, 0.0),

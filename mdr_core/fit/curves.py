@@ -12,7 +12,7 @@ import numpy as np
 from ..profiles.profile import Profile
 from .least_squares import least_squares
 from .model import states
-from .parameters import BACKGROUND, PARAMETERS
+from .parameters import BACKGROUND, CLASSES, PARAMETERS, TOGETHER
 
 #: Standard deviations of samples that are not to weigh, in units of those they would have.
 NO_WEIGHT = 1e6
@@ -77,6 +77,16 @@ class Curves:
         return tuple(name for name in PARAMETERS if name not in self.held)
 
     @cached_property
+    def constants(self):
+        """Names of the constants of the hardness that are not held at 0."""
+        return tuple(name for name in CLASSES.values() if name not in self.held or self.held[name].any())
+
+    @cached_property
+    def parameters(self):
+        """All parameters by name, as they are searched."""
+        return PARAMETERS if len(self.constants) == 1 else PARAMETERS | TOGETHER
+
+    @cached_property
     def held_elastic(self):
         """Whether the media are held elastic: the order of the samples does not matter."""
         return bool(np.all(np.isinf(self.held.get("q_c", 0.0))))
@@ -90,25 +100,25 @@ class Curves:
         """Parameters by name (R, 1), and depths at turning points (R, K) as `turning_depth`."""
         values = {name: value[:, None] for name, value in self.held.items()}
         for i, name in enumerate(self.free):
-            values[name] = PARAMETERS[name].value(x[:, [i]], self)
+            values[name] = self.parameters[name].value(x[:, [i]], self)
         values["turning_depth"] = self.top + self.length * x[:, len(self.free) :]
         return values
 
     def scaled(self, values):
         """Scaled parameters: the inverse of `values`."""
-        columns = [PARAMETERS[name].scaled(values[name], self) for name in self.free]
+        columns = [self.parameters[name].scaled(values[name], self) for name in self.free]
         return np.hstack([*columns, (values["turning_depth"] - self.top) / self.length])
 
     def units(self, values):
         """Derivatives of the free parameters and the turning depths by the scaled ones (R, P)."""
-        columns = [PARAMETERS[name].rate(values[name], self) for name in self.free]
+        columns = [self.parameters[name].rate(values[name], self) for name in self.free]
         return np.hstack([*columns, self.length + np.zeros_like(values["turning_depth"])])
 
     def bounds(self, start):
         """Least and largest scaled parameters in a search from a start (R, P)."""
         lower, upper = np.full_like(start, -np.inf), np.full_like(start, np.inf)
         for i, name in enumerate(self.free):
-            lower[:, [i]], upper[:, [i]] = PARAMETERS[name].bounds(start[:, [i]], self)
+            lower[:, [i]], upper[:, [i]] = self.parameters[name].bounds(start[:, [i]], self)
         return lower, upper
 
     def background(self, values):

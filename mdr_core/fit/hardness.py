@@ -1,6 +1,7 @@
 """The medium from hardness at several contact radii."""
 
 from dataclasses import dataclass
+from types import EllipsisType
 
 import numpy as np
 
@@ -8,24 +9,38 @@ from .. import _check
 from .._check import Array, ArrayLike
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
+from ..contact.yielding import yield_rule
 from ..impacts.scaling import class_of, straight_line
 from ..medium import Medium, check_pair, yield_constant
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from ..results.quantities import engineering
+from .errors import covariances
+from .least_squares import least_squares
+from .parameters import CLASSES, hardness_by_default, held_values
 from .report import Fit
+
+#: Power of the contact radius in the hardness of each class.
+_POWERS = {"a": 0.0, "b": -1.0, "c": -2.0}
 
 
 @_check.keywords_explained
 def fit_hardness(
-    profile: Profile, mean_pressure: ArrayLike, radius: ArrayLike, *, E_star: float
+    profile: Profile,
+    mean_pressure: ArrayLike,
+    radius: ArrayLike,
+    *,
+    E_star: float,
+    q_c: float | EllipsisType | None = ...,
+    hardness: float | EllipsisType | None = ...,
+    f_c: float | EllipsisType | None = ...,
 ) -> "HardnessFit":
-    """Fit the yield constant to mean pressures at several contact radii, and find the class of hardness.
+    """Fit the hardness to mean pressures at several contact radii, and find its class.
 
     The mean pressure p_m = F/(π a²) under load, `Indentation.mean_pressure` on a first loading, is less
-    than the hardness q_c/a, because the outer ring of the contact is elastic: q_c at each radius is the
-    root of F(q_c) = π a² p_m at depth g(a), and the result their weighted mean for pressures of one
-    relative error. The class follows from the power of a in q_c/a, the hardness of a fully yielded contact.
+    than the hardness σ_c(a) = hardness + q_c/a + f_c/a², because the outer ring of the contact is elastic:
+    σ_c at each radius is the root of F(σ_c) = π a² p_m at depth g(a). The constants have the least squares
+    of ln σ_c for pressures of one relative error. The class follows from the power of a in σ_c.
 
     Parameters
     ----------
@@ -37,56 +52,107 @@ def fit_hardness(
         Contact radii a (m) at which they were measured, positive.
     E_star : float
         Effective modulus E* (Pa), which mean pressures do not determine.
+    q_c, hardness, f_c : float, optional
+        Constants of the hardness (N/m, Pa, N): None is free, a number is held, and those that are not given
+        are 0. If none is given, the one of the class is free; where no class fits alone, that with the
+        nearest power of a, and at a single radius q_c.
 
     Returns
     -------
     HardnessFit
-        The standard error is that of the mean, from the scatter of the values, infinite for a single one.
+        Standard errors are from the scatter of the values, infinite for a single one.
 
     Raises
     ------
     ValueError
-        If no mean pressure is below that of an elastic contact: then nothing has yielded.
+        If no mean pressure is below that of an elastic contact: then nothing has yielded. If several
+        constants are free, and there are not more measurements, or not as many radii. If a hardness is free
+        under a shape that is not convex.
 
     Examples
     --------
     >>> from mdr_core import Cone, Medium, indent
-    >>> state = indent(Cone(slope=0.3), Medium(E_star=10e9, q_c=100.0), [20e-9, 40e-9, 80e-9, 160e-9])
+    >>> medium = Medium(E_star=10e9, hardness=0.5e9)
+    >>> state = indent(Cone(slope=0.3), medium, [20e-9, 40e-9, 80e-9, 160e-9])
     >>> fit = fit_hardness(Cone(slope=0.3), state.mean_pressure, state.contact_radius, E_star=10e9)
-    >>> print(f"{fit.medium.q_c:.9g}", fit.hardness_class)
-    100 b
+    >>> print(f"{fit.medium.hardness:.9g}", fit.hardness_class)
+    500000000 a
+
+    A size effect, of two constants:
+
+    >>> medium = Medium(E_star=10e9, hardness=0.5e9, q_c=20.0)
+    >>> state = indent(Cone(slope=0.3), medium, [20e-9, 40e-9, 80e-9, 160e-9])
+    >>> data = state.mean_pressure, state.contact_radius
+    >>> fit = fit_hardness(Cone(slope=0.3), *data, E_star=10e9, hardness=None, q_c=None)
+    >>> print(f"{fit.medium.hardness:.9g} {fit.medium.q_c:.9g}")
+    500000000 20
     """
     E_star = _check.positive_number("effective modulus E_star", E_star, unit="Pa")
     check_pair(profile, Medium(E_star), "a fit")
     p_m, a = _measured(profile, mean_pressure, radius)
     depth, area = profile._reduced(a), np.pi * a**2 * p_m / (2 * E_star)
-    d_c, yielded = _critical_depths(profile, depth, area)
+    cap, yielded = _caps(profile, depth, area)
     if not yielded.any():
         largest = engineering(p_m.max(), "Pa")
         raise ValueError(
             f"no mean pressure (the largest is {largest}) is below that of an elastic contact with "
             f"E* = {engineering(E_star, 'Pa')}: nothing has yielded; check E_star, or press deeper"
         )
-    a, depth, area, d_c = a[yielded], depth[yielded], area[yielded], d_c[yielded]
-    values = yield_constant(E_star, d_c)
-    # ∂ ln F/∂ ln q_c = c d_c / ∫ a ds.
-    weight = (profile._radius(depth - d_c) * d_c / area) ** 2
-    mean = np.sum(weight * np.log(values)) / np.sum(weight)
-    deviation = np.log(values) - mean
-    variance = np.sum(weight * deviation**2) / max(a.size - 1, 1)
-    error = float(np.sqrt(variance / np.sum(weight))) if a.size > 1 else np.inf
-    q_c = float(np.exp(mean))
+    a, depth, area, cap = a[yielded], depth[yielded], area[yielded], cap[yielded]
+    values = yield_constant(E_star, cap)
     power_law = _class(a, values)
+    given = {"hardness": hardness, "q_c": q_c, "f_c": f_c}
+    if all(value is ... for value in given.values()):
+        given = {CLASSES[_nearest(power_law)]: None}
+    given = hardness_by_default(**{name: given.get(name, ...) for name in CLASSES.values()})
+    held = {name: float(value[0]) for name, value in held_values(1, **given).items()}
+    # ∂ ln F/∂ ln σ_c = c u_c / ∫ a ds.
+    weight = profile._radius(depth - cap) * cap / area
+    constants, minimum, covariance = _constants(a, values / a, weight, held)
+    medium = Medium(E_star, **constants)
+    # Refuses shapes that are not convex.
+    yield_rule(profile, medium)
+    free = [name for name in constants if name not in held]
+    errors = np.sqrt(np.diag(covariance))
     return HardnessFit(
         profile,
-        Medium(E_star, q_c),
-        standard_errors={"q_c": q_c * error},
-        covariance=_check.frozen([[(q_c * error) ** 2]]),
-        residuals=_check.frozen(deviation * np.sqrt(weight)),
+        medium,
+        standard_errors=dict(zip(free, errors.tolist(), strict=True)),
+        covariance=_check.frozen(covariance),
+        residuals=_check.frozen(minimum.residual[0]),
         q_c_values=_check.frozen(values),
-        remarks=tuple(_remarks(yielded, error, power_law)),
+        remarks=tuple(_remarks(yielded, constants, errors, free, power_law)),
         **power_law,
     )
+
+
+def _constants(a, hardness, weight, held):
+    """Constants of the hardness by name, the `Minimum` of the weighted ln σ_c, and their covariance."""
+    powers = {name: a**-power for power, name in enumerate(CLASSES.values())}
+    free = [name for name in powers if name not in held]
+    if not free:
+        raise ValueError("hardness, q_c and f_c are all held: there is nothing to fit")
+    if len(free) > 1 and (a.size <= len(free) or np.unique(a).size < len(free)):
+        raise ValueError(
+            f"{a.size} measurements that yield, at {np.unique(a).size} radii, do not determine "
+            f"{' and '.join(free)}: give more, or fit one of them"
+        )
+    units = np.array([np.median(hardness / powers[name]) for name in free])
+    columns = units[:, None] * np.array([powers[name] for name in free])
+    remainder = sum(held[name] * powers[name] for name in held)
+
+    def residuals(x, _):
+        model = x @ columns + remainder
+        return weight * np.log(hardness / model), -(weight * columns / model).T[None]
+
+    start = np.full((1, len(free)), 1 / len(free))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        minimum = least_squares(residuals, start, 0 * start, start + np.inf)
+    excess = a.size - len(free)
+    variance = minimum.squares[0] / excess if excess else np.inf
+    covariance = covariances(minimum.jacobian, variance)[0] * units[:, None] * units
+    values = dict(zip(free, (minimum.x[0] * units).tolist(), strict=True))
+    return {name: values.get(name, held.get(name)) for name in powers}, minimum, covariance
 
 
 def _measured(profile, mean_pressure, radius):
@@ -103,15 +169,15 @@ def _measured(profile, mean_pressure, radius):
     return p_m, a
 
 
-def _critical_depths(profile, depth, area):
-    """Critical depth d_c (m) with ∫ a ds = `area` (m²) over [d − d_c, d], and whether there is one."""
+def _caps(profile, depth, area):
+    """Cap u_c (m) with ∫ a ds = `area` (m²) over [d − u_c, d], and whether there is one."""
 
-    def integral(d_c):
-        interval = LiveInterval(depth - d_c, depth, d_c)
+    def integral(cap):
+        interval = LiveInterval(depth - cap, depth, cap)
         return integrals(profile).radius_integral(interval), profile._radius(interval.lower)
 
-    d_c = increasing_root(integral, area, area / profile._radius(depth), depth, quantity="critical depth")
-    return d_c, d_c < depth
+    cap = increasing_root(integral, area, area / profile._radius(depth), depth, quantity="cap")
+    return cap, cap < depth
 
 
 def _class(a, q_c):
@@ -120,20 +186,33 @@ def _class(a, q_c):
     name, reason = None, "insufficient: one radius determines no class"
     if np.unique(a).size > 1:
         slope, error = straight_line(np.log(a), np.log(q_c / a))
-        powers = {"a": (0.0, 0.1), "b": (-1.0, 0.1), "c": (-2.0, 0.1)}
-        name, reason = class_of(powers, slope, error, "radii")
+        expected = {letter: (power, 0.1) for letter, power in _POWERS.items()}
+        name, reason = class_of(expected, slope, error, "radii")
     return {"hardness_class": name, "reason": reason, "slope": slope, "slope_error": error}
 
 
-def _remarks(yielded, error, power_law):
+def _nearest(power_law):
+    """The class of a `_class`, that with the nearest power if none fits alone, (b) of a single radius."""
+    slope = power_law["slope"]
+    if np.isnan(slope):
+        return "b"
+    return power_law["hardness_class"] or min(_POWERS, key=lambda letter: abs(_POWERS[letter] - slope))
+
+
+def _remarks(yielded, constants, errors, free, power_law):
     name, reason = power_law["hardness_class"], power_law["reason"]
     if not yielded.all():
         count = f"{np.count_nonzero(~yielded)} of {yielded.size} measurements"
-        yield f"{count} are as hard as an elastic contact: they do not determine q_c and were left out"
-    if name not in ("b", None) or reason.startswith("none"):
-        yield f"not class (b), which q_c is defined for: {reason}"
-    if error == np.inf:
-        yield "a single measurement determines no error of q_c: give three or more"
+        text = "are as hard as an elastic contact: they do not determine the hardness and were left out"
+        yield f"{count} {text}"
+    used = [letter for letter, constant in CLASSES.items() if constants[constant] or constant in free]
+    if len(used) == 1 and (name not in (*used, None) or reason.startswith("none")):
+        yield f"not class ({used[0]}) alone: {reason}; two of hardness, q_c and f_c may be free"
+    for constant, error in zip(free, errors, strict=True):
+        if len(free) > 1 and constants[constant] < 2 * error:
+            yield f"the radii do not tell {' and '.join(free)} apart: {constant} may be 0"
+    if np.isinf(errors).any():
+        yield f"a single measurement determines no error of {free[0]}: give three or more"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -147,12 +226,14 @@ class HardnessFit(Fit):
     #: Class of hardness, "a", "b" or "c", None where none or several fit, and the reason in words.
     hardness_class: str | None
     reason: str
-    #: Power of the radius in q_c/a, with its standard error.
+    #: Power of the radius in σ_c, with its standard error.
     slope: float
     slope_error: float
-    #: q_c (N/m) at each radius that has yielded.
+    #: a σ_c (N/m) at each radius that has yielded: q_c for class (b).
     q_c_values: Array
     remarks: tuple[str, ...]
+
+    _zero_unless_asked = tuple(CLASSES.values())
 
     def _quality(self):
         yield "class of hardness", self.reason

@@ -1,16 +1,18 @@
 """The medium from measured force–depth curves."""
 
+from types import EllipsisType
+
 import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..contact.integrals import tabulated
+from ..contact.yielding import yield_rule
 from ..medium import Medium, check_pair
 from ..profiles.profile import Profile
 from ..results.progress import progress
 from ..results.quantities import engineering
 from .measurement import measurement
-from .parameters import PARAMETERS, REACH, held_values
+from .parameters import PARAMETERS, hardness_by_default, held_values
 from .result import IndentationFit, collected
 from .solution import problems, solved
 
@@ -23,7 +25,9 @@ def fit_indentation(
     *,
     time: ArrayLike | None = None,
     E_star: ArrayLike | None = None,
-    q_c: ArrayLike | None = None,
+    q_c: ArrayLike | EllipsisType | None = ...,
+    hardness: ArrayLike | EllipsisType | None = ...,
+    f_c: ArrayLike | EllipsisType | None = ...,
     eta: ArrayLike | None = 0.0,
     contact_point: ArrayLike | None = None,
     baseline: ArrayLike | None = 0.0,
@@ -36,8 +40,8 @@ def fit_indentation(
     """Fit a medium to a measured force–depth curve by least squares: the inverse of `indent`.
 
     Parameters that are None are free, numbers are held. The curve should have an unloading: it determines
-    E*, the loading q_c. The model is the force of the contact with a background F₀ + F₁ z + ζ ż, where z is
-    the measured depth.
+    E*, the loading the hardness. The model is the force of the contact with a background F₀ + F₁ z + ζ ż,
+    where z is the measured depth.
 
     Parameters
     ----------
@@ -53,8 +57,13 @@ def fit_indentation(
         on drag and drift that are left out. The rate ż is the central difference of the depths, so that a
         noisy depth makes a noisy rate: average neighbouring samples first. Where the rate jumps from one
         sample to the next, the sample has no weight.
-    E_star, q_c : float, optional
-        Effective modulus (Pa) and yield constant (N/m); `q_c=inf` holds the medium elastic.
+    E_star : float, optional
+        Effective modulus (Pa).
+    q_c, hardness, f_c : float, optional
+        Constants of the hardness σ_c(a) = hardness + q_c/a + f_c/a² (N/m, Pa, N) as in `Medium`: those that
+        are not given are 0, and if none is given q_c is free. So `hardness=None` alone is a glass or a
+        metal, class (a), and `q_c=None, hardness=None` a hardness with a size effect. `q_c=inf` holds the
+        medium elastic. `hardness` and `f_c` are not fitted together with `eta` or `work_of_adhesion`.
     eta : float, optional
         Viscosity η (Pa·s) of the medium, 0 by default; see Notes.
     contact_point : float, optional
@@ -80,7 +89,9 @@ def fit_indentation(
     ------
     ValueError
         If data are infinite, of different shapes, have no force above the baseline, or fewer samples than
-        free parameters; if `eta` or `drag` are not 0 and `time` is missing or does not increase.
+        free parameters; if `eta` or `drag` are not 0 and `time` is missing or does not increase; if
+        `hardness` or `f_c` is not 0 and `eta` or `work_of_adhesion` is not, or `hardness` is not 0 and the
+        shape is not convex.
 
     Notes
     -----
@@ -106,14 +117,26 @@ def fit_indentation(
     what depth. The samples next to a jump into or out of contact have no weight; `path` and `residuals`
     have the jumps of the model. Not together with `eta` or `depth_noise`.
 
+    **Classes.** Glass, metals and ceramics have a constant hardness, class (a); composites, PDMS and gold
+    at the nanoscale q_c/a, class (b); a hardness that is larger when the contact is small is the sum of
+    both. `fit.classes` has the fits of each class alone, and the report of one curve those that its samples
+    do not rule out. This presumes a tip that is known, and one loading without pop-ins and one unloading.
+    Two constants at once often are not told apart, which a remark says.
+
+    E* and the hardness are those of the model, whose contact radius on loading has the sink-in of an
+    elastic contact. A contact that flows has less: on fused silica E* is 82.7 GPa, of Oliver and Pharr
+    69.6 GPa. The hardness is the pressure where all of the contact yields, 14.3 GPa; the mean pressure over
+    the model's contact, whose rim is elastic, is 10.8 GPa; Oliver and Pharr's hardness, over their larger
+    contact, is 9.1 GPa, which is what indenters report. The report names all three.
+
     **Not in the model**: relaxation over more than one time, adhesion that changes between approach and
-    retract, poroelastic flow, layers, finite thickness, and hardness that does not fall with the contact
-    radius (glass, most metals). Residuals then follow a curve; a remark says so where they exceed 5 % of
-    the force, 1 % where the medium yields. A tilt, a drag and, of elastic media, a drift of the depth that
-    would lower the residuals in contact clearly are reported with the change of E*, drag and drift only if
-    `time` is given. The drift of a medium that yields is measured in a hold; without one the report states
-    the effect of 0.1 nm/s. Neither is tested where E* is held or with adhesion. The numbers of Oliver and
-    Pharr in the report are those of a curve that the model fits, without viscosity and adhesion.
+    retract, poroelastic flow, layers, finite thickness. Residuals then follow a curve; a remark says so
+    where they exceed 5 % of the force, 1 % where the medium yields. A tilt, a drag and, of elastic media, a
+    drift of the depth that would lower the residuals in contact clearly are reported with the change of E*,
+    drag and drift only if `time` is given. The drift of a medium that yields is measured in a hold; without
+    one the report states the effect of 0.1 nm/s. Neither is tested where E* is held or with adhesion. The
+    numbers of Oliver and Pharr in the report are those of a curve that the model fits, without viscosity
+    and adhesion.
 
     **Standard errors** come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)², S the
     slope. In simulated curves deviations over errors have standard deviations of 0.9 to 1.2; with depth
@@ -154,9 +177,11 @@ def fit_indentation(
     measured = measurement(depth, force, time, force_noise)
     count = len(measured.depth)
     held = held_values(
-        count, E_star=E_star, q_c=q_c, eta=eta, work_of_adhesion=work_of_adhesion,
-        contact_point=contact_point, baseline=baseline, tilt=tilt, drag=drag,
+        count, E_star=E_star, **hardness_by_default(hardness=hardness, q_c=q_c, f_c=f_c), eta=eta,
+        work_of_adhesion=work_of_adhesion, contact_point=contact_point, baseline=baseline, tilt=tilt,
+        drag=drag,
     )  # fmt: skip
+    _refuse_with_other_classes(profile, held)
     noise = _check.positive_number("depth_noise", depth_noise, unit="m") if depth_noise else 0.0
     needs_time = (name for name, parameter in PARAMETERS.items() if parameter.in_time)
     in_time = [name for name in needs_time if name not in held or held[name].any()]
@@ -165,11 +190,10 @@ def fit_indentation(
     if "work_of_adhesion" not in held or held["work_of_adhesion"].any():
         _refuse_with_adhesion(held, noise)
     _refuse_empty(measured, held)
-    profile_table = tabulated(profile, _table_depth(profile, measured.depth, held))
     noise_known = measured.force_noise is not None or noise > 0
     solutions = []
     with progress(count, "curves") as done:
-        for rows, curves in problems(profile_table, measured, held, noise, bool(in_time)):
+        for rows, curves in problems(profile, measured, held, noise):
             solutions.append(solved(rows, curves, noise_known))
             done(rows.size)
     return collected(profile, measured, noise, solutions)
@@ -187,6 +211,22 @@ def _refuse_with_adhesion(held, noise):
     for name, given in (("eta", "eta" not in held or held["eta"].any()), ("depth_noise", noise > 0)):
         if given:
             raise ValueError(f"work_of_adhesion is not fitted together with {name}: hold one of them at 0")
+
+
+def _refuse_with_other_classes(profile, held):
+    """Refuses what is fitted with a hardness q_c/a only, class (b)."""
+
+    def used(name):
+        return name not in held or held[name].any()
+
+    if used("hardness"):
+        # Refuses shapes that are not convex.
+        yield_rule(profile, Medium(1.0, hardness=1.0))
+    for name in ("eta", "work_of_adhesion"):
+        if used(name) and (used("hardness") or used("f_c")):
+            raise ValueError(
+                f"{name} is not fitted together with hardness or f_c: hold it at 0, or hold these at 0"
+            )
 
 
 def _refuse_empty(measured, held):
@@ -209,14 +249,3 @@ def _refuse_empty(measured, held):
     height = highest - lowest
     bound = f"must be at least {_check.SHORTEST:g}"
     _check.refuse("range of force", height, height < _check.SHORTEST, bound, unit="N", remedy="check it")
-
-
-def _table_depth(profile, depth, held):
-    """Depth (m) to which the profile is tabulated: that of the farthest contact point."""
-    top = np.nanmax(depth, axis=1)
-    limit = (1 + REACH) * float((top - np.nanmin(depth, axis=1)).max())
-    if "contact_point" in held:
-        largest = top - held["contact_point"]
-        limit = max(limit, 1.01 * float(largest.max()))
-        profile._known(largest)
-    return min(limit, profile.known_depth)

@@ -1,11 +1,12 @@
 """The force of a contact with its derivatives: elastic, yielding and viscous, with a linear background.
 
-With a = a(e) the radius of the contact, c = a(d_p) that of the plastic zone, u_c the cap and d_max the
-largest depth so far,
+With a = a(e) the radius of the contact, c = a(d_p) that of the plastic zone, a* = a(d_max) that of the
+largest depth so far, and the cap u_c = (π/2E*)(H a* + q_c + f_c/a*), so that d_p = d_max − u_c,
 
     F = 2E* ∫ a ds + 8η a max(ḋ, 0)     over [d_p, e],  e = d + min(τḋ, 0),  τ = 4η/E*
-    ∂F/∂E* = 2 ∫ a ds − 2c u_c − 2a min(τḋ, 0)       ∂F/∂q_c = π c       ∂F/∂η = 8a ḋ
-    ∂F/∂d = 2E* a                                     ∂F/∂d_max = −2E* c
+    ∂F/∂E* = 2 ∫ a ds − 2c u_c − 2a min(τḋ, 0)       ∂F/∂η = 8a ḋ
+    ∂F/∂H = π c a*          ∂F/∂q_c = π c             ∂F/∂f_c = π c/a*
+    ∂F/∂d = 2E* a           ∂F/∂d_max = −2E* c p′     p′ = 1 − du_c/dd_max
 
 On a first loading d_max is d itself, and the last two add up. At e elements are released. The measured
 force is F + F₀ + F₁ z + ζ ż at the measured depth z.
@@ -18,20 +19,22 @@ import numpy as np
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
 from ..contact.quadrature import radius_rate
-from ..contact.yielding import ConstantCap
+from ..contact.yielding import ConstantCap, RadiusCap, interval_at
 
 
 @dataclass(frozen=True)
 class States:
     """States of the contact at the samples of R curves, arrays (R, N).
 
-    `loading` says whether the depth (m) is the largest so far; `uniform_load` is the line load (N/m) of
-    dashpots, 4ηḋ, or of adhesion; `slope` is ∂F/∂d (N/m), `memory_slope` ∂F/∂d_max where the depth is not
-    the largest so far, `gradient` the derivatives of the force by the parameters of the medium, by name.
+    `loading` says whether the depth (m) is the largest so far; `cap` is u_c (m) at the largest one;
+    `uniform_load` is the line load (N/m) of dashpots, 4ηḋ, or of adhesion; `slope` is ∂F/∂d (N/m),
+    `memory_slope` ∂F/∂d_max where the depth is not the largest so far, `gradient` the derivatives of the
+    force by the parameters of the medium, by name.
     """
 
     depth: np.ndarray
     loading: np.ndarray
+    cap: np.ndarray
     live_interval: LiveInterval
     uniform_load: np.ndarray
     force: np.ndarray
@@ -45,23 +48,24 @@ def states(profile, values, depth, largest, loading, rate):
 
     `values` are the parameters by name. Above the known depth the states are those at it.
     """
-    E_star, known = values["E_star"], profile.known_depth
-    rule, modulus = ConstantCap.of(profile, E_star, values["q_c"]), 2 * E_star
+    E_star, known, modulus = values["E_star"], profile.known_depth, 2 * values["E_star"]
     lag = 4 * values["eta"] / E_star * rate
     ahead = np.minimum(lag, 0.0)
     largest = np.minimum(largest, known)
-    interval = rule.at(largest, np.minimum(depth + ahead, known))
+    cap, rate_of_plastic_depth, cap_by_constants = caps(profile, values, largest)
+    interval = interval_at(largest, np.minimum(depth + ahead, known), cap)
     contact = interval.length > 0
     a = np.where(contact, profile._radius(interval.upper), 0.0)
     c = np.where(contact & (interval.lower > 0), profile._radius(interval.lower), 0.0)
     area = integrals(profile).radius_integral(interval)
     gradient = {
-        "E_star": 2 * (area - np.where(c > 0, c * rule.cap(largest), 0.0) - a * ahead),
-        "q_c": np.pi * c,
+        "E_star": 2 * (area - np.where(c > 0, c * cap, 0.0) - a * ahead),
         "eta": 8 * a * rate,
     }
+    for name, derivative in cap_by_constants.items():
+        gradient[name] = np.pi * np.where(c > 0, c * derivative, 0.0)
     force = modulus * area
-    memory_slope = -modulus * c
+    memory_slope = -modulus * np.where(c > 0, c * rate_of_plastic_depth, 0.0)
     slope = modulus * a + np.where(loading, memory_slope, 0.0)
     uniform_load = np.where(contact, E_star * np.maximum(lag, 0.0), 0.0)
     if uniform_load.any():
@@ -72,4 +76,15 @@ def states(profile, values, depth, largest, loading, rate):
         growth_rate = radius_rate(profile, np.minimum(inside, known))
         slope = slope + 2 * uniform_load * np.where(growing, growth_rate, 0.0)
     memory_slope = np.where(loading, 0.0, memory_slope)
-    return States(depth, loading, interval, uniform_load, force, slope, memory_slope, gradient)
+    return States(depth, loading, cap, interval, uniform_load, force, slope, memory_slope, gradient)
+
+
+def caps(profile, values, largest):
+    """Cap u_c (m) at the largest depths (m), dp/ds, and ∂u_c by each constant over π/2E*, by name."""
+    E_star, hardness, q_c, f_c = (values[name] for name in ("E_star", "hardness", "q_c", "f_c"))
+    if not (hardness.any() or f_c.any()):
+        rule = ConstantCap.of(profile, E_star, q_c)
+        return rule.critical_depth, 1.0, {"q_c": 1.0}
+    rule = RadiusCap(profile, *(np.pi / 2 / E_star * constant for constant in (hardness, q_c, f_c)))
+    a = profile._radius(np.maximum(largest, 0.0))
+    return rule._cap(a), 1 - rule._cap_rate(a), {"hardness": a, "q_c": 1.0, "f_c": 1 / a}

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from ..medium import yield_constant
+from ..medium import Medium
 from ..results.quantities import QUANTITIES, Quantity
 
 #: The contact point is searched down to so many ranges of depth below the record.
@@ -28,7 +28,8 @@ class Parameter:
     """A parameter, searched in units (R, 1) that `unit` gives of `Curves`.
 
     It is held at positive numbers or, if `zero` or `infinite`, at these. `start` is its first value for a
-    trial medium t of `start.py`; `in_time` says whether it needs times.
+    trial medium t of `start.py`, whose constants of the hardness are over E*; `in_time` says whether it
+    needs times.
     """
 
     quantity: Quantity
@@ -70,7 +71,8 @@ class Logarithm(Parameter):
         return np.log(value)
 
     def rate(self, value, curves):
-        return np.where(np.isfinite(value), value, 1.0)
+        # Of elastic media a constant of the hardness is infinite, or 0 beside one that is.
+        return np.where((value > 0) & np.isfinite(value), value, 1.0)
 
     def bounds(self, start, curves):
         return start - _FARTHEST, start + _FARTHEST
@@ -113,10 +115,22 @@ def _viscosity(curves):
     return curves.load / (8 * radius * curves.speed)
 
 
+def _pressed_radius(curves):
+    """Radius (m) of the contact under the largest force, about, from the depths with half of it."""
+    pressed = curves.force > curves.force.max(axis=1, keepdims=True) - curves.load / 2
+    depth = 3 * np.ptp(np.where(pressed, curves.depth, curves.top), axis=1, keepdims=True)
+    return curves.profile._radius(np.clip(depth, 1e-3 * curves.length, curves.profile.known_depth))
+
+
+#: The constants of the hardness σ_c = H + q_c/a + f_c/a², by the letters of their classes.
+CLASSES = {"a": "hardness", "b": "q_c", "c": "f_c"}
+_HARDNESS, _Q_C, _F_C = (QUANTITIES[name] for name in CLASSES.values())
 #: Parameters of the medium, with their starts for a trial medium, and of the background with their units.
 MEDIUM = {
     "E_star": Logarithm(QUANTITIES["E_star"], lambda t: t["E_star"]),
-    "q_c": Logarithm(QUANTITIES["q_c"], lambda t: yield_constant(t["E_star"], t["d_c"]), infinite=True),
+    "hardness": Logarithm(_HARDNESS, lambda t: t["E_star"] * t["hardness"], zero=True),
+    "q_c": Logarithm(_Q_C, lambda t: t["E_star"] * t["q_c"], zero=True, infinite=True),
+    "f_c": Logarithm(_F_C, lambda t: t["E_star"] * t["f_c"], zero=True),
     "eta": NotNegative(
         QUANTITIES["eta"], lambda t: t["E_star"] * t["tau"] / 4, _viscosity, zero=True, in_time=True
     ),
@@ -126,6 +140,12 @@ BACKGROUND = {
     "baseline": Background(Quantity("F₀", "N", "baseline"), unit=lambda curves: curves.load),
     "tilt": Background(_TILT, unit=lambda curves: curves.load / curves.length),
     "drag": Background(_DRAG, unit=lambda curves: curves.load / curves.speed, in_time=True),
+}
+#: Constants of the hardness where there are several: each may be 0.
+TOGETHER = {
+    "hardness": NotNegative(_HARDNESS, unit=lambda curves: curves.load / _pressed_radius(curves) ** 2),
+    "q_c": NotNegative(_Q_C, unit=lambda curves: curves.load / _pressed_radius(curves)),
+    "f_c": NotNegative(_F_C, unit=lambda curves: curves.load),
 }
 #: All parameters, in the order of a fit.
 PARAMETERS = MEDIUM | {"contact_point": ContactPoint(Quantity("z₀", "m", "contact point"))} | BACKGROUND
@@ -139,6 +159,17 @@ def held_values(count, **values):
             text = "must be a number, which holds it, or None, which makes it free"
             raise ValueError(f"{name} = {values[name]!r} {text}")
         value = PARAMETERS[name].checked(name, values[name])
-        _check.common_shape("fit_indentation", **{name: value, "curves": np.empty(count)})
+        if np.shape(value) not in ((), (1,), (count,)):
+            shape = np.shape(value)
+            raise ValueError(f"{name} {shape} of {count} curves: give one number, or one for each curve")
         held[name] = np.broadcast_to(value, (count,)).astype(float)
+    # Refuses a hardness of 0, and an infinite q_c beside another constant.
+    Medium(1.0, **{name: held.get(name, 1.0) for name in CLASSES.values()})
     return held
+
+
+def hardness_by_default(**given):
+    """Constants of the hardness as they are given or `...`, which is 0, or a free q_c if none is given."""
+    if all(value is ... for value in given.values()):
+        return given | {"q_c": None, "hardness": 0.0, "f_c": 0.0}
+    return {name: 0.0 if value is ... else value for name, value in given.items()}

@@ -9,17 +9,20 @@ from ..results.quantities import engineering
 from .depth_noise import turning_points_of
 from .errors import SIGNIFICANT, SINGULAR, autocorrelation, roughness
 from .nested import nested_tests
+from .parameters import CLASSES, PARAMETERS, TOGETHER
 
 #: All kinds of remarks, the most important first.
 KINDS = (
     "units", "no contact", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag", "drift",
-    "misfit", "jitter", "loading", "vague", "contact", "class", "elastic", "hardly yields", "noisy", "rest",
-    "inviscid", "missing",
+    "misfit", "jitter", "loading", "vague", "contact", "class", "constants", "elastic", "hardly yields",
+    "noisy", "rest", "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
 DOUBTS = {"units", "no contact", "tilt", "drag", "drift", "misfit", "jitter", "class", "noisy"}
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
+#: Number of standard errors below which a constant of the hardness beside another one may be 0.
+_TOLD = 2.0
 #: Largest range of depth (m), and least share of the variance of the force that a contact explains.
 _LONGEST, _EXPLAINED = 1e-3, 0.75
 #: Least share that noise does not reach, and least ratio of the unexplained shares of other columns.
@@ -130,7 +133,7 @@ def _ambiguous(solved, i):
     for name, at_bound in zip(curves.free, solved.minimum.at_bound[i], strict=False):
         if at_bound and name == "eta":
             yield "inviscid", "no viscosity within the noise: η = 0; hold eta = 0"
-        elif at_bound:
+        elif at_bound and name not in TOGETHER:
             yield f"bound:{name}", f"{name} is at the bound of its search: hold it, or check the data"
     noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
     if solved.rival_squares[i] - squares <= SIGNIFICANT**2 * noise:
@@ -172,19 +175,20 @@ def _depth_of_loss(depth, contact):
 
 def _undetermined(solved, i):
     """Parameters that the data do not determine."""
-    values, state = solved.values_and_states
+    _, state = solved.values_and_states
     errors = solved.errors(i)
-    if solved.elastic[i] and "q_c" in errors:
-        largest = engineering(state.depth[i].max(), "m")
-        yield (
-            "elastic",
-            "nothing has yielded within the noise: q_c = ∞ stands for a critical depth of more than about "
-            f"{largest}; press deeper",
-        )
+    constants = [name for name in solved.curves.constants if name in errors]
+    if solved.elastic[i] and constants:
+        yield "elastic", f"nothing has yielded within the noise: {_hardest(solved, i)}"
         return
     if solved.hardly_yields[i]:
-        text = "an elastic medium fits about as well: yield and q_c are hardly determined; press deeper"
+        symbols = " and ".join(PARAMETERS[name].quantity.symbol for name in constants)
+        text = (
+            f"an elastic medium fits about as well: yield and {symbols} are hardly determined; press deeper"
+        )
         yield "hardly yields", text
+    if len(constants) > 1:
+        yield from _constants(solved, i, constants)
     unloading = np.count_nonzero((state.live_interval.length[i] > 0) & ~state.loading[i])
     error = errors.get("E_star", 0.0)
     if solved.curves.held_elastic:
@@ -195,16 +199,45 @@ def _undetermined(solved, i):
         text = f"loading alone hardly determines E* ({share}): record the unloading, or hold E_star"
         yield "loading", text
     elif error > _VAGUE:
-        d_c = engineering(critical_depth(values["E_star"], values["q_c"])[i, 0], "m")
+        recovered = "critical depth" if solved.curves.constants == ("q_c",) else "recovered depth"
         yield (
             "vague",
             f"the unloading hardly determines E* (to {100 * error:.2g} %): there are {unloading} samples "
-            f"within the critical depth of {d_c}; record more of them, or hold E_star",
+            f"within the {recovered} of {engineering(state.cap[i, -1], 'm')}; record more of them, or hold "
+            "E_star",
         )
     for name, error in errors.items():
         if error == np.inf and name != "work_of_adhesion":
             text = f"the data do not determine {name}: hold it, or a parameter that it is correlated with"
             yield f"undetermined:{name}", text
+
+
+def _hardest(solved, i):
+    """The least hardness of a curve without yield, as text."""
+    values, state = solved.values_and_states
+    depth = state.depth[i].max()
+    if solved.curves.constants == ("q_c",):
+        stands = f"q_c = ∞ stands for a critical depth of more than about {engineering(depth, 'm')}"
+        return f"{stands}; press deeper"
+    radius = solved.curves.profile._radius(np.minimum(depth, solved.curves.profile.known_depth))
+    least = engineering(2 * values["E_star"][i, 0] * depth / (np.pi * radius), "Pa")
+    return f"the medium is elastic, and harder than about {least} in the largest contact"
+
+
+def _constants(solved, i, names):
+    """A constant of the hardness beside others that may as well be 0."""
+    values = dict(zip(solved.curves.free, solved.minimum.x[i], strict=False))
+    shares = {name: values[name] / solved.errors(i)[name] for name in names}
+    name = min(shares, key=shares.get)
+    if shares[name] < _TOLD:
+        quantities = [PARAMETERS[each].quantity for each in names]
+        symbols = " and ".join(quantity.symbol for quantity in quantities)
+        symbol = PARAMETERS[name].quantity.symbol
+        yield (
+            "constants",
+            f"the data do not tell {symbols} apart: {symbol} is {shares[name]:.2g} of its errors; "
+            f"hold {name} = 0",
+        )
 
 
 def _jitter(solved, i):
@@ -230,6 +263,8 @@ def _class_b(solved, i):
     Tested by one linear step on the residuals, with −∂F/∂d_p the derivative by the largest depth so far.
     """
     curves, (values, state) = solved.curves, solved.values_and_states
+    if curves.constants != ("q_c",):
+        return
     d_c = critical_depth(values["E_star"], values["q_c"])[i, 0]
     memory_slope = state.memory_slope[i]
     jacobian, residual = solved.minimum.jacobian[i], solved.minimum.residual[i]
@@ -263,6 +298,12 @@ def _class_b(solved, i):
         )
 
 
+def _named(constants):
+    """The hardness with these constants in words."""
+    letters = [f"({letter})" for letter, name in CLASSES.items() if name in constants]
+    return f"class {' + '.join(letters)}"
+
+
 def _misfit(solved, i):
     """Residuals that are not noise."""
     curves, residual = solved.curves, solved.minimum.residual[i]
@@ -271,7 +312,7 @@ def _misfit(solved, i):
     size = np.sqrt(np.mean((residual * solved.noise[i]) ** 2)) / curves.load[i, 0]
     largest = _MISFIT if curves.held_elastic else _MISFIT_YIELDING
     if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
-        cause = "not an elastic medium" if curves.held_elastic else "not class (b)"
+        cause = "not an elastic medium" if curves.held_elastic else f"not {_named(curves.constants)}"
         remedy = "; give time, which tells drag and drift" * (curves.time is None and not curves.adhesive)
         yield (
             "misfit",

@@ -12,7 +12,7 @@ from ..profiles.profile import Profile
 from ..results.base import Model
 from ..results.quantities import described, engineering, prefixed
 from ..results.report import Report
-from .parameters import MEDIUM, PARAMETERS
+from .parameters import CLASSES, MEDIUM, PARAMETERS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -66,7 +66,7 @@ class Fit(Report):
     _shown = ("medium",)
     _dimensions = ("fit",)
     #: Names of all parameters, free or held, and of those that are not shown where they are held at 0.
-    _names: ClassVar[tuple[str, ...]] = ("E_star", "q_c")
+    _names: ClassVar[tuple[str, ...]] = ("E_star", *CLASSES.values())
     _zero_unless_asked: ClassVar[tuple[str, ...]] = ()
 
     def _values(self):

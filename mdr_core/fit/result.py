@@ -2,6 +2,7 @@
 
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,8 +14,10 @@ from ..contact.live_interval import LiveInterval
 from ..medium import Medium
 from ..results.quantities import described, engineering
 from ..results.report import imported
+from .classes import ClassFit, fits_of_classes, verdict
+from .measurement import Measurement
 from .oliver_pharr import OLIVER_PHARR, oliver_pharr
-from .parameters import BACKGROUND, MEDIUM, PARAMETERS
+from .parameters import BACKGROUND, CLASSES, MEDIUM, PARAMETERS
 from .remarks import DOUBTS, by_importance, missing, remarks_of
 from .report import Fit, with_error
 
@@ -60,17 +63,23 @@ class IndentationFit(Fit):
     _lengths: np.ndarray
 
     _names = tuple(PARAMETERS)
-    _zero_unless_asked = ("eta", "tilt", "drag", "work_of_adhesion")
+    _zero_unless_asked = (*CLASSES.values(), "eta", "tilt", "drag", "work_of_adhesion")
     _dimensions = ("curve",)
 
     @property
     def residual_noise(self) -> Array:
         """Standard deviation (N) of the residuals by the noise of force and depth, √(σ_F² + (S σ_d)²)."""
         stiffness = np.asarray(self.path.stiffness)
-        force_noise = np.asarray(self.force_noise)
-        if self.shape and force_noise.ndim == 1:
-            force_noise = force_noise[:, None]
-        return np.hypot(force_noise, stiffness * self.depth_noise)
+        return np.hypot(self._noise_of_samples(), stiffness * self.depth_noise)
+
+    @property
+    def _yields(self):
+        return not np.all(np.isinf(self.medium.q_c))
+
+    def _noise_of_samples(self):
+        """Standard deviation (N) of the force, of an array that broadcasts with the samples."""
+        noise = np.asarray(self.force_noise)
+        return noise if noise.ndim > len(self.shape) else noise[..., None]
 
     def __getitem__(self, index: Any) -> "IndentationFit":
         if not self.shape:
@@ -108,6 +117,28 @@ class IndentationFit(Fit):
             for texts in by_importance(kinds).values()
         )
 
+    @cached_property
+    def classes(self) -> dict[str, ClassFit]:
+        """Fits with the hardness of each class alone by its letter, "a", "b", "c"; found when first read.
+
+        What else is held or free is as in this fit. Empty for an elastic medium, and with viscosity. How
+        far the misfits tell the classes apart is in the report of one curve.
+        """
+        if not self._yields or "eta" in self.standard_errors or np.any(self.medium.eta):
+            return {}
+        # Noise from the residuals is NaN in χ²: it was not known.
+        known = not np.isnan(self.reduced_chi_square).any()
+        noise = np.broadcast_to(self._noise_of_samples(), self.depth.shape) if known else None
+        samples = (self.depth, self.force, self.time, noise)
+        measured = Measurement(
+            *(None if values is None else np.atleast_2d(values) for values in samples),
+            np.atleast_1d(self._lengths),
+            not self.shape,
+        )
+        values = {name: v for name, v in self._values().items() if name not in self.standard_errors}
+        held = {name: np.atleast_1d(value) for name, value in values.items()}
+        return fits_of_classes(self.profile, measured, held, self.depth_noise)
+
     def plot(self) -> Any:
         """Measured and fitted force over depth, and the residuals, of one curve as HoloViews elements.
 
@@ -143,6 +174,25 @@ class IndentationFit(Fit):
         names = {"parameter": parameters, "other_parameter": parameters}
         return xarray.Dataset(variables, names, attributes | {"depth_noise": self.depth_noise})
 
+    def _text(self, name, value, unit):
+        # Whichever constant was fitted, an elastic medium has q_c = ∞, and 0 of the others.
+        fitted = set(self.standard_errors) & set(CLASSES.values())
+        if fitted and name in CLASSES.values() and not self.shape and self.medium.q_c == np.inf:
+            return "∞"
+        return super()._text(name, value, unit)
+
+    def _hardness(self):
+        """Rows on the hardness of one curve that yields: its class, and the pressures."""
+        if classes := self.classes:
+            used = np.isfinite(self.residuals)
+            yield from verdict(classes, self.depth[used], self.force[used], self.depth_noise)
+        if self._yields:
+            top = int(np.argmax(self.path.force))
+            a, mean = self.path.contact_radius[top], self.path.mean_pressure[top]
+            yielded = engineering(self.medium.hardness_at(a), "Pa")
+            text = f"{engineering(mean, 'Pa')} over the model's a = {engineering(a, 'm')}"
+            yield "mean pressure F/(π a²)", f"{text}, {yielded} where all of it yields"
+
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
         # The unloading of a viscous or adhesive medium is no power law of the depth.
@@ -161,7 +211,9 @@ class IndentationFit(Fit):
                 value = getattr(result, name)
                 error = np.hypot(result.standard_errors[name], getattr(shifted, name) - value)
                 texts.append(f"{OLIVER_PHARR[name].symbol} {with_error(value, error, 'Pa')}")
-            yield "Oliver and Pharr", ", ".join(texts)
+            a = engineering(np.sqrt(force.max() / (np.pi * result.hardness)), "m")
+            model = "; the model's contact has elastic sink-in" * self._yields
+            yield "Oliver and Pharr", f"{', '.join(texts)} over a = {a}{model}"
 
     def _limits(self):
         return self.path.limits
@@ -172,6 +224,7 @@ class IndentationFit(Fit):
         if np.isfinite(self.reduced_chi_square).all():
             yield "reduced χ²", engineering(self.reduced_chi_square, "")
         if not self.shape:
+            yield from self._hardness()
             yield from self._unloading()
         if np.any(self.block_length > 1):
             text = f"block-wise (Newey–West), blocks of {engineering(self.block_length, '')} samples"

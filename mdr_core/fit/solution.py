@@ -5,17 +5,18 @@ from functools import cached_property
 
 import numpy as np
 
-from ..medium import critical_depth
+from ..contact.integrals import tabulated
 from .adhesion import AdhesiveCurves
 from .curves import NO_WEIGHT, Curves
 from .depth_noise import with_depth_noise
 from .errors import autocorrelation, block_factors, block_length, covariances, roughness
 from .least_squares import Minimum
 from .measurement import rates
+from .parameters import CLASSES, PARAMETERS, REACH
 from .start import first_guesses
 
-#: Logarithm of q_c that stands for infinity.
-_NO_YIELD = 300.0
+#: Constant of the hardness, in any unit, that stands for infinity.
+_NO_YIELD = 1e130
 #: Gain in squares of the noise below which an elastic medium fits as well, and about as well.
 _AS_WELL, _ABOUT_AS_WELL = 2.0, 9.0
 
@@ -39,9 +40,12 @@ class Solution:
 
     @cached_property
     def values_and_states(self):
-        """Parameters by name (R, 1), with an infinite q_c where elastic, and the states at all samples."""
+        """Parameters by name (R, 1), of elastic media where elastic, and the states at all samples."""
         values, state = self.curves.model_states(self.minimum.x)
-        return values | {"q_c": np.where(self.elastic[:, None], np.inf, values["q_c"])}, state
+        elastic = {"hardness": 0.0, "q_c": np.inf, "f_c": 0.0}
+        for name, value in elastic.items():
+            values[name] = np.where(self.elastic[:, None], value, values[name])
+        return values, state
 
     @cached_property
     def noise(self):
@@ -88,9 +92,11 @@ class Solution:
         return dict(zip(self.curves.free, np.sqrt(np.diag(self.covariance[i])).tolist(), strict=True))
 
 
-def problems(profile, measured, held, depth_noise, in_time):
+def problems(profile, measured, held, depth_noise):
     """Yields numbers of measured curves, and their `Curves`, which have equally many parameters."""
-    adhesive = "work_of_adhesion" not in held or held["work_of_adhesion"].any()
+    profile = tabulated(profile, _table_depth(profile, measured.depth, held))
+    used = [name for name in PARAMETERS if name not in held or held[name].any()]
+    adhesive, in_time = "work_of_adhesion" in used, any(PARAMETERS[name].in_time for name in used)
     for rows, depth, force, time, force_noise in measured.groups():
         rate, corner = rates(depth, time) if in_time else (np.zeros_like(depth), False)
         fixed = {name: value[rows] for name, value in held.items()}
@@ -101,6 +107,17 @@ def problems(profile, measured, held, depth_noise, in_time):
             yield from ((rows[subset], noisy) for subset, noisy in with_depth_noise(curves))
         else:
             yield rows, curves.as_kind(AdhesiveCurves) if adhesive else curves
+
+
+def _table_depth(profile, depth, held):
+    """Depth (m) to which the profile is tabulated: that of the farthest contact point."""
+    top = np.nanmax(depth, axis=1)
+    limit = (1 + REACH) * float((top - np.nanmin(depth, axis=1)).max())
+    if "contact_point" in held:
+        largest = top - held["contact_point"]
+        limit = max(limit, 1.01 * float(largest.max()))
+        profile._known(largest)
+    return min(limit, profile.known_depth)
 
 
 def _sigma(curves):
@@ -120,10 +137,10 @@ def solved(rows, curves, noise_known):
     if curves.adhesive:
         curves = replace(curves, contact=curves.contact_of_data(minimum.x))
         minimum = curves.minimum(minimum.x)
-    if "q_c" in curves.held:
-        elastic, hardly_yields = np.isinf(curves.held["q_c"]), np.zeros(len(rows), bool)
-    else:
+    if set(curves.free) & set(CLASSES.values()):
         minimum, elastic, hardly_yields = _compared_with_elastic(curves, minimum, noise_known)
+    else:
+        elastic, hardly_yields = np.isinf(curves.held["q_c"]), np.zeros(len(rows), bool)
     return Solution(rows, curves, minimum, *rival, elastic, hardly_yields, noise_known)
 
 
@@ -148,19 +165,22 @@ def _best_minimum(curves):
 def _compared_with_elastic(curves, minimum, noise_known):
     """The minimum or the elastic one where that is nearer, and whether it is, or about as near.
 
-    In an elastic medium q_c has no derivative: a second search starts below the largest depth.
+    In an elastic medium the hardness has no derivative: a second search starts with less.
     """
     elastic, hardly_yields = np.zeros((2, len(minimum.x)), bool)
     values, state = curves.states(minimum.x)
-    share = critical_depth(values["E_star"], values["q_c"])[:, 0] / state.depth.max(axis=1)
+    share = state.cap[:, -1] / state.depth.max(axis=1)
     rows = np.flatnonzero(share > 0.5)
     if not rows.size:
         return minimum, elastic, hardly_yields
-    column, subset = curves.free.index("q_c"), curves.rows(rows)
-    start, without_yield = minimum.x[rows], minimum.x[rows]
-    start[:, column] += np.minimum(np.log(0.85 / share[rows]), 0.0)
-    without_yield[:, column] = _NO_YIELD
-    yielding, unyielding = subset.minimum(start), subset.minimum(without_yield)
+    subset = curves.rows(rows)
+    values = subset.values(minimum.x[rows])
+    constants = [name for name in subset.constants if name in subset.free]
+    less = np.minimum(0.85 / share[rows], 1.0)[:, None]
+    softer = values | {name: less * values[name] for name in constants}
+    without_yield = values | {constants[0]: np.full_like(less, _NO_YIELD)}
+    yielding = subset.minimum(subset.scaled(softer))
+    unyielding = subset.minimum(subset.scaled(without_yield))
     first, second, third = minimum.squares[rows], yielding.squares, unyielding.squares
     least = np.minimum(first, second)
     noise = 1.0 if noise_known else np.minimum(least, third) / minimum.freedom

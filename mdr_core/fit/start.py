@@ -1,7 +1,8 @@
 """Starts of the search for a curve: the best of a grid of contact points and media.
 
-The force is E* times a function of the contact point, the critical depth, and the relaxation time or the
-work of adhesion, and a background: E* and the parameters of the background follow by linear regression.
+The force is E* times a function of the contact point, the constants of the hardness over E*, and the
+relaxation time or the work of adhesion, and a background: E* and the parameters of the background follow by
+linear regression.
 """
 
 import numpy as np
@@ -15,8 +16,13 @@ from .parameters import BACKGROUND, MEDIUM, REACH
 
 #: Trial depths of contact at the largest depth, in units of the range of depth.
 _DEPTHS = np.geomspace(3e-3, 1 + REACH, 48)
-#: Trial critical depths, as shares of the largest depth.
+#: Trial caps at the largest depth, as shares of it, and shares of one, two or three constants in the cap.
 _SHARES = np.concatenate([np.geomspace(2e-3, 0.5, 13), [0.65, 0.8, 0.92, 3.0]])
+_MIXTURES = {
+    1: np.ones((1, 1)),
+    2: np.array([[0.9, 0.1], [0.5, 0.5], [0.1, 0.9]]),
+    3: np.array([[0.8, 0.1, 0.1], [0.1, 0.8, 0.1], [0.1, 0.1, 0.8], [0.4, 0.3, 0.3]]),
+}
 #: Trial relaxation times, as shares of the largest depth over the largest rate.
 _LAGS = np.append(0.0, np.geomspace(0.01, 4.0, 10))
 #: Trial stretches at the rim at the largest depth, as shares of it.
@@ -65,7 +71,7 @@ def _guesses(curve, turning_depth, table):
     best, E_star, squares, background = _regression(curve, held, samples, unit_force, media)
     trials = {name: values[np.arange(points.size), best] for name, values in media.items()}
     trials["E_star"] = E_star
-    values = {name: parameter.start(trials) for name, parameter in MEDIUM.items()}
+    values = {name: parameter.start(trials) for name, parameter in MEDIUM.items() if name in curve.free}
     values |= background | {"contact_point": points}
     around = np.concatenate([[np.inf], squares, [np.inf]])
     minima = (squares <= around[:-2]) & (squares < around[2:]) & (squares <= _CLOSE * squares.min())
@@ -74,19 +80,33 @@ def _guesses(curve, turning_depth, table):
 
 
 def _media(curve, held, depth):
-    """Trial d_c (m), τ = 4η/E* (s) and κ = w/E* (m) by name, arrays (Z, M), at largest depths (Z, 1)."""
-    if curve.held_elastic or {"E_star", "q_c"} <= set(held):
-        d_c = np.full_like(depth, critical_depth(held.get("E_star", 1.0), held["q_c"]))
-    else:
-        d_c = depth * _SHARES
+    """Trial media by name, arrays (Z, M), at largest depths (Z, 1).
+
+    They are the constants of the hardness over E*, τ = 4η/E* (s) and κ = w/E* (m).
+    """
+    names = curve.constants
+    known = curve.held_elastic or {"E_star", *names} <= set(held)
+    mixtures = _MIXTURES[1 if known else len(names)]
+    caps = (depth if known else depth * _SHARES)[:, :, None] * np.ones(len(mixtures))
+    radius = curve.profile._radius(np.minimum(depth, curve.profile.known_depth))[:, :, None]
+    of_one = {"hardness": 1 / radius, "q_c": 1.0, "f_c": radius}
+    media = {}
+    for name, shares in zip(names, mixtures.T, strict=True):
+        if known or {"E_star", name} <= set(held):
+            trial = np.full_like(caps, held[name] / held.get("E_star", 1.0))
+        else:
+            trial = of_one[name] * yield_constant(1.0, caps * shares)
+        media[name] = trial.reshape(len(depth), -1)
     if held.get("eta") == 0:
         tau = np.zeros_like(depth)
     elif {"E_star", "eta"} <= set(held):
         tau = np.full_like(depth, 4 * held["eta"] / held["E_star"])
     else:
         tau = depth * _LAGS / max(float(curve.speed[0, 0]), 1e-300)
-    d_c, tau = np.repeat(d_c, tau.shape[1], axis=1), np.tile(tau, (1, d_c.shape[1]))
-    return {"d_c": d_c, "tau": tau, "kappa": np.zeros_like(d_c)}
+    count = caps[0].size
+    media = {name: np.repeat(trial, tau.shape[1], axis=1) for name, trial in media.items()}
+    tau = np.tile(tau, (1, count))
+    return media | {"tau": tau, "kappa": np.zeros_like(tau)}
 
 
 def _adhesive_media(curve, held, depth):
@@ -96,20 +116,31 @@ def _adhesive_media(curve, held, depth):
     else:
         radius = curve.profile._radius(np.minimum(depth, curve.profile.known_depth))
         kappa = (depth * _STRETCHES) ** 2 / (2 * np.pi * radius)
-    return {"d_c": np.full_like(kappa, np.inf), "tau": np.zeros_like(kappa), "kappa": kappa}
+    return {"q_c": np.full_like(kappa, np.inf), "tau": np.zeros_like(kappa), "kappa": kappa}
 
 
 def _unit_force(largest, depth, rate, media, table):
     """Force over E* (m²) of trial media, from a table."""
     depths, area, radius = table
-    d_c, tau = media["d_c"][..., None], media["tau"][..., None]
+    tau = media["tau"][..., None]
     lag = tau * rate
-    interval = interval_at(largest, depth + np.minimum(lag, 0.0), d_c)
+    interval = interval_at(largest, depth + np.minimum(lag, 0.0), _cap(largest, media, table))
     force = 2 * (np.interp(interval.upper, depths, area) - np.interp(interval.lower, depths, area))
     if tau.any():
         contact_radius = np.interp(interval.upper, depths, radius)
         force += 2 * np.where(interval.length > 0, np.maximum(lag, 0.0) * contact_radius, 0.0)
     return force
+
+
+def _cap(largest, media, table):
+    """Cap (m) of trial media at largest depths (m) so far, from a table."""
+    depths, _, radii = table
+    # The first radius may be 0.
+    a = np.maximum(np.interp(largest, depths, radii), radii[1])
+    factors = {"hardness": a, "q_c": 1.0, "f_c": 1 / a}
+    return critical_depth(
+        1.0, sum(media[name][..., None] * factors[name] for name in factors if name in media)
+    )
 
 
 def _adhesive_force(depth, points, kappa, table):
@@ -141,13 +172,13 @@ def _regression(curve, held, samples, unit_force, media):
     deviation, projected = weight * force - basis @ (basis.T @ (weight * force)), weighted
     if free:
         projected = weighted - (weighted @ basis) @ basis.T
-    d_c = media["d_c"]
+    given = [name for name in curve.constants if held.get(name, np.inf) < np.inf]
     if "E_star" in held:
-        E_star = np.full_like(d_c, held["E_star"])
+        E_star = np.full_like(media["tau"], held["E_star"])
     elif held.get("work_of_adhesion"):
         E_star = held["work_of_adhesion"] / media["kappa"]
-    elif held.get("q_c", np.inf) < np.inf:
-        E_star = held["q_c"] / yield_constant(1.0, d_c)
+    elif given:
+        E_star = held[given[0]] / media[given[0]]
     else:
         power = np.einsum("zmn,zmn->zm", projected, projected)
         smallest = 1e-6 * np.ptp(force) / np.maximum(np.ptp(unit_force), 1e-300)

@@ -193,7 +193,7 @@ class Report:
         if np.prod(self.shape) > _MANY:
             return
         limits = [x for x in self._limits() if x.exceeded and x.concerns == "result"]
-        first = limits if len(limits) <= most else limits[: most - 1]
+        first = limits if len(limits) <= most else limits[: max(most - 1, 0)]
         yield from (("limit", limit.sentence) for limit in first)
         if others := limits[len(first) :]:
             yield "limits", f"{', '.join(limit.what for limit in others)}: see .limits"

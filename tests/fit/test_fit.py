@@ -302,15 +302,67 @@ class TestHardness:
         assert fit.hardness_class == "b"
         assert fit.slope == pytest.approx(-1.0, rel=1e-10)
 
-    @pytest.mark.parametrize(("power", "name"), [(0.0, "a"), (-1.0, "b"), (-2.0, "c"), (-0.5, None)])
+    @pytest.mark.parametrize(("power", "name"), [(0.0, "a"), (-1.0, "b"), (-2.0, "c"), (-0.6, None)])
     def test_class(self, power, name):
-        """Far above yield (H ≪ E* s/2) hardness is q_c/a to a thousandth."""
+        """Far above yield (H ≪ E* s/2) the mean pressure is the hardness to a thousandth."""
         a = np.geomspace(1e-7, 1e-6, 9)
         noise = np.exp(0.01 * np.random.default_rng(8).normal(size=9))
         fit = mdr.fit_hardness(mdr.Cone(0.3), 1e6 * (a / 1e-7) ** power * noise, a, E_star=E)
         assert fit.hardness_class == name
         assert abs(fit.slope - power) < 4 * fit.slope_error
-        assert (name == "b") != any("not class (b)" in remark for remark in fit.remarks)
+        assert (name is None) == any("not class (b) alone" in remark for remark in fit.remarks)
+        # Without a class it is the nearest one.
+        (constant,) = fit.standard_errors
+        assert constant == {"a": "hardness", "c": "f_c"}.get(name, "q_c")
+        truth = 1e6 * 1e-7 ** {"a": 0, "c": 2}.get(name, 1)
+        if name:
+            deviation = getattr(fit.medium, constant) - truth
+            assert abs(deviation) < 4 * fit.standard_errors[constant] + 1e-3 * truth
+
+    @pytest.mark.parametrize(
+        "constants",
+        [{"hardness": 0.4e9}, {"f_c": 2e-6}, {"hardness": 0.4e9, "q_c": 20.0}, {"q_c": 40.0, "f_c": 1e-6}],
+        ids=" and ".join,
+    )
+    def test_constants_that_are_asked_for(self, constants):
+        medium = mdr.Medium(E, **constants)
+        state = mdr.indent(mdr.Cone(0.3), medium, self.DEPTH)
+        data = mdr.Cone(0.3), state.mean_pressure, state.contact_radius
+        fit = mdr.fit_hardness(*data, E_star=E, **dict.fromkeys(constants))
+        for constant in ("hardness", "q_c", "f_c"):
+            true = constants.get(constant, 0.0)
+            assert getattr(fit.medium, constant) == pytest.approx(true, rel=1e-9)
+        assert not fit.remarks
+        if len(constants) > 1:
+            first, second = constants
+            held = mdr.fit_hardness(*data, E_star=E, **{first: constants[first], second: None})
+            assert getattr(held.medium, second) == pytest.approx(constants[second], rel=1e-9)
+
+    def test_errors_of_two_constants(self):
+        """Pulls of 200 fits have the width of Student's t, √(10/8) for 10 degrees of freedom."""
+        medium, depth = mdr.Medium(E, hardness=0.2e9, q_c=20.0), np.geomspace(20e-9, 2e-6, 12)
+        state, random = mdr.indent(mdr.Cone(0.3), medium, depth), np.random.default_rng(3)
+        deviations = []
+        for _ in range(200):
+            p_m = state.mean_pressure * np.exp(0.01 * random.normal(size=12))
+            given = {"E_star": E, "hardness": None, "q_c": None}
+            fit = mdr.fit_hardness(mdr.Cone(0.3), p_m, state.contact_radius, **given)
+            deviations.append(list(pulls(fit, hardness=0.2e9, q_c=20.0).values()))
+        # Four times the 5 % to which the width is known.
+        assert np.std(deviations, axis=0) == pytest.approx(np.sqrt(1.25), rel=0.2)
+        assert np.abs(np.mean(deviations, axis=0)).max() < 4 * np.sqrt(1.25 / 200)
+
+    def test_constants_that_radii_do_not_tell_apart(self):
+        medium, random = mdr.Medium(E, hardness=0.2e9), np.random.default_rng(5)
+        state = mdr.indent(mdr.Cone(0.3), medium, np.geomspace(20e-9, 60e-9, 8))
+        p_m, a = state.mean_pressure * np.exp(0.02 * random.normal(size=8)), state.contact_radius
+        given = {"E_star": E, "hardness": None, "q_c": None}
+        fit = mdr.fit_hardness(mdr.Cone(0.3), p_m, a, **given)
+        assert any("do not tell" in remark for remark in fit.remarks)
+        with pytest.raises(ValueError, match="do not determine hardness and q_c"):
+            mdr.fit_hardness(mdr.Cone(0.3), p_m[:2], a[:2], **given)
+        with pytest.raises(ValueError, match="all held"):
+            mdr.fit_hardness(mdr.Cone(0.3), p_m, a, E_star=E, hardness=1e9)
 
     def test_elastic_contacts_are_refused(self):
         state = mdr.indent(mdr.Cone(0.3), mdr.Medium(E), self.DEPTH)

@@ -1,0 +1,96 @@
+"""Fits of each class of hardness alone, and which of them a measured curve tells apart.
+
+All classes have equally many parameters. With sums of squares S₁ and S₂ of their residuals and n
+independent samples, the likelihoods of two classes differ by the factor (S₂/S₁)^(n/2). n is the number of
+samples over the number in a block of correlated residuals.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import _check
+from .._check import Array
+from ..contact.integrals import integrals
+from ..medium import Medium
+from .depth_noise import turning_points_of
+from .parameters import CLASSES
+from .solution import problems, solved
+
+#: Least n ln(S₂/S₁) by which two classes are told apart: the square of three standard deviations.
+_TOLD = 9.0
+#: Least misfit of the best class, with correlated residuals, at which none describes the curve.
+_NONE = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class ClassFit:
+    """A fit with the hardness of one class alone, of one curve or of many.
+
+    `misfit` is the root mean square of the residuals over the largest force, `medium` the fitted medium,
+    `block_length` the number of samples over which residuals are correlated.
+    """
+
+    misfit: Array
+    medium: Medium
+    block_length: Array
+
+
+def fits_of_classes(profile, measured, held, depth_noise):
+    """`ClassFit` of each class that is modelled under the profile, by its letter.
+
+    `held` are the values (R,) of held parameters by name; constants of the hardness are not looked at.
+    """
+    others = {name: value for name, value in held.items() if name not in CLASSES.values()}
+    zero = np.zeros(len(measured.depth))
+    fits = {}
+    for letter, free in CLASSES.items():
+        if free == "hardness" and not integrals(profile).convex:
+            continue
+        constants = {name: zero for name in CLASSES.values() if name != free}
+        fits[letter] = _fit(profile, measured, others | constants, depth_noise)
+    return fits
+
+
+def _fit(profile, measured, held, depth_noise):
+    noise_known = measured.force_noise is not None or depth_noise > 0
+    solutions = [
+        solved(*problem, noise_known) for problem in problems(profile, measured, held, depth_noise)
+    ]
+    order = np.argsort(np.concatenate([solution.rows for solution in solutions]))
+    index = 0 if measured.single else slice(None)
+    groups = [_arrays(solution) for solution in solutions]
+    joined = {name: np.concatenate([group[name] for group in groups])[order][index] for name in groups[0]}
+    misfit, block_length = (_check.frozen(joined.pop(name)) for name in ("misfit", "block_length"))
+    return ClassFit(misfit, Medium(**joined), block_length)
+
+
+def _arrays(solution):
+    """The constants of the medium, the misfit and the block length of a `Solution` by name, arrays (R,)."""
+    values, _ = solution.values_and_states
+    force = np.max(solution.curves.force - solution.curves.background(values), axis=1)
+    residuals = solution.minimum.residual * solution.noise
+    misfit = np.sqrt(np.mean(residuals**2, axis=1)) / force
+    medium = {
+        name: np.broadcast_to(values[name], (force.size, 1))[:, 0] for name in ("E_star", *CLASSES.values())
+    }
+    return medium | {"misfit": misfit, "block_length": solution.block_length}
+
+
+def verdict(fits, depth, force, depth_noise):
+    """Rows of a report on one curve: misfits, classes that they do not rule out, and what this presumes."""
+    best = min(fits, key=lambda letter: fits[letter].misfit)
+    least = max(fits[best].misfit, np.finfo(float).tiny)
+    independent = depth.size / fits[best].block_length
+    close = [letter for letter, fit in fits.items() if independent * 2 * np.log(fit.misfit / least) < _TOLD]
+    misfits = ", ".join(f"({letter}) {100 * fit.misfit:.3g} %" for letter, fit in fits.items())
+    answer = f"({best})" if len(close) == 1 else f"not told, ({') or ('.join(close)})"
+    if fits[best].misfit > _NONE and fits[best].block_length > 1:
+        answer += f", none within {100 * _NONE:g} %"
+    yield "class of hardness", f"{answer}: misfit {misfits} of the largest force"
+    turns, starts = turning_points_of(depth, force, depth_noise)
+    record = f"this record has {len(starts)} loadings" * (len(starts) > 1)
+    if not turns:
+        record = "this record has no unloading"
+    presumed = "a known tip that is not worn, one loading without pop-ins and one unloading"
+    yield "the class presumes", f"{presumed}; {record}" if record else presumed
