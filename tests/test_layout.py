@@ -12,9 +12,10 @@ import mdr_core as mdr
 PACKAGE = Path(mdr.__file__).parent
 # From the bottom up; a module may import what stands before it.
 ORDER = (
-    "_errors", "_check", "_numeric", "abel", "shapes.tables", "shapes.profile", "shapes.power",
+    "_errors", "_check", "_numeric", "abel", "results.quantities", "shapes.tables", "shapes.profile",
+    "shapes.power",
     "shapes.tabulated", "shapes.rounded", "shapes.truncated", "shapes.sampled", "shapes.smooth", "medium",
-    "results.quantities", "results.limits", "results.report", "results.base", "results.labels",
+    "results.limits", "results.report", "results.base", "results.labels",
     "results.progress", "reading",
     "foundation.refinement", "foundation.cap", "foundation.element", "foundation.grid",
     "foundation.foundation",

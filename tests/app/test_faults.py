@@ -7,7 +7,7 @@ import pytest
 
 from app import changes
 from app.page import Page
-from app.solve import COMPUTING, FAULT
+from app.rest import COMPUTING, FAULT
 from app.state import PRESETS, preset_state
 
 from .conftest import DROP, GOLD
@@ -49,16 +49,19 @@ def test_a_plot_or_a_held_scene_that_fails(page, monkeypatch):
     assert (page.state.tiles, page.board.tabs["surface"].value) == ((), False)
     assert_in_use(page)
     page.notices.clear()
-    monkeypatch.setattr(page.table, "show", lambda course, held: failing() if held else None)
-    page.frame.hold.value = True
-    assert (page.state.hold, page.shown.held, page.frame.hold.value) == ((), [], False)
+    hold = page.frame.buttons["held"]
+    monkeypatch.setattr(hold, "show", lambda view: failing() if view.computed["held"] else None)
+    hold.view.value = True
+    assert (page.state["held.scenes"], page.shown.computed["held"]) == ((), [])
     assert_in_use(page)
 
 
 def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
     """What is beside the plots counts as shown too: undo leads to nothing that was refused."""
-    shown = page.fitting.show
-    monkeypatch.setattr(page.fitting, "show", lambda now: shown(now) if now.preset == GOLD else failing())
+    shown = page.form.show
+    monkeypatch.setattr(
+        page.form, "show", lambda now: shown(now) if now.state.preset == GOLD else failing()
+    )
     page.choices.widgets["preset"].value = DROP
     assert page.state.preset == page.choices.widgets["preset"].value == GOLD
     assert page.frame.undo.disabled
@@ -72,7 +75,7 @@ def send(number, **data):
 
 @pytest.mark.parametrize("act", ["preset", "undo", "reset"])
 def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
-    (depth,), (_, q_c) = page.controls.numbers["drive"], page.controls.numbers["medium"]
+    (depth,), (_, q_c) = page.form.numbers["drive"], page.form.numbers["medium"]
     send(depth, text="5 nm")
     send(q_c, text="abc")
     assert q_c.refused == "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m"
@@ -84,7 +87,7 @@ def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
 
 
 def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
-    (number,) = page.controls.numbers["drive"]
+    (number,) = page.form.numbers["drive"]
     start = page.state.max_depth
     for position in (210, 220, 230):
         send(number, position=position)

@@ -1,0 +1,137 @@
+"""The board on the right: plots in frames with title, formula and legend; their tabs, and the player."""
+
+from collections.abc import Callable
+
+import panel as pn
+from bokeh.events import Pan, PanEnd, PanStart
+from bokeh.models import ColumnDataSource, CustomJS
+
+from .draw import Picture, drawn, legend
+from .fields import Choices
+from .player import Player
+from .plot import Plot, View, rows_of
+from .plots import NAMED, PLOTS, visible
+from .ui import FULL, JS, STYLE, WIDE, button, html, linked, show, toggle
+
+#: Plots that share the axis x of another one.
+_SAME_X = {"pressure": "springs"}
+
+
+class Card:
+    """A plot in its frame: title, formula, legend, controls above and a note below."""
+
+    def __init__(self, plot: Plot, choices: Choices, apply: Callable[..., None], scene: ColumnDataSource):
+        self.plot, self.picture, self._rows, self._apply = plot, Picture(plot), None, apply
+        self.head, self.key, self.note = html("", "formula"), html("", "key"), html("", "note", "found")
+        save, self.large = button("Save", "none"), toggle("Large", "none")
+        rows = [row.name for row in rows_of(plot) if row.legend]
+        told = {"figure": self.picture.figure, "scene": scene, "rows": rows, "title": plot.title}
+        save.js_on_click(args=told, code=f"(async () => {{{JS['save']}}})()")
+        self.large.param.watch(self._enlarge, "value")
+        self.log = toggle("Log", "none")
+        self.log.param.watch(lambda event: self._scale(event.new), "value")
+        logs = [self.log] * plot.logs
+        head = pn.Row(self.head, *logs, save, self.large, css_classes=["head"], stylesheets=STYLE, **WIDE)
+        parts = [head, self.key, pn.pane.Bokeh(self.picture.figure, **FULL)]
+        if plot.controls:
+            parts.insert(1, pn.Row(*map(choices.row, plot.controls), css_classes=["above"], **WIDE))
+        if plot.find:
+            parts.append(self.note)
+        self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
+
+    def _scale(self, log: bool) -> None:
+        """Make the axes logarithmic, or linear again."""
+
+        def change(state):
+            others = tuple(name for name in state.log if name != self.plot.name)
+            return state.replace(log=(*others, *[self.plot.name] * log))
+
+        self._apply(change)
+
+    def _enlarge(self, event):
+        self.view.css_classes = ["card", self.plot.name, *["large"] * event.new]
+        self.large.label = "Small" if event.new else "Large"
+
+    def show(self, columns: dict, view: View) -> None:
+        """Draw columns made for a view, with the texts around them."""
+        plot, course = self.plot, view.course
+        self.picture.show(columns, view, view.state.dark)
+        show(self.head, object=f"<h3>{plot.title}</h3>{linked(plot.formula_of(course))}")
+        rows = drawn(view, plot, {course.now, course.peak})
+        if rows != self._rows:
+            self._rows = rows
+            show(self.key, object=legend(plot, rows))
+        show(self.log, value=plot.name in view.state.log)
+        if plot.name in view.found:
+            show(self.note, object=view.found[plot.name].note)
+
+
+class Board:
+    """All plots of a session: a card is made when it is seen for the first time, and stays."""
+
+    def __init__(self, choices: Choices, apply: Callable[..., None]):
+        self._choices, self._apply, self.cards = choices, apply, {}
+        self.names: list[str] = []
+        # Its tags are the scene, which stands below a picture that is saved.
+        self.scene = ColumnDataSource(name="scene")
+        self.tabs = {name: toggle(plot.tab) for name, plot in PLOTS.items() if plot.tab}
+        for name, tab in self.tabs.items():
+            tab.param.watch(lambda event, name=name: self._asked(name, event.new), "value")
+        self.tab_row = pn.Row(*self.tabs.values(), css_classes=["tools", "tabs"], **WIDE)
+        self.grid = pn.Column(css_classes=["plots"], **FULL)
+        figures = {name: self._make(name) for name in NAMED}
+        self.player = Player(list(figures.values()))
+        drag = {"hand": self.player.hand, **self.player.parts}
+        #: Figures that are dragged.
+        self.dragged = [figures["springs"], figures["force"]]
+        for figure in self.dragged:
+            code = CustomJS(args=drag | {"figure": figure}, code=JS["drag"])
+            for event in (PanStart, Pan, PanEnd):
+                figure.js_on_event(event, code)
+
+    def _make(self, name):
+        card = self.cards[name] = Card(PLOTS[name], self._choices, self._apply, self.scene)
+        figure = card.picture.figure
+        if name in _SAME_X:
+            figure.x_range = self.cards[_SAME_X[name]].picture.figure.x_range
+        self.grid.append(card.view)
+        return figure
+
+    def _asked(self, name: str, on: bool) -> None:
+        """Show an optional plot alone, or not."""
+
+        def change(state):
+            if on == (name in state.tiles):
+                return state
+            return state.replace(tiles=(name,) if on else tuple(t for t in state.tiles if t != name))
+
+        self._apply(change)
+
+    def columns(self, view: View) -> dict[str, dict]:
+        """Columns of all plots that are seen, by their names; nothing on the page is changed."""
+        names = [plot.name for plot in visible(view)]
+        for name in names:
+            if name not in self.cards:
+                self._make(name)
+        now, dark = view.course.now, view.state.dark
+        return {name: self.cards[name].picture.columns(view, now, dark) for name in names}
+
+    def show(self, columns: dict[str, dict], view: View) -> None:
+        """Draw columns made for a view, on the plots that they are of."""
+        self.names = list(columns)
+        for name, data in columns.items():
+            self.cards[name].show(data, view)
+        for name, card in self.cards.items():
+            show(card.view, visible=name in columns)
+        count = len(columns) - len(NAMED)
+        show(self.grid, css_classes=["plots", f"with-{min(count, 2)}"])
+
+    def show_tabs(self, view: View) -> None:
+        """Show the tabs of plots that apply to a view."""
+        for name, tab in self.tabs.items():
+            applies = PLOTS[name].applies(view)
+            show(tab, visible=applies, value=applies and name in view.state.tiles)
+
+    def pictures(self) -> list[Picture]:
+        """The pictures that are seen."""
+        return [self.cards[name].picture for name in self.names]

@@ -1,0 +1,126 @@
+"""The frame of the page: header, side with one part at a time, and the plots."""
+
+from collections.abc import Callable
+from typing import Any
+
+import panel as pn
+
+from .extra import EXTRAS, Part
+from .plot import View
+from .readouts import readings, table
+from .ui import FULL, HERE, STYLE, WIDE, button, html, reveal, show, toggle, tools
+
+
+class Menu:
+    """What the page is, and buttons that are seldom used."""
+
+    def __init__(self, reset: Any, dark: Any):
+        about = html((HERE / "static" / "about.html").read_text(encoding="utf-8"))
+        self.view = pn.Column(tools(reset, dark), about, **WIDE)
+
+    def show(self, view: View) -> None:
+        """It is the same for all views."""
+
+
+class Readings:
+    """All numbers of the present state."""
+
+    def __init__(self):
+        self.view = html("", "all-numbers")
+
+    def show(self, view: View) -> None:
+        course = view.course
+        show(self.view, object=table(course, readings(course), course.now))
+
+
+class Frame:
+    """Buttons, parts of the side by name, each made when it is first opened, and the board."""
+
+    def __init__(self, page: Any, preset: Any, form: Part, board: Any):
+        self._view: View | None = None
+        self.undo, self.redo, self.reset = button("Undo", "z"), button("Redo"), button("Reset")
+        self.dark = toggle("Dark")
+        self._make: dict[str, Callable[[], Part]] = {
+            "explore": lambda: form,
+            "menu": lambda: Menu(self.reset, self.dark),
+            "numbers": Readings,
+        }
+        self.parts: dict[str, Part] = {}
+        self.tabs = {"explore": toggle("Explore"), "menu": toggle("Menu"), "numbers": toggle("All numbers")}
+        #: What extras have in the header.
+        self.buttons: dict[str, Part] = {}
+        in_header, in_side = [], [self.tabs["explore"]]
+        for extra in EXTRAS.values():
+            if extra.header:
+                self.buttons[extra.name] = extra.header(page)
+                in_header.append(self.buttons[extra.name].view)
+            if extra.side:
+                self.tabs[extra.name] = toggle(extra.tab)
+                self._make[extra.name] = lambda extra=extra: extra.side(page)
+                (in_header if extra.in_header else in_side).append(self.tabs[extra.name])
+        title = html("<h1>Indentation explorer</h1>", "name", width=190, sizing_mode=None)
+        buttons = pn.Row(
+            self.undo, self.redo, *in_header, self.tabs["menu"],
+            css_classes=["tools", "buttons"], margin=0, width=380,
+        )  # fmt: skip
+        header = pn.Row(title, preset, buttons, css_classes=["header"], stylesheets=STYLE, **WIDE)
+        look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
+        self._side = pn.Column(tools(*in_side), **look)
+        texts = map(pn.pane.Bokeh, (board.player.heads, board.player.readout))
+        line = pn.Column(*texts, css_classes=["line"], **WIDE)
+        top = pn.Row(line, self.tabs["numbers"], css_classes=["head", "top"], stylesheets=STYLE, **WIDE)
+        self.warnings = html("", "lights")
+        plots = (top, board.player.view, self.warnings, board.grid, board.tab_row)
+        results = pn.Column(*plots, css_classes=["results"], **FULL)
+        columns = pn.Row(self._side, results, css_classes=["columns"], **FULL)
+        self.view = pn.Column(header, columns, css_classes=["page"], **FULL)
+        for name, tab in self.tabs.items():
+            tab.param.watch(lambda event, name=name: self._switched(name, event.new), "value")
+        self.open("explore")
+
+    def part(self, name: str) -> Part:
+        if name not in self.parts:
+            self.parts[name] = self._make[name]()
+        return self.parts[name]
+
+    @staticmethod
+    def _is_above(name: str) -> bool:
+        return name in EXTRAS and EXTRAS[name].above
+
+    def open(self, name: str) -> None:
+        """Show a part of the side in the place of the present one, or above it."""
+        self._reveal(name)
+        if not self._is_above(name):
+            self.opened = name
+            for each, tab in self.tabs.items():
+                if not self._is_above(each):
+                    show(tab, value=each == name)
+                    if each != name and each in self.parts:
+                        reveal(self._side, self.parts[each].view, False)
+
+    def _reveal(self, name: str) -> None:
+        part = self.part(name)
+        if self._view is not None:
+            part.show(self._view)
+        reveal(self._side, part.view, True, 1 if self._is_above(name) else None)
+
+    def _switched(self, name: str, on: bool) -> None:
+        if self._is_above(name):
+            self._reveal(name) if on else reveal(self._side, self.parts[name].view, False)
+        elif on or name == self.opened:
+            self.open(name if on else "explore")
+
+    def show(self, view: View) -> None:
+        """Show a view in all parts that are seen."""
+        self._view = view
+        for each in self.buttons.values():
+            each.show(view)
+        for name, extra in EXTRAS.items():
+            if extra.side:
+                show(self.tabs[name], visible=extra.offered(view))
+        if self.opened in EXTRAS and not EXTRAS[self.opened].offered(view):
+            self.open("explore")
+        for part in self.parts.values():
+            if part.view.visible:
+                part.show(view)
+        show(self.dark, value=view.state.dark)
