@@ -1,67 +1,77 @@
 """The board on the right: plots in frames with title, formula and legend; their tabs, and the player."""
 
 from collections.abc import Callable
+from functools import partial
 
 import panel as pn
+import param
 from bokeh.events import Pan, PanEnd, PanStart
-from bokeh.models import ColumnDataSource, CustomJS
+from bokeh.models import CustomJS
 
+from .buttons import Bar, Button
 from .draw import Picture, drawn, legend
 from .fields import Choices
 from .player import Player
 from .plot import Plot, View, rows_of
 from .plots import NAMED, PLOTS, visible
-from .ui import FULL, JS, STYLE, WIDE, button, html, linked, show, toggle
+from .ui import FULL, JS, WIDE, html, linked, show
 
 #: Plots that share the axis x of another one.
 _SAME_X = {"pressure": "springs"}
 
 
+class Head(Bar):
+    """What is above a plot: title, formula, buttons, legend; what a saved picture has beside the plot."""
+
+    formula, legend, figure, title, scene = (param.String() for _ in range(5))
+    rows = param.List()
+
+    _esm = JS["save"] + JS["buttons"].replace("export function render", "function unused") + JS["head"]
+
+
 class Card:
     """A plot in its frame: title, formula, legend, controls above and a note below."""
 
-    def __init__(self, plot: Plot, choices: Choices, apply: Callable[..., None], scene: ColumnDataSource):
+    def __init__(self, plot: Plot, choices: Choices, apply: Callable[..., None]):
         self.plot, self.picture, self._rows, self._apply = plot, Picture(plot), None, apply
-        self.head, self.key, self.note = html("", "formula"), html("", "key"), html("", "note", "found")
-        save, self.large = button("Save", "none"), toggle("Large", "none")
+        self.log = Button("Log", self._scale, pressed=False)
+        self.large = Button("Large", self._enlarge, pressed=False)
         rows = [row.name for row in rows_of(plot) if row.legend]
-        told = {"figure": self.picture.figure, "scene": scene, "rows": rows, "title": plot.title}
-        save.js_on_click(args=told, code=f"(async () => {{{JS['save']}}})()")
-        self.large.param.watch(self._enlarge, "value")
-        self.log = toggle("Log", "none")
-        self.log.param.watch(lambda event: self._scale(event.new), "value")
+        named = {"figure": plot.name, "title": plot.title, "rows": rows}
         logs = [self.log] * plot.logs
-        head = pn.Row(self.head, *logs, save, self.large, css_classes=["head"], stylesheets=STYLE, **WIDE)
-        parts = [head, self.key, pn.pane.Bokeh(self.picture.figure, **FULL)]
+        self.head = Head(*logs, Button("Save", lambda: None), self.large, **named)
+        self.note = html("", "note", "found")
+        parts = [self.head, pn.pane.Bokeh(self.picture.figure, **FULL)]
         if plot.controls:
             parts.insert(1, pn.Row(*map(choices.row, plot.controls), css_classes=["above"], **WIDE))
         if plot.find:
             parts.append(self.note)
         self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
 
-    def _scale(self, log: bool) -> None:
+    def _scale(self) -> None:
         """Make the axes logarithmic, or linear again."""
 
         def change(state):
             others = tuple(name for name in state.log if name != self.plot.name)
-            return state.replace(log=(*others, *[self.plot.name] * log))
+            return state.replace(log=others if len(others) < len(state.log) else (*others, self.plot.name))
 
         self._apply(change)
 
-    def _enlarge(self, event):
-        self.view.css_classes = ["card", self.plot.name, *["large"] * event.new]
-        self.large.label = "Small" if event.new else "Large"
+    def _enlarge(self) -> None:
+        large = not self.large.pressed
+        self.view.css_classes = ["card", self.plot.name, *["large"] * large]
+        self.large.show(pressed=large, label="Small" if large else "Large")
 
     def show(self, columns: dict, view: View) -> None:
         """Draw columns made for a view, with the texts around them."""
         plot, course = self.plot, view.course
         self.picture.show(columns, view, view.state.dark)
-        show(self.head, object=f"<h3>{plot.title}</h3>{linked(plot.formula_of(course))}")
+        show(self.head, formula=f"<h3>{plot.title}</h3>{linked(plot.formula_of(course))}")
         rows = drawn(view, plot, {course.now, course.peak})
         if rows != self._rows:
             self._rows = rows
-            show(self.key, object=legend(plot, rows))
-        show(self.log, value=plot.name in view.state.log)
+            show(self.head, legend=legend(plot, rows))
+        self.log.show(pressed=plot.name in view.state.log)
         if plot.name in view.found:
             show(self.note, object=view.found[plot.name].note)
 
@@ -72,12 +82,12 @@ class Board:
     def __init__(self, choices: Choices, apply: Callable[..., None]):
         self._choices, self._apply, self.cards = choices, apply, {}
         self.names: list[str] = []
-        # Its tags are the scene, which stands below a picture that is saved.
-        self.scene = ColumnDataSource(name="scene")
-        self.tabs = {name: toggle(plot.tab) for name, plot in PLOTS.items() if plot.tab}
-        for name, tab in self.tabs.items():
-            tab.param.watch(lambda event, name=name: self._asked(name, event.new), "value")
-        self.tab_row = pn.Row(*self.tabs.values(), css_classes=["tools", "tabs"], **WIDE)
+        self.tabs = {
+            name: Button(plot.tab, partial(self._asked, name), pressed=False)
+            for name, plot in PLOTS.items()
+            if plot.tab
+        }
+        self.tab_row = Bar(*self.tabs.values(), classes=("tabs",))
         self.grid = pn.Column(css_classes=["plots"], **FULL)
         figures = {name: self._make(name) for name in NAMED}
         self.player = Player(list(figures.values()))
@@ -90,20 +100,19 @@ class Board:
                 figure.js_on_event(event, code)
 
     def _make(self, name):
-        card = self.cards[name] = Card(PLOTS[name], self._choices, self._apply, self.scene)
+        card = self.cards[name] = Card(PLOTS[name], self._choices, self._apply)
         figure = card.picture.figure
         if name in _SAME_X:
             figure.x_range = self.cards[_SAME_X[name]].picture.figure.x_range
         self.grid.append(card.view)
         return figure
 
-    def _asked(self, name: str, on: bool) -> None:
-        """Show an optional plot alone, or not."""
+    def _asked(self, name: str) -> None:
+        """Show an optional plot alone, or no longer."""
 
         def change(state):
-            if on == (name in state.tiles):
-                return state
-            return state.replace(tiles=(name,) if on else tuple(t for t in state.tiles if t != name))
+            others = tuple(tile for tile in state.tiles if tile != name)
+            return state.replace(tiles=others if name in state.tiles else (name,))
 
         self._apply(change)
 
@@ -130,7 +139,12 @@ class Board:
         """Show the tabs of plots that apply to a view."""
         for name, tab in self.tabs.items():
             applies = PLOTS[name].applies(view)
-            show(tab, visible=applies, value=applies and name in view.state.tiles)
+            tab.show(visible=applies, pressed=applies and name in view.state.tiles)
+
+    def say_scene(self, text: str) -> None:
+        """What stands below a picture that is saved."""
+        for card in self.cards.values():
+            show(card.head, scene=text)
 
     def pictures(self) -> list[Picture]:
         """The pictures that are seen."""

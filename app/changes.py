@@ -100,6 +100,11 @@ def reset(state: State) -> State:
     return _preset(state, state.preset)
 
 
+def turn_dark(state: State) -> State:
+    """Dark instead of light, or back."""
+    return state.replace(dark=not state.dark)
+
+
 def _preset(state: State, key: str) -> State:
     return preset_state(key, tiles=state.tiles, log=state.log, dark=state.dark, **state.extras)
 

@@ -54,7 +54,7 @@ class Extra:
     offered: Callable[[View], bool] = lambda view: True
     #: Its part of the side, of a page: made when it is first opened.
     side: Callable[[Any], Part] | None = None
-    #: What it has in the header of a page.
+    #: What it has in the header of a page: the view of this part is a `Button`.
     header: Callable[[Any], Part] | None = None
     #: Why a link with its values is refused, or nothing.
     check: Callable[[State], str] = lambda state: ""

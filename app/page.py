@@ -69,11 +69,6 @@ class Page:
             self.notify(f"The link was not opened: {self._refusal(error)}")
 
     def _watch(self):
-        frame, apply = self.frame, self.apply
-        frame.undo.on_click(lambda event: self._step(self.past, self.future))
-        frame.redo.on_click(lambda event: self._step(self.future, self.past))
-        frame.reset.on_click(lambda event: apply(changes.reset))
-        frame.dark.param.watch(lambda event: apply(lambda now: now.replace(dark=event.new)), "value")
         player = self.board.player
         player.state.on_change("value_throttled", self._state_chosen)
         player.state.on_change("value", self._slider_moved)
@@ -81,9 +76,7 @@ class Page:
         player.hand.on_change("tags", self._dragged)
         if self.document is None:
             return
-        self.theme.on_change(
-            "tags", lambda attr, old, new: apply(lambda now: now.replace(dark=new == [True]))
-        )
+        self.theme.on_change("tags", self._theme_chosen)
         for source in (self.theme, self.address):
             source.js_on_change("tags", CustomJS(code=JS["tell"]))
             self.document.add_root(source)
@@ -149,6 +142,12 @@ class Page:
             (refused or self.notify)(str(error))
             self._show_panels()
 
+    def undo(self) -> None:
+        self._step(self.past, self.future)
+
+    def redo(self) -> None:
+        self._step(self.future, self.past)
+
     def _step(self, source, target):
         """Undo or redo; the view stays."""
         if source:
@@ -161,8 +160,8 @@ class Page:
                 self._show_history()
 
     def _show_history(self):
-        show(self.frame.undo, disabled=not self.past)
-        show(self.frame.redo, disabled=not self.future)
+        self.frame.undo.show(disabled=not self.past)
+        self.frame.redo.show(disabled=not self.future)
 
     def notify(self, text: str) -> None:
         """Show a notice, once the browser is ready; its text may contain user input."""
@@ -195,6 +194,9 @@ class Page:
         computed = {name: each.compute(state, before, self.solved) for name, each in EXTRAS.items()}
         tiles = [plot for plot in PLOTS.values() if plot.name in state.tiles]
         view = View(state, course, self.resting.found(tiles, state, course), computed)
+        # Plots that this course has not are no longer asked for.
+        shown = [plot.name for plot in visible(view) if plot.tab]
+        view.state = state = state.replace(tiles=tuple(shown))
         columns = self.board.columns(view)
         self.state, self.shown = state, view
         self.board.show(columns, view)
@@ -268,7 +270,7 @@ class Page:
         if self.address.tags != [address]:
             self.address.tags = [address]
         view = self.shown
-        self.board.scene.tags = [readouts.summary(self.state)]
+        self.board.say_scene(readouts.summary(self.state))
         others = [course for each in EXTRAS.values() for course in each.courses(view)]
         self.resting.begin([view.course, *others], visible(view), self.state)
 

@@ -49,12 +49,8 @@ def html(text="", *classes, **options):
     return pn.pane.HTML(text, css_classes=[*(classes or ["note"])], **WIDE | options)
 
 
-def button(name, key="", kind=pn.widgets.Button, **options):
-    return kind(label=name, css_classes=["button", *[f"key-{key}"] * bool(key)], **{"margin": 0} | options)
-
-
-def toggle(name, key=""):
-    return button(name, key, pn.widgets.Toggle)
+def button(name, **options):
+    return pn.widgets.Button(label=name, css_classes=["button"], **{"margin": 0} | options)
 
 
 def field(kind, *classes, **options):

@@ -11,6 +11,7 @@ from mdr_core.results import figures
 from mdr_core.results.figures import NOTHING, both, line
 
 from .. import link
+from ..buttons import Button
 from ..courses import Course
 from ..drives import follow, scene_of
 from ..extra import Extra
@@ -20,7 +21,7 @@ from ..quantities import CHOICES, QUANTITIES
 from ..readouts import line as readout_line
 from ..readouts import readings, text
 from ..state import PRESETS, State, altered, used
-from ..ui import WIDE, button, html, marked, show, symbol, toggle
+from ..ui import WIDE, button, html, marked, show, symbol
 from ..units import in_full
 
 #: Scenes that are held have each its own dashes.
@@ -184,16 +185,10 @@ class Hold:
     """The button *Hold*."""
 
     def __init__(self, page: Any):
-        self._page, self.view = page, toggle("Hold")
-        self.view.param.watch(self._toggled, "value")
-
-    def _toggled(self, event):
-        if event.new != is_held(self._page.state):
-            self._page.apply(toggle_hold)
-        self.show(self._page.shown)
+        self.view = Button("Hold", lambda: page.apply(toggle_hold), pressed=False)
 
     def show(self, view: View) -> None:
-        show(self.view, value=bool(view.state["held.scenes"]) and is_held(view.state))
+        self.view.show(pressed=bool(view.state["held.scenes"]) and is_held(view.state))
 
 
 def compute(state: State, before: View | None, known: dict) -> list[Held]:

@@ -52,7 +52,7 @@ def solved(state: State):
 
 def side(page, name: str):
     """A part of the side, opened."""
-    page.frame.tabs[name].value = True
+    page.frame.open(name)
     return page.frame.parts[name]
 
 

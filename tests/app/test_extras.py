@@ -52,14 +52,14 @@ def strings(value):
 
 def texts(page):
     """All that a page has for the browser, with every part and plot opened."""
-    for tab in list(page.frame.tabs.values()):
-        tab.value = True
-    page.frame.tabs["explore"].value = True
+    for name in page.frame.tabs:
+        page.frame.open(name)
+    page.frame.open("explore")
     for drive in list(page.choices.widgets["drive"].options.values()):
         page.apply(lambda state, drive=drive: changes.choose(state, "drive", drive))
     for tab in page.board.tabs.values():
         if tab.visible:
-            tab.value = True
+            tab.act()
     document, seen = Document(), set()
     document.add_root(page.view.get_root(document))
     for model in document.models:
@@ -123,7 +123,7 @@ def test_without_an_extra_the_page_builds_and_has_no_word_of_it(folder, whole, n
     # And it is in use.
     before = page.state
     page.apply(lambda state: changes.put(state, "mass", 2 * state.mass))
-    page.frame.undo.clicks += 1
+    page.frame.undo.act()
     assert page.state == before
 
 

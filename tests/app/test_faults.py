@@ -37,7 +37,7 @@ def assert_in_use(page):
     assert "Everything is as it was before" in notices
     put(page, "q_c", 1.5 * Q_C)
     assert page.shown.course.scene.medium.q_c == page.state.q_c == 1.5 * Q_C
-    page.frame.undo.clicks += 1
+    page.frame.undo.act()
     assert page.shown.course.scene.medium.q_c == Q_C
     assert len(page.notices) == 1
 
@@ -45,13 +45,13 @@ def assert_in_use(page):
 def test_a_plot_or_a_held_scene_that_fails(page, monkeypatch):
     with monkeypatch.context() as failure:
         failure.setattr(page.board, "_make", failing)
-        page.board.tabs["surface"].value = True
-    assert (page.state.tiles, page.board.tabs["surface"].value) == ((), False)
+        page.board.tabs["surface"].act()
+    assert (page.state.tiles, page.board.tabs["surface"].pressed) == ((), False)
     assert_in_use(page)
     page.notices.clear()
     hold = page.frame.buttons["held"]
     monkeypatch.setattr(hold, "show", lambda view: failing() if view.computed["held"] else None)
-    hold.view.value = True
+    hold.view.act()
     assert (page.state["held.scenes"], page.shown.computed["held"]) == ((), [])
     assert_in_use(page)
 
@@ -82,7 +82,7 @@ def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
     if act == "preset":
         page.choices.widgets["preset"].value = DROP
     else:
-        getattr(page.frame, act).clicks += 1
+        getattr(page.frame, act).act()
     assert q_c.refused == ""
 
 
@@ -93,10 +93,10 @@ def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
         send(number, position=position)
     assert page.state.max_depth > start
     page.apply(lambda state: state.replace(progress=0.5))
-    page.frame.undo.clicks += 1
+    page.frame.undo.act()
     assert (page.state.max_depth, page.state.progress) == (start, 0.5)
     assert page.frame.undo.disabled
-    page.frame.redo.clicks += 1
+    page.frame.redo.act()
     assert page.state.max_depth > start
 
 
@@ -116,12 +116,12 @@ def rested(page):
 
 
 def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
-    page.board.tabs["section"].value = True
+    page.board.tabs["section"].act()
     assert page.shown.found["section"] == COMPUTING
     first = rested(page)
     put(page, "q_c", 1.2 * Q_C)
     assert page.shown.found["section"] == replace(COMPUTING, axes=first.axes)
-    page.frame.undo.clicks += 1
+    page.frame.undo.act()
     assert page.shown.found["section"] is first
     page._state_chosen("value_throttled", page.shown.course.now, 5)
     assert page.shown.found["section"].note == "computing …"
@@ -130,7 +130,7 @@ def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
 
 def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
     show = page.board.show
-    page.board.tabs["section"].value = True
+    page.board.tabs["section"].act()
 
     def fails(columns, view):
         return failing() if view.found["section"].rows else show(columns, view)

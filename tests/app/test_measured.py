@@ -139,12 +139,13 @@ def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
     assert scene_of(state).drive == mdr.DepthPath(float(np.max(state["fit.curve"].fit.path.depth)))
     assert agrees(state)
     assert "residual" in page.board.names
-    page.frame.undo.clicks += 1
+    page.frame.undo.act()
     assert medium(page.state) == before
     assert page.state["fit.curve"].fit is None
-    page.frame.undo.clicks += 1
+    page.frame.undo.act()
     assert page.state["fit.curve"] is None
-    page.frame.redo.clicks += 2
+    page.frame.redo.act()
+    page.frame.redo.act()
     assert page.state["fit.curve"] is not None
 
 

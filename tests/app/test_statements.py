@@ -165,16 +165,16 @@ def test_13_springs_are_elastic_or_yielded_also_in_an_oblique_impact():
 
 def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept_and_reset_stands_deepest():
     page = Page()
-    page.board.tabs["forces"].value = True
+    page.board.tabs["forces"].act()
     assert visible(page.shown) == [PLOTS[name] for name in ("springs", "pressure", "force")]
-    assert not page.board.tabs["forces"].value
+    assert not page.board.tabs["forces"].pressed
     page.apply(lambda state: changes.put(state, "max_depth", 5e-9))
     assert page.state.max_depth == 5e-9
     assert "forces" not in link.write(page.state)
     # A measured tip can be chosen where there is one only.
     assert "Measured tip" not in page.choices.widgets["shape"].options
     page.apply(lambda state: state.replace(progress=0.0))
-    page.frame.reset.clicks += 1
+    page.frame.reset.act()
     assert page.state.progress == 1.0
     assert step_text(TOURS["First yield"][0], page.shown.course)
 

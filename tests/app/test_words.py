@@ -127,7 +127,7 @@ def test_guided_scenes_say_what_is_so():
 
 def test_a_guided_scene_is_stepped_through_and_undone():
     page = Page()
-    page.board.tabs["surface"].value = True
+    page.board.tabs["surface"].act()
     opening = page.state.scene_values
     for at, step in enumerate(TOURS["First yield"]):
         side(page, "guide").next.clicks += 1
@@ -142,12 +142,13 @@ def test_a_guided_scene_is_stepped_through_and_undone():
     # What it says is gone while the page shows something else.
     page.apply(lambda state: changes.put(state, "speed", 2 * state.speed))
     assert "1 of 6. The page shows something else" in side(page, "guide").words.object
-    page.frame.undo.clicks += 1
+    page.frame.undo.act()
     assert "e = 1.00" in re.sub("<[^>]+>", "", side(page, "guide").words.object)
     # Each step that sets something is one change.
-    page.frame.undo.clicks += 4
+    for _ in range(4):
+        page.frame.undo.act()
     while page.past:
-        page.frame.undo.clicks += 1
+        page.frame.undo.act()
     assert page.state.scene_values == opening
 
 
