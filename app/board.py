@@ -91,11 +91,15 @@ class Board:
         self.grid = pn.Column(css_classes=["plots"], **FULL)
         figures = {name: self._make(name) for name in NAMED}
         self.player = Player(list(figures.values()))
-        drag = {"hand": self.player.hand, **self.player.parts}
         #: Figures that are dragged.
         self.dragged = [figures["springs"], figures["force"]]
+
+    def connect(self) -> None:
+        """Let the browser drag and play: once the page is there, so that building it does not wait."""
+        self.player.connect()
+        told = {"hand": self.player.hand, **self.player.parts}
         for figure in self.dragged:
-            code = CustomJS(args=drag | {"figure": figure}, code=JS["drag"])
+            code = CustomJS(args=told | {"figure": figure}, code=JS["drag"])
             for event in (PanStart, Pan, PanEnd):
                 figure.js_on_event(event, code)
 

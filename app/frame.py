@@ -71,10 +71,8 @@ class Frame:
         header = pn.Row(title, preset, buttons, css_classes=["header"], stylesheets=STYLE, **WIDE)
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
         self._side = pn.Column(Bar(*in_side), **look)
-        texts = map(pn.pane.Bokeh, (board.player.heads, board.player.readout))
-        line = pn.Column(*texts, css_classes=["line"], **WIDE)
         numbers = Bar(self.tabs["numbers"], sizing_mode=None)
-        top = pn.Row(line, numbers, css_classes=["head", "top"], stylesheets=STYLE, **WIDE)
+        top = pn.Row(board.player.line, numbers, css_classes=["head", "top"], stylesheets=STYLE, **WIDE)
         self.warnings = html("", "lights")
         plots = (top, board.player.view, self.warnings, board.grid, board.tab_row)
         results = pn.Column(*plots, css_classes=["results"], **FULL)

@@ -248,6 +248,10 @@ class Page:
     # Updates when the input rests.
 
     def _browser_ready(self, event):
+        if not self._ready:
+            # Once for all of them: the document looks through all its models when one of these changes.
+            with self.document.models.freeze():
+                self.board.connect()
         self._ready = True
         for text in self._notices:
             self.notify(text)

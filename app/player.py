@@ -5,7 +5,7 @@ from html import escape
 from typing import Any
 
 import panel as pn
-from bokeh.models import ColumnDataSource, CustomJS, Slider, Toggle
+from bokeh.models import Column, ColumnDataSource, CustomJS, Row, Slider, Toggle
 from panel.models.markup import HTML
 
 from . import readouts
@@ -28,12 +28,17 @@ class Player:
         self.heads = HTML(css_classes=["readouts", "heads"], height=29, **wide)
         self.readout = HTML(css_classes=["readouts"], height=24, **wide)
         self.parts = {"frames": self.frames, "state": self.state, "play": self.play}
-        told = self.parts | {"readout": self.readout, "figures": figures}
+        self._figures = figures
+        self.line = pn.pane.Bokeh(Column(self.heads, self.readout, css_classes=["line"], **wide), **WIDE)
+        self.view = pn.pane.Bokeh(Row(self.play, self.state, css_classes=["player"], **wide), **WIDE)
+
+    def connect(self) -> None:
+        """Play in the browser."""
+        told = self.parts | {"readout": self.readout, "figures": self._figures}
         code = CustomJS(args=told, code=JS["player"])
         self.state.js_on_change("value", code)
         self.frames.js_on_change("tags", code)
         self.play.js_on_change("active", code)
-        self.view = pn.Row(*map(pn.pane.Bokeh, (self.play, self.state)), css_classes=["player"], **WIDE)
 
     def show(self, view: View, moved: bool) -> None:
         """Show the present state of a course and its readouts; drop frames unless it has only moved."""
