@@ -11,7 +11,7 @@ from .buttons import Bar, Button
 from .extra import EXTRAS, Part
 from .plot import View
 from .readouts import readings, table
-from .ui import FULL, HERE, STYLE, WIDE, html, reveal, show
+from .ui import FULL, HERE, LAYOUT, WIDE, html, reveal, show
 
 
 class Menu:
@@ -68,11 +68,11 @@ class Frame:
                 (in_header if extra.in_header else in_side).append(self.tabs[extra.name])
         title = html("<h1>Indentation explorer</h1>", "name", width=190, sizing_mode=None)
         buttons = Bar(self.undo, self.redo, *in_header, self.tabs["menu"], classes=("buttons",))
-        header = pn.Row(title, preset, buttons, css_classes=["header"], stylesheets=STYLE, **WIDE)
+        header = pn.Row(title, preset, buttons, css_classes=["header"], stylesheets=LAYOUT, **WIDE)
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
         self._side = pn.Column(Bar(*in_side), **look)
         numbers = Bar(self.tabs["numbers"], sizing_mode=None)
-        top = pn.Row(board.player.line, numbers, css_classes=["head", "top"], stylesheets=STYLE, **WIDE)
+        top = pn.Row(board.player.line, numbers, css_classes=["head", "top"], stylesheets=LAYOUT, **WIDE)
         self.warnings = html("", "lights")
         plots = (top, board.player.view, self.warnings, board.grid, board.tab_row)
         results = pn.Column(*plots, css_classes=["results"], **FULL)

@@ -6,6 +6,7 @@ import panel as pn
 
 from .extra import EXTRAS
 from .page import Address, Page
+from .ui import SHEETS
 
 _ADDRESS = Address.from_request(pn.state.curdoc.session_context.request)
 _GIVEN = pn.state.session_args
@@ -14,7 +15,7 @@ pn.state.curdoc.template = """{% block postamble %}
 <meta name="viewport" content="width=device-width, initial-scale=1">{% endblock %}{% block js_resources %}
 {% for line in bokeh_js.splitlines() if "bokeh-gl" not in line %}{{ line }}
 {% endfor %}{% endblock %}"""
-pn.extension(notifications=True, css_files=["app/static/style.css"])
+pn.extension(notifications=True, css_files=SHEETS)
 _PAGES = [extra for extra in EXTRAS.values() if extra.served and extra.name in _GIVEN]
 if _PAGES:
     place = _GIVEN[_PAGES[0].name][0].decode("utf-8", "replace")

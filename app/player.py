@@ -5,23 +5,24 @@ from html import escape
 from typing import Any
 
 import panel as pn
-from bokeh.models import Column, ColumnDataSource, CustomJS, Row, Slider, Toggle
+from bokeh.models import Column, ColumnDataSource, CustomJS, ImportedStyleSheet, Row, Slider, Toggle
 from panel.models.markup import HTML
 
 from . import readouts
 from .draw import Picture
 from .plot import View
 from .plots import D, F, Z
-from .ui import JS, STYLE, WIDE
+from .ui import JS, LAYOUT, SHEETS, WIDE
 
 
 class Player:
     """Moves through the states of a scene in the browser, from frames that are sent once."""
 
     def __init__(self, figures: list[Any]):
-        look = {"css_classes": ["button", "key-space"], "stylesheets": STYLE, "margin": 0}
+        sheets = [ImportedStyleSheet(url=url) for url in SHEETS]
+        look = {"css_classes": ["button", "key-space"], "stylesheets": sheets, "margin": 0}
         self.play = Toggle(label="▶ Play", width=84, **look)
-        wide = WIDE | {"stylesheets": STYLE}
+        wide = WIDE | {"stylesheets": sheets}
         look = wide | {"show_value": False, "title": None, "tooltips": False, "css_classes": ["slider"]}
         self.state = Slider(start=0, end=1, value=1, step=1, name="state", **look)
         self.frames, self.hand = ColumnDataSource(name="frames"), ColumnDataSource(name="hand")
@@ -29,6 +30,7 @@ class Player:
         self.readout = HTML(css_classes=["readouts"], height=24, **wide)
         self.parts = {"frames": self.frames, "state": self.state, "play": self.play}
         self._figures = figures
+        wide = WIDE | {"stylesheets": LAYOUT}
         self.line = pn.pane.Bokeh(Column(self.heads, self.readout, css_classes=["line"], **wide), **WIDE)
         self.view = pn.pane.Bokeh(Row(self.play, self.state, css_classes=["player"], **wide), **WIDE)
 

@@ -10,12 +10,14 @@ import panel as pn
 HERE = Path(__file__).parent
 JS = {path.stem: path.read_text(encoding="utf-8") for path in (HERE / "js").glob("*.js")}
 CSS = (HERE / "static" / "style.css").read_text(encoding="utf-8")
-# Inline where the size of a plot depends on it: Bokeh lays out before a linked sheet is there.
-STYLE = [CSS]
+#: Inline where the size of a plot depends on it: Bokeh lays out before a linked sheet is there.
+LAYOUT = [(HERE / "static" / "layout.css").read_text(encoding="utf-8")]
+#: Linked by every component of Panel; components of Bokeh link them themselves.
+SHEETS = ["app/static/layout.css", "app/static/style.css"]
 #: Functions that put links into a text (HTML); extras add theirs.
 LINKS: list[Callable[[str], str]] = []
 WIDE = {"sizing_mode": "stretch_width", "margin": 0}
-FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": STYLE}
+FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": LAYOUT}
 
 
 def indexed(text):

@@ -11,7 +11,7 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from ..extra import Extra
 from ..quantities import ASSETS
-from ..ui import JS, STYLE
+from ..ui import JS
 
 #: Equations that a text names, (4) or (4)–(8).
 _NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
@@ -41,7 +41,7 @@ def html():
 def page(place):
     """The page, starting at an id such as "eq-11" or "section-4"."""
     pn.state.curdoc.js_on_event(DocumentReady, CustomJS(args={"place": place}, code=JS["theory"]))
-    return pn.pane.LaTeX(html(), stylesheets=STYLE, css_classes=["theory"], renderer="katex")
+    return pn.pane.LaTeX(html(), css_classes=["theory"], renderer="katex")
 
 
 def linked(html):
