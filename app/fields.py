@@ -1,6 +1,7 @@
 """The form: number fields and choices, each with symbol, name, unit and explanation."""
 
 from collections.abc import Callable
+from functools import partial
 from html import escape
 from math import atan, degrees, inf
 from typing import Any
@@ -17,7 +18,7 @@ from .plot import View
 from .quantities import ABOUT, CHOICES, LABELS, OF_DRIVE, QUANTITIES, SHAPES, Scale
 from .state import MEDIUM_CHOICES, PRESETS, State, altered, regions
 from .tip import MAX_BYTES, Uploaded, read_tip
-from .ui import JS, WIDE, button, explained, field, html, linked, marked, reveal, show, symbol
+from .ui import JS, WIDE, button, html, linked, marked, reveal, show, symbol
 from .units import UNITS, digits, entry, fitting, in_full, read, written
 
 #: Standard acceleration of free fall (m/s²).
@@ -137,64 +138,66 @@ class Upload(pn.custom.JSComponent):
         self.on_msg(lambda event: take(Uploaded(**event.data)))
 
 
+class Choice(pn.custom.JSComponent):
+    """A choice with its explanation: radio buttons or a list; `choose` is called with the option."""
+
+    label, about, value = param.String(), param.String(), param.String()
+    options, radio, answered = param.List(), param.Boolean(), param.Integer()
+
+    _esm = JS["choice"]
+
+    def __init__(self, name: str, choose: Callable[[str], None]):
+        self._choose = choose
+        look = {"css_classes": [f"of-{name.replace('.', '-')}"], "label": LABELS[name], **WIDE}
+        radio = sum(map(len, CHOICES[name].values())) < _SHORT
+        super().__init__(about=linked(ABOUT[name]), radio=radio, **look)
+        self.on_msg(self._on_message)
+
+    def _on_message(self, event):
+        if event.data in [option for option, _ in self.options]:
+            self._choose(event.data)
+        self.answered += 1
+
+
 class Choices:
     """Choices of a session by name, made when first used."""
 
     def __init__(self, apply: Callable[..., None], state: Callable[[], State]):
         self._apply, self._state = apply, state
-        self.widgets: dict[str, Any] = {}
-        self.rows: dict[str, Any] = {}
+        self.rows: dict[str, Choice] = {}
 
-    def row(self, name: str) -> Any:
-        """A choice with its explanation: radio buttons or a list."""
+    def row(self, name: str) -> Choice:
         if name not in self.rows:
-            short = sum(map(len, CHOICES[name].values())) < _SHORT
-            self.rows[name] = self._radio(name) if short else self._list(name)
+            self.rows[name] = Choice(name, partial(self.choose, name))
+            self._show(name)
         return self.rows[name]
 
-    def _radio(self, name):
-        widget = self._made(name, pn.widgets.RadioBoxGroup, inline=True)
-        legend = html(explained("about", LABELS[name], linked(ABOUT[name])), "legend")
-        return pn.Row(legend, widget, css_classes=["fieldset", f"of-{name.replace('.', '-')}"], **WIDE)
-
-    def _list(self, name):
-        beside = ["beside"] * (name != "shape")
-        widget = self._made(
-            name, pn.widgets.Select, f"of-{name.replace('.', '-')}", *beside, label=LABELS[name]
-        )
-        look = f'class="help" aria-label="What is {LABELS[name]}?"'
-        about = explained("about", "?", linked(ABOUT[name]), look)
-        return pn.Row(widget, pn.pane.HTML(about, width=26, margin=0), css_classes=["tools"], **WIDE)
-
-    def _made(self, name, kind, *classes, **options):
-        def choose(event):
-            if event.new != self._chosen(name):
-                self._apply(lambda state: changes.choose(state, name, event.new))
-            show(widget, value=self._chosen(name))
-
-        chosen = {"options": self._texts(name), "value": self._chosen(name)}
-        widget = self.widgets[name] = field(kind, *classes, **chosen, **options)
-        widget.param.watch(choose, "value")
-        return widget
+    def choose(self, name: str, option: str) -> None:
+        """Take another option."""
+        if option != self._chosen(name):
+            self._apply(lambda state: changes.choose(state, name, option))
 
     def _chosen(self, name):
         """Option that is shown; none of the presets if the scene differs from all."""
         state = self._state()
         return _ALTERED if name == "preset" and altered(state) else option(state, name)
 
-    def _texts(self, name):
-        """Options by their texts."""
+    def _options(self, name):
+        """Options with their texts."""
         state = self._state()
-        texts = {CHOICES[name][option]: option for option in options(state, name)}
+        pairs = [[option, CHOICES[name][option]] for option in options(state, name)]
         if self._chosen(name) == _ALTERED:
-            texts[f"altered, from: {PRESETS[state.preset].label}"] = _ALTERED
+            pairs.append([_ALTERED, f"altered, from: {PRESETS[state.preset].label}"])
         if name == "shape" and not state.samples:
-            del texts[CHOICES["shape"]["sampled"]]
-        return texts
+            pairs = [pair for pair in pairs if pair[0] != "sampled"]
+        return pairs
+
+    def _show(self, name):
+        show(self.rows[name], options=self._options(name), value=self._chosen(name))
 
     def show(self, state: State) -> None:
-        for name, widget in self.widgets.items():
-            show(widget, options=self._texts(name), value=self._chosen(name))
+        for name in self.rows:
+            self._show(name)
 
 
 class Form:

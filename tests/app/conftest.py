@@ -187,6 +187,11 @@ class Explorer:
         """Pick an option of a choice by its text, and wait until it is drawn."""
         self.change(self.page.get_by_label(option, exact=True).first.check)
 
+    def chosen(self, label):
+        """Text of the option that is chosen in a list."""
+        text = "(list) => list.selectedOptions[0].textContent"
+        return self.page.get_by_label(label, exact=True).evaluate(text)
+
     def choose(self, label, option):
         """Choose from a list, and wait until it is drawn."""
         self.change(self.page.get_by_label(label, exact=True).select_option, label=option)

@@ -55,7 +55,7 @@ def texts(page):
     for name in page.frame.tabs:
         page.frame.open(name)
     page.frame.open("explore")
-    for drive in list(page.choices.widgets["drive"].options.values()):
+    for drive in list(dict(page.choices.row("drive").options)):
         page.apply(lambda state, drive=drive: changes.choose(state, "drive", drive))
     for tab in page.board.tabs.values():
         if tab.visible:

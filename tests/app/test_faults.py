@@ -62,8 +62,8 @@ def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
     monkeypatch.setattr(
         page.form, "show", lambda now: shown(now) if now.state.preset == GOLD else failing()
     )
-    page.choices.widgets["preset"].value = DROP
-    assert page.state.preset == page.choices.widgets["preset"].value == GOLD
+    page.choices.choose("preset", DROP)
+    assert page.state.preset == page.choices.row("preset").value == GOLD
     assert page.frame.undo.disabled
     assert_in_use(page)
 
@@ -80,7 +80,7 @@ def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
     send(q_c, text="abc")
     assert q_c.refused == "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m"
     if act == "preset":
-        page.choices.widgets["preset"].value = DROP
+        page.choices.choose("preset", DROP)
     else:
         getattr(page.frame, act).act()
     assert q_c.refused == ""

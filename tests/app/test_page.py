@@ -299,5 +299,5 @@ def test_what_is_shared_comes_back(explorer, tmp_path):
     path, r = tmp_path / "tip.csv", np.linspace(0, 60, 40)
     path.write_text(table({"r (nm)": r, "z (nm)": r**2 / 100}, "; ", comma=True))
     explorer.change(page.get_by_label("CSV file of a measured tip: r, z").set_input_files, path)
-    assert page.get_by_label("Shape", exact=True).input_value() == "Measured tip"
+    assert explorer.chosen("Shape") == "Measured tip"
     assert page.get_by_text("40 samples as they are").count() == 1
