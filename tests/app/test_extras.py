@@ -6,6 +6,7 @@ import re
 import shutil
 import sys
 
+import numpy as np
 import pytest
 from bokeh.document import Document
 
@@ -14,7 +15,7 @@ from app.extra import EXTRAS
 from app.page import Page
 from app.state import preset_state
 
-from .conftest import ROOT, Explorer, Server
+from .conftest import DROP, ROOT, Explorer, Server
 
 
 def copied(folder, package, *without):
@@ -149,3 +150,22 @@ def test_the_page_with_no_extras_at_all(browser, tmp_path):
     finally:
         server.stop()
     assert server.faults == ""
+
+
+def test_a_new_extra_is_a_file_of_its_own(folder):
+    """The example of CONTRIBUTING.md: a plot with a choice, which is in the link."""
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"```python\n(\"\"\"The plot \*Area\*.*?)```", text, re.DOTALL)
+    (data,) = re.findall(r"```json\n(.*?)```", text, re.DOTALL)
+    extras = copied(folder, "with_area") / "extras"
+    (extras / "area.py").write_text(code.replace("from app.", "from .."), encoding="utf-8")
+    (extras / "area.json").write_text(data, encoding="utf-8")
+    page = importlib.import_module("with_area.page").Page(f"preset={DROP}&tiles=area&area.of=plastic")
+    assert page.board.tabs["area"].pressed
+    states = page.shown.course.states
+    plot = page.board.cards["area"].plot
+    for option, radius in (("plastic", states.plastic_radius), ("contact", states.contact_radius)):
+        page.choices.choose("area.of", option)
+        _, area = page.shown.rows(plot, 0)["area"]
+        np.testing.assert_allclose(area, np.pi * radius**2, rtol=1e-12)
+        assert ("area.of=plastic" in page.query()[0]) == (option == "plastic")
