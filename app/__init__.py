@@ -1,1 +1,3 @@
 """The explorer: a served page over `mdr_core`."""
+
+from . import extras as extras

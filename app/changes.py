@@ -6,14 +6,24 @@ from typing import Any
 
 import mdr_core as mdr
 
-from .solve import DRIVES, follow, option, options, scene_of, turning_point
+from .courses import Timed
+from .drives import DRIVES, follow, scene_of, turning_point
+from .quantities import CHOICES, QUANTITIES, shape_quantities
 from .state import State, altered, checked, medium, preset_state, with_derived
-from .state.files import PLACED
-from .state.quantities import QUANTITIES, shape_quantities
 
-#: Values that a preset leaves as they are: of the view, and of a measured curve.
-_STAYING = ("hold", "tiles", "dark")
-_OF_CURVE = ("curve", "fixed", "depth_noise", *PLACED)
+#: Options of a choice that apply to a state, the default first, where these are not all; extras add theirs.
+OFFERED: dict[str, Callable[[State], list[str]]] = {}
+
+
+def options(state: State, name: str) -> list[str]:
+    """Applicable options of a choice, the default first."""
+    return OFFERED[name](state) if name in OFFERED else list(CHOICES[name])
+
+
+def option(state: State, name: str) -> str:
+    """Option of a choice; the first one if the chosen one does not apply."""
+    chosen, known = state[name], options(state, name)
+    return chosen if chosen in known else known[0]
 
 
 def choose(state: State, name: str, wanted: str) -> State:
@@ -86,13 +96,17 @@ def press_to(state: State, depth: float) -> State:
 
 
 def reset(state: State) -> State:
-    """Return to the preset at its largest depth; the view and a measured curve stay."""
+    """Return to the preset at its largest depth; the view and values of extras stay."""
     return _preset(state, state.preset)
 
 
+def turn_dark(state: State) -> State:
+    """Dark instead of light, or back."""
+    return state.replace(dark=not state.dark)
+
+
 def _preset(state: State, key: str) -> State:
-    staying = _STAYING + _OF_CURVE * (state.curve is not None)
-    return preset_state(key, **{name: state[name] for name in staying})
+    return preset_state(key, tiles=state.tiles, log=state.log, dark=state.dark, **state.extras)
 
 
 # Numbers that keep their meaning under another option of a choice.
@@ -120,15 +134,15 @@ def _plasticity(state: State, wanted: str) -> dict[str, Any]:
 
 def _damping(state: State, wanted: str) -> dict[str, Any]:
     """Viscosity with a relaxation time that shows, and does not rule, over the course."""
-    motion = follow(state).motion if wanted == "eta" else None
-    tau = 1e-4 if motion is None else float(motion.time[-1]) / 30
+    course = follow(state)
+    tau = float(course.motion.time[-1]) / 30 if wanted == "eta" and isinstance(course, Timed) else 1e-4
     return {"eta": float(f"{tau * medium(state).E_star / 4:.2g}")}
 
 
+#: Extras add conversions of their choices.
 CONVERT: dict[str, Callable[[State, str], dict[str, Any]]] = {
     "shape": _shape,
     "plasticity": _plasticity,
     "damping": _damping,
     "drive": lambda state, wanted: DRIVES[wanted].equivalent(state, turning_point(state)),
-    "pattern": lambda state, wanted: DRIVES["path"].equivalent(state, turning_point(state)),
 }

@@ -10,23 +10,19 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS
 from panel.io.location import Location
 
-from mdr_core.profiles.samples import decoded
-
-from . import changes
-from .drives import Course
-from .panels import Frame, readouts
-from .panels.board import Board
-from .panels.controls import Choices, Controls
-from .panels.fitting import Fitting
-from .panels.guide import Guide
-from .panels.held import Table, held_scene, is_held, toggle_hold
-from .panels.share import Share
-from .plots import PLOTS, visible
-from .plots.plot import View
-from .solve import Resting, follow, is_served, scene_of
-from .state import VIEW, State, link, preset_state
-from .state.files import read_tip
-from .ui import JS, plain, show
+from . import changes, link, readouts
+from .board import Board
+from .courses import Course
+from .drives import follow, scene_of
+from .extra import EXTRAS
+from .fields import Choices, Form, Numbers
+from .frame import Frame
+from .plot import View
+from .plots import PLOTS, Z, visible
+from .refused import in_words
+from .rest import Resting, is_served
+from .state import VIEW, State, preset_state
+from .ui import JS, show
 
 _LOG = logging.getLogger(__name__)
 #: Milliseconds of rest before slow updates.
@@ -52,18 +48,13 @@ class Page:
         self._waiting, self._ready, self.shown = None, False, None
         # Notices until the browser is ready, and whether the address holds a link that was not opened.
         self._notices, self._refused = [], False
+        self._numbers: list[Numbers] = []
         self.state = preset_state()
         self.resting = Resting(self._show_result)
         self.choices = Choices(self.apply, lambda: self.state)
-        self.board = Board(self.choices, self._toggle_tile)
-        self.controls = Controls(self.choices, self.apply_or_raise, self._take_tip)
-        self.fitting = Fitting(self.apply_or_raise, self.apply)
-        self.share = Share(lambda: self.shown)
-        self.guide = Guide(self.apply, lambda: self.shown.course)
-        self.table = Table(self.apply)
-        parts = {"explore": self.controls.view, "fit": self.fitting.view}
-        parts |= {"held": self.table.view, "share": self.share.view}
-        self.frame = Frame(self.choices.row("preset"), self.guide.view, self.board, parts)
+        self.board = Board(self.choices, self.apply)
+        self.form = Form(self)
+        self.frame = Frame(self, self.choices.row("preset"), self.form, self.board)
         self.view = self.frame.view
         self.address, self.theme = ColumnDataSource(name="address"), ColumnDataSource(name="theme")
         self._show_history()
@@ -78,17 +69,6 @@ class Page:
             self.notify(f"The link was not opened: {self._refusal(error)}")
 
     def _watch(self):
-        frame, apply = self.frame, self.apply
-        frame.undo.on_click(lambda event: self._step(self.past, self.future))
-        frame.redo.on_click(lambda event: self._step(self.future, self.past))
-        frame.reset.on_click(lambda event: apply(changes.reset))
-        self.controls.again.on_click(
-            lambda event: apply(lambda state: changes.hit_again(state, self.shown.course.hit))
-        )
-        frame.hold.param.watch(self._hold_toggled, "value")
-        for name in ("share", "numbers"):
-            frame.tabs[name].param.watch(lambda event: self._show_part(), "value")
-        frame.dark.param.watch(lambda event: apply(lambda now: now.replace(dark=event.new)), "value")
         player = self.board.player
         player.state.on_change("value_throttled", self._state_chosen)
         player.state.on_change("value", self._slider_moved)
@@ -96,6 +76,7 @@ class Page:
         player.hand.on_change("tags", self._dragged)
         if self.document is None:
             return
+        self.theme.on_change("tags", self._theme_chosen)
         for source in (self.theme, self.address):
             source.js_on_change("tags", CustomJS(code=JS["tell"]))
             self.document.add_root(source)
@@ -104,6 +85,22 @@ class Page:
             self.document.js_on_event(DocumentReady, CustomJS(args=told, code=JS[name]))
         # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
+
+    def _theme_chosen(self, attr, old, new):
+        """Take the theme of the system."""
+        self.apply(lambda state: state.replace(dark=new == [True]))
+
+    def numbers(self) -> Numbers:
+        """A new column of number fields of this page."""
+        self._numbers.append(Numbers(self.apply_or_raise))
+        return self._numbers[-1]
+
+    def query(self) -> tuple[str, str]:
+        """The page as a query, or why it has none."""
+        try:
+            return link.write(self.shown.state), ""
+        except ValueError as error:
+            return "", f"No link: {error}."
 
     # Changes and refusals.
 
@@ -139,11 +136,17 @@ class Page:
         try:
             self.apply_or_raise(change, mark)
             if self.state.scene_values != before.scene_values:
-                for numbers in (*self.controls.numbers.values(), self.fitting.place, self.fitting.noise):
+                for numbers in self._numbers:
                     numbers.forget()
         except ValueError as error:
             (refused or self.notify)(str(error))
             self._show_panels()
+
+    def undo(self) -> None:
+        self._step(self.past, self.future)
+
+    def redo(self) -> None:
+        self._step(self.future, self.past)
 
     def _step(self, source, target):
         """Undo or redo; the view stays."""
@@ -157,24 +160,8 @@ class Page:
                 self._show_history()
 
     def _show_history(self):
-        show(self.frame.undo, disabled=not self.past)
-        show(self.frame.redo, disabled=not self.future)
-
-    def _toggle_tile(self, name, on):
-        def change(state):
-            if on == (name in state.tiles):
-                return state
-            return state.replace(tiles=(name,) if on else tuple(t for t in state.tiles if t != name))
-
-        self.apply(change)
-
-    def _take_tip(self, file):
-        self.apply(lambda state: changes.take_tip(state, *read_tip(decoded(file.read()), file.name)))
-
-    def _hold_toggled(self, event):
-        if event.new != is_held(self.state):
-            self.apply(toggle_hold)
-        show(self.frame.hold, value=is_held(self.state))
+        self.frame.undo.show(disabled=not self.past)
+        self.frame.redo.show(disabled=not self.future)
 
     def notify(self, text: str) -> None:
         """Show a notice, once the browser is ready; its text may contain user input."""
@@ -187,7 +174,7 @@ class Page:
     def _refusal(self, error, state=None):
         """Message for an error; a fault is logged with its scene."""
         if isinstance(error, ValueError):
-            return plain(str(error))
+            return in_words(error)
         scene = state or self.state
         with suppress(Exception):
             scene = scene_of(scene).to_json()
@@ -203,12 +190,13 @@ class Page:
         `again`: exact courses have been found; `moved`: only the present state has changed.
         """
         course = follow(state, self.solved)
-        if again or self.shown is None or self.state.hold != state.hold:
-            held = [held_scene(query, self.solved) for query in state.hold]
-        else:
-            held = self.shown.held
+        before = None if again else self.shown
+        computed = {name: each.compute(state, before, self.solved) for name, each in EXTRAS.items()}
         tiles = [plot for plot in PLOTS.values() if plot.name in state.tiles]
-        view = View(state, course, held, self.resting.found(tiles, state, course))
+        view = View(state, course, self.resting.found(tiles, state, course), computed)
+        # Plots that this course has not are no longer asked for.
+        shown = [plot.name for plot in visible(view) if plot.tab]
+        view.state = state = state.replace(tiles=tuple(shown))
         columns = self.board.columns(view)
         self.state, self.shown = state, view
         self.board.show(columns, view)
@@ -219,38 +207,19 @@ class Page:
 
     def _show_panels(self):
         """Update everything beside the plots."""
-        state, course = self.state, self.shown.course
-        self.choices.show(state)
+        self.choices.show(self.state)
         self.board.show_tabs(self.shown)
-        self.controls.show(state, course)
-        self.fitting.show(state)
-        self.table.show(course, self.shown.held)
-        self.guide.show(course)
+        self.frame.show(self.shown)
         # Changed texts cause a new layout, so they wait while a slider moves.
         if not self._ready:
             self._show_texts()
-        show(self.frame.hold, value=bool(state.hold) and is_held(state))
-        show(self.frame.tabs["held"], visible=bool(state.hold))
-        if self.frame.shown == "held" and not state.hold:
-            self.frame.show("explore")
-        show(self.frame.dark, value=state.dark)
-        if self.theme.tags != [state.dark]:
-            self.theme.tags = [state.dark]
-        self._show_part()
+        if self.theme.tags != [self.state.dark]:
+            self.theme.tags = [self.state.dark]
         self._schedule()
 
     def _show_texts(self):
-        state, course = self.state, self.shown.course
-        show(self.frame.warnings, object=readouts.warnings(course, state))
-        self.controls.show_texts(state, course)
-
-    def _show_part(self):
-        """Update the part of the side that is shown."""
-        course = self.shown.course
-        if self.frame.shown == "share":
-            self.share.show()
-        elif self.frame.shown == "numbers":
-            show(self.frame.numbers, object=readouts.table(course, readouts.readings(course), course.now))
+        show(self.frame.warnings, object=readouts.warnings(self.shown.course, self.state))
+        self.form.show_texts(self.state, self.shown.course)
 
     # Player and dragging.
 
@@ -272,13 +241,17 @@ class Page:
     def _dragged(self, attr, old, new):
         """Press to a depth given in the height unit of the springs plot."""
         if new and isinstance(new[0], int | float):
-            depth = new[0] * self.shown.axis("z").factor
+            depth = new[0] * self.shown.axis(Z).factor
             self.apply(lambda state: changes.press_to(state, depth), mark="hand")
             self.board.player.hand.tags = []
 
     # Updates when the input rests.
 
     def _browser_ready(self, event):
+        if not self._ready:
+            # Once for all of them: the document looks through all its models when one of these changes.
+            with self.document.models.freeze():
+                self.board.connect()
         self._ready = True
         for text in self._notices:
             self.notify(text)
@@ -295,14 +268,15 @@ class Page:
     def _input_rests(self):
         self._waiting = None
         self._show_texts()
-        query, _ = self.share.query()
+        query, _ = self.query()
         # The empty address leaves the present one, of a link that was not opened.
         address = "" if self._refused else f"?{query}"
         if self.address.tags != [address]:
             self.address.tags = [address]
         view = self.shown
-        self.board.scene.tags = [readouts.summary(self.state)]
-        self.resting.begin([view.course, *view.held], visible(view), self.state)
+        self.board.say_scene(readouts.summary(self.state))
+        others = [course for each in EXTRAS.values() for course in each.courses(view)]
+        self.resting.begin([view.course, *others], visible(view), self.state)
 
     @pn.io.hold()
     def _show_result(self, name, found):
@@ -310,7 +284,7 @@ class Page:
         solved = self.solved
         try:
             if isinstance(found, str):
-                self.notify(plain(found))
+                self.notify(found)
                 return
             if isinstance(found, Course):
                 self.solved = dict([*solved.items(), (found.scene, found)][-4:])

@@ -1,45 +1,28 @@
 """Style sheet, scripts, texts as HTML, and widgets."""
 
 import re
+from collections.abc import Callable
 from html import escape
 from pathlib import Path
 
 import panel as pn
 
-from .state.quantities import QUANTITIES
-from .state.units import written
-
 HERE = Path(__file__).parent
 JS = {path.stem: path.read_text(encoding="utf-8") for path in (HERE / "js").glob("*.js")}
-# Inline where the size of a plot depends on it: Bokeh lays out before a linked sheet is there.
-STYLE = [(HERE / "static" / "style.css").read_text(encoding="utf-8")]
+CSS = (HERE / "static" / "style.css").read_text(encoding="utf-8")
+#: Inline where the size of a plot depends on it: Bokeh lays out before a linked sheet is there.
+LAYOUT = [(HERE / "static" / "layout.css").read_text(encoding="utf-8")]
+#: Linked by every component of Panel; components of Bokeh link them themselves.
+SHEETS = ["app/static/layout.css", "app/static/style.css"]
+#: Functions that put links into a text (HTML); extras add theirs.
+LINKS: list[Callable[[str], str]] = []
 WIDE = {"sizing_mode": "stretch_width", "margin": 0}
-FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": STYLE}
-
-_LABELS = {name: quantity.label for name, quantity in QUANTITIES.items()}
-#: Parts of messages of the core that do not apply to the page.
-_EXPONENT = re.compile(r"(\d(?:\.\d+)?)e([+-]?)0?(\d+)\b")
-_LENGTH = re.compile(r"(?<![\d.])(\d(?:\.\d+)?)(e[+-]?\d+) m(?![\w/·²³^])")
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-_PYTHON = re.compile(
-    r"Sampled\.fit:? "
-    r"|\[[\d, ]+\](?= = )| \(and \d+ more of \d+ entries\)|; or give unit='nm'| \(indent_in_time, creep\)"
-)
+FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": LAYOUT}
 
 
 def indexed(text):
     """HTML with subscripts in symbols such as d_c."""
     return re.sub(r"(\b[a-zA-Z]|[α-ω])_([a-zA-Z0-9]+)", r"<i>\1</i><sub>\2</sub>", text)
-
-
-def plain(text):
-    """Message of the core in words of the page: labels for names, no indices, lengths as 32 nm."""
-    for name, label in _LABELS.items():
-        text = text.replace(f"{label} {name} ", f"{label} ")
-    text = _PYTHON.sub("", text)
-    text = _LENGTH.sub(lambda e: written(float(e[1] + e[2]), "length", len(e[1].replace(".", ""))), text)
-    text = _EXPONENT.sub(lambda e: f"{e[1]} × 10{(e[2].strip('+') + e[3]).translate(_RAISED)}", text)
-    return re.sub(r"\b[a-zA-Z]+_[a-z_]{2,}\b", lambda name: _LABELS.get(name[0], name[0]), text)
 
 
 def marked(text):
@@ -52,10 +35,11 @@ def symbol(text):
 
 
 def linked(text):
-    """HTML with links from equations, (11), and sections, § 9, to the theory."""
-    led = r'<a href="?theory={}-\1" target="theory">\g<0></a>'
-    text = re.sub(r"\(([1-9]\d?)\)", led.format("eq"), marked(text))
-    return re.sub(r"§ (\d+)", led.format("section"), text)
+    """HTML of a text, with the links that extras have for it."""
+    html = marked(text)
+    for each in LINKS:
+        html = each(html)
+    return html
 
 
 def explained(key, label, about, look='class="word"'):
@@ -63,27 +47,12 @@ def explained(key, label, about, look='class="word"'):
     return f'<button {look} popovertarget="{key}">{label}</button><div popover id="{key}">{about}</div>'
 
 
-def legend(plot, shown):
-    """Legend of the visible rows of a plot, as HTML."""
-    text = ""
-    for row in plot.rows:
-        if row.legend and row.name in shown:
-            hatch = "hatch" * (row.look.get("hatch", " ") != " ")
-            look = " ".join((row.kind, hatch, row.look.get("dash", ""), row.look.get("marker", "")))
-            text += f'<span class="{row.role}"><i class="{look}"></i>{row.name}</span>'
-    return text
-
-
 def html(text="", *classes, **options):
     return pn.pane.HTML(text, css_classes=[*(classes or ["note"])], **WIDE | options)
 
 
-def button(name, key="", kind=pn.widgets.Button, **options):
-    return kind(label=name, css_classes=["button", *[f"key-{key}"] * bool(key)], **{"margin": 0} | options)
-
-
-def toggle(name, key):
-    return button(name, key, pn.widgets.Toggle)
+def button(name, **options):
+    return pn.widgets.Button(label=name, css_classes=["button"], **{"margin": 0} | options)
 
 
 def field(kind, *classes, **options):

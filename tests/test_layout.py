@@ -13,9 +13,9 @@ PACKAGE = Path(mdr.__file__).parent
 # From the bottom up; a module may import what stands before it.
 ORDER = (
     "_errors", "_check", "numerics.stable", "numerics.blocks", "numerics.gauss", "numerics.collocation",
-    "numerics.roots", "abel", "profiles.samples", "profiles.profile", "profiles.power",
-    "profiles.radius_table", "profiles.rounded", "profiles.truncated", "profiles.sampled",
-    "profiles.smooth", "medium", "results.quantities", "results.limits", "results.report",
+    "numerics.roots", "abel", "results.quantities", "profiles.samples", "profiles.profile",
+    "profiles.power", "profiles.radius_table", "profiles.rounded", "profiles.truncated", "profiles.sampled",
+    "profiles.smooth", "medium", "results.limits", "results.report",
     "results.base", "results.sweep_arguments", "results.progress", "reading", "foundation.refinement",
     "foundation.cap", "foundation.element", "foundation.grid", "foundation.foundation",
     "foundation.fronts", "foundation.depth_path", "foundation.force_path", "foundation.free_body",

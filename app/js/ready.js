@@ -1,4 +1,4 @@
-// Once the page is there: a name for the slider, which has none of its own, keys, and the theme that the system has.
+// Once the page is there: a name for the slider, which has none of its own, the keys Space and Z, and the theme of the system.
 const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
 const hosts = (name) => all(document).filter((each) => each.shadowRoot && each.classList.contains(name))
 for (const { shadowRoot } of hosts("slider"))
@@ -9,9 +9,10 @@ document.addEventListener("keydown", (event) => {
   const on = event.composedPath()[0]
   if (event.ctrlKey || event.altKey || event.metaKey || on.matches?.("input[type=text], textarea, select")) return
   const key = event.key === " " ? "space" : event.key.toLowerCase()
-  const host = /^([a-z]|space)$/.test(key) && hosts(`key-${key}`)[0]
-  if (!host || (key === "space" && on.matches?.("button, summary, input"))) return
+  const host = key === "space" ? hosts("key-space")[0]?.shadowRoot : document
+  const target = all(host).find((each) => each.matches(key === "space" ? "button" : `button[data-key="${key}"]`))
+  if (!target || !["z", "space"].includes(key) || (key === "space" && on.matches?.("button, summary, input"))) return
   event.preventDefault()
-  host.shadowRoot.querySelector("button").click()
+  target.click()
 })
-if (matchMedia("(prefers-color-scheme: dark)").matches && !location.search.includes("dark=")) hosts("key-d")[0].shadowRoot.querySelector("button").click()
+if (matchMedia("(prefers-color-scheme: dark)").matches && !location.search.includes("dark=")) theme.tags = [true]

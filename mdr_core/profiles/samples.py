@@ -11,6 +11,7 @@ import scipy
 
 from .. import _check
 from .._check import Array
+from ..results.quantities import engineering
 
 #: Sizes of units (SI) by their kind.
 UNITS = {
@@ -246,10 +247,11 @@ def _refuse_misfit(r, residual, height):
         return
     noise = np.sqrt(np.mean(np.diff(residual, 3) ** 2) / 20)
     if miss > _MISFIT * noise or (residual.size >= _ENOUGH_FOR_WAVES and _correlation(residual) > _WAVY):
-        worst = r[order][np.argmax(np.abs(residual))]
+        miss = engineering(float(f"{miss:.2g}"), "m")
+        worst = engineering(float(f"{r[order][np.argmax(np.abs(residual))]:.2g}"), "m")
         raise ValueError(
-            f"Sampled.fit: the nearest convex profile misses the samples by {miss:.2g} m (rms, most at r = "
-            f"{worst:.2g} m), which is not noise: the tip is wavy or concave, so that the contact would "
+            f"Sampled.fit: the nearest convex profile misses the samples by {miss} (rms, most at r = "
+            f"{worst}), which is not noise: the tip is wavy or concave, so that the contact would "
             "not be compact; smooth the samples, or leave out those outside the convex part"
         )
 

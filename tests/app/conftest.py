@@ -61,13 +61,13 @@ window.explorer = {
 
 
 class Server:
-    """`panel serve app` from the project root, on a free port, with its log."""
+    """`panel serve app` from the project root, or a copy of it, on a free port, with its log."""
 
-    def __init__(self, *options, port=0):
+    def __init__(self, *options, port=0, root=ROOT):
         command = [sys.executable, "-m", "panel", "serve", "app", *options, "--port", str(port)]
         self.lines, self._ready = [], threading.Event()
         output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
-        self.process = subprocess.Popen(command, cwd=ROOT, start_new_session=True, **output)
+        self.process = subprocess.Popen(command, cwd=root, start_new_session=True, **output)
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
         try:
@@ -186,6 +186,11 @@ class Explorer:
     def pick(self, option):
         """Pick an option of a choice by its text, and wait until it is drawn."""
         self.change(self.page.get_by_label(option, exact=True).first.check)
+
+    def chosen(self, label):
+        """Text of the option that is chosen in a list."""
+        text = "(list) => list.selectedOptions[0].textContent"
+        return self.page.get_by_label(label, exact=True).evaluate(text)
 
     def choose(self, label, option):
         """Choose from a list, and wait until it is drawn."""

@@ -3,14 +3,15 @@
 import numpy as np
 
 import mdr_core as mdr
-from app import changes
-from app.panels import fitting
-from app.panels.guide import TOURS, step_state
-from app.panels.readouts import readings
-from app.plots.plot import View
-from app.solve import follow, in_time
-from app.state import State, link, medium, preset_state, profile
-from app.state.files import read_curve
+from app import changes, link
+from app.drives import follow, in_time
+from app.extra import EXTRAS
+from app.extras import fit as fitting
+from app.extras.fit.measured import read_curve
+from app.extras.guide import TOURS, step_state
+from app.plot import View
+from app.readouts import readings
+from app.state import State, medium, preset_state, profile
 
 from .conftest import DROP, GOLD
 
@@ -19,13 +20,18 @@ def state_with(key=GOLD, drive=None, **choices) -> State:
     """A preset with a drive, and options of choices as a person takes them, one after the other."""
     state = changes.choose(preset_state(key), "drive", drive) if drive else preset_state(key)
     for name, option in choices.items():
-        state = changes.choose(state, name, option)
+        # Choices of extras by their former names: "pattern" is "path.pattern".
+        state = changes.choose(state, link.FORMER.get(name, name), option)
     return state
 
 
-def view_of(state: State, progress=1.0, *held: State, **view) -> View:
-    state = state.replace(progress=progress, **view)
-    return View(state, follow(state), [follow(each) for each in held])
+def view_of(state: State, progress=1.0, *held: State) -> View:
+    """A view as the page makes it, with other scenes held."""
+    state = state.replace(progress=progress)
+    if held:
+        state = state.replace(**{"held.scenes": tuple(link.write(each) for each in held)})
+    computed = {name: each.compute(state, None, {}) for name, each in EXTRAS.items()}
+    return View(state, follow(state), {}, computed)
 
 
 def stepped(title: str) -> list:
@@ -42,6 +48,12 @@ def solved(state: State):
     """The course of a state, in full."""
     course = follow(state)
     return in_time(course) if course.pending else course
+
+
+def side(page, name: str):
+    """A part of the side, opened."""
+    page.frame.open(name)
+    return page.frame.parts[name]
 
 
 def viscous() -> State:
@@ -70,6 +82,7 @@ def example_curve():
 
 def fitted(**changed) -> State:
     """The opening with a fit to the example curve."""
+    changed = {f"fit.{name}": value for name, value in changed.items()}
     return fitting.fit(fitting.take(preset_state(), example_curve()).replace(**changed))
 
 

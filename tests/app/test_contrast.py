@@ -81,8 +81,8 @@ TEXTS = """() => {
 def test_every_text_of_the_page_is_read_in_the_dark(explorer):
     """In each part of the side, within a theme that is changed by its key."""
     page = explorer.page
-    page.locator("h1").click()
-    page.keyboard.press("d")
+    explorer.press("Menu")
+    explorer.press("Dark")
     explorer.link("dark=1")
     for part in ("Menu", "Share", "All numbers", "Fit a measurement", "Explore"):
         explorer.press(part)

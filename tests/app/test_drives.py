@@ -5,13 +5,13 @@ import pytest
 from scipy.integrate import trapezoid
 
 import mdr_core as mdr
-from app import changes
-from app.panels import readouts, share
-from app.plots.force import force, force_still
-from app.plots.plot import View
-from app.solve import DRIVES, follow, scene_of
+from app import changes, readouts
+from app.drives import DRIVES, follow, scene_of
+from app.extras import share
+from app.plot import View
+from app.plots import force, force_still
+from app.quantities import CHOICES
 from app.state import PRESETS, medium, preset_state, profile
-from app.state.quantities import CHOICES
 
 from .conftest import DROP, ELASTIC
 from .states import linked_state, numbers, solved, state_with, view_of
@@ -19,7 +19,7 @@ from .states import linked_state, numbers, solved, state_with, view_of
 
 def path(pattern, **choices):
     state = changes.choose(state_with(**choices), "drive", "path")
-    return changes.choose(state, "pattern", pattern)
+    return changes.choose(state, "path.pattern", pattern)
 
 
 @pytest.mark.parametrize("damping", ["none", "eta"])
@@ -27,7 +27,7 @@ def path(pattern, **choices):
 def test_every_drive_gives_the_same_interface(drive, damping):
     state = state_with(DROP, drive, damping=damping)
     if drive == "path" and damping == "eta":
-        state = changes.choose(state, "pattern", "hold")
+        state = changes.choose(state, "path.pattern", "hold")
     course = solved(state)
     states, count = course.states, len(course)
     for name in (
@@ -46,14 +46,14 @@ def test_every_drive_gives_the_same_interface(drive, damping):
     assert set(DRIVES) == set(CHOICES["drive"])
 
 
-@pytest.mark.parametrize("pattern", CHOICES["pattern"])
+@pytest.mark.parametrize("pattern", CHOICES["path.pattern"])
 def test_a_pattern_goes_as_deep_as_what_was_there_before_and_is_in_link_and_csv(pattern):
     state = path(pattern)
     course = solved(state)
     # A force that is found has the five digits that its field shows.
     assert float(course.turning_point.depth) == pytest.approx(preset_state().max_depth, rel=5e-5)
     assert scene_of(linked_state(state)) == course.scene
-    assert CHOICES["pattern"][pattern] in readouts.summary(state)
+    assert CHOICES["path.pattern"][pattern] in readouts.summary(state)
     lines = share.csv(View(state, course)).splitlines()
     assert sum(line[0] != "#" for line in lines) == 1 + len(course)
 
@@ -115,7 +115,8 @@ def test_creep_is_first_shown_without_dashpots_and_then_in_time():
 
 
 def oblique_state(key=ELASTIC, **numbers):
-    return state_with(key, "oblique", body="solid").replace(**{"attack": 0.9, "friction": 0.5} | numbers)
+    numbers = {"oblique.attack": 0.9, "oblique.friction": 0.5} | numbers
+    return state_with(key, "oblique", body="solid").replace(**numbers)
 
 
 @pytest.mark.parametrize("key", [ELASTIC, DROP])
@@ -123,7 +124,7 @@ def test_a_move_is_right_to_three_digits(key):
     state = oblique_state(key)
     rough, full = follow(state), solved(state)
     assert (bool(rough.pending), bool(full.pending)) == (True, False)
-    hit, size = scene_of(state).solve(), state.incoming_speed
+    hit, size = scene_of(state).solve(), state["oblique.incoming_speed"]
     for course, error in ((rough, 2e-3), (full, 1e-4)):
         found = numbers(course)
         assert found["friction_work"][-1] == pytest.approx(float(hit.friction_work), rel=error)

@@ -7,7 +7,7 @@ import pytest
 
 from app import changes
 from app.page import Page
-from app.solve import COMPUTING, FAULT
+from app.rest import COMPUTING, FAULT
 from app.state import PRESETS, preset_state
 
 from .conftest import DROP, GOLD
@@ -37,7 +37,7 @@ def assert_in_use(page):
     assert "Everything is as it was before" in notices
     put(page, "q_c", 1.5 * Q_C)
     assert page.shown.course.scene.medium.q_c == page.state.q_c == 1.5 * Q_C
-    page.frame.undo.clicks += 1
+    page.frame.undo.act()
     assert page.shown.course.scene.medium.q_c == Q_C
     assert len(page.notices) == 1
 
@@ -45,22 +45,25 @@ def assert_in_use(page):
 def test_a_plot_or_a_held_scene_that_fails(page, monkeypatch):
     with monkeypatch.context() as failure:
         failure.setattr(page.board, "_make", failing)
-        page.board.tabs["surface"].value = True
-    assert (page.state.tiles, page.board.tabs["surface"].value) == ((), False)
+        page.board.tabs["surface"].act()
+    assert (page.state.tiles, page.board.tabs["surface"].pressed) == ((), False)
     assert_in_use(page)
     page.notices.clear()
-    monkeypatch.setattr(page.table, "show", lambda course, held: failing() if held else None)
-    page.frame.hold.value = True
-    assert (page.state.hold, page.shown.held, page.frame.hold.value) == ((), [], False)
+    hold = page.frame.buttons["held"]
+    monkeypatch.setattr(hold, "show", lambda view: failing() if view.computed["held"] else None)
+    hold.view.act()
+    assert (page.state["held.scenes"], page.shown.computed["held"]) == ((), [])
     assert_in_use(page)
 
 
 def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
     """What is beside the plots counts as shown too: undo leads to nothing that was refused."""
-    shown = page.fitting.show
-    monkeypatch.setattr(page.fitting, "show", lambda now: shown(now) if now.preset == GOLD else failing())
-    page.choices.widgets["preset"].value = DROP
-    assert page.state.preset == page.choices.widgets["preset"].value == GOLD
+    shown = page.form.show
+    monkeypatch.setattr(
+        page.form, "show", lambda now: shown(now) if now.state.preset == GOLD else failing()
+    )
+    page.choices.choose("preset", DROP)
+    assert page.state.preset == page.choices.row("preset").value == GOLD
     assert page.frame.undo.disabled
     assert_in_use(page)
 
@@ -72,28 +75,28 @@ def send(number, **data):
 
 @pytest.mark.parametrize("act", ["preset", "undo", "reset"])
 def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
-    (depth,), (_, q_c) = page.controls.numbers["drive"], page.controls.numbers["medium"]
+    (depth,), (_, q_c) = page.form.numbers["drive"], page.form.numbers["medium"]
     send(depth, text="5 nm")
     send(q_c, text="abc")
     assert q_c.refused == "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m"
     if act == "preset":
-        page.choices.widgets["preset"].value = DROP
+        page.choices.choose("preset", DROP)
     else:
-        getattr(page.frame, act).clicks += 1
+        getattr(page.frame, act).act()
     assert q_c.refused == ""
 
 
 def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
-    (number,) = page.controls.numbers["drive"]
+    (number,) = page.form.numbers["drive"]
     start = page.state.max_depth
     for position in (210, 220, 230):
         send(number, position=position)
     assert page.state.max_depth > start
     page.apply(lambda state: state.replace(progress=0.5))
-    page.frame.undo.clicks += 1
+    page.frame.undo.act()
     assert (page.state.max_depth, page.state.progress) == (start, 0.5)
     assert page.frame.undo.disabled
-    page.frame.redo.clicks += 1
+    page.frame.redo.act()
     assert page.state.max_depth > start
 
 
@@ -113,12 +116,12 @@ def rested(page):
 
 
 def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
-    page.board.tabs["section"].value = True
+    page.board.tabs["section"].act()
     assert page.shown.found["section"] == COMPUTING
     first = rested(page)
     put(page, "q_c", 1.2 * Q_C)
     assert page.shown.found["section"] == replace(COMPUTING, axes=first.axes)
-    page.frame.undo.clicks += 1
+    page.frame.undo.act()
     assert page.shown.found["section"] is first
     page._state_chosen("value_throttled", page.shown.course.now, 5)
     assert page.shown.found["section"].note == "computing …"
@@ -127,7 +130,7 @@ def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
 
 def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
     show = page.board.show
-    page.board.tabs["section"].value = True
+    page.board.tabs["section"].act()
 
     def fails(columns, view):
         return failing() if view.found["section"].rows else show(columns, view)

@@ -7,16 +7,22 @@ import pytest
 
 import mdr_core as mdr
 from app import changes
+from app.drives import scene_of
+from app.extras import fit as fitting
+from app.extras.fit.drawn import RESIDUAL_FORCE
+from app.extras.fit.measured import FITTED, agrees, offered, read_curve
 from app.page import Page
-from app.panels import fitting
 from app.plots import PLOTS
-from app.solve import scene_of
+from app.quantities import ASSETS
 from app.state import PRESETS, medium, preset_state, profile
-from app.state.files import FITTED, MAX_BYTES, Uploaded, agrees, offered, read_curve
-from app.state.quantities import ASSETS
+from app.tip import MAX_BYTES, Uploaded
 
-from .states import example_curve, fitted, table, view_of
+from .states import example_curve, fitted, side, table, view_of
 from .test_page import unit as unit_of
+
+
+def residual_of(view):
+    return view.computed["fit"].residual(view.course.scene)
 
 
 def test_long_files_are_thinned_and_refused_in_words_of_the_page():
@@ -37,7 +43,7 @@ def test_long_files_are_thinned_and_refused_in_words_of_the_page():
         fitting.fit(fitting.take(preset_state(), flat))
 
 
-def test_a_refused_tip_is_named_and_its_misfit_is_in_a_fitting_unit():
+def test_a_refused_tip_is_named_with_its_misfit():
     page, notices = Page(), []
     page.notify = notices.append
     r = np.linspace(0, 400, 200)
@@ -48,7 +54,7 @@ def test_a_refused_tip_is_named_and_its_misfit_is_in_a_fitting_unit():
         ("r (nm), z (nm)\n0, 0\n1, x\n", "expected two numbers r, z, found"),
         ("r, z\n0, 0\n1, 1\n", "the header must name the units of r and z"),
     ):
-        page._take_tip(Uploaded("my  tip.csv", len(text), text.encode()))
+        page.form._take_tip(Uploaded("my  tip.csv", len(text), text.encode()))
         found = re.match(rf"my tip\.csv(?:, line \d)?: {why}", notices[-1])
         assert found, notices[-1]
         if text is wavy:
@@ -66,16 +72,16 @@ def test_the_manual_names_the_limits_of_files_and_messages():
 
 def test_a_new_file_starts_with_the_default_holds():
     """The example holds first contact at 0; a later curve begins elsewhere, 10 % of its depth into it."""
-    default, page = preset_state().fixed, Page()
+    default, page = preset_state()["fit.fixed"], Page()
     assert "contact_point" not in default
     for curve in (example_curve(), None):
         page.apply(fitting.silica)
-        assert "contact_point" in page.state.fixed
+        assert "contact_point" in page.state["fit.fixed"]
         page.apply(lambda state, curve=curve: fitting.take(state, curve))
-        assert page.state.fixed == default
+        assert page.state["fit.fixed"] == default
     page.apply(fitting.silica)
     page.apply(lambda state: fitting.take(state, example_curve()))
-    assert "need first contact" in page.fitting.unloading.object
+    assert "need first contact" in side(page, "fit").unloading.object
     # The example curve is made under the tip of the opening.
     page.apply(lambda state: state.replace(shape="cone", cone_slope=preset_state().cone_slope))
     page.apply(fitting.fit)
@@ -89,7 +95,7 @@ def test_one_result_of_oliver_and_pharr_stands_beside_a_curve():
         page = Page()
         page.apply(change)
         page.apply(fitting.fit)
-        panel = page.fitting
+        panel = side(page, "fit")
         texts = [panel.said.object, panel.unloading.object]
         assert sum(text.count("Oliver and Pharr") for text in texts) == 1
 
@@ -100,7 +106,7 @@ def test_the_measured_example_lies_over_its_tip_with_the_numbers_of_oliver_and_p
     page.apply(fitting.silica)
     state = page.state
     assert profile(state) == mdr.Cone.from_half_angle(70.3)
-    assert "69.6" in page.fitting.unloading.object
+    assert "69.6" in side(page, "fit").unloading.object
     state = fitting.fit(state)
     # The literature has 72 GPa; residuals of 2 % of the force say that glass is not of this class of media.
     assert state.E_star == pytest.approx(72e9, rel=0.05)
@@ -130,24 +136,25 @@ def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
     # Ten standard errors of 0.4 % noise in 400 samples.
     assert state.E_star == pytest.approx(1.3 * before.E_star, rel=1e-2)
     assert state.q_c == pytest.approx(0.8 * before.q_c, rel=5e-3)
-    assert scene_of(state).drive == mdr.DepthPath(float(np.max(state.curve.fit.path.depth)))
+    assert scene_of(state).drive == mdr.DepthPath(float(np.max(state["fit.curve"].fit.path.depth)))
     assert agrees(state)
     assert "residual" in page.board.names
-    page.frame.undo.clicks += 1
+    page.frame.undo.act()
     assert medium(page.state) == before
-    assert page.state.curve.fit is None
-    page.frame.undo.clicks += 1
-    assert page.state.curve is None
-    page.frame.redo.clicks += 2
-    assert page.state.curve is not None
+    assert page.state["fit.curve"].fit is None
+    page.frame.undo.act()
+    assert page.state["fit.curve"] is None
+    page.frame.redo.act()
+    page.frame.redo.act()
+    assert page.state["fit.curve"] is not None
 
 
 def test_what_is_fixed_stays():
     state = fitted(fixed=("E_star", "eta", "tilt", "drag"), depth_noise=1e-11)
     assert medium(state).E_star == medium(preset_state()).E_star
     assert state.elasticity == "bodies"
-    assert state.curve.fit.standard_errors.keys() == {"q_c", "contact_point", "baseline"}
-    assert state.baseline == state.curve.fit.baseline != 0
+    assert state["fit.curve"].fit.standard_errors.keys() == {"q_c", "contact_point", "baseline"}
+    assert state["fit.baseline"] == state["fit.curve"].fit.baseline != 0
     with pytest.raises(ValueError, match="the drag needs the times"):
         fitted(fixed=("eta",))
 
@@ -158,7 +165,9 @@ def test_a_work_of_adhesion_is_fitted_where_there_is_adhesion():
     F = mdr.indent(profile(start), medium(start), d).force
     curve = read_curve(table({"h (nm)": 1e9 * d, "F (nN)": 1e9 * F}).encode(), "run.csv")
     held = tuple(name for name in FITTED if name not in ("E_star", "work_of_adhesion"))
-    other = fitting.take(start, curve).replace(fixed=held, work_of_adhesion=0.3 * start.work_of_adhesion)
+    other = fitting.take(start, curve).replace(
+        **{"fit.fixed": held}, work_of_adhesion=0.3 * start.work_of_adhesion
+    )
     state = fitting.fit(other)
     assert state.work_of_adhesion == pytest.approx(start.work_of_adhesion, rel=1e-2)
     assert agrees(state)
@@ -177,26 +186,28 @@ def test_a_drag_is_fitted_where_there_are_times():
     columns = {"t (s)": t, "h (nm)": 1e9 * d, "F (nN)": 1e9 * (F + drag * np.gradient(d, t))}
     curve = read_curve(table(columns).encode(), "run.csv")
     held = tuple(name for name in curve.fitted if name not in ("E_star", "drag"))
-    state = fitting.fit(fitting.take(start, curve).replace(fixed=held))
-    assert state.drag == pytest.approx(drag, rel=1e-3)
+    state = fitting.fit(fitting.take(start, curve).replace(**{"fit.fixed": held}))
+    assert state["fit.drag"] == pytest.approx(drag, rel=1e-3)
     assert state.E_star == pytest.approx(medium(start).E_star, rel=1e-3)
     assert agrees(state)
-    np.testing.assert_allclose(view_of(state).curve.force, F, atol=1e-3 * F.max())
+    np.testing.assert_allclose(view_of(state).computed["fit"].force, F, atol=1e-3 * F.max())
     assert {"eta", "drag"} == set(curve.fitted) - set(example_curve().fitted)
 
 
 def test_the_curve_lies_where_it_is_set_to_and_its_residual_is_of_what_is_set():
     state = fitted()
-    np.testing.assert_allclose(view_of(state).residual, state.curve.fit.residuals)
-    z, F = state.curve.data
-    state = state.replace(E_star=2e11, baseline=1e-8, contact_point=1e-9)
+    np.testing.assert_allclose(residual_of(view_of(state)), state["fit.curve"].fit.residuals)
+    z, F = state["fit.curve"].data
+    state = state.replace(E_star=2e11, **{"fit.baseline": 1e-8, "fit.contact_point": 1e-9})
     view = view_of(state)
     d = z - 1e-9
-    np.testing.assert_allclose((view.curve.depth, view.curve.force), (d, F - 1e-8), rtol=1e-12)
+    np.testing.assert_allclose(
+        (view.computed["fit"].depth, view.computed["fit"].force), (d, F - 1e-8), rtol=1e-12
+    )
     expected = F - 1e-8 - mdr.indent(profile(state), medium(state), d).force
-    np.testing.assert_allclose(view.residual, expected, rtol=1e-9, atol=1e-15)
+    np.testing.assert_allclose(residual_of(view), expected, rtol=1e-9, atol=1e-15)
     assert np.isnan(view.rows(PLOTS["residual"], 0)["± noise"][0]).all()
-    assert view.axis("ΔF").end >= np.abs(expected).max()
+    assert view.end(RESIDUAL_FORCE) >= np.abs(expected).max()
     # A tip that ends above the measured depth says so.
     r = np.linspace(0, 5e-9, 20)
     state = changes.take_tip(state, (r, 0.1 * r), "")
@@ -242,8 +253,7 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
     d = np.append(np.linspace(-1e-9, 9e-9, 120), np.linspace(9e-9, 7.5e-9, 60))
     F = mdr.indent(mdr.Cone(0.358), mdr.Medium(60e9, 80.0), d).force
     path.write_text(table({"h (nm)": d * 1e9 + 0.5, "F (µN)": F * 1e9}, "; "), encoding="utf-8")
-    page.locator("h1").click()
-    page.keyboard.press("f")
+    explorer.press("Fit a measurement")
     for again in (False, True):
         if again:
             explorer.change(explorer.press, "Remove")
@@ -269,9 +279,7 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
     for name in ("springs", "pressure", "force", "residual"):
         box = page.locator(f".card.{name}").bounding_box()
         assert box["y"] + box["height"] <= 900
-    page.locator("h1").click()
-    page.keyboard.press("t")
-    page.get_by_text("The measured curve is not in the link").wait_for()
+    page.get_by_text("It is in its file, and in no link").wait_for()
 
 
 def test_depth_noise_counts_where_it_is_no_rounding_and_no_trifle():
@@ -283,5 +291,5 @@ def test_depth_noise_counts_where_it_is_no_rounding_and_no_trifle():
         curve = read_curve(table({"h (nm)": depth, "F (µN)": force}).encode(), "run.csv")
         state = fitting.take(preset_state(), curve)
         # A standard deviation of 800 samples, from third differences.
-        assert state.depth_noise == pytest.approx(1e-9 * expected, rel=0.2)
-        assert fitting.take(state, None).depth_noise == 0
+        assert state["fit.depth_noise"] == pytest.approx(1e-9 * expected, rel=0.2)
+        assert fitting.take(state, None)["fit.depth_noise"] == 0

@@ -7,11 +7,11 @@ import pytest
 
 import mdr_core as mdr
 from app import changes
+from app.draw import Picture
+from app.drives import follow, scene_of
 from app.plots import PLOTS
-from app.plots.draw import Picture
-from app.solve import follow, scene_of
 from app.state import PRESETS, State, preset_state
-from app.state.units import UNITS, written
+from app.units import UNITS, written
 
 from .conftest import DROP, ELASTIC, PUNCH, Explorer
 from .states import state_with, table, view_of
@@ -99,8 +99,9 @@ def test_keys_player_and_hand_move_every_plot(explorer):
         explorer.change(page.keyboard.press, "PageUp")
         assert explorer.field(symbol).input_value() != text
         assert now(explorer) != before
-    page.locator("h1").click()
-    explorer.change(page.keyboard.press, "r")
+    explorer.press("Menu")
+    explorer.change(explorer.press, "Reset")
+    explorer.press("Explore")
     assert_draws(explorer, preset_state())
     # The indenter is taken by the hand: deeper, and one change to undo.
     explorer.drag("springs", (0, 0.2))
@@ -262,16 +263,15 @@ def test_scenes_are_held_and_come_back_from_the_address_in_the_dark(explorer):
     page = explorer.page
     for depth in ("4 nm", "7 nm"):
         explorer.change(explorer.type, "d_max", depth)
-        page.locator("h1").click()
-        explorer.change(page.keyboard.press, "h")
-    page.keyboard.press("j")
+        explorer.change(explorer.press, "Hold")
+    explorer.press("Held")
     for k, text in ((1, "= 4 nm"), (2, "= 7 nm")):
         page.get_by_text(text).wait_for()
         box = page.get_by_role("button", name=f"Remove {k}").bounding_box()
         assert box["x"] + box["width"] <= 312
     explorer.change(explorer.press, "Remove 2")
-    page.locator("h1").click()
-    explorer.change(page.keyboard.press, "d")
+    explorer.press("Menu")
+    explorer.change(explorer.press, "Dark")
     explorer.press("Explore")
     explorer.change(explorer.type, "q_c", "90 N/m")
     explorer.link("q_c=90")
@@ -299,5 +299,5 @@ def test_what_is_shared_comes_back(explorer, tmp_path):
     path, r = tmp_path / "tip.csv", np.linspace(0, 60, 40)
     path.write_text(table({"r (nm)": r, "z (nm)": r**2 / 100}, "; ", comma=True))
     explorer.change(page.get_by_label("CSV file of a measured tip: r, z").set_input_files, path)
-    assert page.get_by_label("Shape", exact=True).input_value() == "Measured tip"
+    assert explorer.chosen("Shape") == "Measured tip"
     assert page.get_by_text("40 samples as they are").count() == 1

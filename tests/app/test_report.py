@@ -1,15 +1,15 @@
 """The report says and draws what the page does, and needs nothing else."""
 
 import re
-from dataclasses import replace
 from html import unescape
 
 import numpy as np
 
 from app import changes
-from app.panels.readouts import readings, text
-from app.panels.report import report
+from app.extras.held import Held
+from app.extras.share import report
 from app.plots import PLOTS
+from app.readouts import readings, text
 from app.state import PRESETS, preset_state
 
 from .conftest import DROP
@@ -27,7 +27,7 @@ def test_the_report_says_what_the_page_says():
     view = view_of(state, 1.5)
     course = view.course
     plots = [PLOTS[name] for name in ("springs", "pressure", "force", "motion", "energy")]
-    view.held = [replace(course, name="<b>stiff</b>")]
+    view.computed["held"] = [Held("<b>stiff</b>", course)]
     said = plain(report(view, plots, course.scene.to_python(), "http://localhost/app?speed=2.0"))
     assert f"{PRESETS[DROP].label}, altered" in said
     assert "Held 1: <b>stiff</b>." in said

@@ -3,28 +3,28 @@
 import re
 from dataclasses import fields
 from math import pi, radians, tan
-from urllib.parse import urlencode
 
 import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app import changes
-from app.panels import share
-from app.solve import DRIVES, follow, scene_of, turning_point
-from app.state import OPENING, PRESETS, VIEW, altered, link, medium, preset_state, profile, used
-from app.state.files import MAX_SAMPLES, read_tip
-from app.state.quantities import QUANTITIES, SHAPES
-from app.state.units import entry, fitting, read, written
+from app import changes, link
+from app.drives import DRIVES, follow, scene_of, turning_point
+from app.extras import share
+from app.quantities import QUANTITIES, SHAPES
+from app.state import OPENING, PRESETS, VIEW, altered, medium, preset_state, profile, used
+from app.tip import MAX_SAMPLES, read_tip
+from app.units import entry, fitting, read, written
 
 from .conftest import DROP
 from .states import linked_state, state_with, table, view_of
 
 
 def test_a_state_is_small_frozen_and_known():
-    """About 75 values; what is not one of them is refused."""
+    """Some 50 values, of which all numbers of the page are; what is not one of them is refused."""
     state = preset_state()
-    assert 60 <= len(fields(state)) <= 100
+    assert 40 <= len(fields(state)) <= 60
+    assert {name for name in QUANTITIES if "." not in name} <= {each.name for each in fields(state)}
     with pytest.raises(AttributeError, match="max_depth"):
         state.max_depth = 1.0
     with pytest.raises(TypeError, match="max_deph"):
@@ -98,40 +98,49 @@ def test_the_link_of_a_preset_is_its_name():
 @pytest.mark.parametrize("drive", DRIVES)
 def test_a_link_holds_the_whole_page(drive):
     state = state_with(DROP, drive, damping="eta", shape="sphere")
-    state = state.replace(progress=0.75, hold=(link.write(state),), tiles=("sweep", "section"))
-    state = state.replace(dark=True, fit_note="a < b", section="zz")
+    state = state.replace(progress=0.75, tiles=("sweep", "section"), log=("force",), dark=True)
+    others = {"held.scenes": (link.write(state),), "fit.note": "a < b", "section.stress": "zz"}
+    state = state.replace(**others)
     again = linked_state(state)
     assert scene_of(again) == scene_of(state)
-    for name in (*VIEW, "section", "fit_note"):
+    for name in (*VIEW, *others):
         assert again[name] == state[name], name
-    assert scene_of(link.read(again.hold[0])) == scene_of(state)
+    assert scene_of(link.read(again["held.scenes"][0])) == scene_of(state)
     assert len(link.write(state)) < 700
 
 
-def test_links_of_earlier_versions_are_read():
-    old = {
-        "preset": PRESETS[DROP].label, "paraboloid_radius": "0.008", "speed": "2.0", "energy_from": "0.1",
-        "at": "1.5", "plots": "map sweep", "hold": "shape=cone&cone_slope=0.2&called=blunt",
-        "axes": "ratio", "references": "all", "sweep_axes": "linear", "keep": "1", "inertia": "unknown",
-    }  # fmt: skip
-    state = link.read(urlencode(old))
-    assert (state.speed, state.progress, state.tiles) == (2.0, 1.5, ("map", "sweep"))
-    assert link.read(state.hold[0]).cone_slope == 0.2
-    with pytest.raises(ValueError, match=r"version 0\.3 took from a file"):
-        link.read("preset=")
-    # τ = 4η/E*, a rigid tip, and the components of an oblique speed are converted.
-    state = link.read(f"preset={DROP}&damping=tau&tau=0.0002&swept=tau")
-    assert medium(state).relaxation_time == pytest.approx(2e-4, rel=1e-12)
-    assert state.swept == "eta"
-    state = link.read("elasticity=rigid_tip&E_1=2e9&nu_1=0.5")
-    assert medium(state).E_star == pytest.approx(2e9 / 0.75, rel=1e-12)
-    state = link.read(f"preset={DROP}&drive=oblique&aim=components&speed=3&tangential_speed=4&friction=0.2")
-    drive = scene_of(state).drive
-    assert (drive.speed, drive.tangential_speed) == pytest.approx((3, 4), rel=1e-12)
-    assert link.read(f"preset={DROP}&surface=imprint&noise=given").plastic_depth == 1e-6
-    # A compliance of the frame, which a fit had up to version 0.6.
-    state = link.read("frame_compliance=1e-05&fixed=q_c+frame_compliance&baseline=1e-08")
-    assert (state.fixed, state.baseline) == (("q_c",), 1e-8)
+#: Links that version 0.6 wrote, and what they say.
+LINKS = {
+    f"preset={DROP}&speed=2.0&at=1.5&tiles=sweep&swept=mass&against=restitution": {
+        "speed": 2.0, "progress": 1.5, "tiles": ("sweep",), "sweep.swept": "mass",
+        "sweep.against": "restitution",
+    },
+    "drive=path&pattern=hold&ramp_time=0.5&damping=eta&eta=3.0": {
+        "drive": "path", "path.pattern": "hold", "path.ramp_time": 0.5, "eta": 3.0,
+    },
+    f"preset={DROP}&drive=oblique&body=solid&incoming_speed=5.0&attack=0.5&friction=0.2": {
+        "oblique.body": "solid", "oblique.incoming_speed": 5.0, "oblique.attack": 0.5,
+        "oblique.friction": 0.2,
+    },
+    "tiles=section&section=zz&hold=shape%3Dcone%26cone_slope%3D0.2&dark=1": {
+        "section.stress": "zz", "held.scenes": ("shape=cone&cone_slope=0.2",), "dark": True,
+    },
+    "fixed=q_c+tilt&contact_point=1e-09&baseline=1e-08&depth_noise=1e-11&fit_note=fit+to+a+curve": {
+        "fit.fixed": ("q_c", "tilt"), "fit.contact_point": 1e-9, "fit.baseline": 1e-8,
+        "fit.depth_noise": 1e-11, "fit.note": "fit to a curve",
+    },
+    # A hardness is that of class (b) at a radius.
+    "plasticity=hardness&hardness=2000000000.0&hardness_radius=5e-08": {"q_c": 100.0, "hardness": 2e9},
+    # A compliance of the frame and the logarithmic plot are gone.
+    "frame_compliance=1e-05&fixed=q_c+frame_compliance&tiles=loglog": {"fit.fixed": ("q_c",), "tiles": ()},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("query", LINKS)
+def test_links_of_version_0_6_are_read(query):
+    state = link.read(query)
+    assert {name: state[name] for name in LINKS[query]} == LINKS[query]
+    assert link.unknown(query) == []
 
 
 @pytest.mark.parametrize(
@@ -139,7 +148,7 @@ def test_links_of_earlier_versions_are_read():
     [
         "preset=none", "cone_slope=1e9", "shape=ball", "at=7", "shape=cone&shape=cone", "at=nan",
         "shape=sampled&samples=0,0 1", "q_c=" + 9000 * "1", "hold=a b c d e", "shape=sphere",
-        "fixed=everything", "drive=path&pattern=own&path=1e-8 2e-8",
+        "fixed=everything", "drive=path&pattern=own",
     ],
 )  # fmt: skip
 def test_a_hostile_link_is_refused(query):
@@ -168,15 +177,16 @@ def test_a_link_is_refused_for_what_is_wrong(query, says):
 def test_what_others_append_to_a_link_is_left_out_and_other_names_are_told():
     query = "utm_source=teams&max_depth=5e-09&fbclid=IwAR" + 9000 * "0" + "&utm_source=a&foo=1&hold=bar%3D2"
     state = link.read(query)
-    assert (state.max_depth, link.write(state.replace(hold=()))) == (5e-9, "max_depth=5e-09")
+    assert (state.max_depth, link.write(state.replace(**{"held.scenes": ()}))) == (5e-9, "max_depth=5e-09")
     assert link.unknown(query) == ["foo", "bar"]
-    appended = "UTM_SOURCE=a&mkt_tok=b&mibextid=c&si=d&vero_id=e&ref=f&FBCLID=g&references=all"
+    appended = "UTM_SOURCE=a&mkt_tok=b&mibextid=c&si=d&vero_id=e&ref=f&FBCLID=g"
     assert link.unknown(appended) == []
     assert link.read(appended) == preset_state()
     # Names that only begin like these, or like a number of the page, are told.
     assert link.unknown("size=1&refer=2&MAX_DEPTH=3") == ["size", "refer", "MAX_DEPTH"]
-    state = preset_state(DROP).replace(progress=0.5, tiles=("sweep",), dark=True, hold=("at=1",))
-    assert link.unknown(f"{link.write(state)}&tau=1&aim=speed&references=all&sweep_from=1") == []
+    state = preset_state(DROP).replace(progress=0.5, tiles=("sweep",), dark=True)
+    state = state.replace(**{"held.scenes": ("at=1",)})
+    assert link.unknown(link.write(state)) == []
 
 
 def test_a_measured_tip_is_taken_as_it_is_or_made_convex():
@@ -216,14 +226,14 @@ def test_a_noisy_tip_is_as_hard_as_the_one_that_is_nearest_to_it():
 def test_numbers_of_other_drives_are_neither_reported_nor_taken_away_nor_swept(drive):
     theirs = {"depth": {"max_depth"}, "force": {"max_force"}, "path": {"max_depth"}}
     theirs["impact"] = {"mass", "speed", "plastic_depth", "density"}
-    theirs["oblique"] = {"mass", "friction", "incoming_speed", "attack", "density"}
+    theirs["oblique"] = {"mass", "oblique.friction", "oblique.incoming_speed", "oblique.attack", "density"}
     state = state_with(OPENING, drive)
     assert set(used(state)) == {"cone_slope", "E_1", "nu_1", "E_2", "nu_2", "q_c"} | theirs[drive]
     taken = share.csv(view_of(state)) + link.write(state)
     for name in set().union(*theirs.values()) - theirs[drive]:
         assert f" {QUANTITIES[name].symbol} = " not in taken
         assert f"&{name}=" not in taken
-        assert drive in ("oblique", "path") or name not in changes.options(state, "swept")
+        assert drive in ("oblique", "path") or name not in changes.options(state, "sweep.swept")
 
 
 def test_the_csv_has_the_scene_and_its_states():

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from app import changes
-from app.plots import sweep
-from app.solve import follow
+from app import changes, link
+from app.drives import follow
+from app.extras import sweep
 from app.state import OPENING, medium, profile
 
 from .conftest import DROP, PUNCH
@@ -13,7 +13,7 @@ from .states import linked_state, state_with
 
 
 def swept(state, **choices):
-    state = state.replace(**choices)
+    state = state.replace(**{link.FORMER.get(name, name): value for name, value in choices.items()})
     asked = sweep.asked(state)
     return state, asked, sweep.found(follow(state), asked)
 
@@ -23,13 +23,13 @@ def one(state, name, value, quantity):
     if name == "energy":
         name, value = "speed", (2 * value / state.mass) ** 0.5
     course = follow(linked_state(state.replace(**{name: float(value)})))
-    return float(getattr(course.hit or course.turning_point, quantity))
+    return float(getattr(getattr(course, "hit", course.turning_point), quantity))
 
 
 @pytest.mark.parametrize("drive", ["impact", "depth", "force"])
 def test_every_number_is_swept_as_one_scene_at_a_time(drive):
     state = state_with(OPENING, drive)
-    for name in changes.options(state, "swept"):
+    for name in changes.options(state, "sweep.swept"):
         state, asked, found = swept(state, swept=name, against="plastic_work")
         numbers, values = found.rows["this scene"]
         # What is 0 has no place on a logarithmic axis.
@@ -53,8 +53,8 @@ def test_a_viscous_impact_is_swept_over_its_relaxation_time_at_rest():
     # The limit of fast impacts is without viscosity.
     assert sweep.FAST not in found.rows
     state = changes.choose(state, "damping", "none")
-    assert "eta" not in changes.options(state, "swept")
-    assert changes.option(state, "swept") == "energy"
+    assert "eta" not in changes.options(state, "sweep.swept")
+    assert changes.option(state, "sweep.swept") == "energy"
 
 
 @pytest.mark.parametrize(("shape", "power"), [("cone", 1.0), ("paraboloid", 2 / 3)])

@@ -7,7 +7,7 @@ import pytest
 from app import changes
 from app.page import Page
 from app.state import preset_state
-from app.state.units import UNITS, read
+from app.units import UNITS, read
 
 from .conftest import DROP, Explorer
 
@@ -102,7 +102,7 @@ def sent(number, text):
 
 def test_a_field_shows_the_unit_of_a_bare_number_also_where_the_number_stays():
     page = Page()
-    (depth,) = page.controls.numbers["drive"]
+    (depth,) = page.form.numbers["drive"]
     assert sent(depth, "20 nm") == ("20 nm", "")
     assert sent(depth, "0.02 µm") == ("0.02 µm", "")
     assert sent(depth, "0.03") == ("0.03 µm", "")
@@ -114,8 +114,8 @@ def test_a_field_shows_the_unit_of_a_bare_number_also_where_the_number_stays():
 
 def test_a_refusal_stays_while_an_earlier_number_is_solved_and_another_is_typed():
     page = Page(f"preset={DROP}")
-    (speed,) = [each for each in page.controls.numbers["drive"] if each.key == "speed"]
-    modulus, _ = page.controls.numbers["medium"]
+    (speed,) = [each for each in page.form.numbers["drive"] if each.key == "speed"]
+    modulus, _ = page.form.numbers["medium"]
     sent(speed, "6 m/s")
     text, refused = sent(modulus, "abc")
     assert "“abc” is not a number" in refused
@@ -133,7 +133,7 @@ def test_a_refusal_stays_while_an_earlier_number_is_solved_and_another_is_typed(
 
 def test_a_refusal_is_left_behind_with_its_number():
     page = Page()
-    (depth,) = page.controls.numbers["drive"]
+    (depth,) = page.form.numbers["drive"]
     assert sent(depth, "abc")[1] != ""
     page.apply_or_raise(lambda state: changes.put(state, "max_depth", 2e-8))
     assert (depth.text, depth.refused) == ("20 nm", "")
@@ -142,7 +142,7 @@ def test_a_refusal_is_left_behind_with_its_number():
 @pytest.mark.parametrize("shown", UNITS["length"])
 def test_an_angstrom_is_shown_as_such_in_any_field(shown):
     page = Page()
-    (depth,) = page.controls.numbers["drive"]
+    (depth,) = page.form.numbers["drive"]
     sent(depth, f"{preset_state().max_depth / shown.factor!r} {shown.name}")
     assert sent(depth, "9 Å") == ("9 Å", "")
     assert page.state.max_depth == 9e-10

@@ -1,4 +1,6 @@
-"""Many people at the served page at once: server time of a move, memory of a session, what stays behind.
+"""Many people at the served page at once: opening, server time of a move, memory, what stays behind.
+
+Opening is page, websocket and document, beside a plain page of Panel's that is served by the same process.
 
 Run from the project root: python -m tests.benchmarks.page_sessions
 """
@@ -23,6 +25,10 @@ PATIENCE = 180.0
 SESSIONS, RATE, SECONDS, ENOUGH = (8, 16, 24, 32, 40, 48), 2.0, 10.0, 200.0
 #: Sessions opened and closed before memory is looked at.
 OPENED = (15, 100)
+#: How long a session without its page is kept, as the explorer's page says.
+LIFETIME = ("--check-unused-sessions", "15000", "--unused-session-lifetime", "600000")
+#: Openings of each page one after the other, people who open the page at once, and figures of a whole page.
+ALONE, CLASS, FIGURES = 10, 60, 3
 
 
 def objects(part):
@@ -41,15 +47,17 @@ def dig(part, *keys):
     return part
 
 
-class Client:
-    """A person's browser as far as the server sees it."""
+class Visitor:
+    """A person's browser as far as the server sees it, until the page is there."""
 
     async def open(self, url):
-        """Load the page and connect."""
-        page = (await AsyncHTTPClient().fetch(url, request_timeout=PATIENCE)).body.decode()
+        """Load the page, connect, and wait until all its figures are in the document."""
+        patience = {"connect_timeout": PATIENCE, "request_timeout": PATIENCE}
+        page = (await AsyncHTTPClient().fetch(url, **patience)).body.decode()
         token = re.search(r'"token":"([^"]+)"', page)[1]
         address = url.replace("http", "ws", 1) + "/ws"
-        request = HTTPRequest(address, headers={"Sec-WebSocket-Protocol": f"bokeh, {token}"})
+        told = {"Sec-WebSocket-Protocol": f"bokeh, {token}"}
+        request = HTTPRequest(address, headers=told, **patience)
         self.socket = await websocket_connect(request, max_message_size=10**8)
         # As browsers do: each part of a message at once.
         self.socket.protocol.stream.set_nodelay(True)
@@ -59,16 +67,14 @@ class Client:
         kind = None
         while kind != "PULL-DOC-REPLY":
             kind, content = await self._message()
-        # The control of the largest depth, by what it is called.
-        self.control = next(
-            each["id"]
-            for each in objects(json.loads(content))
-            if dig(each, "attributes", "data", "attributes", "spoken") == "d_max, largest depth"
-        )
-        self.count = 0
+        self.document = json.loads(content)
         # As a browser does: before this Panel holds back what a callback changes.
         event = {"type": "event", "name": "document_ready", "values": {"type": "map", "entries": []}}
         await self._event("ready", event)
+        count = figures(content)
+        while count < FIGURES:
+            _, content = await self._message()
+            count += figures(content)
         return self
 
     async def _send(self, kind, name, content):
@@ -87,6 +93,22 @@ class Client:
         for _ in range(2 * header.get("num_buffers", 0)):
             await self.socket.read_message()
         return header["msgtype"], content
+
+
+class Client(Visitor):
+    """A person at work."""
+
+    async def open(self, url):
+        """Load the page and connect."""
+        await super().open(url)
+        # The control of the largest depth, by what it is called.
+        self.control = next(
+            each["id"]
+            for each in objects(self.document)
+            if dig(each, "attributes", "data", "attributes", "spoken") == "d_max, largest depth"
+        )
+        self.count = 0
+        return self
 
     async def move(self, n):
         """Move a slider; seconds until the server has answered with a new picture."""
@@ -112,6 +134,11 @@ class Client:
             times.append(await self.move(n))
             await asyncio.sleep(max(begin + n / RATE - time.perf_counter(), 0))
         return times
+
+
+def figures(content):
+    """How many figures there are in a document or a change of it, as they were sent."""
+    return content.replace(" ", "").count('"name":"Figure"')
 
 
 def resident(pid):
@@ -182,7 +209,63 @@ def left_behind():
         server.stop()
 
 
+async def alone(url, pid):
+    """Processor time (ms) of one opening of a page: the median of some, one after the other."""
+    spent = []
+    for _ in range(ALONE):
+        begin = computed(pid)
+        visitor = await Visitor().open(url)
+        # What the server does once the input rests.
+        await asyncio.sleep(0.6)
+        visitor.socket.close()
+        spent.append(computed(pid) - begin)
+    return statistics.median(spent)
+
+
+async def at_the_same_time(url):
+    """Seconds until each of a class that opens the page at once has it."""
+
+    async def visit():
+        begin = time.perf_counter()
+        visitor = await Visitor().open(url)
+        return time.perf_counter() - begin, visitor
+
+    found = await asyncio.gather(*(visit() for _ in range(CLASS)))
+    for _, visitor in found:
+        visitor.socket.close()
+    return [seconds for seconds, _ in found]
+
+
+def openings():
+    """The cost of opening the page, beside that of a plain one, and how long a class waits for it."""
+    server = Server("tests/benchmarks/plain_page.py", *LIFETIME)
+    try:
+        url, pid = server.url.rpartition("/")[0], server.process.pid
+        asyncio.run(asyncio.wait_for(come_and_go(f"{url}/app", 2), 300))
+        costs = {name: asyncio.run(alone(f"{url}/{name}", pid)) for name in ("app", "plain_page")}
+        own, plain = costs["app"], costs["plain_page"]
+        print(
+            f"one opening: {own:.0f} ms of computing, of a plain page {plain:.0f} ms: "
+            f"{own / plain:.2f} times; load of the machine {os.getloadavg()[0]:.1f}",
+            flush=True,
+        )
+        begin = computed(pid)
+        last = max(asyncio.run(asyncio.wait_for(at_the_same_time(f"{url}/app"), 1200)))
+        spent = computed(pid) - begin
+        print(
+            f"{CLASS} at once: the last one has the page after {last:.1f} s, "
+            f"{1000 * last / (CLASS * own):.2f} times {CLASS} openings; "
+            f"{spent / CLASS:.0f} ms of computing each",
+            flush=True,
+        )
+    finally:
+        server.stop()
+
+
 def main():
+    # All of a class are on their way at the same time.
+    AsyncHTTPClient.configure(None, max_clients=CLASS)
+    openings()
     # More and more, until they wait.
     next((count for count in SESSIONS if at_once(count) > ENOUGH), None)
     left_behind()

@@ -1,0 +1,155 @@
+"""The board on the right: plots in frames with title, formula and legend; their tabs, and the player."""
+
+from collections.abc import Callable
+from functools import partial
+
+import panel as pn
+import param
+from bokeh.events import Pan, PanEnd, PanStart
+from bokeh.models import CustomJS
+
+from .buttons import Bar, Button
+from .draw import Picture, drawn, legend
+from .fields import Choices
+from .player import Player
+from .plot import Plot, View, rows_of
+from .plots import NAMED, PLOTS, visible
+from .ui import FULL, JS, WIDE, html, linked, show
+
+#: Plots that share the axis x of another one.
+_SAME_X = {"pressure": "springs"}
+
+
+class Head(Bar):
+    """What is above a plot: title, formula, buttons, legend; what a saved picture has beside the plot."""
+
+    formula, legend, figure, title, scene = (param.String() for _ in range(5))
+    rows = param.List()
+
+    _esm = JS["save"] + JS["buttons"].replace("export function render", "function unused") + JS["head"]
+
+
+class Card:
+    """A plot in its frame: title, formula, legend, controls above and a note below."""
+
+    def __init__(self, plot: Plot, choices: Choices, apply: Callable[..., None]):
+        self.plot, self.picture, self._rows, self._apply = plot, Picture(plot), None, apply
+        self.log = Button("Log", self._scale, pressed=False)
+        self.large = Button("Large", self._enlarge, pressed=False)
+        rows = [row.name for row in rows_of(plot) if row.legend]
+        named = {"figure": plot.name, "title": plot.title, "rows": rows}
+        logs = [self.log] * plot.logs
+        self.head = Head(*logs, Button("Save", lambda: None), self.large, **named)
+        self.note = html("", "note", "found")
+        parts = [self.head, pn.pane.Bokeh(self.picture.figure, **FULL)]
+        if plot.controls:
+            parts.insert(1, pn.Row(*map(choices.row, plot.controls), css_classes=["above"], **WIDE))
+        if plot.find:
+            parts.append(self.note)
+        self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
+
+    def _scale(self) -> None:
+        """Make the axes logarithmic, or linear again."""
+
+        def change(state):
+            others = tuple(name for name in state.log if name != self.plot.name)
+            return state.replace(log=others if len(others) < len(state.log) else (*others, self.plot.name))
+
+        self._apply(change)
+
+    def _enlarge(self) -> None:
+        large = not self.large.pressed
+        self.view.css_classes = ["card", self.plot.name, *["large"] * large]
+        self.large.show(pressed=large, label="Small" if large else "Large")
+
+    def show(self, columns: dict, view: View) -> None:
+        """Draw columns made for a view, with the texts around them."""
+        plot, course = self.plot, view.course
+        self.picture.show(columns, view, view.state.dark)
+        show(self.head, formula=f"<h3>{plot.title}</h3>{linked(plot.formula_of(course))}")
+        rows = drawn(view, plot, {course.now, course.peak})
+        if rows != self._rows:
+            self._rows = rows
+            show(self.head, legend=legend(plot, rows))
+        self.log.show(pressed=plot.name in view.state.log)
+        if plot.name in view.found:
+            show(self.note, object=view.found[plot.name].note)
+
+
+class Board:
+    """All plots of a session: a card is made when it is seen for the first time, and stays."""
+
+    def __init__(self, choices: Choices, apply: Callable[..., None]):
+        self._choices, self._apply, self.cards = choices, apply, {}
+        self.names: list[str] = []
+        self.tabs = {
+            name: Button(plot.tab, partial(self._asked, name), pressed=False)
+            for name, plot in PLOTS.items()
+            if plot.tab
+        }
+        self.tab_row = Bar(*self.tabs.values(), classes=("tabs",))
+        self.grid = pn.Column(css_classes=["plots"], **FULL)
+        figures = {name: self._make(name) for name in NAMED}
+        self.player = Player(list(figures.values()))
+        #: Figures that are dragged.
+        self.dragged = [figures["springs"], figures["force"]]
+
+    def connect(self) -> None:
+        """Let the browser drag and play: once the page is there, so that building it does not wait."""
+        self.player.connect()
+        told = {"hand": self.player.hand, **self.player.parts}
+        for figure in self.dragged:
+            code = CustomJS(args=told | {"figure": figure}, code=JS["drag"])
+            for event in (PanStart, Pan, PanEnd):
+                figure.js_on_event(event, code)
+
+    def _make(self, name):
+        card = self.cards[name] = Card(PLOTS[name], self._choices, self._apply)
+        figure = card.picture.figure
+        if name in _SAME_X:
+            figure.x_range = self.cards[_SAME_X[name]].picture.figure.x_range
+        self.grid.append(card.view)
+        return figure
+
+    def _asked(self, name: str) -> None:
+        """Show an optional plot alone, or no longer."""
+
+        def change(state):
+            others = tuple(tile for tile in state.tiles if tile != name)
+            return state.replace(tiles=others if name in state.tiles else (name,))
+
+        self._apply(change)
+
+    def columns(self, view: View) -> dict[str, dict]:
+        """Columns of all plots that are seen, by their names; nothing on the page is changed."""
+        names = [plot.name for plot in visible(view)]
+        for name in names:
+            if name not in self.cards:
+                self._make(name)
+        now, dark = view.course.now, view.state.dark
+        return {name: self.cards[name].picture.columns(view, now, dark) for name in names}
+
+    def show(self, columns: dict[str, dict], view: View) -> None:
+        """Draw columns made for a view, on the plots that they are of."""
+        self.names = list(columns)
+        for name, data in columns.items():
+            self.cards[name].show(data, view)
+        for name, card in self.cards.items():
+            show(card.view, visible=name in columns)
+        count = len(columns) - len(NAMED)
+        show(self.grid, css_classes=["plots", f"with-{min(count, 2)}"])
+
+    def show_tabs(self, view: View) -> None:
+        """Show the tabs of plots that apply to a view."""
+        for name, tab in self.tabs.items():
+            applies = PLOTS[name].applies(view)
+            tab.show(visible=applies, pressed=applies and name in view.state.tiles)
+
+    def say_scene(self, text: str) -> None:
+        """What stands below a picture that is saved."""
+        for card in self.cards.values():
+            show(card.head, scene=text)
+
+    def pictures(self) -> list[Picture]:
+        """The pictures that are seen."""
+        return [self.cards[name].picture for name in self.names]

@@ -1,0 +1,277 @@
+"""Courses of scenes: their states along a path, with what a drive adds to them."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+
+import mdr_core as mdr
+from mdr_core.contact import adhesion
+from mdr_core.contact.live_interval import LiveInterval
+
+#: States of unloading at which a loop with adhesion is evaluated: its area is good to three digits.
+_LOOP = 80
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Course:
+    """States of a scene along its path; every array has one value (SI) for each state.
+
+    `states` are an `mdr.Indentation`, or have the same quantities; `states[i]` is one state. `progress` is
+    0 at first contact, 1 at the largest depth, 2 at loss of contact and 2.2 with the indenter at the
+    undeformed surface. `now` and `peak` are the indices of the present state and of the largest depth.
+    `pending` describes the approximation used until the exact solution. `drive` is the key of the drive.
+    """
+
+    scene: mdr.Scene
+    progress: Any
+    states: Any
+    now: int
+    peak: int
+    pending: str = ""
+    drive: str = ""
+
+    #: Whether the indenter can be pressed to another depth by hand, and whether the path may reverse
+    #: several times.
+    pressed: ClassVar[bool] = True
+    turns: ClassVar[bool] = False
+    #: Whether elements have separate memories, which one live interval does not describe.
+    chained: ClassVar[bool] = False
+    #: Whether dashpots carry load along this path, and what else the law of the springs has.
+    dashpots: ClassVar[bool] = False
+    more_law: ClassVar[str] = ""
+    #: Plastic depth (m) of an earlier imprint.
+    initial_plastic_depth: ClassVar[float] = 0.0
+
+    def __len__(self) -> int:
+        return len(self.progress)
+
+    @property
+    def state(self) -> Any:
+        return self.states[self.now]
+
+    @cached_property
+    def turning_point(self) -> Any:
+        return self.states[self.peak]
+
+    @property
+    def times(self) -> Any:
+        """When each state is played, from 0 to 1."""
+        return np.linspace(0, 1, len(self))
+
+    @property
+    def notes(self) -> list[str]:
+        """Sentences about the course."""
+        return []
+
+    def limits(self, density: float) -> list[Any]:
+        """Assumptions of the model, for a medium of some density (kg/m³)."""
+        return list(self.states.limits)
+
+    @property
+    def adhesive(self) -> bool:
+        return self.scene.medium.work_of_adhesion > 0
+
+    @property
+    def pull_off_force(self) -> Any:
+        return self.states.pull_off_force if self.adhesive else None
+
+    @property
+    def plastic_work(self) -> Any:
+        """Work (J) of yield; of an impact without earlier ones."""
+        return self.states.plastic_work
+
+    @property
+    def stored_energy(self) -> Any:
+        """Energy (J) of all springs, including released elements."""
+        return self.states.stored_energy
+
+    def relaxing(self, i: int, g: Any) -> Any:
+        """Remaining elastic compression (m) of released elements at heights g (m), in state i."""
+        return 0.0
+
+    @cached_property
+    def onset(self) -> mdr.Indentation | None:
+        """State at which yield begins, or goes on below an earlier imprint; None if it is not reached."""
+        profile, medium = self.scene.profile, self.scene.medium
+        depth = self.initial_plastic_depth + medium.critical_depth
+        return mdr.indent(profile, medium, depth) if depth <= min(profile.known_depth, 1e300) else None
+
+    @property
+    def relative_depth(self) -> Any:
+        critical = self.scene.medium.critical_depth
+        return self.states.depth / critical if critical < np.inf else None
+
+    def unloading_curve(self, index: int) -> tuple[Any, Any]:
+        """Depths (m) and forces (N) of elastic unloading; the area below is the stored energy.
+
+        With adhesion it is less by what separates the surfaces up to the pull-off.
+        Elements held back by dashpots are compressed further than their load indicates.
+        """
+        live, depth = self.states.live_interval[index], float(self.states.depth[index])
+        touching = self.states.contact_radius[index] > 0
+        states = unloaded(self.scene, live, np.linspace(1, 0, 25), touching)
+        d, force = states.depth, states.force
+        if live.length > 0 and depth > live.upper * (1 + 1e-9):
+            stiff = 2 * self.scene.medium.E_star * self.states.contact_radius[index]
+            d, force = np.append(depth, d), np.append(force[0] + stiff * (depth - d[0]), force)
+        return d, force
+
+    def adhesive_loop(self, index: int) -> tuple[Any, Any, Any]:
+        """Depths (m), ascending, and forces (N) of loading and of unloading at each of them.
+
+        Loading is to a state, or to the largest depth if that is before it, and unloading to the pull-off.
+        The depths are the same, so that the forces differ only where the curves do; they end there.
+        """
+        return self._largest_loop if index >= self.peak else self._loop(index)
+
+    @cached_property
+    def _largest_loop(self):
+        return self._loop(self.peak)
+
+    def _loop(self, turn):
+        states = self.states
+        # Below first contact the path is a small part of a deep one.
+        whole, below = (
+            unloaded(self.scene, states.live_interval[start], np.linspace(1, 0, _LOOP), True)
+            for start in (turn, 0)
+        )
+        largest, end = states.depth[turn], whole.depth[-1]
+        # The force jumps at first contact and at the pull-off.
+        step = 1e-9 * states.depth[self.peak]
+        even = largest * np.linspace(0, 1, _LOOP)
+        d = np.concatenate([states.depth[: turn + 1], even, whole.depth, below.depth])
+        d = np.concatenate([d[(d > end + step) | (d >= 0)], [-step, end, end - step]])
+        d = np.unique(np.minimum(d, largest))
+        bodies = self.scene.profile, self.scene.medium
+        loading = mdr.indent(*bodies, d).force
+        unloading = mdr.indent(*bodies, np.append(largest, d[::-1])).force[:0:-1]
+        unloading = np.where(d > end, unloading, np.where(d == end, whole.force[-1], 0.0))
+        # Both are found to about 10⁻¹².
+        unloading = np.where(np.isclose(loading, unloading, rtol=1e-9, atol=0), loading, unloading)
+        apart = slice(np.max(np.flatnonzero(loading != unloading), initial=0) + 2)
+        return d[apart], loading[apart], unloading[apart]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Timed(Course):
+    """A course with times: `motion` has its energies."""
+
+    motion: mdr.Motion
+    pressed: ClassVar[bool] = False
+
+    @property
+    def ledger(self) -> Any:
+        """Motion with all energies."""
+        return self.motion
+
+    @property
+    def times(self) -> Any:
+        time = self.motion.time
+        return (time - time[0]) / np.ptp(time)
+
+    @property
+    def dashpots(self) -> bool:
+        return self.scene.medium.eta > 0
+
+    @property
+    def plastic_work(self) -> Any:
+        return self.motion.plastic_work
+
+    @property
+    def viscous_work(self) -> Any:
+        """Work (J) of dashpots, None without."""
+        return self.ledger.viscous_work if self.dashpots else None
+
+    @property
+    def stored_energy(self) -> Any:
+        return self.ledger.stored_energy
+
+    @property
+    def energies(self) -> dict[str, Any]:
+        """Losses (J) so far, stored and kinetic energy, by the names of their areas."""
+        m = self.ledger
+        return {
+            "plastic": m.plastic_work,
+            "viscous": m.viscous_work,
+            "stored": m.stored_energy,
+            "kinetic": m.kinetic_energy,
+        }
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Hit(Course):
+    """A course of an impact; with adhesion its states are those of slow unloading, without times."""
+
+    hit: mdr.Impact
+    pressed: ClassVar[bool] = False
+
+    @property
+    def initial_plastic_depth(self) -> float:
+        return getattr(self.scene.drive, "plastic_depth", 0.0)
+
+    @property
+    def notes(self) -> list[str]:
+        if not self.hit.captured:
+            return []
+        return ["Adhesion holds the body: e = 0. Unloading is drawn as if it were pulled off."]
+
+    def limits(self, density: float) -> list[Any]:
+        return [*self.hit.limits, self.hit.speed_limit(density)]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class HitInTime(Hit, Timed):
+    """A course of an impact with its motion."""
+
+    @property
+    def kinetic_energy(self) -> Any:
+        return self.ledger.kinetic_energy
+
+    def relaxing(self, i: int, g: Any) -> Any:
+        tau = self.scene.medium.relaxation_time
+        if tau == 0 or i <= self.peak:
+            return 0.0
+        past = slice(self.peak, i + 1)
+        upper = self.states.live_interval.upper[past]
+        time = self.motion.time[past]
+        ahead = self.states.depth[past] - upper
+        released = np.minimum(np.searchsorted(-upper, -g), len(upper) - 1)
+        left = ahead[released] * np.exp((time[released] - time[-1]) / tau)
+        return np.where(g >= upper[-1], left, 0.0)
+
+
+def unloaded(scene: mdr.Scene, live: LiveInterval, share: Any, touching: Any) -> mdr.Indentation:
+    """States on unloading from live intervals, at shares (1 to 0) of the distance to the pull-off."""
+    profile, medium, end = scene.profile, scene.medium, 0.0
+    if medium.work_of_adhesion > 0:
+        # Weak adhesion is seen only just before the pull-off.
+        share = share**3
+        held = adhesion.AT_FORCE if isinstance(scene.drive, mdr.ForcePath) else adhesion.AT_DEPTH
+        low = adhesion.stable_ranges(profile, medium, held)[0][0]
+        end = adhesion.last_interval(live.lower, low).length
+    length = np.where(touching, end + share * (live.length - end), 0.0)
+    interval = LiveInterval(*np.broadcast_arrays(live.lower, live.lower + length, length))
+    stretched = np.where(touching, adhesion.stretch(medium, profile.contact_radius(interval.upper)), 0.0)
+    load = -medium.E_star * stretched
+    return mdr.Indentation(profile, medium, interval.upper - stretched, interval, load)
+
+
+def nearest(progress: Any, at: float) -> int:
+    """Index of the state nearest to a progress."""
+    return int(np.argmin(np.abs(progress - at)))
+
+
+def rounded(progress: Any) -> Any:
+    """Progress rounded to six digits, the precision of links."""
+    return np.array([float(f"{p:.6g}") for p in progress])
+
+
+def path_progress(along: Any, peak: int) -> Any:
+    """Progress of places along a path: 1 at the index `peak`, 2 at the end."""
+    share = (along - along[0]) / ((along[-1] - along[0]) or 1.0)
+    turn = share[peak]
+    progress = np.where(share <= turn, share / (turn or 1.0), 1 + (share - turn) / ((1 - turn) or 1.0))
+    progress[peak] = 1.0
+    return rounded(progress)

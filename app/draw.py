@@ -1,0 +1,268 @@
+"""Plots as Bokeh figures: one source for the rows of a kind, drawn by `source.data = …`; frames."""
+
+from itertools import chain
+from math import floor, log10
+from typing import Any
+
+import bokeh.models as bk
+import numpy as np
+from bokeh.plotting import figure
+
+from mdr_core.results.figures import DASHES, NOTHING, ROLES, Axis, Row
+
+from .plot import Plot, View, rows_of
+from .ui import JS
+
+FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
+#: Rows that are drawn together, from the back to the front.
+_GROUPS = ("areas", "lines", "lines right", "marks", "marks right", "labels")
+#: Glyphs of each kind of row, and the columns of their source.
+_LINE = {"line_color": "color", "line_width": "width", "line_dash": "dash"}
+_MARK = {"fill_color": "color", "line_color": "edge", "marker": "marker", "size": "size", "line_width": 1.6}
+_TEXT = {"text_font_size": "12px", "text_font_style": "italic", "text_baseline": "top"}
+_GROUND = {"text_color": "color", "background_fill_color": "ground", "background_fill_alpha": 0.8}
+_GLYPHS: dict[str, tuple[Any, dict[str, Any]]] = {
+    "areas": (bk.Patches, {"xs": "xs", "ys": "ys", "fill_color": "color", "fill_alpha": "alpha"}),
+    "lines": (bk.MultiLine, {"xs": "xs", "ys": "ys"} | _LINE),
+    "marks": (bk.Scatter, {"x": "x", "y": "y"} | _MARK),
+    "labels": (bk.Text, {"x": "x", "y": "y", "text": "text"} | _TEXT | _GROUND),
+}
+_HATCH = {"hatch_pattern": "hatch", "hatch_color": "color", "hatch_alpha": 0.35}
+_PLACES = ("xs", "ys", "x", "y", "text")
+#: What the pointer is told: the point of the curve that is nearest.
+_TIP = "<b>@row</b><br>@symbol = $snap_y{{%.4g}} {y.unit}<br>{symbol} = $snap_x{{%.4g}} {x.unit}"
+
+
+class Layer:
+    """Rows of a plot that share a source."""
+
+    def __init__(self, plot: Plot, group: str, shared: dict[str, Any]):
+        self.kind, _, right = group.partition(" ")
+        self.name, self.right, self.connected = group, bool(right), self.kind in ("areas", "lines")
+        self.rows = [row for row in rows_of(plot) if row.group == group]
+        places = [name for name in _GLYPHS[self.kind][1] if name in _PLACES]
+        empty = {name: [] for name in (*self._look(self.rows, False), *places)}
+        self.source = bk.ColumnDataSource(empty, name=f"{plot.name} {group}", **shared)
+        # Columns come from the server, or from the frames it has sent: never the other way.
+        self.source.syncable = False
+
+    def _look(self, rows: list[Row], dark: bool) -> dict[str, list]:
+        """Columns of the look of rows."""
+        found = {"row": [row.name for row in rows], "color": [ROLES[row.role][dark] for row in rows]}
+        if self.kind == "labels":
+            return found | {"ground": [ROLES["paper"][dark]] * len(rows)}
+        found |= {key: [row.look[key] for row in rows] for key in self.rows[0].look}
+        if self.kind == "lines":
+            found["dash"] = [DASHES[dash] for dash in found["dash"]]
+            found["symbol"] = [row.symbol or row.name for row in rows]
+        elif self.kind == "marks":
+            found["edge"] = [ROLES[edge][dark] for edge in found["edge"]]
+        return found
+
+    def columns(self, rows: dict, axes: list[Axis], dark: bool) -> dict[str, list]:
+        """Columns of the source: look, and places in the units of the axes."""
+        x_axis, y_axis = axes[0], axes[2] if self.right else axes[1]
+        parts = [rows[row.name] for row in self.rows]
+        if x_axis.log:
+            parts = [
+                _positive(row, x_axis, y_axis, *part) for row, part in zip(self.rows, parts, strict=True)
+            ]
+        if self.connected:
+            pairs = zip(self.rows, parts, strict=True)
+            parts = [_inside(row, x_axis, y_axis, *part[:2]) for row, part in pairs]
+        xs, ys = ([_short(part[k], axis) for part in parts] for k, axis in ((0, x_axis), (1, y_axis)))
+        if self.connected:
+            return self._look(self.rows, dark) | {"xs": xs, "ys": ys}
+        points = [row for row, x in zip(self.rows, xs, strict=True) for _ in x]
+        found = self._look(points, dark) | {"x": [*chain(*xs)], "y": [*chain(*ys)]}
+        return found | {"text": [part[2] for part in parts]} if self.kind == "labels" else found
+
+    def draw(self, figure: Any, level: str) -> Any:
+        """Renderer of the rows on a figure."""
+        kind, look = _GLYPHS[self.kind]
+        if self.kind == "areas":
+            look = look | {"line_color": None}
+            look |= _HATCH if any(row.look["hatch"] != " " for row in self.rows) else {}
+        only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
+        only["y_range_name"] = "right" if self.right else "default"
+        # Level: above the axes, on a canvas of its own, so that they are not painted again with the data.
+        return figure.add_glyph(self.source, kind(**look), name=self.name, level=level, **only)
+
+
+def _short(values: Any, axis: Axis) -> list[float]:
+    """Values in the unit of an axis, as list, on a linear one to a fraction of a pixel."""
+    values = np.atleast_1d(np.asarray(values, float)) / axis.factor
+    if axis.log:
+        return values.tolist()
+    size = max(abs(axis.start), abs(axis.end)) / axis.factor or 1.0
+    return np.round(values, 4 - floor(log10(size))).tolist()
+
+
+def _positive(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, ...]:
+    """Lines and marks within logarithmic axes; areas and labels have no place there."""
+    if row.kind in ("areas", "labels"):
+        return *NOTHING, ""
+    inside = (np.asarray(parts[0]) >= x.start) & (np.asarray(parts[1]) >= y.start)
+    return tuple(np.where(inside, part, np.nan) for part in parts[:2])
+
+
+def _inside(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, Any]:
+    """A line or area as far as it is within its axes, for a canvas that does not clip."""
+    for k, sign, bound in ((1, 1, y.end), (0, 1, x.end), (0, -1, -x.start)):
+        outside = sign * parts[k] > bound + 1e-9 * abs(bound)
+        if not outside.any():
+            continue
+        at = np.flatnonzero(outside[:-1] != outside[1:])
+        share = (sign * bound - parts[k][at]) / (parts[k][at + 1] - parts[k][at])
+        parts = [np.insert(part, at + 1, part[at] + share * (part[at + 1] - part[at])) for part in parts]
+        cut = sign * bound if row.kind == "areas" else np.nan
+        parts[k] = np.where(np.insert(outside, at + 1, False), cut, parts[k])
+    return parts[0], parts[1]
+
+
+class Picture:
+    """One plot as a figure; `level` is where its data are painted, `size` that of one that is printed."""
+
+    def __init__(self, plot: Plot, level: str = "overlay", size: tuple[int, int] | None = None):
+        self.plot, self.axes, self.drawn = plot, None, None
+        ranges = {"x_range": bk.Range1d(0.1, 1), "y_range": bk.Range1d(0.1, 1)}
+        self.figure = figure(name=plot.name, tools="", toolbar_location=None, **ranges)
+        # Nothing is selected: the sources of a figure share what Bokeh has for it.
+        shared = {"selected": bk.Selection(), "selection_policy": bk.UnionRenderers()}
+        groups = [group for group in _GROUPS if any(row.group == group for row in rows_of(plot))]
+        self.layers = [Layer(plot, group, shared) for group in groups]
+        self.hovers: list[tuple[Any, bool]] = []
+        if any(layer.right for layer in self.layers):
+            self.figure.extra_y_ranges = {"right": bk.Range1d(0, 1)}
+            self.figure.add_layout(bk.LinearAxis(y_range_name="right"), "right")
+        self.image = self._image() if plot.image else None
+        for layer in self.layers:
+            renderer = layer.draw(self.figure, level)
+            if layer.kind == "lines" and any(row.symbol for row in layer.rows):
+                told = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
+                hover = bk.HoverTool(renderers=[renderer], line_policy="nearest", visible=False, **told)
+                self.figure.add_tools(hover)
+                self.hovers.append((hover, layer.right))
+        self._dress(size)
+
+    def _image(self):
+        empty = {name: [] for name in ("image", "x", "y", "dw", "dh")}
+        source = bk.ColumnDataSource(empty, name=f"{self.plot.name} image")
+        source.syncable = False
+        mapper = bk.LinearColorMapper(palette="Cividis256", low=0, high=1)
+        glyph = self.figure.image("image", "x", "y", "dw", "dh", source=source, color_mapper=mapper)
+        glyph.name, self.bar = "image", glyph.construct_color_bar(padding=2, width=12)
+        self.bar.update(background_fill_color=None, bar_line_color=None)
+        self.figure.add_layout(self.bar, "right")
+        return source
+
+    def _dress(self, size):
+        f = self.figure
+        f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None, title=None)
+        # The outermost pixels of a canvas keep a trace of the colour before the last one.
+        f.styles = {"clip-path": "inset(1px)"}
+        f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
+        if size:
+            f.update(sizing_mode="fixed", width=size[0], height=size[1], output_backend="svg")
+        else:
+            f.update(sizing_mode="stretch_both", min_height=150)
+        painted = bk.CustomJS(args={"figure": f}, code=JS["label"])
+        for axis in f.axis:
+            axis.js_on_change("axis_label", painted)
+            axis.update(minor_tick_line_color=None, major_tick_in=0, axis_label_text_font_style="normal")
+            axis.update(axis_label_text_font=FONT, axis_label_text_font_size="12px")
+            axis.update(major_label_text_font=FONT, major_label_text_font_size="11px")
+
+    def columns(self, view: View, i: int, dark: bool) -> dict[Any, dict[str, list]]:
+        """What each source has in state i."""
+        axes, rows = view.axes_of(self.plot), view.rows(self.plot, i)
+        if not axes:
+            return {}
+        found = {layer.source: layer.columns(rows, axes, dark) for layer in self.layers}
+        if self.image is not None:
+            (left, right), (low, high) = (rows["image"][k] / axes[k].factor for k in (0, 1))
+            corner = {"x": [left], "y": [low], "dw": [right - left], "dh": [high - low]}
+            found[self.image] = corner | {"image": [np.float32(rows["image"][2] / axes[2].factor)]}
+        return found
+
+    def frame(self, view: View, i: int) -> dict[Any, dict[str, list]]:
+        """Places of what moves in state i; the rest of its columns is as it is drawn."""
+        axes, rows = view.axes_of(self.plot), view.rows(self.plot, i)
+        moving = view.moving(self.plot, view.course.now).keys()
+        found = {}
+        for layer in self.layers:
+            if any(row.name in moving for row in layer.rows):
+                columns = layer.columns(rows, axes, False)
+                found[layer.source] = {name: columns[name] for name in _PLACES if name in columns}
+        return found
+
+    def show(self, columns: dict, view: View, dark: bool) -> None:
+        """Draw columns that were made for a view."""
+        axes = view.axes_of(self.plot)
+        if axes and (axes, dark) != self.axes:
+            self.axes = axes, dark
+            self._set_axes(axes, dark)
+        for source, data in columns.items():
+            source.data = data
+
+    def _set_axes(self, axes: list[Axis], dark: bool):
+        f, ground = self.figure, ROLES["paper"][dark]
+        # Another ground paints the axes anew, too, which take their colours from the sheet.
+        f.update(background_fill_color=ground, border_fill_color=ground)
+        about = f"{self.plot.title}: {axes[1].title}, over {axes[0].title}"
+        f.html_attributes = {"role": "img", "aria-label": about}
+        ranges = (f.x_range, f.y_range, f.extra_y_ranges.get("right"))
+        sides = (f.below[0], f.left[0], *f.right[:1])
+        for bounds, side, axis in zip(ranges, sides, axes, strict=False):
+            start, end = axis.ends
+            if bounds is not None:
+                bounds.update(start=start, end=end)
+                side.axis_label = axis.label
+                self._scale(side, axis)
+        for hover, right in self.hovers:
+            symbol, y = axes[0].title.split(",")[0], axes[2 if right else 1]
+            hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=y)
+        if self.image is not None:
+            low, high = axes[2].ends
+            self.bar.color_mapper.update(low=low, high=high)
+            colour, title = ROLES["ink"][dark], f"{axes[2].title.split(',')[0]} ({axes[2].unit})"
+            self.bar.update(title=title, title_text_color=colour, major_label_text_color=colour)
+
+    def _scale(self, side, axis: Axis):
+        """Make the scale along one side logarithmic, or linear again."""
+        f, log = self.figure, axis.log
+        name = "x_scale" if side is f.below[0] else "y_scale"
+        if isinstance(getattr(f, name), bk.LogScale) != log:
+            setattr(f, name, bk.LogScale() if log else bk.LinearScale())
+        elif not log:
+            return
+        ticker, formatter = ticks(*axis.ends) if log else (bk.BasicTicker(), bk.BasicTickFormatter())
+        side.update(ticker=ticker, formatter=formatter)
+        for grid in (each for each in f.center if getattr(each, "axis", None) is side):
+            grid.ticker = side.ticker
+
+
+def ticks(low: float, high: float) -> tuple[Any, Any]:
+    """Ticker and formatter of a logarithmic axis; over two decades or less Bokeh's has too many."""
+    if high > 101 * low:
+        return bk.LogTicker(), bk.LogTickFormatter()
+    powers = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
+    fixed = bk.FixedTicker(ticks=[float(f"{n}e{power:.0f}") for power in powers for n in (1, 2, 5)])
+    return fixed if high > 5 * low else bk.BasicTicker(), bk.BasicTickFormatter()
+
+
+def drawn(view: View, plot: Plot, states: set[int]) -> set[str]:
+    """Names of the rows of a plot that have something to show in one of some states."""
+    rows = [row for i in states for row in view.rows(plot, i).items()]
+    return {row for row, values in rows if np.size(values[1]) and np.isfinite(values[1]).any()}
+
+
+def legend(plot, shown):
+    """Legend of the visible rows of a plot, as HTML."""
+    text = ""
+    for row in rows_of(plot):
+        if row.legend and row.name in shown:
+            hatch = "hatch" * (row.look.get("hatch", " ") != " ")
+            look = " ".join((row.kind, hatch, row.look.get("dash", ""), row.look.get("marker", "")))
+            text += f'<span class="{row.role}"><i class="{look}"></i>{row.name}</span>'
+    return text

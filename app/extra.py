@@ -1,0 +1,97 @@
+"""The seam: what an extra brings to the page, and its registration. The page knows no extra by name."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from .changes import CONVERT, OFFERED
+from .courses import Course
+from .drives import DRIVES, Drive
+from .link import CHECKS, FORMER
+from .plot import OVERLAYS, Overlay, Plot, View
+from .plots import PLOTS
+from .quantities import CHOICES, OF_DRIVE, QUANTITIES
+from .state import OF_EXTRAS, VIEW, State
+from .ui import LINKS
+
+
+class Part(Protocol):
+    """A part of the page: what is served, and what it does when another view is shown."""
+
+    view: Any
+
+    def show(self, view: View) -> None: ...
+
+
+@dataclass(frozen=True, eq=False)
+class Extra:
+    """Something that plugs into the page: `EXTRA` of a file in `app/extras`, and what it brings.
+
+    Its numbers, choices, drives and readouts are in a JSON file of its name beside it; their names begin
+    with its own, as "sweep.swept". They are values of the state, in links and undone like all others.
+    """
+
+    name: str
+    #: Its place among the extras.
+    order: int = 0
+    #: Values beside those of its JSON file, with their defaults: texts and lists of names. A value whose
+    #: default is None is in no link.
+    values: dict[str, Any] = field(default_factory=dict)
+    #: Names of values that undo leaves alone, and names of version 0.6 in links with their present names.
+    of_view: tuple[str, ...] = ()
+    former: dict[str, str] = field(default_factory=dict)
+    #: Numbers that keep their meaning under another option of a choice, and options that apply to a state.
+    converts: dict[str, Callable[[State, str], dict[str, Any]]] = field(default_factory=dict)
+    offers: dict[str, Callable[[State], list[str]]] = field(default_factory=dict)
+    drives: dict[str, Drive] = field(default_factory=dict)
+    plots: tuple[Plot, ...] = ()
+    overlays: tuple[Overlay, ...] = ()
+    #: Label of the button that opens its part of the side; whether that button is in the header, whether
+    #: the part is above the form instead of in its place, and whether the button is there.
+    tab: str = ""
+    in_header: bool = False
+    above: bool = False
+    offered: Callable[[View], bool] = lambda view: True
+    #: Its part of the side, of a page: made when it is first opened.
+    side: Callable[[Any], Part] | None = None
+    #: What it has in the header of a page: the view of this part is a `Button`.
+    header: Callable[[Any], Part] | None = None
+    #: Why a link with its values is refused, or nothing.
+    check: Callable[[State], str] = lambda state: ""
+    #: What its overlays need, `view.computed[name]`, before anything is changed: of a state, the present
+    #: view, None if exact courses have been found, and these.
+    compute: Callable[[State, View | None, dict[Any, Course]], Any] = lambda state, before, known: None
+    #: Courses of which the exact ones are found at rest.
+    courses: Callable[[View], list[Course]] = lambda view: []
+    #: Puts links into a text (HTML).
+    linked: Callable[[str], str] | None = None
+    #: Titles and texts (HTML) that a report has of it.
+    told: Callable[[View], list[tuple[str, str]]] = lambda view: []
+    #: A page of its own at the address `?NAME=place`.
+    served: Callable[[str], Any] | None = None
+
+
+#: All extras by name.
+EXTRAS: dict[str, Extra] = {}
+
+
+def register(extra: Extra, data: dict[str, Any]) -> None:
+    """Let the page have an extra; the data of its JSON file are included already."""
+    OF_EXTRAS.update({each["name"]: QUANTITIES[each["name"]].default for each in data.get("numbers", ())})
+    OF_EXTRAS.update({name: next(iter(CHOICES[name]), "") for name in data.get("choices", {})})
+    OF_EXTRAS.update(extra.values)
+    VIEW.extend(extra.of_view)
+    FORMER.update(extra.former)
+    CHECKS.append(extra.check)
+    CONVERT.update(extra.converts)
+    OFFERED.update(extra.offers)
+    OVERLAYS.extend(extra.overlays)
+    LINKS.extend([extra.linked] if extra.linked else [])
+    DRIVES.update(extra.drives)
+    drives = sorted(CHOICES["drive"].items(), key=lambda each: OF_DRIVE[each[0]]["order"])
+    CHOICES["drive"] = dict(drives)
+    PLOTS.update({plot.name: plot for plot in extra.plots})
+    plots = sorted(PLOTS.items(), key=lambda each: each[1].order)
+    PLOTS.clear()
+    PLOTS.update(plots)
+    EXTRAS[extra.name] = extra

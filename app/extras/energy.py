@@ -1,0 +1,51 @@
+"""The plot *Energy*: where the energy is, over time."""
+
+import numpy as np
+
+from mdr_core.results.figures import NOTHING, area, line
+
+from ..courses import Course, Hit, Timed
+from ..extra import Extra
+from ..plot import Along, Plot, View
+from ..plots import T, line_at_time
+
+E = Along("E, energy", "energy", lambda course: float(np.max(sum(course.energies.values()))))
+
+
+def still(view: View) -> dict:
+    time, rows = view.course.motion.time, {}
+    lower = np.zeros_like(time)
+    for name, energy in view.course.energies.items():
+        upper = lower + energy
+        between = np.append(time, time[::-1]), np.append(upper, lower[::-1])
+        # Rounding errors are not in the legend.
+        rows[name] = between if energy.max() > 1e-9 * view.end(E) else NOTHING
+        lower = upper
+    return rows
+
+
+def _ledger(course: Course) -> str:
+    friction = "friction" in course.energies
+    lost = "U + W_p" + " + W_v" * course.dashpots + " + W_f" * friction
+    if not isinstance(course, Hit):
+        return f"{lost} = ∫ F dd  § 14"
+    along = " + m_t W²/2" * friction
+    return f"{lost} + m v²/2{along} = const.  § 9" + ", § 13" * friction
+
+
+ENERGY = Plot(
+    "energy", "Where the energy is", _ledger, (T, E),
+    (
+        area("friction", "slip", 0.6, "x"),
+        area("plastic", "yielded", 0.45, "/"),
+        area("viscous", "loss", 0.5, "\\"),
+        area("stored", "elastic", 0.45),
+        area("kinetic", "speed", 0.3),
+        line("time", "ink", 1.0, "dashed", legend=False),
+    ),
+    still, lambda view, i: {"time": line_at_time(view, i, E)},
+    applies=lambda view: isinstance(view.course, Timed), tab="Energy", order=40,
+)  # fmt: skip
+
+
+EXTRA = Extra("energy", plots=(ENERGY,))

@@ -1,0 +1,288 @@
+"""*Fit a measurement*: upload of a curve, choice of its columns, and fit of the medium."""
+
+import re
+from contextlib import suppress
+from html import escape
+from typing import Any
+
+import numpy as np
+import panel as pn
+
+import mdr_core as mdr
+from mdr_core.reading import SIZES
+
+from ...extra import Extra
+from ...fields import Upload
+from ...plot import Overlay, View
+from ...quantities import ASSETS, QUANTITIES, Quantity
+from ...state import State, checked, medium, profile, with_derived
+from ...ui import WIDE, button, field, html, indexed, marked, show, tools
+from ...units import written
+from .drawn import MEASURED, RESIDUAL, measured, reach
+from .measured import (
+    FITTED,
+    OF_MEDIUM,
+    PLACED,
+    Curve,
+    Measured,
+    agrees,
+    offered,
+    read_curve,
+    with_curve,
+)
+
+#: The option for no column; a list shows an option of the value None as empty.
+_NO_COLUMN = -1
+#: Parameters that a fit holds unless they are freed.
+DEFAULT_FIXED = ("eta", "work_of_adhesion", "baseline", "tilt", "drag")
+#: The measured example.
+SILICA = ASSETS / "silica.csv"
+
+
+def quantity_of(name: str) -> Quantity:
+    """Quantity of the page that a parameter of a fit is."""
+    return QUANTITIES[f"fit.{name}" if name in PLACED else name]
+
+
+def take(state: State, curve: Measured | None) -> State:
+    """Compare with a measured curve, or with none; what a fit holds is the default again."""
+    tiles = ("residual",) if curve else tuple(tile for tile in state.tiles if tile != "residual")
+    placed = {"fit.contact_point": 0.0, "fit.baseline": 0.0, "fit.fixed": DEFAULT_FIXED}
+    return with_curve(state, curve).replace(tiles=tiles, **placed)
+
+
+def silica(state: State) -> State:
+    """Compare with the measured example, under the cone with the area of its Berkovich tip.
+
+    Its depths count from first contact.
+    """
+    fixed = tuple(name for name in FITTED if name not in ("E_star", "q_c"))
+    state = state.replace(shape="cone", cone_slope=mdr.Cone.from_half_angle(70.3).slope)
+    curve = read_curve(SILICA.read_bytes(), "Fused silica, Berkovich tip.csv")
+    depth, state = float(curve.data[0].max()), take(state, curve)
+    pressed = {"drive": "depth", "max_depth": checked("max_depth", depth), "progress": 1.0}
+    return state.replace(**pressed, **{"fit.fixed": fixed})
+
+
+def fit(state: State) -> State:
+    """Fit medium and position to the measured curve; press to its depth."""
+    made = medium(state)
+    names = offered(state)
+    for name in FITTED:
+        if name not in (*state["fit.curve"].fitted, *state["fit.fixed"]):
+            raise ValueError(
+                f"the {quantity_of(name).label} needs the times of the samples: leave it as it is"
+            )
+    held = [name for name in names if name in state["fit.fixed"]]
+    fixed = {name: state[f"fit.{name}"] if name in PLACED else getattr(made, name) for name in held}
+    asked = dict.fromkeys(names) | fixed
+    if state["fit.depth_noise"] > 0:
+        asked["depth_noise"] = state["fit.depth_noise"]
+    found = mdr.fit_indentation(
+        profile(state), *state["fit.curve"].data, time=state["fit.curve"].time, **asked
+    )
+    numbers = {f"fit.{name}": float(getattr(found, name)) for name in PLACED}
+    numbers["max_depth"] = float(np.max(found.path.depth))
+    choices = {"drive": "depth"}
+    for name, (choice, option) in OF_MEDIUM.items():
+        if name in asked and name not in fixed:
+            value = float(getattr(found.medium, name))
+            there = 0 < value < np.inf
+            choices[choice] = option if there else "none"
+            numbers |= {name: value} if there else {}
+    numbers = {name: checked(name, value) for name, value in numbers.items()}
+    curve = Measured(state["fit.curve"].name, state["fit.curve"].curve, found)
+    fitted = {"fit.curve": curve, "fit.note": _note(curve)}
+    return with_derived(state.replace(progress=1.0, **fitted, **choices, **numbers))
+
+
+def _note(curve: Measured) -> str:
+    """Summary of a fit for links and reports."""
+    found, values, texts = curve.fit, curve.fit.to_dict(), []
+    for name, error in found.standard_errors.items():
+        symbol, kind = quantity_of(name).symbol, quantity_of(name).kind
+        texts.append(f"{symbol} = {written(values[name], kind)} ± {written(float(error), kind, 2)}")
+    return f"fit to {curve.name}: {', '.join(texts)}; χ² = {float(found.reduced_chi_square):.3g}"[:300]
+
+
+def result(state: State) -> str:
+    """Result of the fit as HTML."""
+    curve = state["fit.curve"]
+    if curve is None or curve.fit is None:
+        note = state["fit.note"] if curve is None else ""
+        return f"This link was made with a {marked(note)}." if note else ""
+    text = "The page has other values than this fit."
+    if agrees(state):
+        text = "The fitted values have been put into the form; Undo restores yours."
+    return text + re.sub(r"(?<![\w/])-(?=\d)", "−", indexed(curve.report))
+
+
+def unloading(state: State) -> str:
+    """Numbers of Oliver and Pharr for the curve where it lies, as HTML; empty without an unloading.
+
+    They need first contact: found by a fit, or held by who knows it. Empty beside a fit that tells them.
+    """
+    if state["fit.curve"].fit is not None and "Oliver and Pharr" in state["fit.curve"].report:
+        return ""
+    known = state["fit.curve"].fit is not None or "contact_point" in state["fit.fixed"]
+    curve = state["fit.curve"].placed(state)
+    with suppress(ValueError):
+        text = mdr.oliver_pharr(profile(state), curve.depth, curve.force)._repr_html_()
+        if not known:
+            return "Oliver and Pharr's numbers need first contact: fit it, or hold it where it is known."
+        return indexed(text.replace("OliverPharr: one unloading", "Unloading: Oliver and Pharr"))
+    return ""
+
+
+class Fitting:
+    """The part of the side."""
+
+    def __init__(self, page: Any):
+        self._apply, self._placed, self._curve, select = page.apply, None, None, pn.widgets.Select
+        kinds = ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx"
+        self.file = Upload("CSV file of a measured curve: depth, force", kinds, self._read)
+        self.silica, self.remove, self.fit = map(button, ("Fused silica", "Remove", "Fit"))
+        self.columns = {role: field(select, "column", label=f"Column of {role}") for role in SIZES}
+        self.units = {
+            role: field(select, "unit", label=f"Unit of {role}", options=list(sizes))
+            for role, sizes in SIZES.items()
+        }
+        names = {quantity_of(name).label: name for name in FITTED}
+        self.fixed = field(pn.widgets.CheckBoxGroup, "fixed", inline=False, options=names)
+        self.about, self.said = html(), html("", "note", "said")
+        # What was refused of a file and of a fit.
+        self.not_taken, self.not_fitted = html(), html()
+        self.unloading = html("", "note", "unloading")
+        self.place, self.noise = page.numbers(), page.numbers()
+        self._rest = pn.Column(
+            *(pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES),
+            html("<h2>Position and background</h2>", "title"), self.place,
+            html("<h2>Held in the fit</h2>", "title"), self.fixed,
+            self.noise, self.fit, self.not_fitted, self.said, self.unloading, visible=False, **WIDE,
+        )  # fmt: skip
+        note = html(
+            "Depth and force as a table, to lie over the model. The indenter is that of <i>Explore</i>."
+        )
+        buttons = tools(self.silica, self.remove)
+        parts = (note, self.file, buttons, self.not_taken, self.about, self._rest)
+        self.view = pn.Column(*parts, **WIDE)
+        self.silica.on_click(lambda event: self._change(silica, self.not_taken))
+        self.remove.on_click(lambda event: self._change(lambda state: take(state, None), self.not_taken))
+        self.fit.on_click(lambda event: self._change(fit, self.not_fitted))
+        for role in SIZES:
+            for widget in (self.columns[role], self.units[role]):
+                widget.param.watch(lambda event, role=role: self._correct(role, event.new), "value")
+        self.fixed.param.watch(lambda event: self._hold(event.new), "value")
+
+    def _hold(self, names):
+        """Hold parameters; those that the curve does not offer stay as they are."""
+
+        def change(state):
+            others = [
+                name for name in state["fit.fixed"] if state["fit.curve"] and name not in offered(state)
+            ]
+            kept = tuple(name for name in FITTED if name in (*names, *others))
+            return state.replace(**{"fit.fixed": kept})
+
+        self._apply(change)
+
+    def _change(self, change, where):
+        """Apply a change; if it is refused say so, and which curve stays."""
+
+        def refuse(text):
+            text = f"Refused: {text}."
+            if where is self.not_taken and self._curve is not None:
+                text += f" What is shown is still {self._curve.name}."
+            show(where, object=f'<span class="refused" role="alert">{escape(text)}</span>')
+
+        self._forget()
+        self._apply(change, refuse)
+
+    def _forget(self):
+        for each in (self.not_taken, self.not_fitted):
+            show(each, object="")
+
+    def _read(self, file):
+        self._change(lambda state: take(state, read_curve(file.read(), file.name)), self.not_taken)
+
+    def _correct(self, role, chosen):
+        curve, chosen = self._curve, None if chosen == _NO_COLUMN else chosen
+        # A list that is set to what the curve has.
+        if curve is None or chosen in (curve.curve.columns[role], curve.curve.units[role]):
+            return
+
+        def change(state):
+            return with_curve(state, curve.corrected(role, chosen))
+
+        self._change(change, self.not_taken)
+
+    def show(self, view: View) -> None:
+        state = view.state
+        curve = state["fit.curve"]
+        if curve is not self._curve:
+            self._curve = curve
+            self._forget()
+        show(self._rest, visible=curve is not None)
+        show(self.remove, disabled=curve is None)
+        show(self.said, object=result(state))
+        if curve is None:
+            show(self.about, object=result(state))
+            return
+        placed = curve, profile(state), state["fit.fixed"], *(state[f"fit.{name}"] for name in PLACED)
+        if placed != self._placed:
+            self._placed, self.unloading.object = placed, unloading(state)
+        about = f"<b>{escape(curve.name)}</b>: {escape(curve.note)}. It is in its file, and in no link."
+        show(self.about, object=about)
+        depth, force = (float(np.max(np.abs(part))) for part in curve.data)
+        likes = {"fit.contact_point": depth, "fit.baseline": force}
+        self.place.show(state, [f"fit.{name}" for name in PLACED if name in curve.fitted], likes)
+        options = {quantity_of(name).label: name for name in offered(state)}
+        show(
+            self.fixed,
+            options=options,
+            value=[name for name in state["fit.fixed"] if name in offered(state)],
+        )
+        self.noise.show(state, ["fit.depth_noise"], {"fit.depth_noise": depth})
+        heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.curve.table.heads)}
+        for role, column in curve.curve.columns.items():
+            options = heads | ({"none, rows in order": _NO_COLUMN} if role == "time" else {})
+            show(self.columns[role], options=options, value=_NO_COLUMN if column is None else column)
+            show(self.units[role], value=curve.curve.units[role])
+
+
+def compute(state: State, before: View | None, known: dict) -> Curve | None:
+    curve = state["fit.curve"]
+    return None if curve is None else curve.placed(state)
+
+
+def check(state: State) -> str:
+    unknown = not set(state["fit.fixed"]) <= set(FITTED)
+    return "what a fit leaves as it is, in this link, is not known" * unknown
+
+
+def told(view: View) -> list[tuple[str, str]]:
+    curve = view.state["fit.curve"]
+    if curve is None:
+        return []
+    text = (
+        f"<p>{escape(curve.name)}: {escape(curve.note)}. It is not in the link, but stays in its file.</p>"
+    )
+    if curve.fit is None:
+        return [("The measured curve", text)]
+    remarks = "".join(f"<p>{marked(remark)}</p>" for remark in curve.fit.remarks)
+    return [(f"Fit to {escape(curve.name)}", text + indexed(curve.report) + remarks)]
+
+
+EXTRA = Extra(
+    "fit",
+    order=5,
+    values={"fit.curve": None, "fit.fixed": DEFAULT_FIXED, "fit.note": ""},
+    former={key: f"fit.{key}" for key in (*PLACED, "depth_noise", "fixed")} | {"fit_note": "fit.note"},
+    tab="Fit a measurement",
+    plots=(RESIDUAL,),
+    overlays=(Overlay("force", MEASURED, measured, reach=reach),),
+    check=check,
+    compute=compute,
+    side=Fitting,
+    told=told,
+)

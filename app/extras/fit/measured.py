@@ -1,0 +1,156 @@
+"""Measured curves: read, placed over the model, and what a fit of them agrees with."""
+
+import tempfile
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+import mdr_core as mdr
+from mdr_core.fit.errors import roughness
+from mdr_core.fit.indentation import IndentationFit
+from mdr_core.reading import MeasuredCurve, curve_of
+
+from ...state import State, checked, medium, profile
+from ...tip import FITTED as MOST
+from ...tip import in_line
+
+#: Parameters of a fit: those of the medium, with the choice and option of the page, and the rest.
+OF_MEDIUM = {
+    "E_star": ("elasticity", "modulus"), "q_c": ("plasticity", "q_c"), "eta": ("damping", "eta"),
+    "work_of_adhesion": ("adhesion", "work"),
+}  # fmt: skip
+PLACED = ("contact_point", "baseline", "tilt", "drag")
+FITTED = (*OF_MEDIUM, *PLACED)
+#: Those that need the times of the samples.
+_IN_TIME = ("eta", "drag")
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """A curve from a file, as the core reads it, and its fit."""
+
+    name: str
+    curve: MeasuredCurve
+    fit: IndentationFit | None = None
+
+    @property
+    def _step(self):
+        return -(-len(self.curve) // MOST)
+
+    @property
+    def data(self):
+        """Depth (m) and force (N) of the samples that are taken."""
+        return self.curve.depth[:: self._step], self.curve.force[:: self._step]
+
+    @property
+    def time(self):
+        """Time (s) of the same samples, or None."""
+        return None if self.curve.time is None else self.curve.time[:: self._step]
+
+    @property
+    def depth_noise(self):
+        """Standard deviation (m) of depths that go back and forth, 0 where it hardly counts.
+
+        Taken for real maxima of depth it changes E* by about its share of the depth that is recovered on
+        unloading; below a thousandth the model is further off.
+        """
+        depth, force = self.data
+        steps, noise = np.diff(depth), roughness(depth[None])[0, 0]
+        reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
+        last = int(np.argmax(depth))
+        loaded = depth[last:][force[last:] > 0.05 * force.max()]
+        recovered = np.ptp(np.append(depth[last], loaded))
+        counts = reversals > max(4, 0.05 * steps.size) and noise > 1e-3 * recovered
+        return float(f"{noise:.2g}") if counts else 0.0
+
+    #: Report of the fit as HTML.
+    report = cached_property(lambda self: self.fit._repr_html_())
+
+    @property
+    def fitted(self):
+        """Names of the parameters that a fit can have."""
+        return [name for name in FITTED if self.time is not None or name not in _IN_TIME]
+
+    @property
+    def note(self):
+        taken = f"{len(self.curve)} samples" + f", one in {self._step} of them taken" * (self._step > 1)
+        return "; ".join([taken, *self.curve.remarks])
+
+    def placed(self, state):
+        """The curve at its position on the page."""
+        (depth, force), time = self.data, self.time
+        force = force - state["fit.baseline"] - state["fit.tilt"] * depth
+        if state["fit.drag"] and time is not None:
+            force = force - state["fit.drag"] * np.gradient(depth, time)
+        fit = self.fit if self.fit is not None and agrees(state) else None
+        return Curve(depth - state["fit.contact_point"], force, fit)
+
+    def corrected(self, role, chosen):
+        """With another column or unit of "depth", "force" or "time", without a fit."""
+        columns, units = dict(self.curve.columns), dict(self.curve.units)
+        if isinstance(chosen, str):
+            units[role] = chosen
+        else:
+            taken = next((k for k, column in columns.items() if column == chosen is not None), role)
+            if taken != role and columns[role] is None:
+                raise ValueError(f"that is the column of {taken}: choose another one for that first")
+            # Who had that column gets the other one.
+            columns[taken], columns[role] = columns[role], chosen
+        return Measured(self.name, curve_of(self.curve.table, "the file", columns, units))
+
+
+def read_curve(data: bytes, name: str) -> Measured:
+    """Measured curve from a file, see `mdr.read_curve`. Raises ValueError."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"the file{Path(name).suffix}"
+        path.write_bytes(data)
+        name = in_line(name)
+        try:
+            return Measured(name, mdr.read_curve(path))
+        except ValueError as error:
+            raise ValueError(str(error).replace(path.name, name)) from None
+
+
+def with_curve(state: State, curve: Measured | None) -> State:
+    """With a curve that has no fit, or none, and the noise of its depth; with adhesion none is fitted."""
+    noise = curve.depth_noise if curve and state.adhesion == "none" else 0.0
+    noise = checked("fit.depth_noise", noise)
+    return state.replace(**{"fit.curve": curve, "fit.note": "", "fit.depth_noise": noise})
+
+
+def offered(state: State) -> list[str]:
+    """Names of the parameters that a fit of the curve can have on the page: w only with adhesion."""
+    adhesive = state.adhesion == "work"
+    return [name for name in state["fit.curve"].fitted if adhesive or name != "work_of_adhesion"]
+
+
+def agrees(state: State) -> bool:
+    """Whether the page shows the result of the fit."""
+    found, made = state["fit.curve"].fit, medium(state)
+    values, names = found.to_dict(), state["fit.curve"].fitted
+    pairs = [
+        (state[f"fit.{name}"] if name in PLACED else getattr(made, name), values[name]) for name in names
+    ]
+    return profile(state) == found.profile and bool(
+        np.allclose(*zip(*pairs, strict=True), rtol=1e-9, atol=0)
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Depths (m) below first contact and forces (N) above the baseline, with the fit if it holds."""
+
+    depth: np.ndarray
+    force: np.ndarray
+    fit: IndentationFit | None = None
+
+    def residual(self, scene):
+        """Measured minus modelled force (N); NaN if the scene cannot be solved."""
+        if self.fit is not None:
+            return self.fit.residuals
+        try:
+            return self.force - mdr.indent(scene.profile, scene.medium, self.depth).force
+        except ValueError:
+            return np.full_like(self.depth, np.nan)

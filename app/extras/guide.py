@@ -1,0 +1,92 @@
+"""Guided scenes: steps with a state and a text."""
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlencode
+
+import panel as pn
+
+from .. import link
+from ..courses import Course
+from ..extra import Extra
+from ..plot import View
+from ..readouts import readings, text
+from ..state import State
+from ..ui import WIDE, button, field, html, linked, show, tools
+
+#: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
+TOURS = json.loads(Path(__file__).with_suffix(".json").read_text(encoding="utf-8"))
+
+_INTRO = "Guided scenes, each of a few steps. Next begins; Undo takes back what a step has set."
+_LEFT = "The page shows something else by now. Back and Next go on with the steps."
+
+
+def tours() -> dict[str, list[dict[str, Any]]]:
+    """Guided scenes of which the page knows all that they set."""
+    return {
+        title: steps
+        for title, steps in TOURS.items()
+        if not any(link.unknown(urlencode(step["set"])) for step in steps)
+    }
+
+
+def step_state(step: dict[str, Any], now: State) -> State:
+    """State of a step; theme, values of extras that it does not set, and other tiles stay."""
+    state = link.read(urlencode(step["set"]))
+    tiles = state.tiles or now.tiles
+    return state.replace(tiles=tiles, log=now.log, dark=now.dark, **(now.extras | state.extras))
+
+
+def step_text(step: dict[str, Any], course: Course) -> str:
+    """Text of a step, with the numbers of a course."""
+    numbers = {
+        each.known.symbol: text(each, values, course.now, 3) for each, values in readings(course).items()
+    }
+    return step["says"].format_map(numbers)
+
+
+def _marked(text: str) -> str:
+    """HTML of a text with links, and *words* in italics; the asterisk of E* is followed by no letter."""
+    return re.sub(r"\*(\w+)\*", r"<i>\1</i>", linked(text))
+
+
+class Guide:
+    """The panel *Guide*; `apply` applies a change, `shown` returns the present view."""
+
+    def __init__(self, apply: Callable[..., None], shown: Callable[[], View]):
+        self._apply, self._shown, self.at, self._scene, self._text = apply, shown, -1, None, ""
+        self._tours = tours()
+        self.title = field(pn.widgets.Select, label="Guided scene", options=list(self._tours))
+        self.back, self.next = (button(name, width=70) for name in ("Back", "Next"))
+        self.words = html(_INTRO)
+        self.title.param.watch(lambda event: self.go(0), "value")
+        self.back.on_click(lambda event: self.go(self.at - 1))
+        self.next.on_click(lambda event: self.go(self.at + 1))
+        parts = self.title, tools(self.back, self.next), self.words
+        self.view = pn.Column(*parts, css_classes=["guide"], **WIDE)
+
+    def go(self, at: int) -> None:
+        self.at, steps = at, self._tours[self.title.value]
+        self._apply(lambda state: step_state(steps[at], state))
+        view = self._shown()
+        self._scene, self._text = view.course.scene, _marked(step_text(steps[at], view.course))
+        self.show(view)
+
+    def show(self, view: View) -> None:
+        """Show the text of the step while the page shows its scene."""
+        course = view.course
+        count = len(self._tours[self.title.value])
+        show(self.back, disabled=self.at <= 0)
+        show(self.next, disabled=self.at == count - 1)
+        if self.at >= 0:
+            words = self._text if course.scene == self._scene else _LEFT
+            show(self.words, object=f'<p role="status">{self.at + 1} of {count}. {words}</p>')
+
+
+EXTRA = Extra(
+    "guide", order=30, tab="Guide", in_header=True, above=True,
+    side=lambda page: Guide(page.apply, lambda: page.shown),
+)  # fmt: skip

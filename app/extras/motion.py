@@ -1,0 +1,40 @@
+"""The plot *In time*: depth and force over time."""
+
+from mdr_core.results.figures import line, mark
+
+from ..courses import Hit, Timed
+from ..extra import Extra
+from ..plot import Plot, View
+from ..plots import D, F, T, line_at_time
+
+
+def still(view: View) -> dict:
+    time, states = view.course.motion.time, view.course.states
+    return {"depth d": (time, states.depth), "force F": (time, states.force)}
+
+
+def moving(view: View, i: int) -> dict:
+    time, states = view.course.motion.time[[i]], view.course.states
+    return {
+        "now": (time, states.depth[[i]]),
+        "F now": (time, states.force[[i]]),
+        "time": line_at_time(view, i, D),
+    }
+
+
+MOTION = Plot(
+    "motion", "Depth and force over time",
+    lambda course: "m d²d/dt² = −F,  § 9" if isinstance(course, Hit) else "as prescribed  § 8, § 14",
+    (T, D, F),
+    (
+        line("depth d", "speed", 2.2, symbol="d"),
+        line("force F", "elastic", 2.2, "dashed", "F", axis=2),
+        line("time", "ink", 1.0, "dashed", legend=False),
+        mark("now"),
+        mark("F now", marker="diamond", size=11, axis=2, legend=False),
+    ),
+    still, moving, applies=lambda view: isinstance(view.course, Timed), tab="In time", order=30,
+)  # fmt: skip
+
+
+EXTRA = Extra("motion", plots=(MOTION,))

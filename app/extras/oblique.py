@@ -1,0 +1,203 @@
+"""The drive *oblique impact*: a free body hits with a speed along the surface, under friction."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import pi, sin
+from types import SimpleNamespace
+from typing import ClassVar
+
+import numpy as np
+
+import mdr_core as mdr
+from mdr_core.impacts.motion import motion as motion_of
+from mdr_core.oblique.oblique_motion import ObliqueMotion, along_surface, oblique_motion
+from mdr_core.results import figures
+from mdr_core.results.figures import line, mark
+from mdr_core.results.limits import friction_limits
+
+from ..courses import HitInTime
+from ..drives import BEFORE_YIELD, INSTANTS, Impact, along
+from ..extra import Extra
+from ..plot import Along, Overlay, Plot, View
+from ..plots import T, X, Z, line_at_time
+from ..quantities import QUANTITIES
+
+#: Largest number of drawn elements, and halvings of their steps (errors about 10⁻⁵).
+_ELEMENTS, _HALVINGS = 300, 2
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ObliqueCourse(HitInTime):
+    """A course of an impact with friction: `oblique` is its motion, along the surface too."""
+
+    oblique: ObliqueMotion
+    more_law: ClassVar[str] = ";  |q_x| ≤ μ q  § 13"
+
+    @property
+    def ledger(self):
+        return self.oblique
+
+    @property
+    def energies(self):
+        return {"friction": self.oblique.friction_work} | super().energies
+
+    def limits(self, density):
+        return [*super().limits(density), *friction_limits(self.scene.medium)]
+
+    @cached_property
+    def rebound(self) -> SimpleNamespace:
+        """Results (SI) of an oblique impact, of the contact point and of the body."""
+        drive, hit, motion = self.scene.drive, self.oblique.impact, self.oblique
+        after = float(motion.tangential_velocity[-1] if hit is None else hit.tangential_velocity)
+        largest = np.max(np.abs(motion.tangential_force)) if hit is None else hit.max_tangential_force
+        # The impulse changes the speed of the body and its spin.
+        impulse = drive.tangential_mass * (after - drive.tangential_speed)
+        body = drive.tangential_speed + impulse / drive.mass
+        found = {"contact_velocity": after, "body_speed": body, "max_tangential_force": float(largest)}
+        found["body_angle"] = float(np.arctan2(float(self.hit.rebound_speed), body))
+        found["tangential_restitution"] = -after / (drive.tangential_speed or np.nan)
+        if drive.tangential_mass < drive.mass:
+            radius, spin = float(self.scene.profile.body_radius), after - body
+            found |= {"spin_speed": spin} if radius == np.inf else {"spin": spin / radius}
+        return SimpleNamespace(**found)
+
+
+class Oblique(Impact):
+    """A free body hits with a speed along the surface."""
+
+    def make(self, state, medium):
+        speeds = map(float, mdr.at_angle(state["oblique.incoming_speed"], pi / 2 - state["oblique.attack"]))
+        ball = mdr.Ball(state.mass, 1.0, state["oblique.body"] == "hollow")
+        felt = state.mass if state["oblique.body"] == "block" else float(ball.tangential_mass)
+        return mdr.FreeObliqueImpact(state.mass, *speeds, state["oblique.friction"], felt)
+
+    def follow(self, scene, progress):
+        """States from one coarse solution of friction."""
+        drive, normal = scene.drive, _normal(scene)
+        given = drive.tangential_speed, drive.friction, drive.tangential_mass
+        motion = along_surface(motion_of(normal, INSTANTS, BEFORE_YIELD), *given, 0)
+        course = _course(scene, progress, normal, motion)
+        return replace(course, pending="friction to three digits so far")
+
+    def in_time(self, scene):
+        """States from the core's solution, with elements thinned out for drawing."""
+        hit = scene.solve()
+        motion = oblique_motion(hit, motion_of(hit.normal, INSTANTS, BEFORE_YIELD), _HALVINGS)
+        thinned = slice(None, None, -(-motion.x.size // _ELEMENTS))
+        load, sticks = (np.array(part[:, thinned]) for part in (motion.tangential_line_load, motion.sticks))
+        motion = replace(motion, x=motion.x[thinned], tangential_line_load=load, sticks=sticks)
+        return _course(scene, 1.0, hit.normal, motion)
+
+    def turning_point(self, scene):
+        return _normal(scene).turning_point
+
+    def equivalent(self, state, turning_point):
+        numbers = super().equivalent(state, turning_point)
+        incoming = QUANTITIES["oblique.incoming_speed"].bounded(
+            numbers["speed"] / sin(state["oblique.attack"])
+        )
+        return numbers | {"oblique.incoming_speed": incoming}
+
+
+def _course(scene, progress, hit, motion):
+    return ObliqueCourse(**along(scene, progress, motion.normal), hit=hit, oblique=motion)
+
+
+def _normal(scene):
+    """Impact along the normal, which is independent of friction."""
+    return mdr.impact(scene.profile, scene.medium, scene.drive.mass, scene.drive.speed)
+
+
+def leaning(course: ObliqueCourse, i: int, r):
+    """Tangential displacement (m) of elements in state i, and whether they stick."""
+    m, medium = course.oblique, course.scene.medium
+    # The first element is a flat face; most shapes have none.
+    first = int(m.x[0] == 0)
+    load, sticks = (
+        np.interp(r, m.x[first:], part[i, first:]) for part in (m.tangential_line_load, m.sticks)
+    )
+    return load / (medium.tangential_ratio * medium.E_star), sticks > 0.5
+
+
+def _feet(state, rows: dict, half: float, height: float) -> dict:
+    """Leaning springs, and lines below those that stick or slip."""
+    found, width = {}, 0.8 * half / figures.SPRINGS
+    paths = [np.reshape(part, (-1, 9)) for part in (np.hstack([rows["sticks"], rows["slips"]]))]
+    yielded = figures.reduced(state.profile, np.abs(paths[0][:, 0])) < state.live_interval.lower
+    for name, subset in (("elastic", ~yielded), ("yielded", yielded)):
+        leaning = [part[subset].ravel() for part in paths]
+        found[name] = tuple(np.append(part, more) for part, more in zip(rows[name], leaning, strict=True))
+    for name in ("sticks", "slips"):
+        foot = rows[name][0].reshape(-1, 9)[:, 0]
+        ends = foot[:, None] + np.array([-width, width, np.nan])
+        found[name] = ends.ravel(), np.full(ends.size, -0.97 * figures.REST * height)
+    return found
+
+
+FEET = (line("sticks", "stick", 4.0), line("slips", "slip", 4.0))
+
+
+def springs(view: View, i: int) -> dict:
+    """Springs that lean, with marks of stick and slip, in the place of upright ones."""
+    course = view.course
+    if not isinstance(course, ObliqueCourse):
+        return {}
+    state, half, height = course.states[i], view.end(X), view.end(Z)
+    rows = figures.springs(
+        state, half, height, lambda g: course.relaxing(i, g), lambda r: leaning(course, i, r)
+    )
+    return {name: rows[name] for name in ("elastic", "yielded")} | _feet(state, rows, half, height)
+
+
+def _most(course):
+    """Largest force (N) along one of the directions."""
+    forces = course.states.force, np.abs(course.oblique.tangential_force)
+    return float(max(np.max(force) for force in forces))
+
+
+FORCE = Along("F, Fₓ, force", "force", _most, below=lambda course: min(course.scene.drive.friction, 1.0))
+
+
+def forces_still(view: View) -> dict:
+    course = view.course
+    time, force = course.motion.time, course.states.force
+    most = course.scene.drive.friction * force
+    return {
+        "normal force F": (time, force),
+        "tangential force Fₓ": (time, course.oblique.tangential_force),
+        "largest friction ±μF": (np.append(time, [np.nan, *time]), np.append(most, [np.nan, *-most])),
+    }
+
+
+def forces_moving(view: View, i: int) -> dict:
+    course = view.course
+    time = course.motion.time[[i]]
+    return {
+        "now": (time, course.oblique.tangential_force[[i]]),
+        "F now": (time, course.states.force[[i]]),
+        "time": line_at_time(view, i, FORCE),
+    }
+
+
+FORCES = Plot(
+    "forces", "Forces of an oblique impact", "|F_x| ≤ μ F,  § 13", (T, FORCE),
+    (
+        line("largest friction ±μF", "slip", 1.2, "dashed", "μF"),
+        line("normal force F", "elastic", 2.2, symbol="F"),
+        line("tangential force Fₓ", "stick", 2.2, symbol="Fₓ"),
+        line("time", "ink", 1.0, "dashed", legend=False),
+        mark("now"),
+        mark("F now", marker="diamond", legend=False),
+    ),
+    forces_still, forces_moving, applies=lambda view: isinstance(view.course, ObliqueCourse),
+    tab="Friction", order=50,
+)  # fmt: skip
+
+
+EXTRA = Extra(
+    "oblique",
+    former={key: f"oblique.{key}" for key in ("incoming_speed", "attack", "friction", "body")},
+    drives={"oblique": Oblique()},
+    plots=(FORCES,),
+    overlays=(Overlay("springs", FEET, moving=springs),),
+)

@@ -1,0 +1,230 @@
+"""The drive *path*: several loadings, ramp and hold, and creep."""
+
+from dataclasses import dataclass, fields, replace
+from itertools import pairwise
+from typing import Any, ClassVar
+
+import numpy as np
+
+import mdr_core as mdr
+from mdr_core import abel
+from mdr_core.contact.live_interval import LiveInterval
+from mdr_core.medium import refuse_adhesion
+
+from ..courses import Course, Timed, nearest, path_progress
+from ..drives import DRIVES, Drive, limited_force, turning_point
+from ..extra import Extra
+
+#: Steps of a piece of a path; of creep, each of which takes eight steps of the chain and more.
+_STEPS, _CREEP_STEPS = 24, 12
+#: Tolerance of the chain, below the resolution of plots.
+_TOLERANCE = 3e-3
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Turns(Course):
+    """A course that may reverse several times."""
+
+    pressed: ClassVar[bool] = False
+    turns: ClassVar[bool] = True
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TurnsInTime(Turns, Timed):
+    """A course along a path in time, with dashpots if the medium has any."""
+
+    @property
+    def chained(self):
+        return not isinstance(self.states, mdr.Indentation)
+
+    def relaxing(self, i, g):
+        return self.states[i].relaxing(g) if self.chained else 0.0
+
+    @property
+    def notes(self):
+        if self.scene.medium.eta > 0:
+            return []
+        return ["Without viscosity nothing changes while the depth or force is held."]
+
+
+def _vertices(drive):
+    """Prescribed values of a drive from first contact on, and times, or changes so far."""
+    if drive.time is not None:
+        return np.array(drive.force if _by_force(drive) else drive.depth), np.array(drive.time)
+    depth = np.append(0.0, drive.depth)
+    return depth, np.append(0.0, np.cumsum(np.abs(np.diff(depth))))
+
+
+def _in_time(state):
+    return state.drive == "path" and state["path.pattern"] in ("hold", "creep")
+
+
+def _by_force(drive):
+    return isinstance(drive, mdr.ForcePath)
+
+
+def _refined(scene, chain):
+    """Prescribed values and their places along the path, at the vertices and between them."""
+    values, along = _vertices(scene.drive)
+    by_force, largest = _by_force(scene.drive), scene.medium.critical_depth
+    places = [along]
+    for (begin, first), (end, last) in pairwise(zip(along, values, strict=True)):
+        share = _shares(_CREEP_STEPS if chain and by_force else _STEPS, chain, first == last)
+        if last > largest and not by_force:
+            # Just before yield.
+            share = np.append(share, (largest * (1 - 1e-12) - first) / (last - first))
+            largest = last
+        places.append(begin + (end - begin) * share)
+    places = np.unique(np.concatenate(places))
+    return np.interp(places, along, values), places
+
+
+def _shares(steps, chain, held):
+    """Places along a piece, dense where radii start as a root of the depth, and just before its end."""
+    share = np.linspace(0, 1, steps + 1)
+    if chain:
+        # Dashpot forces change fastest at the start of a piece.
+        return (1e3**share - 1) / 999 if held else share**2
+    return np.append((1 - np.cos(np.pi * share)) / 2, 1 - 1e-9)
+
+
+def _solved(scene, progress, chain, pending):
+    values, along = _refined(scene, chain)
+    by_force, bodies = _by_force(scene.drive), (scene.profile, scene.medium)
+    if chain:
+        solve = mdr.creep if by_force else mdr.indent_in_time
+        states = PathStates.of(solve(*bodies, values, along, tolerance=_TOLERANCE))
+    else:
+        states = _slowly(scene, values)
+    peak = int(np.argmax(states.depth))
+    places = path_progress(along, peak)
+    made = {"scene": scene, "progress": places, "states": states, "now": nearest(places, progress)}
+    made |= {"peak": peak, "pending": pending}
+    if scene.drive.time is None:
+        return Turns(**made)
+    return TurnsInTime(**made, motion=_motion(states, along))
+
+
+def _slowly(scene, values):
+    solve = mdr.indent_to_force if _by_force(scene.drive) else mdr.indent
+    return solve(scene.profile, scene.medium, values)
+
+
+def _motion(states, time):
+    """Motion along a path in time, with its energies."""
+    none, live = np.zeros_like(time), states.live_interval
+    rate = np.append(0.0, np.diff(states.depth) / np.diff(time))
+    viscous = none if isinstance(states, mdr.Indentation) else states.viscous_work
+    return mdr.Motion(
+        time, states.depth, rate, states.force, states.contact_radius, states.plastic_radius,
+        live.lower, live.length, none, states.stored_energy, states.plastic_work, viscous,
+    )  # fmt: skip
+
+
+#: Places at which the elements are followed, besides the radii a and c of all states.
+_PLACES = 300
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PathStates(mdr.TimedIndentation):
+    """States along a path in time, whose elements are evaluated once for all states.
+
+    `x`: places (m) of the elements; `load`, `compression`: their line loads (N/m) and elastic
+    compressions (m) in every state.
+    """
+
+    x: Any
+    load: Any
+    compression: Any
+
+    @classmethod
+    def of(cls, path):
+        a, c = path.contact_radius, path.plastic_radius
+        half = float(np.max(a)) or 1.0
+        # The load may jump at the rim.
+        x = [np.linspace(0, half, _PLACES), a, a * (1 - 1e-9), np.minimum(c, half)]
+        x = np.unique(np.concatenate(x))
+        known = {each.name: getattr(path, each.name) for each in fields(path)}
+        return cls(**known, x=x, **dict(zip(("load", "compression"), path.elements(x), strict=True)))
+
+    def __getitem__(self, index):
+        return replace(
+            super().__getitem__(index), load=self.load[index], compression=self.compression[index]
+        )
+
+    @property
+    def mean_pressure(self):
+        a = np.asarray(self.contact_radius)
+        return (self.force / np.where(a > 0, np.pi * a * a, np.inf))[()]
+
+    @property
+    def live_interval(self):
+        """Equivalent live interval of the elements in contact."""
+        a, lower = np.asarray(self.contact_radius), np.asarray(self.plastic_depth)
+        upper = np.where(a > 0, np.maximum(self.profile.reduced(a), lower), lower)
+        length = np.where(a > 0, np.maximum(upper - lower, np.finfo(float).tiny), 0.0)
+        return LiveInterval(lower, upper, length)
+
+    def relaxing(self, g):
+        """Remaining elastic compression (m) of released elements at heights g (m)."""
+        compression = np.where(self.load > 0, 0.0, self.compression)
+        return np.interp(g, self.profile.reduced(self.x), compression, right=0.0)
+
+    def surface(self, r):
+        """Elastic displacement (m), including that of released elements."""
+        return abel.surface_displacement(self.x, self.compression, r)
+
+    def imprint(self, r):
+        return mdr.Indentation(self.profile, self.medium, self.depth, self.live_interval).imprint(r)
+
+    def pressure(self, r):
+        """Contact pressure (Pa) at radii r (m); infinite at the rim while dashpots carry load there."""
+        inside = self.x < self.contact_radius
+        if not inside.any():
+            return np.zeros(np.shape(r))[()]
+        x, load = np.append(self.x[inside][:-1], self.contact_radius), self.load[inside]
+        load[-1] = load[-1] if load[-1] > 1e-6 * load.max() else 0.0
+        return 0.0 - abel.stress_from_line_load(x, load, r)
+
+
+class Path(Drive):
+    """Pressed along a path."""
+
+    def make(self, state, medium):
+        if _in_time(state):
+            refuse_adhesion(medium, "a path in time")
+            times = (0.0, state["path.ramp_time"], 5 * state["path.ramp_time"])
+            if state["path.pattern"] == "creep":
+                return mdr.ForcePath((0.0, state.max_force, state.max_force), times)
+            return mdr.DepthPath((0.0, state.max_depth, state.max_depth), times)
+        tenths = (2, 4, 6, 8, 10) if state["path.pattern"] == "cycles" else (7, 10)
+        peaks = [state.max_depth * tenth / 10 for tenth in tenths]
+        # Unloading ends at loss of contact.
+        unloaded = (max(peak - medium.critical_depth, 0.0) for peak in peaks)
+        return mdr.DepthPath([depth for pair in zip(peaks, unloaded, strict=True) for depth in pair])
+
+    def follow(self, scene, progress):
+        """States; creep of a viscous medium without dashpots at first."""
+        viscous = scene.drive.time is not None and scene.medium.eta > 0
+        pending = viscous and _by_force(scene.drive)
+        return _solved(scene, progress, viscous and not pending, "so far without dashpots" * pending)
+
+    def in_time(self, scene):
+        return _solved(scene, 1.0, True, "")
+
+    def turning_point(self, scene):
+        return _slowly(scene, float(np.max(_vertices(scene.drive)[0])))
+
+    def equivalent(self, state, turning_point):
+        """Pattern of the present depth, and a ramp of one relaxation time unless there is one already."""
+        numbers = {"max_depth": float(turning_point.depth), "max_force": limited_force(turning_point)}
+        time = float(f"{turning_point.medium.relaxation_time or 1.0:.2g}")
+        return numbers if _in_time(state) else numbers | {"path.ramp_time": time}
+
+
+EXTRA = Extra(
+    "path",
+    former={"pattern": "path.pattern", "ramp_time": "path.ramp_time"},
+    converts={"path.pattern": lambda state, wanted: DRIVES["path"].equivalent(state, turning_point(state))},
+    drives={"path": Path()},
+)

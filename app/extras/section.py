@@ -1,0 +1,69 @@
+"""The plot *Section*: the stress below the surface."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mdr_core.results.figures import NOTHING, line, mark
+
+from ..courses import Course
+from ..extra import Extra
+from ..plot import Found, Plot, axis
+from ..units import written
+
+#: Pixels down and along the radius.
+_PIXELS = (72, 96)
+#: What can be drawn: its title, and how it comes from a `Stress`.
+_DRAWN = {
+    "max_shear": ("τmax, largest shear stress", lambda stress: stress.max_shear),
+    "von_mises": ("σvM, von Mises stress", lambda stress: stress.von_mises),
+    "zz": ("−σzz, pressure downward", lambda stress: 0.0 - stress.zz),
+}
+
+
+def section(course: Course, asked):
+    """Map of a stress over r and z, with a, c and the place of the maximum."""
+    (quantity,), state, reach = asked, course.state, 1.6 * float(course.turning_point.contact_radius)
+    r = axis("r", "r, radius", "length", reach)
+    z = replace(axis("depth", "z, height", "length", reach, below=1.0), end=0.0)
+    title, of_stress = _DRAWN[quantity]
+    reason = "The load is gone." if state.contact_radius == 0 else ""
+    if course.chained:
+        reason = "Stresses below the surface are not known of a viscous path."
+    if reason:
+        return Found({}, [r, z, axis("stress", title, "pressure", 1.0)], reason)
+    down, along = ((np.arange(count) + 0.5) / count for count in _PIXELS)
+    across, deep = r.end * along, -z.start * (1 - down)
+    image = of_stress(state.stress(across, deep[:, None]))
+    # A quantile, as the maximum may be infinite.
+    most, place, note = float(np.quantile(image, 0.998)), NOTHING, ""
+    if quantity != "zz":
+        peak = state.stress_peak(quantity)
+        place = np.array([peak.r]), np.array([-peak.z])
+        most = float(peak.value) if np.isfinite(peak.value) else most
+        # A place is known to about 10⁻⁴ of the radius.
+        at = (written(float(x) if x > 1e-4 * reach else 0.0, "length", 3) for x in (peak.r, peak.z))
+        bound = written(float(peak.value), "pressure", 3) if np.isfinite(peak.value) else "infinite"
+        note = "{} is largest at r = {}, {} below the surface: {}.".format(title.split(",")[0], *at, bound)
+    colours, ends = axis("stress", title, "pressure", most), np.array([z.start, z.end])
+    rows = {
+        "image": (np.array([r.start, r.end]), ends, np.minimum(image, colours.end)),
+        "contact radius a": (np.full(2, state.contact_radius), ends),
+        "plastic zone c": (np.full(2, state.plastic_radius), ends) if state.plastic_radius else NOTHING,
+        "largest": place,
+    }
+    return Found(rows, [r, z, colours], note)
+
+
+SECTION = Plot(
+    "section", "Section under the tip", "σ(r, z): each increment a flat punch of radius a(s)  § 7", (),
+    (
+        line("contact radius a", "chalk", 1.2, "dashed"),
+        line("plastic zone c", "chalk", 1.2, "dotted"),
+        mark("largest", "yielded", "chalk", "diamond", 12),
+    ),
+    find=section, of_state=True, tab="Section", order=80, controls=("section.stress",), image=_PIXELS,
+)  # fmt: skip
+
+
+EXTRA = Extra("section", plots=(SECTION,), former={"section": "section.stress"})

@@ -1,0 +1,73 @@
+"""The player: it moves through the states of a scene in the browser."""
+
+import json
+from html import escape
+from typing import Any
+
+import panel as pn
+from bokeh.models import Column, ColumnDataSource, CustomJS, ImportedStyleSheet, Row, Slider, Toggle
+from panel.models.markup import HTML
+
+from . import readouts
+from .draw import Picture
+from .plot import View
+from .plots import D, F, Z
+from .ui import JS, LAYOUT, SHEETS, WIDE
+
+
+class Player:
+    """Moves through the states of a scene in the browser, from frames that are sent once."""
+
+    def __init__(self, figures: list[Any]):
+        sheets = [ImportedStyleSheet(url=url) for url in SHEETS]
+        look = {"css_classes": ["button", "key-space"], "stylesheets": sheets, "margin": 0}
+        self.play = Toggle(label="▶ Play", width=84, **look)
+        wide = WIDE | {"stylesheets": sheets}
+        look = wide | {"show_value": False, "title": None, "tooltips": False, "css_classes": ["slider"]}
+        self.state = Slider(start=0, end=1, value=1, step=1, name="state", **look)
+        self.frames, self.hand = ColumnDataSource(name="frames"), ColumnDataSource(name="hand")
+        self.heads = HTML(css_classes=["readouts", "heads"], height=29, **wide)
+        self.readout = HTML(css_classes=["readouts"], height=24, **wide)
+        self.parts = {"frames": self.frames, "state": self.state, "play": self.play}
+        self._figures = figures
+        wide = WIDE | {"stylesheets": LAYOUT}
+        self.line = pn.pane.Bokeh(Column(self.heads, self.readout, css_classes=["line"], **wide), **WIDE)
+        self.view = pn.pane.Bokeh(Row(self.play, self.state, css_classes=["player"], **wide), **WIDE)
+
+    def connect(self) -> None:
+        """Play in the browser."""
+        told = self.parts | {"readout": self.readout, "figures": self._figures}
+        code = CustomJS(args=told, code=JS["player"])
+        self.state.js_on_change("value", code)
+        self.frames.js_on_change("tags", code)
+        self.play.js_on_change("active", code)
+
+    def show(self, view: View, moved: bool) -> None:
+        """Show the present state of a course and its readouts; drop frames unless it has only moved."""
+        course, i = view.course, view.course.now
+        self._numbers = numbers = readouts.readings(course)
+        if self.frames.tags and not moved:
+            self.frames.tags = []
+        self.state.update(end=len(course) - 1, value=i)
+        d, force = view.axis(D).factor, view.axis(F).factor
+        path = {"d": course.states.depth / d, "F": course.states.force / force}
+        path = {name: [float(f"{value:.6g}") for value in values] for name, values in path.items()}
+        self.state.tags = [path | {"unit": d / view.axis(Z).factor, "pressing": course.pressed}]
+        self.heads.text = escape(readouts.heads(course, numbers))
+        self.readout.text = escape(readouts.values(course, numbers, i))
+
+    def send(self, view: View, pictures: list[Picture]) -> None:
+        """Send all states, once."""
+        if self.frames.tags:
+            return
+        course = view.course
+        states = range(len(course))
+        frames = [[picture.frame(view, i) for picture in pictures] for i in states]
+        sources = [source for frame in frames[0] for source in frame]
+        sent = {
+            "pictures": [[columns for frame in each for columns in frame.values()] for each in frames],
+            "words": [escape(readouts.values(course, self._numbers, i)) for i in states],
+            "times": course.times.tolist(),
+        }
+        # As one text: Bokeh would look at every number of it.
+        self.frames.tags = [sources, json.dumps(sent).replace("NaN", "null")]

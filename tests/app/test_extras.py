@@ -1,0 +1,171 @@
+"""The deletion test: without the files of an extra the page builds, and knows nothing of it."""
+
+import importlib
+import json
+import re
+import shutil
+import sys
+
+import numpy as np
+import pytest
+from bokeh.document import Document
+
+from app import changes
+from app.extra import EXTRAS
+from app.page import Page
+from app.state import preset_state
+
+from .conftest import DROP, ROOT, Explorer, Server
+
+
+def copied(folder, package, *without):
+    """A copy of the app under a name, without some extras."""
+    if not (folder / "assets").exists():
+        (folder / "assets").symlink_to(ROOT / "assets")
+    shutil.copytree(ROOT / "app", folder / package, ignore=shutil.ignore_patterns("__pycache__"))
+    for name in without:
+        for path in (folder / package / "extras").glob(f"{name}*"):
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+    return folder / package
+
+
+def words(name):
+    """What a person reads of an extra: buttons, titles, choices with their options, numbers, readouts."""
+    extra, path = EXTRAS[name], ROOT / f"app/extras/{name}.json"
+    data = json.loads(path.read_text(encoding="utf-8")) if path.exists() and name != "guide" else {}
+    found = [extra.tab, *(part for plot in extra.plots for part in (plot.tab, plot.title))]
+    found += [row.name for overlay in extra.overlays for row in overlay.rows if row.legend]
+    found += [number["label"] for number in data.get("numbers", ())]
+    found += [drive["label"] for drive in data.get("drives", {}).values()]
+    found += [choice["label"] for choice in data.get("choices", {}).values()]
+    return {each for each in found if each}
+
+
+def strings(value):
+    """All texts within a value of a model; of the columns of a source, names of rows."""
+    if isinstance(value, str):
+        yield value
+    if isinstance(value, dict):
+        yield from strings(value.get("row"))
+    for each in value if isinstance(value, list | tuple) else ():
+        yield from strings(each)
+
+
+def texts(page):
+    """All that a page has for the browser, with every part and plot opened."""
+    for name in page.frame.tabs:
+        page.frame.open(name)
+    page.frame.open("explore")
+    for drive in list(dict(page.choices.row("drive").options)):
+        page.apply(lambda state, drive=drive: changes.choose(state, "drive", drive))
+    for tab in page.board.tabs.values():
+        if tab.visible:
+            tab.act()
+    document, seen = Document(), set()
+    document.add_root(page.view.get_root(document))
+    for model in document.models:
+        for value in model.properties_with_values(include_defaults=False).values():
+            seen.update(strings(value))
+    return seen
+
+
+def said(word, texts):
+    """Whether texts have a word: as a whole text, or as that of an element."""
+    inside = re.compile(rf">([^<>]* )?{re.escape(word)}<")
+    return word in texts or any(inside.search(text) for text in texts)
+
+
+def linked(name):
+    """Links that mention an extra."""
+    extra = EXTRAS[name]
+    links = [f"drive={drive}" for drive in extra.drives] + [f"tiles={plot.name}" for plot in extra.plots]
+    return links + [f"{value}=1" for value in (*extra.values, *extra.former, *extra.former.values())]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder of copies that can be imported."""
+    folder = tmp_path_factory.mktemp("copies")
+    sys.path.insert(0, str(folder))
+    yield folder
+    sys.path.remove(str(folder))
+
+
+@pytest.fixture(scope="module")
+def whole():
+    return texts(Page())
+
+
+@pytest.mark.parametrize("name", EXTRAS)
+def test_without_an_extra_the_page_builds_and_has_no_word_of_it(folder, whole, name, monkeypatch):
+    copied(folder, f"without_{name}", name)
+    made = importlib.import_module(f"without_{name}.page")
+    assert set(made.EXTRAS) == set(EXTRAS) - {name}
+    notices = []
+    monkeypatch.setattr(made.Page, "notify", lambda page, text: notices.append(text))
+    page = made.Page()
+    assert notices == []
+    text = texts(page)
+    assert notices == []
+    # Each word is there with the extra, so that it is missed without.
+    shown = {word for word in words(name) if said(word, whole)}
+    assert shown or name in ("theory", "guide")
+    others = set().union(*(words(other) for other in EXTRAS if other != name))
+    assert {word for word in shown - others if said(word, text)} == set()
+    if name == "theory":
+        assert any("?theory=" in each for each in whole)
+        assert not any("?theory=" in each for each in text)
+    for query in linked(name):
+        notices.clear()
+        page = made.Page(f"max_depth=5e-09&{query}")
+        assert len(notices) == 1, query
+        assert query.split("=")[query.startswith("tiles")] in notices[0]
+        assert page.state.max_depth == (preset_state().max_depth if "drive" in query else 5e-9)
+    # And it is in use.
+    before = page.state
+    page.apply(lambda state: changes.put(state, "mass", 2 * state.mass))
+    page.frame.undo.act()
+    assert page.state == before
+
+
+def test_the_page_with_no_extras_at_all(browser, tmp_path):
+    """Three plots, the form and the readouts are in use."""
+    copied(tmp_path, "app", *EXTRAS)
+    server = Server(root=tmp_path)
+    try:
+        with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
+            explorer = Explorer(context.new_page(), server.url)
+            assert explorer.readout("force") == "4.514 µN"
+            assert explorer.page.locator(".buttons button").all_inner_texts() == ["Undo", "Redo", "Menu"]
+            assert explorer.page.locator(".card").count() == 3
+            assert explorer.page.locator(".tabs button").count() == 0
+            explorer.change(explorer.type, "d_max", "5 nm")
+            assert explorer.readout("depth") == "5.000 nm"
+            assert explorer.link("max_depth=") == {"max_depth": "5e-09"}
+            explorer.pick("impact")
+            assert explorer.page.locator('output[data-name="restitution"]').count() == 1
+            explorer.change(explorer.press, "Undo")
+            assert explorer.readout("depth") == "5.000 nm"
+            assert explorer.problems == []
+    finally:
+        server.stop()
+    assert server.faults == ""
+
+
+def test_a_new_extra_is_a_file_of_its_own(folder):
+    """The example of CONTRIBUTING.md: a plot with a choice, which is in the link."""
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"```python\n(\"\"\"The plot \*Area\*.*?)```", text, re.DOTALL)
+    (data,) = re.findall(r"```json\n(.*?)```", text, re.DOTALL)
+    extras = copied(folder, "with_area") / "extras"
+    (extras / "area.py").write_text(code.replace("from app.", "from .."), encoding="utf-8")
+    (extras / "area.json").write_text(data, encoding="utf-8")
+    page = importlib.import_module("with_area.page").Page(f"preset={DROP}&tiles=area&area.of=plastic")
+    assert page.board.tabs["area"].pressed
+    states = page.shown.course.states
+    plot = page.board.cards["area"].plot
+    for option, radius in (("plastic", states.plastic_radius), ("contact", states.contact_radius)):
+        page.choices.choose("area.of", option)
+        _, area = page.shown.rows(plot, 0)["area"]
+        np.testing.assert_allclose(area, np.pi * radius**2, rtol=1e-12)
+        assert ("area.of=plastic" in page.query()[0]) == (option == "plastic")
