@@ -11,7 +11,7 @@ import numpy as np
 
 from ..profiles.profile import Profile
 from .least_squares import least_squares
-from .model import states
+from .model import constant_cap, radius_cap, states
 from .parameters import BACKGROUND, CLASSES, PARAMETERS, TOGETHER
 
 #: Standard deviations of samples that are not to weigh, in units of those they would have.
@@ -135,7 +135,8 @@ class Curves:
         """States of the model with the samples at depths (m) from first contact."""
         turning_depth = values["turning_depth"] - values["contact_point"]
         largest, loading = self.largest_so_far(depth, turning_depth)
-        return states(self.profile, values, depth, largest, loading, self.rate)
+        cap_at = constant_cap if self.constants == ("q_c",) else radius_cap
+        return states(self.profile, values, cap_at, depth, largest, loading, self.rate)
 
     def states(self, x):
         """Parameters by name, and the states of the model that belong to the samples."""

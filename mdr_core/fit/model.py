@@ -43,16 +43,17 @@ class States:
     gradient: dict[str, np.ndarray]
 
 
-def states(profile, values, depth, largest, loading, rate):
+def states(profile, values, cap_at, depth, largest, loading, rate):
     """`States` at depths (m) and rates (m/s), with the largest depths (m) so far.
 
-    `values` are the parameters by name. Above the known depth the states are those at it.
+    `values` are the parameters by name, `cap_at` is `constant_cap` or `radius_cap`. Above the known depth
+    the states are those at it.
     """
     E_star, known, modulus = values["E_star"], profile.known_depth, 2 * values["E_star"]
     lag = 4 * values["eta"] / E_star * rate
     ahead = np.minimum(lag, 0.0)
     largest = np.minimum(largest, known)
-    cap, rate_of_plastic_depth, cap_by_constants = caps(profile, values, largest)
+    cap, rate_of_plastic_depth, cap_by_constants = cap_at(profile, values, largest)
     interval = interval_at(largest, np.minimum(depth + ahead, known), cap)
     contact = interval.length > 0
     a = np.where(contact, profile._radius(interval.upper), 0.0)
@@ -79,12 +80,14 @@ def states(profile, values, depth, largest, loading, rate):
     return States(depth, loading, cap, interval, uniform_load, force, slope, memory_slope, gradient)
 
 
-def caps(profile, values, largest):
+def constant_cap(profile, values, largest):
+    """`radius_cap` for the hardness q_c/a alone: a constant."""
+    return ConstantCap.of(profile, values["E_star"], values["q_c"]).critical_depth, 1.0, {"q_c": 1.0}
+
+
+def radius_cap(profile, values, largest):
     """Cap u_c (m) at the largest depths (m), dp/ds, and ∂u_c by each constant over π/2E*, by name."""
-    E_star, hardness, q_c, f_c = (values[name] for name in ("E_star", "hardness", "q_c", "f_c"))
-    if not (hardness.any() or f_c.any()):
-        rule = ConstantCap.of(profile, E_star, q_c)
-        return rule.critical_depth, 1.0, {"q_c": 1.0}
-    rule = RadiusCap(profile, *(np.pi / 2 / E_star * constant for constant in (hardness, q_c, f_c)))
+    share = np.pi / 2 / values["E_star"]
+    rule = RadiusCap(profile, *(share * values[name] for name in ("hardness", "q_c", "f_c")))
     a = profile._radius(np.maximum(largest, 0.0))
     return rule._cap(a), 1 - rule._cap_rate(a), {"hardness": a, "q_c": 1.0, "f_c": 1 / a}

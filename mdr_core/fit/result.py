@@ -186,8 +186,8 @@ class IndentationFit(Fit):
         if classes := self.classes:
             used = np.isfinite(self.residuals)
             yield from verdict(classes, self.depth[used], self.force[used], self.depth_noise)
-        if self._yields:
-            top = int(np.argmax(self.path.force))
+        top = int(np.argmax(self.path.force))
+        if self._yields and self.path.force[top] > 0:
             a, mean = self.path.contact_radius[top], self.path.mean_pressure[top]
             yielded = engineering(self.medium.hardness_at(a), "Pa")
             text = f"{engineering(mean, 'Pa')} over the model's a = {engineering(a, 'm')}"

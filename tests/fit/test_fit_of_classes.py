@@ -164,6 +164,19 @@ class TestConstants:
         with pytest.raises(ValueError, match=message):
             mdr.fit_indentation(self.PROFILE, OUT, made(self.PROFILE, {"q_c": 100.0}), **given)
 
+    def test_many_curves(self):
+        """A held constant of each curve; one that is 0 for some of them is refused."""
+        force, depth = made(self.PROFILE, {"hardness": 0.3e9, "q_c": 60.0}), np.array([OUT, OUT])
+        given = {"hardness": [0.3e9, 0.2e9], "q_c": None}
+        fit = mdr.fit_indentation(self.PROFILE, depth, np.array([force, force]), **given)
+        assert fit.medium.hardness.tolist() == given["hardness"]
+        assert fit.medium.q_c[0] == pytest.approx(60.0, rel=1e-8)
+        assert fit.medium.q_c[1] > 65.0
+        with pytest.raises(ValueError, match="hardness is 0 for some of the curves"):
+            mdr.fit_indentation(self.PROFILE, depth, depth, hardness=[0.0, 1e9], q_c=None)
+        with pytest.raises(ValueError, match=r"E_star \(2,\) of 1 curves"):
+            mdr.fit_indentation(self.PROFILE, OUT, force, E_star=[1e9, 2e9])
+
     def test_shapes_that_are_not_convex(self):
         profile = mdr.PowerLaw(coefficient=1e-4, exponent=0.5)
         with pytest.raises(ValueError, match="not convex"):
@@ -187,6 +200,14 @@ class TestRemarks:
         assert np.isfinite(fit.standard_errors["q_c"]).all()
         both = made(self.PROFILE, {"hardness": 0.3e9, "q_c": 60.0}, 1, seed=3)[0]
         assert not mdr.fit_indentation(self.PROFILE, OUT, both, hardness=None, q_c=None).remarks
+
+    @pytest.mark.parametrize("constants", MIXTURES[2:], ids=" and ".join)
+    def test_noise_alone(self, constants):
+        """Constants may be 0 at once in a search; the record has no contact, and a remark says so."""
+        force = 1e-6 * np.random.default_rng(0).normal(size=OUT.size)
+        fit = mdr.fit_indentation(self.PROFILE, OUT, force, **dict.fromkeys(constants))
+        assert "no contact" in fit.remarks[0]
+        assert "class of hardness" in repr(fit) or fit.medium.q_c == np.inf
 
     @pytest.mark.parametrize("profile", PROFILES[:3], ids=name)
     def test_elastic(self, profile):
@@ -246,6 +267,16 @@ class TestVerdict:
         for letter, each in fit.classes.items():
             # The minimum is known to the square root of rounding.
             assert single[letter].misfit == pytest.approx(each.misfit[1], rel=1e-6)
+
+    def test_curves_of_different_lengths(self):
+        curves = [
+            made(self.PROFILE, ALONE["a"], 1, seed=8)[0],
+            made(self.PROFILE, ALONE["b"], 1, seed=8)[0],
+        ]
+        forces = [curves[0], curves[1][:-20]]
+        fit = mdr.fit_indentation(self.PROFILE, [OUT, OUT[:-20]], forces)
+        assert (fit.classes["a"].misfit < fit.classes["b"].misfit).tolist() == [True, False]
+        assert "class of hardness        (b)" in repr(fit[1])
 
     def test_found_when_first_read(self):
         force = made(self.PROFILE, ALONE["a"], 2, seed=8)
