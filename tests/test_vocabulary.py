@@ -32,6 +32,9 @@ NAMES = {
     "grown": "a ratio",
     "met": "penetration or contact",
     "gone": "released",
+    "course": "motion, or path",
+    "superposition": "integrals",
+    "class_": "hardness_class",
 }
 #: Phrases in docstrings, comments and messages that a reader has to guess.
 PHRASES = (
