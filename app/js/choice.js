@@ -6,7 +6,11 @@ export function render({ model, el }) {
     : `<div class="list"><label for="list">${model.label}</label><select id="list"></select>
       <button class="help" aria-label="What is ${model.label}?" popovertarget="about">?</button>${about}</div>`
   const list = el.querySelector(model.radio ? ".options" : "select")
-  const choose = (option) => model.send_msg(option)
+  let asked = model.answered
+  const choose = (option) => {
+    asked += 1
+    model.send_msg(option)
+  }
   const filled = () => {
     list.replaceChildren(...model.options.map(([option, text]) => {
       if (!model.radio) return new Option(text, option)
@@ -18,8 +22,9 @@ export function render({ model, el }) {
     }))
     show()
   }
-  // Also what was refused is answered: the present option stands again.
+  // Also what was refused is answered: the present option stands again. Earlier answers do not touch what is asked now.
   const show = () => {
+    if (model.answered < asked) return
     if (model.radio) for (const { firstChild } of list.children) firstChild.checked = firstChild.value === model.value
     else list.value = model.value
   }

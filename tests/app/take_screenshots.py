@@ -25,6 +25,7 @@ def main():
             explorer.press("Menu")
             explorer.change(explorer.press, "Dark")
             explorer.press("Explore")
+            explorer.field("v_0").wait_for()
             page.screenshot(path=ROOT / "assets/explorer-impact.png")
             page = browser.new_page(viewport={"width": 400, "height": 800})
             Explorer(page, server.url)

@@ -45,7 +45,7 @@ def test_the_page_stays_small():
     assert sum(map(code, SMALL)) <= 2445
     assert max(lines(SMALL)) <= 350
     assert max(lines(EXTRAS)) <= 350
-    assert sum(lines((APP / "js").glob("*.js"))) <= 240
+    assert sum(lines((APP / "js").glob("*.js"))) <= 250
     assert sum(lines((APP / "static").glob("*.css"))) <= 190
 
 

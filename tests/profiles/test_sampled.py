@@ -302,8 +302,9 @@ class TestFit:
         z += 1e-9 * np.random.default_rng(1).standard_normal(rows)
         with pytest.raises(ValueError, match="wavy or concave") as refused:
             mdr.Sampled.fit(r, z)
-        miss = float(re.search(r"by (\S+) m \(rms", str(refused.value))[1])
-        assert 1e-8 < miss < 4e-8
+        # Its two digits are in nm.
+        miss = float(re.search(r"by (\S+) nm \(rms", str(refused.value))[1])
+        assert 10 < miss < 40
 
     @pytest.mark.parametrize("wavelength", [8e-9, 30e-9 * 2 * math.pi])
     @pytest.mark.parametrize("rows", [100, 400, 2000])
