@@ -67,7 +67,7 @@ REFUSALS = {
     ),
     "negative force": (
         lambda: mdr.indent_to_force(CONE, MEDIUM, -2.0),
-        ("force", -2.0, "is negative", "N", "there is no adhesion"),
+        ("force", -2.0, "is negative", "N", "a tension needs work_of_adhesion > 0"),
     ),
     "beyond the tip": (
         lambda: mdr.Sampled([0.0, 1.0], [0.0, 1.0]).height(2.0),
