@@ -68,7 +68,7 @@ def _fit(profile, measured, held, depth_noise):
 def _arrays(solution):
     """The constants of the medium, the misfit and the block length of a `Solution` by name, arrays (R,)."""
     values, _ = solution.values_and_states
-    force = np.max(solution.curves.force - solution.curves.background(values), axis=1)
+    force = np.max(np.abs(solution.curves.force - solution.curves.background(values)), axis=1)
     residuals = solution.minimum.residual * solution.noise
     misfit = np.sqrt(np.mean(residuals**2, axis=1)) / force
     medium = {

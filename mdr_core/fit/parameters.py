@@ -109,6 +109,13 @@ class NotNegative(Parameter):
         return 0.0, np.inf
 
 
+class Addend(Parameter):
+    """A constant of the hardness beside others: practically 0 or positive, since their sum is positive."""
+
+    def bounds(self, start, curves):
+        return 1e-9, np.inf
+
+
 def _viscosity(curves):
     """Viscosity (Pa·s) with which the dashpots carry the range of force at the largest speed."""
     radius = curves.profile._radius(np.minimum(curves.length, curves.profile.known_depth))
@@ -141,11 +148,11 @@ BACKGROUND = {
     "tilt": Background(_TILT, unit=lambda curves: curves.load / curves.length),
     "drag": Background(_DRAG, unit=lambda curves: curves.load / curves.speed, in_time=True),
 }
-#: Constants of the hardness where there are several: each may be 0.
+#: Constants of the hardness where there are several.
 TOGETHER = {
-    "hardness": NotNegative(_HARDNESS, unit=lambda curves: curves.load / _pressed_radius(curves) ** 2),
-    "q_c": NotNegative(_Q_C, unit=lambda curves: curves.load / _pressed_radius(curves)),
-    "f_c": NotNegative(_F_C, unit=lambda curves: curves.load),
+    "hardness": Addend(_HARDNESS, unit=lambda curves: curves.load / _pressed_radius(curves) ** 2),
+    "q_c": Addend(_Q_C, unit=lambda curves: curves.load / _pressed_radius(curves)),
+    "f_c": Addend(_F_C, unit=lambda curves: curves.load),
 }
 #: All parameters, in the order of a fit.
 PARAMETERS = MEDIUM | {"contact_point": ContactPoint(Quantity("z₀", "m", "contact point"))} | BACKGROUND

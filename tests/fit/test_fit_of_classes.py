@@ -208,6 +208,9 @@ class TestRemarks:
         fit = mdr.fit_indentation(self.PROFILE, OUT, force, **dict.fromkeys(constants))
         assert "no contact" in fit.remarks[0]
         assert "class of hardness" in repr(fit) or fit.medium.q_c == np.inf
+        # Tension fits best without a contact.
+        pulled = mdr.fit_indentation(self.PROFILE, OUT, force - 1e-6, **dict.fromkeys(constants))
+        assert "no contact" in pulled.remarks[0]
 
     @pytest.mark.parametrize("profile", PROFILES[:3], ids=name)
     def test_elastic(self, profile):
