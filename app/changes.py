@@ -1,7 +1,6 @@
 """Changes of a state: functions that return another state or raise ValueError."""
 
 from collections.abc import Callable
-from math import inf
 from typing import Any
 
 import mdr_core as mdr
@@ -9,10 +8,21 @@ import mdr_core as mdr
 from .courses import Timed
 from .drives import DRIVES, follow, scene_of, turning_point
 from .quantities import CHOICES, QUANTITIES, shape_quantities
-from .state import State, altered, checked, medium, preset_state, with_derived
+from .state import (
+    PRESETS,
+    YIELD_CONSTANT,
+    State,
+    altered,
+    checked,
+    medium,
+    preset_state,
+    with_derived,
+)
 
 #: Options of a choice that apply to a state, the default first, where these are not all; extras add theirs.
 OFFERED: dict[str, Callable[[State], list[str]]] = {}
+#: The power of the contact radius in the constants of the hardness.
+_POWER = {"volume_hardness": 0, "q_c": 1, "f_c": 2}
 
 
 def options(state: State, name: str) -> list[str]:
@@ -42,8 +52,8 @@ def choose(state: State, name: str, wanted: str) -> State:
     changed, made = state.replace(**{name: wanted}, **numbers), medium(state)
     if name == "elasticity":
         return put(changed, "E_star", made.E_star)
-    if name == "plasticity" and inf not in (made.q_c, medium(changed).q_c):
-        return put(changed, "q_c", made.q_c)
+    if name == "plasticity" and wanted != "none":
+        return _same_hardness(state, changed)
     return with_derived(changed)
 
 
@@ -125,9 +135,23 @@ def _shape(state: State, shape: str) -> dict[str, Any]:
     }
 
 
+def _same_hardness(state: State, changed: State) -> State:
+    """With the constant of its class that gives the hardness of a state at its contact radius.
+
+    Where nothing yields in the state that is the hardness of the class of its preset.
+    """
+    if state.plasticity == "none":
+        state = state.replace(plasticity=PRESETS[state.preset].choices["plasticity"])
+    made, (name,) = medium(state), YIELD_CONSTANT[changed.plasticity]
+    if name in YIELD_CONSTANT[state.plasticity]:
+        return put(changed, name, state[name])
+    a = float(turning_point(state).contact_radius)
+    return put(changed, name, shown(float(made.hardness_at(a)) * a ** _POWER[name]))
+
+
 def _plasticity(state: State, wanted: str) -> dict[str, Any]:
     """A hardness is measured at about the present contact radius."""
-    if wanted != "hardness" or medium(state).q_c == inf:
+    if wanted != "hardness":
         return {}
     return {"hardness_radius": float(f"{float(turning_point(state).contact_radius):.1g}")}
 

@@ -9,9 +9,15 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.contact import adhesion
 from mdr_core.contact.live_interval import LiveInterval
+from mdr_core.contact.yielding import yield_rule
 
 #: States of unloading at which a loop with adhesion is evaluated: its area is good to three digits.
 _LOOP = 80
+
+
+def onset_depth(scene: mdr.Scene, imprint: float = 0.0) -> float:
+    """Depth (m) at which yield begins over an imprint of some plastic depth; infinite if nothing yields."""
+    return float(yield_rule(scene.profile, scene.medium).onset(imprint))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -95,13 +101,25 @@ class Course:
     def onset(self) -> mdr.Indentation | None:
         """State at which yield begins, or goes on below an earlier imprint; None if it is not reached."""
         profile, medium = self.scene.profile, self.scene.medium
-        depth = self.initial_plastic_depth + medium.critical_depth
+        depth = onset_depth(self.scene, self.initial_plastic_depth)
         return mdr.indent(profile, medium, depth) if depth <= min(profile.known_depth, 1e300) else None
+
+    @cached_property
+    def yield_depth(self) -> float:
+        """Depth (m) at which yield begins on a virgin surface: d_c where the hardness is q_c/a."""
+        return onset_depth(self.scene)
 
     @property
     def relative_depth(self) -> Any:
-        critical = self.scene.medium.critical_depth
-        return self.states.depth / critical if critical < np.inf else None
+        return self._over_yield_depth if self.scene.medium.inverse_to_radius else None
+
+    @property
+    def depth_over_onset(self) -> Any:
+        return None if self.scene.medium.inverse_to_radius else self._over_yield_depth
+
+    @property
+    def _over_yield_depth(self) -> Any:
+        return self.states.depth / self.yield_depth if 0 < self.yield_depth < np.inf else None
 
     def unloading_curve(self, index: int) -> tuple[Any, Any]:
         """Depths (m) and forces (N) of elastic unloading; the area below is the stored energy.

@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core.contact.yielding import yield_rule
 from mdr_core.impacts.motion import motion as motion_of
 
-from .courses import Course, Hit, HitInTime, nearest, path_progress, rounded, unloaded
+from .courses import Course, Hit, HitInTime, nearest, onset_depth, path_progress, rounded, unloaded
 from .quantities import QUANTITIES
 from .state import State, medium, profile, with_derived
 
@@ -47,15 +48,16 @@ class Drive(ABC):
 
 
 def limited_force(turning_point):
-    """Force (N) of a state, limited to 90 % of the yield load of a flat face."""
-    most = 2 * turning_point.medium.yield_line_load * turning_point.profile.wall
+    """Force (N) of a state, limited to 90 % of what a contact carries that has yielded throughout."""
+    rule = yield_rule(turning_point.profile, turning_point.medium)
+    most = 2 * turning_point.medium.E_star * float(rule.wall_integral())
     return min(float(turning_point.force), 0.9 * most)
 
 
 def slow(scene: mdr.Scene, progress: float, turning_point: mdr.Indentation) -> dict[str, Any]:
     """Fields of a course of slow loading to a state, unloading to the pull-off, and lifting."""
-    depth, critical = float(turning_point.depth), scene.medium.critical_depth
-    share = min(critical / depth, 1.0) if depth > 0 else 1.0
+    depth = float(turning_point.depth)
+    share = min(onset_depth(scene) / depth, 1.0) if depth > 0 else 1.0
     loading = np.concatenate([share * _SPREAD, share + (1 - share) * _SPREAD])
     # With adhesion the force jumps to zero at the pull-off.
     lifted = 2 + 0.2 * np.append(5e-5, np.linspace(0, 1, 9))

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from functools import partial
 from html import escape
-from math import atan, degrees, inf
+from math import atan, degrees
 from typing import Any
 
 import panel as pn
@@ -16,6 +16,7 @@ from .changes import option, options
 from .courses import Course
 from .plot import View
 from .quantities import ABOUT, CHOICES, LABELS, OF_DRIVE, QUANTITIES, SHAPES, Scale
+from .readouts import law_of_hardness
 from .state import MEDIUM_CHOICES, PRESETS, State, altered, regions
 from .tip import MAX_BYTES, Uploaded, read_tip
 from .ui import JS, WIDE, button, html, linked, marked, reveal, show, symbol
@@ -264,14 +265,13 @@ class Form:
         height = written(state.speed**2 / (2 * _GRAVITY), "length")
         slope = getattr(state, f"{state.shape}_slope", None)
         angle = f"Half-angle {digits(90 - degrees(atan(slope)))}°" if slope is not None else ""
-        onset = f"Yield starts at d_c = π q_c/(2E*) = {written(made.critical_depth, 'length')} (19)"
         eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
         idle = "" if course.dashpots else "; no effect here: pressing is quasi-static"
         texts = {
             "drive": f"Energy {energy}; speed of a fall from {height}" * (state.drive == "impact"),
             "shape": f"<figcaption>{marked(shape.height)}<br>{marked(shape.reduced)}</figcaption>"
             + marked(state.tip_note if state.shape == "sampled" else angle),
-            "medium": linked(onset if made.q_c < inf else "Nothing yields: q_c = ∞"),
+            "medium": linked(law_of_hardness(course)),
             "more": linked(f"η = {eta}, τ = 4η/E* = {tau} (1){idle}") if made.eta > 0 else "",
             "sources": f"<details><summary>{title}</summary><dl>{sources}</dl></details>",
         }

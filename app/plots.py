@@ -88,7 +88,8 @@ def _spring_formula(course: Course) -> str:
     if course.adhesive:
         return "q = E* (u − Δl),  Δl = √(2π a w/E*)  § 19"
     law = "(1) (17) (18)  q = E* u + 4η du/dt" if course.dashpots else "(17) (18)  q = E* u"
-    return f"{law},  u ≤ d_c the elastic part{course.more_law}"
+    cap = "d_c" if course.scene.medium.inverse_to_radius else "u_c = π a σ_c/(2E*)  § 20,"
+    return f"{law},  u ≤ {cap} the elastic part{course.more_law}"
 
 
 SPRINGS = Plot(

@@ -120,16 +120,37 @@ def warnings(course: Course, state: State) -> str:
     return exceeded + folded * bool(others)
 
 
+def law_of_hardness(course: Course) -> str:
+    """The hardness at the contact radius of the largest depth, and where yield begins."""
+    made, a, onset = course.scene.medium, float(course.turning_point.contact_radius), course.yield_depth
+    if made.q_c == np.inf:
+        return "Nothing yields: q_c = ∞"
+    law = "q_c/a" if made.q_c else "f_c/a²" if made.f_c else "H"
+    hardness = f" = {written(float(made.hardness_at(a)), 'pressure')}" if a > 0 else ""
+    place = " at every a" if law == "H" else f" at a = {written(a, 'length')}"
+    starts = f"Yield starts at d_y = {written(onset, 'length')}"
+    if made.inverse_to_radius:
+        starts = f"Yield starts at d_c = π q_c/(2E*) = {written(onset, 'length')} (19)"
+    elif onset == np.inf:
+        starts = "Nothing yields under this shape: H is too large"
+    elif onset == 0:
+        starts = "Yield starts at first touch, d_y = 0"
+    return f"σ_c = {law}{hardness}{place}. {starts}" + " § 20" * (not made.inverse_to_radius)
+
+
 def summary(state: State) -> str:
     """Shape, medium and drive of a scene in one line."""
     made, choices = medium(state), OF_DRIVE[state.drive]["form"]
     names = [name for name, _ in shape_quantities(state.shape)]
-    of_medium = ("E_star", "q_c", "eta", "work_of_adhesion")
-    names += [name for name in of_medium if 0 < getattr(made, name) < np.inf]
+    of_medium = {
+        name: float(getattr(made, name)) for name in ("E_star", "q_c", "f_c", "eta", "work_of_adhesion")
+    }
+    of_medium["volume_hardness"] = float(made.hardness)
+    names += [name for name, value in of_medium.items() if 0 < value < np.inf]
     names += [number for name in ("drive", *choices) for number in USED[name][state[name]]]
     words = [SHAPES[state.shape].label]
     for name in names:
-        value = float(getattr(made, name)) if name in of_medium else state[name]
+        value = of_medium[name] if name in of_medium else state[name]
         if value:
             words.append(f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}")
     return ", ".join([*words, *(CHOICES[name][state[name]] for name in choices)])

@@ -36,14 +36,16 @@ def _preset(scene: dict, media: dict, indenters: dict) -> Preset:
     given = {k: v for part in (medium, indenter, scene) for k, v in part.items() if k in QUANTITIES}
     values = {name: each["value"] for name, each in given.items()}
     sources = {name: each["source"] for name, each in given.items()}
-    made = mdr.Medium.from_bodies(*(values[n] for n in USED["elasticity"]["bodies"]), q_c=values["q_c"])
+    bodies = (values[n] for n in USED["elasticity"]["bodies"])
+    made = mdr.Medium.from_bodies(*bodies, q_c=values.get("q_c"))
     values |= {"E_star": made.E_star, "plastic_depth": 0.0}
-    choices = {"shape": indenter["shape"], "elasticity": "bodies", "plasticity": "q_c", "damping": "none"}
-    choices |= {"drive": "impact", "adhesion": "none"}
+    plasticity = "q_c" if "q_c" in values else "constant"
+    choices = {"shape": indenter["shape"], "elasticity": "bodies", "plasticity": plasticity}
+    choices |= {"damping": "none", "adhesion": "none"}
     if "depth" in scene:
-        depth = scene["depth"] * made.critical_depth
-        choices["drive"], values["max_depth"] = "depth", float(f"{depth:.5g}")
+        values["max_depth"] = float(f"{scene['depth'] * made.critical_depth:.5g}")
         sources["max_depth"] = f"{scene['depth']:g} times the depth at which yield begins"
+    choices["drive"] = "depth" if "max_depth" in values else "impact"
     label = f"{indenter['label']} on {medium['label']}" + f", {remark}" * bool(remark)
     key = "-".join([scene["indenter"], scene["medium"], *remark.split()])
     return Preset(label[0].upper() + label[1:], key, choices, values, sources)
@@ -97,6 +99,8 @@ class State:
     q_c: float = 1.0
     hardness: float = 1e9
     hardness_radius: float = 1e-6
+    volume_hardness: float = 1e9
+    f_c: float = 1e-6
     eta: float = 1.0
     work_of_adhesion: float = 0.05
     density: float = 2000.0
@@ -163,7 +167,17 @@ def profile(state: Any) -> mdr.Profile:
 _HARDNESS = {
     "q_c": lambda state: {"q_c": state.q_c},
     "hardness": lambda state: {"q_c": state.hardness * state.hardness_radius},
+    "constant": lambda state: {"q_c": 0.0, "hardness": state.volume_hardness},
+    "line": lambda state: {"q_c": 0.0, "f_c": state.f_c},
     "none": lambda state: {"q_c": inf},
+}
+#: The constant of the hardness by the same options; q_c also of a hardness at a radius.
+YIELD_CONSTANT = {
+    "q_c": ["q_c"],
+    "hardness": ["q_c"],
+    "constant": ["volume_hardness"],
+    "line": ["f_c"],
+    "none": [],
 }
 
 
@@ -173,13 +187,17 @@ def medium(state: Any) -> mdr.Medium:
     made = make(*numbers)
     eta = state.eta if state.damping == "eta" else 0.0
     w = state.work_of_adhesion if state.adhesion == "work" else 0.0
+    if w and state.plasticity in ("constant", "line"):
+        raise ValueError(
+            "adhesion is modelled for a hardness ∝ 1/a only: choose that one, or yield none, first"
+        )
     return replace(made, eta=eta, work_of_adhesion=w, **_HARDNESS[state.plasticity](state))
 
 
 def with_derived(state: State) -> State:
     """With E* and q_c derived from two bodies or a hardness."""
     made = medium(state)
-    q_c = {} if state.plasticity == "none" else {"q_c": float(made.q_c)}
+    q_c = {"q_c": float(made.q_c)} if "q_c" in YIELD_CONSTANT[state.plasticity] else {}
     return state.replace(E_star=float(made.E_star), **q_c)
 
 
@@ -194,11 +212,12 @@ def regions(state: State) -> dict[str, list[str]]:
     """Names of the numbers in the form, by its regions."""
     drive = [n for name in ("drive", *OF_DRIVE[state.drive]["form"]) for n in USED[name][state[name]]]
     medium = [n for name in MEDIUM_CHOICES for n in USED[name][state[name]]]
+    main = ["E_star", *YIELD_CONSTANT[state.plasticity]]
     return {
         "shape": [name for name, _ in shape_quantities(state.shape)],
         "drive": [name for name in drive if name != "density"],
-        "medium": ["E_star", *["q_c"] * (state.plasticity != "none")],
-        "more": [n for n in medium if n not in ("E_star", "q_c")] + ["density"] * ("density" in drive),
+        "medium": main,
+        "more": [n for n in medium if n not in main] + ["density"] * ("density" in drive),
     }
 
 

@@ -9,16 +9,20 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core import abel
 from mdr_core.contact.live_interval import LiveInterval
-from mdr_core.medium import refuse_adhesion
+from mdr_core.contact.yielding import yield_rule
+from mdr_core.medium import refuse_adhesion, refuse_other_classes
 
-from ..courses import Course, Timed, nearest, path_progress
+from ..courses import Course, Timed, nearest, onset_depth, path_progress
 from ..drives import DRIVES, Drive, limited_force, turning_point
 from ..extra import Extra
+from ..state import profile
 
 #: Steps of a piece of a path; of creep, each of which takes eight steps of the chain and more.
 _STEPS, _CREEP_STEPS = 24, 12
 #: Tolerance of the chain, below the resolution of plots.
 _TOLERANCE = 3e-3
+#: What to choose where creep is refused.
+_INSTEAD = "choose a yield ∝ 1/a, ramp and hold, or viscosity none"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -66,7 +70,7 @@ def _by_force(drive):
 def _refined(scene, chain):
     """Prescribed values and their places along the path, at the vertices and between them."""
     values, along = _vertices(scene.drive)
-    by_force, largest = _by_force(scene.drive), scene.medium.critical_depth
+    by_force, largest = _by_force(scene.drive), onset_depth(scene)
     places = [along]
     for (begin, first), (end, last) in pairwise(zip(along, values, strict=True)):
         share = _shares(_CREEP_STEPS if chain and by_force else _STEPS, chain, first == last)
@@ -195,12 +199,14 @@ class Path(Drive):
             refuse_adhesion(medium, "a path in time")
             times = (0.0, state["path.ramp_time"], 5 * state["path.ramp_time"])
             if state["path.pattern"] == "creep":
+                if medium.eta > 0:
+                    refuse_other_classes(medium, "creep", _INSTEAD)
                 return mdr.ForcePath((0.0, state.max_force, state.max_force), times)
             return mdr.DepthPath((0.0, state.max_depth, state.max_depth), times)
         tenths = (2, 4, 6, 8, 10) if state["path.pattern"] == "cycles" else (7, 10)
         peaks = [state.max_depth * tenth / 10 for tenth in tenths]
         # Unloading ends at loss of contact.
-        unloaded = (max(peak - medium.critical_depth, 0.0) for peak in peaks)
+        unloaded = map(float, yield_rule(profile(state), medium).plastic_depth(np.array(peaks)))
         return mdr.DepthPath([depth for pair in zip(peaks, unloaded, strict=True) for depth in pair])
 
     def follow(self, scene, progress):

@@ -22,7 +22,7 @@ from ..plot import Plot, View
 from ..plots import visible
 from ..quantities import CHOICES, LABELS, QUANTITIES, SHAPES
 from ..readouts import readings, summary
-from ..state import MEDIUM_CHOICES, PRESETS, State, altered, used
+from ..state import MEDIUM_CHOICES, PRESETS, YIELD_CONSTANT, State, altered, used
 from ..ui import CSS, WIDE, field, html, marked, show, symbol, tools
 from ..units import written
 
@@ -106,7 +106,7 @@ def _inputs(state: State):
     for choice in (*MEDIUM_CHOICES, "drive"):
         yield "", LABELS[choice].lower(), CHOICES[choice][state[choice]], ""
     given = used(state)
-    for name in dict.fromkeys([*given, "E_star", *["q_c"] * (state.plasticity != "none")]):
+    for name in dict.fromkeys([*given, "E_star", *YIELD_CONSTANT[state.plasticity]]):
         known, value = QUANTITIES[name], state[name]
         source = "set on the page" if name in given else "from the numbers above"
         if name in preset.sources and isclose(value, preset.values[name]):

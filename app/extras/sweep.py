@@ -94,7 +94,7 @@ class Sweep:
         """Curves of the fast limit and of the classes of hardness, and their powers of the energy."""
         values, (limit, power) = self.values, _LIMITS.get(self.against, ("", None))
         dry = not self.viscous and not values["plastic_depth"] and values["adhesion"] == "none"
-        if not (limit and dry and "speed" in self.solver and values["plasticity"] != "none"):
+        if not (limit and dry and "speed" in self.solver and values["plasticity"] in ("q_c", "hardness")):
             return {}, {}
         rows = {FAST: self.column(numbers, limit)}
         exponent = (_SHAPES | {"power_law": values["power_law_exponent"]}).get(values["shape"])

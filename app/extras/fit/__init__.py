@@ -76,6 +76,8 @@ def fit(state: State) -> State:
     held = [name for name in names if name in state["fit.fixed"]]
     fixed = {name: state[f"fit.{name}"] if name in PLACED else getattr(made, name) for name in held}
     asked = dict.fromkeys(names) | fixed
+    if "q_c" in fixed and not made.inverse_to_radius:
+        asked |= {"hardness": made.hardness, "f_c": made.f_c}
     if state["fit.depth_noise"] > 0:
         asked["depth_noise"] = state["fit.depth_noise"]
     found = mdr.fit_indentation(

@@ -133,6 +133,7 @@ def agrees(state: State) -> bool:
     pairs = [
         (state[f"fit.{name}"] if name in PLACED else getattr(made, name), values[name]) for name in names
     ]
+    pairs += [(getattr(made, name), getattr(found.medium, name)) for name in ("hardness", "f_c")]
     return profile(state) == found.profile and bool(
         np.allclose(*zip(*pairs, strict=True), rtol=1e-9, atol=0)
     )
