@@ -184,9 +184,7 @@ YIELD_CONSTANT = {
 def refuse_other_classes(state: Any, what: str, instead: str) -> None:
     """Refuses what is modelled for a hardness ∝ 1/a only, with what else to choose."""
     if state.plasticity in ("constant", "line"):
-        raise ValueError(
-            f"{what} is modelled for a hardness ∝ 1/a only: choose that one, or {instead}, first"
-        )
+        raise ValueError(f"{what} is modelled for a hardness ∝ 1/a only: choose that or {instead} first")
 
 
 def medium(state: Any) -> mdr.Medium:

@@ -1,6 +1,7 @@
 """Classes of hardness on the page: laws with their numbers, links, presets, and what is refused."""
 
 import re
+from html import unescape
 from math import pi, sqrt
 
 import numpy as np
@@ -168,7 +169,7 @@ def test_what_is_of_class_b_alone_is_refused_in_words():
         follow(changes.choose(oblique, "plasticity", "constant"))
     viscous = state_with(SILICA, "path", pattern="creep", damping="none")
     assert follow(viscous).turning_point.depth > 0
-    with pytest.raises(ValueError, match="creep with viscosity is .* or ramp and hold"):
+    with pytest.raises(ValueError, match=r"creep with viscosity is .* or ramp and hold"):
         follow(changes.choose(viscous, "damping", "eta"))
     assert "friction is modelled" in _notice(f"preset={SILICA}&drive=oblique")
 
@@ -257,7 +258,8 @@ def test_every_plot_and_export_has_the_class(key, choices):
     report = share.report(view, [PLOTS["force"]], python)
     assert ("yield constant, class (c)" if symbol == "f_c" else "constant hardness") in report
     assert "fast limit" not in report
-    assert state.preset == GOLD or PRESETS[key].sources["volume_hardness"][:40] in report or symbol == "f_c"
+    if symbol == "H":
+        assert PRESETS[key].sources["volume_hardness"] in unescape(report)
 
 
 def test_the_constant_of_a_class_is_swept():
@@ -269,6 +271,5 @@ def test_the_constant_of_a_class_is_swept():
     a = 2 * state.max_depth / (pi * state.cone_slope)
     yielding = kappa < 1
     assert 10 < np.count_nonzero(yielding) < len(kappa)
-    np.testing.assert_allclose(
-        force[yielding], (hardness * (1 - kappa / 2) * pi * a**2)[yielding], rtol=1e-9
-    )
+    expected = hardness * (1 - kappa / 2) * pi * a**2
+    np.testing.assert_allclose(force[yielding], expected[yielding], rtol=1e-9)
