@@ -181,16 +181,20 @@ YIELD_CONSTANT = {
 }
 
 
+def refuse_other_classes(state: Any, what: str, instead: str) -> None:
+    """Refuses what is modelled for a hardness ∝ 1/a only, with what else to choose."""
+    if state.plasticity in ("constant", "line"):
+        raise ValueError(f"{what} is modelled for a hardness ∝ 1/a only: choose that or {instead} first")
+
+
 def medium(state: Any) -> mdr.Medium:
     numbers = [getattr(state, name) for name in USED["elasticity"][state.elasticity]]
     make = mdr.Medium if state.elasticity == "modulus" else mdr.Medium.from_bodies
     made = make(*numbers)
     eta = state.eta if state.damping == "eta" else 0.0
     w = state.work_of_adhesion if state.adhesion == "work" else 0.0
-    if w and state.plasticity in ("constant", "line"):
-        raise ValueError(
-            "adhesion is modelled for a hardness ∝ 1/a only: choose that one, or yield none, first"
-        )
+    if w:
+        refuse_other_classes(state, "adhesion", "yield none")
     return replace(made, eta=eta, work_of_adhesion=w, **_HARDNESS[state.plasticity](state))
 
 

@@ -10,7 +10,6 @@ import numpy as np
 
 import mdr_core as mdr
 from mdr_core.impacts.motion import motion as motion_of
-from mdr_core.medium import refuse_other_classes
 from mdr_core.oblique.oblique_motion import ObliqueMotion, along_surface, oblique_motion
 from mdr_core.results import figures
 from mdr_core.results.figures import line, mark
@@ -22,6 +21,7 @@ from ..extra import Extra
 from ..plot import Along, Overlay, Plot, View
 from ..plots import T, X, Z, line_at_time
 from ..quantities import QUANTITIES
+from ..state import refuse_other_classes
 
 #: Largest number of drawn elements, and halvings of their steps (errors about 10⁻⁵).
 _ELEMENTS, _HALVINGS = 300, 2
@@ -67,7 +67,7 @@ class Oblique(Impact):
     """A free body hits with a speed along the surface."""
 
     def make(self, state, medium):
-        refuse_other_classes(medium, "friction", "choose a yield ∝ 1/a, or the drive impact")
+        refuse_other_classes(state, "friction", "the drive impact")
         speeds = map(float, mdr.at_angle(state["oblique.incoming_speed"], pi / 2 - state["oblique.attack"]))
         ball = mdr.Ball(state.mass, 1.0, state["oblique.body"] == "hollow")
         felt = state.mass if state["oblique.body"] == "block" else float(ball.tangential_mass)

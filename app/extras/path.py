@@ -10,19 +10,17 @@ import mdr_core as mdr
 from mdr_core import abel
 from mdr_core.contact.live_interval import LiveInterval
 from mdr_core.contact.yielding import yield_rule
-from mdr_core.medium import refuse_adhesion, refuse_other_classes
+from mdr_core.medium import refuse_adhesion
 
 from ..courses import Course, Timed, nearest, onset_depth, path_progress
 from ..drives import DRIVES, Drive, limited_force, turning_point
 from ..extra import Extra
-from ..state import profile
+from ..state import profile, refuse_other_classes
 
 #: Steps of a piece of a path; of creep, each of which takes eight steps of the chain and more.
 _STEPS, _CREEP_STEPS = 24, 12
 #: Tolerance of the chain, below the resolution of plots.
 _TOLERANCE = 3e-3
-#: What to choose where creep is refused.
-_INSTEAD = "choose a yield ∝ 1/a, ramp and hold, or viscosity none"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -200,7 +198,7 @@ class Path(Drive):
             times = (0.0, state["path.ramp_time"], 5 * state["path.ramp_time"])
             if state["path.pattern"] == "creep":
                 if medium.eta > 0:
-                    refuse_other_classes(medium, "creep", _INSTEAD)
+                    refuse_other_classes(state, "creep with viscosity", "ramp and hold")
                 return mdr.ForcePath((0.0, state.max_force, state.max_force), times)
             return mdr.DepthPath((0.0, state.max_depth, state.max_depth), times)
         tenths = (2, 4, 6, 8, 10) if state["path.pattern"] == "cycles" else (7, 10)

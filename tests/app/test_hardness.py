@@ -1,6 +1,7 @@
 """Classes of hardness on the page: laws with their numbers, links, presets, and what is refused."""
 
 import re
+from html import unescape
 from math import pi, sqrt
 
 import numpy as np
@@ -10,6 +11,7 @@ import mdr_core as mdr
 from app import changes, link
 from app.drives import follow, in_time
 from app.extras import fit as fitting
+from app.extras import share, sweep
 from app.page import Page
 from app.plots import PLOTS
 from app.state import PRESETS, altered, medium, preset_state, profile
@@ -154,7 +156,7 @@ def test_what_is_of_class_b_alone_is_refused_in_words():
     page = Page(f"preset={SILICA}")
     for name, option, says in (
         ("adhesion", "work", "adhesion is modelled for a hardness ∝ 1/a only"),
-        ("drive", "oblique", "friction is of the hardness q_c/a alone"),
+        ("drive", "oblique", "friction is modelled for a hardness ∝ 1/a only"),
     ):
         before = page.state
         with pytest.raises(ValueError, match=says):
@@ -163,13 +165,13 @@ def test_what_is_of_class_b_alone_is_refused_in_words():
     adhesive, oblique = state_with(GOLD, adhesion="work"), state_with(GOLD, "oblique")
     with pytest.raises(ValueError, match="adhesion is modelled for"):
         changes.choose(adhesive, "plasticity", "constant")
-    with pytest.raises(ValueError, match="friction is of"):
+    with pytest.raises(ValueError, match="friction is modelled"):
         follow(changes.choose(oblique, "plasticity", "constant"))
     viscous = state_with(SILICA, "path", pattern="creep", damping="none")
     assert follow(viscous).turning_point.depth > 0
-    with pytest.raises(ValueError, match=r"creep is of .* choose"):
+    with pytest.raises(ValueError, match=r"creep with viscosity is .* or ramp and hold"):
         follow(changes.choose(viscous, "damping", "eta"))
-    assert "friction is of" in _notice(f"preset={SILICA}&drive=oblique")
+    assert "friction is modelled" in _notice(f"preset={SILICA}&drive=oblique")
 
 
 def _notice(query):
@@ -226,3 +228,48 @@ def test_the_preset_of_steel_yields_at_the_speed_of_its_hardness():
     assert 0.6 < numbers(follow(state))["restitution"] < 0.8
     # 2.8 times 690 MPa, with the three digits that its source has.
     assert PRESETS[STEEL].values["volume_hardness"] == float(f"{2.8 * 690e6:.3g}")
+
+
+@pytest.mark.parametrize(
+    ("key", "choices"),
+    [
+        (SILICA, {}),
+        (GOLD, {"plasticity": "line"}),
+        (STEEL, {}),
+        (STEEL, {"plasticity": "line", "damping": "eta"}),
+        (SILICA, {"drive": "path"}),
+    ],
+)
+def test_every_plot_and_export_has_the_class(key, choices):
+    """The stress below the surface is found, and a sweep has no fast limit, which is of class (b)."""
+    state = state_with(key, **choices)
+    view = view_of(state, 0.9)
+    for plot in (plot for plot in PLOTS.values() if plot.applies(view)):
+        if plot.find is None:
+            assert view.rows(plot, view.course.now), plot.name
+            continue
+        found = plot.find(view.course, plot.asked(state))
+        assert plot.name != "sweep" or ("scaling" not in str(list(found.rows)) and "fast" not in found.note)
+        assert found.rows or "Nothing is swept" in found.note, plot.name
+    constant, symbol = ("f_c", "f_c") if state.plasticity == "line" else ("hardness", "H")
+    csv, python = share.csv(view), view.course.scene.to_python()
+    assert f", {symbol} = " in csv
+    assert f"{constant}=" in python
+    report = share.report(view, [PLOTS["force"]], python)
+    assert ("yield constant, class (c)" if symbol == "f_c" else "constant hardness") in report
+    assert "fast limit" not in report
+    if symbol == "H":
+        assert PRESETS[key].sources["volume_hardness"] in unescape(report)
+
+
+def test_the_constant_of_a_class_is_swept():
+    """Under a cone of constant hardness the force is H (1 − κ/2) times the area of the contact."""
+    state = preset_state(SILICA).replace(**{"sweep.swept": "volume_hardness"})
+    found = PLOTS["sweep"].find(follow(state), sweep.asked(state))
+    hardness, force = found.rows["this scene"]
+    kappa = hardness / (state.E_star * state.cone_slope)
+    a = 2 * state.max_depth / (pi * state.cone_slope)
+    yielding = kappa < 1
+    assert 10 < np.count_nonzero(yielding) < len(kappa)
+    expected = hardness * (1 - kappa / 2) * pi * a**2
+    np.testing.assert_allclose(force[yielding], expected[yielding], rtol=1e-9)

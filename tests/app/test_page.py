@@ -190,7 +190,8 @@ def test_presets_shapes_drives_and_media_are_drawn(explorer):
     assert_draws(explorer, state)
     explorer.press("More about the medium")
     for text, *choice in (
-        ("force", "drive", "force"), ("hardness", "plasticity", "hardness"),
+        ("force", "drive", "force"), ("constant: H", "plasticity", "constant"),
+        ("∝ 1/a, at a radius", "plasticity", "hardness"),
         ("E*", "elasticity", "modulus"),
     ):  # fmt: skip
         explorer.pick(text)
