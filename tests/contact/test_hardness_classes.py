@@ -4,6 +4,9 @@ import itertools
 
 import numpy as np
 import pytest
+
+pytest.importorskip("mpmath")
+
 from mpmath import mp, mpf
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
