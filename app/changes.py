@@ -8,16 +8,7 @@ import mdr_core as mdr
 from .courses import Timed
 from .drives import DRIVES, follow, scene_of, turning_point
 from .quantities import CHOICES, QUANTITIES, shape_quantities
-from .state import (
-    PRESETS,
-    YIELD_CONSTANT,
-    State,
-    altered,
-    checked,
-    medium,
-    preset_state,
-    with_derived,
-)
+from .state import PRESETS, YIELD_CONSTANT, State, altered, checked, medium, preset_state, with_derived
 
 #: Options of a choice that apply to a state, the default first, where these are not all; extras add theirs.
 OFFERED: dict[str, Callable[[State], list[str]]] = {}

@@ -126,7 +126,7 @@ def law_of_hardness(course: Course) -> str:
     if made.q_c == np.inf:
         return "Nothing yields: q_c = ∞"
     law = "q_c/a" if made.q_c else "f_c/a²" if made.f_c else "H"
-    hardness = f" = {written(float(made.hardness_at(a)), 'pressure')}" if a > 0 else ""
+    hardness = written(float(made.hardness_at(a)), "pressure")
     place = " at every a" if law == "H" else f" at a = {written(a, 'length')}"
     starts = f"Yield starts at d_y = {written(onset, 'length')}"
     if made.inverse_to_radius:
@@ -135,22 +135,20 @@ def law_of_hardness(course: Course) -> str:
         starts = "Nothing yields under this shape: H is too large"
     elif onset == 0:
         starts = "Yield starts at first touch, d_y = 0"
-    return f"σ_c = {law}{hardness}{place}. {starts}" + " § 20" * (not made.inverse_to_radius)
+    return f"σ_c = {law} = {hardness}{place}. {starts}" + " § 20" * (not made.inverse_to_radius)
 
 
 def summary(state: State) -> str:
     """Shape, medium and drive of a scene in one line."""
     made, choices = medium(state), OF_DRIVE[state.drive]["form"]
     names = [name for name, _ in shape_quantities(state.shape)]
-    of_medium = {
-        name: float(getattr(made, name)) for name in ("E_star", "q_c", "f_c", "eta", "work_of_adhesion")
-    }
-    of_medium["volume_hardness"] = float(made.hardness)
+    of_medium = {name: getattr(made, name) for name in ("E_star", "q_c", "f_c", "eta", "work_of_adhesion")}
+    of_medium["volume_hardness"] = made.hardness
     names += [name for name, value in of_medium.items() if 0 < value < np.inf]
     names += [number for name in ("drive", *choices) for number in USED[name][state[name]]]
     words = [SHAPES[state.shape].label]
     for name in names:
-        value = of_medium[name] if name in of_medium else state[name]
+        value = float(of_medium.get(name, state[name]))
         if value:
             words.append(f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}")
     return ", ".join([*words, *(CHOICES[name][state[name]] for name in choices)])

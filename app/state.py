@@ -172,13 +172,7 @@ _HARDNESS = {
     "none": lambda state: {"q_c": inf},
 }
 #: The constant of the hardness by the same options; q_c also of a hardness at a radius.
-YIELD_CONSTANT = {
-    "q_c": ["q_c"],
-    "hardness": ["q_c"],
-    "constant": ["volume_hardness"],
-    "line": ["f_c"],
-    "none": [],
-}
+YIELD_CONSTANT = USED["plasticity"] | {"hardness": ["q_c"]}
 
 
 def refuse_other_classes(state: Any, what: str, instead: str) -> None:
