@@ -207,7 +207,7 @@ def test_the_preset_of_fused_silica_is_that_of_the_measured_curve():
     assert state.max_depth == pytest.approx(depth.max())
     assert follow(state).turning_point.force == pytest.approx(force.max(), rel=0.1)
     # With H held the fit finds the E* that its source says, and keeps the class.
-    held = fitting.fit(state.replace(**{"fit.fixed": (*state["fit.fixed"], "q_c")}))
+    held = fitting.fit(state.replace(**{"fit.fixed": (*state["fit.fixed"], "hardness")}))
     assert (held.plasticity, held.volume_hardness) == ("constant", state.volume_hardness)
     assert held.E_star == pytest.approx(83e9, rel=0.01)
     assert "fitted values have been put" in fitting.result(held)

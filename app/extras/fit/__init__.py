@@ -20,6 +20,7 @@ from ...ui import WIDE, button, field, html, indexed, marked, show, tools
 from ...units import written
 from .drawn import MEASURED, RESIDUAL, measured, reach
 from .measured import (
+    CONSTANTS,
     FITTED,
     OF_MEDIUM,
     PLACED,
@@ -41,27 +42,32 @@ SILICA = ASSETS / "silica.csv"
 
 def quantity_of(name: str) -> Quantity:
     """Quantity of the page that a parameter of a fit is."""
-    return QUANTITIES[f"fit.{name}" if name in PLACED else name]
+    names = {"hardness": "volume_hardness"} | {placed: f"fit.{placed}" for placed in PLACED}
+    return QUANTITIES[names.get(name, name)]
 
 
 def take(state: State, curve: Measured | None) -> State:
-    """Compare with a measured curve, or with none; what a fit holds is the default again."""
+    """Compare with a measured curve, or with none; what a fit holds is the default again.
+
+    The hardness of the fit is that of the page.
+    """
     tiles = ("residual",) if curve else tuple(tile for tile in state.tiles if tile != "residual")
     placed = {"fit.contact_point": 0.0, "fit.baseline": 0.0, "fit.fixed": DEFAULT_FIXED}
+    placed["fit.hardness"] = CONSTANTS.get(state.plasticity, "q_c")
     return with_curve(state, curve).replace(tiles=tiles, **placed)
 
 
 def silica(state: State) -> State:
     """Compare with the measured example, under the cone with the area of its Berkovich tip.
 
-    Its depths count from first contact.
+    Its depths count from first contact, and glass has a constant hardness.
     """
-    fixed = tuple(name for name in FITTED if name not in ("E_star", "q_c"))
+    fixed = tuple(name for name in FITTED if name not in ("E_star", *CONSTANTS.values()))
     state = state.replace(shape="cone", cone_slope=mdr.Cone.from_half_angle(70.3).slope)
     curve = read_curve(SILICA.read_bytes(), "Fused silica, Berkovich tip.csv")
     depth, state = float(curve.data[0].max()), take(state, curve)
     pressed = {"drive": "depth", "max_depth": checked("max_depth", depth), "progress": 1.0}
-    return state.replace(**pressed, **{"fit.fixed": fixed})
+    return state.replace(**pressed, **{"fit.fixed": fixed, "fit.hardness": "hardness"})
 
 
 def fit(state: State) -> State:
@@ -76,8 +82,9 @@ def fit(state: State) -> State:
     held = [name for name in names if name in state["fit.fixed"]]
     fixed = {name: state[f"fit.{name}"] if name in PLACED else getattr(made, name) for name in held}
     asked = dict.fromkeys(names) | fixed
-    if "q_c" in fixed and not made.inverse_to_radius:
-        asked |= {"hardness": made.hardness, "f_c": made.f_c}
+    if fixed.get(state["fit.hardness"]) == 0 and made.q_c == np.inf:
+        asked["q_c"] = np.inf
+    _refuse_hardness(state, asked)
     if state["fit.depth_noise"] > 0:
         asked["depth_noise"] = state["fit.depth_noise"]
     found = mdr.fit_indentation(
@@ -91,11 +98,33 @@ def fit(state: State) -> State:
             value = float(getattr(found.medium, name))
             there = 0 < value < np.inf
             choices[choice] = option if there else "none"
-            numbers |= {name: value} if there else {}
+            numbers |= {quantity_of(name).name: value} if there else {}
     numbers = {name: checked(name, value) for name, value in numbers.items()}
     curve = Measured(state["fit.curve"].name, state["fit.curve"].curve, found)
     fitted = {"fit.curve": curve, "fit.note": _note(curve)}
     return with_derived(state.replace(progress=1.0, **fitted, **choices, **numbers))
+
+
+def _refuse_hardness(state: State, asked: dict[str, Any]) -> None:
+    """Refuse a constant that is held and is not on the page, and what is fitted with q_c alone."""
+    constant = state["fit.hardness"]
+    if asked.get("q_c") == np.inf:
+        return
+    if asked[constant] == 0:
+        raise ValueError(
+            f"the fit holds the {quantity_of(constant).label}, and the page has another hardness: choose "
+            "the same for both, or do not hold it"
+        )
+    if constant == "q_c":
+        return
+    if state.adhesion == "work":
+        raise ValueError(
+            "with adhesion a fit is of an elastic medium: choose yield none, and hold the hardness"
+        )
+    if asked.get("eta", 0) != 0:
+        raise ValueError(
+            "with viscosity a fit is of a hardness ∝ 1/a: choose that one, or viscosity none, and hold it"
+        )
 
 
 def _note(curve: Measured) -> str:
@@ -116,7 +145,10 @@ def result(state: State) -> str:
     text = "The page has other values than this fit."
     if agrees(state):
         text = "The fitted values have been put into the form; Undo restores yours."
-    return text + re.sub(r"(?<![\w/])-(?=\d)", "−", indexed(curve.report))
+    # The verdict stands above the table.
+    table = re.sub(r"<tr><th[^>]*>(class of hardness|the class presumes)<.*?</tr>", "", curve.report)
+    table = re.sub(r"(?<![\w/])-(?=\d)", "−", indexed(table))
+    return f"{text}<p>{escape(curve.verdict)}</p>{table}" if curve.verdict else text + table
 
 
 def unloading(state: State) -> str:
@@ -159,7 +191,7 @@ class Fitting:
         self._rest = pn.Column(
             *(pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES),
             html("<h2>Position and background</h2>", "title"), self.place,
-            html("<h2>Held in the fit</h2>", "title"), self.fixed,
+            page.choices.row("fit.hardness"), html("<h2>Held in the fit</h2>", "title"), self.fixed,
             self.noise, self.fit, self.not_fitted, self.said, self.unloading, visible=False, **WIDE,
         )  # fmt: skip
         note = html(

@@ -1,5 +1,6 @@
 """Measured curves: read, placed over the model, and what a fit of them agrees with."""
 
+import re
 import tempfile
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,6 +11,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.fit.errors import roughness
 from mdr_core.fit.indentation import IndentationFit
+from mdr_core.fit.parameters import CLASSES
 from mdr_core.reading import MeasuredCurve, curve_of
 
 from ...state import State, checked, medium, profile
@@ -18,11 +20,16 @@ from ...tip import in_line
 
 #: Parameters of a fit: those of the medium, with the choice and option of the page, and the rest.
 OF_MEDIUM = {
-    "E_star": ("elasticity", "modulus"), "q_c": ("plasticity", "q_c"), "eta": ("damping", "eta"),
-    "work_of_adhesion": ("adhesion", "work"),
+    "E_star": ("elasticity", "modulus"), "q_c": ("plasticity", "q_c"),
+    "hardness": ("plasticity", "constant"), "f_c": ("plasticity", "line"),
+    "eta": ("damping", "eta"), "work_of_adhesion": ("adhesion", "work"),
 }  # fmt: skip
 PLACED = ("contact_point", "baseline", "tilt", "drag")
 FITTED = (*OF_MEDIUM, *PLACED)
+#: Constants of the hardness, of which a fit has one, by the options of the choice "plasticity".
+CONSTANTS = {option: name for name, (choice, option) in OF_MEDIUM.items() if choice == "plasticity"}
+#: What the hardness of a class is.
+_HARDNESS = {"a": "constant", "b": "∝ 1/a", "c": "∝ 1/a²"}
 #: Those that need the times of the samples.
 _IN_TIME = ("eta", "drag")
 
@@ -67,6 +74,20 @@ class Measured:
 
     #: Report of the fit as HTML.
     report = cached_property(lambda self: self.fit._repr_html_())
+
+    @cached_property
+    def verdict(self):
+        """What the report says on the class of hardness, in one line; empty where it has nothing."""
+        rows = dict(self.fit._rows())
+        if "class of hardness" not in rows:
+            return ""
+        answer, _, misfits = rows["class of hardness"].partition(": ")
+        own = next(letter for letter, name in CLASSES.items() if getattr(self.fit.medium, name))
+        told = re.sub(r"\((.)\)", lambda letter: f"({letter[1]}) {_HARDNESS[letter[1]]}", answer)
+        other = f" This fit is of class ({own}), {_HARDNESS[own]}." * (f"({own})" not in answer)
+        return (
+            f"Class of hardness: {told}; {misfits}.{other} The class presumes {rows['the class presumes']}."
+        )
 
     @property
     def fitted(self):
@@ -121,9 +142,13 @@ def with_curve(state: State, curve: Measured | None) -> State:
 
 
 def offered(state: State) -> list[str]:
-    """Names of the parameters that a fit of the curve can have on the page: w only with adhesion."""
-    adhesive = state.adhesion == "work"
-    return [name for name in state["fit.curve"].fitted if adhesive or name != "work_of_adhesion"]
+    """Names of the parameters that a fit of the curve can have on the page.
+
+    Of the constants of the hardness that is the chosen one, and w only with adhesion.
+    """
+    no = set(CONSTANTS.values()) - {state["fit.hardness"]}
+    no |= set() if state.adhesion == "work" else {"work_of_adhesion"}
+    return [name for name in state["fit.curve"].fitted if name not in no]
 
 
 def agrees(state: State) -> bool:
@@ -133,7 +158,6 @@ def agrees(state: State) -> bool:
     pairs = [
         (state[f"fit.{name}"] if name in PLACED else getattr(made, name), values[name]) for name in names
     ]
-    pairs += [(getattr(made, name), getattr(found.medium, name)) for name in ("hardness", "f_c")]
     return profile(state) == found.profile and bool(
         np.allclose(*zip(*pairs, strict=True), rtol=1e-9, atol=0)
     )
