@@ -133,7 +133,10 @@ def _note(curve: Measured) -> str:
     for name, error in found.standard_errors.items():
         symbol, kind = quantity_of(name).symbol, quantity_of(name).kind
         texts.append(f"{symbol} = {written(values[name], kind)} ± {written(float(error), kind, 2)}")
-    return f"fit to {curve.name}: {', '.join(texts)}; χ² = {float(found.reduced_chi_square):.3g}"[:300]
+    # Without a given noise χ² is not known.
+    if np.isfinite(found.reduced_chi_square):
+        texts.append(f"χ² = {float(found.reduced_chi_square):.3g}")
+    return f"fit to {curve.name}: {', '.join(texts)}"[:300]
 
 
 def result(state: State) -> str:
