@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app import changes
+from app import changes, link
 from app.extras import fit as fitting
 from app.extras.fit.measured import CONSTANTS, agrees, read_curve
 from app.page import Page
 from app.state import YIELD_CONSTANT, medium, preset_state, profile
 
-from .states import side, table
+from .states import linked_state, side, table
 
 SILICA = "berkovich-fused_silica"
 
@@ -94,3 +94,18 @@ def test_a_constant_hardness_with_viscosity_or_adhesion_is_refused_in_words_of_t
         fitting.fit(state.replace(**{"fit.fixed": ("drag",)}))
     # No viscosity, held: the default.
     assert fitting.fit(state).plasticity == "constant"
+
+
+def test_the_chosen_constant_is_offered_and_the_choice_is_in_links():
+    page = Page()
+    page.apply(fitting.silica)
+    panel = side(page, "fit")
+    row = page.choices.row("fit.hardness")
+    assert (row.value, [option for option, _ in row.options]) == ("hardness", ["q_c", "hardness", "f_c"])
+    shown = {fitting.quantity_of(name).label for name in CONSTANTS.values()}
+    for constant in ("f_c", "q_c", "hardness"):
+        page.choices.choose("fit.hardness", constant)
+        assert shown & set(panel.fixed.options) == {fitting.quantity_of(constant).label}
+    assert linked_state(page.state)["fit.hardness"] == "hardness"
+    # As links of version 0.6 are.
+    assert link.read("preset=berkovich-pdms&fixed=q_c+tilt")["fit.hardness"] == "q_c"
