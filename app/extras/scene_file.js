@@ -16,7 +16,7 @@ const play = {
 const shown = () => {
   slider.style.setProperty("--share", slider.value / slider.max)
   moved(state)
-  slider.ariaValueText = numbers.innerText.replace(/\s+/g, " ")
+  slider.ariaValueText = [...numbers.querySelectorAll("output")].map((each) => each.textContent).join(", ")
 }
 const state = {
   tags: [path],

@@ -1,4 +1,4 @@
-"""Latency of the served page: key presses, drags and playback, until the last plot is painted.
+"""Latency of the served page and of a saved scene: key presses, drags and playback, until all is painted.
 
 Run from the project root: python -m tests.benchmarks.page_latency
 """
@@ -9,7 +9,10 @@ import statistics
 import time
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
+from app.extras.scene_file import scene_file
+from app.page import Page
 from tests.app.conftest import CHROMIUM, FLAGS, SCRIPT, Server
 
 PRESSES = 60
@@ -96,9 +99,12 @@ def frames_per_second(page, act):
     return page.evaluate("bench.frames") / (time.perf_counter() - begin)
 
 
-def drag(page, symbol):
-    """Drag a slider to and fro for two seconds, a step as soon as the browser has taken the last one."""
-    slider = page.locator(f'input[type="range"][aria-label^="{symbol},"]')
+def drag(page, label):
+    """Drag the slider with this begin of a label to and fro for two seconds.
+
+    Each step begins as soon as the browser has taken the last one.
+    """
+    slider = page.locator(f'input[type="range"][aria-label^="{label}"]')
     slider.scroll_into_view_if_needed()
     box, before = slider.bounding_box(), slider.input_value()
     y = box["y"] + box["height"] / 2
@@ -116,7 +122,7 @@ def smoothness(browser, url):
     for name, (query, symbol) in SCENES.items():
         page, _, _ = cold_load(browser, url + query)
         page.evaluate(HOOK, FIGURES)
-        rate = frames_per_second(page, partial(drag, page, symbol))
+        rate = frames_per_second(page, partial(drag, page, f"{symbol},"))
         print(f"drag, {name}: {rate:.0f} pictures/s", flush=True)
         if not query:
             play = page.locator(".key-space button")
@@ -128,6 +134,25 @@ def smoothness(browser, url):
             play.click()
             print(f"playback: {rate:.0f} pictures/s")
         page.context.close()
+
+
+def saved_scenes(browser):
+    """Print the size of the file of each scene, and the pictures a second of its slider and playback."""
+    for name, (query, _) in list(SCENES.items())[:4]:
+        with TemporaryDirectory() as folder:
+            path = Path(folder) / "scene.html"
+            path.write_text(scene_file(Page(query.removeprefix("?")).shown), encoding="utf-8")
+            page = browser.new_page(viewport={"width": 1280, "height": 720})
+            page.add_init_script(SCRIPT)
+            page.goto(path.as_uri())
+            page.wait_for_function("document.querySelector('#state')?.disabled === false")
+            page.evaluate(HOOK, FIGURES)
+            dragged = frames_per_second(page, partial(drag, page, "State along the path"))
+            page.locator("#play").click()
+            played = frames_per_second(page, partial(page.wait_for_timeout, 3000))
+            size = path.stat().st_size / 1e6
+            print(f"{name}, as a file of {size:.2f} MB: {dragged:.0f} and {played:.0f} pictures/s")
+            page.close()
 
 
 def left_in_the_tab(browser, url):
@@ -168,6 +193,7 @@ def main():
             print(f"server CPU: {1000 * used / PRESSES:.1f} ms a move")
             smoothness(browser, server.url)
             left_in_the_tab(browser, server.url)
+            saved_scenes(browser)
             browser.close()
     finally:
         server.stop()
