@@ -170,6 +170,7 @@ def test_it_fits_a_slide_and_a_phone(saved):
         assert box["height"] > 200
         assert box["y"] + box["height"] <= 720
     assert page.evaluate("document.documentElement.scrollHeight") <= 720
+    assert page.title() == PRESETS[preset_state().preset].label
     page.set_viewport_size({"width": 390, "height": 844})
     saved.wait("explorer.model('force').inner_width < 330")
     assert page.evaluate("document.documentElement.scrollWidth") == 390
@@ -177,4 +178,8 @@ def test_it_fits_a_slide_and_a_phone(saved):
     for control in ("#state", "#play", "#dark"):
         assert page.locator(control).bounding_box()["height"] >= 44
     assert page.locator(".card.springs").bounding_box()["y"] < 300
+    # The slider stays in sight of every plot.
+    page.locator(".card.force").scroll_into_view_if_needed()
+    assert page.evaluate("scrollY") > 200
+    assert 0 <= page.locator("#state").bounding_box()["y"] < 44
     page.set_viewport_size({"width": 1280, "height": 720})
