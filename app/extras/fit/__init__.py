@@ -302,7 +302,7 @@ def told(view: View) -> list[tuple[str, str]]:
     if curve is None:
         return []
     text = (
-        f"<p>{escape(curve.name)}: {escape(curve.note)}. It is not in the link, but stays in its file.</p>"
+        f"<p>{escape(curve.name)}: {escape(curve.note)}. The link to the explorer opens without it.</p>"
     )
     if curve.fit is None:
         return [("The measured curve", text)]
