@@ -62,6 +62,17 @@ HOOK = """(names) => {
   bench.done = () => bench.painted.size === names.length && performance.now() - bench.last() > 100
 }"""
 
+# A hand on the slider of a saved scene, which does not wait for pictures: 60 places a second.
+HAND = """(seconds) => new Promise((done) => {
+  const slider = document.querySelector("#state"), begin = performance.now()
+  const hand = setInterval(() => {
+    const time = (performance.now() - begin) / 1000
+    slider.value = slider.max * (0.5 + 0.4 * Math.sin(4 * time))
+    slider.dispatchEvent(new Event("input"))
+    if (time > seconds) done(clearInterval(hand))
+  }, 1000 / 60)
+})"""
+
 
 def cpu_seconds(pid):
     """CPU time of a process, from its /proc entry."""
@@ -99,12 +110,9 @@ def frames_per_second(page, act):
     return page.evaluate("bench.frames") / (time.perf_counter() - begin)
 
 
-def drag(page, label):
-    """Drag the slider with this begin of a label to and fro for two seconds.
-
-    Each step begins as soon as the browser has taken the last one.
-    """
-    slider = page.locator(f'input[type="range"][aria-label^="{label}"]')
+def drag(page, symbol):
+    """Drag a slider to and fro for two seconds, a step as soon as the browser has taken the last one."""
+    slider = page.locator(f'input[type="range"][aria-label^="{symbol},"]')
     slider.scroll_into_view_if_needed()
     box, before = slider.bounding_box(), slider.input_value()
     y = box["y"] + box["height"] / 2
@@ -122,7 +130,7 @@ def smoothness(browser, url):
     for name, (query, symbol) in SCENES.items():
         page, _, _ = cold_load(browser, url + query)
         page.evaluate(HOOK, FIGURES)
-        rate = frames_per_second(page, partial(drag, page, f"{symbol},"))
+        rate = frames_per_second(page, partial(drag, page, symbol))
         print(f"drag, {name}: {rate:.0f} pictures/s", flush=True)
         if not query:
             play = page.locator(".key-space button")
@@ -147,7 +155,7 @@ def saved_scenes(browser):
             page.goto(path.as_uri())
             page.wait_for_function("document.querySelector('#state')?.disabled === false")
             page.evaluate(HOOK, FIGURES)
-            dragged = frames_per_second(page, partial(drag, page, "State along the path"))
+            dragged = frames_per_second(page, partial(page.evaluate, HAND, 3))
             page.locator("#play").click()
             played = frames_per_second(page, partial(page.wait_for_timeout, 3000))
             size = path.stat().st_size / 1e6
