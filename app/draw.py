@@ -77,7 +77,7 @@ class Layer:
         found = self._look(points, dark) | {"x": [*chain(*xs)], "y": [*chain(*ys)]}
         return found | {"text": [part[2] for part in parts]} if self.kind == "labels" else found
 
-    def draw(self, figure: Any, level: str) -> Any:
+    def draw(self, figure: Any) -> Any:
         """Renderer of the rows on a figure."""
         kind, look = _GLYPHS[self.kind]
         if self.kind == "areas":
@@ -86,7 +86,7 @@ class Layer:
         only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
         only["y_range_name"] = "right" if self.right else "default"
         # Level: above the axes, on a canvas of its own, so that they are not painted again with the data.
-        return figure.add_glyph(self.source, kind(**look), name=self.name, level=level, **only)
+        return figure.add_glyph(self.source, kind(**look), name=self.name, level="overlay", **only)
 
 
 def _short(values: Any, axis: Axis) -> list[float]:
@@ -121,9 +121,9 @@ def _inside(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, Any]:
 
 
 class Picture:
-    """One plot as a figure; `level` is where its data are painted, `size` that of one that is printed."""
+    """One plot as a figure."""
 
-    def __init__(self, plot: Plot, level: str = "overlay", size: tuple[int, int] | None = None):
+    def __init__(self, plot: Plot):
         self.plot, self.axes, self.drawn = plot, None, None
         ranges = {"x_range": bk.Range1d(0.1, 1), "y_range": bk.Range1d(0.1, 1)}
         self.figure = figure(name=plot.name, tools="", toolbar_location=None, **ranges)
@@ -137,13 +137,13 @@ class Picture:
             self.figure.add_layout(bk.LinearAxis(y_range_name="right"), "right")
         self.image = self._image() if plot.image else None
         for layer in self.layers:
-            renderer = layer.draw(self.figure, level)
+            renderer = layer.draw(self.figure)
             if layer.kind == "lines" and any(row.symbol for row in layer.rows):
                 told = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
                 hover = bk.HoverTool(renderers=[renderer], line_policy="nearest", visible=False, **told)
                 self.figure.add_tools(hover)
                 self.hovers.append((hover, layer.right))
-        self._dress(size)
+        self._dress()
 
     def _image(self):
         empty = {name: [] for name in ("image", "x", "y", "dw", "dh")}
@@ -156,16 +156,13 @@ class Picture:
         self.figure.add_layout(self.bar, "right")
         return source
 
-    def _dress(self, size):
+    def _dress(self):
         f = self.figure
         f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None, title=None)
         # The outermost pixels of a canvas keep a trace of the colour before the last one.
         f.styles = {"clip-path": "inset(1px)"}
         f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
-        if size:
-            f.update(sizing_mode="fixed", width=size[0], height=size[1], output_backend="svg")
-        else:
-            f.update(sizing_mode="stretch_both", min_height=150)
+        f.update(sizing_mode="stretch_both", min_height=150)
         painted = bk.CustomJS(args={"figure": f}, code=JS["label"])
         for axis in f.axis:
             axis.js_on_change("axis_label", painted)

@@ -65,7 +65,9 @@ class Extra:
     courses: Callable[[View], list[Course]] = lambda view: []
     #: Puts links into a text (HTML).
     linked: Callable[[str], str] | None = None
-    #: Titles and texts (HTML) that a report has of it.
+    #: Files to download, each with its label, its name, and its text of a view.
+    files: tuple[tuple[str, str, Callable[[View], str]], ...] = ()
+    #: Titles and texts (HTML) that a saved scene has of it.
     told: Callable[[View], list[tuple[str, str]]] = lambda view: []
     #: A page of its own at the address `?NAME=place`.
     served: Callable[[str], Any] | None = None

@@ -15,6 +15,27 @@ from .plots import D, F, Z
 from .ui import JS, LAYOUT, SHEETS, WIDE
 
 
+def path(view: View) -> dict[str, Any]:
+    """Depth and force of all states in the units of the plots, for what is dragged."""
+    course, d, force = view.course, view.axis(D).factor, view.axis(F).factor
+    found = {"d": course.states.depth / d, "F": course.states.force / force}
+    found = {name: [float(f"{value:.6g}") for value in values] for name, values in found.items()}
+    return found | {"unit": d / view.axis(Z).factor, "pressing": course.pressed}
+
+
+def frames(view: View, pictures: list[Picture]) -> tuple[list[Any], str]:
+    """Sources that move, and what they are in each state with readouts and times, as one text."""
+    course, numbers = view.course, readouts.readings(view.course)
+    states = range(len(course))
+    found = [[picture.frame(view, i) for picture in pictures] for i in states]
+    sent = {
+        "pictures": [[columns for frame in each for columns in frame.values()] for each in found],
+        "words": [escape(readouts.values(course, numbers, i)) for i in states],
+        "times": course.times.tolist(),
+    }
+    return [source for frame in found[0] for source in frame], json.dumps(sent).replace("NaN", "null")
+
+
 class Player:
     """Moves through the states of a scene in the browser, from frames that are sent once."""
 
@@ -45,29 +66,16 @@ class Player:
     def show(self, view: View, moved: bool) -> None:
         """Show the present state of a course and its readouts; drop frames unless it has only moved."""
         course, i = view.course, view.course.now
-        self._numbers = numbers = readouts.readings(course)
+        numbers = readouts.readings(course)
         if self.frames.tags and not moved:
             self.frames.tags = []
         self.state.update(end=len(course) - 1, value=i)
-        d, force = view.axis(D).factor, view.axis(F).factor
-        path = {"d": course.states.depth / d, "F": course.states.force / force}
-        path = {name: [float(f"{value:.6g}") for value in values] for name, values in path.items()}
-        self.state.tags = [path | {"unit": d / view.axis(Z).factor, "pressing": course.pressed}]
+        self.state.tags = [path(view)]
         self.heads.text = escape(readouts.heads(course, numbers))
         self.readout.text = escape(readouts.values(course, numbers, i))
 
     def send(self, view: View, pictures: list[Picture]) -> None:
         """Send all states, once."""
-        if self.frames.tags:
-            return
-        course = view.course
-        states = range(len(course))
-        frames = [[picture.frame(view, i) for picture in pictures] for i in states]
-        sources = [source for frame in frames[0] for source in frame]
-        sent = {
-            "pictures": [[columns for frame in each for columns in frame.values()] for each in frames],
-            "words": [escape(readouts.values(course, self._numbers, i)) for i in states],
-            "times": course.times.tolist(),
-        }
-        # As one text: Bokeh would look at every number of it.
-        self.frames.tags = [sources, json.dumps(sent).replace("NaN", "null")]
+        if not self.frames.tags:
+            # As one text: Bokeh would look at every number of it.
+            self.frames.tags = [*frames(view, pictures)]

@@ -117,7 +117,7 @@ class Links(HTMLParser):
 
 def test_the_site_is_built_without_warnings_and_its_links_lead_somewhere(tmp_path):
     """Built without the pictures of the gallery. Nothing is loaded from other servers."""
-    for package in ("sphinx", "numpydoc", "myst_parser", "pydata_sphinx_theme", "sphinx_gallery"):
+    for package in ("sphinx", "numpydoc", "myst_parser", "pydata_sphinx_theme", "sphinx_gallery", "panel"):
         pytest.importorskip(package)
     build = [
         sys.executable,
@@ -136,6 +136,9 @@ def test_the_site_is_built_without_warnings_and_its_links_lead_somewhere(tmp_pat
     files = [page for page in (tmp_path / "site").rglob("*.html") if "_static" not in page.parts]
     pages = {page.resolve(): Links(page) for page in files}
     assert len(pages) > len(EXAMPLES)
+    # A scene to play stands on the first page, with its plots and the frames of its slider.
+    assert "scene.html" in pages[(tmp_path / "site" / "index.html").resolve()].loaded
+    assert {"state", "play", "readout"} <= pages[(tmp_path / "site" / "scene.html").resolve()].anchors
     for page, found in pages.items():
         for link in found.links + found.loaded:
             target, _, anchor = unquote(link).partition("#")

@@ -1,34 +1,17 @@
-"""Exports: link, report, Python, and curves as CSV in SI."""
+"""Exports: link, Python, files that extras offer, and curves as CSV in SI."""
 
-from datetime import UTC, datetime
-from html import escape
 from io import StringIO
-from math import isclose
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import panel as pn
-from bokeh.embed import components
-from bokeh.resources import Resources
-from jinja2 import Template
 
 import mdr_core as mdr
 
-from .. import readouts
-from ..draw import Picture, drawn, legend
 from ..extra import EXTRAS, Extra
-from ..plot import Plot, View
-from ..plots import visible
-from ..quantities import CHOICES, LABELS, QUANTITIES, SHAPES
+from ..plot import View
 from ..readouts import readings, summary
-from ..state import MEDIUM_CHOICES, PRESETS, YIELD_CONSTANT, State, altered, used
-from ..ui import CSS, WIDE, field, html, marked, show, symbol, tools
-from ..units import written
-
-_TEMPLATE = Template(Path(__file__).with_suffix(".html").read_text(encoding="utf-8"))
-#: Pixels of a plot in a report.
-_SIZE = 500, 340
+from ..ui import WIDE, field, html, show, tools
 
 
 def csv(view: View) -> str:
@@ -64,56 +47,6 @@ def _table(view: View, title: str, columns: dict[str, Any]) -> str:
     return "\n".join([*lines, *(",".join(map(repr, row)) for row in rows)]) + "\n"
 
 
-def report(view: View, plots: list[Plot], snippet: str, address: str = "") -> str:
-    """The report as HTML."""
-    state, course = view.state, view.course
-    plots = [plot for plot in plots if view.axes_of(plot)]
-    title = PRESETS[state.preset].label + ", altered" * bool(altered(state))
-    words = {
-        "title": title,
-        "scene": marked(readouts.summary(state)),
-        "made": f"{datetime.now(UTC):%d %B %Y, %H:%M} UTC, mdr_core {mdr.__version__}",
-        "inputs": list(_inputs(state)),
-        "numbers": [
-            (symbol(each.known.symbol), each.known.long_name, readouts.text(each, values, course.now, 5))
-            for each, values in readouts.readings(course).items()
-        ],
-        "limits": [(level, marked(text)) for level, text in readouts.limits(course, state)],
-        "told": [each for extra in EXTRAS.values() for each in extra.told(view) if each[1]],
-        "python": escape(snippet),
-        "link": escape(address),
-    }
-    pictures = [Picture(plot, "glyph", _SIZE) for plot in plots]
-    for picture in pictures:
-        picture.show(picture.columns(view, course.now, False), view, False)
-    script, figures = components([picture.figure for picture in pictures])
-    words["plots"] = []
-    for plot, figure in zip(plots, figures, strict=True):
-        key, found = legend(plot, drawn(view, plot, {course.now})), view.found.get(plot.name)
-        words["plots"].append(
-            (plot.title, key, figure, marked(plot.formula_of(course)), found.note if found else "")
-        )
-    # Of Bokeh alone what draws.
-    bokeh = Resources(mode="inline", components=["bokeh"]).js_raw
-    return _TEMPLATE.render(words, bokeh=bokeh, script=script, style=CSS)
-
-
-def _inputs(state: State):
-    """Symbol, name, value and source of all inputs, as HTML."""
-    preset, shape = PRESETS[state.preset], SHAPES[state.shape]
-    note = state.tip_note if state.shape == "sampled" else f"{shape.height},  {shape.reduced}"
-    yield "", "indenter", escape(shape.label), marked(note)
-    for choice in (*MEDIUM_CHOICES, "drive"):
-        yield "", LABELS[choice].lower(), CHOICES[choice][state[choice]], ""
-    given = used(state)
-    for name in dict.fromkeys([*given, "E_star", *YIELD_CONSTANT[state.plasticity]]):
-        known, value = QUANTITIES[name], state[name]
-        source = "set on the page" if name in given else "from the numbers above"
-        if name in preset.sources and isclose(value, preset.values[name]):
-            source = preset.sources[name]
-        yield symbol(known.symbol), known.label, written(value, known.kind, 5), escape(source)
-
-
 class Share:
     """The panel *Share*."""
 
@@ -124,14 +57,11 @@ class Share:
         self._note = html()
         buttons = [
             pn.widgets.FileDownload(
-                label=label, filename=name, callback=lambda write=write: StringIO(write(self._page.shown)),
+                label=label, filename=name, callback=lambda write=write: StringIO(write(page.shown)),
                 auto=True, css_classes=["button"], margin=0,
             )
-            for label, name, write in (
-                ("Report", "report.html", self._report),
-                ("Curves (CSV)", "curves.csv", csv),
-                ("Pressure (CSV)", "pressure.csv", pressure_csv),
-            )
+            for extra in EXTRAS.values()
+            for label, name, write in extra.files
         ]  # fmt: skip
         self.view = pn.Column(self.link, self._note, tools(*buttons), self.python, **WIDE)
 
@@ -147,8 +77,8 @@ class Share:
         show(self._note, object=note)
         show(self.python, value=view.course.scene.to_python())
 
-    def _report(self, view):
-        return report(view, visible(view), view.course.scene.to_python(), self.address()[0])
 
-
-EXTRA = Extra("share", order=20, tab="Share", in_header=True, side=Share)
+EXTRA = Extra(
+    "share", order=20, tab="Share", in_header=True, side=Share,
+    files=(("Curves (CSV)", "curves.csv", csv), ("Pressure (CSV)", "pressure.csv", pressure_csv)),
+)  # fmt: skip

@@ -1,9 +1,13 @@
 """Configuration of the documentation, which the README has the command for."""
 
+from pathlib import Path
+
 from docutils import nodes
 from latex2mathml.converter import convert
 
 import mdr_core
+from app.extras.scene_file import scene_file
+from app.page import Page
 
 project = "mdr-core"
 author = "The mdr-core authors"
@@ -56,5 +60,11 @@ def mathml(writer, node):
     raise nodes.SkipNode
 
 
+def save_scene(app, error):
+    """Write the scene that stands on the first page."""
+    Path(app.outdir, "scene.html").write_text(scene_file(Page().shown), encoding="utf-8")
+
+
 def setup(app):
     app.add_html_math_renderer("mathml", (mathml, None), (mathml, None))
+    app.connect("build-finished", save_scene)

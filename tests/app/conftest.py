@@ -122,7 +122,7 @@ def deployed(port):
 class Explorer:
     """The page as a person sees it, and what it said on the way."""
 
-    def __init__(self, page, url):
+    def __init__(self, page, url, ready="explorer.idle()"):
         self.page, self.sent, self.problems = page, [], []
         page.on("websocket", lambda socket: socket.on("framesent", lambda data: self.sent.append(data)))
         page.on("request", self._requested)
@@ -132,7 +132,7 @@ class Explorer:
         page.set_default_timeout(30_000)
         page.add_init_script(SCRIPT)
         page.goto(url)
-        page.wait_for_function("explorer.idle()")
+        page.wait_for_function(ready)
 
     def _requested(self, request):
         if urlsplit(request.url).hostname not in ("localhost", "127.0.0.1", None):
@@ -270,6 +270,22 @@ def context(browser):
     """One profile for all pages, so that scripts are fetched and compiled once."""
     with browser.new_context(viewport={"width": 1440, "height": 900}) as context:
         yield context
+
+
+@pytest.fixture(scope="session")
+def opened(browser):
+    """Opens a saved scene in a browser without a network; at the end nothing was asked or complained of."""
+    with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
+        context.set_offline(True)
+        files = []
+
+        def open_file(path):
+            ready = "document.querySelector('#state')?.disabled === false"
+            files.append(Explorer(context.new_page(), path.as_uri(), ready))
+            return files[-1]
+
+        yield open_file
+        assert [problem for each in files for problem in each.problems] == []
 
 
 @pytest.fixture

@@ -34,6 +34,7 @@ def words(name):
     extra, path = EXTRAS[name], ROOT / f"app/extras/{name}.json"
     data = json.loads(path.read_text(encoding="utf-8")) if path.exists() and name != "guide" else {}
     found = [extra.tab, *(part for plot in extra.plots for part in (plot.tab, plot.title))]
+    found += [label for label, _, _ in extra.files]
     found += [row.name for overlay in extra.overlays for row in overlay.rows if row.legend]
     found += [number["label"] for number in data.get("numbers", ())]
     found += [drive["label"] for drive in data.get("drives", {}).values()]

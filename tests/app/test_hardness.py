@@ -1,7 +1,6 @@
 """Classes of hardness on the page: laws with their numbers, links, presets, and what is refused."""
 
 import re
-from html import unescape
 from math import pi, sqrt
 
 import numpy as np
@@ -12,6 +11,7 @@ from app import changes, link
 from app.drives import follow, in_time
 from app.extras import fit as fitting
 from app.extras import share, sweep
+from app.extras.scene_file import scene_file
 from app.page import Page
 from app.plots import PLOTS
 from app.state import PRESETS, altered, medium, preset_state, profile
@@ -19,6 +19,7 @@ from app.units import written
 
 from .conftest import GOLD, PUNCH
 from .states import linked_state, numbers, state_with, view_of
+from .test_scene_file import plain
 
 SILICA, STEEL = "berkovich-fused_silica", "ball-steel"
 OPTIONS = ("q_c", "hardness", "constant", "line")
@@ -255,11 +256,11 @@ def test_every_plot_and_export_has_the_class(key, choices):
     csv, python = share.csv(view), view.course.scene.to_python()
     assert f", {symbol} = " in csv
     assert f"{constant}=" in python
-    report = share.report(view, [PLOTS["force"]], python)
-    assert ("yield constant, class (c)" if symbol == "f_c" else "constant hardness") in report
-    assert "fast limit" not in report
+    said = plain(scene_file(view))
+    assert ("yield constant, class (c)" if symbol == "f_c" else "constant hardness") in said
+    assert "fast limit" not in said
     if symbol == "H":
-        assert PRESETS[key].sources["volume_hardness"] in unescape(report)
+        assert PRESETS[key].sources["volume_hardness"] in said
 
 
 def test_the_constant_of_a_class_is_swept():

@@ -9,7 +9,7 @@ from app.extras import fit as fitting
 from app.extras import held
 from app.extras.fit.drawn import residual
 from app.extras.guide import TOURS, step_state, step_text
-from app.extras.share import report
+from app.extras.scene_file import scene_file
 from app.page import Page
 from app.plot import rows_of
 from app.plots import PLOTS, D, F, P, X, force, springs, visible
@@ -20,7 +20,7 @@ from mdr_core.results.figures import SPRINGS
 from .conftest import DROP
 from .states import example_curve, fitted, numbers, side, solved, state_with, view_of, viscous
 from .test_drives import oblique_state, path
-from .test_report import plain
+from .test_scene_file import plain
 
 
 def area(row):
@@ -63,10 +63,10 @@ def test_3_the_guide_says_of_which_shape_the_area_goes_with_the_energy():
     assert "ball of 5.5 kg" not in str(TOURS)
 
 
-def test_4_report_and_link_of_a_fit_have_the_fit():
+def test_4_saved_scene_and_link_of_a_fit_have_the_fit():
     state = fitted(depth_noise=1e-11)
     found = state["fit.curve"].fit
-    text = plain(report(view_of(state), [PLOTS["residual"]], ""))
+    text = plain(scene_file(view_of(state)))
     assert "Fit to A made curve" in text
     assert "± " in text[text.index("Fit to A made curve") :]
     for part in ("reduced χ²", "contact point", *found.remarks):

@@ -1,4 +1,4 @@
-"""Latency of the served page: key presses, drags and playback, until the last plot is painted.
+"""Latency of the served page and of a saved scene: key presses, drags and playback, until all is painted.
 
 Run from the project root: python -m tests.benchmarks.page_latency
 """
@@ -9,7 +9,10 @@ import statistics
 import time
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
+from app.extras.scene_file import scene_file
+from app.page import Page
 from tests.app.conftest import CHROMIUM, FLAGS, SCRIPT, Server
 
 PRESSES = 60
@@ -58,6 +61,19 @@ HOOK = """(names) => {
   bench.last = () => Math.max(...bench.painted.values())
   bench.done = () => bench.painted.size === names.length && performance.now() - bench.last() > 100
 }"""
+
+# A hand on the slider of a saved scene: a browser passes one move on in each frame.
+HAND = """(seconds) => new Promise((done) => {
+  const slider = document.querySelector("#state"), begin = performance.now()
+  const move = (now) => {
+    const time = (now - begin) / 1000
+    slider.value = slider.max * (0.5 + 0.4 * Math.sin(4 * time))
+    slider.dispatchEvent(new Event("input"))
+    if (time < seconds) requestAnimationFrame(move)
+    else done()
+  }
+  requestAnimationFrame(move)
+})"""
 
 
 def cpu_seconds(pid):
@@ -130,6 +146,25 @@ def smoothness(browser, url):
         page.context.close()
 
 
+def saved_scenes(browser):
+    """Print the size of the file of each scene, and the pictures a second of its slider and playback."""
+    for name, (query, _) in list(SCENES.items())[:4]:
+        with TemporaryDirectory() as folder:
+            path = Path(folder) / "scene.html"
+            path.write_text(scene_file(Page(query.removeprefix("?")).shown), encoding="utf-8")
+            page = browser.new_page(viewport={"width": 1280, "height": 720})
+            page.add_init_script(SCRIPT)
+            page.goto(path.as_uri())
+            page.wait_for_function("document.querySelector('#state')?.disabled === false")
+            page.evaluate(HOOK, FIGURES)
+            dragged = frames_per_second(page, partial(page.evaluate, HAND, 3))
+            page.locator("#play").click()
+            played = frames_per_second(page, partial(page.wait_for_timeout, 3000))
+            size = path.stat().st_size / 1e6
+            print(f"{name}, as a file of {size:.2f} MB: {dragged:.0f} and {played:.0f} pictures/s")
+            page.close()
+
+
 def left_in_the_tab(browser, url):
     """Print how many elements the page has before and after many changes of drive."""
     page, _, _ = cold_load(browser, url)
@@ -168,6 +203,7 @@ def main():
             print(f"server CPU: {1000 * used / PRESSES:.1f} ms a move")
             smoothness(browser, server.url)
             left_in_the_tab(browser, server.url)
+            saved_scenes(browser)
             browser.close()
     finally:
         server.stop()

@@ -301,9 +301,7 @@ def told(view: View) -> list[tuple[str, str]]:
     curve = view.state["fit.curve"]
     if curve is None:
         return []
-    text = (
-        f"<p>{escape(curve.name)}: {escape(curve.note)}. It is not in the link, but stays in its file.</p>"
-    )
+    text = f"<p>{escape(curve.name)}: {escape(curve.note)}. The link to the explorer opens without it.</p>"
     if curve.fit is None:
         return [("The measured curve", text)]
     remarks = "".join(f"<p>{marked(remark)}</p>" for remark in curve.fit.remarks)

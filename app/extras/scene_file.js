@@ -1,0 +1,60 @@
+// A saved scene: the page's own scripts move it, with a plain slider and button in the place of the page's widgets.
+const [slider, button, numbers, theme] = ["state", "play", "readout", "dark"].map((id) => document.getElementById(id))
+const parsed = (html) => new DOMParser().parseFromString(html, "text/html").body
+const frames = { tags: [] }
+const hand = { tags: [] }
+const readout = { setv: ({ text }) => { numbers.innerHTML = parsed(text).textContent } }
+const play = {
+  set label(text) { button.textContent = text },
+  get active() { return button.ariaPressed === "true" },
+  set active(on) {
+    if (on === play.active) return
+    button.ariaPressed = String(on)
+    moved(play)
+  },
+}
+const shown = () => {
+  slider.style.setProperty("--share", slider.value / slider.max)
+  moved(state)
+  slider.ariaValueText = [...numbers.querySelectorAll("output")].map((each) => each.textContent).join(", ")
+}
+const state = {
+  tags: [path],
+  get value() { return slider.valueAsNumber },
+  setv({ value }) {
+    if (value === state.value) return
+    slider.value = value
+    shown()
+  },
+}
+const shade = (dark) => {
+  document.documentElement.classList.toggle("dark", dark)
+  theme.ariaPressed = String(dark)
+  layers.forEach((source, n) => { source.data = { ...source.data, ...looks[Number(dark)][n] } })
+  const paper = papers[Number(dark)]
+  figures.forEach((figure) => figure.setv({ background_fill_color: paper, border_fill_color: paper }))
+}
+const system = matchMedia("(prefers-color-scheme: dark)")
+system.onchange = () => shade(system.matches)
+shade(document.documentElement.classList.contains("dark"))
+theme.onclick = () => shade(theme.ariaPressed !== "true")
+button.onclick = () => { play.active = !play.active }
+slider.oninput = () => {
+  play.active = false
+  shown()
+}
+document.onkeydown = (event) => {
+  if (event.key !== " " || event.target.matches("button, summary, a")) return
+  event.preventDefault()
+  button.click()
+}
+// A drag finds these by their names, as if they were the page's.
+Object.assign(window, { frames, hand, play, state })
+touched(figures.filter(({ name }) => name !== "pressure"))
+const bytes = Uint8Array.from(atob(packed), (letter) => letter.charCodeAt(0))
+const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))
+new Response(stream).text().then((sent) => {
+  frames.tags = [sources, sent]
+  slider.disabled = button.disabled = false
+  slider.style.setProperty("--share", slider.value / slider.max)
+})

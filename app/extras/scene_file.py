@@ -1,0 +1,144 @@
+"""A scene as a file: one HTML that plays in a browser without a server and without a network."""
+
+import re
+from base64 import b64encode
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from html import escape
+from math import isclose
+from pathlib import Path
+from zlib import compress
+
+import panel as pn
+from bokeh.document import Document
+from bokeh.embed import file_html
+from bokeh.events import DocumentReady, Pan, PanEnd, PanStart
+from bokeh.models import CustomJS
+from bokeh.resources import Resources
+
+import mdr_core as mdr
+from mdr_core.results.figures import ROLES
+
+from .. import link, readouts
+from ..draw import Picture, drawn, legend
+from ..extra import EXTRAS, Extra
+from ..player import frames, path
+from ..plot import Plot, View
+from ..plots import NAMED, PLOTS
+from ..quantities import CHOICES, LABELS, QUANTITIES, SHAPES
+from ..state import MEDIUM_CHOICES, PRESETS, YIELD_CONSTANT, State, altered, used
+from ..ui import CSS, JS, marked, symbol
+from ..units import written
+
+_HERE = Path(__file__)
+_TEMPLATE = _HERE.with_suffix(".html").read_text(encoding="utf-8")
+#: The page's scripts of player and touch as functions, and what calls them.
+_CODE = f"""
+const moved = (cb_obj) => {{\n{JS["player"]}\n}}
+const touched = (figures) => {{\n{JS["touch"]}\n}}
+{_HERE.with_suffix(".js").read_text(encoding="utf-8")}"""
+#: Columns of a source that are of another colour in the dark.
+_COLOURS = ("color", "edge", "ground")
+_PAPER = "V. L. Popov, Facta Universitatis, Series: Mechanical Engineering 13(1), 2015, 39–46"
+
+
+def address(state: State) -> str:
+    """Link to a scene on this server; empty without a server, or if the scene has none."""
+    if pn.state.location is None:
+        return ""
+    try:
+        query = link.write(state)
+    except ValueError:
+        return ""
+    return pn.state.location.href.split("?")[0] + f"?{query}" * bool(query)
+
+
+def scene_file(view: View) -> str:
+    """A view as one HTML: the three plots, a slider along the path, readouts, and notes."""
+    state, course = view.state, view.course
+    title = PRESETS[state.preset].label + ", altered" * bool(altered(state))
+    numbers = readouts.readings(course)
+    pictures = [Picture(PLOTS[name]) for name in NAMED]
+    document = Document()
+    for picture in pictures:
+        picture.show(picture.columns(view, course.now, state.dark), view, state.dark)
+        document.add_root(picture.figure)
+    _connect(document, view, pictures)
+    words = {
+        "style": CSS,
+        # Of Bokeh alone what draws; file_html adds a script of Panel's server.
+        "bokeh": Resources(mode="inline", components=["bokeh"]).js_raw[0],
+        "dark": str(state.dark).lower(),
+        "heading": escape(title),
+        "scene": marked(readouts.summary(state)),
+        # Links of explanations lead to pages of the server.
+        "heads": re.sub(r"</?a\b[^>]*>", "", readouts.heads(course, numbers)),
+        "readout": readouts.values(course, numbers, course.now),
+        "last": len(course) - 1,
+        "now": course.now,
+        "plots": [_card(view, picture.plot) for picture in pictures],
+        "folded": list(_folded(view)),
+        "link": escape(address(state)),
+        "made": f"{datetime.now(UTC):%d %B %Y}, mdr_core {mdr.__version__}. Equations: {_PAPER}.",
+    }
+    return file_html(document, "inline", title, template=_TEMPLATE, template_variables=words)
+
+
+def _card(view: View, plot: Plot) -> tuple[str, ...]:
+    """Name of a plot, and title, formula and legend as HTML."""
+    key = legend(plot, drawn(view, plot, {view.course.now, view.course.peak}))
+    return plot.name, plot.title, marked(plot.formula_of(view.course)), key
+
+
+def _connect(document: Document, view: View, pictures: list[Picture]) -> None:
+    """Let the browser play, drag, and turn dark."""
+    sources, sent = frames(view, pictures)
+    now, looks = view.course.now, []
+    for dark in (False, True):
+        columns = [each for picture in pictures for each in picture.columns(view, now, dark).items()]
+        looks.append([{name: data[name] for name in _COLOURS if name in data} for _, data in columns])
+    told = {
+        "figures": [picture.figure for picture in pictures],
+        "sources": sources,
+        "layers": [source for source, _ in columns],
+        "looks": looks,
+        "papers": [ROLES["paper"][dark] for dark in (False, True)],
+        "path": path(view) | {"pressing": False},
+        # A tenth of its size.
+        "packed": b64encode(compress(sent.encode(), 9)).decode(),
+    }
+    document.js_on_event(DocumentReady, CustomJS(args=told, code=_CODE))
+    for picture in pictures:
+        drag = CustomJS(args={"figure": picture.figure}, code=JS["drag"])
+        if picture.plot.name != "pressure":
+            for event in (PanStart, Pan, PanEnd):
+                picture.figure.js_on_event(event, drag)
+
+
+def _folded(view: View) -> Iterator[tuple[str, str]]:
+    """Titles and texts (HTML) below the plots."""
+    yield from (each for extra in EXTRAS.values() for each in extra.told(view) if each[1])
+    limits = readouts.limits(view.course, view.state)
+    sentences = "".join(f'<span class="{level}">{marked(text)}</span>' for level, text in limits)
+    yield "Assumptions and notes", sentences
+    rows = ("".join(f"<td>{cell}</td>" for cell in row) for row in _inputs(view.state))
+    yield "Inputs and their sources", f"<table>{''.join(f'<tr>{row}</tr>' for row in rows)}</table>"
+
+
+def _inputs(state: State) -> Iterator[tuple[str, str, str, str]]:
+    """Symbol, name, value and source of all inputs, as HTML."""
+    preset, shape = PRESETS[state.preset], SHAPES[state.shape]
+    note = state.tip_note if state.shape == "sampled" else f"{shape.height},  {shape.reduced}"
+    yield "", "indenter", escape(shape.label), marked(note)
+    for choice in (*MEDIUM_CHOICES, "drive"):
+        yield "", LABELS[choice].lower(), CHOICES[choice][state[choice]], ""
+    given = used(state)
+    for name in dict.fromkeys([*given, "E_star", *YIELD_CONSTANT[state.plasticity]]):
+        known, value = QUANTITIES[name], state[name]
+        source = "set on the page" if name in given else "from the numbers above"
+        if name in preset.sources and isclose(value, preset.values[name]):
+            source = preset.sources[name]
+        yield symbol(known.symbol), known.label, written(value, known.kind, 5), escape(source)
+
+
+EXTRA = Extra("scene_file", order=19, files=(("Scene as a file", "scene.html", scene_file),))

@@ -1,0 +1,207 @@
+"""A scene as a file says and draws what the page does, and needs nothing else."""
+
+import re
+from html import unescape
+
+import numpy as np
+import pytest
+
+from app import changes, readouts
+from app.draw import Picture
+from app.extras.held import Held
+from app.extras.scene_file import scene_file
+from app.plots import NAMED, PLOTS
+from app.readouts import readings
+from app.state import PRESETS, preset_state
+
+from .conftest import DROP
+from .states import fitted, state_with, view_of
+from .test_page import now
+from .test_page import unit as unit_of
+
+#: Numbers of states of the opening scene: elastic, yielding, of the largest depth, and unloading.
+STATES = 20, 60, 80, 100
+
+
+def plain(html):
+    """What is read of a page."""
+    body = re.sub(r"<(script|style).*?</\1>", "", html, flags=re.DOTALL)
+    return " ".join(unescape(re.sub(r"<[^>]+>", " ", body)).split())
+
+
+def test_it_says_what_the_page_says():
+    state = changes.put(preset_state(DROP), "speed", 2.0)
+    view = view_of(state, 1.5)
+    course = view.course
+    view.computed["held"] = [Held("<b>stiff</b>", course)]
+    html = scene_file(view)
+    said = plain(html)
+    assert f"{PRESETS[DROP].label}, altered" in said
+    assert "Held 1: <b>stiff</b>." in said
+    # Of equations the text alone: the links of the page lead to its server.
+    assert "?theory=" not in html
+    for each in readouts.line(course, readings(course)):
+        assert each.known.long_name in said
+    # What the preset says has its source; what was typed says so.
+    assert PRESETS[DROP].sources["q_c"] in said
+    assert "2.0000 m/s set on the page" in said
+    for limit in course.hit.limits:
+        # The fast limit is compared with two areas instead.
+        assert (limit.sentence.rstrip(".") if limit.what != "fast limit" else "Fast-impact limit") in said
+    assert all(PLOTS[name].title in said for name in NAMED)
+
+
+def test_text_of_others_is_never_markup_in_a_file():
+    r = np.linspace(0, 1e-6, 20)
+    state = changes.take_tip(preset_state(), (r, r**2 / 1e-5), "20 rows of <img src=x>")
+    html = scene_file(view_of(state))
+    assert "<img src=x" not in html
+    assert "20 rows of <img src=x>" in plain(html)
+
+
+@pytest.mark.parametrize("state", [state_with(DROP, "oblique"), fitted()], ids=["oblique", "fit"])
+def test_it_can_be_sent_by_mail(state):
+    """The scene with most frames, and one with a measured curve, are below 3 MB."""
+    assert len(scene_file(view_of(state)).encode()) < 3e6
+
+
+@pytest.fixture(scope="module")
+def saved(opened, tmp_path_factory):
+    """The opening scene, opened from its file."""
+    path = tmp_path_factory.mktemp("saved") / "scene.html"
+    path.write_text(scene_file(view_of(preset_state())), encoding="utf-8")
+    return opened(path)
+
+
+def go(saved, number):
+    saved.page.get_by_label("State along the path").fill(str(number))
+
+
+def test_the_numbers_of_a_cone_are_read_and_drawn_in_every_state(saved):
+    """F = 2E* (d² − d_p²)/(π s): Eq. (22) with a(u) = 2u/(π s), without the solver."""
+    state, depths = preset_state(), view_of(preset_state()).course.states.depth
+    critical = np.pi * state.q_c / (2 * state.E_star)
+    for number in STATES:
+        go(saved, number)
+        depth, force = now(saved)
+        plastic = max(0.0, depths[: number + 1].max() - critical)
+        expected = 2 * state.E_star * (depth**2 - plastic**2) / (np.pi * state.cone_slope)
+        # Depths are drawn to 10⁻⁵ of the axis, to which the force of unloading is 30 times as sensitive.
+        assert force == pytest.approx(expected, rel=1e-3), number
+        value, unit = saved.readout("force").split()
+        assert float(value) * {"nN": 1e-9, "µN": 1e-6}[unit] == pytest.approx(expected, rel=1e-3)
+        assert bool(np.isfinite(saved.row("springs", "yielded")[0]).any()) == (plastic > 0)
+        if number < 80:
+            # The peak of the pressure is beyond the axis, and not drawn.
+            continue
+        # The pressure that is drawn carries the force; trapezoids miss some of its cusp.
+        r, p = saved.row("pressure", "−σzz(r)")
+        units = saved.axis("pressure")["labels"]
+        carried = np.pi * np.trapezoid(p * np.abs(r), r)
+        carried *= unit_of(units[0], "length") ** 2 * unit_of(units[1], "pressure")
+        assert carried == pytest.approx(expected, rel=0.01), number
+
+
+def test_every_row_is_drawn_as_on_the_page(saved):
+    view = view_of(preset_state())
+    numbers = readings(view.course)
+    for number in STATES:
+        go(saved, number)
+        line = readouts.line(view.course, numbers)
+        said = {each.name: readouts.text(each, numbers[each], number) for each in line}
+        assert {name: saved.readout(name) for name in said} == said
+        for name in NAMED:
+            for layer, columns in Picture(PLOTS[name]).columns(view, number, False).items():
+                for k, row in enumerate(columns["row"] if "xs" in columns else ()):
+                    places = np.array([columns["xs"][k], columns["ys"][k]], float)
+                    np.testing.assert_array_equal(
+                        saved.row(name, row), places, err_msg=f"{layer.name} {row}"
+                    )
+
+
+def test_it_plays_is_dragged_and_turns_dark(saved):
+    """As the page does, with the mouse and with keys."""
+    page = saved.page
+    slider, play = page.get_by_label("State along the path"), page.locator("#play")
+    go(saved, 80)
+    before = saved.row("force", "now")
+    saved.drag("force", (-0.3, 0.3))
+    assert saved.row("force", "now")[0] < before[0]
+    assert slider.input_value() != "80"
+    before = saved.row("force", "now")
+    saved.drag("springs", (0, 0.2))
+    assert saved.row("force", "now")[0] > before[0]
+    go(saved, 0)
+    page.keyboard.press("Space")
+    saved.wait("explorer.row('force', 'now')[0][0] > 5")
+    assert play.inner_text() == "❚❚ Pause"
+    page.keyboard.press("Space")
+    assert play.inner_text() == "▶ Play"
+    stopped = slider.input_value()
+    assert saved.row("force", "now")[0][0] == pytest.approx(
+        float(saved.readout("depth").split()[0]), abs=1e-3
+    )
+    colour = """() => {
+        const { background_fill_color, renderers } = explorer.model("springs")
+        const drawn = renderers.map(({ data_source: { data } }) => data.color[0])
+        return [getComputedStyle(document.body).backgroundColor, background_fill_color, ...drawn]
+    }"""
+    light = page.evaluate(colour)
+    saved.press("Dark")
+    dark = page.evaluate(colour)
+    assert all(one != other for one, other in zip(light, dark, strict=True))
+    assert page.locator("#dark").get_attribute("aria-pressed") == "true"
+    saved.press("Dark")
+    assert page.evaluate(colour) == light
+    assert slider.input_value() == stopped
+    # A browser that turns dark turns it, too.
+    page.emulate_media(color_scheme="dark")
+    saved.wait("document.documentElement.classList.contains('dark')")
+    assert page.evaluate(colour) == dark
+    page.emulate_media(color_scheme="light")
+    saved.wait("!document.documentElement.classList.contains('dark')")
+
+
+def test_it_fits_a_slide_and_a_phone(saved):
+    """All on one screen of 1280 × 720; on a phone one column, all readouts, and targets for a finger."""
+    page = saved.page
+    for box in (page.locator(f".card.{name}").bounding_box() for name in NAMED):
+        assert box["width"] > 400
+        assert box["height"] > 200
+        assert box["y"] + box["height"] <= 720
+    assert page.evaluate("document.documentElement.scrollHeight") <= 720
+    assert page.title() == PRESETS[preset_state().preset].label
+    page.set_viewport_size({"width": 390, "height": 844})
+    saved.wait("explorer.model('force').inner_width < 330")
+    assert page.evaluate("document.documentElement.scrollWidth") == 390
+    assert page.locator("output:visible").count() == page.locator(".strip .word:visible").count() == 8
+    for control in ("#state", "#play", "#dark"):
+        assert page.locator(control).bounding_box()["height"] >= 44
+    assert page.locator(".card.springs").bounding_box()["y"] < 300
+    # The slider stays in sight of every plot.
+    page.locator(".card.force").scroll_into_view_if_needed()
+    assert page.evaluate("scrollY") > 200
+    assert 0 <= page.locator("#state").bounding_box()["y"] < 44
+    page.set_viewport_size({"width": 1280, "height": 720})
+
+
+def test_a_fit_is_drawn_with_its_numbers_on_a_page_that_was_dark(opened, tmp_path):
+    """Every third of the 400 samples, from the first contact that was fitted."""
+    state = fitted().replace(dark=True)
+    path = tmp_path / "scene.html"
+    path.write_text(scene_file(view_of(state)), encoding="utf-8")
+    file, curve = opened(path), state["fit.curve"]
+    depth, force = (part[::3] for part in curve.data)
+    x, y = file.row("force", "measured")
+    labels = file.axis("force")["labels"]
+    # As they are drawn, to 10⁻⁴ of axes of 10 nm and 4 µN.
+    np.testing.assert_allclose(
+        x * unit_of(labels[0], "length"), depth - curve.fit.contact_point, atol=1e-12
+    )
+    np.testing.assert_allclose(y * unit_of(labels[1], "force"), force - curve.fit.baseline, atol=4e-10)
+    file.page.get_by_text("Fit to A made curve").click()
+    told = file.page.locator("footer details", has_text="Fit to").inner_text()
+    assert f"{curve.fit.medium.E_star / 1e9:.2f} ± " in told
+    assert file.page.locator("html").get_attribute("class") == "dark"
+    assert file.page.locator("#dark").get_attribute("aria-pressed") == "true"
+    file.page.close()
