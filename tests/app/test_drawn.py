@@ -281,11 +281,13 @@ def test_sentences_are_true(server, page):
     # Of areas with four digits.
     assert (above, -below) == pytest.approx([fast / A - 1 for A in (damaged, contact)], abs=1e-3)
     assert re.search("% above the damaged area.*% below the contact area", sentence)
-    # The sweep draws power laws through one point, and says so.
+    # The sweep draws the other classes of hardness, with their constants.
     page.goto(f"{server.url}?preset={DROP}&tiles=sweep&against=restitution")
     page.wait("explorer.row('sweep', 'this scene')?.[0].length > 1")
-    assert named(page, "sweep", "scaling of class (a), hardness constant") == 1
-    assert "Lines of (a) and (c) are these powers, drawn through the fast limit" in said(page)
+    assert named(page, "sweep", "(a) hardness constant") == 1
+    assert re.search(
+        r"Other classes through this point: \(a\) H = [\d.]+ MPa, e ∝ W.*; \(c\) f", said(page)
+    )
 
 
 def test_guided_scenes_are_true(server, page):

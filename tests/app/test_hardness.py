@@ -249,7 +249,7 @@ def test_every_plot_and_export_has_the_class(key, choices):
             assert view.rows(plot, view.course.now), plot.name
             continue
         found = plot.find(view.course, plot.asked(state))
-        assert plot.name != "sweep" or ("scaling" not in str(list(found.rows)) and "fast" not in found.note)
+        assert plot.name != "sweep" or sweep.FAST not in found.rows
         assert found.rows or "Nothing is swept" in found.note, plot.name
     constant, symbol = ("f_c", "f_c") if state.plasticity == "line" else ("hardness", "H")
     csv, python = share.csv(view), view.course.scene.to_python()
