@@ -270,7 +270,7 @@ def test_sentences_are_true(server, page):
     assert "which of them are illustrative" in text
     page.goto(f"{server.url}?damping=eta&eta=1e6")
     text = said(page)
-    assert "For these choose an impact, or the drive path and one of its patterns in time." in text
+    assert " act in an impact, or the drive path and one of its patterns in time." in text
     assert "They also act along the two patterns of a path that are in time." in text
     # A fast impact: areas of the limit, of the damage and of the contact, and their ratios.
     page.goto(f"{server.url}?preset={DROP}")

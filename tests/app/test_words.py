@@ -68,7 +68,7 @@ def test_half_angle_beside_the_slope_and_drop_height_beside_the_speed():
     # 5.5 kg at 1 m/s: half a joule a kilogram; v²/2g is 1 m²/s² over 19.6133 m/s².
     said = re.sub("<[^>]+>", "", page.form.notes["drive"].object)
     assert "Energy 2.750 J" in said
-    assert "from 50.99 mm" in said
+    assert "drop height 50.99 mm" in said
     assert "Half-angle" not in page.form.notes["shape"].object
     assert page.state.density == 1900
 
