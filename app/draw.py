@@ -1,6 +1,5 @@
 """Plots as Bokeh figures: one source for the rows of a kind, drawn by `source.data = …`; frames."""
 
-from html import escape
 from itertools import chain
 from math import floor, log10
 from typing import Any
@@ -12,7 +11,8 @@ from bokeh.plotting import figure
 from mdr_core.results.figures import DASHES, NOTHING, ROLES, Axis, Row
 
 from .plot import Plot, View, rows_of
-from .ui import JS
+from .quantities import lowered
+from .ui import JS, marked
 
 FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
 #: Rows that are drawn together, from the back to the front.
@@ -73,7 +73,7 @@ class Layer:
             parts = [_inside(row, x_axis, y_axis, *part[:2]) for row, part in pairs]
         xs, ys = ([_short(part[k], axis) for part in parts] for k, axis in ((0, x_axis), (1, y_axis)))
         if self.connected:
-            names = [row.called(rows[row.name]) for row in self.rows]
+            names = [lowered(row.called(rows[row.name])) for row in self.rows]
             return self._look(self.rows, dark) | {"row": names, "xs": xs, "ys": ys}
         points = [row for row, x in zip(self.rows, xs, strict=True) for _ in x]
         found = self._look(points, dark) | {"x": [*chain(*xs)], "y": [*chain(*ys)]}
@@ -267,5 +267,5 @@ def legend(plot, shown):
         if row.legend and row.name in shown:
             hatch = "hatch" * (row.look.get("hatch", " ") != " ")
             look = " ".join((row.kind, hatch, row.look.get("dash", ""), row.look.get("marker", "")))
-            text += f'<span class="{row.role}"><i class="{look}"></i>{escape(shown[row.name])}</span>'
+            text += f'<span class="{row.role}"><i class="{look}"></i>{marked(shown[row.name])}</span>'
     return text

@@ -21,7 +21,8 @@ _MOST = 4
 def found(course: Course, asked: tuple[bool]) -> Found:
     """Mean pressure along the path, the hardness at each contact radius, and axes, logarithmic if asked."""
     (log,), states, made = asked, course.states, course.scene.medium
-    a, p = states.contact_radius, np.asarray(states.mean_pressure)
+    # Without contact there is no pressure.
+    a, p = states.contact_radius, np.where(states.contact_radius > 0, states.mean_pressure, np.nan)
     rows = split(a, p, states.depth, states.live_interval.lower)
     widest, largest = float(np.max(a)), float(course.turning_point.mean_pressure)
     yields = made.q_c < np.inf

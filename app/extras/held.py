@@ -17,7 +17,7 @@ from ..drives import follow, scene_of
 from ..extra import Extra
 from ..plot import Along, Overlay, View
 from ..plots import PLOTS, P, R
-from ..quantities import CHOICES, OF_DRIVE, QUANTITIES, lowered
+from ..quantities import CHOICES, OF_DRIVE, QUANTITIES
 from ..readouts import line as readout_line
 from ..readouts import readings, text
 from ..state import PRESETS, State, altered, used
@@ -153,7 +153,7 @@ def _overlay(plot: str, rows: list, columns: Callable[[View, Course], dict]) -> 
         for k, held in enumerate(scenes(view), 1):
             parts = columns(view, held.course)
             inside = all(_fits(view, axes, part) for part in parts.values())
-            name = lowered(held.name) + " (partly beyond the axes)" * (not inside)
+            name = held.name + " (partly beyond the axes)" * (not inside)
             found |= {f"held {k}{what}": (*part, name) for what, part in parts.items()}
         return found
 

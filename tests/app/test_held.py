@@ -1,7 +1,6 @@
 """Scenes that are held: kept with their names in the link, told apart, and removed."""
 
 import re
-from html import unescape
 
 import numpy as np
 import pytest
@@ -78,13 +77,14 @@ def test_each_has_its_own_row_in_every_plot():
     looks = {row.look["dash"] for row in rows_of(PLOTS["force"]) if row.role == "held"}
     assert len(looks) == len(states)
     names = drawn(view, PLOTS["force"], {view.course.now})
-    shown = [unescape(re.sub("<.*?>", "\n", legend(PLOTS["force"], names))).split("\n")][0]
+    text = legend(PLOTS["force"], names).replace("<i>d</i><sub>max</sub>", "d_max")
+    shown = re.findall(r">([^<]+)</span>", text)
     # The first one is the present scene, which has no difference from itself.
-    expected = ["dₘₐₓ = 9 nm", "dₘₐₓ = 3 nm", "dₘₐₓ = 6 nm", "dₘₐₓ = 12 nm (partly beyond the axes)"]
-    assert [text for text in shown if "dₘₐₓ" in text] == expected
+    expected = [f"d_max = {depth} nm" for depth in (9, 3, 6)] + ["d_max = 12 nm (partly beyond the axes)"]
+    assert [text for text in shown if "d_max" in text] == expected
     layer = next(each for each in Picture(PLOTS["force"]).layers if each.name == "lines")
     told = layer.columns(rows, view.axes_of(PLOTS["force"]), False)["row"]
-    assert [text for text in told if "dₘₐₓ" in text] == expected
+    assert [text.replace("dₘₐₓ", "d_max") for text in told if "dₘₐₓ" in text] == expected
 
 
 def test_a_held_scene_is_named_by_what_differs_from_the_present_one():

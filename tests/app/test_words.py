@@ -141,7 +141,7 @@ def test_a_guided_scene_is_stepped_through_and_undone():
     assert page.state.tiles == ("surface",)
     # What it says is gone while the page shows something else.
     page.apply(lambda state: changes.put(state, "speed", 2 * state.speed))
-    assert "1 of 6. The page shows something else" in side(page, "guide").words.object
+    assert "1 of 6. The scene has been changed" in side(page, "guide").words.object
     page.frame.undo.act()
     assert "e = 1.00" in re.sub("<[^>]+>", "", side(page, "guide").words.object)
     # Each step that sets something is one change.
