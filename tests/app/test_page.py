@@ -301,4 +301,4 @@ def test_what_is_shared_comes_back(explorer, tmp_path):
     path.write_text(table({"r (nm)": r, "z (nm)": r**2 / 100}, "; ", comma=True))
     explorer.change(page.get_by_label("CSV file of a measured tip: r, z").set_input_files, path)
     assert explorer.chosen("Shape") == "Measured tip"
-    assert page.get_by_text("40 samples as they are").count() == 1
+    assert page.get_by_text("40 samples, as in the file").count() == 1
