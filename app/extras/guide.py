@@ -51,8 +51,8 @@ def step_text(step: dict[str, Any], course: Course) -> str:
 
 
 def _marked(text: str) -> str:
-    """HTML of a text with links, and *words* in italics; the asterisk of E* is followed by no letter."""
-    return re.sub(r"\*(\w+)\*", r"<i>\1</i>", linked(text))
+    """HTML of a text with links, powers as W^(2/3), and *words*; no letter follows the asterisk of E*."""
+    return re.sub(r"\*(\w+)\*", r"<i>\1</i>", re.sub(r"\^\((.*?)\)", r"<sup>\1</sup>", linked(text)))
 
 
 class Guide:
