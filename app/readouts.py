@@ -80,16 +80,16 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
             yield "note", "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*."
         elif limit.what == "coupling" and not given:
             yield "note", "Friction along the surface is that of ν = ½; ν is not given with E*."
-        elif limit.what == "viscosity":
+        elif limit.what == "viscosity" and not course.pending:
             tau = written(limit.value, "time")
             remedy = ", or ".join(drive["in_time"] for drive in OF_DRIVE.values() if "in_time" in drive)
             yield "note", f"Pressing is quasi-static here; dashpots, τ = {tau}, act in {remedy}."
-        elif limit.what != "fast limit":
+        elif limit.what not in ("fast limit", "viscosity"):
             yield limit.level, limit.sentence
-        elif limit.holds and not course.adhesive:
+        elif limit.what == "fast limit" and limit.holds and not course.adhesive:
             # The fast limit is one without adhesion.
             yield limit.level, _areas(course.hit)
-        elif not course.adhesive:
+        elif limit.what == "fast limit" and not course.adhesive:
             yield limit.level, limit.sentence + (f" {_areas(course.hit)}" if limit.value < np.inf else "")
 
 

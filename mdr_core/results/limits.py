@@ -232,7 +232,7 @@ def friction_limits(medium):
     text += f". This is exact only for ν = ½; here ν = {nu:.3g}." if value > 0 else ", exact for ν = ½."
     yield Limit("coupling", value, 0.0, value > 0, text, severe=False)
     value = float(np.max(np.abs(medium.poisson / (4 - 2 * medium.poisson))))
-    text = f"Slip is taken along the velocity; up to {value:.2g} of the slip is across it."
+    text = f"Slip across the velocity, up to {value:.2g} of the slip, is neglected."
     yield Limit("slip direction", value, 0.2, value > 0.2, text, severe=False)
 
 

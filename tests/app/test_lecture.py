@@ -13,6 +13,7 @@ from app.extras import hardness, oblique, reading, sweep
 from app.extras.fit.measured import read_curve
 from app.extras.guide import TOURS, step_state, step_text
 from app.plots import PLOTS, D, X
+from app.readouts import limits
 from app.state import medium, preset_state, profile
 
 from .conftest import DROP, ELASTIC, GOLD, PUNCH
@@ -212,3 +213,14 @@ def test_remarks_of_a_fit_have_words_in_the_place_of_names_of_python():
     assert re.findall(r"[A-Za-z]{2,}_[a-z]+|E_star", text) == []
     assert re.findall(r"(?<![\w/])-\d", text) == []
     assert state["fit.curve"].fit.remarks
+
+
+def test_quasi_static_pressing_is_said_where_it_is_so():
+    """Not of creep that is being computed with viscosity, nor of an impact."""
+    pressed = state_with(GOLD, damping="eta")
+    creeping = state_with(GOLD, "path", damping="eta", pattern="creep")
+    hit = state_with(GOLD, "impact", damping="eta")
+    for state, says in ((pressed, True), (creeping, False), (hit, False)):
+        sentences = " ".join(text for _, text in limits(follow(state), state))
+        assert ("quasi-static here; dashpots" in sentences) is says
+        assert "indent_in_time" not in sentences
