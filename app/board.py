@@ -36,8 +36,7 @@ class Card:
         self.plot, self.picture, self._rows, self._apply = plot, Picture(plot), None, apply
         self.log = Button("Log", self._scale, pressed=False)
         self.large = Button("Large", self._enlarge, pressed=False)
-        rows = [row.name for row in rows_of(plot) if row.legend]
-        named = {"figure": plot.name, "title": plot.title, "rows": rows}
+        named = {"figure": plot.name, "title": plot.title}
         logs = [self.log] * plot.logs
         self.head = Head(*logs, Button("Save", lambda: None), self.large, **named)
         self.note = html("", "note", "found")
@@ -70,7 +69,8 @@ class Card:
         rows = drawn(view, plot, {course.now, course.peak})
         if rows != self._rows:
             self._rows = rows
-            show(self.head, legend=legend(plot, rows))
+            names = [rows.get(row.name, row.name) for row in rows_of(plot) if row.legend]
+            show(self.head, legend=legend(plot, rows), rows=names)
         self.log.show(pressed=plot.name in view.state.log)
         if plot.name in view.found:
             show(self.note, object=view.found[plot.name].note)

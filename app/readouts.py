@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .courses import Course
+from .courses import Course, onset_depth
 from .quantities import (
     CHOICES,
     OF_DRIVE,
@@ -80,19 +80,16 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
             yield "note", "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*."
         elif limit.what == "coupling" and not given:
             yield "note", "Friction along the surface is that of ν = ½; ν is not given with E*."
-        elif limit.what == "viscosity":
+        elif limit.what == "viscosity" and not course.pending:
             tau = written(limit.value, "time")
             remedy = ", or ".join(drive["in_time"] for drive in OF_DRIVE.values() if "in_time" in drive)
-            yield (
-                "note",
-                f"Pressing is quasi-static here, without dashpots; τ = {tau}. For these choose {remedy}.",
-            )
-        elif limit.what != "fast limit":
+            yield "note", f"Pressing is quasi-static here; dashpots, τ = {tau}, act in {remedy}."
+        elif limit.what not in ("fast limit", "viscosity"):
             yield limit.level, limit.sentence
-        elif limit.holds and not course.adhesive:
+        elif limit.what == "fast limit" and limit.holds and not course.adhesive:
             # The fast limit is one without adhesion.
             yield limit.level, _areas(course.hit)
-        elif not course.adhesive:
+        elif limit.what == "fast limit" and not course.adhesive:
             yield limit.level, limit.sentence + (f" {_areas(course.hit)}" if limit.value < np.inf else "")
 
 
@@ -122,20 +119,19 @@ def warnings(course: Course, state: State) -> str:
 
 def law_of_hardness(course: Course) -> str:
     """The hardness at the contact radius of the largest depth, and where yield begins."""
-    made, a, onset = course.scene.medium, float(course.turning_point.contact_radius), course.yield_depth
+    made, onset = course.scene.medium, onset_depth(course.scene)
+    a = float(course.turning_point.contact_radius)
     if made.q_c == np.inf:
         return "Nothing yields: q_c = ∞"
     law = "q_c/a" if made.q_c else "f_c/a²" if made.f_c else "H"
     hardness = written(float(made.hardness_at(a)), "pressure")
     place = " at every a" if law == "H" else f" at a = {written(a, 'length')}"
     starts = f"Yield starts at d_y = {written(onset, 'length')}"
-    if made.inverse_to_radius:
-        starts = f"Yield starts at d_c = π q_c/(2E*) = {written(onset, 'length')} (19)"
-    elif onset == np.inf:
+    if onset == np.inf:
         starts = "Nothing yields under this shape: H is too large"
     elif onset == 0:
         starts = "Yield starts at first touch, d_y = 0"
-    return f"σ_c = {law} = {hardness}{place}. {starts}" + " § 20" * (not made.inverse_to_radius)
+    return f"σ_c = {law} = {hardness}{place}. {starts} " + ("(19)" if made.inverse_to_radius else "§ 20")
 
 
 def summary(state: State) -> str:

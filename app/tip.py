@@ -45,7 +45,7 @@ def read_tip(text: str, name: str = "the file") -> tuple[tuple[Any, Any], str]:
     r, z = samples_of(text, name, None, _MAX_ROWS)
     try:
         if len(r) <= MAX_SAMPLES:
-            return (mdr.Sampled(r, z).r, z - z[0]), f"{len(r)} samples as they are"
+            return (mdr.Sampled(r, z).r, z - z[0]), f"{len(r)} samples, as in the file"
     except ValueError:
         # Noise makes any tip concave somewhere.
         pass
@@ -62,4 +62,4 @@ def read_tip(text: str, name: str = "the file") -> tuple[tuple[Any, Any], str]:
     subset = np.unique(np.linspace(0, len(tip.r) - 1, MAX_SAMPLES).round().astype(int))
     samples = np.array(tip.r)[subset], np.array(tip.z)[subset]
     by = written(float(np.std(z - np.interp(np.abs(r), *samples))), "length", 2)
-    return samples, f"{len(subset)} samples, nearest to {rows} rows, which scatter by {by} about them"
+    return samples, f"{rows} rows reduced to {len(subset)} samples; rms deviation {by}"
