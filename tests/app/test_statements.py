@@ -172,7 +172,7 @@ def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept_and_reset_stan
     assert page.state.max_depth == 5e-9
     assert "forces" not in link.write(page.state)
     # A measured tip can be chosen where there is one only.
-    assert "sampled" not in dict(page.choices.row("shape").options)
+    assert "sampled" not in dict(page.choices.part("shape").options)
     page.apply(lambda state: state.replace(progress=0.0))
     page.frame.reset.act()
     assert page.state.progress == 1.0
