@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core.contact.unloading import unloading
 from mdr_core.contact.yielding import yield_rule
 from mdr_core.impacts.motion import motion as motion_of
 
-from .courses import Course, Hit, HitInTime, nearest, onset_depth, path_progress, rounded, unloaded
+from .courses import Course, Hit, HitInTime, nearest, onset_depth, path_progress, rounded
 from .quantities import QUANTITIES
 from .state import State, medium, profile, with_derived
 
@@ -64,7 +65,8 @@ def slow(scene: mdr.Scene, progress: float, turning_point: mdr.Indentation) -> d
     places = np.unique(rounded(np.concatenate([loading, 1 + _SPREAD, lifted, [progress]])))
     path = mdr.indent(scene.profile, scene.medium, np.minimum(places, 1.0) * depth)
     touching = places <= 2
-    states = unloaded(scene, path.live_interval, np.clip(2 - places, 0.0, 1.0), touching)
+    share, under_force = np.clip(2 - places, 0.0, 1.0), isinstance(scene.drive, mdr.ForcePath)
+    states = unloading(scene.profile, scene.medium, path.live_interval, share, touching, under_force)
     start = states.depth[touching][-1]
     end = min(2 * start, 0.0)
     lifted = end + (start - end) * np.maximum(2.2 - places, 0.0) / 0.2

@@ -3,6 +3,7 @@
 import numpy as np
 from scipy.integrate import trapezoid
 
+from mdr_core.contact.unloading import unloading_curve
 from mdr_core.results import figures
 from mdr_core.results.figures import NOTHING, REST, area, label, line, mark, parts, split
 
@@ -162,7 +163,7 @@ def force(view: View, i: int) -> dict:
         # No live interval tells what is stored in elements that have each a memory of their own; loops of
         # several loadings with adhesion overlap.
         return rows
-    back_depth, back_force = course.unloading_curve(i)
+    back_depth, back_force = unloading_curve(states[i], course.under_force)
     if course.adhesive:
         return rows | _hysteresis(view, i, back_depth, back_force)
     d, so_far = (np.asarray(part[: i + 1]) for part in (states.depth, states.force))
@@ -179,31 +180,29 @@ def force(view: View, i: int) -> dict:
 def _hysteresis(view: View, i: int, back_depth, back_force) -> dict:
     """Areas of a loading and unloading with adhesion, with their energies as text.
 
-    Work is lost where the force of loading is above that of unloading, and gained where it is below, in
-    reach of adhesion that an imprint no longer has. The stored energy is no area below the curve, because
-    surfaces are separated, too: drawn is what comes back before the force is tension. Under a given force
-    the pull-off may be above first contact, before anything has yielded: no loop is closed then.
+    The stored energy is no area below the curve, because surfaces are separated, too: drawn is what comes
+    back before the force is tension.
     """
-    d, loading, unloading = view.course.adhesive_loop(i)
-    around = np.append(d, d[::-1])
-    lost = around, np.append(np.maximum(loading, unloading), unloading[::-1])
-    gained = around, np.append(unloading, np.minimum(loading, unloading)[::-1])
-    returned = _before_tension(back_depth, back_force)
-    works = [abs(float(trapezoid(*row[::-1]))) for row in (lost, gained, returned)]
-    texts = [written(work, "energy", 3) for work in (*works, works[0] - works[1])]
-    closed, gains = works[0] > works[1], works[0] > works[1] > 1e-3 * works[0]
-    net = f" − {texts[1]} gained = {texts[3]}" * gains
+    loop, returned = view.course.adhesive_loop(i), _before_tension(back_depth, back_force)
+    around = np.append(loop.depth, loop.depth[::-1])
+    lost = np.maximum(loop.loading, loop.unloading), loop.unloading[::-1]
+    gained = loop.unloading, np.minimum(loop.loading, loop.unloading)[::-1]
+    closed, gains = loop.lost > loop.gained, loop.lost > loop.gained > 1e-3 * loop.lost
     left, top = view.axis(D).start, view.end(F)
     height, width = top - view.axis(F).start, view.end(D) - left
+    said, back = "", float(trapezoid(returned[1], returned[0]))
     # An early loop may reach below the axis, which is that of the whole course.
-    seen = closed and d[0] > left - 1e-6 * width
+    if closed and loop.depth[0] > left - 1e-6 * width:
+        net = loop.lost - loop.gained
+        said = f"dissipated {written(loop.lost, 'energy', 3)}"
+        said += f" − {written(loop.gained, 'energy', 3)} gained = {written(net, 'energy', 3)}" * gains
     left += 0.02 * width
     return {
-        "dissipated": lost if closed else NOTHING,
-        "gained": gained if gains else NOTHING,
+        "dissipated": (around, np.concatenate(lost)) if closed else NOTHING,
+        "gained": (around, np.concatenate(gained)) if gains else NOTHING,
         "given back": returned,
-        "W_a": (left, top - 0.02 * height, f"dissipated {texts[0]}{net}" if seen else ""),
-        "W_U": (left, top - 0.08 * height, f"given back {texts[2]}" if works[2] > 0 else ""),
+        "W_a": (left, top - 0.02 * height, said),
+        "W_U": (left, top - 0.08 * height, f"given back {written(-back, 'energy', 3)}" if back < 0 else ""),
     }
 
 
