@@ -9,7 +9,7 @@ from bokeh.events import Pan, PanEnd, PanStart
 from bokeh.models import CustomJS
 
 from .buttons import Bar, Button
-from .draw import Picture, drawn, legend
+from .draw import Picture, drawn, legend, picture_of
 from .fields import Choices
 from .player import Player
 from .plot import Plot, View, rows_of
@@ -33,19 +33,17 @@ class Card:
     """A plot in its frame: title, formula, legend, controls above and a note below."""
 
     def __init__(self, plot: Plot, choices: Choices, apply: Callable[..., None]):
-        self.plot, self.picture, self._rows, self._apply = plot, Picture(plot), None, apply
+        self.plot, self.picture, self._rows, self._apply = plot, picture_of(plot), None, apply
         self.log = Button("Log", self._scale, pressed=False)
         self.large = Button("Large", self._enlarge, pressed=False)
         rows = [row.name for row in rows_of(plot) if row.legend]
         named = {"figure": plot.name, "title": plot.title, "rows": rows}
         logs = [self.log] * plot.logs
         self.head = Head(*logs, Button("Save", lambda: None), self.large, **named)
-        self.note = html("", "note", "found")
-        parts = [self.head, pn.pane.Bokeh(self.picture.figure, **FULL)]
+        self.note = html("", "note", "found", visible=False)
+        parts = [self.head, pn.pane.Bokeh(self.picture.figure, **FULL), self.note]
         if plot.controls:
             parts.insert(1, pn.Row(*map(choices.row, plot.controls), css_classes=["above"], **WIDE))
-        if plot.find:
-            parts.append(self.note)
         self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
 
     def _scale(self) -> None:
@@ -72,8 +70,8 @@ class Card:
             self._rows = rows
             show(self.head, legend=legend(plot, rows))
         self.log.show(pressed=plot.name in view.state.log)
-        if plot.name in view.found:
-            show(self.note, object=view.found[plot.name].note)
+        note = plot.note_of(view)
+        show(self.note, object=note, visible=bool(note))
 
 
 class Board:

@@ -135,7 +135,6 @@ class Picture:
         if any(layer.right for layer in self.layers):
             self.figure.extra_y_ranges = {"right": bk.Range1d(0, 1)}
             self.figure.add_layout(bk.LinearAxis(y_range_name="right"), "right")
-        self.image = self._image() if plot.image else None
         for layer in self.layers:
             renderer = layer.draw(self.figure, level)
             if layer.kind == "lines" and any(row.symbol for row in layer.rows):
@@ -144,17 +143,6 @@ class Picture:
                 self.figure.add_tools(hover)
                 self.hovers.append((hover, layer.right))
         self._dress(size)
-
-    def _image(self):
-        empty = {name: [] for name in ("image", "x", "y", "dw", "dh")}
-        source = bk.ColumnDataSource(empty, name=f"{self.plot.name} image")
-        source.syncable = False
-        mapper = bk.LinearColorMapper(palette="Cividis256", low=0, high=1)
-        glyph = self.figure.image("image", "x", "y", "dw", "dh", source=source, color_mapper=mapper)
-        glyph.name, self.bar = "image", glyph.construct_color_bar(padding=2, width=12)
-        self.bar.update(background_fill_color=None, bar_line_color=None)
-        self.figure.add_layout(self.bar, "right")
-        return source
 
     def _dress(self, size):
         f = self.figure
@@ -175,19 +163,14 @@ class Picture:
 
     def columns(self, view: View, i: int, dark: bool) -> dict[Any, dict[str, list]]:
         """What each source has in state i."""
-        axes, rows = view.axes_of(self.plot), view.rows(self.plot, i)
+        axes, rows = self.plot.axes_of(view), view.rows(self.plot, i)
         if not axes:
             return {}
-        found = {layer.source: layer.columns(rows, axes, dark) for layer in self.layers}
-        if self.image is not None:
-            (left, right), (low, high) = (rows["image"][k] / axes[k].factor for k in (0, 1))
-            corner = {"x": [left], "y": [low], "dw": [right - left], "dh": [high - low]}
-            found[self.image] = corner | {"image": [np.float32(rows["image"][2] / axes[2].factor)]}
-        return found
+        return {layer.source: layer.columns(rows, axes, dark) for layer in self.layers}
 
     def frame(self, view: View, i: int) -> dict[Any, dict[str, list]]:
         """Places of what moves in state i; the rest of its columns is as it is drawn."""
-        axes, rows = view.axes_of(self.plot), view.rows(self.plot, i)
+        axes, rows = self.plot.axes_of(view), view.rows(self.plot, i)
         moving = view.moving(self.plot, view.course.now).keys()
         found = {}
         for layer in self.layers:
@@ -198,14 +181,14 @@ class Picture:
 
     def show(self, columns: dict, view: View, dark: bool) -> None:
         """Draw columns that were made for a view."""
-        axes = view.axes_of(self.plot)
+        axes = self.plot.axes_of(view)
         if axes and (axes, dark) != self.axes:
             self.axes = axes, dark
-            self._set_axes(axes, dark)
+            self.set_axes(axes, dark)
         for source, data in columns.items():
             source.data = data
 
-    def _set_axes(self, axes: list[Axis], dark: bool):
+    def set_axes(self, axes: list[Axis], dark: bool):
         f, ground = self.figure, ROLES["paper"][dark]
         # Another ground paints the axes anew, too, which take their colours from the sheet.
         f.update(background_fill_color=ground, border_fill_color=ground)
@@ -222,11 +205,6 @@ class Picture:
         for hover, right in self.hovers:
             symbol, y = axes[0].title.split(",")[0], axes[2 if right else 1]
             hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=y)
-        if self.image is not None:
-            low, high = axes[2].ends
-            self.bar.color_mapper.update(low=low, high=high)
-            colour, title = ROLES["ink"][dark], f"{axes[2].title.split(',')[0]} ({axes[2].unit})"
-            self.bar.update(title=title, title_text_color=colour, major_label_text_color=colour)
 
     def _scale(self, side, axis: Axis):
         """Make the scale along one side logarithmic, or linear again."""
@@ -249,6 +227,11 @@ def ticks(low: float, high: float) -> tuple[Any, Any]:
     powers = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
     fixed = bk.FixedTicker(ticks=[float(f"{n}e{power:.0f}") for power in powers for n in (1, 2, 5)])
     return fixed if high > 5 * low else bk.BasicTicker(), bk.BasicTickFormatter()
+
+
+def picture_of(plot: Plot, *options: Any) -> Picture:
+    """The picture of a plot."""
+    return (plot.picture or Picture)(plot, *options)
 
 
 def drawn(view: View, plot: Plot, states: set[int]) -> set[str]:

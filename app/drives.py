@@ -35,10 +35,6 @@ class Drive(ABC):
     def follow(self, scene: mdr.Scene, progress: float) -> Course:
         """States of a scene; may be approximate where an exact solution is slow."""
 
-    def in_time(self, scene: mdr.Scene) -> Course:
-        """Exact states of a scene whose course is pending."""
-        return self.follow(scene, 1.0)
-
     @abstractmethod
     def turning_point(self, scene: mdr.Scene) -> mdr.Indentation:
         """State of largest depth of a scene."""
@@ -167,14 +163,6 @@ def follow(state: State, known: dict[mdr.Scene, Course] | None = None) -> Course
     scene = scene_of(state)
     course = (known or {}).get(scene) or DRIVES[state.drive].follow(scene, state.progress)
     return replace(course, now=nearest(course.progress, state.progress), drive=state.drive)
-
-
-def in_time(course: Course) -> Course | str:
-    """Exact course of a pending one, or the reason of failure."""
-    try:
-        return replace(DRIVES[course.drive].in_time(course.scene), drive=course.drive)
-    except ValueError as error:
-        return str(error)
 
 
 def turning_point(state: State) -> mdr.Indentation:

@@ -64,13 +64,7 @@ R = Along("r, radius", "length", radius_size, lambda course: 1.0)
 Z = Along("z, height", "length", deepest, lambda course: REST)
 D = Along(titled("depth"), "length", _depth_size, least=_reached("depth"))
 F = Along(titled("force"), "force", _force_size, least=_reached("force"))
-T = Along(titled("time"), "time", lambda course: float(course.motion.time[-1]))
 P = Along("−σzz, pressure", "pressure", _pressure_size, lambda course: float(course.adhesive))
-
-
-def line_at_time(view: View, i: int, up: Along):
-    """Vertical line at the time of state i, over the whole axis `up`."""
-    return view.course.motion.time[[i, i]], np.array([view.axis(up).start, view.end(up)])
 
 
 # Springs.
@@ -104,9 +98,10 @@ SPRINGS = Plot(
 
 
 def pressure(view: View, i: int) -> dict:
-    half, top = view.end(R), view.end(P)
-    r, p = view.pressure(i, half)
-    rows = figures.pressure(view.course.states[i], r, p, half, top)
+    half, top, state = view.end(R), view.end(P), view.course.states[i]
+    r = figures.radii(state, half)
+    p = state.pressure(r)
+    rows = figures.pressure(state, r, p, half, top)
     return rows | {"exceeds": (-0.97 * half, 0.98 * top, exceeds(r, p, top))}
 
 

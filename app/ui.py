@@ -75,3 +75,8 @@ def show(part, **values):
     news = {name: value for name, value in values.items() if getattr(part, name) != value}
     if news:
         part.param.update(**news)
+
+
+def is_served(document):
+    """Whether a document is that of a session of the server."""
+    return document is not None and document.session_context is not None

@@ -7,7 +7,7 @@ from mdr_core.results.figures import NOTHING, area, line
 from ..courses import Course, Hit, Timed
 from ..extra import Extra
 from ..plot import Along, Plot, View
-from ..plots import T, line_at_time
+from ..shared.time import T, line_at_time
 
 E = Along("E, energy", "energy", lambda course: float(np.max(sum(course.energies.values()))))
 

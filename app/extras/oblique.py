@@ -19,8 +19,10 @@ from ..courses import HitInTime
 from ..drives import BEFORE_YIELD, INSTANTS, Impact, along
 from ..extra import Extra
 from ..plot import Along, Overlay, Plot, View
-from ..plots import T, X, Z, line_at_time
+from ..plots import X, Z
 from ..quantities import QUANTITIES
+from ..shared.rest import Resting
+from ..shared.time import T, line_at_time
 from ..state import refuse_other_classes
 
 #: Largest number of drawn elements, and halvings of their steps (errors about 10⁻⁵).
@@ -200,6 +202,7 @@ EXTRA = Extra(
     "oblique",
     former={key: f"oblique.{key}" for key in ("incoming_speed", "attack", "friction", "body")},
     drives={"oblique": Oblique()},
+    service=Resting,
     plots=(FORCES,),
     overlays=(Overlay("springs", FEET, moving=springs),),
 )

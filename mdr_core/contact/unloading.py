@@ -1,4 +1,4 @@
-"""Elastic unloading of a state to the loss of contact, and the loop of loading and unloading with adhesion."""
+"""Elastic unloading to the loss of contact, and the loop of loading and unloading with adhesion."""
 
 from dataclasses import dataclass
 

@@ -76,7 +76,7 @@ def _released_energy(hit, dense, time):
 
 
 def released_compression(motion, i, height):
-    """Elastic compression (m) that is left at instant i in released elements at heights g (m) of the profile.
+    """Elastic compression (m) left at instant i in released elements, at heights g (m) of the profile.
 
     0 of elements in contact. An element is released with the compression by which the depth is ahead of
     the live interval, which relaxes as exp(−t/τ).

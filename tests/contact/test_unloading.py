@@ -1,4 +1,4 @@
-"""Unloading to the loss of contact or the pull-off, and loops of adhesion: against paths, energies, and JKR."""
+"""Unloading to the loss of contact or the pull-off, and loops of adhesion: paths, energies, and JKR."""
 
 import math
 
