@@ -169,17 +169,6 @@ class Timed(Course):
     def stored_energy(self) -> Any:
         return self.ledger.stored_energy
 
-    @property
-    def energies(self) -> dict[str, Any]:
-        """Losses (J) so far, stored and kinetic energy, by the names of their areas."""
-        m = self.ledger
-        return {
-            "plastic": m.plastic_work,
-            "viscous": m.viscous_work,
-            "stored": m.stored_energy,
-            "kinetic": m.kinetic_energy,
-        }
-
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Hit(Course):

@@ -121,9 +121,9 @@ def _inside(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, Any]:
 
 
 class Picture:
-    """One plot as a figure; `level` is where its data are painted, `size` that of one that is printed."""
+    """One plot as a figure; `level` is where its data are painted."""
 
-    def __init__(self, plot: Plot, level: str = "overlay", size: tuple[int, int] | None = None):
+    def __init__(self, plot: Plot, level: str = "overlay"):
         self.plot, self.axes, self.drawn = plot, None, None
         ranges = {"x_range": bk.Range1d(0.1, 1), "y_range": bk.Range1d(0.1, 1)}
         self.figure = figure(name=plot.name, tools="", toolbar_location=None, **ranges)
@@ -142,18 +142,15 @@ class Picture:
                 hover = bk.HoverTool(renderers=[renderer], line_policy="nearest", visible=False, **told)
                 self.figure.add_tools(hover)
                 self.hovers.append((hover, layer.right))
-        self._dress(size)
+        self._dress()
 
-    def _dress(self, size):
+    def _dress(self):
         f = self.figure
         f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None, title=None)
         # The outermost pixels of a canvas keep a trace of the colour before the last one.
         f.styles = {"clip-path": "inset(1px)"}
         f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
-        if size:
-            f.update(sizing_mode="fixed", width=size[0], height=size[1], output_backend="svg")
-        else:
-            f.update(sizing_mode="stretch_both", min_height=150)
+        f.update(sizing_mode="stretch_both", min_height=150)
         painted = bk.CustomJS(args={"figure": f}, code=JS["label"])
         for axis in f.axis:
             axis.js_on_change("axis_label", painted)

@@ -20,7 +20,7 @@ from .readouts import law_of_hardness
 from .state import MEDIUM_CHOICES, PRESETS, State, altered, regions
 from .tip import MAX_BYTES, Uploaded, read_tip
 from .ui import JS, WIDE, button, html, linked, marked, reveal, show, symbol
-from .units import UNITS, digits, entry, fitting, in_full, read, written
+from .units import UNITS, digits, entry, fitting, read, with_symbol, written
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
@@ -189,8 +189,6 @@ class Choices:
         pairs = [[option, CHOICES[name][option]] for option in options(state, name)]
         if self._chosen(name) == _ALTERED:
             pairs.append([_ALTERED, f"altered, from: {PRESETS[state.preset].label}"])
-        if name == "shape" and not state.samples:
-            pairs = [pair for pair in pairs if pair[0] != "sampled"]
         return pairs
 
     def _show(self, name):
@@ -258,8 +256,8 @@ class Form:
         preset, shape, made = PRESETS[state.preset], SHAPES[state.shape], course.scene.medium
         sources = ""
         for name, text in preset.sources.items():
-            value = in_full(preset.values[name], QUANTITIES[name].kind)
-            sources += f"<dt>{marked(f'{QUANTITIES[name].symbol} = {value}')}</dt><dd>{escape(text)}</dd>"
+            value = marked(with_symbol(name, preset.values[name]))
+            sources += f"<dt>{value}</dt><dd>{escape(text)}</dd>"
         title = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
         energy = written(state.mass * state.speed**2 / 2, "energy")
         height = written(state.speed**2 / (2 * _GRAVITY), "length")

@@ -55,14 +55,6 @@ def button(name, **options):
     return pn.widgets.Button(label=name, css_classes=["button"], **{"margin": 0} | options)
 
 
-def field(kind, *classes, **options):
-    return kind(css_classes=["choice", *classes], **WIDE | options)
-
-
-def tools(*parts, **options):
-    return pn.Row(*parts, css_classes=["tools"], **WIDE | options)
-
-
 def reveal(column, part, visible, place=None):
     """Show or hide a part of a column; the browser gets it when it is shown for the first time."""
     show(part, visible=visible)

@@ -40,10 +40,6 @@ class ObliqueCourse(HitInTime):
     def ledger(self):
         return self.oblique
 
-    @property
-    def energies(self):
-        return {"friction": self.oblique.friction_work} | super().energies
-
     def limits(self, density):
         return [*super().limits(density), *friction_limits(self.scene.medium)]
 

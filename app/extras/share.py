@@ -22,13 +22,14 @@ from ..plot import Plot, View
 from ..plots import visible
 from ..quantities import CHOICES, LABELS, QUANTITIES, SHAPES
 from ..readouts import readings, summary
+from ..shared.widgets import field, tools
 from ..state import MEDIUM_CHOICES, PRESETS, YIELD_CONSTANT, State, altered, used
-from ..ui import CSS, WIDE, field, html, marked, show, symbol, tools
+from ..ui import CSS, WIDE, html, marked, show, symbol
 from ..units import written
 
 _TEMPLATE = Template(Path(__file__).with_suffix(".html").read_text(encoding="utf-8"))
-#: Pixels of a plot in a report.
-_SIZE = 500, 340
+#: A plot in a report.
+_PRINTED = {"sizing_mode": "fixed", "width": 500, "height": 340, "output_backend": "svg"}
 
 
 def csv(view: View) -> str:
@@ -83,8 +84,9 @@ def report(view: View, plots: list[Plot], snippet: str, address: str = "") -> st
         "python": escape(snippet),
         "link": escape(address),
     }
-    pictures = [picture_of(plot, "glyph", _SIZE) for plot in plots]
+    pictures = [picture_of(plot, "glyph") for plot in plots]
     for picture in pictures:
+        picture.figure.update(**_PRINTED)
         picture.show(picture.columns(view, course.now, False), view, False)
     script, figures = components([picture.figure for picture in pictures])
     words["plots"] = []
