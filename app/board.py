@@ -4,29 +4,31 @@ from collections.abc import Callable
 from functools import partial
 
 import panel as pn
-import param
 from bokeh.events import Pan, PanEnd, PanStart
 from bokeh.models import CustomJS
 
-from .buttons import Bar, Button
 from .draw import Picture, drawn, legend, picture_of
 from .fields import Choices
+from .parts import Button, Part, Parts, Text
 from .player import Player
 from .plot import Plot, View, rows_of
 from .plots import NAMED, PLOTS, visible
-from .ui import FULL, JS, WIDE, html, linked, show
+from .ui import FULL, JS, html, linked, show
 
 #: Plots that share the axis x of another one.
 _SAME_X = {"pressure": "springs"}
 
 
-class Head(Bar):
-    """What is above a plot: title, formula, buttons, legend; what a saved picture has beside the plot."""
+class Save(Part):
+    """The button that saves the picture of a plot, in the browser, with the scene below it."""
 
-    formula, legend, figure, title, scene = (param.String() for _ in range(5))
-    rows = param.List()
+    KIND = "save"
+    LOOK = ("label", "scene")
 
-    _esm = JS["save"] + JS["buttons"].replace("export function render", "function unused") + JS["head"]
+    def __init__(self, plot: Plot):
+        rows = [row.name for row in rows_of(plot) if row.legend]
+        super().__init__(figure=plot.name, title=plot.title, rows=rows)
+        self.label, self.scene = "Save", ""
 
 
 class Card:
@@ -36,14 +38,13 @@ class Card:
         self.plot, self.picture, self._rows, self._apply = plot, picture_of(plot), None, apply
         self.log = Button("Log", self._scale, pressed=False)
         self.large = Button("Large", self._enlarge, pressed=False)
-        rows = [row.name for row in rows_of(plot) if row.legend]
-        named = {"figure": plot.name, "title": plot.title, "rows": rows}
-        logs = [self.log] * plot.logs
-        self.head = Head(*logs, Button("Save", lambda: None), self.large, **named)
+        self.save, self.formula, self.legend = Save(plot), Text("formula"), Text("key")
+        buttons = (*[self.log] * plot.logs, self.save, self.large)
+        head = Parts(self.formula, *buttons, self.legend, classes=("heading",))
         self.note = html("", "note", "found", visible=False)
-        parts = [self.head, pn.pane.Bokeh(self.picture.figure, **FULL), self.note]
+        parts = [head, pn.pane.Bokeh(self.picture.figure, **FULL), self.note]
         if plot.controls:
-            parts.insert(1, pn.Row(*map(choices.row, plot.controls), css_classes=["above"], **WIDE))
+            parts.insert(1, Parts(*map(choices.part, plot.controls), classes=("above",)))
         self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
 
     def _scale(self) -> None:
@@ -64,11 +65,11 @@ class Card:
         """Draw columns made for a view, with the texts around them."""
         plot, course = self.plot, view.course
         self.picture.show(columns, view, view.state.dark)
-        show(self.head, formula=f"<h3>{plot.title}</h3>{linked(plot.formula_of(course))}")
+        self.formula.show(object=f"<h3>{plot.title}</h3>{linked(plot.formula_of(course))}")
         rows = drawn(view, plot, {course.now, course.peak})
         if rows != self._rows:
             self._rows = rows
-            show(self.head, legend=legend(plot, rows))
+            self.legend.show(object=legend(plot, rows))
         self.log.show(pressed=plot.name in view.state.log)
         note = plot.note_of(view)
         show(self.note, object=note, visible=bool(note))
@@ -85,7 +86,7 @@ class Board:
             for name, plot in PLOTS.items()
             if plot.tab
         }
-        self.tab_row = Bar(*self.tabs.values(), classes=("tabs",))
+        self.tab_row = Parts(*self.tabs.values(), classes=("bar", "tabs"))
         self.grid = pn.Column(css_classes=["plots"], **FULL)
         figures = {name: self._make(name) for name in NAMED}
         self.player = Player(list(figures.values()))
@@ -146,7 +147,7 @@ class Board:
     def say_scene(self, text: str) -> None:
         """What stands below a picture that is saved."""
         for card in self.cards.values():
-            show(card.head, scene=text)
+            card.save.show(scene=text)
 
     def pictures(self) -> list[Picture]:
         """The pictures that are seen."""

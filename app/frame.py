@@ -7,8 +7,8 @@ from typing import Any
 import panel as pn
 
 from . import changes
-from .buttons import Bar, Button
 from .extra import EXTRAS, Part
+from .parts import Button, Parts, Text
 from .plot import View
 from .readouts import readings, table
 from .ui import FULL, HERE, LAYOUT, WIDE, html, reveal, show
@@ -19,7 +19,7 @@ class Menu:
 
     def __init__(self, reset: Button, dark: Button):
         about = html((HERE / "static" / "about.html").read_text(encoding="utf-8"))
-        self.view = pn.Column(Bar(reset, dark), about, **WIDE)
+        self.view = pn.Column(Parts(reset, dark, classes=("bar",)), about, **WIDE)
 
     def show(self, view: View) -> None:
         """It is the same for all views."""
@@ -66,12 +66,12 @@ class Frame:
                 self.tabs[extra.name] = Button(extra.tab, partial(self._switch, extra.name), pressed=False)
                 self._make[extra.name] = partial(extra.side, page)
                 (in_header if extra.in_header else in_side).append(self.tabs[extra.name])
-        title = html("<h1>Indentation explorer</h1>", "name", width=190, sizing_mode=None)
-        buttons = Bar(self.undo, self.redo, *in_header, self.tabs["menu"], classes=("buttons",))
-        header = pn.Row(title, preset, buttons, css_classes=["header"], stylesheets=LAYOUT, **WIDE)
+        title = Text("name", object="<h1>Indentation explorer</h1>")
+        parts = (title, preset, self.undo, self.redo, *in_header, self.tabs["menu"])
+        header = Parts(*parts, classes=("header", "bar"), stylesheets=LAYOUT)
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
-        self._side = pn.Column(Bar(*in_side), **look)
-        numbers = Bar(self.tabs["numbers"], sizing_mode=None)
+        self._side = pn.Column(Parts(*in_side, classes=("bar",)), **look)
+        numbers = Parts(self.tabs["numbers"], classes=("bar",), sizing_mode=None)
         top = pn.Row(board.player.line, numbers, css_classes=["head", "top"], stylesheets=LAYOUT, **WIDE)
         self.warnings = html("", "lights")
         plots = (top, board.player.view, self.warnings, board.grid, board.tab_row)

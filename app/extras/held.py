@@ -11,10 +11,10 @@ from mdr_core.results import figures
 from mdr_core.results.figures import NOTHING, both, line
 
 from .. import link
-from ..buttons import Button
 from ..courses import Course
 from ..drives import follow, scene_of
 from ..extra import Extra
+from ..parts import Button
 from ..plot import Along, Overlay, View
 from ..plots import PLOTS, P, R, Z
 from ..quantities import CHOICES

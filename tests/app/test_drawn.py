@@ -318,4 +318,4 @@ def test_refusals_are_said_to_all_and_a_relief_says_its_largest_pressure(server,
     note = page.page.locator(".card.relief .found").get_by_text("Largest pressure").inner_text()
     assert amounts(note)[0] == pytest.approx(p.max(), rel=0.1)
     page.type("s", "90°")
-    page.number("s").locator("#said", has_text="half-angle is above 0° and below 90°").wait_for()
+    page.number("s").locator("p.said", has_text="half-angle is above 0° and below 90°").wait_for()

@@ -45,6 +45,9 @@ def strings(value):
     """All texts within a value of a model; of the columns of a source, names of rows."""
     if isinstance(value, str):
         yield value
+        # What parts of the page are and show.
+        for part in json.loads(value) if value.startswith("[{") else ():
+            yield from strings(list(part.values()))
     if isinstance(value, dict):
         yield from strings(value.get("row"))
     for each in value if isinstance(value, list | tuple) else ():
@@ -56,7 +59,7 @@ def texts(page):
     for name in page.frame.tabs:
         page.frame.open(name)
     page.frame.open("explore")
-    for drive in list(dict(page.choices.row("drive").options)):
+    for drive in list(dict(page.choices.part("drive").options)):
         page.apply(lambda state, drive=drive: changes.choose(state, "drive", drive))
     for tab in page.board.tabs.values():
         if tab.visible:
@@ -136,7 +139,7 @@ def test_the_page_with_no_extras_at_all(browser, tmp_path):
         with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
             explorer = Explorer(context.new_page(), server.url)
             assert explorer.readout("force") == "4.514 µN"
-            assert explorer.page.locator(".buttons button").all_inner_texts() == ["Undo", "Redo", "Menu"]
+            assert explorer.page.locator(".header .act").all_inner_texts() == ["Undo", "Redo", "Menu"]
             assert explorer.page.locator(".card").count() == 3
             assert explorer.page.locator(".tabs button").count() == 0
             explorer.change(explorer.type, "d_max", "5 nm")

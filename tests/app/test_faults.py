@@ -1,7 +1,6 @@
 """What cannot be shown leaves the page as it was, and in use, wherever it fails. Without a browser."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import pytest
 
@@ -63,19 +62,19 @@ def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
         page.form, "show", lambda now: shown(now) if now.state.preset == GOLD else failing()
     )
     page.choices.choose("preset", DROP)
-    assert page.state.preset == page.choices.row("preset").value == GOLD
+    assert page.state.preset == page.choices.part("preset").value == GOLD
     assert page.frame.undo.disabled
     assert_in_use(page)
 
 
 def send(number, **data):
     """What a field or slider sends."""
-    number._on_message(SimpleNamespace(data=data | {"number": number.answered + 1}))
+    number.take(data | {"number": number.answered + 1})
 
 
 @pytest.mark.parametrize("act", ["preset", "undo", "reset"])
 def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
-    (depth,), (_, q_c) = page.form.numbers["drive"], page.form.numbers["medium"]
+    (depth,), (_, q_c) = page.form.numbers["drive"].parts, page.form.numbers["medium"].parts
     send(depth, text="5 nm")
     send(q_c, text="abc")
     assert q_c.refused == "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m"
@@ -87,7 +86,7 @@ def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
 
 
 def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
-    (number,) = page.form.numbers["drive"]
+    (number,) = page.form.numbers["drive"].parts
     start = page.state.max_depth
     for position in (210, 220, 230):
         send(number, position=position)

@@ -60,7 +60,7 @@ def test_the_first_screen_has_what_a_person_comes_for(server, browser, width, he
             assert card["width"] > 0.3 * width
             assert card["height"] > 0.3 * height
         assert page.locator("output").count() <= 8
-        assert page.locator(".buttons button:visible").count() == 6
+        assert page.locator(".header .act:visible").count() == 6
         assert page.locator(".line").bounding_box()["height"] < 70
         assert page.evaluate("document.documentElement.scrollHeight") <= height
         assert explorer.problems == []
@@ -169,7 +169,7 @@ def test_typed_numbers_are_read_as_they_say_refused_where_they_stand_and_undone(
     refused = {"abc": "is not a number", "1000 m": "out of bounds", "<img src=x>": "<img src=x>"}
     for text, why in refused.items():
         explorer.type("d_max", text)
-        number.locator("#said", has_text=why).wait_for()
+        number.locator("p.said", has_text=why).wait_for()
         assert field.input_value() == text
         assert field.get_attribute("aria-invalid") == "true"
         assert number.locator("img").count() == 0

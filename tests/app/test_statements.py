@@ -91,7 +91,7 @@ def test_6_and_7_are_of_typed_numbers():
     """In test_state.py: zeros in the unit of their column, 90°, 10 000 nm, 5 Å, 70.3°."""
     page = Page()
     page.apply(lambda state: fitting.take(state, example_curve()))
-    assert [number.text.split()[1] for number in side(page, "fit").place] == ["nm", "µN", "N/m"]
+    assert [number.text.split()[1] for number in side(page, "fit").place.parts] == ["nm", "µN", "N/m"]
 
 
 def test_8_formulas_are_those_of_the_drive():
@@ -171,7 +171,7 @@ def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept_and_reset_stan
     assert page.state.max_depth == 5e-9
     assert "forces" not in link.write(page.state)
     # A measured tip can be chosen where there is one only.
-    assert "sampled" not in dict(page.choices.row("shape").options)
+    assert "sampled" not in dict(page.choices.part("shape").options)
     page.apply(lambda state: state.replace(progress=0.0))
     page.frame.reset.act()
     assert page.state.progress == 1.0

@@ -78,15 +78,15 @@ def test_the_form_begins_with_the_drive_and_has_what_is_used():
     page = Page()
 
     def shown(region):
-        return [number.key for number in page.form.numbers[region] if number.visible]
+        return [number.key for number in page.form.numbers[region].parts if number.visible]
 
     regions = [shown(region) for region in ("drive", "shape", "medium")]
     assert regions == [["max_depth"], ["cone_slope"], ["E_star", "q_c"]]
-    assert not page.form.more.value
+    assert not page.form.more.pressed
     sources = unescape(page.form.notes["sources"].object)
     assert all(source in sources for source in PRESETS[page.state.preset].sources.values())
     page.apply(lambda state: changes.choose(state, "damping", "eta"))
-    assert page.form.more.value
+    assert page.form.more.pressed
     assert "eta" in shown("more")
     page.apply(lambda state: changes.choose(state, "drive", "impact"))
     assert shown("drive") == ["mass", "speed", "plastic_depth"]

@@ -102,11 +102,11 @@ class Client(Visitor):
         """Load the page and connect."""
         await super().open(url)
         # The control of the largest depth, by what it is called.
-        self.control = next(
-            each["id"]
-            for each in objects(self.document)
-            if dig(each, "attributes", "data", "attributes", "spoken") == "d_max, largest depth"
-        )
+        for each in objects(self.document):
+            told = json.loads(dig(each, "attributes", "data", "attributes", "told") or "[]")
+            for part, known in enumerate(told):
+                if known.get("spoken") == "d_max, largest depth":
+                    self.form, self.control = each["id"], part
         self.count = 0
         return self
 
@@ -114,16 +114,14 @@ class Client(Visitor):
         """Move a slider; seconds until the server has answered with a new picture."""
         self.count += 1
         data = {"position": 150 + n % 100, "number": self.count}
-        values = [
-            ["model", {"id": self.control}],
-            ["data", {"type": "map", "entries": [list(item) for item in data.items()]}],
-        ]
+        message = [self.control, {"type": "map", "entries": [list(item) for item in data.items()]}]
+        values = [["model", {"id": self.form}], ["data", message]]
         event = {"type": "event", "name": "data_event", "values": {"type": "map", "entries": values}}
         begin = time.perf_counter()
         await self._event(n, event)
         while True:
             _, content = await self._message()
-            if f'"attr":"answered","new":{self.count}' in content.replace(" ", ""):
+            if f'"answered\\":{self.count}' in content.replace(" ", ""):
                 return time.perf_counter() - begin
 
     async def work(self, offset):

@@ -13,6 +13,7 @@ from mdr_core.reading import SIZES
 
 from ...extra import Extra
 from ...fields import Upload
+from ...parts import Parts, Text
 from ...plot import Overlay, View
 from ...quantities import ASSETS, QUANTITIES, Quantity
 from ...shared.widgets import field, tools
@@ -194,15 +195,16 @@ class Fitting:
         self.place, self.noise = page.numbers(), page.numbers()
         self._rest = pn.Column(
             *(pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES),
-            html("<h2>Position and background</h2>", "title"), self.place,
-            page.choices.row("fit.hardness"), html("<h2>Held in the fit</h2>", "title"), self.fixed,
-            self.noise, self.fit, self.not_fitted, self.said, self.unloading, visible=False, **WIDE,
+            Parts(Text("title", object="<h2>Position and background</h2>"), self.place,
+                  page.choices.part("fit.hardness")),
+            html("<h2>Held in the fit</h2>", "title"), self.fixed, Parts(self.noise), self.fit,
+            self.not_fitted, self.said, self.unloading, visible=False, **WIDE,
         )  # fmt: skip
         note = html(
             "Depth and force as a table, to lie over the model. The indenter is that of <i>Explore</i>."
         )
         buttons = tools(self.silica, self.remove)
-        parts = (note, self.file, buttons, self.not_taken, self.about, self._rest)
+        parts = (note, Parts(self.file), buttons, self.not_taken, self.about, self._rest)
         self.view = pn.Column(*parts, **WIDE)
         self.silica.on_click(lambda event: self._change(silica, self.not_taken))
         self.remove.on_click(lambda event: self._change(lambda state: take(state, None), self.not_taken))
@@ -273,14 +275,14 @@ class Fitting:
         show(self.about, object=about)
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
         likes = {"fit.contact_point": depth, "fit.baseline": force}
-        self.place.show(state, [f"fit.{name}" for name in PLACED if name in curve.fitted], likes)
+        self.place.update(state, [f"fit.{name}" for name in PLACED if name in curve.fitted], likes)
         options = {quantity_of(name).label: name for name in offered(state)}
         show(
             self.fixed,
             options=options,
             value=[name for name in state["fit.fixed"] if name in offered(state)],
         )
-        self.noise.show(state, ["fit.depth_noise"], {"fit.depth_noise": depth})
+        self.noise.update(state, ["fit.depth_noise"], {"fit.depth_noise": depth})
         heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.curve.table.heads)}
         for role, column in curve.curve.columns.items():
             options = heads | ({"none, rows in order": _NO_COLUMN} if role == "time" else {})
