@@ -96,11 +96,6 @@ def press_to(state: State, depth: float) -> State:
     return state.replace(progress=1.0, **numbers)
 
 
-def reset(state: State) -> State:
-    """Return to the preset at its largest depth; the view and values of extras stay."""
-    return _preset(state, state.preset)
-
-
 def turn_dark(state: State) -> State:
     """Dark instead of light, or back."""
     return state.replace(dark=not state.dark)

@@ -54,10 +54,11 @@ class Extra:
     drives: dict[str, Drive] = field(default_factory=dict)
     plots: tuple[Plot, ...] = ()
     overlays: tuple[Overlay, ...] = ()
-    #: Label of the button that opens its part of the side; whether that button is in the header, whether
-    #: the part is above the form instead of in its place, and whether the button is there.
+    #: Label of the button that opens its part of the side; whether that button is in the "header", in the
+    #: "side" or in the "line" of readouts, whether the part is above the form instead of in its place, and
+    #: whether the button is there.
     tab: str = ""
-    in_header: bool = False
+    place: str = "side"
     above: bool = False
     offered: Callable[[View], bool] = lambda view: True
     #: Its part of the side, of a page: made when it is first opened.

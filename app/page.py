@@ -53,7 +53,7 @@ class Page:
         self.choices = Choices(self.apply, lambda: self.state)
         self.board = Board(self.choices, self.apply)
         self.form = Form(self)
-        self.frame = Frame(self, self.choices.part("preset"), self.form, self.board)
+        self.frame = Frame(self)
         self.view = self.frame.view
         self.address, self.theme = ColumnDataSource(name="address"), ColumnDataSource(name="theme")
         self._show_history()

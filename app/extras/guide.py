@@ -88,6 +88,6 @@ class Guide:
 
 
 EXTRA = Extra(
-    "guide", order=30, tab="Guide", in_header=True, above=True,
+    "guide", order=30, tab="Guide", place="header", above=True,
     side=lambda page: Guide(page.apply, lambda: page.shown),
 )  # fmt: skip

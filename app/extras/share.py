@@ -151,4 +151,4 @@ class Share:
         return report(view, visible(view), view.course.scene.to_python(), self.address()[0])
 
 
-EXTRA = Extra("share", order=20, tab="Share", in_header=True, side=Share)
+EXTRA = Extra("share", order=20, tab="Share", place="header", side=Share)

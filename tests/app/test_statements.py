@@ -162,7 +162,7 @@ def test_13_springs_are_elastic_or_yielded_also_in_an_oblique_impact():
     assert DATA["choices"]["drive"]["options"]["depth"]["label"] == "depth"
 
 
-def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept_and_reset_stands_deepest():
+def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept_and_a_preset_stands_deepest():
     page = Page()
     page.board.tabs["forces"].act()
     assert visible(page.shown) == [PLOTS[name] for name in ("springs", "pressure", "force")]
@@ -173,7 +173,7 @@ def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept_and_reset_stan
     # A measured tip can be chosen where there is one only.
     assert "sampled" not in dict(page.choices.part("shape").options)
     page.apply(lambda state: state.replace(progress=0.0))
-    page.frame.reset.act()
+    page.choices.choose("preset", page.state.preset)
     assert page.state.progress == 1.0
     assert step_text(TOURS["First yield"][0], page.shown.course)
 
