@@ -7,7 +7,6 @@ from typing import Any, ClassVar
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.contact.unloading import AdhesiveLoop, adhesive_loop
 from mdr_core.contact.yielding import yield_rule
 from mdr_core.impacts.motion import released_compression
 
@@ -122,17 +121,6 @@ class Course:
     def under_force(self) -> bool:
         """Whether a force is prescribed: contact is then lost earlier with adhesion."""
         return isinstance(self.scene.drive, mdr.ForcePath)
-
-    def adhesive_loop(self, index: int) -> AdhesiveLoop:
-        """Loop of loading to a state, or to the largest depth if that is before it, and unloading."""
-        turn = min(index, self.peak)
-        if turn not in self._loops:
-            self._loops[turn] = adhesive_loop(self.states[: turn + 1], self.under_force)
-        return self._loops[turn]
-
-    @cached_property
-    def _loops(self) -> dict[int, AdhesiveLoop]:
-        return {}
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

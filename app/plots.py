@@ -1,7 +1,6 @@
 """The plots of the page: springs, pressure, and force over depth."""
 
 import numpy as np
-from scipy.integrate import trapezoid
 
 from mdr_core.contact.unloading import unloading_curve
 from mdr_core.results import figures
@@ -9,7 +8,6 @@ from mdr_core.results.figures import NOTHING, REST, area, label, line, mark, par
 
 from .courses import Course
 from .plot import Along, Plot, View, exceeds, titled
-from .units import written
 
 # Axes, which other plots may share.
 
@@ -127,22 +125,7 @@ def force_still(view: View) -> dict:
     rows = {"path ahead": (course.states.depth, course.states.force)} if course.turns else _curve(course)
     if onset is not None and not course.dashpots:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
-    return rows | (_adhesive_marks(view) if course.adhesive else {})
-
-
-def _adhesive_marks(view: View) -> dict:
-    """Where contact begins, and the largest tension of unloading, with its value."""
-    depth, force = view.course.states.depth, view.course.states.force
-    last = view.course.peak + int(np.argmin(force[view.course.peak :]))
-    text = f"Fₐ = {written(view.course.pull_off_force[last], 'force', 3)}"
-    beside = 0.02 * (view.end(D) - view.axis(D).start)
-    above = 0.05 * (view.end(F) - view.axis(F).start)
-    return {
-        "jump into contact": (depth[:1], force[:1]),
-        "jump": (depth[[0, 0]], np.array([0.0, force[0]])),
-        "pull-off": (depth[[last]], force[[last]]),
-        "Fₐ": (depth[last] + beside, force[last] + above, text),
-    }
+    return rows
 
 
 def force(view: View, i: int) -> dict:
@@ -154,13 +137,11 @@ def force(view: View, i: int) -> dict:
     if lower > 0:
         rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end(F), "dₚ"
     rows |= _curve(course, i + 1) if course.turns else {}
-    if course.chained or (course.adhesive and course.turns):
-        # No live interval tells what is stored in elements that have each a memory of their own; loops of
-        # several loadings with adhesion overlap.
+    if course.chained or course.adhesive:
+        # No live interval tells what is stored in elements that have each a memory of their own, and with
+        # adhesion the area below the curve is not what is stored.
         return rows
     back_depth, back_force = unloading_curve(states[i], course.under_force)
-    if course.adhesive:
-        return rows | _hysteresis(view, i, back_depth, back_force)
     d, so_far = (np.asarray(part[: i + 1]) for part in (states.depth, states.force))
     elastic = lower == course.initial_plastic_depth and not course.dashpots
     # The path so far, and back along what is stored: dissipated is the loop that it encloses.
@@ -170,45 +151,6 @@ def force(view: View, i: int) -> dict:
         "dissipated": NOTHING if elastic else lost,
         "stored": (np.append(back_depth[:1], back_depth), np.append(0.0, back_force)),
     }
-
-
-def _hysteresis(view: View, i: int, back_depth, back_force) -> dict:
-    """Areas of a loading and unloading with adhesion, with their energies as text.
-
-    The stored energy is no area below the curve, because surfaces are separated, too: drawn is what comes
-    back before the force is tension.
-    """
-    loop, returned = view.course.adhesive_loop(i), _before_tension(back_depth, back_force)
-    around = np.append(loop.depth, loop.depth[::-1])
-    lost = np.maximum(loop.loading, loop.unloading), loop.unloading[::-1]
-    gained = loop.unloading, np.minimum(loop.loading, loop.unloading)[::-1]
-    closed, gains = loop.lost > loop.gained, loop.lost > loop.gained > 1e-3 * loop.lost
-    left, top = view.axis(D).start, view.end(F)
-    height, width = top - view.axis(F).start, view.end(D) - left
-    said, back = "", float(trapezoid(returned[1], returned[0]))
-    # An early loop may reach below the axis, which is that of the whole course.
-    if closed and loop.depth[0] > left - 1e-6 * width:
-        net = loop.lost - loop.gained
-        said = f"dissipated {written(loop.lost, 'energy', 3)}"
-        said += f" − {written(loop.gained, 'energy', 3)} gained = {written(net, 'energy', 3)}" * gains
-    left += 0.02 * width
-    return {
-        "dissipated": (around, np.concatenate(lost)) if closed else NOTHING,
-        "gained": (around, np.concatenate(gained)) if gains else NOTHING,
-        "given back": returned,
-        "W_a": (left, top - 0.02 * height, said),
-        "W_U": (left, top - 0.08 * height, f"given back {written(-back, 'energy', 3)}" if back < 0 else ""),
-    }
-
-
-def _before_tension(d, force) -> tuple:
-    """Area below the part of an unloading that begins with forces above zero, up to zero force."""
-    # At its end, the pull-off, there is always tension.
-    count = int(np.argmax(force <= 0))
-    if count == 0:
-        return NOTHING
-    zero = np.interp(0.0, force[[count, count - 1]], d[[count, count - 1]])
-    return np.concatenate([d[:1], d[:count], [zero]]), np.concatenate([[0.0], force[:count], [0.0]])
 
 
 def _force_formula(course: Course) -> str:
@@ -222,20 +164,12 @@ FORCE = Plot(
     "force", "Force and depth", _force_formula, (D, F),
     (
         area("dissipated", "yielded", 0.13, "/"),
-        area("gained", "stick", 0.25),
         area("stored", "elastic", 0.25),
-        area("given back", "elastic", 0.25),
         line("path ahead", "free", 1.0),
         *parts("F"),
         mark("onset of yield", "paper", "yielded", "diamond", 11),
-        line("jump", "elastic", 1.2, "dotted", legend=False),
-        mark("jump into contact", "elastic", marker="square", size=9),
-        mark("pull-off", "stick", marker="square", size=9),
         mark("now", size=13),
         label("dₚ"),
-        label("Fₐ"),
-        label("W_a"),
-        label("W_U"),
     ),
     force_still, force, logs=True,
 )  # fmt: skip
