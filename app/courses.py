@@ -80,14 +80,9 @@ class Course:
         return self.states.pull_off_force if self.adhesive else None
 
     @property
-    def plastic_work(self) -> Any:
-        """Work (J) of yield; of an impact without earlier ones."""
-        return self.states.plastic_work
-
-    @property
-    def stored_energy(self) -> Any:
-        """Energy (J) of all springs, including released elements."""
-        return self.states.stored_energy
+    def ledger(self) -> Any:
+        """What has the energies (J) of all states; plastic work of an impact is without earlier ones."""
+        return self.states
 
     def relaxing(self, i: int, g: Any) -> Any:
         """Remaining elastic compression (m) of released elements at heights g (m), in state i."""
@@ -132,7 +127,6 @@ class Timed(Course):
 
     @property
     def ledger(self) -> Any:
-        """Motion with all energies."""
         return self.motion
 
     @property
@@ -145,17 +139,9 @@ class Timed(Course):
         return self.scene.medium.eta > 0
 
     @property
-    def plastic_work(self) -> Any:
-        return self.motion.plastic_work
-
-    @property
     def viscous_work(self) -> Any:
         """Work (J) of dashpots, None without."""
         return self.ledger.viscous_work if self.dashpots else None
-
-    @property
-    def stored_energy(self) -> Any:
-        return self.ledger.stored_energy
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

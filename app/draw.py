@@ -37,9 +37,9 @@ class Layer:
     """Rows of a plot that share a source."""
 
     def __init__(self, plot: Plot, group: str, shared: dict[str, Any]):
-        self.kind, _, right = group.partition(" ")
-        self.name, self.right, self.connected = group, bool(right), self.kind in ("areas", "lines")
         self.rows = [row for row in rows_of(plot) if row.group == group]
+        self.name, self.kind, self.axis = group, self.rows[0].kind, self.rows[0].axis
+        self.connected = self.kind in ("areas", "lines")
         places = [name for name in _GLYPHS[self.kind][1] if name in _PLACES]
         empty = {name: [] for name in (*self._look(self.rows, False), *places)}
         self.source = bk.ColumnDataSource(empty, name=f"{plot.name} {group}", **shared)
@@ -61,15 +61,11 @@ class Layer:
 
     def columns(self, rows: dict, axes: list[Axis], dark: bool) -> dict[str, list]:
         """Columns of the source: look, and places in the units of the axes."""
-        x_axis, y_axis = axes[0], axes[2] if self.right else axes[1]
+        x_axis, y_axis = axes[0], axes[self.axis]
         parts = [rows[row.name] for row in self.rows]
-        if x_axis.log:
-            parts = [
-                _positive(row, x_axis, y_axis, *part) for row, part in zip(self.rows, parts, strict=True)
-            ]
-        if self.connected:
+        for clip in [_positive] * x_axis.log + [_inside] * self.connected:
             pairs = zip(self.rows, parts, strict=True)
-            parts = [_inside(row, x_axis, y_axis, *part[:2]) for row, part in pairs]
+            parts = [clip(row, x_axis, y_axis, *part) for row, part in pairs]
         xs, ys = ([_short(part[k], axis) for part in parts] for k, axis in ((0, x_axis), (1, y_axis)))
         if self.connected:
             return self._look(self.rows, dark) | {"xs": xs, "ys": ys}
@@ -84,7 +80,7 @@ class Layer:
             look = look | {"line_color": None}
             look |= _HATCH if any(row.look["hatch"] != " " for row in self.rows) else {}
         only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
-        only["y_range_name"] = "right" if self.right else "default"
+        only["y_range_name"] = "right" if self.axis == 2 else "default"
         # Level: above the axes, on a canvas of its own, so that they are not painted again with the data.
         return figure.add_glyph(self.source, kind(**look), name=self.name, level=level, **only)
 
@@ -106,8 +102,9 @@ def _positive(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, ...]:
     return tuple(np.where(inside, part, np.nan) for part in parts[:2])
 
 
-def _inside(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, Any]:
+def _inside(row: Row, x: Axis, y: Axis, *given: Any) -> tuple[Any, Any]:
     """A line or area as far as it is within its axes, for a canvas that does not clip."""
+    parts = list(given[:2])
     for k, sign, bound in ((1, 1, y.end), (0, 1, x.end), (0, -1, -x.start)):
         outside = sign * parts[k] > bound + 1e-9 * abs(bound)
         if not outside.any():
@@ -131,8 +128,8 @@ class Picture:
         shared = {"selected": bk.Selection(), "selection_policy": bk.UnionRenderers()}
         groups = [group for group in _GROUPS if any(row.group == group for row in rows_of(plot))]
         self.layers = [Layer(plot, group, shared) for group in groups]
-        self.hovers: list[tuple[Any, bool]] = []
-        if any(layer.right for layer in self.layers):
+        self.hovers: list[tuple[Any, int]] = []
+        if any(layer.axis == 2 for layer in self.layers):
             self.figure.extra_y_ranges = {"right": bk.Range1d(0, 1)}
             self.figure.add_layout(bk.LinearAxis(y_range_name="right"), "right")
         for layer in self.layers:
@@ -141,7 +138,7 @@ class Picture:
                 told = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
                 hover = bk.HoverTool(renderers=[renderer], line_policy="nearest", visible=False, **told)
                 self.figure.add_tools(hover)
-                self.hovers.append((hover, layer.right))
+                self.hovers.append((hover, layer.axis))
         self._dress()
 
     def _dress(self):
@@ -199,9 +196,9 @@ class Picture:
                 bounds.update(start=start, end=end)
                 side.axis_label = axis.label
                 self._scale(side, axis)
-        for hover, right in self.hovers:
-            symbol, y = axes[0].title.split(",")[0], axes[2 if right else 1]
-            hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=y)
+        for hover, number in self.hovers:
+            symbol = axes[0].title.split(",")[0]
+            hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=axes[number])
 
     def _scale(self, side, axis: Axis):
         """Make the scale along one side logarithmic, or linear again."""

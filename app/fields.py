@@ -148,7 +148,7 @@ class Choice(Part):
     LOOK = ("options", "value", "answered")
 
     def __init__(self, name: str, choose: Callable[[str], None]):
-        self._choose, self.answered = choose, 0
+        self.key, self._choose, self.answered = name, choose, 0
         self.options, self.value = [], ""
         radio = sum(map(len, CHOICES[name].values())) < _SHORT
         about, classes = linked(ABOUT[name]), f"of-{name.replace('.', '-')}"
@@ -158,6 +158,15 @@ class Choice(Part):
         if message in [option for option, _ in self.options]:
             self._choose(message)
         self.show(answered=self.answered + 1)
+
+    def update(self, state: State) -> None:
+        """Show the options of a state; no preset is chosen if the scene differs from all."""
+        chosen = option(state, self.key)
+        pairs = [[each, CHOICES[self.key][each]] for each in options(state, self.key)]
+        if self.key == "preset" and altered(state):
+            chosen = _ALTERED
+            pairs.append([_ALTERED, f"altered, from: {PRESETS[state.preset].label}"])
+        self.show(options=pairs, value=chosen)
 
 
 class Choices:
@@ -170,33 +179,17 @@ class Choices:
     def part(self, name: str) -> Choice:
         if name not in self.made:
             self.made[name] = Choice(name, partial(self.choose, name))
-            self._show(name)
+            self.made[name].update(self._state())
         return self.made[name]
 
     def choose(self, name: str, option: str) -> None:
         """Take another option."""
-        if option != self._chosen(name):
+        if option != self.part(name).value:
             self._apply(lambda state: changes.choose(state, name, option))
 
-    def _chosen(self, name):
-        """Option that is shown; none of the presets if the scene differs from all."""
-        state = self._state()
-        return _ALTERED if name == "preset" and altered(state) else option(state, name)
-
-    def _options(self, name):
-        """Options with their texts."""
-        state = self._state()
-        pairs = [[option, CHOICES[name][option]] for option in options(state, name)]
-        if self._chosen(name) == _ALTERED:
-            pairs.append([_ALTERED, f"altered, from: {PRESETS[state.preset].label}"])
-        return pairs
-
-    def _show(self, name):
-        self.made[name].show(options=self._options(name), value=self._chosen(name))
-
     def show(self, state: State) -> None:
-        for name in self.made:
-            self._show(name)
+        for each in self.made.values():
+            each.update(state)
 
 
 class Form:

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from .courses import Course
-from .quantities import CHOICES, OF_DRIVE, READOUTS, SHAPES, USED, Readout
-from .state import State, regions
+from .quantities import CHOICES, OF_DRIVE, READOUTS, SHAPES, Readout
+from .state import State, regions, used_by
 from .ui import explained, linked, symbol
 from .units import KINDS, with_symbol, written
 
@@ -119,8 +119,7 @@ def law_of_hardness(course: Course) -> str:
 def summary(state: State) -> str:
     """Shape, medium and drive of a scene in one line."""
     parts, choices = regions(state), OF_DRIVE[state.drive]["form"]
-    names = [*parts["shape"], *parts["medium"], *parts["drive"]]
-    names += [name for choice in ("damping", "adhesion") for name in USED[choice][state[choice]]]
+    names = [*parts["shape"], *parts["medium"], *parts["drive"], *used_by(state, "damping", "adhesion")]
     numbers = [with_symbol(name, state[name]) for name in names if state[name]]
     return ", ".join(
         [SHAPES[state.shape].label, *numbers, *(CHOICES[name][state[name]] for name in choices)]

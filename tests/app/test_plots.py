@@ -288,7 +288,9 @@ def test_a_new_plot_is_one_entry():
 
     def work(view, some):
         course = view.course
-        return course.states.depth[some], course.plastic_work[some] / course.scene.medium.critical_depth
+        return course.states.depth[some], course.ledger.plastic_work[
+            some
+        ] / course.scene.medium.critical_depth
 
     plot = Plot(
         "work", "Plastic work", "W_p = d_c φ(d_p)", (D, F),
