@@ -13,7 +13,7 @@ from .parts import Button, Part, Parts, Text
 from .player import Player
 from .plot import Plot, View, rows_of
 from .plots import NAMED, PLOTS, visible
-from .ui import FULL, JS, html, linked, show
+from .ui import FULL, JS, Messages, html, linked, show
 
 #: Plots that share the axis x of another one.
 _SAME_X = {"pressure": "springs"}
@@ -78,7 +78,7 @@ class Card:
 class Board:
     """All plots of a session: a card is made when it is seen for the first time, and stays."""
 
-    def __init__(self, choices: Choices, apply: Callable[..., None]):
+    def __init__(self, choices: Choices, apply: Callable[..., None], messages: Messages):
         self._choices, self._apply, self.cards = choices, apply, {}
         self.names: list[str] = []
         self.tabs = {
@@ -89,18 +89,12 @@ class Board:
         self.tab_row = Parts(*self.tabs.values(), classes=("bar", "tabs"))
         self.grid = pn.Column(css_classes=["plots"], **FULL)
         figures = {name: self._make(name) for name in NAMED}
-        self.player = Player(list(figures.values()))
+        self.player = Player(messages)
         #: Figures that are dragged.
         self.dragged = [figures["springs"], figures["force"]]
-
-    def connect(self) -> None:
-        """Let the browser drag and play: once the page is there, so that building it does not wait."""
-        self.player.connect()
-        told = {"hand": self.player.hand, **self.player.parts}
         for figure in self.dragged:
-            code = CustomJS(args=told | {"figure": figure}, code=JS["drag"])
             for event in (PanStart, Pan, PanEnd):
-                figure.js_on_event(event, code)
+                figure.js_on_event(event, CustomJS(code=JS["named"] + JS["drag"]))
 
     def _make(self, name):
         card = self.cards[name] = Card(PLOTS[name], self._choices, self._apply)

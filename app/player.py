@@ -2,63 +2,56 @@
 
 import json
 from html import escape
-from typing import Any
 
 import panel as pn
-from bokeh.models import Column, ColumnDataSource, CustomJS, ImportedStyleSheet, Row, Slider, Toggle
+from bokeh.models import Column, CustomJS, ImportedStyleSheet, Row, Slider, Toggle
 from panel.models.markup import HTML
 
 from . import readouts
 from .draw import Picture
 from .plot import View
 from .plots import D, F, Z
-from .ui import JS, LAYOUT, SHEETS, WIDE
+from .ui import JS, LAYOUT, SHEETS, WIDE, Messages
 
 
 class Player:
     """Moves through the states of a scene in the browser, from frames that are sent once."""
 
-    def __init__(self, figures: list[Any]):
+    def __init__(self, messages: Messages):
         sheets = [ImportedStyleSheet(url=url) for url in SHEETS]
         look = {"css_classes": ["button", "key-space"], "stylesheets": sheets, "margin": 0}
-        self.play = Toggle(label="▶ Play", width=84, **look)
+        self.play = Toggle(label="▶ Play", name="play", width=84, **look)
         wide = WIDE | {"stylesheets": sheets}
         look = wide | {"show_value": False, "title": None, "tooltips": False, "css_classes": ["slider"]}
         self.state = Slider(start=0, end=1, value=1, step=1, name="state", **look)
-        self.frames, self.hand = ColumnDataSource(name="frames"), ColumnDataSource(name="hand")
         self.heads = HTML(css_classes=["readouts", "heads"], height=29, **wide)
-        self.readout = HTML(css_classes=["readouts"], height=24, **wide)
-        self.parts = {"frames": self.frames, "state": self.state, "play": self.play}
-        self._figures = figures
+        self.readout = HTML(css_classes=["readouts"], name="readout", height=24, **wide)
+        self._messages = messages
+        code = CustomJS(code=JS["named"] + JS["player"])
+        self.state.js_on_change("value", code)
+        messages.js_on_change("frames", code)
+        self.play.js_on_change("active", code)
         wide = WIDE | {"stylesheets": LAYOUT}
         self.line = pn.pane.Bokeh(Column(self.heads, self.readout, css_classes=["line"], **wide), **WIDE)
         self.view = pn.pane.Bokeh(Row(self.play, self.state, css_classes=["player"], **wide), **WIDE)
-
-    def connect(self) -> None:
-        """Play in the browser."""
-        told = self.parts | {"readout": self.readout, "figures": self._figures}
-        code = CustomJS(args=told, code=JS["player"])
-        self.state.js_on_change("value", code)
-        self.frames.js_on_change("tags", code)
-        self.play.js_on_change("active", code)
 
     def show(self, view: View, moved: bool) -> None:
         """Show the present state of a course and its readouts; drop frames unless it has only moved."""
         course, i = view.course, view.course.now
         self._numbers = numbers = readouts.readings(course)
-        if self.frames.tags and not moved:
-            self.frames.tags = []
+        if not moved:
+            self._messages.frames = []
         self.state.update(end=len(course) - 1, value=i)
         d, force = view.axis(D).factor, view.axis(F).factor
         path = {"d": course.states.depth / d, "F": course.states.force / force}
         path = {name: [float(f"{value:.6g}") for value in values] for name, values in path.items()}
-        self.state.tags = [path | {"unit": d / view.axis(Z).factor, "pressing": course.pressed}]
+        self._messages.path = path | {"unit": d / view.axis(Z).factor, "pressing": course.pressed}
         self.heads.text = escape(readouts.heads(course, numbers))
         self.readout.text = escape(readouts.values(course, numbers, i))
 
     def send(self, view: View, pictures: list[Picture]) -> None:
         """Send all states, once."""
-        if self.frames.tags:
+        if self._messages.frames:
             return
         course = view.course
         states = range(len(course))
@@ -70,4 +63,4 @@ class Player:
             "times": course.times.tolist(),
         }
         # As one text: Bokeh would look at every number of it.
-        self.frames.tags = [sources, json.dumps(sent).replace("NaN", "null")]
+        self._messages.frames = [sources, json.dumps(sent).replace("NaN", "null")]

@@ -6,6 +6,8 @@ from html import escape
 from pathlib import Path
 
 import panel as pn
+from bokeh.core.properties import Any, AnyRef, Bool, List, Nullable, String
+from bokeh.model import DataModel
 
 HERE = Path(__file__).parent
 JS = {path.stem: path.read_text(encoding="utf-8") for path in (HERE / "js").glob("*.js")}
@@ -18,6 +20,18 @@ SHEETS = ["app/static/layout.css", "app/static/style.css"]
 LINKS: list[Callable[[str], str]] = []
 WIDE = {"sizing_mode": "stretch_width", "margin": 0}
 FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": LAYOUT}
+
+
+class Messages(DataModel):
+    """What the server and the browser of a session tell each other beside the page."""
+
+    #: The query of the present scene; empty to leave the address as it is, None until the input has rested.
+    address = Nullable(String)
+    dark = Bool(False)
+    #: Sources and, as text, what they are in each state of the scene; empty until they are asked for.
+    frames = List(AnyRef)
+    #: Depth and force of each state, for what is dragged; and the depth that the indenter is dragged to.
+    path, hand = Any(default={}), Any(default=None)
 
 
 def indexed(text):

@@ -101,10 +101,10 @@ def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
 
 def test_the_indenter_is_dragged_to_a_depth_under_a_given_force_too(page):
     page.apply(lambda state: changes.choose(state, "drive", "force"))
-    page._dragged("tags", [], [5.0])
+    page._dragged("hand", None, 5.0)
     # A force that is found has the five digits that its field shows.
     assert float(page.shown.course.turning_point.depth) == pytest.approx(5e-9, rel=5e-5)
-    page._dragged("tags", [], ["<b>"])
+    page._dragged("hand", None, "<b>")
     assert page.notices == []
 
 
