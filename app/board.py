@@ -7,7 +7,7 @@ import panel as pn
 from bokeh.events import Pan, PanEnd, PanStart
 from bokeh.models import CustomJS
 
-from .draw import Picture, drawn, legend
+from .draw import Picture, drawn, legend, picture_of
 from .fields import Choices
 from .parts import Button, Part, Parts, Text
 from .player import Player
@@ -35,18 +35,16 @@ class Card:
     """A plot in its frame: title, formula, legend, controls above and a note below."""
 
     def __init__(self, plot: Plot, choices: Choices, apply: Callable[..., None]):
-        self.plot, self.picture, self._rows, self._apply = plot, Picture(plot), None, apply
+        self.plot, self.picture, self._rows, self._apply = plot, picture_of(plot), None, apply
         self.log = Button("Log", self._scale, pressed=False)
         self.large = Button("Large", self._enlarge, pressed=False)
         self.save, self.formula, self.legend = Save(plot), Text("formula"), Text("key")
         buttons = (*[self.log] * plot.logs, self.save, self.large)
         head = Parts(self.formula, *buttons, self.legend, classes=("heading",))
-        self.note = html("", "note", "found")
-        parts = [head, pn.pane.Bokeh(self.picture.figure, **FULL)]
+        self.note = html("", "note", "found", visible=False)
+        parts = [head, pn.pane.Bokeh(self.picture.figure, **FULL), self.note]
         if plot.controls:
             parts.insert(1, Parts(*map(choices.part, plot.controls), classes=("above",)))
-        if plot.find:
-            parts.append(self.note)
         self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
 
     def _scale(self) -> None:
@@ -73,8 +71,8 @@ class Card:
             self._rows = rows
             self.legend.show(object=legend(plot, rows))
         self.log.show(pressed=plot.name in view.state.log)
-        if plot.name in view.found:
-            show(self.note, object=view.found[plot.name].note)
+        note = plot.note_of(view)
+        show(self.note, object=note, visible=bool(note))
 
 
 class Board:

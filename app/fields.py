@@ -20,7 +20,7 @@ from .readouts import law_of_hardness
 from .state import MEDIUM_CHOICES, PRESETS, State, altered, regions
 from .tip import MAX_BYTES, Uploaded, read_tip
 from .ui import linked, marked, symbol
-from .units import UNITS, digits, entry, fitting, in_full, read, written
+from .units import UNITS, digits, entry, fitting, read, with_symbol, written
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
@@ -148,7 +148,7 @@ class Choice(Part):
     LOOK = ("options", "value", "answered")
 
     def __init__(self, name: str, choose: Callable[[str], None]):
-        self._choose, self.answered = choose, 0
+        self.key, self._choose, self.answered = name, choose, 0
         self.options, self.value = [], ""
         radio = sum(map(len, CHOICES[name].values())) < _SHORT
         about, classes = linked(ABOUT[name]), f"of-{name.replace('.', '-')}"
@@ -158,6 +158,15 @@ class Choice(Part):
         if message in [option for option, _ in self.options]:
             self._choose(message)
         self.show(answered=self.answered + 1)
+
+    def update(self, state: State) -> None:
+        """Show the options of a state; no preset is chosen if the scene differs from all."""
+        chosen = option(state, self.key)
+        pairs = [[each, CHOICES[self.key][each]] for each in options(state, self.key)]
+        if self.key == "preset" and altered(state):
+            chosen = _ALTERED
+            pairs.append([_ALTERED, f"altered, from: {PRESETS[state.preset].label}"])
+        self.show(options=pairs, value=chosen)
 
 
 class Choices:
@@ -170,35 +179,17 @@ class Choices:
     def part(self, name: str) -> Choice:
         if name not in self.made:
             self.made[name] = Choice(name, partial(self.choose, name))
-            self._show(name)
+            self.made[name].update(self._state())
         return self.made[name]
 
     def choose(self, name: str, option: str) -> None:
         """Take another option."""
-        if option != self._chosen(name):
+        if option != self.part(name).value:
             self._apply(lambda state: changes.choose(state, name, option))
 
-    def _chosen(self, name):
-        """Option that is shown; none of the presets if the scene differs from all."""
-        state = self._state()
-        return _ALTERED if name == "preset" and altered(state) else option(state, name)
-
-    def _options(self, name):
-        """Options with their texts."""
-        state = self._state()
-        pairs = [[option, CHOICES[name][option]] for option in options(state, name)]
-        if self._chosen(name) == _ALTERED:
-            pairs.append([_ALTERED, f"altered, from: {PRESETS[state.preset].label}"])
-        if name == "shape" and not state.samples:
-            pairs = [pair for pair in pairs if pair[0] != "sampled"]
-        return pairs
-
-    def _show(self, name):
-        self.made[name].show(options=self._options(name), value=self._chosen(name))
-
     def show(self, state: State) -> None:
-        for name in self.made:
-            self._show(name)
+        for each in self.made.values():
+            each.update(state)
 
 
 class Form:
@@ -259,8 +250,8 @@ class Form:
         preset, shape, made = PRESETS[state.preset], SHAPES[state.shape], course.scene.medium
         sources = ""
         for name, text in preset.sources.items():
-            value = in_full(preset.values[name], QUANTITIES[name].kind)
-            sources += f"<dt>{marked(f'{QUANTITIES[name].symbol} = {value}')}</dt><dd>{escape(text)}</dd>"
+            value = marked(with_symbol(name, preset.values[name]))
+            sources += f"<dt>{value}</dt><dd>{escape(text)}</dd>"
         title = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
         energy = written(state.mass * state.speed**2 / 2, "energy")
         height = written(state.speed**2 / (2 * _GRAVITY), "length")

@@ -14,15 +14,14 @@ from . import changes, link, readouts
 from .board import Board
 from .courses import Course
 from .drives import follow, scene_of
-from .extra import EXTRAS
+from .extra import EXTRAS, SERVICES
 from .fields import Choices, Form, Numbers
 from .frame import Frame
 from .plot import View
-from .plots import PLOTS, Z, visible
+from .plots import Z, visible
 from .refused import in_words
-from .rest import Resting, is_served
 from .state import VIEW, State, preset_state
-from .ui import JS, Messages, show
+from .ui import JS, Messages, is_served, show
 
 _LOG = logging.getLogger(__name__)
 #: Milliseconds of rest before slow updates.
@@ -50,12 +49,12 @@ class Page:
         self._notices, self._refused = [], False
         self._numbers: list[Numbers] = []
         self.state = preset_state()
-        self.resting = Resting(self._show_result)
+        self.services = [make(self) for make in SERVICES]
         self.choices = Choices(self.apply, lambda: self.state)
         self.messages = Messages(name="messages")
         self.board = Board(self.choices, self.apply, self.messages)
         self.form = Form(self)
-        self.frame = Frame(self, self.choices.part("preset"), self.form, self.board)
+        self.frame = Frame(self)
         self.view = self.frame.view
         self._show_history()
         self._watch()
@@ -66,7 +65,7 @@ class Page:
         except Exception as error:
             self.draw(self.state)
             self._refused = True
-            self.notify(f"The link was not opened: {self._refusal(error)}")
+            self.notify(f"The link was not opened: {self.refusal(error)}")
 
     def _watch(self):
         player = self.board.player
@@ -119,7 +118,7 @@ class Page:
                 return
             self.draw(after)
         except Exception as error:
-            message = self._refusal(error, after)
+            message = self.refusal(error, after)
             if self.shown is not None and self.state is not before:
                 self.draw(before)
             raise ValueError(message) from None
@@ -173,7 +172,7 @@ class Page:
             # Screen readers are told the text itself, in which quotation marks need no escape.
             pn.state.notifications.error(escape(text, quote=False), duration=7000)
 
-    def _refusal(self, error, state=None):
+    def refusal(self, error, state=None):
         """Message for an error; a fault is logged with its scene."""
         if isinstance(error, ValueError):
             return in_words(error)
@@ -194,8 +193,9 @@ class Page:
         course = follow(state, self.solved)
         before = None if again else self.shown
         computed = {name: each.compute(state, before, self.solved) for name, each in EXTRAS.items()}
-        tiles = [plot for plot in PLOTS.values() if plot.name in state.tiles]
-        view = View(state, course, self.resting.found(tiles, state, course), computed)
+        for service in self.services:
+            computed |= service.compute(state, course)
+        view = View(state, course, computed)
         # Plots that this course has not are no longer asked for.
         shown = [plot.name for plot in visible(view) if plot.tab]
         view.state = state = state.replace(tiles=tuple(shown))
@@ -270,22 +270,5 @@ class Page:
         self.messages.address = "" if self._refused else f"?{query}"
         view = self.shown
         self.board.say_scene(readouts.summary(self.state))
-        others = [course for each in EXTRAS.values() for course in each.courses(view)]
-        self.resting.begin([view.course, *others], visible(view), self.state)
-
-    @pn.io.hold()
-    def _show_result(self, name, found):
-        """Draw a result computed at rest; on failure go on without it."""
-        solved = self.solved
-        try:
-            if isinstance(found, str):
-                self.notify(found)
-                return
-            if isinstance(found, Course):
-                self.solved = dict([*solved.items(), (found.scene, found)][-4:])
-            self.draw(self.state, again=isinstance(found, Course))
-        except Exception as error:
-            self.solved = solved
-            self.resting.give_up(name)
-            self.notify(self._refusal(error))
-            self.draw(self.state)
+        for each in self.services:
+            each.rest(view)

@@ -7,19 +7,10 @@ from typing import Any
 import numpy as np
 
 from .courses import Course
-from .quantities import (
-    CHOICES,
-    OF_DRIVE,
-    QUANTITIES,
-    READOUTS,
-    SHAPES,
-    USED,
-    Readout,
-    shape_quantities,
-)
-from .state import State, medium
+from .quantities import CHOICES, OF_DRIVE, READOUTS, SHAPES, Readout
+from .state import State, regions, used_by
 from .ui import explained, linked, symbol
-from .units import KINDS, digits, in_full, written
+from .units import KINDS, with_symbol, written
 
 
 def readings(course: Course) -> dict[Readout, Any]:
@@ -74,50 +65,38 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
     for sentence in (*course.notes, course.pending):
         if sentence:
             yield "note", sentence
-    given = state.elasticity != "modulus"
     for limit in sorted(course.limits(state.density), key=lambda limit: limit.concerns != "result"):
-        if limit.what == "Poisson ratio" and not given:
-            yield "note", "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*."
-        elif limit.what == "coupling" and not given:
-            yield "note", "Friction along the surface is that of ν = ½; ν is not given with E*."
-        elif limit.what == "viscosity":
-            tau = written(limit.value, "time")
-            remedy = ", or ".join(drive["in_time"] for drive in OF_DRIVE.values() if "in_time" in drive)
-            yield (
-                "note",
-                f"Pressing is quasi-static here, without dashpots; τ = {tau}. For these choose {remedy}.",
-            )
-        elif limit.what != "fast limit":
-            yield limit.level, limit.sentence
-        elif limit.holds and not course.adhesive:
-            # The fast limit is one without adhesion.
-            yield limit.level, _areas(course.hit)
-        elif not course.adhesive:
-            yield limit.level, limit.sentence + (f" {_areas(course.hit)}" if limit.value < np.inf else "")
+        if limit.what == "fast limit" and course.adhesive:
+            # It is one without adhesion.
+            continue
+        own = _own_words(limit, state)
+        yield ("note", own) if own else (limit.level, limit.sentence)
 
 
-def _areas(hit: Any) -> str:
-    """Comparison of the fast limit with the areas of contact and damage."""
-    limit = float(hit.fast_limit.contact_area)
-    named = {"damaged area πc²": hit.damaged_area, "contact area πa²": np.pi * hit.contact_radius**2}
-    texts = []
-    for name, area in named.items():
-        more = 100 * (limit / float(area) - 1)
-        side = "above" if more > 0 else "below"
-        texts.append(f"{digits(abs(more), 2)} % {side} the {name} = {written(float(area), 'area')}")
-    return f"Fast-impact limit (23), (24): A = {written(limit, 'area')}, {' and '.join(texts)}."
+#: What is said where E* is given without ν.
+_OF_INCOMPRESSIBLE = {
+    "Poisson ratio": "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*.",
+    "coupling": "Friction along the surface is that of ν = ½; ν is not given with E*.",
+}
+
+
+def _own_words(limit: Any, state: State) -> str:
+    """What the page says of a limit in the place of the core, or nothing."""
+    if limit.what == "viscosity":
+        remedy = ", or ".join(drive["in_time"] for drive in OF_DRIVE.values() if "in_time" in drive)
+        tau = written(limit.value, "time")
+        return f"Pressing is quasi-static here, without dashpots; τ = {tau}. For these choose {remedy}."
+    return _OF_INCOMPRESSIBLE.get(limit.what, "") if state.elasticity == "modulus" else ""
 
 
 def warnings(course: Course, state: State) -> str:
     """Exceeded assumptions as HTML; the others fold."""
-    sentences = [
-        (level, f'<span class="{level}">{linked(sentence)}</span>')
-        for level, sentence in limits(course, state)
-    ]
-    exceeded = "".join(html for level, html in sentences if level == "beyond")
-    others = "".join(html for level, html in sentences if level != "beyond")
-    folded = f"<details><summary>Assumptions and notes</summary>{others}</details>"
-    return exceeded + folded * bool(others)
+    exceeded, others = "", ""
+    for level, sentence in limits(course, state):
+        html = f'<span class="{level}">{linked(sentence)}</span>'
+        exceeded += html * (level == "beyond")
+        others += html * (level != "beyond")
+    return exceeded + f"<details><summary>Assumptions and notes</summary>{others}</details>" * bool(others)
 
 
 def law_of_hardness(course: Course) -> str:
@@ -126,29 +105,22 @@ def law_of_hardness(course: Course) -> str:
     if made.q_c == np.inf:
         return "Nothing yields: q_c = ∞"
     law = "q_c/a" if made.q_c else "f_c/a²" if made.f_c else "H"
-    hardness = written(float(made.hardness_at(a)), "pressure")
     place = " at every a" if law == "H" else f" at a = {written(a, 'length')}"
-    starts = f"Yield starts at d_y = {written(onset, 'length')}"
+    starts = f"Yield starts at d_y = {written(onset, 'length')} § 20"
     if made.inverse_to_radius:
         starts = f"Yield starts at d_c = π q_c/(2E*) = {written(onset, 'length')} (19)"
     elif onset == np.inf:
-        starts = "Nothing yields under this shape: H is too large"
+        starts = "Nothing yields under this shape: H is too large § 20"
     elif onset == 0:
-        starts = "Yield starts at first touch, d_y = 0"
-    return f"σ_c = {law} = {hardness}{place}. {starts}" + " § 20" * (not made.inverse_to_radius)
+        starts = "Yield starts at first touch, d_y = 0 § 20"
+    return f"σ_c = {law} = {written(float(made.hardness_at(a)), 'pressure')}{place}. {starts}"
 
 
 def summary(state: State) -> str:
     """Shape, medium and drive of a scene in one line."""
-    made, choices = medium(state), OF_DRIVE[state.drive]["form"]
-    names = [name for name, _ in shape_quantities(state.shape)]
-    of_medium = {name: getattr(made, name) for name in ("E_star", "q_c", "f_c", "eta", "work_of_adhesion")}
-    of_medium["volume_hardness"] = made.hardness
-    names += [name for name, value in of_medium.items() if 0 < value < np.inf]
-    names += [number for name in ("drive", *choices) for number in USED[name][state[name]]]
-    words = [SHAPES[state.shape].label]
-    for name in names:
-        value = float(of_medium.get(name, state[name]))
-        if value:
-            words.append(f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}")
-    return ", ".join([*words, *(CHOICES[name][state[name]] for name in choices)])
+    parts, choices = regions(state), OF_DRIVE[state.drive]["form"]
+    names = [*parts["shape"], *parts["medium"], *parts["drive"], *used_by(state, "damping", "adhesion")]
+    numbers = [with_symbol(name, state[name]) for name in names if state[name]]
+    return ", ".join(
+        [SHAPES[state.shape].label, *numbers, *(CHOICES[name][state[name]] for name in choices)]
+    )

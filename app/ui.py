@@ -71,14 +71,6 @@ def button(name, **options):
     return pn.widgets.Button(label=name, css_classes=["button"], **{"margin": 0} | options)
 
 
-def field(kind, *classes, **options):
-    return kind(css_classes=["choice", *classes], **WIDE | options)
-
-
-def tools(*parts, **options):
-    return pn.Row(*parts, css_classes=["tools"], **WIDE | options)
-
-
 def reveal(column, part, visible, place=None):
     """Show or hide a part of a column; the browser gets it when it is shown for the first time."""
     show(part, visible=visible)
@@ -91,3 +83,8 @@ def show(part, **values):
     news = {name: value for name, value in values.items() if getattr(part, name) != value}
     if news:
         part.param.update(**news)
+
+
+def is_served(document):
+    """Whether a document is that of a session of the server."""
+    return document is not None and document.session_context is not None

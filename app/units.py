@@ -6,7 +6,7 @@ from math import floor, isclose, isfinite, log10, radians, tan
 
 import numpy as np
 
-from .quantities import DATA
+from .quantities import DATA, QUANTITIES
 
 
 @dataclass(frozen=True)
@@ -82,6 +82,11 @@ def entry(value: float, unit: Unit) -> str:
 def in_full(value: float, kind: str) -> str:
     """A value (SI) in the unit that fits it, with all digits as in `entry`."""
     return entry(value, fitting(value, kind)) if isfinite(value) else digits(value)
+
+
+def with_symbol(name: str, value: float) -> str:
+    """A number of the page with its symbol, in full."""
+    return f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}"
 
 
 #: Letters of units, with those that keyboards have for them.

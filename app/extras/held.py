@@ -17,12 +17,12 @@ from ..extra import Extra
 from ..parts import Button
 from ..plot import Along, Overlay, View
 from ..plots import PLOTS, P, R, Z
-from ..quantities import CHOICES, QUANTITIES
+from ..quantities import CHOICES
 from ..readouts import line as readout_line
 from ..readouts import readings, text
 from ..state import PRESETS, State, altered, used
 from ..ui import WIDE, button, html, marked, show, symbol
-from ..units import in_full
+from ..units import with_symbol
 
 #: Scenes that are held have each its own dashes.
 DASHES = ("dotdash", "dashed", "dotted", "solid")
@@ -77,7 +77,7 @@ def difference(state: State) -> str:
     words = [CHOICES[name][state[name]] for name in changed if name in CHOICES and name != "elasticity"]
     numbers = [name for name in used(state) if name in changed or name not in preset.values]
     for name in sorted(numbers, key=lambda name: name not in changed):
-        words.append(f"{QUANTITIES[name].symbol} = {in_full(state[name], QUANTITIES[name].kind)}")
+        words.append(with_symbol(name, state[name]))
     return ", ".join(words) or preset.label
 
 

@@ -16,19 +16,20 @@ from jinja2 import Template
 import mdr_core as mdr
 
 from .. import readouts
-from ..draw import Picture, drawn, legend
+from ..draw import drawn, legend, picture_of
 from ..extra import EXTRAS, Extra
 from ..plot import Plot, View
 from ..plots import visible
 from ..quantities import CHOICES, LABELS, QUANTITIES, SHAPES
 from ..readouts import readings, summary
+from ..shared.widgets import field, tools
 from ..state import MEDIUM_CHOICES, PRESETS, YIELD_CONSTANT, State, altered, used
-from ..ui import CSS, WIDE, field, html, marked, show, symbol, tools
+from ..ui import CSS, WIDE, html, marked, show, symbol
 from ..units import written
 
 _TEMPLATE = Template(Path(__file__).with_suffix(".html").read_text(encoding="utf-8"))
-#: Pixels of a plot in a report.
-_SIZE = 500, 340
+#: A plot in a report.
+_PRINTED = {"sizing_mode": "fixed", "width": 500, "height": 340, "output_backend": "svg"}
 
 
 def csv(view: View) -> str:
@@ -67,7 +68,7 @@ def _table(view: View, title: str, columns: dict[str, Any]) -> str:
 def report(view: View, plots: list[Plot], snippet: str, address: str = "") -> str:
     """The report as HTML."""
     state, course = view.state, view.course
-    plots = [plot for plot in plots if view.axes_of(plot)]
+    plots = [plot for plot in plots if plot.axes_of(view)]
     title = PRESETS[state.preset].label + ", altered" * bool(altered(state))
     words = {
         "title": title,
@@ -83,16 +84,15 @@ def report(view: View, plots: list[Plot], snippet: str, address: str = "") -> st
         "python": escape(snippet),
         "link": escape(address),
     }
-    pictures = [Picture(plot, "glyph", _SIZE) for plot in plots]
+    pictures = [picture_of(plot, "glyph") for plot in plots]
     for picture in pictures:
+        picture.figure.update(**_PRINTED)
         picture.show(picture.columns(view, course.now, False), view, False)
     script, figures = components([picture.figure for picture in pictures])
     words["plots"] = []
     for plot, figure in zip(plots, figures, strict=True):
-        key, found = legend(plot, drawn(view, plot, {course.now})), view.found.get(plot.name)
-        words["plots"].append(
-            (plot.title, key, figure, marked(plot.formula_of(course)), found.note if found else "")
-        )
+        key, note = legend(plot, drawn(view, plot, {course.now})), plot.note_of(view)
+        words["plots"].append((plot.title, key, figure, marked(plot.formula_of(course)), note))
     # Of Bokeh alone what draws.
     bokeh = Resources(mode="inline", components=["bokeh"]).js_raw
     return _TEMPLATE.render(words, bokeh=bokeh, script=script, style=CSS)
@@ -151,4 +151,4 @@ class Share:
         return report(view, visible(view), view.course.scene.to_python(), self.address()[0])
 
 
-EXTRA = Extra("share", order=20, tab="Share", in_header=True, side=Share)
+EXTRA = Extra("share", order=20, tab="Share", place="header", side=Share)

@@ -13,9 +13,10 @@ from mdr_core.results.quantities import QUANTITIES as RESULTS
 
 from ..changes import option
 from ..extra import Extra
-from ..plot import Found, Plot, axis
+from ..plot import axis
 from ..quantities import CHOICES, QUANTITIES, Scale, lowered, quantity, read_data
 from ..refused import in_words
+from ..shared.rest import Found, Resting, Searched
 from ..state import PRESETS, State, medium, profile, used
 from ..ui import marked
 from ..units import KINDS, digits, in_full
@@ -206,7 +207,7 @@ def _notes(sweep, numbers, values, powers, inside):
             yield marked(f"Not all of the range can be solved: {in_words(error)}.")
 
 
-SWEEP = Plot(
+SWEEP = Searched(
     "sweep", "Sweep", "one number over a range, all others as they are  § 10", (),
     (
         *(line(name, "ink", 1.4, dash, "y") for name, dash in LINES.items()),
@@ -222,4 +223,5 @@ EXTRA = Extra(
     former={"swept": "sweep.swept", "against": "sweep.against"},
     offers={"sweep.swept": swept, "sweep.against": against},
     plots=(SWEEP,),
+    service=Resting,
 )

@@ -132,8 +132,8 @@ def test_without_an_extra_the_page_builds_and_has_no_word_of_it(folder, whole, n
 
 
 def test_the_page_with_no_extras_at_all(browser, tmp_path):
-    """Three plots, the form and the readouts are in use."""
-    copied(tmp_path, "app", *EXTRAS)
+    """Three plots, the form and the readouts are in use, without what extras share too."""
+    shutil.rmtree(copied(tmp_path, "app", *EXTRAS) / "shared")
     server = Server(root=tmp_path)
     try:
         with browser.new_context(viewport={"width": 1280, "height": 720}) as context:

@@ -6,7 +6,7 @@ import pytest
 
 from app import changes
 from app.page import Page
-from app.rest import COMPUTING, FAULT
+from app.shared.rest import COMPUTING, FAULT
 from app.state import PRESETS, preset_state
 
 from .conftest import DROP, GOLD
@@ -72,7 +72,7 @@ def send(number, **data):
     number.take(data | {"number": number.answered + 1})
 
 
-@pytest.mark.parametrize("act", ["preset", "undo", "reset"])
+@pytest.mark.parametrize("act", ["preset", "undo"])
 def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
     (depth,), (_, q_c) = page.form.numbers["drive"].parts, page.form.numbers["medium"].parts
     send(depth, text="5 nm")
@@ -81,7 +81,7 @@ def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
     if act == "preset":
         page.choices.choose("preset", DROP)
     else:
-        getattr(page.frame, act).act()
+        page.frame.undo.act()
     assert q_c.refused == ""
 
 
@@ -111,19 +111,19 @@ def test_the_indenter_is_dragged_to_a_depth_under_a_given_force_too(page):
 def rested(page):
     """What is found of the section when the input is at rest."""
     page._input_rests()
-    return page.shown.found["section"]
+    return page.shown.computed["section"]
 
 
 def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
     page.board.tabs["section"].act()
-    assert page.shown.found["section"] == COMPUTING
+    assert page.shown.computed["section"] == COMPUTING
     first = rested(page)
     put(page, "q_c", 1.2 * Q_C)
-    assert page.shown.found["section"] == replace(COMPUTING, axes=first.axes)
+    assert page.shown.computed["section"] == replace(COMPUTING, axes=first.axes)
     page.frame.undo.act()
-    assert page.shown.found["section"] is first
+    assert page.shown.computed["section"] is first
     page._state_chosen("value_throttled", page.shown.course.now, 5)
-    assert page.shown.found["section"].note == "computing …"
+    assert page.shown.computed["section"].note == "computing …"
     assert rested(page).rows["contact radius a"][0][0] == page.shown.course.state.contact_radius
 
 
@@ -132,7 +132,7 @@ def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
     page.board.tabs["section"].act()
 
     def fails(columns, view):
-        return failing() if view.found["section"].rows else show(columns, view)
+        return failing() if view.computed["section"].rows else show(columns, view)
 
     monkeypatch.setattr(page.board, "show", fails)
     assert rested(page) is FAULT

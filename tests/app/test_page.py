@@ -13,7 +13,7 @@ from app.plots import PLOTS
 from app.state import PRESETS, State, preset_state
 from app.units import UNITS, written
 
-from .conftest import DROP, ELASTIC, PUNCH, Explorer
+from .conftest import DROP, ELASTIC, GOLD, PUNCH, Explorer
 from .states import state_with, table, view_of
 
 
@@ -99,9 +99,7 @@ def test_keys_player_and_hand_move_every_plot(explorer):
         explorer.change(page.keyboard.press, "PageUp")
         assert explorer.field(symbol).input_value() != text
         assert now(explorer) != before
-    explorer.press("Menu")
-    explorer.change(explorer.press, "Reset")
-    explorer.press("Explore")
+    explorer.choose("Preset", PRESETS[GOLD].label)
     assert_draws(explorer, preset_state())
     # The indenter is taken by the hand: deeper, and one change to undo.
     explorer.drag("springs", (0, 0.2))

@@ -15,6 +15,7 @@ from app.plots import PLOTS
 from app.quantities import ABOUT, CHOICES, QUANTITIES, SHAPES, USED
 from app.readouts import READOUTS, heads, readings
 from app.refused import in_words
+from app.shared.rest import Searched
 from app.state import PRESETS, preset_state
 from app.tip import read_tip
 from app.ui import linked, marked
@@ -156,8 +157,8 @@ def test_python_and_raw_indices_are_not_on_the_page():
     shown = [text for texts in CHOICES.values() for text in texts.values()] + [ABOUT["shape"]]
     shown += [quantity.label for quantity in QUANTITIES.values()]
     view = view_of(preset_state())
-    plots = [plot for plot in PLOTS.values() if plot.applies(view) and not plot.find]
-    shown += [axis.label for plot in plots for axis in view.axes_of(plot)]
+    plots = [plot for plot in PLOTS.values() if plot.applies(view) and not isinstance(plot, Searched)]
+    shown += [axis.label for plot in plots for axis in plot.axes_of(view)]
     assert [text for text in shown if "_" in text] == []
     for shape in SHAPES.values():
         assert "_" not in marked(shape.height + shape.reduced)

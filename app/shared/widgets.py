@@ -1,0 +1,15 @@
+"""Widgets of Panel as extras have them."""
+
+from typing import Any
+
+import panel as pn
+
+from ..ui import WIDE
+
+
+def field(kind: type, *classes: str, **options: Any) -> Any:
+    return kind(css_classes=["choice", *classes], **WIDE | options)
+
+
+def tools(*parts: Any, **options: Any) -> pn.Row:
+    return pn.Row(*parts, css_classes=["tools"], **WIDE | options)
