@@ -269,6 +269,5 @@ class Page:
         # The empty address leaves the present one, of a link that was not opened.
         self.messages.address = "" if self._refused else f"?{query}"
         view = self.shown
-        self.board.say_scene(readouts.summary(self.state))
         for each in self.services:
             each.rest(view)

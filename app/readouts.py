@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from .courses import Course
-from .quantities import CHOICES, OF_DRIVE, READOUTS, SHAPES, Readout
-from .state import State, regions, used_by
+from .quantities import OF_DRIVE, READOUTS, Readout
+from .state import State
 from .ui import explained, linked, symbol
-from .units import KINDS, with_symbol, written
+from .units import KINDS, written
 
 
 def readings(course: Course) -> dict[Readout, Any]:
@@ -114,13 +114,3 @@ def law_of_hardness(course: Course) -> str:
     elif onset == 0:
         starts = "Yield starts at first touch, d_y = 0 § 20"
     return f"σ_c = {law} = {written(float(made.hardness_at(a)), 'pressure')}{place}. {starts}"
-
-
-def summary(state: State) -> str:
-    """Shape, medium and drive of a scene in one line."""
-    parts, choices = regions(state), OF_DRIVE[state.drive]["form"]
-    names = [*parts["shape"], *parts["medium"], *parts["drive"], *used_by(state, "damping", "adhesion")]
-    numbers = [with_symbol(name, state[name]) for name in names if state[name]]
-    return ", ".join(
-        [SHAPES[state.shape].label, *numbers, *(CHOICES[name][state[name]] for name in choices)]
-    )
