@@ -59,7 +59,8 @@ class Number(Part):
     def __init__(self, name: str, apply_or_raise: Callable[..., None]):
         known = QUANTITIES[name]
         self.key, self._apply_or_raise, self._preset = name, apply_or_raise, ""
-        self._scale, self._unit = Scale(known, known.default), fitting(known.default, known.kind)
+        self._scale = Scale.about(known, known.default, known.default)
+        self._unit = fitting(known.default, known.kind)
         # The number as it was shown, and whether the next one was typed or dragged here.
         self._value, self._asked = known.default, False
         self.text, self.refused, self.position, self.answered = "", "", 0, 0
@@ -100,9 +101,10 @@ class Number(Part):
         refused = "" if value != self._value or self._preset != state.preset else self.refused
         self._value = value
         # The middle of the slider stays while it moves.
-        if self._preset != state.preset or not self._scale.reaches(value):
-            middle = PRESETS[state.preset].values.get(self.key, value)
-            self._scale, self._preset = Scale.about(known, middle, value), state.preset
+        middle = self._scale.middle
+        if self._preset != state.preset:
+            middle, self._preset = PRESETS[state.preset].values.get(self.key, value), state.preset
+        self._scale = Scale.about(known, middle, value)
         text, position = entry(value, self._unit), self._scale.position(value)
         self.show(text=text, position=position, refused=refused)
 

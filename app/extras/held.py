@@ -20,8 +20,9 @@ from ..plots import PLOTS, P, R, Z
 from ..quantities import CHOICES
 from ..readouts import line as readout_line
 from ..readouts import readings, text
+from ..shared.widgets import button
 from ..state import PRESETS, State, altered, used
-from ..ui import WIDE, button, html, marked, show, symbol
+from ..ui import WIDE, html, marked, show, symbol
 from ..units import with_symbol
 
 #: Scenes that are held have each its own dashes.

@@ -16,9 +16,9 @@ from ...fields import Upload
 from ...parts import Parts, Text
 from ...plot import Overlay, View
 from ...quantities import ASSETS, QUANTITIES, Quantity
-from ...shared.widgets import field, tools
+from ...shared.widgets import button, field, tools
 from ...state import State, checked, medium, profile, with_derived
-from ...ui import WIDE, button, html, indexed, marked, show
+from ...ui import WIDE, html, indexed, marked, show
 from ...units import written
 from .drawn import MEASURED, RESIDUAL, measured, reach
 from .measured import (
