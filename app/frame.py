@@ -66,8 +66,8 @@ class Frame:
         header = Parts(*parts, classes=("header", "bar"), stylesheets=LAYOUT)
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
         self._side = pn.Column(Parts(*rows["side"], classes=("bar",)), **look)
-        numbers = Parts(*rows["line"], classes=("bar",), sizing_mode=None)
-        top = pn.Row(board.player.line, numbers, css_classes=["head", "top"], stylesheets=LAYOUT, **WIDE)
+        line = board.player.heads, board.player.words, *rows["line"]
+        top = Parts(*line, classes=("top",), stylesheets=LAYOUT)
         self.warnings = html("", "lights")
         plots = (top, board.player.view, self.warnings, board.grid, board.tab_row)
         results = pn.Column(*plots, css_classes=["results"], **FULL)

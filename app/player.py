@@ -1,17 +1,22 @@
 """The player: it moves through the states of a scene in the browser."""
 
 import json
-from html import escape
 
 import panel as pn
-from bokeh.models import Column, CustomJS, ImportedStyleSheet, Row, Slider, Toggle
-from panel.models.markup import HTML
+from bokeh.models import CustomJS, ImportedStyleSheet, Row, Slider, Toggle
 
 from . import readouts
 from .draw import Picture
+from .parts import Part, Text
 from .plot import View
 from .plots import D, F, Z
 from .ui import JS, LAYOUT, SHEETS, WIDE, Messages
+
+
+class Words(Part):
+    """The numbers of the state that is seen: `words` of the messages, which the browser plays, too."""
+
+    KIND = "words"
 
 
 class Player:
@@ -21,19 +26,22 @@ class Player:
         sheets = [ImportedStyleSheet(url=url) for url in SHEETS]
         look = {"css_classes": ["button", "key-space"], "stylesheets": sheets, "margin": 0}
         self.play = Toggle(label="▶ Play", name="play", width=84, **look)
-        wide = WIDE | {"stylesheets": sheets}
-        look = wide | {"show_value": False, "title": None, "tooltips": False, "css_classes": ["slider"]}
+        look = WIDE | {
+            "stylesheets": sheets,
+            "show_value": False,
+            "title": None,
+            "tooltips": False,
+            "css_classes": ["slider"],
+        }
         self.state = Slider(start=0, end=1, value=1, step=1, name="state", **look)
-        self.heads = HTML(css_classes=["readouts", "heads"], height=29, **wide)
-        self.readout = HTML(css_classes=["readouts"], name="readout", height=24, **wide)
+        self.heads, self.words = Text("heads"), Words()
         self._messages = messages
         code = CustomJS(code=JS["named"] + JS["player"])
         self.state.js_on_change("value", code)
         messages.js_on_change("frames", code)
         self.play.js_on_change("active", code)
-        wide = WIDE | {"stylesheets": LAYOUT}
-        self.line = pn.pane.Bokeh(Column(self.heads, self.readout, css_classes=["line"], **wide), **WIDE)
-        self.view = pn.pane.Bokeh(Row(self.play, self.state, css_classes=["player"], **wide), **WIDE)
+        row = Row(self.play, self.state, css_classes=["player"], stylesheets=LAYOUT, **WIDE)
+        self.view = pn.pane.Bokeh(row, **WIDE)
 
     def show(self, view: View, moved: bool) -> None:
         """Show the present state of a course and its readouts; drop frames unless it has only moved."""
@@ -46,8 +54,8 @@ class Player:
         path = {"d": course.states.depth / d, "F": course.states.force / force}
         path = {name: [float(f"{value:.6g}") for value in values] for name, values in path.items()}
         self._messages.path = path | {"unit": d / view.axis(Z).factor, "pressing": course.pressed}
-        self.heads.text = escape(readouts.heads(course, numbers))
-        self.readout.text = escape(readouts.values(course, numbers, i))
+        self.heads.show(object=readouts.heads(course, numbers))
+        self._messages.words = readouts.values(course, numbers, i)
 
     def send(self, view: View, pictures: list[Picture]) -> None:
         """Send all states, once."""
@@ -59,7 +67,7 @@ class Player:
         sources = [source for frame in frames[0] for source in frame]
         sent = {
             "pictures": [[columns for frame in each for columns in frame.values()] for each in frames],
-            "words": [escape(readouts.values(course, self._numbers, i)) for i in states],
+            "words": [readouts.values(course, self._numbers, i) for i in states],
             "times": course.times.tolist(),
         }
         # As one text: Bokeh would look at every number of it.

@@ -32,6 +32,8 @@ class Messages(DataModel):
     frames = List(AnyRef)
     #: Depth and force of each state, for what is dragged; and the depth that the indenter is dragged to.
     path, hand = Any(default={}), Any(default=None)
+    #: Readouts of the state that is seen, as HTML.
+    words = String("")
 
 
 def indexed(text):

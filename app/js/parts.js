@@ -6,16 +6,22 @@ const KINDS = {
     let text = ""
     return [el, ({ object }) => { if (text !== object) el.innerHTML = text = object }]
   },
+  words(_, send, named) {
+    const el = made("div", "words"), messages = named("messages")
+    const show = () => { el.innerHTML = messages.words }
+    messages.properties.words.change.connect(show)
+    return [el, show]
+  },
   button({ key }, send) {
     const el = made("button", "act")
     Object.assign(el, { onclick: () => send(null) }).dataset.key = key
     return [el, ({ label, pressed, disabled }) => Object.assign(el, { textContent: label, disabled, ariaPressed: pressed })]
   },
   // A picture of a plot, saved in the browser.
-  save({ figure, title, rows }, send, model) {
+  save({ figure, title, rows }, send, named) {
     const [el, show] = KINDS.button({ key: "" })
     let scene = ""
-    el.onclick = () => save(model(figure), { title, rows, scene })
+    el.onclick = () => save(named(figure), { title, rows, scene })
     return [el, (look) => { scene = look.scene; show(look) }]
   },
   // Radio buttons or a list, with an explanation in a popover.

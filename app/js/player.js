@@ -8,7 +8,7 @@ const sent = () => {
 const stand = (k) => {
   const { pictures, words } = sent()
   messages.frames[0].forEach((source, n) => { source.data = { ...source.data, ...pictures[k][n] } })
-  readout.setv({ text: words[k] }, { sync: false })
+  messages.setv({ words: words[k] }, { sync: false })
   // By itself Bokeh paints at most every second frame.
   setTimeout(() => figures.forEach((figure) => Bokeh.index.find_one(figure).repaint()))
 }
