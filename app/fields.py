@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from functools import cache, partial
 from html import escape
-from math import atan, degrees
+from math import degrees
 from typing import Any
 
 import panel as pn
@@ -257,12 +257,11 @@ class Form:
         title = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
         energy = written(state.mass * state.speed**2 / 2, "energy")
         height = written(state.speed**2 / (2 * _GRAVITY), "length")
-        slope = getattr(state, f"{state.shape}_slope", None)
-        angle = f"Half-angle {digits(90 - degrees(atan(slope)))}°" if slope is not None else ""
+        angle = f"Half-angle {digits(degrees(course.half_angle))}°" if course.half_angle else ""
         eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
-        idle = "" if course.dashpots else "; no effect here: pressing is quasi-static"
+        idle = "" if course.dashpots else "; no effect here, where pressing is quasi-static"
         texts = {
-            "drive": f"Energy {energy}; speed of a fall from {height}" * (state.drive == "impact"),
+            "drive": f"Energy {energy}; equivalent drop height {height}" * (state.drive == "impact"),
             "shape": f"<figcaption>{marked(shape.height)}<br>{marked(shape.reduced)}</figcaption>"
             + marked(state.tip_note if state.shape == "sampled" else angle),
             "medium": linked(law_of_hardness(course)),

@@ -42,7 +42,7 @@ def _ledger(course: Course) -> str:
     lost = "U + W_p" + " + W_v" * course.dashpots + " + W_f" * friction
     if not isinstance(course, Hit):
         return f"{lost} = ∫ F dd  § 14"
-    along = " + m_t W²/2" * friction
+    along = " + m_t v_t²/2" * friction
     return f"{lost} + m v²/2{along} = const.  § 9" + ", § 13" * friction
 
 

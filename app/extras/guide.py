@@ -21,8 +21,8 @@ from ..ui import WIDE, html, linked, show
 #: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
 TOURS = json.loads(Path(__file__).with_suffix(".json").read_text(encoding="utf-8"))
 
-_INTRO = "Guided scenes, each of a few steps. Next begins; Undo takes back what a step has set."
-_LEFT = "The page shows something else by now. Back and Next go on with the steps."
+_INTRO = "Guided scenes, each of a few steps. Next starts the scene; Undo undoes a step."
+_LEFT = "The scene has been changed since this step. Back and Next continue."
 
 
 def tours() -> dict[str, list[dict[str, Any]]]:
@@ -38,7 +38,9 @@ def step_state(step: dict[str, Any], now: State) -> State:
     """State of a step; theme, values of extras that it does not set, and other tiles stay."""
     state = link.read(urlencode(step["set"]))
     tiles = state.tiles or now.tiles
-    return state.replace(tiles=tiles, log=now.log, dark=now.dark, **(now.extras | state.extras))
+    return state.replace(
+        tiles=tiles, log=state.log or now.log, dark=now.dark, **(now.extras | state.extras)
+    )
 
 
 def step_text(step: dict[str, Any], course: Course) -> str:

@@ -3,6 +3,7 @@
 from typing import Any
 
 from ..courses import Course
+from ..draw import drawn
 from ..extra import Extra
 from ..parts import Part
 from ..plot import Plot, View, rows_of
@@ -14,16 +15,15 @@ class Save(Part):
     """The button that saves the picture of a plot, in the browser, with the scene below it."""
 
     KIND = "save"
-    LOOK = ("label", "scene")
+    LOOK = ("label", "rows", "scene")
 
     def __init__(self, plot: Plot):
-        rows = [row.name for row in rows_of(plot) if row.legend]
-        super().__init__(figure=plot.name, title=plot.title, rows=rows)
-        self.label, self.scene = "Save", ""
+        super().__init__(figure=plot.name, title=plot.title)
+        self.label, self.rows, self.scene = "Save", [], ""
 
 
 class Saving:
-    """Keeps the scene below the pictures that are saved."""
+    """Keeps the legend and the scene of the pictures that are saved."""
 
     def __init__(self, page: Any):
         self._page = page
@@ -32,10 +32,12 @@ class Saving:
         return {}
 
     def rest(self, view: View) -> None:
-        for card in self._page.board.cards.values():
-            for part in card.above:
-                if isinstance(part, Save):
-                    part.show(scene=summary(view.state))
+        states, board = {view.course.now, view.course.peak}, self._page.board
+        for card in map(board.cards.get, board.names):
+            called = drawn(view, card.plot, states)
+            rows = [called.get(row.name, row.name) for row in rows_of(card.plot) if row.legend]
+            for part in (part for part in card.above if isinstance(part, Save)):
+                part.show(rows=rows, scene=summary(view.state))
 
 
 EXTRA = Extra("save", on_plots=Save, service=Saving)

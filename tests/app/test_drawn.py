@@ -270,7 +270,7 @@ def test_sentences_are_true(server, page):
     assert "which of them are illustrative" in text
     page.goto(f"{server.url}?damping=eta&eta=1e6")
     text = said(page)
-    assert "For these choose an impact, or the drive path and one of its patterns in time." in text
+    assert " act in an impact, or the drive path and one of its patterns in time." in text
     assert "They also act along the two patterns of a path that are in time." in text
     # A fast impact: the contact area of the limit over the present one; W = π q_c ∫ √(R s) ds.
     page.goto(f"{server.url}?preset={DROP}")
@@ -281,11 +281,13 @@ def test_sentences_are_true(server, page):
     (radius,) = amounts(page.readout("contact_radius"))
     # Of a radius with four digits.
     assert float(off.replace("−", "-")) / 100 == pytest.approx(R * depth / radius**2 - 1, abs=1e-3)
-    # The sweep draws power laws through one point, and says so.
+    # The sweep draws the other classes of hardness, with their constants.
     page.goto(f"{server.url}?preset={DROP}&tiles=sweep&against=restitution")
     page.wait("explorer.row('sweep', 'this scene')?.[0].length > 1")
-    assert named(page, "sweep", "scaling of class (a), hardness constant") == 1
-    assert "Lines of (a) and (c) are these powers, drawn through the fast limit" in said(page)
+    assert named(page, "sweep", "(a) hardness constant") == 1
+    assert re.search(
+        r"Other classes through this point: \(a\) H = [\d.]+ MPa, e ∝ W.*; \(c\) f", said(page)
+    )
 
 
 def test_guided_scenes_are_true(server, page):

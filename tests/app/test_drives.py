@@ -163,3 +163,23 @@ def test_presets_are_within_what_the_model_assumes():
     for key in PRESETS:
         levels = [level for level, _ in readouts.limits(follow(preset_state(key)), preset_state(key))]
         assert "beyond" not in levels, key
+
+
+def test_the_speed_and_depth_of_onset_are_those_of_the_energy():
+    """Paraboloid, class (b): U = (8/15) E* √R d_y^(5/2) is m v_y²/2; over an imprint d_y = d_0 + d_c."""
+    state = preset_state(DROP)
+    made = medium(state)
+    d_c = float(made.critical_depth)
+    energy = 8 / 15 * made.E_star * state.paraboloid_radius**0.5 * d_c**2.5
+    speed = (2 * energy / state.mass) ** 0.5
+    assert numbers(follow(state))["yield_speed"] == pytest.approx(speed, rel=1e-9)
+    for factor, yields in ((0.999, False), (1.001, True)):
+        course = follow(state.replace(speed=factor * speed))
+        assert bool(numbers(course)["damaged_area"] > 0) is yields
+    again = numbers(follow(state.replace(plastic_depth=2 * d_c)))
+    np.testing.assert_allclose(again["relative_depth"], again["depth"] / (3 * d_c), rtol=1e-9)
+    viscous = state_with(DROP, damping="eta")
+    for other in (state.replace(plastic_depth=2 * d_c), viscous, state_with(DROP, plasticity="none")):
+        assert "yield_speed" not in numbers(follow(other))
+    assert np.degrees(numbers(follow(preset_state()))["half_angle"]) == pytest.approx(70.3, abs=5e-3)
+    assert "half_angle" not in numbers(follow(state))

@@ -69,7 +69,7 @@ def test_half_angle_beside_the_slope_and_drop_height_beside_the_speed():
     # 5.5 kg at 1 m/s: half a joule a kilogram; v²/2g is 1 m²/s² over 19.6133 m/s².
     said = re.sub("<[^>]+>", "", page.form.notes["drive"].object)
     assert "Energy 2.750 J" in said
-    assert "from 50.99 mm" in said
+    assert "drop height 50.99 mm" in said
     assert "Half-angle" not in page.form.notes["shape"].object
     assert page.state.density == 1900
 
@@ -142,7 +142,7 @@ def test_a_guided_scene_is_stepped_through_and_undone():
     assert page.state.tiles == ("surface",)
     # What it says is gone while the page shows something else.
     page.apply(lambda state: changes.put(state, "speed", 2 * state.speed))
-    assert "1 of 6. The page shows something else" in side(page, "guide").words.object
+    assert "1 of 6. The scene has been changed" in side(page, "guide").words.object
     page.frame.undo.act()
     assert "e = 1.00" in re.sub("<[^>]+>", "", side(page, "guide").words.object)
     # Each step that sets something is one change.
