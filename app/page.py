@@ -61,7 +61,7 @@ class Page:
         try:
             self.draw(link.read(query))
             if names := link.unknown(query):
-                self.notify(f"Not known, and left out of this link: {', '.join(names):.200}")
+                self.notify(f"Unknown names in this link are ignored: {', '.join(names):.200}")
         except Exception as error:
             self.draw(self.state)
             self._refused = True

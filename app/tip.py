@@ -45,8 +45,8 @@ def read_tip(text: str, name: str = "the file") -> tuple[tuple[Any, Any], str]:
         tip, scatter = tip_through(r, z, MAX_SAMPLES, FITTED)
     except ValueError as error:
         raise ValueError(f"{name}: {str(error).removeprefix('Sampled.fit: ')}") from None
-    note = f"{len(tip.r)} samples as they are"
+    note = f"{len(tip.r)} samples, as in the file"
     if scatter is not None:
         by = written(scatter, "length", 2)
-        note = f"{len(tip.r)} samples, nearest to {len(r)} rows, which scatter by {by} about them"
+        note = f"{len(r)} rows reduced to {len(tip.r)} samples; rms deviation {by}"
     return (tip.r, tip.z), note

@@ -47,7 +47,7 @@ def _ledger(course: Course) -> str:
 
 
 ENERGY = Plot(
-    "energy", "Where the energy is", _ledger, (T, E),
+    "energy", "Energy balance", _ledger, (T, E),
     (
         area("friction", "slip", 0.6, "x"),
         area("plastic", "yielded", 0.45, "/"),

@@ -78,7 +78,7 @@ class Oblique(Impact):
         given = drive.tangential_speed, drive.friction, drive.tangential_mass
         motion = along_surface(motion_of(normal, INSTANTS, BEFORE_YIELD), *given, 0)
         course = _course(scene, progress, normal, motion)
-        return replace(course, pending="tangential results to three digits so far")
+        return replace(course, pending="Computing friction; drawn so far to three digits.")
 
     def in_time(self, scene):
         """States from the core's solution, with elements thinned out for drawing."""

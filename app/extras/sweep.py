@@ -195,7 +195,7 @@ def quick(sweep: Sweep) -> bool:
 def found(course, sweep: Sweep):
     """Curve of the sweep with the present value and limits."""
     if not sweep.solver:
-        return Found({}, [], "Nothing is swept: press to a depth or a force, or let a body hit.")
+        return Found({}, [], "This drive has no sweep: press to a depth or a force, or let a body hit.")
     numbers, present = sweep.numbers, getattr(getattr(course, "hit", course.turning_point), sweep.against)
     values = sweep.column(numbers, sweep.against)
     inside = sweep.low <= sweep.present <= sweep.high
@@ -218,7 +218,7 @@ def _axes(sweep, values, present):
     x = replace(x, start=sweep.low if log else min(sweep.low, 0.0), end=sweep.high, log=log)
     sizes = np.append(values, present)
     sizes = sizes[np.isfinite(sizes)]
-    title = lowered(f"{result.symbol}, {result.long_name}")
+    title = CHOICES["sweep.against"][sweep.against]
     y = axis("against", title, KINDS[result.unit], max(sizes, default=1.0))
     if not (log and (sizes > 0).any() and (result.unit or (sizes > 0).all())):
         return x, y
@@ -251,14 +251,14 @@ def _notes(sweep, numbers, values, classes, inside):
     quantity = known(sweep.swept)
     if not inside:
         shown = in_full(sweep.present, quantity.kind)
-        yield f"The present value, {marked(f'{quantity.symbol} = {shown}')}, is outside of the range."
+        yield f"The present value, {marked(f'{quantity.symbol} = {shown}')}, is outside the range."
     elif sweep.low > 0 and (power := _power(sweep)):
         yield f"At the present value {power}."
     if classes:
         told = [_told(row, each) for row, each in classes.items()]
         yield f"Other classes through this point: {'; '.join(told)}."
     elif inside and not sweep.yields:
-        yield "Nothing yields at the present value, so that all classes of hardness agree there."
+        yield "Nothing yields at the present value; other classes of hardness are drawn where it yields."
     refused = numbers[np.isnan(values)]
     if refused.size:
         try:

@@ -250,7 +250,7 @@ def test_every_plot_and_export_has_the_class(key, choices):
             continue
         found = plot.find(view.course, plot.asked(state))
         assert plot.name != "sweep" or sweep.FAST not in found.rows
-        assert found.rows or "Nothing is swept" in found.note, plot.name
+        assert found.rows or "has no sweep" in found.note, plot.name
     constant, symbol = ("f_c", "f_c") if state.plasticity == "line" else ("hardness", "H")
     csv, python = share.csv(view), view.course.scene.to_python()
     assert f", {symbol} = " in csv
