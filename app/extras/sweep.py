@@ -15,11 +15,10 @@ from ..changes import option, shown
 from ..extra import Extra
 from ..plot import axis
 from ..quantities import CHOICES, QUANTITIES, USED, Scale, lowered, quantity, read_data
-from ..refused import in_words
 from ..shared.rest import Found, Resting, Searched
 from ..state import PRESETS, State, medium, profile, used
 from ..ui import marked
-from ..units import KINDS, digits, in_full
+from ..units import KINDS, digits, in_full, in_words
 
 _DATA = read_data(Path(__file__).with_suffix(".json"))
 #: Functions of the core and their arguments, by drives, and the results of each.

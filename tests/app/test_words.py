@@ -14,11 +14,11 @@ from app.page import Page
 from app.plots import PLOTS
 from app.quantities import ABOUT, CHOICES, QUANTITIES, SHAPES, USED
 from app.readouts import READOUTS, heads, readings
-from app.refused import in_words
 from app.shared.rest import Searched
 from app.state import PRESETS, preset_state
 from app.tip import read_tip
 from app.ui import linked, marked
+from app.units import in_words
 
 from .conftest import DROP
 from .states import side, state_with, stepped, view_of
