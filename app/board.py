@@ -14,7 +14,7 @@ from .parts import Button, Parts, Text
 from .player import Player
 from .plot import Plot, View
 from .plots import NAMED, PLOTS, visible
-from .ui import FULL, JS, Messages, html, linked, show
+from .ui import FULL, JS, Messages, html, linked, reveal, show
 
 #: Plots that share the axis x of another one.
 _SAME_X = {"pressure": "springs"}
@@ -32,8 +32,8 @@ class Card:
         self.above = [each.on_plots(plot) for each in EXTRAS.values() if each.on_plots]
         buttons = (*[self.log] * plot.logs, *self.above, self.large)
         head = Parts(self.formula, *buttons, self.legend, classes=("heading",))
-        self.note = html("", "note", "found", visible=False)
-        parts = [head, pn.pane.Bokeh(self.picture.figure, **FULL), self.note]
+        self.note = html("", "note", "found")
+        parts = [head, pn.pane.Bokeh(self.picture.figure, **FULL)]
         if plot.controls:
             parts.insert(1, Parts(*map(choices.part, plot.controls), classes=("above",)))
         self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
@@ -63,7 +63,8 @@ class Card:
             self.legend.show(object=legend(plot, rows))
         self.log.show(pressed=plot.name in view.state.log)
         note = plot.note_of(view)
-        show(self.note, object=note, visible=bool(note))
+        show(self.note, object=note)
+        reveal(self.view, self.note, bool(note))
 
 
 class Board:
