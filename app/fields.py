@@ -31,13 +31,6 @@ _SHORT = 48
 
 
 @cache
-def _told(name: str) -> dict[str, str]:
-    """What is said of a number."""
-    known = QUANTITIES[name]
-    label = f"{symbol(known.symbol)} {marked(known.label)}"
-    return {"label": label, "spoken": f"{known.symbol}, {known.label}", "about": _about(known)}
-
-
 def _about(known: Any) -> str:
     low, high = (written(bound, known.kind, 2) for bound in known.bounds)
     units = ", ".join(unit.name for unit in UNITS[known.kind] if unit.name)
@@ -64,7 +57,9 @@ class Number(Part):
         # The number as it was shown, and whether the next one was typed or dragged here.
         self._value, self._asked = known.default, False
         self.text, self.refused, self.position, self.answered = "", "", 0, 0
-        super().__init__(steps=Scale.STEPS * (known.span >= 0), **_told(name))
+        label, spoken = f"{symbol(known.symbol)} {marked(known.label)}", f"{known.symbol}, {known.label}"
+        steps = Scale.STEPS * (known.span >= 0)
+        super().__init__(label=label, spoken=spoken, about=_about(known), steps=steps)
 
     def take(self, message: Any) -> None:
         refused, unit, self._asked = "", self._unit, "reset" not in message

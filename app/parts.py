@@ -17,7 +17,7 @@ class Part:
     LOOK: tuple[str, ...] = ()
 
     def __init__(self, **told: Any):
-        self.told, self.visible = told | {"kind": self.KIND}, True
+        self.told, self.visible = {"kind": self.KIND} | told, True
         self.place: Parts | None = None
 
     @property
@@ -77,17 +77,14 @@ class Button(Part):
             self.act()
 
 
-def _text(parts):
-    return json.dumps(parts, ensure_ascii=False)
-
-
 class Parts(pn.custom.JSComponent):
     """Parts of the page below each other, or in a row (class "bar")."""
 
     # As text: Panel and Bokeh would look at every value.
     told, shown = param.String("[]"), param.String("[]")
 
-    _esm = JS["save"] + JS["parts"]
+    # A link, so that the script is sent once.
+    _esm = JS["parts"]
 
     def __init__(self, *places: Any, classes: tuple[str, ...] = (), **options: Any):
         self.places, self._known = places, []
@@ -108,8 +105,8 @@ class Parts(pn.custom.JSComponent):
             | {name: getattr(part, name) for name in part.LOOK}
             for part in parts
         ]
-        told = [part.told for part in self._known]
-        show(self, told=_text(told), shown=_text(looks))
+        told = json.dumps([part.told for part in self._known], ensure_ascii=False)
+        show(self, told=told, shown=json.dumps(looks, ensure_ascii=False))
 
     def _on_message(self, event):
         part, message = event.data

@@ -13,12 +13,6 @@ from .plots import D, F, Z
 from .ui import JS, LAYOUT, SHEETS, WIDE, Messages
 
 
-class Words(Part):
-    """The numbers of the state that is seen: `words` of the messages, which the browser plays, too."""
-
-    KIND = "words"
-
-
 class Player:
     """Moves through the states of a scene in the browser, from frames that are sent once."""
 
@@ -34,7 +28,7 @@ class Player:
             "css_classes": ["slider"],
         }
         self.state = Slider(start=0, end=1, value=1, step=1, name="state", **look)
-        self.heads, self.words = Text("heads"), Words()
+        self.heads, self.words = Text("heads"), Part(kind="words")
         self._messages = messages
         code = CustomJS(code=JS["named"] + JS["player"])
         self.state.js_on_change("value", code)
