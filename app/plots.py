@@ -82,7 +82,7 @@ def _spring_formula(course: Course) -> str:
         return "q = E* (u − Δl),  Δl = √(2π a w/E*)  § 19"
     law = "(1) (17) (18)  q = E* u + 4η du/dt" if course.dashpots else "(17) (18)  q = E* u"
     of_class_b = course.scene.medium.inverse_to_radius
-    cap = "d_c the elastic part" if of_class_b else "u_c = π a σ_c/(2E*)  § 20"
+    cap = "d_c" if of_class_b else "u_c = π a σ_c/(2E*)  § 20"
     return f"{law},  u ≤ {cap}{course.more_law}"
 
 

@@ -27,6 +27,8 @@ from ..units import with_symbol
 
 #: Scenes that are held have each its own dashes.
 DASHES = ("dotdash", "dashed", "dotted", "solid")
+#: Share of both axes below which a curve is a point.
+_SEEN = 0.01
 
 
 @dataclass(frozen=True)
@@ -137,14 +139,17 @@ def _rows(symbol: str, what: str = "", width: float = 1.6, axis: int = 1, legend
     return [line(f"held {k}{what}", "held", width, dash, symbol, axis, legend) for k, dash in dashes]
 
 
-def _fits(view: View, axes: list[Along], columns: tuple) -> bool:
-    """Whether a row is within the axes, which are those of the present scene."""
-    for along, column in zip(axes, columns, strict=True):
-        axis, some = view.axis(along), column[np.isfinite(column)]
+def _beyond(view: View, axes: list[Along], rows: list[tuple]) -> str:
+    """What of a scene is not seen on the axes, which are those of the present one, in brackets."""
+    small = True
+    for k, along in enumerate(axes):
+        axis, columns = view.axis(along), np.concatenate([row[k] for row in rows])
+        some = columns[np.isfinite(columns)]
         near = 1e-9 * axis.end
         if (some < axis.start - near).any() or (some > axis.end + near).any():
-            return False
-    return True
+            return " (partly beyond the axes)"
+        small &= bool((np.abs(some) < _SEEN * axis.end).all())
+    return " (too small to be seen)" * small
 
 
 def _overlay(plot: str, rows: list, columns: Callable[[View, Course], dict]) -> Overlay:
@@ -153,8 +158,7 @@ def _overlay(plot: str, rows: list, columns: Callable[[View, Course], dict]) -> 
         found = {}
         for k, held in enumerate(scenes(view), 1):
             parts = columns(view, held.course)
-            inside = all(_fits(view, axes, part) for part in parts.values())
-            name = held.name + " (partly beyond the axes)" * (not inside)
+            name = held.name + _beyond(view, axes, list(parts.values()))
             found |= {f"held {k}{what}": (*part, name) for what, part in parts.items()}
         return found
 

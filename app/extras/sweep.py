@@ -228,14 +228,13 @@ def _axes(sweep, values, present):
 
 
 def _power(sweep):
-    """The law at the present value, from its log–log slope; empty where the result is 0."""
+    """The power law at the present value, by its log–log slope; empty where the result is 0."""
     pair = sweep.present * np.array([0.999, 1.001])
     ends = sweep.column(pair, sweep.against)
     if not (ends > 0).all():
         return ""
     slope = round(float(np.log(ends[1] / ends[0]) / np.log(pair[1] / pair[0])), 6)
-    symbols = marked(f"{RESULTS[sweep.against].symbol} ∝ {known(sweep.swept).symbol}")
-    return f"{symbols}<sup>{digits(slope, 3)}</sup>"
+    return f"{marked(known(sweep.swept).symbol)}<sup>{digits(slope, 3)}</sup>"
 
 
 def _told(row, sweep):
@@ -252,12 +251,12 @@ def _notes(sweep, numbers, values, classes, inside):
         shown = in_full(sweep.present, quantity.kind)
         yield f"The present value, {marked(f'{quantity.symbol} = {shown}')}, is outside the range."
     elif sweep.low > 0 and (power := _power(sweep)):
-        yield f"At the present value {power}."
+        yield f"At the present value {marked(RESULTS[sweep.against].symbol)} ∝ {power}."
     if classes:
         told = [_told(row, each) for row, each in classes.items()]
-        yield f"Other classes through this point: {'; '.join(told)}."
+        yield f"Through the same point: {'; '.join(told)}."
     elif inside and not sweep.yields:
-        yield "Nothing yields at the present value; other classes of hardness are drawn where it yields."
+        yield "Nothing yields at the present value."
     refused = numbers[np.isnan(values)]
     if refused.size:
         try:

@@ -29,7 +29,7 @@ def powers(step):
     state = step_state(step, preset_state())
     found = sweep.found(follow(state), sweep.asked(state))
     note = re.sub("</?(sub|i)>", "", found.note).replace("−", "-")
-    told = [float(text) for text in re.findall(r"∝ \S+?<sup>(-?[\d.]+)</sup>", note)]
+    told = [float(text) for text in re.findall(r"<sup>(-?[\d.]+)</sup>", note)]
     return dict(zip(["own", *re.findall(r"\(([abc])\) \w", note)], told, strict=True))
 
 
@@ -51,6 +51,12 @@ def test_a_cone_tells_the_classes_by_volume_area_and_depth():
     assert 0.999 * most < float(course.hit.max_force) < most
     assert "π f_c = 942 N" in c["says"]
     assert round(most) == 942
+
+
+@pytest.mark.parametrize("step", KINDS)
+def test_scenes_on_the_classes_are_within_the_assumptions(step):
+    course = follow(step_state(step, preset_state()))
+    assert [limit.sentence for limit in course.limits(1900) if limit.level == "beyond"] == []
 
 
 def test_a_round_nose_tells_them_by_restitution_and_area():
@@ -82,7 +88,7 @@ def test_the_mean_pressure_over_the_radius_is_drawn_as_the_text_says(step, power
     assert share == pytest.approx(
         course.state.mean_pressure / medium(state).hardness_at(course.state.contact_radius), rel=1e-3
     )
-    assert f"p_m = {float(course.state.mean_pressure) / 1e6:.3g} MPa" in said
+    assert f"p_m = {float(course.state.mean_pressure) / 1e6:#.3g} MPa" in said
 
 
 @pytest.mark.parametrize("key", [GOLD, DROP, PUNCH, ELASTIC, SILICA, STEEL, "microsphere-pdms"])

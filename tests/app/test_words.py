@@ -137,7 +137,12 @@ def test_a_guided_scene_is_stepped_through_and_undone():
         assert f"{at + 1} of 4" in side(page, "guide").words.object
         assert "{" not in side(page, "guide").words.object
     assert side(page, "guide").next.disabled
+    told = []
+    side(page, "guide").words.param.watch(lambda event: told.append(event.new), "object")
     side(page, "guide").title.value = "A fast impact, and what it destroys"
+    # Its text is the only one: it is not taken for a scene that was changed by hand.
+    assert [text for text in told if "has been changed" in text] == []
+    assert len(told) == 1
     assert "e = 1.00" in re.sub("<[^>]+>", "", side(page, "guide").words.object)
     assert page.state.tiles == ("surface",)
     # What it says is gone while the page shows something else.
