@@ -8,27 +8,16 @@ from bokeh.events import Pan, PanEnd, PanStart
 from bokeh.models import CustomJS
 
 from .draw import Picture, drawn, legend, picture_of
+from .extra import EXTRAS
 from .fields import Choices
-from .parts import Button, Part, Parts, Text
+from .parts import Button, Parts, Text
 from .player import Player
-from .plot import Plot, View, rows_of
+from .plot import Plot, View
 from .plots import NAMED, PLOTS, visible
-from .ui import FULL, JS, Messages, html, linked, show
+from .ui import FULL, JS, Messages, html, linked, reveal, show
 
 #: Plots that share the axis x of another one.
 _SAME_X = {"pressure": "springs"}
-
-
-class Save(Part):
-    """The button that saves the picture of a plot, in the browser, with the scene below it."""
-
-    KIND = "save"
-    LOOK = ("label", "scene")
-
-    def __init__(self, plot: Plot):
-        rows = [row.name for row in rows_of(plot) if row.legend]
-        super().__init__(figure=plot.name, title=plot.title, rows=rows)
-        self.label, self.scene = "Save", ""
 
 
 class Card:
@@ -38,11 +27,13 @@ class Card:
         self.plot, self.picture, self._rows, self._apply = plot, picture_of(plot), None, apply
         self.log = Button("Log", self._scale, pressed=False)
         self.large = Button("Large", self._enlarge, pressed=False)
-        self.save, self.formula, self.legend = Save(plot), Text("formula"), Text("key")
-        buttons = (*[self.log] * plot.logs, self.save, self.large)
+        self.formula, self.legend = Text("formula"), Text("key")
+        #: What extras have above it.
+        self.above = [each.on_plots(plot) for each in EXTRAS.values() if each.on_plots]
+        buttons = (*[self.log] * plot.logs, *self.above, self.large)
         head = Parts(self.formula, *buttons, self.legend, classes=("heading",))
-        self.note = html("", "note", "found", visible=False)
-        parts = [head, pn.pane.Bokeh(self.picture.figure, **FULL), self.note]
+        self.note = html("", "note", "found")
+        parts = [head, pn.pane.Bokeh(self.picture.figure, **FULL)]
         if plot.controls:
             parts.insert(1, Parts(*map(choices.part, plot.controls), classes=("above",)))
         self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
@@ -72,7 +63,8 @@ class Card:
             self.legend.show(object=legend(plot, rows))
         self.log.show(pressed=plot.name in view.state.log)
         note = plot.note_of(view)
-        show(self.note, object=note, visible=bool(note))
+        show(self.note, object=note)
+        reveal(self.view, self.note, bool(note))
 
 
 class Board:
@@ -137,11 +129,6 @@ class Board:
         for name, tab in self.tabs.items():
             applies = PLOTS[name].applies(view)
             tab.show(visible=applies, pressed=applies and name in view.state.tiles)
-
-    def say_scene(self, text: str) -> None:
-        """What stands below a picture that is saved."""
-        for card in self.cards.values():
-            card.save.show(scene=text)
 
     def pictures(self) -> list[Picture]:
         """The pictures that are seen."""

@@ -95,22 +95,16 @@ class Course:
         depth = onset_depth(self.scene, self.initial_plastic_depth)
         return mdr.indent(profile, medium, depth) if depth <= min(profile.known_depth, 1e300) else None
 
-    @cached_property
-    def yield_depth(self) -> float:
-        """Depth (m) at which yield begins on a virgin surface: d_c where the hardness is q_c/a."""
-        return onset_depth(self.scene)
-
     @property
     def relative_depth(self) -> Any:
-        return self._over_yield_depth if self.scene.medium.inverse_to_radius else None
+        onset = onset_depth(self.scene, self.initial_plastic_depth)
+        return self.states.depth / onset if 0 < onset < np.inf else None
 
     @property
-    def depth_over_onset(self) -> Any:
-        return None if self.scene.medium.inverse_to_radius else self._over_yield_depth
-
-    @property
-    def _over_yield_depth(self) -> Any:
-        return self.states.depth / self.yield_depth if 0 < self.yield_depth < np.inf else None
+    def half_angle(self) -> Any:
+        """Half-angle (rad) of a conical flank."""
+        slope = getattr(self.scene.profile, "slope", None)
+        return None if slope is None else np.arctan(1 / slope)
 
     @property
     def under_force(self) -> bool:
@@ -154,6 +148,13 @@ class Hit(Course):
     @property
     def initial_plastic_depth(self) -> float:
         return getattr(self.scene.drive, "plastic_depth", 0.0)
+
+    @property
+    def yield_speed(self) -> Any:
+        """Speed (m/s) above which the body makes a virgin medium without viscosity or adhesion yield."""
+        scene, more = self.scene, self.dashpots or self.adhesive or self.initial_plastic_depth
+        none = more or self.onset is None
+        return None if none else mdr.yield_speed(scene.profile, scene.medium, scene.drive.mass)
 
     @property
     def notes(self) -> list[str]:

@@ -11,7 +11,8 @@ from bokeh.plotting import figure
 from mdr_core.results.figures import DASHES, NOTHING, ROLES, Axis, Row
 
 from .plot import Plot, View, rows_of
-from .ui import JS
+from .quantities import lowered
+from .ui import JS, marked
 
 FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
 #: Rows that are drawn together, from the back to the front.
@@ -68,7 +69,8 @@ class Layer:
             parts = [clip(row, x_axis, y_axis, *part) for row, part in pairs]
         xs, ys = ([_short(part[k], axis) for part in parts] for k, axis in ((0, x_axis), (1, y_axis)))
         if self.connected:
-            return self._look(self.rows, dark) | {"xs": xs, "ys": ys}
+            names = [lowered(row.called(rows[row.name])) for row in self.rows]
+            return self._look(self.rows, dark) | {"row": names, "xs": xs, "ys": ys}
         points = [row for row, x in zip(self.rows, xs, strict=True) for _ in x]
         found = self._look(points, dark) | {"x": [*chain(*xs)], "y": [*chain(*ys)]}
         return found | {"text": [part[2] for part in parts]} if self.kind == "labels" else found
@@ -228,10 +230,11 @@ def picture_of(plot: Plot, *options: Any) -> Picture:
     return (plot.picture or Picture)(plot, *options)
 
 
-def drawn(view: View, plot: Plot, states: set[int]) -> set[str]:
-    """Names of the rows of a plot that have something to show in one of some states."""
-    rows = [row for i in states for row in view.rows(plot, i).items()]
-    return {row for row, values in rows if np.size(values[1]) and np.isfinite(values[1]).any()}
+def drawn(view: View, plot: Plot, states: set[int]) -> dict[str, str]:
+    """Rows of a plot that have something to show in one of some states, and what they are called."""
+    found = [view.rows(plot, i) for i in states]
+    rows = {name for rows in found for name, (_, y, *_) in rows.items() if np.isfinite(y).any()}
+    return {row.name: row.called(found[0][row.name]) for row in rows_of(plot) if row.name in rows}
 
 
 def legend(plot, shown):
@@ -241,5 +244,5 @@ def legend(plot, shown):
         if row.legend and row.name in shown:
             hatch = "hatch" * (row.look.get("hatch", " ") != " ")
             look = " ".join((row.kind, hatch, row.look.get("dash", ""), row.look.get("marker", "")))
-            text += f'<span class="{row.role}"><i class="{look}"></i>{row.name}</span>'
+            text += f'<span class="{row.role}"><i class="{look}"></i>{marked(shown[row.name])}</span>'
     return text

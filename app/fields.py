@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from functools import cache, partial
 from html import escape
-from math import atan, degrees
+from math import degrees
 from typing import Any
 
 import panel as pn
@@ -52,7 +52,8 @@ class Number(Part):
     def __init__(self, name: str, apply_or_raise: Callable[..., None]):
         known = QUANTITIES[name]
         self.key, self._apply_or_raise, self._preset = name, apply_or_raise, ""
-        self._scale, self._unit = Scale(known, known.default), fitting(known.default, known.kind)
+        self._scale = Scale.about(known, known.default, known.default)
+        self._unit = fitting(known.default, known.kind)
         # The number as it was shown, and whether the next one was typed or dragged here.
         self._value, self._asked = known.default, False
         self.text, self.refused, self.position, self.answered = "", "", 0, 0
@@ -95,9 +96,10 @@ class Number(Part):
         refused = "" if value != self._value or self._preset != state.preset else self.refused
         self._value = value
         # The middle of the slider stays while it moves.
-        if self._preset != state.preset or not self._scale.reaches(value):
-            middle = PRESETS[state.preset].values.get(self.key, value)
-            self._scale, self._preset = Scale.about(known, middle, value), state.preset
+        middle = self._scale.middle
+        if self._preset != state.preset:
+            middle, self._preset = PRESETS[state.preset].values.get(self.key, value), state.preset
+        self._scale = Scale.about(known, middle, value)
         text, position = entry(value, self._unit), self._scale.position(value)
         self.show(text=text, position=position, refused=refused)
 
@@ -250,12 +252,11 @@ class Form:
         title = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
         energy = written(state.mass * state.speed**2 / 2, "energy")
         height = written(state.speed**2 / (2 * _GRAVITY), "length")
-        slope = getattr(state, f"{state.shape}_slope", None)
-        angle = f"Half-angle {digits(90 - degrees(atan(slope)))}°" if slope is not None else ""
+        angle = f"Half-angle {digits(degrees(course.half_angle))}°" if course.half_angle else ""
         eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
-        idle = "" if course.dashpots else "; no effect here: pressing is quasi-static"
+        idle = "" if course.dashpots else "; no effect here, where pressing is quasi-static"
         texts = {
-            "drive": f"Energy {energy}; speed of a fall from {height}" * (state.drive == "impact"),
+            "drive": f"Energy {energy}; equivalent drop height {height}" * (state.drive == "impact"),
             "shape": f"<figcaption>{marked(shape.height)}<br>{marked(shape.reduced)}</figcaption>"
             + marked(state.tip_note if state.shape == "sampled" else angle),
             "medium": linked(law_of_hardness(course)),

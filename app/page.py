@@ -19,9 +19,9 @@ from .fields import Choices, Form, Numbers
 from .frame import Frame
 from .plot import View
 from .plots import Z, visible
-from .refused import in_words
 from .state import VIEW, State, preset_state
 from .ui import JS, Messages, is_served, show
+from .units import in_words
 
 _LOG = logging.getLogger(__name__)
 #: Milliseconds of rest before slow updates.
@@ -61,7 +61,7 @@ class Page:
         try:
             self.draw(link.read(query))
             if names := link.unknown(query):
-                self.notify(f"Not known, and left out of this link: {', '.join(names):.200}")
+                self.notify(f"Unknown names in this link are ignored: {', '.join(names):.200}")
         except Exception as error:
             self.draw(self.state)
             self._refused = True
@@ -269,6 +269,5 @@ class Page:
         # The empty address leaves the present one, of a link that was not opened.
         self.messages.address = "" if self._refused else f"?{query}"
         view = self.shown
-        self.board.say_scene(readouts.summary(self.state))
         for each in self.services:
             each.rest(view)

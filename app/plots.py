@@ -82,7 +82,7 @@ def _spring_formula(course: Course) -> str:
         return "q = E* (u − Δl),  Δl = √(2π a w/E*)  § 19"
     law = "(1) (17) (18)  q = E* u + 4η du/dt" if course.dashpots else "(17) (18)  q = E* u"
     of_class_b = course.scene.medium.inverse_to_radius
-    cap = "d_c the elastic part" if of_class_b else "u_c = π a σ_c/(2E*)  § 20"
+    cap = "d_c" if of_class_b else "u_c = π a σ_c/(2E*)  § 20"
     return f"{law},  u ≤ {cap}{course.more_law}"
 
 
@@ -129,7 +129,7 @@ def force_still(view: View) -> dict:
 
 
 def force(view: View, i: int) -> dict:
-    """The present state, the path so far, and the areas of dissipated and stored energy."""
+    """The present state, the path so far, and the areas of lost and stored energy."""
     course, right = view.course, 0.02 * view.end(D)
     states = course.states
     lower = float(states.plastic_depth[i])
@@ -144,11 +144,11 @@ def force(view: View, i: int) -> dict:
     back_depth, back_force = unloading_curve(states[i], course.under_force)
     d, so_far = (np.asarray(part[: i + 1]) for part in (states.depth, states.force))
     elastic = lower == course.initial_plastic_depth and not course.dashpots
-    # The path so far, and back along what is stored: dissipated is the loop that it encloses.
+    # The path so far, and back along what is stored: lost is the loop that it encloses.
     around = np.concatenate([d[:1], d, back_depth, back_depth[-1:]])
     lost = around, np.concatenate([[0.0], so_far, back_force, [0.0]])
     return rows | {
-        "dissipated": NOTHING if elastic else lost,
+        "dissipated" if course.dashpots else "plastic work Wₚ": NOTHING if elastic else lost,
         "stored": (np.append(back_depth[:1], back_depth), np.append(0.0, back_force)),
     }
 
@@ -163,7 +163,7 @@ def _force_formula(course: Course) -> str:
 FORCE = Plot(
     "force", "Force and depth", _force_formula, (D, F),
     (
-        area("dissipated", "yielded", 0.13, "/"),
+        *(area(name, "yielded", 0.13, "/") for name in ("plastic work Wₚ", "dissipated")),
         area("stored", "elastic", 0.25),
         line("path ahead", "free", 1.0),
         *parts("F"),

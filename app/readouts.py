@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from .courses import Course
-from .quantities import CHOICES, OF_DRIVE, READOUTS, SHAPES, Readout
-from .state import State, regions, used_by
+from .courses import Course, onset_depth
+from .quantities import OF_DRIVE, READOUTS, Readout
+from .state import State
 from .ui import explained, linked, symbol
-from .units import KINDS, with_symbol, written
+from .units import KINDS, written
 
 
 def readings(course: Course) -> dict[Readout, Any]:
@@ -85,7 +85,7 @@ def _own_words(limit: Any, state: State) -> str:
     if limit.what == "viscosity":
         remedy = ", or ".join(drive["in_time"] for drive in OF_DRIVE.values() if "in_time" in drive)
         tau = written(limit.value, "time")
-        return f"Pressing is quasi-static here, without dashpots; τ = {tau}. For these choose {remedy}."
+        return f"Pressing is quasi-static here; dashpots, τ = {tau}, act in {remedy}."
     return _OF_INCOMPRESSIBLE.get(limit.what, "") if state.elasticity == "modulus" else ""
 
 
@@ -101,26 +101,16 @@ def warnings(course: Course, state: State) -> str:
 
 def law_of_hardness(course: Course) -> str:
     """The hardness at the contact radius of the largest depth, and where yield begins."""
-    made, a, onset = course.scene.medium, float(course.turning_point.contact_radius), course.yield_depth
+    made, onset = course.scene.medium, onset_depth(course.scene)
+    a = float(course.turning_point.contact_radius)
     if made.q_c == np.inf:
         return "Nothing yields: q_c = ∞"
     law = "q_c/a" if made.q_c else "f_c/a²" if made.f_c else "H"
+    hardness = written(float(made.hardness_at(a)), "pressure")
     place = " at every a" if law == "H" else f" at a = {written(a, 'length')}"
-    starts = f"Yield starts at d_y = {written(onset, 'length')} § 20"
-    if made.inverse_to_radius:
-        starts = f"Yield starts at d_c = π q_c/(2E*) = {written(onset, 'length')} (19)"
-    elif onset == np.inf:
-        starts = "Nothing yields under this shape: H is too large § 20"
+    starts = f"Yield starts at d_y = {written(onset, 'length')}"
+    if onset == np.inf:
+        starts = "Nothing yields under this shape: H is too large"
     elif onset == 0:
-        starts = "Yield starts at first touch, d_y = 0 § 20"
-    return f"σ_c = {law} = {written(float(made.hardness_at(a)), 'pressure')}{place}. {starts}"
-
-
-def summary(state: State) -> str:
-    """Shape, medium and drive of a scene in one line."""
-    parts, choices = regions(state), OF_DRIVE[state.drive]["form"]
-    names = [*parts["shape"], *parts["medium"], *parts["drive"], *used_by(state, "damping", "adhesion")]
-    numbers = [with_symbol(name, state[name]) for name in names if state[name]]
-    return ", ".join(
-        [SHAPES[state.shape].label, *numbers, *(CHOICES[name][state[name]] for name in choices)]
-    )
+        starts = "Yield starts at first touch, d_y = 0"
+    return f"σ_c = {law} = {hardness}{place}. {starts} " + ("(19)" if made.inverse_to_radius else "§ 20")

@@ -67,10 +67,6 @@ def html(text="", *classes, **options):
     return pn.pane.HTML(text, css_classes=[*(classes or ["note"])], **WIDE | options)
 
 
-def button(name, **options):
-    return pn.widgets.Button(label=name, css_classes=["button"], **{"margin": 0} | options)
-
-
 def reveal(column, part, visible, place=None):
     """Show or hide a part of a column; the browser gets it when it is shown for the first time."""
     show(part, visible=visible)

@@ -165,7 +165,7 @@ class FreeObliqueImpact:
     mass, speed : float
         Mass m (kg), and normal speed v₀ (m/s) at first contact, positive.
     tangential_speed : float
-        Speed W₀ (m/s) of the contact point along the surface, of any sign.
+        Speed v_t0 (m/s) of the contact point along the surface, of any sign.
     friction : float
         Coefficient of friction μ, not negative.
     tangential_mass : float, optional

@@ -166,7 +166,7 @@ def oblique_impacts(
     >>> normal, along = 10.0 * np.sin(attack), (10.0 * np.cos(attack)).round(9)
     >>> given = {"E_star": 1e9, "mass": 1e-9, "speed": normal, "tangential_speed": along}
     >>> table = oblique_impacts(Paraboloid, radius=1e-4, friction=0.1, **given)
-    >>> (table.friction_work * 1e9).round(3).values  # nJ; in full slip 2µmv(W − µv)
+    >>> (table.friction_work * 1e9).round(3).values  # nJ; in full slip 2µmv(v_t − µv)
     array([8.16, 7.16, 0.  ])
     """
     parameters = {"E_star": E_star, "eta": eta, "poisson": poisson, "mass": mass}

@@ -42,12 +42,12 @@ def _ledger(course: Course) -> str:
     lost = "U + W_p" + " + W_v" * course.dashpots + " + W_f" * friction
     if not isinstance(course, Hit):
         return f"{lost} = ∫ F dd  § 14"
-    along = " + m_t W²/2" * friction
+    along = " + m_t v_t²/2" * friction
     return f"{lost} + m v²/2{along} = const.  § 9" + ", § 13" * friction
 
 
 ENERGY = Plot(
-    "energy", "Where the energy is", _ledger, (T, E),
+    "energy", "Energy balance", _ledger, (T, E),
     (
         area("friction", "slip", 0.6, "x"),
         area("plastic", "yielded", 0.45, "/"),

@@ -14,15 +14,15 @@ from ..courses import Course
 from ..extra import Extra
 from ..plot import View
 from ..readouts import readings, text
-from ..shared.widgets import field, tools
+from ..shared.widgets import button, field, tools
 from ..state import State
-from ..ui import WIDE, button, html, linked, show
+from ..ui import WIDE, html, linked, show
 
 #: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
 TOURS = json.loads(Path(__file__).with_suffix(".json").read_text(encoding="utf-8"))
 
-_INTRO = "Guided scenes, each of a few steps. Next begins; Undo takes back what a step has set."
-_LEFT = "The page shows something else by now. Back and Next go on with the steps."
+_INTRO = "Guided scenes, each of a few steps. Next starts the scene; Undo undoes a step."
+_LEFT = "The scene has been changed since this step. Back and Next continue."
 
 
 def tours() -> dict[str, list[dict[str, Any]]]:
@@ -38,7 +38,9 @@ def step_state(step: dict[str, Any], now: State) -> State:
     """State of a step; theme, values of extras that it does not set, and other tiles stay."""
     state = link.read(urlencode(step["set"]))
     tiles = state.tiles or now.tiles
-    return state.replace(tiles=tiles, log=now.log, dark=now.dark, **(now.extras | state.extras))
+    return state.replace(
+        tiles=tiles, log=state.log or now.log, dark=now.dark, **(now.extras | state.extras)
+    )
 
 
 def step_text(step: dict[str, Any], course: Course) -> str:
@@ -50,8 +52,8 @@ def step_text(step: dict[str, Any], course: Course) -> str:
 
 
 def _marked(text: str) -> str:
-    """HTML of a text with links, and *words* in italics; the asterisk of E* is followed by no letter."""
-    return re.sub(r"\*(\w+)\*", r"<i>\1</i>", linked(text))
+    """HTML of a text with links, powers as W^(2/3), and *words*; no letter follows the asterisk of E*."""
+    return re.sub(r"\*(\w+)\*", r"<i>\1</i>", re.sub(r"\^\((.*?)\)", r"<sup>\1</sup>", linked(text)))
 
 
 class Guide:
@@ -59,7 +61,7 @@ class Guide:
 
     def __init__(self, apply: Callable[..., None], shown: Callable[[], View]):
         self._apply, self._shown, self.at, self._scene, self._text = apply, shown, -1, None, ""
-        self._tours = tours()
+        self._tours, self._going = tours(), False
         self.title = field(pn.widgets.Select, label="Guided scene", options=list(self._tours))
         self.back, self.next = (button(name, width=70) for name in ("Back", "Next"))
         self.words = html(_INTRO)
@@ -71,7 +73,10 @@ class Guide:
 
     def go(self, at: int) -> None:
         self.at, steps = at, self._tours[self.title.value]
+        # The page is shown before the text of the step is known.
+        self._going = True
         self._apply(lambda state: step_state(steps[at], state))
+        self._going = False
         view = self._shown()
         self._scene, self._text = view.course.scene, _marked(step_text(steps[at], view.course))
         self.show(view)
@@ -82,7 +87,7 @@ class Guide:
         count = len(self._tours[self.title.value])
         show(self.back, disabled=self.at <= 0)
         show(self.next, disabled=self.at == count - 1)
-        if self.at >= 0:
+        if self.at >= 0 and not self._going:
             words = self._text if course.scene == self._scene else _LEFT
             show(self.words, object=f'<p role="status">{self.at + 1} of {count}. {words}</p>')
 

@@ -1,7 +1,7 @@
 """Held scenes: up to four, kept as links, drawn beside the present one and listed with their numbers."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,24 +16,28 @@ from ..drives import follow, scene_of
 from ..extra import Extra
 from ..parts import Button
 from ..plot import Along, Overlay, View
-from ..plots import PLOTS, P, R, Z
-from ..quantities import CHOICES
+from ..plots import PLOTS, P, R
+from ..quantities import CHOICES, OF_DRIVE
 from ..readouts import line as readout_line
 from ..readouts import readings, text
+from ..shared.widgets import button
 from ..state import PRESETS, State, altered, used
-from ..ui import WIDE, button, html, marked, show, symbol
+from ..ui import WIDE, html, marked, show, symbol
 from ..units import with_symbol
 
 #: Scenes that are held have each its own dashes.
 DASHES = ("dotdash", "dashed", "dotted", "solid")
+#: Share of both axes below which a curve is a point.
+_SEEN = 0.01
 
 
 @dataclass(frozen=True)
 class Held:
-    """A held scene: its name and course."""
+    """A held scene: its name, course and state."""
 
     name: str
     course: Course
+    state: State | None = None
 
 
 # The scenes.
@@ -42,7 +46,7 @@ class Held:
 def held_scene(query: str, known: dict) -> Held:
     """A held scene from its link; ValueError if that is invalid."""
     state = link.read(query)
-    return Held(difference(state), follow(state, known))
+    return Held(difference(state), follow(state, known), state)
 
 
 def _others(state: State) -> tuple[str, ...]:
@@ -71,14 +75,23 @@ def _without(state: State, k: int) -> State:
     return state.replace(**{"held.scenes": (*scenes[:k], *scenes[k + 1 :])})
 
 
-def difference(state: State) -> str:
-    """Name of a scene: its differences from the preset, or the preset."""
-    changed, preset = altered(state), PRESETS[state.preset]
-    words = [CHOICES[name][state[name]] for name in changed if name in CHOICES and name != "elasticity"]
-    numbers = [name for name in used(state) if name in changed or name not in preset.values]
-    for name in sorted(numbers, key=lambda name: name not in changed):
-        words.append(with_symbol(name, state[name]))
-    return ", ".join(words) or preset.label
+def difference(state: State, now: State | None = None) -> str:
+    """Name of a scene: what differs from the present one; of that itself, or alone, from its preset.
+
+    A scene of another preset than the present one has the name of its preset, too.
+    """
+    preset, known = PRESETS[state.preset], altered(state)
+    choices = (*preset.choices, *OF_DRIVE[state.drive]["form"])
+    other = now is not None and now.preset != state.preset
+    if now is not None and not other and scene_of(now) != scene_of(state):
+        changed = {name for name in (*choices, *used(state)) if state[name] != now[name]}
+    else:
+        changed = {*known, *(name for name in used(state) if name not in preset.values)}
+    words = [CHOICES[name][state[name]] for name in choices if name in changed and name != "elasticity"]
+    for name in sorted(used(state), key=lambda name: name not in known):
+        if name in changed:
+            words.append(with_symbol(name, state[name]))
+    return ", ".join([preset.label] * other + words) or preset.label
 
 
 def numbers(course: Course) -> dict[str, str]:
@@ -100,7 +113,8 @@ def _force(view: View, course: Course) -> dict:
 
 
 def _pressure(view: View, course: Course) -> dict:
-    r = figures.radii(course.state, view.end(R))
+    half = max(view.end(R), 1.01 * float(course.state.contact_radius))
+    r = figures.radii(course.state, half)
     return {"": (both(r, -1), both(figures.cut(course.state.pressure(r), view.end(P))))}
 
 
@@ -120,34 +134,35 @@ def _over_time(plot: str, row: str) -> Callable[[View, Course], dict]:
     return columns
 
 
-def _reach(view: View, along: Along) -> tuple[float, float]:
-    """Held scenes are within the axes; springs keep their height beside deeper ones."""
-    courses = [each.course for each in scenes(view)] if along is not Z else []
-    sizes, least = [0.0], [0.0]
-    for course in courses:
-        try:
-            sizes.append(along.size(course))
-        except AttributeError:
-            # Another drive, which has not this quantity.
-            continue
-        least += [along.least(course), -along.below(course) * sizes[-1]]
-    return min(least), max(sizes)
-
-
 def _rows(symbol: str, what: str = "", width: float = 1.6, axis: int = 1, legend: bool = True) -> list:
     dashes = enumerate(DASHES, 1)
     return [line(f"held {k}{what}", "held", width, dash, symbol, axis, legend) for k, dash in dashes]
 
 
+def _beyond(view: View, axes: list[Along], rows: list[tuple]) -> str:
+    """What of a scene is not seen on the axes, which are those of the present one, in brackets."""
+    small = True
+    for k, along in enumerate(axes):
+        axis, columns = view.axis(along), np.concatenate([row[k] for row in rows])
+        some = columns[np.isfinite(columns)]
+        near = 1e-9 * axis.end
+        if (some < axis.start - near).any() or (some > axis.end + near).any():
+            return " (partly beyond the axes)"
+        small &= bool((np.abs(some) < _SEEN * axis.end).all())
+    return " (too small to be seen)" * small
+
+
 def _overlay(plot: str, rows: list, columns: Callable[[View, Course], dict]) -> Overlay:
     def still(view: View) -> dict:
-        return {
-            f"held {k}{what}": row
-            for k, held in enumerate(scenes(view), 1)
-            for what, row in columns(view, held.course).items()
-        }
+        axes = [PLOTS[plot].axes[k] for k in (0, rows[0].axis)]
+        found = {}
+        for k, held in enumerate(scenes(view), 1):
+            parts = columns(view, held.course)
+            name = held.name + _beyond(view, axes, list(parts.values()))
+            found |= {f"held {k}{what}": (*part, name) for what, part in parts.items()}
+        return found
 
-    return Overlay(plot, tuple(rows), still, reach=_reach)
+    return Overlay(plot, tuple(rows), still)
 
 
 # The panel and the button.
@@ -166,7 +181,7 @@ class Table:
             remove = button(f"Remove {k + 1}", width=76)
             remove.on_click(lambda event, k=k: apply(lambda state: _without(state, k)))
             self._rows.append(pn.Row(html("", "key"), remove, css_classes=["head"], visible=False, **WIDE))
-        note = html("Hold keeps the present scene: its curves are drawn beside those of the next ones.")
+        note = html("<i>Hold</i> keeps the present scene for comparison; axes are those of the later one.")
         self.view = pn.Column(note, *self._rows, self._numbers, css_classes=["held"], **WIDE)
 
     def show(self, view: View) -> None:
@@ -192,10 +207,11 @@ class Hold:
 
 
 def compute(state: State, before: View | None, known: dict) -> list[Held]:
-    """Courses of the held scenes; those that are known are kept."""
-    if before is not None and before.state["held.scenes"] == state["held.scenes"]:
-        return scenes(before)
-    return [held_scene(query, known) for query in state["held.scenes"]]
+    """The held scenes, named by what differs from the present one; courses that are known are kept."""
+    found = scenes(before) if before is not None else []
+    if before is None or before.state["held.scenes"] != state["held.scenes"]:
+        found = [held_scene(query, known) for query in state["held.scenes"]]
+    return [replace(each, name=difference(each.state, state)) for each in found]
 
 
 def check(state: State) -> str:
@@ -204,8 +220,7 @@ def check(state: State) -> str:
 
 
 def told(view: View) -> list[tuple[str, str]]:
-    named = enumerate(scenes(view), 1)
-    return [("Held scenes", "".join(f"<p>Held {k}: {marked(each.name)}.</p>" for k, each in named))]
+    return [("Held scenes", "".join(f"<p>{marked(each.name)}.</p>" for each in scenes(view)))]
 
 
 EXTRA = Extra(

@@ -25,7 +25,7 @@ def moving(view: View, i: int) -> dict:
 
 MOTION = Plot(
     "motion", "Depth and force over time",
-    lambda course: "m d²d/dt² = −F,  § 9" if isinstance(course, Hit) else "as prescribed  § 8, § 14",
+    lambda course: "m d²d/dt² = −F,  § 9" if isinstance(course, Hit) else "prescribed  § 8, § 14",
     (T, D, F),
     (
         line("depth d", "speed", 2.2, symbol="d"),

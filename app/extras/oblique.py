@@ -12,7 +12,7 @@ import mdr_core as mdr
 from mdr_core.impacts.motion import motion as motion_of
 from mdr_core.oblique.oblique_motion import ObliqueMotion, along_surface, oblique_motion
 from mdr_core.results import figures
-from mdr_core.results.figures import line, mark
+from mdr_core.results.figures import label, line, mark
 from mdr_core.results.limits import friction_limits
 
 from ..courses import HitInTime
@@ -24,6 +24,7 @@ from ..quantities import QUANTITIES
 from ..shared.rest import Resting
 from ..shared.time import T, line_at_time
 from ..state import refuse_other_classes
+from ..units import written
 
 #: Largest number of drawn elements, and halvings of their steps (errors about 10⁻⁵).
 _ELEMENTS, _HALVINGS = 300, 2
@@ -77,7 +78,7 @@ class Oblique(Impact):
         given = drive.tangential_speed, drive.friction, drive.tangential_mass
         motion = along_surface(motion_of(normal, INSTANTS, BEFORE_YIELD), *given, 0)
         course = _course(scene, progress, normal, motion)
-        return replace(course, pending="friction to three digits so far")
+        return replace(course, pending="Computing friction; drawn so far to three digits.")
 
     def in_time(self, scene):
         """States from the core's solution, with elements thinned out for drawing."""
@@ -158,6 +159,21 @@ def _most(course):
 FORCE = Along("F, Fₓ, force", "force", _most, below=lambda course: min(course.scene.drive.friction, 1.0))
 
 
+def _regime(course) -> str:
+    """Whether and when the contact sticks, in words."""
+    motion = course.oblique
+    sticking = np.flatnonzero(motion.stick_radius > 0)
+    if not sticking.size:
+        return "slips throughout"
+    begins, ends = (written(float(motion.time[k]), "time", 3) for k in sticking[[0, -1]])
+    first = (
+        "sticks in part from first contact"
+        if sticking[0] <= 1
+        else f"slips, then sticks in part from {begins}"
+    )
+    return f"{first} to {ends}, then slips" if sticking[-1] < len(motion.time) - 2 else first
+
+
 def forces_still(view: View) -> dict:
     course = view.course
     time, force = course.motion.time, course.states.force
@@ -165,6 +181,7 @@ def forces_still(view: View) -> dict:
     return {
         "normal force F": (time, force),
         "tangential force Fₓ": (time, course.oblique.tangential_force),
+        "regime": (0.02 * view.end(T), 0.98 * view.end(FORCE), _regime(course)),
         "largest friction ±μF": (np.append(time, [np.nan, *time]), np.append(most, [np.nan, *-most])),
     }
 
@@ -188,6 +205,7 @@ FORCES = Plot(
         line("time", "ink", 1.0, "dashed", legend=False),
         mark("now"),
         mark("F now", marker="diamond", legend=False),
+        label("regime"),
     ),
     forces_still, forces_moving, applies=lambda view: isinstance(view.course, ObliqueCourse),
     tab="Friction", order=50,

@@ -212,7 +212,12 @@ class Path(Drive):
         """States; creep of a viscous medium without dashpots at first."""
         viscous = scene.drive.time is not None and scene.medium.eta > 0
         pending = viscous and _by_force(scene.drive)
-        return _solved(scene, progress, viscous and not pending, "so far without dashpots" * pending)
+        return _solved(
+            scene,
+            progress,
+            viscous and not pending,
+            "Computing with viscosity; drawn so far without dashpots." * pending,
+        )
 
     def in_time(self, scene):
         return _solved(scene, 1.0, True, "")

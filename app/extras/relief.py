@@ -21,8 +21,8 @@ _MOST = 4
 def plane(course: Course, asked) -> Found:
     """Pressure on a square about the contact, with its rim and the plastic zone."""
     state, half = course.state, 1.25 * float(course.turning_point.contact_radius)
-    x = axis("x", "x, across the contact", "length", half, below=1.0)
-    y = replace(x, name="y", title="y, along the contact")
+    x = axis("x", "x, coordinate", "length", half, below=1.0)
+    y = replace(x, name="y", title="y, coordinate")
     middle = (np.arange(_PIXELS) + 0.5) / _PIXELS
     place = x.start + (x.end - x.start) * middle
     image = state.pressure(np.hypot(place, place[:, None]))
@@ -35,7 +35,7 @@ def plane(course: Course, asked) -> Found:
     rows = {name: tuple((radius or np.nan) * part for part in around) for name, radius in radii.items()}
     ends = np.array([x.start, x.end])
     rows["image"] = ends, ends, np.minimum(image, most)
-    note = f"Largest pressure in the picture: {written(finite, 'pressure', 3)}."
+    note = f"Largest finite pressure in the picture: {written(finite, 'pressure', 3)}."
     return Found(rows, [x, y, colours], note)
 
 

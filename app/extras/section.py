@@ -29,9 +29,9 @@ def section(course: Course, asked):
     r = axis("r", "r, radius", "length", reach)
     z = replace(axis("depth", "z, height", "length", reach, below=1.0), end=0.0)
     title, of_stress = _DRAWN[quantity]
-    reason = "The load is gone." if state.contact_radius == 0 else ""
+    reason = "No contact, and so no stress." if state.contact_radius == 0 else ""
     if course.chained:
-        reason = "Stresses below the surface are not known of a viscous path."
+        reason = "Stresses below the surface are not computed along a viscous path."
     if reason:
         return Found({}, [r, z, axis("stress", title, "pressure", 1.0)], reason)
     down, along = ((np.arange(count) + 0.5) / count for count in _PIXELS)

@@ -21,7 +21,8 @@ from ..extra import EXTRAS, Extra
 from ..plot import Plot, View
 from ..plots import visible
 from ..quantities import CHOICES, LABELS, QUANTITIES, SHAPES
-from ..readouts import readings, summary
+from ..readouts import readings
+from ..shared.summary import summary
 from ..shared.widgets import field, tools
 from ..state import MEDIUM_CHOICES, PRESETS, YIELD_CONSTANT, State, altered, used
 from ..ui import CSS, WIDE, html, marked, show, symbol
@@ -72,7 +73,7 @@ def report(view: View, plots: list[Plot], snippet: str, address: str = "") -> st
     title = PRESETS[state.preset].label + ", altered" * bool(altered(state))
     words = {
         "title": title,
-        "scene": marked(readouts.summary(state)),
+        "scene": marked(summary(state)),
         "made": f"{datetime.now(UTC):%d %B %Y, %H:%M} UTC, mdr_core {mdr.__version__}",
         "inputs": list(_inputs(state)),
         "numbers": [

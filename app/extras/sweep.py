@@ -11,15 +11,14 @@ import mdr_core as mdr
 from mdr_core.results.figures import NOTHING, line, mark
 from mdr_core.results.quantities import QUANTITIES as RESULTS
 
-from ..changes import option
+from ..changes import option, shown
 from ..extra import Extra
 from ..plot import axis
-from ..quantities import CHOICES, QUANTITIES, Scale, lowered, quantity, read_data
-from ..refused import in_words
+from ..quantities import CHOICES, QUANTITIES, USED, Scale, lowered, quantity, read_data
 from ..shared.rest import Found, Resting, Searched
 from ..state import PRESETS, State, medium, profile, used
 from ..ui import marked
-from ..units import KINDS, digits, in_full
+from ..units import KINDS, digits, in_full, in_words
 
 _DATA = read_data(Path(__file__).with_suffix(".json"))
 #: Functions of the core and their arguments, by drives, and the results of each.
@@ -32,19 +31,26 @@ _RESULTS = _DATA["results"]
 #: The energy of an impact, which is swept by the speed.
 _ENERGY = quantity(**_DATA["energy"])
 
+#: Constants of the hardness by their power of the contact radius.
+CONSTANTS = ("volume_hardness", "q_c", "f_c")
 #: Points along the range, and of a viscous impact, which takes a millisecond each.
 POINTS, VISCOUS = 81, 31
-#: Rows of the fast limit, which is that of class (b), and of the other classes, with their dashes.
+#: Rows of the fast limit, which is that of class (b), and of the three classes: options and constants.
 FAST = "fast limit (23) (24), class (b)"
-CLASSES = {"a": "scaling of class (a), hardness constant", "c": "scaling of class (c), hardness ∝ 1/a²"}
-LINES = {FAST: "dashed", CLASSES["a"]: "dotted", CLASSES["c"]: "dotdash"}
-#: What the fast limit has: its quantity, and the power of the energy that a `ScalingLaw` has for it.
-_LIMITS = {
-    "damaged_area": ("fast_limit.contact_area", lambda law: law.area),
-    "max_depth": ("fast_limit.max_depth", lambda law: law.depth),
-    "restitution": ("fast_limit.restitution", lambda law: law.restitution / 2),
+CLASSES = {
+    "(a) hardness constant": ("constant", "volume_hardness"),
+    "(b) hardness ∝ 1/a": ("q_c", "q_c"),
+    "(c) hardness ∝ 1/a²": ("line", "f_c"),
 }
-_SHAPES = {"cone": 1.0, "paraboloid": 2.0}
+LINES = dict(zip((FAST, *CLASSES), ("dashed", "dotted", "dashed", "dotdash"), strict=True))
+#: Where the result of a fast limit is in that of an impact.
+_LIMITS = {
+    "damaged_area": "fast_limit.contact_area",
+    "max_depth": "fast_limit.max_depth",
+    "restitution": "fast_limit.restitution",
+}
+#: Shapes with closed forms.
+_SHAPES = ("cone", "paraboloid", "power_law")
 
 
 @dataclass(frozen=True)
@@ -57,6 +63,7 @@ class Sweep:
     low: float
     high: float
     against: str
+    logarithmic: bool
     #: Function of the core and its arguments.
     solver: tuple
 
@@ -91,21 +98,56 @@ class Sweep:
                 return np.full(1, np.nan)
             return np.hstack([self.column(half, quantity) for half in np.array_split(numbers, 2)])
 
-    def limits(self, numbers):
-        """Curves of the fast limit and of the classes of hardness, and their powers of the energy."""
-        values, (limit, power) = self.values, _LIMITS.get(self.against, ("", None))
-        dry = not self.viscous and not values["plastic_depth"] and values["adhesion"] == "none"
-        if not (limit and dry and "speed" in self.solver and values["plasticity"] in ("q_c", "hardness")):
-            return {}, {}
-        rows = {FAST: self.column(numbers, limit)}
-        exponent = (_SHAPES | {"power_law": values["power_law_exponent"]}).get(values["shape"])
-        if exponent is None or self.swept not in ("energy", "mass", "speed"):
-            return rows, {}
-        powers = {name: power(mdr.ScalingLaw(name, exponent)) for name in "abc"}
-        # All through the limit at the present energy.
-        present = self.column(np.array([self.present]), limit)
-        energy = (numbers / self.present) ** (2 if self.swept == "speed" else 1)
-        return rows | {CLASSES[name]: present * energy ** powers[name] for name in CLASSES}, powers
+    @property
+    def yields(self):
+        """Whether the medium yields at the present value."""
+        return self.column(np.array([self.present]), "plastic_work")[0] > 0
+
+    @property
+    def dry(self):
+        return not self.viscous and self.values["adhesion"] == "none"
+
+    def fast(self, numbers):
+        """The fast limit, of dry impacts on a virgin medium of class (b), and nothing elsewhere."""
+        virgin = "speed" in self.solver and self.dry and not self.values["plastic_depth"]
+        if virgin and self.against in _LIMITS and self.values["plasticity"] in ("q_c", "hardness"):
+            return {FAST: self.column(numbers, _LIMITS[self.against])}
+        return {}
+
+    def classes(self):
+        """Sweeps of the other classes of hardness, through the present value, by their rows."""
+        of_class = USED["plasticity"]
+        others = {row: pair for row, pair in CLASSES.items() if self.swept not in of_class[pair[0]]}
+        own = "q_c" if self.values["plasticity"] == "hardness" else self.values["plasticity"]
+        constant = len(others) < len(CLASSES) or self.swept in of_class["hardness"]
+        # Under a given force each constant is a search of its own.
+        if constant or not self.dry or not self.yields or "max_force" in self.solver:
+            return {}
+        found = {row: self._through(*pair) for row, pair in others.items() if pair[0] != own}
+        return {row: each for row, each in found.items() if each}
+
+    def _through(self, option, constant):
+        """The sweep of another class, with the constant that gives the present result; None without one.
+
+        The constant is looked for about that of the same hardness at the largest contact radius, on a grid
+        that is refined once, and has five digits, as in a field.
+        """
+        at = np.array([self.present])
+        wanted, a = (float(self.column(at, quantity)[0]) for quantity in (self.against, "contact_radius"))
+        made = medium(SimpleNamespace(**self.values | {self.swept: self.present}))
+        same = float(made.hardness_at(a)) * a ** (CONSTANTS.index(constant))
+        other = replace(self, values=self.values | {"plasticity": option}, swept=constant)
+        low, high = same / 40, same * 30
+        for _ in range(2):
+            constants = np.geomspace(low, high, POINTS)
+            over = other.column(constants, self.against) - wanted
+            crossed = np.flatnonzero(over[:-1] * over[1:] < 0)
+            if not crossed.size:
+                return None
+            low, high = constants[crossed[0] : crossed[0] + 2]
+        share = over[crossed[0]] / (over[crossed[0]] - over[crossed[0] + 1])
+        values = other.values | {constant: shown(low + share * (high - low))}
+        return replace(other, values=values, swept=self.swept)
 
 
 def known(name: str):
@@ -139,43 +181,45 @@ def asked(state: State) -> Sweep:
     states = state, state.replace(**PRESETS[state.preset].values)
     values, preset = ({**each.scene_values, "energy": each.mass * each.speed**2 / 2} for each in states)
     scale = Scale.about(known(name), preset[name], values[name])
-    chosen = option(state, "sweep.against"), SOLVERS.get(state.drive, ())
+    chosen = option(state, "sweep.against"), state["sweep.scale"] == "log", SOLVERS.get(state.drive, ())
     return Sweep(state.scene_values, name, values[name], scale.low, scale.high, *chosen)
 
 
 def quick(sweep: Sweep) -> bool:
     """Whether the sweep is fast enough for every move: shapes with closed forms."""
     one_by_one = sweep.solver[:1] == ("indent_to_force",) and sweep.swept != "max_force"
-    return not (one_by_one or sweep.viscous) and sweep.values["shape"] in (*_SHAPES, "power_law")
+    return not (one_by_one or sweep.viscous) and sweep.values["shape"] in _SHAPES
 
 
 def found(course, sweep: Sweep):
     """Curve of the sweep with the present value and limits."""
     if not sweep.solver:
-        return Found({}, [], "Nothing is swept: press to a depth or a force, or let a body hit.")
+        return Found({}, [], "This drive has no sweep: press to a depth or a force, or let a body hit.")
     numbers, present = sweep.numbers, getattr(getattr(course, "hit", course.turning_point), sweep.against)
     values = sweep.column(numbers, sweep.against)
-    limits, powers = sweep.limits(numbers)
     inside = sweep.low <= sweep.present <= sweep.high
-    rows = {"this scene": (numbers, values)} | {name: (numbers, row) for name, row in limits.items()}
+    classes = sweep.classes() if inside else {}
+    rows = sweep.fast(numbers) | {row: each.column(numbers, each.against) for row, each in classes.items()}
+    rows = {name: (numbers, row) for name, row in ({"this scene": values} | rows).items()}
     x, y = _axes(sweep, values, float(present))
     if y.log:
         rows = {name: (numbers, np.where(row > 0, row, np.nan)) for name, (_, row) in rows.items()}
     visible = inside and (present > 0 or not y.log)
     rows["present value"] = (np.array([sweep.present]), np.array([present])) if visible else NOTHING
-    return Found(rows, [x, y], " ".join(_notes(sweep, numbers, values, powers, inside)))
+    return Found(rows, [x, y], " ".join(_notes(sweep, numbers, values, classes, inside)))
 
 
 def _axes(sweep, values, present):
-    """Both logarithmic, to show powers; a ratio, and numbers that may be negative, on a linear one."""
+    """Both logarithmic, to show powers, or linear; a ratio that is 0 somewhere has a linear one."""
     quantity, result = known(sweep.swept), RESULTS[sweep.against]
     x = axis("swept", lowered(f"{quantity.symbol}, {quantity.label}"), quantity.kind, sweep.high)
-    x = replace(x, start=sweep.low, end=sweep.high, log=sweep.low > 0)
+    log = sweep.logarithmic and sweep.low > 0
+    x = replace(x, start=sweep.low if log else min(sweep.low, 0.0), end=sweep.high, log=log)
     sizes = np.append(values, present)
     sizes = sizes[np.isfinite(sizes)]
-    title = lowered(f"{result.symbol}, {result.long_name}")
+    title = CHOICES["sweep.against"][sweep.against]
     y = axis("against", title, KINDS[result.unit], max(sizes, default=1.0))
-    if not (result.unit and x.log and (sizes > 0).any()):
+    if not (log and (sizes > 0).any() and (result.unit or (sizes > 0).all())):
         return x, y
     # At most six decades, between powers of ten.
     least, most = max(min(sizes[sizes > 0]), 1e-6 * max(sizes)), max(sizes)
@@ -183,22 +227,36 @@ def _axes(sweep, values, present):
     return x, replace(y, start=low * y.factor, end=max(high, 10 * low) * y.factor, log=True)
 
 
-def _notes(sweep, numbers, values, powers, inside):
-    quantity, symbol = known(sweep.swept), RESULTS[sweep.against].symbol
+def _power(sweep):
+    """The power law at the present value, by its log–log slope; empty where the result is 0."""
+    pair = sweep.present * np.array([0.999, 1.001])
+    ends = sweep.column(pair, sweep.against)
+    if not (ends > 0).all():
+        return ""
+    slope = round(float(np.log(ends[1] / ends[0]) / np.log(pair[1] / pair[0])), 6)
+    return f"{marked(known(sweep.swept).symbol)}<sup>{digits(slope, 3)}</sup>"
+
+
+def _told(row, sweep):
+    """Class, constant and law of a sweep of another class."""
+    constant = QUANTITIES[CLASSES[row][1]]
+    value = in_full(sweep.values[constant.name], constant.kind)
+    told = [marked(f"{row.split()[0]} {constant.symbol} = {value}"), sweep.low > 0 and _power(sweep)]
+    return ", ".join(part for part in told if part)
+
+
+def _notes(sweep, numbers, values, classes, inside):
+    quantity = known(sweep.swept)
     if not inside:
         shown = in_full(sweep.present, quantity.kind)
-        yield f"The present value, {marked(f'{quantity.symbol} = {shown}')}, is outside of the range."
-    elif sweep.low > 0:
-        pair = sweep.present * np.array([0.999, 1.001])
-        ends = sweep.column(pair, sweep.against)
-        if (ends > 0).all():
-            slope = round(float(np.log(ends[1] / ends[0]) / np.log(pair[1] / pair[0])), 6)
-            power = f"<sup>{digits(slope, 3)}</sup>."
-            yield marked(f"At the present value {symbol} goes as {quantity.symbol}") + power
-    if powers:
-        texts = ", ".join(f"W<sup>{digits(power, 3)}</sup> ({name})" for name, power in powers.items())
-        yield f"In the fast limit it goes with the energy as {texts}: hardness constant, ∝ 1/a, ∝ 1/a²."
-        yield "Lines of (a) and (c) are these powers, drawn through the fast limit at the present value."
+        yield f"The present value, {marked(f'{quantity.symbol} = {shown}')}, is outside the range."
+    elif sweep.low > 0 and (power := _power(sweep)):
+        yield f"At the present value {marked(RESULTS[sweep.against].symbol)} ∝ {power}."
+    if classes:
+        told = [_told(row, each) for row, each in classes.items()]
+        yield f"Through the same point: {'; '.join(told)}."
+    elif inside and not sweep.yields:
+        yield "Nothing yields at the present value."
     refused = numbers[np.isnan(values)]
     if refused.size:
         try:
@@ -208,13 +266,14 @@ def _notes(sweep, numbers, values, powers, inside):
 
 
 SWEEP = Searched(
-    "sweep", "Sweep", "one number over a range, all others as they are  § 10", (),
+    "sweep", "Sweep", "one parameter varied, all others fixed  § 10, § 20", (),
     (
         *(line(name, "ink", 1.4, dash, "y") for name, dash in LINES.items()),
         line("this scene", "elastic", 2.4, symbol="y"),
         mark("present value"),
     ),
-    find=found, asks=asked, quick=quick, tab="Sweep", order=90, controls=("sweep.swept", "sweep.against"),
+    find=found, asks=asked, quick=quick, tab="Sweep", order=90,
+    controls=("sweep.swept", "sweep.against", "sweep.scale"),
 )  # fmt: skip
 
 

@@ -7,6 +7,10 @@ import panel as pn
 from ..ui import WIDE
 
 
+def button(name: str, **options: Any) -> pn.widgets.Button:
+    return pn.widgets.Button(label=name, css_classes=["button"], **{"margin": 0} | options)
+
+
 def field(kind: type, *classes: str, **options: Any) -> Any:
     return kind(css_classes=["choice", *classes], **WIDE | options)
 

@@ -20,11 +20,11 @@ const KINDS = {
     return [el, ({ label, pressed, disabled }) => Object.assign(el, { textContent: label, disabled, ariaPressed: pressed })]
   },
   // A picture of a plot, saved in the browser.
-  save({ figure, title, rows }, send, named) {
+  save({ figure, title }, send, named) {
     const [el, show] = KINDS.button({ key: "" })
-    let scene = ""
-    el.onclick = () => save(named(figure), { title, rows, scene })
-    return [el, (look) => { scene = look.scene; show(look) }]
+    let saved = {}
+    el.onclick = () => save(named(figure), { title, ...saved })
+    return [el, (look) => { saved = look; show(look) }]
   },
   // Radio buttons or a list, with an explanation in a popover.
   choice({ classes, label, about, radio, id }, send) {

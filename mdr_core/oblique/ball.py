@@ -34,8 +34,8 @@ def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
 class Ball:
     """A ball that may spin: the speed of its contact point, and the change of its spin by an impact.
 
-    With spin Ω (rad/s) and the speed V of the centre, the contact point has the speed W = V + RΩ: backspin
-    is positive, and the ball rolls if V = −RΩ.
+    With spin Ω (rad/s) and the speed V of the centre, the contact point has the speed v_t = V + RΩ:
+    backspin is positive, and the ball rolls if V = −RΩ.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class Ball:
         return 1 / (1 / self.mass + self.radius**2 / self.inertia)
 
     def contact_speed(self, tangential_speed: ArrayLike, spin: ArrayLike) -> Array:
-        """Speed W (m/s) of the contact point, from that of the centre (m/s) and a spin (rad/s)."""
+        """Speed v_t (m/s) of the contact point, from that of the centre (m/s) and a spin (rad/s)."""
         speed = _check.finite_array("tangential_speed", tangential_speed, unit="m/s")
         return (speed + self.radius * _check.finite_array("spin", spin, unit="rad/s"))[()]
 

@@ -28,7 +28,7 @@ _BLOCK, _HALVINGS, _MOST = 32768, 7, 2048
 
 
 class DryRun:
-    """One run of impacts: C = `inertia` (1/(m s²)), and the velocity κW₀/μ (m/s) at first contact.
+    """One run of impacts: C = `inertia` (1/(m s²)), and the velocity κv_t0/μ (m/s) at first contact.
 
     Records are velocities W (m/s) and forces ∫Q dx (m²), with a row for each instant of `levels`, forces
     also with one for each middle of a step; `element_states` are loads of elements and their bounds (m), by

@@ -50,7 +50,7 @@ def oblique_impact(
     mass, speed : float or array_like
         Mass m (kg) and normal speed v₀ (m/s) at first contact, positive.
     tangential_speed : float or array_like
-        Speed W₀ (m/s) of the contact point along the surface, of any sign: see `at_angle`, and for bodies
+        Speed v_t0 (m/s) of the contact point along the surface, of any sign: see `at_angle`, and for bodies
         that spin `Ball.contact_speed`.
     friction : float or array_like
         Coefficient of friction μ, the same for stick and slip; 0 and infinity are allowed.
@@ -74,7 +74,7 @@ def oblique_impact(
 
     Examples
     --------
-    A ball that slips throughout, Maw, Barber & Fawcett (1976): with ψ = κW/(μv) and χ = κm/(2m_t),
+    A ball that slips throughout, Maw, Barber & Fawcett (1976): with ψ = κv_t/(μv) and χ = κm/(2m_t),
     ψ₂ = ψ₁ − 4χ, here ψ₁ = 4 and χ = 7/6.
 
     >>> from mdr_core import Ball, Medium, Paraboloid
@@ -109,8 +109,8 @@ def oblique_impact(
 class ObliqueErrors(NamedTuple):
     """Estimated relative errors of an `ObliqueImpact`.
 
-    Those of coefficients of restitution are relative to 1, of the velocity to W₀, of the friction work to
-    ½ m_t W₀², of the viscous work to the whole kinetic energy; all others to the quantity.
+    Those of coefficients of restitution are relative to 1, of the velocity to v_t0, of the friction work to
+    ½ m_t v_t0², of the viscous work to the whole kinetic energy; all others to the quantity.
     """
 
     restitution: Array
@@ -131,7 +131,7 @@ class ObliqueImpact(Entries, Result):
     """
 
     normal: Impact
-    #: Speed W₀ (m/s) of the contact point along the surface before; friction coefficient μ; mass m_t (kg).
+    #: Speed v_t0 (m/s) of the contact point along the surface; friction coefficient μ; mass m_t (kg).
     tangential_speed: Array
     friction: Array
     tangential_mass: Array
@@ -236,12 +236,12 @@ class ObliqueImpact(Entries, Result):
 
     @property
     def tangential_velocity(self) -> Array:
-        """Velocity W′ (m/s) of the contact point along the surface after, with its sign."""
+        """Velocity v_t′ (m/s) of the contact point along the surface after, with its sign."""
         return (self.tangential_speed + self.velocity_change)[()]
 
     @property
     def tangential_restitution(self) -> Array:
-        """Tangential restitution e_t = −W′/W₀: −1 without friction; for W₀ = 0 that of slow impacts."""
+        """Tangential restitution e_t = −v_t′/v_t0; −1 without friction, for v_t0 = 0 that of slow ones."""
         return (-1 - self._surface.relative_change)[()]
 
     @property

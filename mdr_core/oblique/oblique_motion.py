@@ -25,11 +25,11 @@ class ObliqueMotion(MotionResult):
     time, depth, velocity, force, contact_radius, plastic_radius, plastic_work : ndarray
         As of the normal `Motion`.
     tangential_velocity, tangential_force : ndarray
-        Velocity W (m/s) of the contact point along the surface, and the force (N) against it.
+        Velocity v_t (m/s) of the contact point along the surface, and the force (N) against it.
     stick_radius, slip_radius : ndarray
         Outer and inner radius (m) of the region that sticks, to within an element; both 0 if all slips.
     kinetic_energy, stored_energy, viscous_work, friction_work : ndarray
-        The ledger (J): ½mv² + ½m_t W², the energy of all springs, normal and tangential, and losses.
+        The ledger (J): ½mv² + ½m_t v_t², the energy of all springs, normal and tangential, and losses.
     x : ndarray, shape (N,)
         Coordinates (m) of the elements of the foundation.
     tangential_line_load : ndarray, shape (n, N)

@@ -26,8 +26,8 @@ EXACT = 1e-9
 class SurfaceSolution(Entries):
     """Motion along the surface of one impact, or of many as arrays, with estimated errors.
 
-    Change of the velocity over W₀, largest force (N), friction and viscous work (J) along the surface.
-    Errors of works are relative to ½ m_t W₀², and `tolerance` is that of the velocity. Closed forms have 0
+    Change of the velocity over v_t0, largest force (N), friction and viscous work (J) along the surface.
+    Errors of works are relative to ½ m_t v_t0², `tolerance` is that of the velocity. Closed forms have 0
     `halvings` of the steps of the first run.
     """
 

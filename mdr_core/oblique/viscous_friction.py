@@ -24,12 +24,12 @@ from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
 from ..numerics.roots import largest_value
 
-#: κW₀/μ over the normal speed below which everything sticks.
+#: κv_t0/μ over the normal speed below which everything sticks.
 SLOWEST = 1e-7
 
 
 def bound_ratio(hit, speed, friction):
-    """(μ/κ)/W₀ (s/m) at a tangential speed: the ratio of B to the normal load, for a speed of 1.
+    """(μ/κ)/v_t0 (s/m) at a tangential speed: the ratio of B to the normal load, for a speed of 1.
 
     A body without speed has the largest ratio, at which everything sticks.
     """

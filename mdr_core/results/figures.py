@@ -57,6 +57,10 @@ class Row:
         """Name of the glyph that draws it: one for each kind and for the left and the right axis."""
         return self.kind if self.axis == 1 else f"{self.kind} right"
 
+    def called(self, columns):
+        """Name in legends and tooltips: its own, or that of a line in the third of its columns."""
+        return (self.kind == "lines" and "".join(columns[2:])) or self.name
+
 
 def area(name, role, alpha, hatch=" ", legend=True):
     return Row("areas", name, role, legend, look={"alpha": alpha, "hatch": hatch})
@@ -182,6 +186,16 @@ def _outline(profile, half):
     return both(x, -1), both(g)
 
 
+def _places(half, state):
+    """Coordinates of springs; two are moved into an elastic ring that is narrower than their distance."""
+    x = half * (2 * (np.arange(SPRINGS) + 0.5) / SPRINGS - 1)
+    a, c = float(state.contact_radius), float(state.plastic_radius)
+    if 0 < c < a and not ((np.abs(x) > c) & (np.abs(x) < a)).any():
+        nearest = int(np.argmin(np.abs(x - (a + c) / 2)))
+        x[[nearest, -1 - nearest]] = (a + c) / 2, -(a + c) / 2
+    return x
+
+
 def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
     """Springs for |x| < `half` (m) below an indenter that is drawn up to a height (m).
 
@@ -190,7 +204,7 @@ def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
     with half the scale of depths.
     """
     profile, interval, far, base_height = state.profile, state.live_interval, 3 * height, -REST * height
-    x = half * (2 * (np.arange(SPRINGS) + 0.5) / SPRINGS - 1)
+    x = _places(half, state)
     g = reduced(profile, np.abs(x))
     left = np.fmax(interval.lower - g, 0.0)
     contact = (state.contact_radius > 0) & (g < interval.upper)

@@ -98,8 +98,8 @@ def _slope_limit(profile, radius):
     text = f"Slopes reach {value:.3g} within the contact"
     if value > _NEEDLE and isinstance(profile, Cone):
         text += (
-            ": a needle, for which a half-space is no approximation. A slope is the tangent of the angle "
-            "to the surface; Cone.from_half_angle takes the angle to the axis in degrees, not in radians."
+            ": a needle, for which a half-space is no approximation. The slope is the cotangent of the "
+            "half-angle: check that it is no angle, and a half-angle in degrees, not in radians."
         )
     elif value >= 1:
         text += ": a half-space with small slopes is no approximation."
@@ -185,7 +185,7 @@ def _facet_limit(profile, medium):
     error = 0.75 * bend * np.sqrt(2 * r[:-1] * length) / (r[1:] * slope)
     value = float(error[facet].max())
     text = f"The facets between the samples change the pull-off by about {100 * value:.2g} %"
-    remedy = " or more: of a smooth tip take finer samples, or Smooth with the slope of a fit."
+    remedy = " or more: of a smooth tip take finer samples, or a smooth profile that is fitted to them."
     text += remedy if value > _FACETS else "."
     yield Limit("facets", value, _FACETS, value > _FACETS, text, severe=value > 5 * _FACETS)
 

@@ -11,6 +11,7 @@ from app.extras import share
 from app.plot import View
 from app.plots import force, force_still
 from app.quantities import CHOICES
+from app.shared.summary import summary
 from app.state import PRESETS, medium, preset_state, profile
 
 from .conftest import DROP, ELASTIC
@@ -53,7 +54,7 @@ def test_a_pattern_goes_as_deep_as_what_was_there_before_and_is_in_link_and_csv(
     # A force that is found has the five digits that its field shows.
     assert float(course.turning_point.depth) == pytest.approx(preset_state().max_depth, rel=5e-5)
     assert scene_of(linked_state(state)) == course.scene
-    assert CHOICES["path.pattern"][pattern] in readouts.summary(state)
+    assert CHOICES["path.pattern"][pattern] in summary(state)
     lines = share.csv(View(state, course)).splitlines()
     assert sum(line[0] != "#" for line in lines) == 1 + len(course)
 
@@ -162,3 +163,23 @@ def test_presets_are_within_what_the_model_assumes():
     for key in PRESETS:
         levels = [level for level, _ in readouts.limits(follow(preset_state(key)), preset_state(key))]
         assert "beyond" not in levels, key
+
+
+def test_the_speed_and_depth_of_onset_are_those_of_the_energy():
+    """Paraboloid, class (b): U = (8/15) E* √R d_y^(5/2) is m v_y²/2; over an imprint d_y = d_0 + d_c."""
+    state = preset_state(DROP)
+    made = medium(state)
+    d_c = float(made.critical_depth)
+    energy = 8 / 15 * made.E_star * state.paraboloid_radius**0.5 * d_c**2.5
+    speed = (2 * energy / state.mass) ** 0.5
+    assert numbers(follow(state))["yield_speed"] == pytest.approx(speed, rel=1e-9)
+    for factor, yields in ((0.999, False), (1.001, True)):
+        course = follow(state.replace(speed=factor * speed))
+        assert bool(numbers(course)["damaged_area"] > 0) is yields
+    again = numbers(follow(state.replace(plastic_depth=2 * d_c)))
+    np.testing.assert_allclose(again["relative_depth"], again["depth"] / (3 * d_c), rtol=1e-9)
+    viscous = state_with(DROP, damping="eta")
+    for other in (state.replace(plastic_depth=2 * d_c), viscous, state_with(DROP, plasticity="none")):
+        assert "yield_speed" not in numbers(follow(other))
+    assert np.degrees(numbers(follow(preset_state()))["half_angle"]) == pytest.approx(70.3, abs=5e-3)
+    assert "half_angle" not in numbers(follow(state))

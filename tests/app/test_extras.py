@@ -13,6 +13,7 @@ from bokeh.document import Document
 from app import changes
 from app.extra import EXTRAS
 from app.page import Page
+from app.plots import PLOTS
 from app.state import preset_state
 
 from .conftest import DROP, ROOT, Explorer, Server
@@ -38,6 +39,7 @@ def words(name):
     found += [number["label"] for number in data.get("numbers", ())]
     found += [drive["label"] for drive in data.get("drives", {}).values()]
     found += [choice["label"] for choice in data.get("choices", {}).values()]
+    found += [extra.on_plots(PLOTS["force"]).label] if extra.on_plots else []
     return {each for each in found if each}
 
 

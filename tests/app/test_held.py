@@ -1,12 +1,17 @@
 """Scenes that are held: kept with their names in the link, told apart, and removed."""
 
+import re
+
 import numpy as np
 import pytest
 
+from app import link
+from app.draw import Picture, drawn, legend
 from app.drives import follow
-from app.extras.held import DASHES, held_scene, is_held, numbers, toggle_hold
+from app.extra import EXTRAS
+from app.extras.held import DASHES, difference, held_scene, is_held, numbers, toggle_hold
 from app.plot import rows_of
-from app.plots import PLOTS, D, Z
+from app.plots import PLOTS, D, F, P, X, Z
 from app.state import preset_state as preset
 from app.units import written
 
@@ -58,11 +63,11 @@ def test_the_numbers_are_those_of_the_deepest_state_and_of_the_impact():
 
 
 def test_each_has_its_own_row_in_every_plot():
-    states = [preset().replace(max_depth=depth) for depth in (3e-9, 6e-9, 9e-9, 12e-9)]
+    """Axes are those of the present scene; the legend has the names of scenes, and says what is beyond."""
+    states = [preset().replace(max_depth=depth) for depth in (9e-9, 3e-9, 6e-9, 12e-9)]
     view = view_of(states[0], 1.0, *states)
-    # Springs keep their height beside deeper scenes.
-    assert view.end(Z) == view_of(states[0]).end(Z)
-    assert view.end(D) > view_of(states[0]).end(D)
+    for along in (X, Z, D, F, P):
+        assert view.axis(along) == view_of(states[0]).axis(along)
     rows = view.rows(PLOTS["force"], 0)
     for k, held in enumerate(view.computed["held"], 1):
         np.testing.assert_array_equal(rows[f"held {k}"][1], held.course.states.force)
@@ -71,3 +76,42 @@ def test_each_has_its_own_row_in_every_plot():
             assert np.isfinite(view.rows(PLOTS[name], view.course.now)[row][1]).any()
     looks = {row.look["dash"] for row in rows_of(PLOTS["force"]) if row.role == "held"}
     assert len(looks) == len(states)
+    names = drawn(view, PLOTS["force"], {view.course.now})
+    text = legend(PLOTS["force"], names).replace("<i>d</i><sub>max</sub>", "d_max")
+    shown = re.findall(r">([^<]+)</span>", text)
+    # The first one is the present scene, which has no difference from itself.
+    expected = [f"d_max = {depth} nm" for depth in (9, 3, 6)] + ["d_max = 12 nm (partly beyond the axes)"]
+    assert [text for text in shown if "d_max" in text] == expected
+    layer = next(each for each in Picture(PLOTS["force"]).layers if each.name == "lines")
+    told = layer.columns(rows, PLOTS["force"].axes_of(view), False)["row"]
+    assert [text.replace("dₘₐₓ", "d_max") for text in told if "dₘₐₓ" in text] == expected
+
+
+def test_a_held_scene_is_named_by_what_differs_from_the_present_one():
+    gold, drop = preset().replace(max_depth=4e-9), preset(DROP)
+    assert difference(gold) == "d_max = 4 nm"
+    soft = gold.replace(q_c=90.0)
+    assert difference(gold, soft) == "q_c = 100 N/m"
+    assert difference(soft, gold) == "q_c = 90 N/m"
+    # Of another preset, that is named, too; of itself, what differs from the preset.
+    assert difference(gold, drop) == "Berkovich-equivalent cone on gold, d_max = 4 nm"
+    assert difference(drop, gold) == "Round striker 16 mm on glass-fibre epoxy, drop weight"
+    assert difference(gold, gold) == "d_max = 4 nm"
+    # As the present scene changes, so do the names.
+    later = drop.replace(**{"held.scenes": (link.write(gold),)})
+    view = view_of(soft, 1.0, gold)
+    assert [each.name for each in view.computed["held"]] == ["q_c = 100 N/m"]
+    assert [each.name for each in EXTRAS["held"].compute(later, view, {})] == [difference(gold, drop)]
+
+
+def test_a_scene_of_another_scale_leaves_the_axes():
+    """Gold at nanometres is a point on the axes of a drop weight, which are beyond those of gold."""
+    gold, drop = preset(), preset(DROP)
+    for now, other, fits in ((drop, gold, True), (gold, drop, False)):
+        view = view_of(now, 1.0, other)
+        for name in ("force", "pressure", "radii"):
+            text = view.rows(PLOTS[name], view.course.now)["held 1 a" if name == "radii" else "held 1"][2]
+            # The pressure of gold, 5.6 GPa in the mean, is beyond that of a laminate in any case.
+            small = fits and name != "pressure"
+            assert text.endswith("(too small to be seen)" if small else "(partly beyond the axes)"), name
+            assert PLOTS[name].axes_of(view) == PLOTS[name].axes_of(view_of(now))

@@ -279,7 +279,7 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
     for name in ("springs", "pressure", "force", "residual"):
         box = page.locator(f".card.{name}").bounding_box()
         assert box["y"] + box["height"] <= 900
-    page.get_by_text("It is in its file, and in no link").wait_for()
+    page.get_by_text("A link does not contain the curve").wait_for()
 
 
 def test_depth_noise_counts_where_it_is_no_rounding_and_no_trifle():

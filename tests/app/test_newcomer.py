@@ -36,7 +36,7 @@ def test_a_newcomer_takes_the_report_home(explorer, context):
     explorer.pick("impact")
     assert explorer.readout("damaged_area").endswith("m²")
     page.get_by_role("button", name="A damaged area").click()
-    page.get_by_text("Damaged area π c²").wait_for()
+    page.get_by_text("Area π c² of the plastic zone").wait_for()
     page.keyboard.press("Escape")
     explorer.press("Share")
     with page.expect_download() as download:

@@ -265,7 +265,7 @@ def test_scenes_are_held_and_come_back_from_the_address_in_the_dark(explorer):
         explorer.change(explorer.press, "Hold")
     explorer.press("Held")
     for k, text in ((1, "= 4 nm"), (2, "= 7 nm")):
-        page.get_by_text(text).wait_for()
+        page.locator(".held .key").get_by_text(text).first.wait_for()
         box = page.get_by_role("button", name=f"Remove {k}").bounding_box()
         assert box["x"] + box["width"] <= 312
     explorer.change(explorer.press, "Remove 2")
@@ -274,10 +274,14 @@ def test_scenes_are_held_and_come_back_from_the_address_in_the_dark(explorer):
     explorer.press("Explore")
     explorer.change(explorer.type, "q_c", "90 N/m")
     explorer.link("q_c=90")
-    held = explorer.row("force", "held 1")
+    # It has the name of what differs from the present scene, in the legend, too.
+    name, legend = "dₘₐₓ = 4 nm, qc = 100 N/m", page.locator(".card.force .key")
+    legend.get_by_text("= 4 nm").wait_for()
+    assert "dmax = 4 nm, qc = 100 N/m" in legend.inner_text()
+    held = explorer.row("force", name)
     page.reload()
     explorer.wait("window.explorer?.idle() && document.documentElement.classList.contains('dark')")
-    np.testing.assert_allclose(explorer.row("force", "held 1"), held, rtol=1e-6)
+    np.testing.assert_allclose(explorer.row("force", name), held, rtol=1e-6)
     assert explorer.field("q_c").input_value() == "90 N/m"
     assert page.get_by_role("button", name="Undo").is_disabled()
 
@@ -299,4 +303,4 @@ def test_what_is_shared_comes_back(explorer, tmp_path):
     path.write_text(table({"r (nm)": r, "z (nm)": r**2 / 100}, "; ", comma=True))
     explorer.change(page.get_by_label("CSV file of a measured tip: r, z").set_input_files, path)
     assert explorer.chosen("Shape") == "Measured tip"
-    assert page.get_by_text("40 samples as they are").count() == 1
+    assert page.get_by_text("40 samples, as in the file").count() == 1

@@ -30,7 +30,7 @@ def test_the_report_says_what_the_page_says():
     view.computed["held"] = [Held("<b>stiff</b>", course)]
     said = plain(report(view, plots, course.scene.to_python(), "http://localhost/app?speed=2.0"))
     assert f"{PRESETS[DROP].label}, altered" in said
-    assert "Held 1: <b>stiff</b>." in said
+    assert "<b>stiff</b>." in said
     for each, values in readings(course).items():
         assert f"{each.known.long_name} {text(each, values, course.now, 5)}" in said
     # What the preset says has its source; what was typed says so.

@@ -191,7 +191,7 @@ def test_what_others_append_to_a_link_is_left_out_and_other_names_are_told():
 
 def test_a_measured_tip_is_taken_as_it_is_or_made_convex():
     few, note = read_tip(table({"r (nm)": [0, 1, 2, 4], "z (nm)": [0, 0.1, 0.3, 1]}))
-    assert note == "4 samples as they are"
+    assert note == "4 samples, as in the file"
     assert few[1][-1] == pytest.approx(1e-9)
     state = changes.take_tip(preset_state(), few, note)
     assert state.max_depth < profile(state).known_depth
@@ -204,7 +204,7 @@ def test_a_measured_tip_is_taken_as_it_is_or_made_convex():
     # Few rows that noise has made concave.
     r = np.linspace(-50, 50, 41)
     z = 0.2 * np.abs(r) + 0.5 * rng.standard_normal(41)
-    assert "nearest to 41 rows" in read_tip(table({"r (nm)": r, "z (nm)": z}))[1]
+    assert "41 rows reduced to" in read_tip(table({"r (nm)": r, "z (nm)": z}))[1]
     with pytest.raises(ValueError, match="does not rise"):
         read_tip(table({"r (nm)": r, "z (nm)": -np.abs(r)}))
 
@@ -214,7 +214,7 @@ def test_a_noisy_tip_is_as_hard_as_the_one_that_is_nearest_to_it():
     r = np.linspace(-300, 300, 400)
     z = r**2 / 2000 + 0.3 * np.random.default_rng(2).standard_normal(r.size)
     samples, note = read_tip(table({"r (nm)": r + 20, "z (nm)": z}, "; ", comma=True))
-    assert "which scatter by 290 pm" in note
+    assert "rms deviation 290 pm" in note
     tips = mdr.Sampled(*samples), mdr.Sampled.fit(r * 1e-9, z * 1e-9)
     depths = [2e-9, 5e-9, 10e-9]
     read, fitted = (mdr.indent(tip, medium(preset_state()), depths).force for tip in tips)

@@ -14,6 +14,7 @@ from app.page import Page
 from app.plot import rows_of
 from app.plots import PLOTS, D, F, P, X, force, springs, visible
 from app.quantities import DATA, LABELS, QUANTITIES
+from app.shared.summary import summary
 from app.state import preset_state, with_derived
 from mdr_core.results.figures import SPRINGS
 
@@ -222,7 +223,7 @@ def test_adhesion_has_a_link_and_is_refused_where_it_is_not_computed():
     state = adhesive()
     again = link.read(link.write(state))
     assert (again.adhesion, again.work_of_adhesion) == ("work", 0.05)
-    assert "w = 50 mJ/m²" in readouts.summary(again)
+    assert "w = 50 mJ/m²" in summary(again)
     assert "adhesion" not in link.write(preset_state())
     again, hold = {"drive": "impact", "plastic_depth": 1e-7}, {"drive": "path", "path.pattern": "hold"}
     for choices in ({"drive": "oblique"}, {"damping": "eta"}, again, hold):

@@ -1,15 +1,20 @@
 """The sweep: its columns are those of one scene at a time, its limits those of the paper."""
 
+import re
+
 import numpy as np
 import pytest
 
 from app import changes, link
 from app.drives import follow
 from app.extras import sweep
+from app.extras.guide import TOURS, step_state
 from app.state import OPENING, medium, profile
+from app.units import in_full
 
 from .conftest import DROP, PUNCH
 from .states import linked_state, state_with
+from .test_hardness import STEEL
 
 
 def swept(state, **choices):
@@ -71,9 +76,69 @@ def test_the_damaged_area_comes_to_the_fast_limit_and_its_power_of_the_energy(sh
     # What is missing of the limit falls as d_c/d.
     assert slopes[-1] == pytest.approx(power, rel=2e-2)
     assert abs(area[-1] / fast[-1] - 1) < abs(area[0] / fast[0] - 1) < 0.2
-    for name, i in (("a", 2), ("c", 0)):
-        law = np.diff(np.log(found.rows[sweep.CLASSES[name]][1])) / np.diff(np.log(W))
-        np.testing.assert_allclose(law, 2 / ({"cone": 1, "paraboloid": 2}[shape] + i), rtol=1e-9)
+
+
+def test_other_classes_of_hardness_are_solved_through_the_present_point():
+    """Under a ball all of the contact yields in the end: A ∝ W^(2/(2 + i)), e² ∝ W^(−i'/(2 + i)), § 20.
+
+    The constant is rounded by up to 5·10⁻⁵, and the result goes at most as its square.
+    """
+    for key in (DROP, STEEL):
+        state = changes.choose(state_with(key, shape="paraboloid"), "drive", "impact").replace(speed=30.0)
+        for against, powers in (
+            ("damaged_area", (1 / 2, 2 / 3, 1)),
+            ("restitution", (-1 / 8, -1 / 3, -3 / 4)),
+        ):
+            asked = sweep.asked(state.replace(**{"sweep.against": against}))
+            curves = asked.classes()
+            own = "(a)" if key == STEEL else "(b)"
+            assert [row[:3] for row in curves] == [each for each in ("(a)", "(b)", "(c)") if each != own]
+            (result,) = asked.column(np.array([asked.present]), against)
+            for row, other in curves.items():
+                value = other.values[sweep.CLASSES[row][1]]
+                given = state.replace(
+                    plasticity=other.values["plasticity"], **{sweep.CLASSES[row][1]: value}
+                )
+                assert one(given, "speed", 30.0, against) == pytest.approx(result, rel=1e-4)
+                energy = 1e6 * asked.present * np.array([1.0, 1.1])
+                far = np.diff(np.log(other.column(energy, against))) / np.log(1.1)
+                assert far[0] == pytest.approx(powers["abc".index(row[1])], abs=5e-3), (row, against)
+
+
+def test_the_note_has_the_constants_and_powers_of_all_classes():
+    """Popov's cone: e falls as W^(−1/4), of constant hardness it is the same at every speed."""
+    _, asked, found = swept(state_with(DROP, shape="cone").replace(speed=20.0), against="restitution")
+    note = re.sub("<su[bp]>|</su[bp]>", "", found.note)
+    own, a, c = map(float, re.findall(r" W(\S+?)[.;,]? ", note.replace("−", "-") + " "))
+    assert own == pytest.approx(-1 / 4, abs=2e-3)
+    assert a == 0
+    assert c < -3 / 4
+    H, f_c = (
+        asked.classes()[row].values[name] for row, (_, name) in sweep.CLASSES.items() if name != "q_c"
+    )
+    assert in_full(H, "pressure") in note
+    assert in_full(f_c, "force") in note
+
+
+def test_nothing_is_drawn_of_other_classes_where_nothing_yields():
+    _, asked, found = swept(state_with(DROP).replace(speed=0.01), against="restitution")
+    assert asked.classes() == {}
+    assert "Nothing yields at the present value" in found.note
+    adhesive = swept(state_with("microsphere-pdms", "impact", adhesion="work"))[1]
+    constant = swept(state_with(DROP), swept="q_c")[1]
+    assert adhesive.classes() == constant.classes() == {}
+
+
+def test_axes_are_logarithmic_where_the_result_allows():
+    """Ratios too, unless the ball is held somewhere, e = 0."""
+    for state, logs in (
+        (state_with(DROP), (True, True)),
+        (state_with(DROP).replace(**{"sweep.scale": "linear"}), (False, False)),
+        (step_state(TOURS["It bounces only between two speeds"][0], state_with()), (True, False)),
+    ):
+        _, _, found = swept(state, against="restitution")
+        assert tuple(axis.log for axis in found.axes) == logs
+        assert found.axes[1].start <= np.nanmin(found.rows["this scene"][1])
 
 
 def test_what_cannot_be_solved_ends_the_curve_and_is_said():

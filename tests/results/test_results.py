@@ -101,7 +101,7 @@ def test_a_path_goes_as_far_as_its_largest_contact():
 def test_degrees_taken_for_a_slope_are_told():
     state = mdr.indent(mdr.Cone(70.3), SOFT, 1e-9)
     assert "tangent" in limit(state, "slope").sentence
-    assert "Cone.from_half_angle takes the angle to the axis in degrees" in repr(state)
+    assert "a half-angle in degrees, not in radians" in repr(state)
     assert "from_half_angle" not in repr(mdr.indent(mdr.Cone.from_half_angle(70.3), SOFT, 1e-9))
 
 

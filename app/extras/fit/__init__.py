@@ -16,9 +16,9 @@ from ...fields import Upload
 from ...parts import Parts, Text
 from ...plot import Overlay, View
 from ...quantities import ASSETS, QUANTITIES, Quantity
-from ...shared.widgets import field, tools
+from ...shared.widgets import button, field, tools
 from ...state import State, checked, medium, profile, with_derived
-from ...ui import WIDE, button, html, indexed, marked, show
+from ...ui import WIDE, html, indexed, marked, show
 from ...units import written
 from .drawn import MEASURED, RESIDUAL, measured, reach
 from .measured import (
@@ -152,8 +152,15 @@ def result(state: State) -> str:
         text = "The fitted values have been put into the form; Undo restores yours."
     # The verdict stands above the table.
     table = re.sub(r"<tr><th[^>]*>(class of hardness|the class presumes)<.*?</tr>", "", curve.report)
-    table = re.sub(r"(?<![\w/])-(?=\d)", "−", indexed(table))
+    table = re.sub(r"(?<![\w/])-(?=\d)", "−", indexed(_in_words(table)))
     return f"{text}<p>{escape(curve.verdict)}</p>{table}" if curve.verdict else text + table
+
+
+def _in_words(text: str) -> str:
+    """A report or remark of the core with symbols and words for its names of parameters."""
+    for name in ("contact_point", "depth_noise", "force_noise", "work_of_adhesion"):
+        text = text.replace(name, name.replace("_", " "))
+    return re.sub(r"\beta\b", "η", text.replace("E_star", "E*"))
 
 
 def unloading(state: State) -> str:
@@ -197,11 +204,11 @@ class Fitting:
             *(pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES),
             Parts(Text("title", object="<h2>Position and background</h2>"), self.place,
                   page.choices.part("fit.hardness")),
-            html("<h2>Held in the fit</h2>", "title"), self.fixed, Parts(self.noise), self.fit,
+            html("<h2>Fixed parameters</h2>", "title"), self.fixed, Parts(self.noise), self.fit,
             self.not_fitted, self.said, self.unloading, visible=False, **WIDE,
         )  # fmt: skip
         note = html(
-            "Depth and force as a table, to lie over the model. The indenter is that of <i>Explore</i>."
+            "Load a table of depth and force to compare with the model. <i>Explore</i> sets the indenter."
         )
         buttons = tools(self.silica, self.remove)
         parts = (note, Parts(self.file), buttons, self.not_taken, self.about, self._rest)
@@ -271,7 +278,7 @@ class Fitting:
         placed = curve, profile(state), state["fit.fixed"], *(state[f"fit.{name}"] for name in PLACED)
         if placed != self._placed:
             self._placed, self.unloading.object = placed, unloading(state)
-        about = f"<b>{escape(curve.name)}</b>: {escape(curve.note)}. It is in its file, and in no link."
+        about = f"<b>{escape(curve.name)}</b>: {escape(curve.note)}. A link does not contain the curve."
         show(self.about, object=about)
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
         likes = {"fit.contact_point": depth, "fit.baseline": force}
@@ -297,20 +304,18 @@ def compute(state: State, before: View | None, known: dict) -> Curve | None:
 
 def check(state: State) -> str:
     unknown = not set(state["fit.fixed"]) <= set(FITTED)
-    return "what a fit leaves as it is, in this link, is not known" * unknown
+    return "a parameter that the fit holds, in this link, is not known" * unknown
 
 
 def told(view: View) -> list[tuple[str, str]]:
     curve = view.state["fit.curve"]
     if curve is None:
         return []
-    text = (
-        f"<p>{escape(curve.name)}: {escape(curve.note)}. It is not in the link, but stays in its file.</p>"
-    )
+    text = f"<p>{escape(curve.name)}: {escape(curve.note)}. A link does not contain the curve.</p>"
     if curve.fit is None:
         return [("The measured curve", text)]
-    remarks = "".join(f"<p>{marked(remark)}</p>" for remark in curve.fit.remarks)
-    return [(f"Fit to {escape(curve.name)}", text + indexed(curve.report) + remarks)]
+    remarks = "".join(f"<p>{marked(_in_words(remark))}</p>" for remark in curve.fit.remarks)
+    return [(f"Fit to {escape(curve.name)}", text + indexed(_in_words(curve.report)) + remarks)]
 
 
 EXTRA = Extra(
