@@ -4,47 +4,38 @@ from collections.abc import Callable
 from functools import partial
 
 import panel as pn
-import param
 from bokeh.events import Pan, PanEnd, PanStart
 from bokeh.models import CustomJS
 
-from .buttons import Bar, Button
-from .draw import Picture, drawn, legend
+from .draw import Picture, drawn, legend, picture_of
+from .extra import EXTRAS
 from .fields import Choices
+from .parts import Button, Parts, Text
 from .player import Player
-from .plot import Plot, View, rows_of
+from .plot import Plot, View
 from .plots import NAMED, PLOTS, visible
-from .ui import FULL, JS, WIDE, html, linked, show
+from .ui import FULL, JS, Messages, html, linked, reveal, show
 
 #: Plots that share the axis x of another one.
 _SAME_X = {"pressure": "springs"}
-
-
-class Head(Bar):
-    """What is above a plot: title, formula, buttons, legend; what a saved picture has beside the plot."""
-
-    formula, legend, figure, title, scene = (param.String() for _ in range(5))
-    rows = param.List()
-
-    _esm = JS["save"] + JS["buttons"].replace("export function render", "function unused") + JS["head"]
 
 
 class Card:
     """A plot in its frame: title, formula, legend, controls above and a note below."""
 
     def __init__(self, plot: Plot, choices: Choices, apply: Callable[..., None]):
-        self.plot, self.picture, self._rows, self._apply = plot, Picture(plot), None, apply
+        self.plot, self.picture, self._rows, self._apply = plot, picture_of(plot), None, apply
         self.log = Button("Log", self._scale, pressed=False)
         self.large = Button("Large", self._enlarge, pressed=False)
-        named = {"figure": plot.name, "title": plot.title}
-        logs = [self.log] * plot.logs
-        self.head = Head(*logs, Button("Save", lambda: None), self.large, **named)
+        self.formula, self.legend = Text("formula"), Text("key")
+        #: What extras have above it.
+        self.above = [each.on_plots(plot) for each in EXTRAS.values() if each.on_plots]
+        buttons = (*[self.log] * plot.logs, *self.above, self.large)
+        head = Parts(self.formula, *buttons, self.legend, classes=("heading",))
         self.note = html("", "note", "found")
-        parts = [self.head, pn.pane.Bokeh(self.picture.figure, **FULL)]
+        parts = [head, pn.pane.Bokeh(self.picture.figure, **FULL)]
         if plot.controls:
-            parts.insert(1, pn.Row(*map(choices.row, plot.controls), css_classes=["above"], **WIDE))
-        if plot.find:
-            parts.append(self.note)
+            parts.insert(1, Parts(*map(choices.part, plot.controls), classes=("above",)))
         self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
 
     def _scale(self) -> None:
@@ -65,21 +56,21 @@ class Card:
         """Draw columns made for a view, with the texts around them."""
         plot, course = self.plot, view.course
         self.picture.show(columns, view, view.state.dark)
-        show(self.head, formula=f"<h3>{plot.title}</h3>{linked(plot.formula_of(course))}")
+        self.formula.show(object=f"<h3>{plot.title}</h3>{linked(plot.formula_of(course))}")
         rows = drawn(view, plot, {course.now, course.peak})
         if rows != self._rows:
             self._rows = rows
-            names = [rows.get(row.name, row.name) for row in rows_of(plot) if row.legend]
-            show(self.head, legend=legend(plot, rows), rows=names)
+            self.legend.show(object=legend(plot, rows))
         self.log.show(pressed=plot.name in view.state.log)
-        if plot.name in view.found:
-            show(self.note, object=view.found[plot.name].note)
+        note = plot.note_of(view)
+        show(self.note, object=note)
+        reveal(self.view, self.note, bool(note))
 
 
 class Board:
     """All plots of a session: a card is made when it is seen for the first time, and stays."""
 
-    def __init__(self, choices: Choices, apply: Callable[..., None]):
+    def __init__(self, choices: Choices, apply: Callable[..., None], messages: Messages):
         self._choices, self._apply, self.cards = choices, apply, {}
         self.names: list[str] = []
         self.tabs = {
@@ -87,21 +78,15 @@ class Board:
             for name, plot in PLOTS.items()
             if plot.tab
         }
-        self.tab_row = Bar(*self.tabs.values(), classes=("tabs",))
+        self.tab_row = Parts(*self.tabs.values(), classes=("bar", "tabs"))
         self.grid = pn.Column(css_classes=["plots"], **FULL)
         figures = {name: self._make(name) for name in NAMED}
-        self.player = Player(list(figures.values()))
+        self.player = Player(messages)
         #: Figures that are dragged.
         self.dragged = [figures["springs"], figures["force"]]
-
-    def connect(self) -> None:
-        """Let the browser drag and play: once the page is there, so that building it does not wait."""
-        self.player.connect()
-        told = {"hand": self.player.hand, **self.player.parts}
         for figure in self.dragged:
-            code = CustomJS(args=told | {"figure": figure}, code=JS["drag"])
             for event in (PanStart, Pan, PanEnd):
-                figure.js_on_event(event, code)
+                figure.js_on_event(event, CustomJS(code=JS["named"] + JS["drag"]))
 
     def _make(self, name):
         card = self.cards[name] = Card(PLOTS[name], self._choices, self._apply)
@@ -144,11 +129,6 @@ class Board:
         for name, tab in self.tabs.items():
             applies = PLOTS[name].applies(view)
             tab.show(visible=applies, pressed=applies and name in view.state.tiles)
-
-    def say_scene(self, text: str) -> None:
-        """What stands below a picture that is saved."""
-        for card in self.cards.values():
-            show(card.head, scene=text)
 
     def pictures(self) -> list[Picture]:
         """The pictures that are seen."""

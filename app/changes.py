@@ -7,11 +7,13 @@ import mdr_core as mdr
 
 from .courses import Timed
 from .drives import DRIVES, follow, scene_of, turning_point
-from .quantities import CHOICES, QUANTITIES, shape_quantities
+from .quantities import CHOICES, QUANTITIES, SHAPES, shape_quantities
 from .state import PRESETS, YIELD_CONSTANT, State, altered, checked, medium, preset_state, with_derived
 
 #: Options of a choice that apply to a state, the default first, where these are not all; extras add theirs.
-OFFERED: dict[str, Callable[[State], list[str]]] = {}
+OFFERED: dict[str, Callable[[State], list[str]]] = {
+    "shape": lambda state: [shape for shape in SHAPES if shape != "sampled" or state.samples],
+}
 #: The power of the contact radius in the constants of the hardness.
 _POWER = {"volume_hardness": 0, "q_c": 1, "f_c": 2}
 
@@ -36,8 +38,6 @@ def choose(state: State, name: str, wanted: str) -> State:
         return _preset(state, wanted)
     if wanted == option(state, name):
         return state
-    if name == "shape" and wanted == "sampled" and not state.samples:
-        raise ValueError("load a tip first: a CSV file with radii r and heights z")
     numbers = CONVERT[name](state, wanted) if name in CONVERT else {}
     numbers = {k: shown(v) if k in QUANTITIES else v for k, v in numbers.items()}
     changed, made = state.replace(**{name: wanted}, **numbers), medium(state)
@@ -94,11 +94,6 @@ def press_to(state: State, depth: float) -> State:
     numbers = DRIVES[state.drive].equivalent(state, pressed)
     numbers = {name: checked(name, shown(value)) for name, value in numbers.items()}
     return state.replace(progress=1.0, **numbers)
-
-
-def reset(state: State) -> State:
-    """Return to the preset at its largest depth; the view and values of extras stay."""
-    return _preset(state, state.preset)
 
 
 def turn_dark(state: State) -> State:

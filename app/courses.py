@@ -7,12 +7,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.contact import adhesion
-from mdr_core.contact.live_interval import LiveInterval
 from mdr_core.contact.yielding import yield_rule
-
-#: States of unloading at which a loop with adhesion is evaluated: its area is good to three digits.
-_LOOP = 80
+from mdr_core.impacts.motion import released_compression
 
 
 def onset_depth(scene: mdr.Scene, imprint: float = 0.0) -> float:
@@ -84,14 +80,9 @@ class Course:
         return self.states.pull_off_force if self.adhesive else None
 
     @property
-    def plastic_work(self) -> Any:
-        """Work (J) of yield; of an impact without earlier ones."""
-        return self.states.plastic_work
-
-    @property
-    def stored_energy(self) -> Any:
-        """Energy (J) of all springs, including released elements."""
-        return self.states.stored_energy
+    def ledger(self) -> Any:
+        """What has the energies (J) of all states; plastic work of an impact is without earlier ones."""
+        return self.states
 
     def relaxing(self, i: int, g: Any) -> Any:
         """Remaining elastic compression (m) of released elements at heights g (m), in state i."""
@@ -115,55 +106,10 @@ class Course:
         slope = getattr(self.scene.profile, "slope", None)
         return None if slope is None else np.arctan(1 / slope)
 
-    def unloading_curve(self, index: int) -> tuple[Any, Any]:
-        """Depths (m) and forces (N) of elastic unloading; the area below is the stored energy.
-
-        With adhesion it is less by what separates the surfaces up to the pull-off.
-        Elements held back by dashpots are compressed further than their load indicates.
-        """
-        live, depth = self.states.live_interval[index], float(self.states.depth[index])
-        touching = self.states.contact_radius[index] > 0
-        states = unloaded(self.scene, live, np.linspace(1, 0, 25), touching)
-        d, force = states.depth, states.force
-        if live.length > 0 and depth > live.upper * (1 + 1e-9):
-            stiff = 2 * self.scene.medium.E_star * self.states.contact_radius[index]
-            d, force = np.append(depth, d), np.append(force[0] + stiff * (depth - d[0]), force)
-        return d, force
-
-    def adhesive_loop(self, index: int) -> tuple[Any, Any, Any]:
-        """Depths (m), ascending, and forces (N) of loading and of unloading at each of them.
-
-        Loading is to a state, or to the largest depth if that is before it, and unloading to the pull-off.
-        The depths are the same, so that the forces differ only where the curves do; they end there.
-        """
-        return self._largest_loop if index >= self.peak else self._loop(index)
-
-    @cached_property
-    def _largest_loop(self):
-        return self._loop(self.peak)
-
-    def _loop(self, turn):
-        states = self.states
-        # Below first contact the path is a small part of a deep one.
-        whole, below = (
-            unloaded(self.scene, states.live_interval[start], np.linspace(1, 0, _LOOP), True)
-            for start in (turn, 0)
-        )
-        largest, end = states.depth[turn], whole.depth[-1]
-        # The force jumps at first contact and at the pull-off.
-        step = 1e-9 * states.depth[self.peak]
-        even = largest * np.linspace(0, 1, _LOOP)
-        d = np.concatenate([states.depth[: turn + 1], even, whole.depth, below.depth])
-        d = np.concatenate([d[(d > end + step) | (d >= 0)], [-step, end, end - step]])
-        d = np.unique(np.minimum(d, largest))
-        bodies = self.scene.profile, self.scene.medium
-        loading = mdr.indent(*bodies, d).force
-        unloading = mdr.indent(*bodies, np.append(largest, d[::-1])).force[:0:-1]
-        unloading = np.where(d > end, unloading, np.where(d == end, whole.force[-1], 0.0))
-        # Both are found to about 10⁻¹².
-        unloading = np.where(np.isclose(loading, unloading, rtol=1e-9, atol=0), loading, unloading)
-        apart = slice(np.max(np.flatnonzero(loading != unloading), initial=0) + 2)
-        return d[apart], loading[apart], unloading[apart]
+    @property
+    def under_force(self) -> bool:
+        """Whether a force is prescribed: contact is then lost earlier with adhesion."""
+        return isinstance(self.scene.drive, mdr.ForcePath)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -175,7 +121,6 @@ class Timed(Course):
 
     @property
     def ledger(self) -> Any:
-        """Motion with all energies."""
         return self.motion
 
     @property
@@ -188,28 +133,9 @@ class Timed(Course):
         return self.scene.medium.eta > 0
 
     @property
-    def plastic_work(self) -> Any:
-        return self.motion.plastic_work
-
-    @property
     def viscous_work(self) -> Any:
         """Work (J) of dashpots, None without."""
         return self.ledger.viscous_work if self.dashpots else None
-
-    @property
-    def stored_energy(self) -> Any:
-        return self.ledger.stored_energy
-
-    @property
-    def energies(self) -> dict[str, Any]:
-        """Losses (J) so far, stored and kinetic energy, by the names of their areas."""
-        m = self.ledger
-        return {
-            "plastic": m.plastic_work,
-            "viscous": m.viscous_work,
-            "stored": m.stored_energy,
-            "kinetic": m.kinetic_energy,
-        }
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -249,32 +175,7 @@ class HitInTime(Hit, Timed):
         return self.ledger.kinetic_energy
 
     def relaxing(self, i: int, g: Any) -> Any:
-        tau = self.scene.medium.relaxation_time
-        if tau == 0 or i <= self.peak:
-            return 0.0
-        past = slice(self.peak, i + 1)
-        upper = self.states.live_interval.upper[past]
-        time = self.motion.time[past]
-        ahead = self.states.depth[past] - upper
-        released = np.minimum(np.searchsorted(-upper, -g), len(upper) - 1)
-        left = ahead[released] * np.exp((time[released] - time[-1]) / tau)
-        return np.where(g >= upper[-1], left, 0.0)
-
-
-def unloaded(scene: mdr.Scene, live: LiveInterval, share: Any, touching: Any) -> mdr.Indentation:
-    """States on unloading from live intervals, at shares (1 to 0) of the distance to the pull-off."""
-    profile, medium, end = scene.profile, scene.medium, 0.0
-    if medium.work_of_adhesion > 0:
-        # Weak adhesion is seen only just before the pull-off.
-        share = share**3
-        held = adhesion.AT_FORCE if isinstance(scene.drive, mdr.ForcePath) else adhesion.AT_DEPTH
-        low = adhesion.stable_ranges(profile, medium, held)[0][0]
-        end = adhesion.last_interval(live.lower, low).length
-    length = np.where(touching, end + share * (live.length - end), 0.0)
-    interval = LiveInterval(*np.broadcast_arrays(live.lower, live.lower + length, length))
-    stretched = np.where(touching, adhesion.stretch(medium, profile.contact_radius(interval.upper)), 0.0)
-    load = -medium.E_star * stretched
-    return mdr.Indentation(profile, medium, interval.upper - stretched, interval, load)
+        return released_compression(self.motion, i, g)
 
 
 def nearest(progress: Any, at: float) -> int:

@@ -38,9 +38,9 @@ class Layer:
     """Rows of a plot that share a source."""
 
     def __init__(self, plot: Plot, group: str, shared: dict[str, Any]):
-        self.kind, _, right = group.partition(" ")
-        self.name, self.right, self.connected = group, bool(right), self.kind in ("areas", "lines")
         self.rows = [row for row in rows_of(plot) if row.group == group]
+        self.name, self.kind, self.axis = group, self.rows[0].kind, self.rows[0].axis
+        self.connected = self.kind in ("areas", "lines")
         places = [name for name in _GLYPHS[self.kind][1] if name in _PLACES]
         empty = {name: [] for name in (*self._look(self.rows, False), *places)}
         self.source = bk.ColumnDataSource(empty, name=f"{plot.name} {group}", **shared)
@@ -62,15 +62,11 @@ class Layer:
 
     def columns(self, rows: dict, axes: list[Axis], dark: bool) -> dict[str, list]:
         """Columns of the source: look, and places in the units of the axes."""
-        x_axis, y_axis = axes[0], axes[2] if self.right else axes[1]
+        x_axis, y_axis = axes[0], axes[self.axis]
         parts = [rows[row.name] for row in self.rows]
-        if x_axis.log:
-            parts = [
-                _positive(row, x_axis, y_axis, *part) for row, part in zip(self.rows, parts, strict=True)
-            ]
-        if self.connected:
+        for clip in [_positive] * x_axis.log + [_inside] * self.connected:
             pairs = zip(self.rows, parts, strict=True)
-            parts = [_inside(row, x_axis, y_axis, *part[:2]) for row, part in pairs]
+            parts = [clip(row, x_axis, y_axis, *part) for row, part in pairs]
         xs, ys = ([_short(part[k], axis) for part in parts] for k, axis in ((0, x_axis), (1, y_axis)))
         if self.connected:
             names = [lowered(row.called(rows[row.name])) for row in self.rows]
@@ -86,7 +82,7 @@ class Layer:
             look = look | {"line_color": None}
             look |= _HATCH if any(row.look["hatch"] != " " for row in self.rows) else {}
         only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
-        only["y_range_name"] = "right" if self.right else "default"
+        only["y_range_name"] = "right" if self.axis == 2 else "default"
         # Level: above the axes, on a canvas of its own, so that they are not painted again with the data.
         return figure.add_glyph(self.source, kind(**look), name=self.name, level="overlay", **only)
 
@@ -108,8 +104,9 @@ def _positive(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, ...]:
     return tuple(np.where(inside, part, np.nan) for part in parts[:2])
 
 
-def _inside(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, Any]:
+def _inside(row: Row, x: Axis, y: Axis, *given: Any) -> tuple[Any, Any]:
     """A line or area as far as it is within its axes, for a canvas that does not clip."""
+    parts = list(given[:2])
     for k, sign, bound in ((1, 1, y.end), (0, 1, x.end), (0, -1, -x.start)):
         outside = sign * parts[k] > bound + 1e-9 * abs(bound)
         if not outside.any():
@@ -133,30 +130,18 @@ class Picture:
         shared = {"selected": bk.Selection(), "selection_policy": bk.UnionRenderers()}
         groups = [group for group in _GROUPS if any(row.group == group for row in rows_of(plot))]
         self.layers = [Layer(plot, group, shared) for group in groups]
-        self.hovers: list[tuple[Any, bool]] = []
-        if any(layer.right for layer in self.layers):
+        self.hovers: list[tuple[Any, int]] = []
+        if any(layer.axis == 2 for layer in self.layers):
             self.figure.extra_y_ranges = {"right": bk.Range1d(0, 1)}
             self.figure.add_layout(bk.LinearAxis(y_range_name="right"), "right")
-        self.image = self._image() if plot.image else None
         for layer in self.layers:
             renderer = layer.draw(self.figure)
             if layer.kind == "lines" and any(row.symbol for row in layer.rows):
                 told = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
                 hover = bk.HoverTool(renderers=[renderer], line_policy="nearest", visible=False, **told)
                 self.figure.add_tools(hover)
-                self.hovers.append((hover, layer.right))
+                self.hovers.append((hover, layer.axis))
         self._dress()
-
-    def _image(self):
-        empty = {name: [] for name in ("image", "x", "y", "dw", "dh")}
-        source = bk.ColumnDataSource(empty, name=f"{self.plot.name} image")
-        source.syncable = False
-        mapper = bk.LinearColorMapper(palette="Cividis256", low=0, high=1)
-        glyph = self.figure.image("image", "x", "y", "dw", "dh", source=source, color_mapper=mapper)
-        glyph.name, self.bar = "image", glyph.construct_color_bar(padding=2, width=12)
-        self.bar.update(background_fill_color=None, bar_line_color=None)
-        self.figure.add_layout(self.bar, "right")
-        return source
 
     def _dress(self):
         f = self.figure
@@ -174,19 +159,14 @@ class Picture:
 
     def columns(self, view: View, i: int, dark: bool) -> dict[Any, dict[str, list]]:
         """What each source has in state i."""
-        axes, rows = view.axes_of(self.plot), view.rows(self.plot, i)
+        axes, rows = self.plot.axes_of(view), view.rows(self.plot, i)
         if not axes:
             return {}
-        found = {layer.source: layer.columns(rows, axes, dark) for layer in self.layers}
-        if self.image is not None:
-            (left, right), (low, high) = (rows["image"][k] / axes[k].factor for k in (0, 1))
-            corner = {"x": [left], "y": [low], "dw": [right - left], "dh": [high - low]}
-            found[self.image] = corner | {"image": [np.float32(rows["image"][2] / axes[2].factor)]}
-        return found
+        return {layer.source: layer.columns(rows, axes, dark) for layer in self.layers}
 
     def frame(self, view: View, i: int) -> dict[Any, dict[str, list]]:
         """Places of what moves in state i; the rest of its columns is as it is drawn."""
-        axes, rows = view.axes_of(self.plot), view.rows(self.plot, i)
+        axes, rows = self.plot.axes_of(view), view.rows(self.plot, i)
         moving = view.moving(self.plot, view.course.now).keys()
         found = {}
         for layer in self.layers:
@@ -197,14 +177,14 @@ class Picture:
 
     def show(self, columns: dict, view: View, dark: bool) -> None:
         """Draw columns that were made for a view."""
-        axes = view.axes_of(self.plot)
+        axes = self.plot.axes_of(view)
         if axes and (axes, dark) != self.axes:
             self.axes = axes, dark
-            self._set_axes(axes, dark)
+            self.set_axes(axes, dark)
         for source, data in columns.items():
             source.data = data
 
-    def _set_axes(self, axes: list[Axis], dark: bool):
+    def set_axes(self, axes: list[Axis], dark: bool):
         f, ground = self.figure, ROLES["paper"][dark]
         # Another ground paints the axes anew, too, which take their colours from the sheet.
         f.update(background_fill_color=ground, border_fill_color=ground)
@@ -218,14 +198,9 @@ class Picture:
                 bounds.update(start=start, end=end)
                 side.axis_label = axis.label
                 self._scale(side, axis)
-        for hover, right in self.hovers:
-            symbol, y = axes[0].title.split(",")[0], axes[2 if right else 1]
-            hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=y)
-        if self.image is not None:
-            low, high = axes[2].ends
-            self.bar.color_mapper.update(low=low, high=high)
-            colour, title = ROLES["ink"][dark], f"{axes[2].title.split(',')[0]} ({axes[2].unit})"
-            self.bar.update(title=title, title_text_color=colour, major_label_text_color=colour)
+        for hover, number in self.hovers:
+            symbol = axes[0].title.split(",")[0]
+            hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=axes[number])
 
     def _scale(self, side, axis: Axis):
         """Make the scale along one side logarithmic, or linear again."""
@@ -248,6 +223,11 @@ def ticks(low: float, high: float) -> tuple[Any, Any]:
     powers = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
     fixed = bk.FixedTicker(ticks=[float(f"{n}e{power:.0f}") for power in powers for n in (1, 2, 5)])
     return fixed if high > 5 * low else bk.BasicTicker(), bk.BasicTickFormatter()
+
+
+def picture_of(plot: Plot) -> Picture:
+    """The picture of a plot."""
+    return (plot.picture or Picture)(plot)
 
 
 def drawn(view: View, plot: Plot, states: set[int]) -> dict[str, str]:

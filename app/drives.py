@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core.contact.unloading import unloading
 from mdr_core.contact.yielding import yield_rule
 from mdr_core.impacts.motion import motion as motion_of
 
-from .courses import Course, Hit, HitInTime, nearest, onset_depth, path_progress, rounded, unloaded
+from .courses import Course, Hit, HitInTime, nearest, onset_depth, path_progress, rounded
 from .quantities import QUANTITIES
 from .state import State, medium, profile, with_derived
 
@@ -33,10 +34,6 @@ class Drive(ABC):
     @abstractmethod
     def follow(self, scene: mdr.Scene, progress: float) -> Course:
         """States of a scene; may be approximate where an exact solution is slow."""
-
-    def in_time(self, scene: mdr.Scene) -> Course:
-        """Exact states of a scene whose course is pending."""
-        return self.follow(scene, 1.0)
 
     @abstractmethod
     def turning_point(self, scene: mdr.Scene) -> mdr.Indentation:
@@ -64,7 +61,8 @@ def slow(scene: mdr.Scene, progress: float, turning_point: mdr.Indentation) -> d
     places = np.unique(rounded(np.concatenate([loading, 1 + _SPREAD, lifted, [progress]])))
     path = mdr.indent(scene.profile, scene.medium, np.minimum(places, 1.0) * depth)
     touching = places <= 2
-    states = unloaded(scene, path.live_interval, np.clip(2 - places, 0.0, 1.0), touching)
+    share, under_force = np.clip(2 - places, 0.0, 1.0), isinstance(scene.drive, mdr.ForcePath)
+    states = unloading(scene.profile, scene.medium, path.live_interval, share, touching, under_force)
     start = states.depth[touching][-1]
     end = min(2 * start, 0.0)
     lifted = end + (start - end) * np.maximum(2.2 - places, 0.0) / 0.2
@@ -165,14 +163,6 @@ def follow(state: State, known: dict[mdr.Scene, Course] | None = None) -> Course
     scene = scene_of(state)
     course = (known or {}).get(scene) or DRIVES[state.drive].follow(scene, state.progress)
     return replace(course, now=nearest(course.progress, state.progress), drive=state.drive)
-
-
-def in_time(course: Course) -> Course | str:
-    """Exact course of a pending one, or the reason of failure."""
-    try:
-        return replace(DRIVES[course.drive].in_time(course.scene), drive=course.drive)
-    except ValueError as error:
-        return str(error)
 
 
 def turning_point(state: State) -> mdr.Indentation:

@@ -23,6 +23,14 @@ class Part(Protocol):
     def show(self, view: View) -> None: ...
 
 
+class Service(Protocol):
+    """Something that extras share in a session: what it adds to `view.computed`, and does at rest."""
+
+    def compute(self, state: State, course: Course) -> dict[str, Any]: ...
+
+    def rest(self, view: View) -> None: ...
+
+
 @dataclass(frozen=True, eq=False)
 class Extra:
     """Something that plugs into the page: `EXTRA` of a file in `app/extras`, and what it brings.
@@ -46,18 +54,23 @@ class Extra:
     drives: dict[str, Drive] = field(default_factory=dict)
     plots: tuple[Plot, ...] = ()
     overlays: tuple[Overlay, ...] = ()
-    #: Label of the button that opens its part of the side; whether that button is in the header, whether
-    #: the part is above the form instead of in its place, and whether the button is there.
+    #: Label of the button that opens its part of the side; whether that button is in the "header", in the
+    #: "side" or in the "line" of readouts, whether the part is above the form instead of in its place, and
+    #: whether the button is there.
     tab: str = ""
-    in_header: bool = False
+    place: str = "side"
     above: bool = False
     offered: Callable[[View], bool] = lambda view: True
     #: Its part of the side, of a page: made when it is first opened.
     side: Callable[[Any], Part] | None = None
     #: What it has in the header of a page: the view of this part is a `Button`.
     header: Callable[[Any], Part] | None = None
+    #: A button that it has above a plot.
+    on_plots: Callable[[Plot], Any] | None = None
     #: Why a link with its values is refused, or nothing.
     check: Callable[[State], str] = lambda state: ""
+    #: What it and others need once in a session of a page, which it is made of.
+    service: Callable[[Any], Service] | None = None
     #: What its overlays need, `view.computed[name]`, before anything is changed: of a state, the present
     #: view, None if exact courses have been found, and these.
     compute: Callable[[State, View | None, dict[Any, Course]], Any] = lambda state, before, known: None
@@ -73,8 +86,9 @@ class Extra:
     served: Callable[[str], Any] | None = None
 
 
-#: All extras by name.
+#: All extras by name, and the services that they need.
 EXTRAS: dict[str, Extra] = {}
+SERVICES: list[Callable[[Any], Service]] = []
 
 
 def register(extra: Extra, data: dict[str, Any]) -> None:
@@ -88,6 +102,7 @@ def register(extra: Extra, data: dict[str, Any]) -> None:
     CONVERT.update(extra.converts)
     OFFERED.update(extra.offers)
     OVERLAYS.extend(extra.overlays)
+    SERVICES.extend([extra.service] if extra.service and extra.service not in SERVICES else [])
     LINKS.extend([extra.linked] if extra.linked else [])
     DRIVES.update(extra.drives)
     drives = sorted(CHOICES["drive"].items(), key=lambda each: OF_DRIVE[each[0]]["order"])

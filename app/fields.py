@@ -1,26 +1,26 @@
 """The form: number fields and choices, each with symbol, name, unit and explanation."""
 
 from collections.abc import Callable
-from functools import partial
+from functools import cache, partial
 from html import escape
 from math import degrees
 from typing import Any
 
 import panel as pn
-import param
 
 from mdr_core.profiles.samples import decoded
 
 from . import changes
 from .changes import option, options
 from .courses import Course
+from .parts import Button, Group, Part, Parts, Text
 from .plot import View
 from .quantities import ABOUT, CHOICES, LABELS, OF_DRIVE, QUANTITIES, SHAPES, Scale
 from .readouts import law_of_hardness
 from .state import MEDIUM_CHOICES, PRESETS, State, altered, regions
 from .tip import MAX_BYTES, Uploaded, read_tip
-from .ui import JS, WIDE, button, html, linked, marked, reveal, show, symbol
-from .units import UNITS, digits, entry, fitting, in_full, read, written
+from .ui import linked, marked, symbol
+from .units import UNITS, digits, entry, fitting, read, with_symbol, written
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
@@ -30,6 +30,7 @@ _ALTERED = "altered"
 _SHORT = 48
 
 
+@cache
 def _about(known: Any) -> str:
     low, high = (written(bound, known.kind, 2) for bound in known.bounds)
     units = ", ".join(unit.name for unit in UNITS[known.kind] if unit.name)
@@ -39,40 +40,38 @@ def _about(known: Any) -> str:
     return "".join(f"<p>{row}</p>" for row in rows if row)
 
 
-class Number(pn.custom.JSComponent):
+class Number(Part):
     """A field and slider for a number.
 
     `apply_or_raise` takes a function from state to state, and a mark that joins steps of undo.
     """
 
-    label, spoken, about = param.String(), param.String(), param.String()
-    text, refused = param.String(), param.String()
-    position, steps, answered = param.Integer(), param.Integer(), param.Integer()
-
-    _esm = JS["quantity"]
+    KIND = "number"
+    LOOK = ("text", "refused", "position", "answered")
 
     def __init__(self, name: str, apply_or_raise: Callable[..., None]):
         known = QUANTITIES[name]
         self.key, self._apply_or_raise, self._preset = name, apply_or_raise, ""
-        self._scale, self._unit = Scale(known, known.default), fitting(known.default, known.kind)
+        self._scale = Scale.about(known, known.default, known.default)
+        self._unit = fitting(known.default, known.kind)
         # The number as it was shown, and whether the next one was typed or dragged here.
         self._value, self._asked = known.default, False
-        steps, label = Scale.STEPS * (known.span >= 0), f"{symbol(known.symbol)} {marked(known.label)}"
-        texts = {"label": label, "spoken": f"{known.symbol}, {known.label}", "about": _about(known)}
-        super().__init__(css_classes=["number"], steps=steps, **texts, **WIDE)
-        self.on_msg(self._on_message)
+        self.text, self.refused, self.position, self.answered = "", "", 0, 0
+        label, spoken = f"{symbol(known.symbol)} {marked(known.label)}", f"{known.symbol}, {known.label}"
+        steps = Scale.STEPS * (known.span >= 0)
+        super().__init__(label=label, spoken=spoken, about=_about(known), steps=steps)
 
-    def _on_message(self, event):
-        refused, unit, self._asked = "", self._unit, "reset" not in event.data
+    def take(self, message: Any) -> None:
+        refused, unit, self._asked = "", self._unit, "reset" not in message
         with pn.io.hold():
             try:
-                self._change(event.data)
+                self._change(message)
             except ValueError as error:
                 refused, self._unit = str(error), unit
             self._asked = False
             # A number in another unit may be the present one, so that nothing else shows the unit.
             text = entry(self._value, self._unit)
-            self.param.update(text=text, refused=refused, answered=event.data["number"])
+            self.show(text=text, refused=refused, answered=message["number"])
 
     def _change(self, message):
         if isinstance(message.get("text"), str):
@@ -84,8 +83,8 @@ class Number(pn.custom.JSComponent):
         elif "reset" in message:
             self._apply_or_raise(lambda state: changes.put(state, self.key, self._scale.middle))
 
-    def show(self, state: State, like: float = 0.0) -> None:
-        """Show a number; zero in the unit that fits the value `like`.
+    def update(self, state: State, like: float = 0.0) -> None:
+        """Show the number of a state; zero in the unit that fits the value `like`.
 
         The unit is that of the preset's number until another one is typed. What others change is shown in
         it, too, unless that takes a power of ten. A refusal stays until the number changes.
@@ -94,70 +93,77 @@ class Number(pn.custom.JSComponent):
         changed = value != self._value and not self._asked
         if self._preset != state.preset or (changed and not self._unit.fits(value)):
             self._unit = fitting(value, known.kind, like)
-        if value != self._value or self._preset != state.preset:
-            show(self, refused="")
+        refused = "" if value != self._value or self._preset != state.preset else self.refused
         self._value = value
         # The middle of the slider stays while it moves.
-        if self._preset != state.preset or not self._scale.reaches(value):
-            middle = PRESETS[state.preset].values.get(self.key, value)
-            self._scale, self._preset = Scale.about(known, middle, value), state.preset
+        middle = self._scale.middle
+        if self._preset != state.preset:
+            middle, self._preset = PRESETS[state.preset].values.get(self.key, value), state.preset
+        self._scale = Scale.about(known, middle, value)
         text, position = entry(value, self._unit), self._scale.position(value)
-        show(self, text=text, position=position)
+        self.show(text=text, position=position, refused=refused)
 
 
-class Numbers(pn.Column):
-    """A column of number fields; one is made when it is used for the first time, and stays."""
+class Numbers(Group):
+    """Number fields below each other; one is made when it is used for the first time, and stays."""
 
     def __init__(self, apply_or_raise: Callable[..., None]):
-        super().__init__(css_classes=["numbers"], **WIDE)
+        super().__init__()
         self._apply_or_raise = apply_or_raise
 
-    def show(self, state: State, names: list[str], likes: dict[str, float] | None = None) -> None:
-        for name in names:
-            if name not in [each.key for each in self]:
-                self.append(Number(name, self._apply_or_raise))
-        for each in self:
-            if each.key in names:
-                each.show(state, (likes or {}).get(each.key, 0.0))
-            show(each, visible=each.key in names)
+    def update(self, state: State, names: list[str], likes: dict[str, float] | None = None) -> None:
+        """Show some numbers of a state."""
+        made = {each.key: each for each in self.parts}
+        parts = [made.get(name) or Number(name, self._apply_or_raise) for name in names]
+        for each in parts:
+            each.update(state, (likes or {}).get(each.key, 0.0))
+        self.show(parts)
 
     def forget(self) -> None:
         """Show the present numbers instead of refused ones."""
-        for each in self:
-            show(each, refused="")
+        for each in self.parts:
+            each.show(refused="")
 
 
-class Upload(pn.custom.JSComponent):
+class Upload(Part):
     """A field for a file; `take` is called with each as an `Uploaded`."""
 
-    label, accept, most = param.String(), param.String(), param.Integer(MAX_BYTES)
-
-    _esm = JS["upload"]
+    KIND = "file"
 
     def __init__(self, label: str, accept: str, take: Callable[[Uploaded], None]):
-        super().__init__(label=label, accept=accept, css_classes=["file"], **WIDE)
-        self.on_msg(lambda event: take(Uploaded(**event.data)))
+        super().__init__(label=label, accept=accept, most=MAX_BYTES)
+        self._take = take
+
+    def take(self, message: Any) -> None:
+        self._take(Uploaded(**message))
 
 
-class Choice(pn.custom.JSComponent):
+class Choice(Part):
     """A choice with its explanation: radio buttons or a list; `choose` is called with the option."""
 
-    label, about, value = param.String(), param.String(), param.String()
-    options, radio, answered = param.List(), param.Boolean(), param.Integer()
-
-    _esm = JS["choice"]
+    KIND = "choice"
+    LOOK = ("options", "value", "answered")
 
     def __init__(self, name: str, choose: Callable[[str], None]):
-        self._choose = choose
-        look = {"css_classes": [f"of-{name.replace('.', '-')}"], "label": LABELS[name], **WIDE}
+        self.key, self._choose, self.answered = name, choose, 0
+        self.options, self.value = [], ""
         radio = sum(map(len, CHOICES[name].values())) < _SHORT
-        super().__init__(about=linked(ABOUT[name]), radio=radio, **look)
-        self.on_msg(self._on_message)
+        about, classes = linked(ABOUT[name]), f"of-{name.replace('.', '-')}"
+        super().__init__(label=LABELS[name], about=about, radio=radio, classes=classes)
 
-    def _on_message(self, event):
-        if event.data in [option for option, _ in self.options]:
-            self._choose(event.data)
-        self.answered += 1
+    def take(self, message: Any) -> None:
+        if message in [option for option, _ in self.options]:
+            self._choose(message)
+        self.show(answered=self.answered + 1)
+
+    def update(self, state: State) -> None:
+        """Show the options of a state; no preset is chosen if the scene differs from all."""
+        chosen = option(state, self.key)
+        pairs = [[each, CHOICES[self.key][each]] for each in options(state, self.key)]
+        if self.key == "preset" and altered(state):
+            chosen = _ALTERED
+            pairs.append([_ALTERED, f"altered, from: {PRESETS[state.preset].label}"])
+        self.show(options=pairs, value=chosen)
 
 
 class Choices:
@@ -165,66 +171,47 @@ class Choices:
 
     def __init__(self, apply: Callable[..., None], state: Callable[[], State]):
         self._apply, self._state = apply, state
-        self.rows: dict[str, Choice] = {}
+        self.made: dict[str, Choice] = {}
 
-    def row(self, name: str) -> Choice:
-        if name not in self.rows:
-            self.rows[name] = Choice(name, partial(self.choose, name))
-            self._show(name)
-        return self.rows[name]
+    def part(self, name: str) -> Choice:
+        if name not in self.made:
+            self.made[name] = Choice(name, partial(self.choose, name))
+            self.made[name].update(self._state())
+        return self.made[name]
 
     def choose(self, name: str, option: str) -> None:
         """Take another option."""
-        if option != self._chosen(name):
+        if option != self.part(name).value:
             self._apply(lambda state: changes.choose(state, name, option))
 
-    def _chosen(self, name):
-        """Option that is shown; none of the presets if the scene differs from all."""
-        state = self._state()
-        return _ALTERED if name == "preset" and altered(state) else option(state, name)
-
-    def _options(self, name):
-        """Options with their texts."""
-        state = self._state()
-        pairs = [[option, CHOICES[name][option]] for option in options(state, name)]
-        if self._chosen(name) == _ALTERED:
-            pairs.append([_ALTERED, f"altered, from: {PRESETS[state.preset].label}"])
-        if name == "shape" and not state.samples:
-            pairs = [pair for pair in pairs if pair[0] != "sampled"]
-        return pairs
-
-    def _show(self, name):
-        show(self.rows[name], options=self._options(name), value=self._chosen(name))
-
     def show(self, state: State) -> None:
-        for name in self.rows:
-            self._show(name)
+        for each in self.made.values():
+            each.update(state)
 
 
 class Form:
     """The form: drive, shape, E* and q_c; the rest of the medium folds, and is made when it is opened."""
 
     def __init__(self, page: Any):
-        self._page, self._in_use, choices = page, False, page.choices
+        self._page, self._in_use, choice = page, False, page.choices.part
         self.numbers = {name: page.numbers() for name in ("drive", "shape", "medium", "more")}
-        self.notes = {name: html() for name in (*self.numbers, "sources")}
-        self.again = button("Hit again", width=90)
-        self.again.on_click(
-            lambda event: page.apply(lambda state: changes.hit_again(state, page.shown.course.hit))
+        self.notes = {name: Text() for name in (*self.numbers, "sources")}
+        self.again = Button(
+            "Hit again", lambda: page.apply(lambda state: changes.hit_again(state, page.shown.course.hit))
         )
         self.tip = Upload("CSV file of a measured tip: r, z", ".csv,.txt,text/csv", self._take_tip)
-        look = {"css_classes": ["button", "more"], "margin": (4, 0)}
-        self.more = pn.widgets.Toggle(label="More about the medium", **look)
-        self._folded = pn.Column(self.more, **WIDE)
-        self.more.param.watch(lambda event: self._fold(event.new), "value")
-        self._forms = pn.Column(**WIDE)
-        drive = (choices.row("drive"), self.numbers["drive"], self.notes["drive"], self._forms)
-        shape = (choices.row("shape"), self.notes["shape"], self.numbers["shape"])
-        medium = (self.numbers["medium"], self.notes["medium"], self._folded)
+        self.more = Button("More about the medium", self._fold, pressed=False)
+        self._of_drive, self._of_medium = Group(), Group()
+        drive = (choice("drive"), self.numbers["drive"], self.notes["drive"], self._of_drive)
+        shape = (choice("shape"), self.notes["shape"], self.numbers["shape"])
+        medium = (self.numbers["medium"], self.notes["medium"], self.more, self._of_medium)
+        medium += (self.numbers["more"], self.notes["more"])
         sources = (self.tip, self.notes["sources"])
-        heads = [html(f"<h2>{text}</h2>", "title") for text in ("Indenter", "Medium", "Tip and sources")]
+        heads = [
+            Text("title", object=f"<h2>{text}</h2>") for text in ("Indenter", "Medium", "Tip and sources")
+        ]
         parts = (*drive, heads[0], *shape, heads[1], *medium, heads[2], *sources)
-        self.view = pn.Column(*parts, css_classes=["form"], **WIDE)
+        self.view = Parts(*parts, classes=("form",))
 
     def _take_tip(self, file: Uploaded) -> None:
         def change(state):
@@ -232,34 +219,36 @@ class Form:
 
         self._page.apply(change)
 
-    def _fold(self, open_: bool) -> None:
-        if len(self._folded) == 1:
-            rows = map(self._page.choices.row, MEDIUM_CHOICES)
-            self._folded.append(pn.Column(*rows, self.numbers["more"], self.notes["more"], **WIDE))
-        show(self._folded[1], visible=open_)
+    def _fold(self) -> None:
+        """Open or close the rest of the medium."""
+        self.more.show(pressed=not self.more.pressed)
+        self._show_numbers(self._page.shown)
 
     def show(self, view: View) -> None:
         """Show the numbers and choices in use."""
-        state, course = view.state, view.course
-        parts = [self._page.choices.row(name) for name in OF_DRIVE[state.drive]["form"]]
-        parts += [self.again] * (state.drive == "impact")
-        for part in (*self._forms, *parts):
-            reveal(self._forms, part, part in parts)
-        numbers = regions(state)
-        for region, names in numbers.items():
-            self.numbers[region].show(state, names, {"plastic_depth": float(course.turning_point.depth)})
-        in_use = bool({*MEDIUM_CHOICES, *numbers["more"]} & set(altered(state)))
-        if in_use and not self._in_use:
-            show(self.more, value=True)
-        self._in_use = in_use
+        used = {*MEDIUM_CHOICES, *regions(view.state)["more"]} & set(altered(view.state))
+        if used and not self._in_use:
+            self.more.show(pressed=True)
+        self._in_use = bool(used)
+        self._show_numbers(view)
+
+    def _show_numbers(self, view):
+        state, choice, open_ = view.state, self._page.choices.part, bool(self.more.pressed)
+        likes = {"plastic_depth": float(view.course.turning_point.depth)}
+        for region, names in regions(state).items():
+            self.numbers[region].update(state, names if region != "more" or open_ else [], likes)
+        self.notes["more"].show(visible=open_)
+        self._of_medium.show([choice(name) for name in MEDIUM_CHOICES] if open_ else [])
+        parts = [choice(name) for name in OF_DRIVE[state.drive]["form"]]
+        self._of_drive.show([*parts, *[self.again] * (state.drive == "impact")])
 
     def show_texts(self, state: State, course: Course) -> None:
         """Update the texts."""
         preset, shape, made = PRESETS[state.preset], SHAPES[state.shape], course.scene.medium
         sources = ""
         for name, text in preset.sources.items():
-            value = in_full(preset.values[name], QUANTITIES[name].kind)
-            sources += f"<dt>{marked(f'{QUANTITIES[name].symbol} = {value}')}</dt><dd>{escape(text)}</dd>"
+            value = marked(with_symbol(name, preset.values[name]))
+            sources += f"<dt>{value}</dt><dd>{escape(text)}</dd>"
         title = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
         energy = written(state.mass * state.speed**2 / 2, "energy")
         height = written(state.speed**2 / (2 * _GRAVITY), "length")
@@ -275,4 +264,4 @@ class Form:
             "sources": f"<details><summary>{title}</summary><dl>{sources}</dl></details>",
         }
         for name, text in texts.items():
-            show(self.notes[name], object=text)
+            self.notes[name].show(object=text)

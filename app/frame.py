@@ -1,34 +1,34 @@
 """The frame of the page: header, side with one part at a time, and the plots."""
 
-from collections.abc import Callable
 from functools import partial
 from typing import Any
 
 import panel as pn
 
 from . import changes
-from .buttons import Bar, Button
-from .extra import EXTRAS, Part
+from .extra import EXTRAS, Extra, Part
+from .parts import Button, Parts, Text
 from .plot import View
 from .readouts import readings, table
 from .ui import FULL, HERE, LAYOUT, WIDE, html, reveal, show
 
 
 class Menu:
-    """What the page is, and buttons that are seldom used."""
+    """What the page is, and what is seldom used."""
 
-    def __init__(self, reset: Button, dark: Button):
+    def __init__(self, page: Any):
+        self._dark = Button("Dark", lambda: page.apply(changes.turn_dark), pressed=False)
         about = html((HERE / "static" / "about.html").read_text(encoding="utf-8"))
-        self.view = pn.Column(Bar(reset, dark), about, **WIDE)
+        self.view = pn.Column(Parts(self._dark, classes=("bar",)), about, **WIDE)
 
     def show(self, view: View) -> None:
-        """It is the same for all views."""
+        self._dark.show(pressed=view.state.dark)
 
 
 class Readings:
     """All numbers of the present state."""
 
-    def __init__(self):
+    def __init__(self, page: Any):
         self.view = html("", "all-numbers")
 
     def show(self, view: View) -> None:
@@ -36,43 +36,38 @@ class Readings:
         show(self.view, object=table(course, readings(course), course.now))
 
 
-class Frame:
-    """Bar, parts of the side by name, each made when it is first opened, and the board."""
+#: What the page itself has in the side, before and after its extras.
+_EXPLORE = Extra("explore", tab="Explore", side=lambda page: page.form)
+_MENU = Extra("menu", tab="Menu", place="header", side=Menu)
+_NUMBERS = Extra("numbers", tab="All numbers", place="line", side=Readings)
 
-    def __init__(self, page: Any, preset: Any, form: Part, board: Any):
-        self._view: View | None = None
-        self.undo = Button("Undo", page.undo, "z")
-        self.redo = Button("Redo", page.redo)
-        self.reset = Button("Reset", lambda: page.apply(changes.reset))
-        self.dark = Button("Dark", lambda: page.apply(changes.turn_dark), pressed=False)
-        self._make: dict[str, Callable[[], Part]] = {
-            "explore": lambda: form,
-            "menu": lambda: Menu(self.reset, self.dark),
-            "numbers": Readings,
-        }
+
+class Frame:
+    """Header, parts of the side by name, each made when it is first opened, and the board."""
+
+    def __init__(self, page: Any):
+        self._page, self._view = page, None
+        self._offers = {each.name: each for each in (_EXPLORE, *EXTRAS.values(), _MENU, _NUMBERS)}
+        #: Parts that have been opened, buttons that open them, and what extras have in the header.
         self.parts: dict[str, Part] = {}
-        self.tabs = {
-            name: Button(label, partial(self._switch, name), pressed=False)
-            for name, label in (("explore", "Explore"), ("menu", "Menu"), ("numbers", "All numbers"))
-        }
-        #: What extras have in the header.
+        self.tabs: dict[str, Button] = {}
         self.buttons: dict[str, Part] = {}
-        in_header, in_side = [], [self.tabs["explore"]]
-        for extra in EXTRAS.values():
-            if extra.header:
-                self.buttons[extra.name] = extra.header(page)
-                in_header.append(self.buttons[extra.name].view)
-            if extra.side:
-                self.tabs[extra.name] = Button(extra.tab, partial(self._switch, extra.name), pressed=False)
-                self._make[extra.name] = partial(extra.side, page)
-                (in_header if extra.in_header else in_side).append(self.tabs[extra.name])
-        title = html("<h1>Indentation explorer</h1>", "name", width=190, sizing_mode=None)
-        buttons = Bar(self.undo, self.redo, *in_header, self.tabs["menu"], classes=("buttons",))
-        header = pn.Row(title, preset, buttons, css_classes=["header"], stylesheets=LAYOUT, **WIDE)
+        self.undo, self.redo = Button("Undo", page.undo, "z"), Button("Redo", page.redo)
+        rows = {"header": [self.undo, self.redo], "side": [], "line": []}
+        for name, each in self._offers.items():
+            if each.header:
+                self.buttons[name] = each.header(page)
+                rows["header"].append(self.buttons[name].view)
+            if each.side:
+                self.tabs[name] = Button(each.tab, partial(self._switch, name), pressed=False)
+                rows[each.place].append(self.tabs[name])
+        title, board = Text("name", object="<h1>Indentation explorer</h1>"), page.board
+        parts = (title, page.choices.part("preset"), *rows["header"])
+        header = Parts(*parts, classes=("header", "bar"), stylesheets=LAYOUT)
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
-        self._side = pn.Column(Bar(*in_side), **look)
-        numbers = Bar(self.tabs["numbers"], sizing_mode=None)
-        top = pn.Row(board.player.line, numbers, css_classes=["head", "top"], stylesheets=LAYOUT, **WIDE)
+        self._side = pn.Column(Parts(*rows["side"], classes=("bar",)), **look)
+        line = board.player.heads, board.player.words, *rows["line"]
+        top = Parts(*line, classes=("top",), stylesheets=LAYOUT)
         self.warnings = html("", "lights")
         plots = (top, board.player.view, self.warnings, board.grid, board.tab_row)
         results = pn.Column(*plots, css_classes=["results"], **FULL)
@@ -80,37 +75,29 @@ class Frame:
         self.view = pn.Column(header, columns, css_classes=["page"], **FULL)
         self.open("explore")
 
-    def part(self, name: str) -> Part:
-        if name not in self.parts:
-            self.parts[name] = self._make[name]()
-        return self.parts[name]
-
-    @staticmethod
-    def _is_above(name: str) -> bool:
-        return name in EXTRAS and EXTRAS[name].above
-
     def open(self, name: str) -> None:
         """Show a part of the side in the place of the present one, or above it."""
-        part = self.part(name)
+        if name not in self.parts:
+            self.parts[name] = self._offers[name].side(self._page)
         if self._view is not None:
-            part.show(self._view)
-        reveal(self._side, part.view, True, 1 if self._is_above(name) else None)
-        self.tabs[name].show(pressed=True)
-        if self._is_above(name):
-            return
-        self.opened = name
-        for other, each in self.parts.items():
-            if other != name and not self._is_above(other):
-                reveal(self._side, each.view, False)
-                self.tabs[other].show(pressed=False)
+            self.parts[name].show(self._view)
+        if not self._offers[name].above:
+            self.opened = name
+            for other in self.parts:
+                if not self._offers[other].above:
+                    self._reveal(other, False)
+        self._reveal(name, True)
 
-    def _switch(self, name: str) -> None:
+    def _reveal(self, name, visible):
+        reveal(self._side, self.parts[name].view, visible, 1 if self._offers[name].above else None)
+        self.tabs[name].show(pressed=visible)
+
+    def _switch(self, name):
         """Open a part of the side, or close it."""
         if not self.tabs[name].pressed:
             self.open(name)
-        elif self._is_above(name):
-            reveal(self._side, self.parts[name].view, False)
-            self.tabs[name].show(pressed=False)
+        elif self._offers[name].above:
+            self._reveal(name, False)
         else:
             self.open("explore")
 
@@ -119,12 +106,10 @@ class Frame:
         self._view = view
         for each in self.buttons.values():
             each.show(view)
-        for name, extra in EXTRAS.items():
-            if extra.side:
-                self.tabs[name].show(visible=extra.offered(view))
-        if self.opened in EXTRAS and not EXTRAS[self.opened].offered(view):
+        for name, tab in self.tabs.items():
+            tab.show(visible=self._offers[name].offered(view))
+        if not self._offers[self.opened].offered(view):
             self.open("explore")
         for part in self.parts.values():
             if part.view.visible:
                 part.show(view)
-        self.dark.show(pressed=view.state.dark)

@@ -26,8 +26,6 @@ MAX_LENGTH, _MAX_VALUES, _MAX_NAMES, _MAX_TEXT = 8000, 100, 12, 300
 _LISTS = ("tiles", "log")
 #: Names of version 0.6 for values of extras, which add theirs, with their present names.
 FORMER: dict[str, str] = {}
-#: Reasons to refuse a state, or none; extras add theirs.
-CHECKS: list[Callable[[State], str]] = []
 #: What version 0.6 had and is gone: left out in silence.
 _GONE = {"frame_compliance", "loglog"}
 #: Names that mail programs and search engines append to links.
@@ -47,9 +45,7 @@ def write(state: State) -> str:
     others = [name for name, default in OF_EXTRAS.items() if default is not None and name not in CHOICES]
     names = [*CHOICES, *dict.fromkeys([*used(state), *others]), *_LISTS]
     pairs = {"preset": state.preset} if state.preset != OPENING else {}
-    for name in names:
-        if state[name] != start[name] and state[name] is not None:
-            pairs[name] = _text(state[name])
+    pairs |= {name: _text(state[name]) for name in names if state[name] not in (start[name], None)}
     pairs |= {"at": f"{state.progress:.6g}"} if state.progress != 1 else {}
     if state.shape == "sampled":
         pairs["samples"] = " ".join(f"{r!r},{z!r}" for r, z in zip(*state.samples, strict=True))
@@ -67,8 +63,7 @@ def _text(value: Any) -> str:
 
 
 def _known(name: str) -> bool:
-    own = (*CHOICES, *QUANTITIES, *OF_EXTRAS, *FORMER, *_GONE, *_LISTS, "samples", "at", "dark")
-    return name in own
+    return name in (*CHOICES, *QUANTITIES, *OF_EXTRAS, *FORMER, *_GONE, *_LISTS, "samples", "at", "dark")
 
 
 def unknown(query: str) -> list[str]:
@@ -101,16 +96,23 @@ def read(query: str) -> State:
         _value(FORMER.get(name, name), text) for name, text in pairs.items() if name not in _GONE
     )
     state = preset_state(key).replace(**changes)
-    missing = [name for name in used(state) if state[name] is None]
-    for wrong, message in (
-        (not 0 <= state.progress <= LAST_PROGRESS, f"at in this link is not in 0 to {LAST_PROGRESS}"),
-        (state.shape == "sampled" and not state.samples, "this link has a measured tip without samples"),
-        (missing, "this link has a shape without its numbers"),
-        *((reason, reason) for reason in (check(state) for check in CHECKS)),
-    ):
-        if wrong:
-            raise ValueError(message)
+    for reason in (check(state) for check in CHECKS):
+        if reason:
+            raise ValueError(reason)
     return with_derived(state)
+
+
+def _wrong(state: State) -> str:
+    if not 0 <= state.progress <= LAST_PROGRESS:
+        return f"at in this link is not in 0 to {LAST_PROGRESS}"
+    if state.shape == "sampled" and not state.samples:
+        return "this link has a measured tip without samples"
+    missing = any(state[name] is None for name in used(state))
+    return "this link has a shape without its numbers" * missing
+
+
+#: Reasons to refuse a state, or none; extras add theirs.
+CHECKS: list[Callable[[State], str]] = [_wrong]
 
 
 def _value(name: str, text: str) -> tuple[str, Any]:
@@ -121,9 +123,9 @@ def _value(name: str, text: str) -> tuple[str, Any]:
         return name, text
     if name in QUANTITIES:
         return name, checked(name, _number(name, text))
-    if name == "tiles":
-        return name, tuple(tile for tile in text.split()[:_MAX_NAMES] if tile in PLOTS)
-    if name in _LISTS or isinstance(OF_EXTRAS.get(name), tuple):
+    if name in _LISTS:
+        return name, tuple(plot for plot in text.split()[:_MAX_NAMES] if plot in PLOTS)
+    if isinstance(OF_EXTRAS.get(name), tuple):
         return name, tuple(each for each in text.split()[:_MAX_NAMES] if each not in _GONE)
     if name == "dark":
         return name, text == "1"

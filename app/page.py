@@ -7,22 +7,21 @@ from typing import Any
 
 import panel as pn
 from bokeh.events import ConnectionLost, DocumentReady
-from bokeh.models import ColumnDataSource, CustomJS
+from bokeh.models import CustomJS
 from panel.io.location import Location
 
 from . import changes, link, readouts
 from .board import Board
 from .courses import Course
 from .drives import follow, scene_of
-from .extra import EXTRAS
+from .extra import EXTRAS, SERVICES
 from .fields import Choices, Form, Numbers
 from .frame import Frame
 from .plot import View
-from .plots import PLOTS, Z, visible
-from .refused import in_words
-from .rest import Resting, is_served
+from .plots import Z, visible
 from .state import VIEW, State, preset_state
-from .ui import JS, show
+from .ui import JS, Messages, is_served, show
+from .units import in_words
 
 _LOG = logging.getLogger(__name__)
 #: Milliseconds of rest before slow updates.
@@ -50,13 +49,13 @@ class Page:
         self._notices, self._refused = [], False
         self._numbers: list[Numbers] = []
         self.state = preset_state()
-        self.resting = Resting(self._show_result)
+        self.services = [make(self) for make in SERVICES]
         self.choices = Choices(self.apply, lambda: self.state)
-        self.board = Board(self.choices, self.apply)
+        self.messages = Messages(name="messages")
+        self.board = Board(self.choices, self.apply, self.messages)
         self.form = Form(self)
-        self.frame = Frame(self, self.choices.row("preset"), self.form, self.board)
+        self.frame = Frame(self)
         self.view = self.frame.view
-        self.address, self.theme = ColumnDataSource(name="address"), ColumnDataSource(name="theme")
         self._show_history()
         self._watch()
         try:
@@ -66,29 +65,31 @@ class Page:
         except Exception as error:
             self.draw(self.state)
             self._refused = True
-            self.notify(f"The link was not opened: {self._refusal(error)}")
+            self.notify(f"The link was not opened: {self.refusal(error)}")
 
     def _watch(self):
         player = self.board.player
         player.state.on_change("value_throttled", self._state_chosen)
         player.state.on_change("value", self._slider_moved)
         player.play.on_change("active", lambda attr, old, new: new and self._send())
-        player.hand.on_change("tags", self._dragged)
+        self.messages.on_change("hand", self._dragged)
         if self.document is None:
             return
-        self.theme.on_change("tags", self._theme_chosen)
-        for source in (self.theme, self.address):
-            source.js_on_change("tags", CustomJS(code=JS["tell"]))
-            self.document.add_root(source)
+        self.messages.on_change("dark", self._theme_chosen)
+        told = CustomJS(code=JS["tell"])
+        self.messages.js_on_change("address", told)
+        self.messages.js_on_change("dark", told)
+        self.document.add_root(self.messages)
         self.document.on_event(DocumentReady, self._browser_ready)
-        for name, told in (("ready", {"theme": self.theme}), ("touch", {"figures": self.board.dragged})):
+        told = {"messages": self.messages, "figures": self.board.dragged}
+        for name in ("ready", "touch"):
             self.document.js_on_event(DocumentReady, CustomJS(args=told, code=JS[name]))
         # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
 
     def _theme_chosen(self, attr, old, new):
         """Take the theme of the system."""
-        self.apply(lambda state: state.replace(dark=new == [True]))
+        self.apply(lambda state: state.replace(dark=new))
 
     def numbers(self) -> Numbers:
         """A new column of number fields of this page."""
@@ -117,7 +118,7 @@ class Page:
                 return
             self.draw(after)
         except Exception as error:
-            message = self._refusal(error, after)
+            message = self.refusal(error, after)
             if self.shown is not None and self.state is not before:
                 self.draw(before)
             raise ValueError(message) from None
@@ -171,7 +172,7 @@ class Page:
             # Screen readers are told the text itself, in which quotation marks need no escape.
             pn.state.notifications.error(escape(text, quote=False), duration=7000)
 
-    def _refusal(self, error, state=None):
+    def refusal(self, error, state=None):
         """Message for an error; a fault is logged with its scene."""
         if isinstance(error, ValueError):
             return in_words(error)
@@ -192,8 +193,9 @@ class Page:
         course = follow(state, self.solved)
         before = None if again else self.shown
         computed = {name: each.compute(state, before, self.solved) for name, each in EXTRAS.items()}
-        tiles = [plot for plot in PLOTS.values() if plot.name in state.tiles]
-        view = View(state, course, self.resting.found(tiles, state, course), computed)
+        for service in self.services:
+            computed |= service.compute(state, course)
+        view = View(state, course, computed)
         # Plots that this course has not are no longer asked for.
         shown = [plot.name for plot in visible(view) if plot.tab]
         view.state = state = state.replace(tiles=tuple(shown))
@@ -213,8 +215,7 @@ class Page:
         # Changed texts cause a new layout, so they wait while a slider moves.
         if not self._ready:
             self._show_texts()
-        if self.theme.tags != [self.state.dark]:
-            self.theme.tags = [self.state.dark]
+        self.messages.dark = self.state.dark
         self._schedule()
 
     def _show_texts(self):
@@ -240,18 +241,14 @@ class Page:
 
     def _dragged(self, attr, old, new):
         """Press to a depth given in the height unit of the springs plot."""
-        if new and isinstance(new[0], int | float):
-            depth = new[0] * self.shown.axis(Z).factor
+        if isinstance(new, int | float):
+            depth = new * self.shown.axis(Z).factor
             self.apply(lambda state: changes.press_to(state, depth), mark="hand")
-            self.board.player.hand.tags = []
+            self.messages.hand = None
 
     # Updates when the input rests.
 
     def _browser_ready(self, event):
-        if not self._ready:
-            # Once for all of them: the document looks through all its models when one of these changes.
-            with self.document.models.freeze():
-                self.board.connect()
         self._ready = True
         for text in self._notices:
             self.notify(text)
@@ -270,27 +267,7 @@ class Page:
         self._show_texts()
         query, _ = self.query()
         # The empty address leaves the present one, of a link that was not opened.
-        address = "" if self._refused else f"?{query}"
-        if self.address.tags != [address]:
-            self.address.tags = [address]
+        self.messages.address = "" if self._refused else f"?{query}"
         view = self.shown
-        self.board.say_scene(readouts.summary(self.state))
-        others = [course for each in EXTRAS.values() for course in each.courses(view)]
-        self.resting.begin([view.course, *others], visible(view), self.state)
-
-    @pn.io.hold()
-    def _show_result(self, name, found):
-        """Draw a result computed at rest; on failure go on without it."""
-        solved = self.solved
-        try:
-            if isinstance(found, str):
-                self.notify(found)
-                return
-            if isinstance(found, Course):
-                self.solved = dict([*solved.items(), (found.scene, found)][-4:])
-            self.draw(self.state, again=isinstance(found, Course))
-        except Exception as error:
-            self.solved = solved
-            self.resting.give_up(name)
-            self.notify(self._refusal(error))
-            self.draw(self.state)
+        for each in self.services:
+            each.rest(view)

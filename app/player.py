@@ -1,18 +1,17 @@
 """The player: it moves through the states of a scene in the browser."""
 
 import json
-from html import escape
 from typing import Any
 
 import panel as pn
-from bokeh.models import Column, ColumnDataSource, CustomJS, ImportedStyleSheet, Row, Slider, Toggle
-from panel.models.markup import HTML
+from bokeh.models import CustomJS, ImportedStyleSheet, Row, Slider, Toggle
 
 from . import readouts
 from .draw import Picture
+from .parts import Part, Text
 from .plot import View
 from .plots import D, F, Z
-from .ui import JS, LAYOUT, SHEETS, WIDE
+from .ui import JS, LAYOUT, SHEETS, WIDE, Messages
 
 
 def path(view: View) -> dict[str, Any]:
@@ -30,7 +29,7 @@ def frames(view: View, pictures: list[Picture]) -> tuple[list[Any], str]:
     found = [[picture.frame(view, i) for picture in pictures] for i in states]
     sent = {
         "pictures": [[columns for frame in each for columns in frame.values()] for each in found],
-        "words": [escape(readouts.values(course, numbers, i)) for i in states],
+        "words": [readouts.values(course, numbers, i) for i in states],
         "times": course.times.tolist(),
     }
     return [source for frame in found[0] for source in frame], json.dumps(sent).replace("NaN", "null")
@@ -39,43 +38,40 @@ def frames(view: View, pictures: list[Picture]) -> tuple[list[Any], str]:
 class Player:
     """Moves through the states of a scene in the browser, from frames that are sent once."""
 
-    def __init__(self, figures: list[Any]):
+    def __init__(self, messages: Messages):
         sheets = [ImportedStyleSheet(url=url) for url in SHEETS]
         look = {"css_classes": ["button", "key-space"], "stylesheets": sheets, "margin": 0}
-        self.play = Toggle(label="▶ Play", width=84, **look)
-        wide = WIDE | {"stylesheets": sheets}
-        look = wide | {"show_value": False, "title": None, "tooltips": False, "css_classes": ["slider"]}
+        self.play = Toggle(label="▶ Play", name="play", width=84, **look)
+        look = WIDE | {
+            "stylesheets": sheets,
+            "show_value": False,
+            "title": None,
+            "tooltips": False,
+            "css_classes": ["slider"],
+        }
         self.state = Slider(start=0, end=1, value=1, step=1, name="state", **look)
-        self.frames, self.hand = ColumnDataSource(name="frames"), ColumnDataSource(name="hand")
-        self.heads = HTML(css_classes=["readouts", "heads"], height=29, **wide)
-        self.readout = HTML(css_classes=["readouts"], height=24, **wide)
-        self.parts = {"frames": self.frames, "state": self.state, "play": self.play}
-        self._figures = figures
-        wide = WIDE | {"stylesheets": LAYOUT}
-        self.line = pn.pane.Bokeh(Column(self.heads, self.readout, css_classes=["line"], **wide), **WIDE)
-        self.view = pn.pane.Bokeh(Row(self.play, self.state, css_classes=["player"], **wide), **WIDE)
-
-    def connect(self) -> None:
-        """Play in the browser."""
-        told = self.parts | {"readout": self.readout, "figures": self._figures}
-        code = CustomJS(args=told, code=JS["player"])
+        self.heads, self.words = Text("heads"), Part(kind="words")
+        self._messages = messages
+        code = CustomJS(code=JS["named"] + JS["player"])
         self.state.js_on_change("value", code)
-        self.frames.js_on_change("tags", code)
+        messages.js_on_change("frames", code)
         self.play.js_on_change("active", code)
+        row = Row(self.play, self.state, css_classes=["player"], stylesheets=LAYOUT, **WIDE)
+        self.view = pn.pane.Bokeh(row, **WIDE)
 
     def show(self, view: View, moved: bool) -> None:
         """Show the present state of a course and its readouts; drop frames unless it has only moved."""
         course, i = view.course, view.course.now
         numbers = readouts.readings(course)
-        if self.frames.tags and not moved:
-            self.frames.tags = []
+        if not moved:
+            self._messages.frames = []
         self.state.update(end=len(course) - 1, value=i)
-        self.state.tags = [path(view)]
-        self.heads.text = escape(readouts.heads(course, numbers))
-        self.readout.text = escape(readouts.values(course, numbers, i))
+        self._messages.path = path(view)
+        self.heads.show(object=readouts.heads(course, numbers))
+        self._messages.words = readouts.values(course, numbers, i)
 
     def send(self, view: View, pictures: list[Picture]) -> None:
         """Send all states, once."""
-        if not self.frames.tags:
+        if not self._messages.frames:
             # As one text: Bokeh would look at every number of it.
-            self.frames.tags = [*frames(view, pictures)]
+            self._messages.frames = [*frames(view, pictures)]

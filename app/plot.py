@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr_core.results.figures import NOTHING, Axis, Row, radii
+from mdr_core.results.figures import NOTHING, Axis, Row
 from mdr_core.results.quantities import QUANTITIES
 
 from .courses import Course
@@ -35,24 +35,14 @@ def titled(name: str) -> str:
     return f"{known.symbol}, {known.long_name}"
 
 
-@dataclass(frozen=True)
-class Found:
-    """What a search has found for a plot: rows (SI) with their axes, and a note as HTML."""
-
-    rows: dict[str, Any]
-    axes: list[Axis]
-    note: str = ""
-
-
 @dataclass(frozen=True, eq=False)
 class Plot:
-    """A plot: title, formula, its axes (x, y, and one on the right or of colours), and rows.
+    """A plot: title, formula, its axes (x, y, and one on the right), and rows.
 
-    `still` returns rows that stay during playback, `moving` those of one state: x and y (SI), the text of a
-    label or the values of an image. A plot with a `tab` is optional; `order` is its place among these.
-    `applies` says whether a view has it. `find` is a slow search: it gets the course and the result of
-    `asks` (default: the `controls`), and returns what is found, of a scene or a state (`of_state`); `quick`
-    ones run at every move. `image`: rows and columns of pixels. `logs`: its axes can be logarithmic.
+    `still` returns rows that stay during playback, `moving` those of one state: x and y (SI), and the text
+    of a label. A plot with a `tab` is optional; `order` is its place among these. `applies` says whether a
+    view has it. `controls` are choices above it. `logs`: its axes can be logarithmic. `picture` draws it,
+    if that is not a `Picture`.
     """
 
     name: str
@@ -63,22 +53,29 @@ class Plot:
     still: Callable[["View"], dict] = lambda view: {}
     moving: Callable[["View", int], dict] = lambda view, i: {}
     applies: Callable[["View"], bool] = lambda view: True
-    find: Callable[..., Found] | None = None
-    asks: Callable[[State], Any] | None = None
-    quick: Callable[[Any], bool] = lambda asked: False
-    of_state: bool = False
     tab: str = ""
     order: int = 0
     controls: tuple[str, ...] = ()
-    image: tuple[int, int] | None = None
     logs: bool = False
-
-    def asked(self, state: State) -> Any:
-        """Arguments of `find` beside the course."""
-        return self.asks(state) if self.asks else tuple(state[name] for name in self.controls)
+    picture: Callable[..., Any] | None = None
 
     def formula_of(self, course: Course) -> str:
         return self.formula if isinstance(self.formula, str) else self.formula(course)
+
+    def axes_of(self, view: "View") -> list[Axis]:
+        axes = [view.axis(along) for along in self.axes]
+        if not (self.logs and self.name in view.state.log):
+            return axes
+        columns = [row for row in view.still(self).values() if len(row) == 2]
+        return [_logarithmic(each, [row[k] for row in columns]) for k, each in enumerate(axes)]
+
+    def still_of(self, view: "View") -> dict[str, Any]:
+        """All rows, those that stay during playback with what they have."""
+        return {row.name: (*NOTHING, "") for row in rows_of(self)} | self.still(view)
+
+    def note_of(self, view: "View") -> str:
+        """A note below the plot."""
+        return ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,14 +116,12 @@ def axis(name: str, title: str, kind: str, largest: float, below: float = 0.0) -
 
 
 class View:
-    """A state with its course and axes, results of searches, and what extras have computed, by name."""
+    """A state with its course and axes, and what extras have computed, by name."""
 
-    def __init__(self, state: State, course: Course, found=None, computed=None):
-        self.state, self.course, self.found = state, course, found or {}
-        self.computed: dict[str, Any] = computed or {}
+    def __init__(self, state: State, course: Course, computed: dict[str, Any] | None = None):
+        self.state, self.course, self.computed = state, course, computed or {}
         self._axes: dict[Along, Axis] = {}
-        self._drawn: dict[str, dict] = {}
-        self._pressures: dict[int, tuple[Any, Any]] = {}
+        self._drawn: dict[Any, dict[str, Any]] = {}
 
     def axis(self, along: Along) -> Axis:
         if along not in self._axes:
@@ -142,48 +137,29 @@ class View:
     def end(self, along: Along) -> float:
         return self.axis(along).end
 
-    def axes_of(self, plot: Plot) -> list[Axis]:
-        """Axes of a plot: those that it brings, or those found with its rows."""
-        found = self.found.get(plot.name)
-        if found and found.axes:
-            return found.axes
-        axes = [self.axis(along) for along in plot.axes]
-        if plot.logs and plot.name in self.state.log:
-            columns = [row for name, row in self._still(plot).items() if len(row) == 2]
-            return [_logarithmic(each, [row[k] for row in columns]) for k, each in enumerate(axes)]
-        return axes
-
-    def _still(self, plot: Plot) -> dict:
+    def still(self, plot: Plot) -> dict[str, Any]:
         """Rows that stay during playback."""
         if plot.name not in self._drawn:
-            empty = {row.name: (*NOTHING, "") for row in rows_of(plot)}
-            if plot.image:
-                empty["image"] = *[np.array([0.0, 1.0])] * 2, np.full(plot.image, np.nan)
-            found = self.found.get(plot.name)
-            rows = empty | plot.still(self) | (found.rows if found else {})
+            rows = plot.still_of(self)
             for each in overlays(plot):
                 rows |= each.still(self)
             self._drawn[plot.name] = rows
         return self._drawn[plot.name]
 
-    def moving(self, plot: Plot, i: int) -> dict:
-        """Rows of one state."""
+    def moving(self, plot: Plot, i: int) -> dict[str, Any]:
+        """Rows of one state; those of the present one and of the largest depth are kept."""
+        if (plot.name, i) in self._drawn:
+            return self._drawn[plot.name, i]
         rows = plot.moving(self, i)
         for each in overlays(plot):
             rows |= each.moving(self, i)
+        if i in (self.course.now, self.course.peak):
+            self._drawn[plot.name, i] = rows
         return rows
 
-    def rows(self, plot: Plot, i: int) -> dict:
-        """All rows of a plot in state i; those that stay during playback are cached."""
-        return self._still(plot) | self.moving(plot, i)
-
-    def pressure(self, i: int, half: float) -> tuple[Any, Any]:
-        """Radii (m) up to `half` and pressures (Pa) of state i."""
-        if i not in self._pressures:
-            state = self.course.states[i]
-            r = radii(state, half)
-            self._pressures[i] = r, state.pressure(r)
-        return self._pressures[i]
+    def rows(self, plot: Plot, i: int) -> dict[str, Any]:
+        """All rows of a plot in state i."""
+        return self.still(plot) | self.moving(plot, i)
 
 
 def _logarithmic(axis: Axis, columns: list[Any]) -> Axis:

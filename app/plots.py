@@ -1,14 +1,13 @@
 """The plots of the page: springs, pressure, and force over depth."""
 
 import numpy as np
-from scipy.integrate import trapezoid
 
+from mdr_core.contact.unloading import unloading_curve
 from mdr_core.results import figures
 from mdr_core.results.figures import NOTHING, REST, area, label, line, mark, parts, split
 
 from .courses import Course
 from .plot import Along, Plot, View, exceeds, titled
-from .units import written
 
 # Axes, which other plots may share.
 
@@ -63,13 +62,7 @@ R = Along("r, radius", "length", radius_size, lambda course: 1.0)
 Z = Along("z, height", "length", deepest, lambda course: REST)
 D = Along(titled("depth"), "length", _depth_size, least=_reached("depth"))
 F = Along(titled("force"), "force", _force_size, least=_reached("force"))
-T = Along(titled("time"), "time", lambda course: float(course.motion.time[-1]))
 P = Along("−σzz, pressure", "pressure", _pressure_size, lambda course: float(course.adhesive))
-
-
-def line_at_time(view: View, i: int, up: Along):
-    """Vertical line at the time of state i, over the whole axis `up`."""
-    return view.course.motion.time[[i, i]], np.array([view.axis(up).start, view.end(up)])
 
 
 # Springs.
@@ -103,9 +96,10 @@ SPRINGS = Plot(
 
 
 def pressure(view: View, i: int) -> dict:
-    half, top = view.end(R), view.end(P)
-    r, p = view.pressure(i, half)
-    rows = figures.pressure(view.course.states[i], r, p, half, top)
+    half, top, state = view.end(R), view.end(P), view.course.states[i]
+    r = figures.radii(state, half)
+    p = state.pressure(r)
+    rows = figures.pressure(state, r, p, half, top)
     return rows | {"exceeds": (-0.97 * half, 0.98 * top, exceeds(r, p, top))}
 
 
@@ -131,22 +125,7 @@ def force_still(view: View) -> dict:
     rows = {"path ahead": (course.states.depth, course.states.force)} if course.turns else _curve(course)
     if onset is not None and not course.dashpots:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
-    return rows | (_adhesive_marks(view) if course.adhesive else {})
-
-
-def _adhesive_marks(view: View) -> dict:
-    """Where contact begins, and the largest tension of unloading, with its value."""
-    depth, force = view.course.states.depth, view.course.states.force
-    last = view.course.peak + int(np.argmin(force[view.course.peak :]))
-    text = f"Fₐ = {written(view.course.pull_off_force[last], 'force', 3)}"
-    beside = 0.02 * (view.end(D) - view.axis(D).start)
-    above = 0.05 * (view.end(F) - view.axis(F).start)
-    return {
-        "jump into contact": (depth[:1], force[:1]),
-        "jump": (depth[[0, 0]], np.array([0.0, force[0]])),
-        "pull-off": (depth[[last]], force[[last]]),
-        "Fₐ": (depth[last] + beside, force[last] + above, text),
-    }
+    return rows
 
 
 def force(view: View, i: int) -> dict:
@@ -158,13 +137,11 @@ def force(view: View, i: int) -> dict:
     if lower > 0:
         rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end(F), "dₚ"
     rows |= _curve(course, i + 1) if course.turns else {}
-    if course.chained or (course.adhesive and course.turns):
-        # No live interval tells what is stored in elements that have each a memory of their own; loops of
-        # several loadings with adhesion overlap.
+    if course.chained or course.adhesive:
+        # No live interval tells what is stored in elements that have each a memory of their own, and with
+        # adhesion the area below the curve is not what is stored.
         return rows
-    back_depth, back_force = course.unloading_curve(i)
-    if course.adhesive:
-        return rows | _hysteresis(view, i, back_depth, back_force)
+    back_depth, back_force = unloading_curve(states[i], course.under_force)
     d, so_far = (np.asarray(part[: i + 1]) for part in (states.depth, states.force))
     elastic = lower == course.initial_plastic_depth and not course.dashpots
     # The path so far, and back along what is stored: lost is the loop that it encloses.
@@ -174,47 +151,6 @@ def force(view: View, i: int) -> dict:
         "dissipated" if course.dashpots else "plastic work Wₚ": NOTHING if elastic else lost,
         "stored": (np.append(back_depth[:1], back_depth), np.append(0.0, back_force)),
     }
-
-
-def _hysteresis(view: View, i: int, back_depth, back_force) -> dict:
-    """Areas of a loading and unloading with adhesion, with their energies as text.
-
-    Work is lost where the force of loading is above that of unloading, and gained where it is below, in
-    reach of adhesion that an imprint no longer has. The stored energy is no area below the curve, because
-    surfaces are separated, too: drawn is what comes back before the force is tension. Under a given force
-    the pull-off may be above first contact, before anything has yielded: no loop is closed then.
-    """
-    d, loading, unloading = view.course.adhesive_loop(i)
-    around = np.append(d, d[::-1])
-    lost = around, np.append(np.maximum(loading, unloading), unloading[::-1])
-    gained = around, np.append(unloading, np.minimum(loading, unloading)[::-1])
-    returned = _before_tension(back_depth, back_force)
-    works = [abs(float(trapezoid(*row[::-1]))) for row in (lost, gained, returned)]
-    texts = [written(work, "energy", 3) for work in (*works, works[0] - works[1])]
-    closed, gains = works[0] > works[1], works[0] > works[1] > 1e-3 * works[0]
-    net = f" − {texts[1]} gained = {texts[3]}" * gains
-    left, top = view.axis(D).start, view.end(F)
-    height, width = top - view.axis(F).start, view.end(D) - left
-    # An early loop may reach below the axis, which is that of the whole course.
-    seen = closed and d[0] > left - 1e-6 * width
-    left += 0.02 * width
-    return {
-        "dissipated": lost if closed else NOTHING,
-        "gained": gained if gains else NOTHING,
-        "given back": returned,
-        "W_a": (left, top - 0.02 * height, f"dissipated {texts[0]}{net}" if seen else ""),
-        "W_U": (left, top - 0.08 * height, f"given back {texts[2]}" if works[2] > 0 else ""),
-    }
-
-
-def _before_tension(d, force) -> tuple:
-    """Area below the part of an unloading that begins with forces above zero, up to zero force."""
-    # At its end, the pull-off, there is always tension.
-    count = int(np.argmax(force <= 0))
-    if count == 0:
-        return NOTHING
-    zero = np.interp(0.0, force[[count, count - 1]], d[[count, count - 1]])
-    return np.concatenate([d[:1], d[:count], [zero]]), np.concatenate([[0.0], force[:count], [0.0]])
 
 
 def _force_formula(course: Course) -> str:
@@ -228,20 +164,12 @@ FORCE = Plot(
     "force", "Force and depth", _force_formula, (D, F),
     (
         *(area(name, "yielded", 0.13, "/") for name in ("plastic work Wₚ", "dissipated")),
-        area("gained", "stick", 0.25),
         area("stored", "elastic", 0.25),
-        area("given back", "elastic", 0.25),
         line("path ahead", "free", 1.0),
         *parts("F"),
         mark("onset of yield", "paper", "yielded", "diamond", 11),
-        line("jump", "elastic", 1.2, "dotted", legend=False),
-        mark("jump into contact", "elastic", marker="square", size=9),
-        mark("pull-off", "stick", marker="square", size=9),
         mark("now", size=13),
         label("dₚ"),
-        label("Fₐ"),
-        label("W_a"),
-        label("W_U"),
     ),
     force_still, force, logs=True,
 )  # fmt: skip

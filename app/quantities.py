@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import log
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import mdr_core as mdr
 from mdr_core.results.quantities import QUANTITIES as RESULTS
@@ -155,27 +155,25 @@ CHOICES["shape"] = {key: shape.label for key, shape in SHAPES.items()}
 QUANTITIES.update(pair for shape in SHAPES for pair in shape_quantities(shape))
 
 
+@dataclass(frozen=True)
 class Scale:
     """Steps of a slider and their values, logarithmic about a middle value where possible."""
 
-    STEPS = 400
-
-    def __init__(self, quantity: Quantity, middle: float):
-        low, high = quantity.bounds
-        self.logarithmic = quantity.span > 0 and middle > 0
-        self.middle = middle
-        if self.logarithmic:
-            low, high = max(low, middle / quantity.span), min(high, middle * quantity.span)
-        self.low, self.high = low, high
+    low: float
+    high: float
+    middle: float
+    logarithmic: bool
+    STEPS: ClassVar[int] = 400
 
     @classmethod
     def about(cls, quantity: Quantity, middle: float, value: float) -> "Scale":
         """Scale about a middle value, or about another value that it does not reach."""
-        scale = cls(quantity, middle)
-        return scale if scale.reaches(value) else cls(quantity, value)
-
-    def reaches(self, value: float) -> bool:
-        return self.low <= value <= self.high
+        low, high = quantity.bounds
+        if quantity.span <= 0 or middle <= 0:
+            return cls(low, high, middle, False)
+        low, high = max(low, middle / quantity.span), min(high, middle * quantity.span)
+        reached = low <= value <= high
+        return cls(low, high, middle, True) if reached else cls.about(quantity, value, value)
 
     def position(self, value: float) -> int:
         scaled = log if self.logarithmic else float
@@ -183,7 +181,6 @@ class Scale:
         return round(self.STEPS * (at - low) / (high - low))
 
     def value(self, position: float) -> float:
-        share = min(max(position, 0), self.STEPS) / self.STEPS
-        low, high = self.low, self.high
+        share, low, high = min(max(position, 0), self.STEPS) / self.STEPS, self.low, self.high
         value = low * (high / low) ** share if self.logarithmic else low + (high - low) * share
         return min(max(float(f"{value:.3g}"), low), high)

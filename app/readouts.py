@@ -7,19 +7,10 @@ from typing import Any
 import numpy as np
 
 from .courses import Course, onset_depth
-from .quantities import (
-    CHOICES,
-    OF_DRIVE,
-    QUANTITIES,
-    READOUTS,
-    SHAPES,
-    USED,
-    Readout,
-    shape_quantities,
-)
-from .state import State, medium
+from .quantities import OF_DRIVE, READOUTS, Readout
+from .state import State
 from .ui import explained, linked, symbol
-from .units import KINDS, digits, in_full, written
+from .units import KINDS, written
 
 
 def readings(course: Course) -> dict[Readout, Any]:
@@ -74,47 +65,40 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
     for sentence in (*course.notes, course.pending):
         if sentence:
             yield "note", sentence
-    given = state.elasticity != "modulus"
     for limit in sorted(course.limits(state.density), key=lambda limit: limit.concerns != "result"):
-        if limit.what == "Poisson ratio" and not given:
-            yield "note", "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*."
-        elif limit.what == "coupling" and not given:
-            yield "note", "Friction along the surface is that of ν = ½; ν is not given with E*."
-        elif limit.what == "viscosity" and not course.pending:
-            tau = written(limit.value, "time")
-            remedy = ", or ".join(drive["in_time"] for drive in OF_DRIVE.values() if "in_time" in drive)
-            yield "note", f"Pressing is quasi-static here; dashpots, τ = {tau}, act in {remedy}."
-        elif limit.what not in ("fast limit", "viscosity"):
-            yield limit.level, limit.sentence
-        elif limit.what == "fast limit" and limit.holds and not course.adhesive:
-            # The fast limit is one without adhesion.
-            yield limit.level, _areas(course.hit)
-        elif limit.what == "fast limit" and not course.adhesive:
-            yield limit.level, limit.sentence + (f" {_areas(course.hit)}" if limit.value < np.inf else "")
+        # The fast limit is one without adhesion; what is still computed may have dashpots.
+        if (limit.what == "fast limit" and course.adhesive) or (
+            limit.what == "viscosity" and course.pending
+        ):
+            continue
+        own = _own_words(limit, state)
+        yield ("note", own) if own else (limit.level, limit.sentence)
 
 
-def _areas(hit: Any) -> str:
-    """Comparison of the fast limit with the areas of contact and damage."""
-    limit = float(hit.fast_limit.contact_area)
-    named = {"damaged area πc²": hit.damaged_area, "contact area πa²": np.pi * hit.contact_radius**2}
-    texts = []
-    for name, area in named.items():
-        more = 100 * (limit / float(area) - 1)
-        side = "above" if more > 0 else "below"
-        texts.append(f"{digits(abs(more), 2)} % {side} the {name} = {written(float(area), 'area')}")
-    return f"Fast-impact limit (23), (24): A = {written(limit, 'area')}, {' and '.join(texts)}."
+#: What is said where E* is given without ν.
+_OF_INCOMPRESSIBLE = {
+    "Poisson ratio": "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*.",
+    "coupling": "Friction along the surface is that of ν = ½; ν is not given with E*.",
+}
+
+
+def _own_words(limit: Any, state: State) -> str:
+    """What the page says of a limit in the place of the core, or nothing."""
+    if limit.what == "viscosity":
+        remedy = ", or ".join(drive["in_time"] for drive in OF_DRIVE.values() if "in_time" in drive)
+        tau = written(limit.value, "time")
+        return f"Pressing is quasi-static here; dashpots, τ = {tau}, act in {remedy}."
+    return _OF_INCOMPRESSIBLE.get(limit.what, "") if state.elasticity == "modulus" else ""
 
 
 def warnings(course: Course, state: State) -> str:
     """Exceeded assumptions as HTML; the others fold."""
-    sentences = [
-        (level, f'<span class="{level}">{linked(sentence)}</span>')
-        for level, sentence in limits(course, state)
-    ]
-    exceeded = "".join(html for level, html in sentences if level == "beyond")
-    others = "".join(html for level, html in sentences if level != "beyond")
-    folded = f"<details><summary>Assumptions and notes</summary>{others}</details>"
-    return exceeded + folded * bool(others)
+    exceeded, others = "", ""
+    for level, sentence in limits(course, state):
+        html = f'<span class="{level}">{linked(sentence)}</span>'
+        exceeded += html * (level == "beyond")
+        others += html * (level != "beyond")
+    return exceeded + f"<details><summary>Assumptions and notes</summary>{others}</details>" * bool(others)
 
 
 def law_of_hardness(course: Course) -> str:
@@ -132,19 +116,3 @@ def law_of_hardness(course: Course) -> str:
     elif onset == 0:
         starts = "Yield starts at first touch, d_y = 0"
     return f"σ_c = {law} = {hardness}{place}. {starts} " + ("(19)" if made.inverse_to_radius else "§ 20")
-
-
-def summary(state: State) -> str:
-    """Shape, medium and drive of a scene in one line."""
-    made, choices = medium(state), OF_DRIVE[state.drive]["form"]
-    names = [name for name, _ in shape_quantities(state.shape)]
-    of_medium = {name: getattr(made, name) for name in ("E_star", "q_c", "f_c", "eta", "work_of_adhesion")}
-    of_medium["volume_hardness"] = made.hardness
-    names += [name for name, value in of_medium.items() if 0 < value < np.inf]
-    names += [number for name in ("drive", *choices) for number in USED[name][state[name]]]
-    words = [SHAPES[state.shape].label]
-    for name in names:
-        value = float(of_medium.get(name, state[name]))
-        if value:
-            words.append(f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}")
-    return ", ".join([*words, *(CHOICES[name][state[name]] for name in choices)])

@@ -202,14 +202,17 @@ def with_derived(state: State) -> State:
 def used(state: State) -> list[str]:
     """Names of the numbers in use."""
     names = [name for name, _ in shape_quantities(state.shape)]
-    choices = (*MEDIUM_CHOICES, "drive", *OF_DRIVE[state.drive]["form"])
-    return names + [name for choice in choices for name in USED[choice][state[choice]]]
+    return names + used_by(state, *MEDIUM_CHOICES, "drive", *OF_DRIVE[state.drive]["form"])
+
+
+def used_by(state: State, *choices: str) -> list[str]:
+    """Names of the numbers that the options of some choices use."""
+    return [name for choice in choices for name in USED[choice][state[choice]]]
 
 
 def regions(state: State) -> dict[str, list[str]]:
     """Names of the numbers in the form, by its regions."""
-    drive = [n for name in ("drive", *OF_DRIVE[state.drive]["form"]) for n in USED[name][state[name]]]
-    medium = [n for name in MEDIUM_CHOICES for n in USED[name][state[name]]]
+    medium, drive = used_by(state, *MEDIUM_CHOICES), used_by(state, "drive", *OF_DRIVE[state.drive]["form"])
     main = ["E_star", *YIELD_CONSTANT[state.plasticity]]
     return {
         "shape": [name for name, _ in shape_quantities(state.shape)],

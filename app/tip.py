@@ -3,10 +3,8 @@
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
-import mdr_core as mdr
-from mdr_core.profiles.samples import axis_of_symmetry, samples_of
+from mdr_core.profiles.sampled import tip_through
+from mdr_core.profiles.samples import samples_of
 
 from .units import written
 
@@ -39,27 +37,16 @@ def in_line(name: str) -> str:
 def read_tip(text: str, name: str = "the file") -> tuple[tuple[Any, Any], str]:
     """Radii and heights (m) of an uploaded tip, and a note; the header names the units.
 
-    Long, noisy or two-sided data become the nearest convex tip, see `mdr.Sampled.fit`. Raises ValueError.
+    Long, noisy or two-sided data become the nearest convex tip. Raises ValueError.
     """
     name = in_line(name)
     r, z = samples_of(text, name, None, _MAX_ROWS)
     try:
-        if len(r) <= MAX_SAMPLES:
-            return (mdr.Sampled(r, z).r, z - z[0]), f"{len(r)} samples, as in the file"
-    except ValueError:
-        # Noise makes any tip concave somewhere.
-        pass
-    rows = len(r)
-    if min(r) < 0 < max(r):
-        r = r - axis_of_symmetry(r, z)
-    parts = np.array_split(np.argsort(r, kind="stable"), min(rows, FITTED))
-    averages = [np.array([np.mean(of[part]) for part in parts]) for of in (r, z)]
-    try:
-        tip = mdr.Sampled.fit(*averages)
+        tip, scatter = tip_through(r, z, MAX_SAMPLES, FITTED)
     except ValueError as error:
         raise ValueError(f"{name}: {str(error).removeprefix('Sampled.fit: ')}") from None
-    # On a convex polygon every other one of its vertices is convex too.
-    subset = np.unique(np.linspace(0, len(tip.r) - 1, MAX_SAMPLES).round().astype(int))
-    samples = np.array(tip.r)[subset], np.array(tip.z)[subset]
-    by = written(float(np.std(z - np.interp(np.abs(r), *samples))), "length", 2)
-    return samples, f"{rows} rows reduced to {len(subset)} samples; rms deviation {by}"
+    note = f"{len(tip.r)} samples, as in the file"
+    if scatter is not None:
+        by = written(scatter, "length", 2)
+        note = f"{len(r)} rows reduced to {len(tip.r)} samples; rms deviation {by}"
+    return (tip.r, tip.z), note

@@ -6,6 +6,8 @@ from html import escape
 from pathlib import Path
 
 import panel as pn
+from bokeh.core.properties import Any, AnyRef, Bool, List, Nullable, String
+from bokeh.model import DataModel
 
 HERE = Path(__file__).parent
 JS = {path.stem: path.read_text(encoding="utf-8") for path in (HERE / "js").glob("*.js")}
@@ -18,6 +20,20 @@ SHEETS = ["app/static/layout.css", "app/static/style.css"]
 LINKS: list[Callable[[str], str]] = []
 WIDE = {"sizing_mode": "stretch_width", "margin": 0}
 FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": LAYOUT}
+
+
+class Messages(DataModel):
+    """What the server and the browser of a session tell each other beside the page."""
+
+    #: The query of the present scene; empty to leave the address as it is, None until the input has rested.
+    address = Nullable(String)
+    dark = Bool(False)
+    #: Sources and, as text, what they are in each state of the scene; empty until they are asked for.
+    frames = List(AnyRef)
+    #: Depth and force of each state, for what is dragged; and the depth that the indenter is dragged to.
+    path, hand = Any(default={}), Any(default=None)
+    #: Readouts of the state that is seen, as HTML.
+    words = String("")
 
 
 def indexed(text):
@@ -51,18 +67,6 @@ def html(text="", *classes, **options):
     return pn.pane.HTML(text, css_classes=[*(classes or ["note"])], **WIDE | options)
 
 
-def button(name, **options):
-    return pn.widgets.Button(label=name, css_classes=["button"], **{"margin": 0} | options)
-
-
-def field(kind, *classes, **options):
-    return kind(css_classes=["choice", *classes], **WIDE | options)
-
-
-def tools(*parts, **options):
-    return pn.Row(*parts, css_classes=["tools"], **WIDE | options)
-
-
 def reveal(column, part, visible, place=None):
     """Show or hide a part of a column; the browser gets it when it is shown for the first time."""
     show(part, visible=visible)
@@ -75,3 +79,8 @@ def show(part, **values):
     news = {name: value for name, value in values.items() if getattr(part, name) != value}
     if news:
         part.param.update(**news)
+
+
+def is_served(document):
+    """Whether a document is that of a session of the server."""
+    return document is not None and document.session_context is not None

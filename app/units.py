@@ -1,4 +1,4 @@
-"""Units of the page. The core knows SI only."""
+"""Units of the page, and numbers as texts. The core knows SI only."""
 
 import re
 from dataclasses import dataclass
@@ -6,7 +6,9 @@ from math import floor, isclose, isfinite, log10, radians, tan
 
 import numpy as np
 
-from .quantities import DATA
+from mdr_core._errors import InvalidArgument
+
+from .quantities import DATA, QUANTITIES, lowered
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,25 @@ def entry(value: float, unit: Unit) -> str:
 def in_full(value: float, kind: str) -> str:
     """A value (SI) in the unit that fits it, with all digits as in `entry`."""
     return entry(value, fitting(value, kind)) if isfinite(value) else digits(value)
+
+
+def with_symbol(name: str, value: float) -> str:
+    """A number of the page with its symbol, in full."""
+    return f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}"
+
+
+def in_words(error: ValueError) -> str:
+    """Message of an error of the core: of a refused number its symbol, value with unit, bound and remedy.
+
+    All other messages are as they stand.
+    """
+    if not isinstance(error, InvalidArgument) or not isinstance(error.value, int | float):
+        return str(error)
+    known = QUANTITIES.get(error.argument)
+    name = f"{lowered(known.symbol)}, {known.label}," if known else error.quantity
+    value = written(float(error.value), KINDS.get(error.unit, "number"))
+    remedy = f"; {error.remedy}" if error.remedy and "SI units" not in error.remedy else ""
+    return f"{name} = {value} {error.bound}{remedy}"
 
 
 #: Letters of units, with those that keyboards have for them.

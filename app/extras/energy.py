@@ -7,15 +7,28 @@ from mdr_core.results.figures import NOTHING, area, line
 from ..courses import Course, Hit, Timed
 from ..extra import Extra
 from ..plot import Along, Plot, View
-from ..plots import T, line_at_time
+from ..shared.time import T, line_at_time
 
-E = Along("E, energy", "energy", lambda course: float(np.max(sum(course.energies.values()))))
+
+def energies(course: Course) -> dict:
+    """Losses (J) so far, stored and kinetic energy, by the names of their areas."""
+    m = course.ledger
+    friction = {"friction": m.friction_work} if hasattr(m, "friction_work") else {}
+    return friction | {
+        "plastic": m.plastic_work,
+        "viscous": m.viscous_work,
+        "stored": m.stored_energy,
+        "kinetic": m.kinetic_energy,
+    }
+
+
+E = Along("E, energy", "energy", lambda course: float(np.max(sum(energies(course).values()))))
 
 
 def still(view: View) -> dict:
     time, rows = view.course.motion.time, {}
     lower = np.zeros_like(time)
-    for name, energy in view.course.energies.items():
+    for name, energy in energies(view.course).items():
         upper = lower + energy
         between = np.append(time, time[::-1]), np.append(upper, lower[::-1])
         # Rounding errors are not in the legend.
@@ -25,7 +38,7 @@ def still(view: View) -> dict:
 
 
 def _ledger(course: Course) -> str:
-    friction = "friction" in course.energies
+    friction = "friction" in energies(course)
     lost = "U + W_p" + " + W_v" * course.dashpots + " + W_f" * friction
     if not isinstance(course, Hit):
         return f"{lost} = ∫ F dd  § 14"

@@ -14,8 +14,9 @@ from ..courses import Course
 from ..extra import Extra
 from ..plot import View
 from ..readouts import readings, text
+from ..shared.widgets import button, field, tools
 from ..state import State
-from ..ui import WIDE, button, field, html, linked, show, tools
+from ..ui import WIDE, html, linked, show
 
 #: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
 TOURS = json.loads(Path(__file__).with_suffix(".json").read_text(encoding="utf-8"))
@@ -92,6 +93,6 @@ class Guide:
 
 
 EXTRA = Extra(
-    "guide", order=30, tab="Guide", in_header=True, above=True,
+    "guide", order=30, tab="Guide", place="header", above=True,
     side=lambda page: Guide(page.apply, lambda: page.shown),
 )  # fmt: skip

@@ -8,7 +8,8 @@ from mdr_core.results.figures import line, mark, parts, split
 
 from ..courses import Course
 from ..extra import Extra
-from ..plot import Found, Plot, View, axis
+from ..plot import View, axis
+from ..shared.rest import Found, Resting, Searched
 from ..ui import marked
 from ..units import digits, written
 
@@ -58,7 +59,7 @@ def now(view: View, i: int) -> dict:
     return {"now": (states.contact_radius[[i]], states.mean_pressure[[i]])}
 
 
-HARDNESS = Plot(
+HARDNESS = Searched(
     "hardness", "Mean pressure and hardness", "(11)  p_m = F/(π a²),  σ_c = H + q_c/a + f_c/a²  § 20", (),
     (line("hardness", "ink", 1.4, "dotted", "σ"), *parts("pₘ"), mark("now", size=13)),
     moving=now, find=found, asks=lambda state: ("hardness" in state.log,), quick=lambda asked: True,
@@ -66,4 +67,4 @@ HARDNESS = Plot(
 )  # fmt: skip
 
 
-EXTRA = Extra("hardness", plots=(HARDNESS,))
+EXTRA = Extra("hardness", plots=(HARDNESS,), service=Resting)

@@ -11,18 +11,19 @@ from mdr_core.results import figures
 from mdr_core.results.figures import NOTHING, both, line
 
 from .. import link
-from ..buttons import Button
 from ..courses import Course
 from ..drives import follow, scene_of
 from ..extra import Extra
+from ..parts import Button
 from ..plot import Along, Overlay, View
 from ..plots import PLOTS, P, R
-from ..quantities import CHOICES, OF_DRIVE, QUANTITIES
+from ..quantities import CHOICES, OF_DRIVE
 from ..readouts import line as readout_line
 from ..readouts import readings, text
+from ..shared.widgets import button
 from ..state import PRESETS, State, altered, used
-from ..ui import WIDE, button, html, marked, show, symbol
-from ..units import in_full
+from ..ui import WIDE, html, marked, show, symbol
+from ..units import with_symbol
 
 #: Scenes that are held have each its own dashes.
 DASHES = ("dotdash", "dashed", "dotted", "solid")
@@ -89,7 +90,7 @@ def difference(state: State, now: State | None = None) -> str:
     words = [CHOICES[name][state[name]] for name in choices if name in changed and name != "elasticity"]
     for name in sorted(used(state), key=lambda name: name not in known):
         if name in changed:
-            words.append(f"{QUANTITIES[name].symbol} = {in_full(state[name], QUANTITIES[name].kind)}")
+            words.append(with_symbol(name, state[name]))
     return ", ".join([preset.label] * other + words) or preset.label
 
 

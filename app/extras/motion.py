@@ -5,7 +5,8 @@ from mdr_core.results.figures import line, mark
 from ..courses import Hit, Timed
 from ..extra import Extra
 from ..plot import Plot, View
-from ..plots import D, F, T, line_at_time
+from ..plots import D, F
+from ..shared.time import T, line_at_time
 
 
 def still(view: View) -> dict:

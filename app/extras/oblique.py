@@ -19,8 +19,10 @@ from ..courses import HitInTime
 from ..drives import BEFORE_YIELD, INSTANTS, Impact, along
 from ..extra import Extra
 from ..plot import Along, Overlay, Plot, View
-from ..plots import T, X, Z, line_at_time
+from ..plots import X, Z
 from ..quantities import QUANTITIES
+from ..shared.rest import Resting
+from ..shared.time import T, line_at_time
 from ..state import refuse_other_classes
 from ..units import written
 
@@ -38,10 +40,6 @@ class ObliqueCourse(HitInTime):
     @property
     def ledger(self):
         return self.oblique
-
-    @property
-    def energies(self):
-        return {"friction": self.oblique.friction_work} | super().energies
 
     def limits(self, density):
         return [*super().limits(density), *friction_limits(self.scene.medium)]
@@ -218,6 +216,7 @@ EXTRA = Extra(
     "oblique",
     former={key: f"oblique.{key}" for key in ("incoming_speed", "attack", "friction", "body")},
     drives={"oblique": Oblique()},
+    service=Resting,
     plots=(FORCES,),
     overlays=(Overlay("springs", FEET, moving=springs),),
 )

@@ -15,6 +15,7 @@ from mdr_core.medium import refuse_adhesion
 from ..courses import Course, Timed, nearest, onset_depth, path_progress
 from ..drives import DRIVES, Drive, limited_force, turning_point
 from ..extra import Extra
+from ..shared.rest import Resting
 from ..state import profile, refuse_other_classes
 
 #: Steps of a piece of a path; of creep, each of which takes eight steps of the chain and more.
@@ -236,4 +237,5 @@ EXTRA = Extra(
     former={"pattern": "path.pattern", "ramp_time": "path.ramp_time"},
     converts={"path.pattern": lambda state, wanted: DRIVES["path"].equivalent(state, turning_point(state))},
     drives={"path": Path()},
+    service=Resting,
 )

@@ -8,7 +8,9 @@ from mdr_core.results.figures import line
 
 from ..courses import Course
 from ..extra import Extra
-from ..plot import Found, Plot, axis
+from ..plot import axis
+from ..shared.maps import Map
+from ..shared.rest import Found, Resting, Searched
 from ..units import written
 
 _PIXELS = 96
@@ -37,11 +39,12 @@ def plane(course: Course, asked) -> Found:
     return Found(rows, [x, y, colours], note)
 
 
-RELIEF = Plot(
+RELIEF = Searched(
     "relief", "Pressure over the plane", "(10)  −σ_zz(√(x² + y²))", (),
     (line("contact radius a", "chalk", 1.2, "dashed"), line("plastic zone c", "chalk", 1.2, "dotted")),
     find=plane, quick=lambda asked: True, of_state=True, tab="Relief", order=20, image=(_PIXELS, _PIXELS),
+    picture=Map,
 )  # fmt: skip
 
 
-EXTRA = Extra("relief", plots=(RELIEF,))
+EXTRA = Extra("relief", plots=(RELIEF,), service=Resting)

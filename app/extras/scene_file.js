@@ -1,9 +1,6 @@
 // A saved scene: the page's own scripts move it, with a plain slider and button in the place of the page's widgets.
 const [slider, button, numbers, theme] = ["state", "play", "readout", "dark"].map((id) => document.getElementById(id))
-const parsed = (html) => new DOMParser().parseFromString(html, "text/html").body
-const frames = { tags: [] }
-const hand = { tags: [] }
-const readout = { setv: ({ text }) => { numbers.innerHTML = parsed(text).textContent } }
+const messages = { frames: [], path, hand: null, setv: ({ words }) => { numbers.innerHTML = words } }
 const play = {
   set label(text) { button.textContent = text },
   get active() { return button.ariaPressed === "true" },
@@ -19,7 +16,6 @@ const shown = () => {
   slider.ariaValueText = [...numbers.querySelectorAll("output")].map((each) => each.textContent).join(", ")
 }
 const state = {
-  tags: [path],
   get value() { return slider.valueAsNumber },
   setv({ value }) {
     if (value === state.value) return
@@ -49,12 +45,12 @@ document.onkeydown = (event) => {
   button.click()
 }
 // A drag finds these by their names, as if they were the page's.
-Object.assign(window, { frames, hand, play, state })
+Object.assign(window, { messages, play, state })
 touched(figures.filter(({ name }) => name !== "pressure"))
 const bytes = Uint8Array.from(atob(packed), (letter) => letter.charCodeAt(0))
 const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))
 new Response(stream).text().then((sent) => {
-  frames.tags = [sources, sent]
+  messages.frames = [sources, sent]
   slider.disabled = button.disabled = false
   slider.style.setProperty("--share", slider.value / slider.max)
 })

@@ -26,6 +26,7 @@ from ..player import frames, path
 from ..plot import Plot, View
 from ..plots import NAMED, PLOTS
 from ..quantities import CHOICES, LABELS, QUANTITIES, SHAPES
+from ..shared.summary import summary
 from ..state import MEDIUM_CHOICES, PRESETS, YIELD_CONSTANT, State, altered, used
 from ..ui import CSS, JS, marked, symbol
 from ..units import written
@@ -70,7 +71,7 @@ def scene_file(view: View) -> str:
         "bokeh": Resources(mode="inline", components=["bokeh"]).js_raw[0],
         "dark": str(state.dark).lower(),
         "heading": escape(title),
-        "scene": marked(readouts.summary(state)),
+        "scene": marked(summary(state)),
         # Links of explanations lead to pages of the server.
         "heads": re.sub(r"</?a\b[^>]*>", "", readouts.heads(course, numbers)),
         "readout": readouts.values(course, numbers, course.now),

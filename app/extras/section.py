@@ -8,7 +8,9 @@ from mdr_core.results.figures import NOTHING, line, mark
 
 from ..courses import Course
 from ..extra import Extra
-from ..plot import Found, Plot, axis
+from ..plot import axis
+from ..shared.maps import Map
+from ..shared.rest import Found, Resting, Searched
 from ..units import written
 
 #: Pixels down and along the radius.
@@ -55,15 +57,16 @@ def section(course: Course, asked):
     return Found(rows, [r, z, colours], note)
 
 
-SECTION = Plot(
+SECTION = Searched(
     "section", "Section under the tip", "σ(r, z): each increment a flat punch of radius a(s)  § 7", (),
     (
         line("contact radius a", "chalk", 1.2, "dashed"),
         line("plastic zone c", "chalk", 1.2, "dotted"),
         mark("largest", "yielded", "chalk", "diamond", 12),
     ),
-    find=section, of_state=True, tab="Section", order=80, controls=("section.stress",), image=_PIXELS,
+    find=section, of_state=True, tab="Section", order=80, controls=("section.stress",),
+    image=_PIXELS, picture=Map,
 )  # fmt: skip
 
 
-EXTRA = Extra("section", plots=(SECTION,), former={"section": "section.stress"})
+EXTRA = Extra("section", plots=(SECTION,), service=Resting, former={"section": "section.stress"})

@@ -10,8 +10,10 @@ import mdr_core as mdr
 
 from ..extra import EXTRAS, Extra
 from ..plot import View
-from ..readouts import readings, summary
-from ..ui import WIDE, field, html, show, tools
+from ..readouts import readings
+from ..shared.summary import summary
+from ..shared.widgets import field, tools
+from ..ui import WIDE, html, show
 
 
 def csv(view: View) -> str:
@@ -79,6 +81,6 @@ class Share:
 
 
 EXTRA = Extra(
-    "share", order=20, tab="Share", in_header=True, side=Share,
+    "share", order=20, tab="Share", place="header", side=Share,
     files=(("Curves (CSV)", "curves.csv", csv), ("Pressure (CSV)", "pressure.csv", pressure_csv)),
 )  # fmt: skip

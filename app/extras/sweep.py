@@ -13,12 +13,12 @@ from mdr_core.results.quantities import QUANTITIES as RESULTS
 
 from ..changes import option, shown
 from ..extra import Extra
-from ..plot import Found, Plot, axis
+from ..plot import axis
 from ..quantities import CHOICES, QUANTITIES, USED, Scale, lowered, quantity, read_data
-from ..refused import in_words
+from ..shared.rest import Found, Resting, Searched
 from ..state import PRESETS, State, medium, profile, used
 from ..ui import marked
-from ..units import KINDS, digits, in_full
+from ..units import KINDS, digits, in_full, in_words
 
 _DATA = read_data(Path(__file__).with_suffix(".json"))
 #: Functions of the core and their arguments, by drives, and the results of each.
@@ -265,7 +265,7 @@ def _notes(sweep, numbers, values, classes, inside):
             yield marked(f"Not all of the range can be solved: {in_words(error)}.")
 
 
-SWEEP = Plot(
+SWEEP = Searched(
     "sweep", "Sweep", "one parameter varied, all others fixed  § 10, § 20", (),
     (
         *(line(name, "ink", 1.4, dash, "y") for name, dash in LINES.items()),
@@ -282,4 +282,5 @@ EXTRA = Extra(
     former={"swept": "sweep.swept", "against": "sweep.against"},
     offers={"sweep.swept": swept, "sweep.against": against},
     plots=(SWEEP,),
+    service=Resting,
 )

@@ -1,6 +1,6 @@
 // A drag takes the indenter along, or the mark on the curve: to another depth when pressing, else to the nearest state.
 const { name, x_range: x, y_range: y, inner_height } = figure
-const { d, F, unit, pressing } = state.tags[0], wide = (range) => range.end - range.start
+const { d, F, unit, pressing } = messages.path, wide = (range) => range.end - range.start
 const [begin, depth, pixel] = cb_obj.event_name === "panstart" ? [cb_obj.sy, d[state.value] * unit, wide(y) / inner_height] : figure.tags
 figure.setv({ tags: [begin, depth, pixel] }, { sync: false })
 const wish = Math.max(depth + (cb_obj.sy - begin) * pixel, 1e-3 * wide(y))
@@ -9,7 +9,7 @@ const end = cb_obj.event_name === "panend"
 if (!figure.held && !end) return
 if (name === "springs" && pressing) {
   // One request at a time: the server empties the hand once it has drawn.
-  if (figure.held && (end || !hand.tags.length)) hand.tags = [wish]
+  if (figure.held && (end || messages.hand === null)) messages.hand = wish
 } else if (end) state.value_throttled = state.value
 else {
   const near = name === "springs" ? (k) => Math.abs(d[k] * unit - wish) / wide(y)
@@ -17,5 +17,5 @@ else {
   const away = d.map((_, k) => near(k) + 1e-4 * Math.abs(k - state.value))
   play.active = false
   // The first move asks for the states that are to be shown.
-  state.setv({ value: away.indexOf(Math.min(...away)) }, { sync: !frames.tags.length })
+  state.setv({ value: away.indexOf(Math.min(...away)) }, { sync: !messages.frames.length })
 }

@@ -1,25 +1,25 @@
 // Moves through the states of a scene: frames are what `source.data` becomes in each of them, sent once.
 const sent = () => {
   // A gap in a line is null in a text, which would be drawn as zero.
-  const parsed = () => JSON.parse(frames.tags[1], (_, value) => value ?? NaN)
-  if (frames.read !== frames.tags) [frames.read, frames.sent] = [frames.tags, parsed()]
-  return frames.sent
+  const parsed = () => JSON.parse(messages.frames[1], (_, value) => value ?? NaN)
+  if (messages.read !== messages.frames) [messages.read, messages.sent] = [messages.frames, parsed()]
+  return messages.sent
 }
 const stand = (k) => {
   const { pictures, words } = sent()
-  frames.tags[0].forEach((source, n) => { source.data = { ...source.data, ...pictures[k][n] } })
-  readout.setv({ text: words[k] }, { sync: false })
+  messages.frames[0].forEach((source, n) => { source.data = { ...source.data, ...pictures[k][n] } })
+  messages.setv({ words: words[k] }, { sync: false })
   // By itself Bokeh paints at most every second frame.
   setTimeout(() => figures.forEach((figure) => Bokeh.index.find_one(figure).repaint()))
 }
-if (cb_obj !== play) return void (frames.tags.length && stand(state.value))
+if (cb_obj !== play) return void (messages.frames.length && stand(state.value))
 play.label = play.active ? "❚❚ Pause" : "▶ Play"
 if (!play.active) return void (state.value_throttled = state.value)
 let begin = null
 const step = (now) => {
   if (!play.active) return
   requestAnimationFrame(step)
-  if (!frames.tags.length) return
+  if (!messages.frames.length) return
   const { times } = sent()
   begin ??= now - 3000 * (state.value >= times.length - 1 ? 0 : times[state.value])
   const clock = ((now - begin) / 3000) % 1.12

@@ -4,7 +4,7 @@ const hosts = (name) => all(document).filter((each) => each.shadowRoot && each.c
 for (const { shadowRoot } of hosts("slider"))
   for (const each of shadowRoot.querySelectorAll("input, [role=slider]")) each.ariaLabel = "State along the path"
 document.documentElement.lang = "en"
-document.documentElement.classList.toggle("dark", theme.tags[0])
+document.documentElement.classList.toggle("dark", messages.dark)
 document.addEventListener("keydown", (event) => {
   const on = event.composedPath()[0]
   if (event.ctrlKey || event.altKey || event.metaKey || on.matches?.("input[type=text], textarea, select")) return
@@ -15,4 +15,4 @@ document.addEventListener("keydown", (event) => {
   event.preventDefault()
   target.click()
 })
-if (matchMedia("(prefers-color-scheme: dark)").matches && !location.search.includes("dark=")) theme.tags = [true]
+if (matchMedia("(prefers-color-scheme: dark)").matches && !location.search.includes("dark=")) messages.dark = true

@@ -1,3 +1,4 @@
 // The address says what is shown, without a step in the history; or light and dark, for all that the sheet colours.
-const [what] = cb_obj.tags
-typeof what === "string" ? history.replaceState(null, "", what) : document.documentElement.classList.toggle("dark", what)
+const { address, dark } = cb_obj
+if (address) history.replaceState(null, "", address)
+document.documentElement.classList.toggle("dark", dark)

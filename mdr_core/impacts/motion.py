@@ -73,3 +73,20 @@ def _released_energy(hit, dense, time):
     energy[-1] += radius[-1] * density[-1]
     # All times of unloading are among the finer ones; before them the energy is that of the first, 0.
     return np.interp(time, finer, energy)
+
+
+def released_compression(motion, i, height):
+    """Elastic compression (m) left at instant i in released elements, at heights g (m) of the profile.
+
+    0 of elements in contact. An element is released with the compression by which the depth is ahead of
+    the live interval, which relaxes as exp(−t/τ).
+    """
+    tau, turn = motion.states.medium.relaxation_time, motion.turning_index
+    if tau == 0 or i <= turn:
+        return np.zeros_like(height)
+    past = slice(turn, i + 1)
+    upper, time = motion.states.live_interval.upper[past], motion.time[past]
+    ahead = motion.states.depth[past] - upper
+    released = np.minimum(np.searchsorted(-upper, -height), len(upper) - 1)
+    left = ahead[released] * np.exp((time[released] - time[-1]) / tau)
+    return np.where(height >= upper[-1], left, 0.0)

@@ -12,7 +12,7 @@ from .._check import ArrayLike, Parameter
 from ..numerics.blocks import chunks
 from ..numerics.stable import root
 from .profile import Profile
-from .samples import area_samples, convex_fit, decoded, samples_of
+from .samples import area_samples, axis_of_symmetry, convex_fit, decoded, samples_of
 
 #: Largest number of samples: time and memory grow with its square.
 _MOST_SAMPLES = 5000
@@ -272,6 +272,29 @@ class Sampled(Profile):
             rate[:, 0] = 1 / (self._bend * np.sqrt(2 * self._r[:-1]))
         rate = np.where(np.isfinite(rate), rate, np.append(rate[:, 1:], rate[:, -1:], axis=1))
         return g, t, rate
+
+
+def tip_through(r, z, most, averages):
+    """A tip of a measurement at radii r (m) and heights z (m), and the scatter (m) of these about it.
+
+    As many as `most` convex samples are the tip as they are, without a scatter, None. Other ones, more,
+    noisy or on both sides of an axis that need not be at r = 0, become the nearest convex tip, fitted to
+    at most so many `averages`, with at most so many samples.
+    """
+    try:
+        if len(r) <= most:
+            return Sampled(r, z), None
+    except ValueError:
+        # Noise makes any tip concave somewhere.
+        pass
+    if min(r) < 0 < max(r):
+        r = r - axis_of_symmetry(r, z)
+    parts = np.array_split(np.argsort(r, kind="stable"), min(len(r), averages))
+    tip = Sampled.fit(*(np.array([np.mean(of[part]) for part in parts]) for of in (r, z)))
+    # On a convex polygon every other one of its vertices is convex too.
+    subset = np.unique(np.linspace(0, len(tip.r) - 1, most).round().astype(int))
+    tip = Sampled(np.array(tip.r)[subset], np.array(tip.z)[subset])
+    return tip, float(np.std(z - np.interp(np.abs(r), tip.r, tip.z)))
 
 
 def _lists(what, r, z, **bounds):

@@ -50,11 +50,11 @@ window.explorer = {
     return { x, y, labels: [below[0].axis_label, left[0].axis_label] }
   },
   // What is shown once the input is still.
-  scene: () => explorer.model("address").tags[0],
-  played: () => explorer.model("frames").tags.length > 0,
+  scene: () => explorer.model("messages").address,
+  played: () => explorer.model("messages").frames.length > 0,
   all: (root = document) => [...root.querySelectorAll("*")].flatMap(
     (each) => [each, ...(each.shadowRoot ? explorer.all(each.shadowRoot) : [])]),
-  idle: () => Boolean(explorer.model("address")?.tags.length) &&
+  idle: () => typeof explorer.model("messages")?.address === "string" &&
     Bokeh.documents.every((each) => each.is_idle) && explorer.row("force", "now")?.[0].length === 1,
 }
 """

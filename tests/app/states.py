@@ -4,13 +4,14 @@ import numpy as np
 
 import mdr_core as mdr
 from app import changes, link
-from app.drives import follow, in_time
+from app.drives import follow
 from app.extra import EXTRAS
 from app.extras import fit as fitting
 from app.extras.fit.measured import read_curve
 from app.extras.guide import TOURS, step_state
 from app.plot import View
 from app.readouts import readings
+from app.shared.rest import exact
 from app.state import State, medium, preset_state, profile
 
 from .conftest import DROP, GOLD
@@ -31,7 +32,7 @@ def view_of(state: State, progress=1.0, *held: State) -> View:
     if held:
         state = state.replace(**{"held.scenes": tuple(link.write(each) for each in held)})
     computed = {name: each.compute(state, None, {}) for name, each in EXTRAS.items()}
-    return View(state, follow(state), {}, computed)
+    return View(state, follow(state), computed)
 
 
 def stepped(title: str) -> list:
@@ -47,7 +48,7 @@ def linked_state(state: State) -> State:
 def solved(state: State):
     """The course of a state, in full."""
     course = follow(state)
-    return in_time(course) if course.pending else course
+    return exact(course) if course.pending else course
 
 
 def side(page, name: str):

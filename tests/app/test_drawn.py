@@ -272,15 +272,15 @@ def test_sentences_are_true(server, page):
     text = said(page)
     assert " act in an impact, or the drive path and one of its patterns in time." in text
     assert "They also act in the two patterns of a path in time." in text
-    # A fast impact: areas of the limit, of the damage and of the contact, and their ratios.
+    # A fast impact: the contact area of the limit over the present one; W = π q_c ∫ √(R s) ds.
     page.goto(f"{server.url}?preset={DROP}")
-    (sentence,) = re.findall(r"Fast-impact limit \(23\), \(24\): A = .*? = [\d.]+ mm²\.", said(page))
-    fast, above, damaged, below, contact = amounts(sentence)
-    assert damaged == pytest.approx(amounts(page.readout("damaged_area"))[0], rel=1e-3)
-    assert contact == pytest.approx(np.pi * amounts(page.readout("contact_radius"))[0] ** 2, rel=1e-3)
-    # Of areas with four digits.
-    assert (above, -below) == pytest.approx([fast / A - 1 for A in (damaged, contact)], abs=1e-3)
-    assert re.search("% above the damaged area.*% below the contact area", sentence)
+    (off,) = re.findall(r"The fast limit, Eqs\. \(23\), \(24\), is off by (−[\d.]+) % of the", said(page))
+    given = PRESETS[DROP].values
+    R, energy = given["paraboloid_radius"], given["mass"] * given["speed"] ** 2 / 2
+    depth = (1.5 * energy / (np.pi * given["q_c"] * R**0.5)) ** (2 / 3)
+    (radius,) = amounts(page.readout("contact_radius"))
+    # Of a radius with four digits.
+    assert float(off.replace("−", "-")) / 100 == pytest.approx(R * depth / radius**2 - 1, abs=1e-3)
     # The sweep draws the other classes of hardness, with their constants.
     page.goto(f"{server.url}?preset={DROP}&tiles=sweep&against=restitution")
     page.wait("explorer.row('sweep', 'this scene')?.[0].length > 1")
@@ -318,4 +318,4 @@ def test_refusals_are_said_to_all_and_a_relief_says_its_largest_pressure(server,
     note = page.page.locator(".card.relief .found").get_by_text("Largest finite pressure").inner_text()
     assert amounts(note)[0] == pytest.approx(p.max(), rel=0.1)
     page.type("s", "90°")
-    page.number("s").locator("#said", has_text="half-angle is above 0° and below 90°").wait_for()
+    page.number("s").locator("p.said", has_text="half-angle is above 0° and below 90°").wait_for()

@@ -11,6 +11,7 @@ from app.extras import share
 from app.plot import View
 from app.plots import force, force_still
 from app.quantities import CHOICES
+from app.shared.summary import summary
 from app.state import PRESETS, medium, preset_state, profile
 
 from .conftest import DROP, ELASTIC
@@ -53,7 +54,7 @@ def test_a_pattern_goes_as_deep_as_what_was_there_before_and_is_in_link_and_csv(
     # A force that is found has the five digits that its field shows.
     assert float(course.turning_point.depth) == pytest.approx(preset_state().max_depth, rel=5e-5)
     assert scene_of(linked_state(state)) == course.scene
-    assert CHOICES["path.pattern"][pattern] in readouts.summary(state)
+    assert CHOICES["path.pattern"][pattern] in summary(state)
     lines = share.csv(View(state, course)).splitlines()
     assert sum(line[0] != "#" for line in lines) == 1 + len(course)
 

@@ -13,6 +13,7 @@ from bokeh.document import Document
 from app import changes
 from app.extra import EXTRAS
 from app.page import Page
+from app.plots import PLOTS
 from app.state import preset_state
 
 from .conftest import DROP, ROOT, Explorer, Server
@@ -39,6 +40,7 @@ def words(name):
     found += [number["label"] for number in data.get("numbers", ())]
     found += [drive["label"] for drive in data.get("drives", {}).values()]
     found += [choice["label"] for choice in data.get("choices", {}).values()]
+    found += [extra.on_plots(PLOTS["force"]).label] if extra.on_plots else []
     return {each for each in found if each}
 
 
@@ -46,6 +48,9 @@ def strings(value):
     """All texts within a value of a model; of the columns of a source, names of rows."""
     if isinstance(value, str):
         yield value
+        # What parts of the page are and show.
+        for part in json.loads(value) if value.startswith("[{") else ():
+            yield from strings(list(part.values()))
     if isinstance(value, dict):
         yield from strings(value.get("row"))
     for each in value if isinstance(value, list | tuple) else ():
@@ -57,7 +62,7 @@ def texts(page):
     for name in page.frame.tabs:
         page.frame.open(name)
     page.frame.open("explore")
-    for drive in list(dict(page.choices.row("drive").options)):
+    for drive in list(dict(page.choices.part("drive").options)):
         page.apply(lambda state, drive=drive: changes.choose(state, "drive", drive))
     for tab in page.board.tabs.values():
         if tab.visible:
@@ -130,14 +135,14 @@ def test_without_an_extra_the_page_builds_and_has_no_word_of_it(folder, whole, n
 
 
 def test_the_page_with_no_extras_at_all(browser, tmp_path):
-    """Three plots, the form and the readouts are in use."""
-    copied(tmp_path, "app", *EXTRAS)
+    """Three plots, the form and the readouts are in use, without what extras share too."""
+    shutil.rmtree(copied(tmp_path, "app", *EXTRAS) / "shared")
     server = Server(root=tmp_path)
     try:
         with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
             explorer = Explorer(context.new_page(), server.url)
             assert explorer.readout("force") == "4.514 µN"
-            assert explorer.page.locator(".buttons button").all_inner_texts() == ["Undo", "Redo", "Menu"]
+            assert explorer.page.locator(".header .act").all_inner_texts() == ["Undo", "Redo", "Menu"]
             assert explorer.page.locator(".card").count() == 3
             assert explorer.page.locator(".tabs button").count() == 0
             explorer.change(explorer.type, "d_max", "5 nm")

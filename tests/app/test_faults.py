@@ -1,13 +1,12 @@
 """What cannot be shown leaves the page as it was, and in use, wherever it fails. Without a browser."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import pytest
 
 from app import changes
 from app.page import Page
-from app.rest import COMPUTING, FAULT
+from app.shared.rest import COMPUTING, FAULT
 from app.state import PRESETS, preset_state
 
 from .conftest import DROP, GOLD
@@ -63,31 +62,31 @@ def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
         page.form, "show", lambda now: shown(now) if now.state.preset == GOLD else failing()
     )
     page.choices.choose("preset", DROP)
-    assert page.state.preset == page.choices.row("preset").value == GOLD
+    assert page.state.preset == page.choices.part("preset").value == GOLD
     assert page.frame.undo.disabled
     assert_in_use(page)
 
 
 def send(number, **data):
     """What a field or slider sends."""
-    number._on_message(SimpleNamespace(data=data | {"number": number.answered + 1}))
+    number.take(data | {"number": number.answered + 1})
 
 
-@pytest.mark.parametrize("act", ["preset", "undo", "reset"])
+@pytest.mark.parametrize("act", ["preset", "undo"])
 def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
-    (depth,), (_, q_c) = page.form.numbers["drive"], page.form.numbers["medium"]
+    (depth,), (_, q_c) = page.form.numbers["drive"].parts, page.form.numbers["medium"].parts
     send(depth, text="5 nm")
     send(q_c, text="abc")
     assert q_c.refused == "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m"
     if act == "preset":
         page.choices.choose("preset", DROP)
     else:
-        getattr(page.frame, act).act()
+        page.frame.undo.act()
     assert q_c.refused == ""
 
 
 def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
-    (number,) = page.form.numbers["drive"]
+    (number,) = page.form.numbers["drive"].parts
     start = page.state.max_depth
     for position in (210, 220, 230):
         send(number, position=position)
@@ -102,29 +101,29 @@ def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
 
 def test_the_indenter_is_dragged_to_a_depth_under_a_given_force_too(page):
     page.apply(lambda state: changes.choose(state, "drive", "force"))
-    page._dragged("tags", [], [5.0])
+    page._dragged("hand", None, 5.0)
     # A force that is found has the five digits that its field shows.
     assert float(page.shown.course.turning_point.depth) == pytest.approx(5e-9, rel=5e-5)
-    page._dragged("tags", [], ["<b>"])
+    page._dragged("hand", None, "<b>")
     assert page.notices == []
 
 
 def rested(page):
     """What is found of the section when the input is at rest."""
     page._input_rests()
-    return page.shown.found["section"]
+    return page.shown.computed["section"]
 
 
 def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
     page.board.tabs["section"].act()
-    assert page.shown.found["section"] == COMPUTING
+    assert page.shown.computed["section"] == COMPUTING
     first = rested(page)
     put(page, "q_c", 1.2 * Q_C)
-    assert page.shown.found["section"] == replace(COMPUTING, axes=first.axes)
+    assert page.shown.computed["section"] == replace(COMPUTING, axes=first.axes)
     page.frame.undo.act()
-    assert page.shown.found["section"] is first
+    assert page.shown.computed["section"] is first
     page._state_chosen("value_throttled", page.shown.course.now, 5)
-    assert page.shown.found["section"].note == "computing …"
+    assert page.shown.computed["section"].note == "computing …"
     assert rested(page).rows["contact radius a"][0][0] == page.shown.course.state.contact_radius
 
 
@@ -133,7 +132,7 @@ def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
     page.board.tabs["section"].act()
 
     def fails(columns, view):
-        return failing() if view.found["section"].rows else show(columns, view)
+        return failing() if view.computed["section"].rows else show(columns, view)
 
     monkeypatch.setattr(page.board, "show", fails)
     assert rested(page) is FAULT

@@ -100,7 +100,7 @@ def test_the_chosen_constant_is_offered_and_the_choice_is_in_links():
     page = Page()
     page.apply(fitting.silica)
     panel = side(page, "fit")
-    row = page.choices.row("fit.hardness")
+    row = page.choices.part("fit.hardness")
     assert (row.value, [option for option, _ in row.options]) == ("hardness", ["q_c", "hardness", "f_c"])
     shown = {fitting.quantity_of(name).label for name in CONSTANTS.values()}
     for constant in ("f_c", "q_c", "hardness"):

@@ -83,7 +83,7 @@ def test_each_has_its_own_row_in_every_plot():
     expected = [f"d_max = {depth} nm" for depth in (9, 3, 6)] + ["d_max = 12 nm (partly beyond the axes)"]
     assert [text for text in shown if "d_max" in text] == expected
     layer = next(each for each in Picture(PLOTS["force"]).layers if each.name == "lines")
-    told = layer.columns(rows, view.axes_of(PLOTS["force"]), False)["row"]
+    told = layer.columns(rows, PLOTS["force"].axes_of(view), False)["row"]
     assert [text.replace("dₘₐₓ", "d_max") for text in told if "dₘₐₓ" in text] == expected
 
 
@@ -114,4 +114,4 @@ def test_a_scene_of_another_scale_leaves_the_axes():
             # The pressure of gold, 5.6 GPa in the mean, is beyond that of a laminate in any case.
             small = fits and name != "pressure"
             assert text.endswith("(too small to be seen)" if small else "(partly beyond the axes)"), name
-            assert view.axes_of(PLOTS[name]) == view_of(now).axes_of(PLOTS[name])
+            assert PLOTS[name].axes_of(view) == PLOTS[name].axes_of(view_of(now))

@@ -13,7 +13,7 @@ from app.plots import PLOTS
 from app.state import PRESETS, State, preset_state
 from app.units import UNITS, written
 
-from .conftest import DROP, ELASTIC, PUNCH, Explorer
+from .conftest import DROP, ELASTIC, GOLD, PUNCH, Explorer
 from .states import state_with, table, view_of
 
 
@@ -60,8 +60,8 @@ def test_the_first_screen_has_what_a_person_comes_for(server, browser, width, he
             assert card["width"] > 0.3 * width
             assert card["height"] > 0.3 * height
         assert page.locator("output").count() <= 8
-        assert page.locator(".buttons button:visible").count() == 6
-        assert page.locator(".line").bounding_box()["height"] < 70
+        assert page.locator(".header .act:visible").count() == 6
+        assert page.locator(".top").bounding_box()["height"] < 70
         assert page.evaluate("document.documentElement.scrollHeight") <= height
         assert explorer.problems == []
 
@@ -99,13 +99,11 @@ def test_keys_player_and_hand_move_every_plot(explorer):
         explorer.change(page.keyboard.press, "PageUp")
         assert explorer.field(symbol).input_value() != text
         assert now(explorer) != before
-    explorer.press("Menu")
-    explorer.change(explorer.press, "Reset")
-    explorer.press("Explore")
+    explorer.choose("Preset", PRESETS[GOLD].label)
     assert_draws(explorer, preset_state())
     # The indenter is taken by the hand: deeper, and one change to undo.
     explorer.drag("springs", (0, 0.2))
-    explorer.wait("explorer.row('force', 'now')[0][0] > 9.5 && !explorer.model('hand').tags.length")
+    explorer.wait("explorer.row('force', 'now')[0][0] > 9.5 && explorer.model('messages').hand === null")
     explorer.wait("explorer.idle()")
     explorer.link("max_depth=")
     assert explorer.slider("d_max").input_value() != "200"
@@ -169,7 +167,7 @@ def test_typed_numbers_are_read_as_they_say_refused_where_they_stand_and_undone(
     refused = {"abc": "is not a number", "1000 m": "out of bounds", "<img src=x>": "<img src=x>"}
     for text, why in refused.items():
         explorer.type("d_max", text)
-        number.locator("#said", has_text=why).wait_for()
+        number.locator("p.said", has_text=why).wait_for()
         assert field.input_value() == text
         assert field.get_attribute("aria-invalid") == "true"
         assert number.locator("img").count() == 0

@@ -11,7 +11,7 @@ from scipy.integrate import trapezoid
 
 import mdr_core as mdr
 from app import changes, readouts
-from app.draw import Picture, drawn, legend, ticks
+from app.draw import Picture, drawn, legend, picture_of, ticks
 from app.drives import follow, scene_of
 from app.extras.oblique import leaning
 from app.extras.radii import RADII
@@ -24,7 +24,7 @@ from app.plots import NAMED, PLOTS, D, F, P, R, X, force_still, pressure
 from app.quantities import SHAPES, lowered
 from app.state import medium, preset_state, profile
 from app.units import written
-from mdr_core.results.figures import SPRINGS, line, mark
+from mdr_core.results.figures import SPRINGS, line, mark, radii
 
 from .conftest import DROP, ELASTIC, GOLD, PUNCH
 from .states import numbers, solved, state_with, view_of, viscous
@@ -57,11 +57,11 @@ def test_every_plot_of_every_state_can_be_drawn(damping):
     # An oblique impact beside a held one.
     for view in (*views, view_of(oblique, 1.0, oblique)):
         for plot in (plot for plot in PLOTS.values() if plot.applies(view)):
-            picture, names = Picture(plot), {row.name for row in rows_of(plot)}
+            picture, names = picture_of(plot), {row.name for row in rows_of(plot)}
             for i in range(0, len(view.course), 9):
                 rows = view.rows(plot, i)
                 assert all(np.size(x) == np.size(y) for x, y, *_ in rows.values())
-                assert rows.keys() == names | ({"image"} if plot.image else set())
+                assert rows.keys() == names | ({"image"} if getattr(plot, "image", None) else set())
                 for data in picture.columns(view, i, False).values():
                     assert len({len(column) for column in data.values()}) == 1
 
@@ -78,7 +78,8 @@ def test_the_contact_radius_falls_by_a_step_where_the_load_is_gone():
 
 def test_a_peak_that_the_axis_does_not_reach_is_named():
     view = view_of(preset_state())
-    tops = {i: view.pressure(i, view.end(R))[1] for i in range(view.course.peak)}
+    states, half = view.course.states, view.end(R)
+    tops = {i: states[i].pressure(radii(states[i], half)) for i in range(view.course.peak)}
     said = {i: pressure(view, i)["exceeds"][2] for i in tops}
     cut = [i for i, p in tops.items() if np.max(p) > view.end(P)]
     assert [i for i in tops if said[i]] == cut
@@ -287,7 +288,8 @@ def test_a_new_plot_is_one_entry():
 
     def work(view, some):
         course = view.course
-        return course.states.depth[some], course.plastic_work[some] / course.scene.medium.critical_depth
+        d_c = course.scene.medium.critical_depth
+        return course.states.depth[some], course.ledger.plastic_work[some] / d_c
 
     plot = Plot(
         "work", "Plastic work", "W_p = d_c φ(d_p)", (D, F),
@@ -313,8 +315,8 @@ def test_another_theme_is_another_palette():
         picture.show(picture.columns(view, 5, theme), view, theme)
         # Another ground paints the axes anew, too.
         assert picture.figure.background_fill_color == ground
-    bar = Picture(PLOTS["section"])
-    view.found["section"] = section(view.course, ("zz",))
+    bar = picture_of(PLOTS["section"])
+    view.computed["section"] = section(view.course, ("zz",))
     bar.show(bar.columns(view, view.course.now, True), view, True)
     # The numbers of the colour bar can be read in the dark.
     assert bar.figure.select_one(bk.ColorBar).major_label_text_color == "#e4e7eb"

@@ -23,7 +23,7 @@ def test_page_comes_back_with_what_it_showed(context):
         explorer = Explorer(page, f"http://127.0.0.1:{port}/app")
         kept = now(explorer)
         explorer.type("d_max", "13 nm")
-        page.locator("#said", has_text="fault of the explorer").wait_for()
+        page.locator("p.said", has_text="fault of the explorer").wait_for()
         assert now(explorer) == kept
         assert server.log.count("ArithmeticError: made to fail") == 1
         logged = re.search(r"scene (\{.*?\n\})", server.log, re.DOTALL)[1]

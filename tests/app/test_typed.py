@@ -1,7 +1,5 @@
 """Numbers typed into the form: none is lost, and each has the unit that a person saw or wrote."""
 
-from types import SimpleNamespace
-
 import pytest
 
 from app import changes
@@ -83,7 +81,7 @@ def test_a_bare_number_has_the_unit_that_was_last_seen_and_only_typing_changes_i
     # Refused: 1500 or 1.5, which are both in bounds.
     drop.type("v_0", "1,500 mm/s")
     said = "“1,500 mm/s” can be 1500 mm/s or 1.500 mm/s: type one of these"
-    drop.number("v_0").locator("#said", has_text=said).wait_for()
+    drop.number("v_0").locator("p.said", has_text=said).wait_for()
     drop.change(drop.type, "v_0", "1,5 m/s")
     shows(drop, "v_0", "1.5 m/s")
     # The field stays in use after Enter: a letter is typed into it, and is no command.
@@ -96,13 +94,13 @@ def test_a_bare_number_has_the_unit_that_was_last_seen_and_only_typing_changes_i
 
 def sent(number, text):
     """What a field shows after a text was typed: its text and refusal. Without a browser."""
-    number._on_message(SimpleNamespace(data={"text": text, "number": number.answered + 1}))
+    number.take({"text": text, "number": number.answered + 1})
     return number.text, number.refused
 
 
 def test_a_field_shows_the_unit_of_a_bare_number_also_where_the_number_stays():
     page = Page()
-    (depth,) = page.form.numbers["drive"]
+    (depth,) = page.form.numbers["drive"].parts
     assert sent(depth, "20 nm") == ("20 nm", "")
     assert sent(depth, "0.02 µm") == ("0.02 µm", "")
     assert sent(depth, "0.03") == ("0.03 µm", "")
@@ -114,8 +112,8 @@ def test_a_field_shows_the_unit_of_a_bare_number_also_where_the_number_stays():
 
 def test_a_refusal_stays_while_an_earlier_number_is_solved_and_another_is_typed():
     page = Page(f"preset={DROP}")
-    (speed,) = [each for each in page.form.numbers["drive"] if each.key == "speed"]
-    modulus, _ = page.form.numbers["medium"]
+    (speed,) = [each for each in page.form.numbers["drive"].parts if each.key == "speed"]
+    modulus, _ = page.form.numbers["medium"].parts
     sent(speed, "6 m/s")
     text, refused = sent(modulus, "abc")
     assert "“abc” is not a number" in refused
@@ -133,7 +131,7 @@ def test_a_refusal_stays_while_an_earlier_number_is_solved_and_another_is_typed(
 
 def test_a_refusal_is_left_behind_with_its_number():
     page = Page()
-    (depth,) = page.form.numbers["drive"]
+    (depth,) = page.form.numbers["drive"].parts
     assert sent(depth, "abc")[1] != ""
     page.apply_or_raise(lambda state: changes.put(state, "max_depth", 2e-8))
     assert (depth.text, depth.refused) == ("20 nm", "")
@@ -142,7 +140,7 @@ def test_a_refusal_is_left_behind_with_its_number():
 @pytest.mark.parametrize("shown", UNITS["length"])
 def test_an_angstrom_is_shown_as_such_in_any_field(shown):
     page = Page()
-    (depth,) = page.form.numbers["drive"]
+    (depth,) = page.form.numbers["drive"].parts
     sent(depth, f"{preset_state().max_depth / shown.factor!r} {shown.name}")
     assert sent(depth, "9 Å") == ("9 Å", "")
     assert page.state.max_depth == 9e-10

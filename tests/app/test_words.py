@@ -14,10 +14,11 @@ from app.page import Page
 from app.plots import PLOTS
 from app.quantities import ABOUT, CHOICES, QUANTITIES, SHAPES, USED
 from app.readouts import READOUTS, heads, readings
-from app.refused import in_words
+from app.shared.rest import Searched
 from app.state import PRESETS, preset_state
 from app.tip import read_tip
 from app.ui import linked, marked
+from app.units import in_words
 
 from .conftest import DROP
 from .states import side, state_with, stepped, view_of
@@ -77,15 +78,15 @@ def test_the_form_begins_with_the_drive_and_has_what_is_used():
     page = Page()
 
     def shown(region):
-        return [number.key for number in page.form.numbers[region] if number.visible]
+        return [number.key for number in page.form.numbers[region].parts if number.visible]
 
     regions = [shown(region) for region in ("drive", "shape", "medium")]
     assert regions == [["max_depth"], ["cone_slope"], ["E_star", "q_c"]]
-    assert not page.form.more.value
+    assert not page.form.more.pressed
     sources = unescape(page.form.notes["sources"].object)
     assert all(source in sources for source in PRESETS[page.state.preset].sources.values())
     page.apply(lambda state: changes.choose(state, "damping", "eta"))
-    assert page.form.more.value
+    assert page.form.more.pressed
     assert "eta" in shown("more")
     page.apply(lambda state: changes.choose(state, "drive", "impact"))
     assert shown("drive") == ["mass", "speed", "plastic_depth"]
@@ -161,8 +162,8 @@ def test_python_and_raw_indices_are_not_on_the_page():
     shown = [text for texts in CHOICES.values() for text in texts.values()] + [ABOUT["shape"]]
     shown += [quantity.label for quantity in QUANTITIES.values()]
     view = view_of(preset_state())
-    plots = [plot for plot in PLOTS.values() if plot.applies(view) and not plot.find]
-    shown += [axis.label for plot in plots for axis in view.axes_of(plot)]
+    plots = [plot for plot in PLOTS.values() if plot.applies(view) and not isinstance(plot, Searched)]
+    shown += [axis.label for plot in plots for axis in plot.axes_of(view)]
     assert [text for text in shown if "_" in text] == []
     for shape in SHAPES.values():
         assert "_" not in marked(shape.height + shape.reduced)

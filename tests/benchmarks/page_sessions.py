@@ -53,10 +53,11 @@ class Visitor:
     async def open(self, url):
         """Load the page, connect, and wait until all its figures are in the document."""
         patience = {"connect_timeout": PATIENCE, "request_timeout": PATIENCE}
-        page = (await AsyncHTTPClient().fetch(url, **patience)).body.decode()
-        token = re.search(r'"token":"([^"]+)"', page)[1]
+        page = await AsyncHTTPClient().fetch(url, **patience)
+        token = re.search(r'"token":"([^"]+)"', page.body.decode())[1]
         address = url.replace("http", "ws", 1) + "/ws"
-        told = {"Sec-WebSocket-Protocol": f"bokeh, {token}"}
+        # The cookie is that of a proxy, which may have set one.
+        told = {"Sec-WebSocket-Protocol": f"bokeh, {token}", "Cookie": page.headers.get("Set-Cookie", "")}
         request = HTTPRequest(address, headers=told, **patience)
         self.socket = await websocket_connect(request, max_message_size=10**8)
         # As browsers do: each part of a message at once.
@@ -102,11 +103,11 @@ class Client(Visitor):
         """Load the page and connect."""
         await super().open(url)
         # The control of the largest depth, by what it is called.
-        self.control = next(
-            each["id"]
-            for each in objects(self.document)
-            if dig(each, "attributes", "data", "attributes", "spoken") == "d_max, largest depth"
-        )
+        for each in objects(self.document):
+            told = json.loads(dig(each, "attributes", "data", "attributes", "told") or "[]")
+            for part, known in enumerate(told):
+                if known.get("spoken") == "d_max, largest depth":
+                    self.form, self.control = each["id"], part
         self.count = 0
         return self
 
@@ -114,16 +115,14 @@ class Client(Visitor):
         """Move a slider; seconds until the server has answered with a new picture."""
         self.count += 1
         data = {"position": 150 + n % 100, "number": self.count}
-        values = [
-            ["model", {"id": self.control}],
-            ["data", {"type": "map", "entries": [list(item) for item in data.items()]}],
-        ]
+        message = [self.control, {"type": "map", "entries": [list(item) for item in data.items()]}]
+        values = [["model", {"id": self.form}], ["data", message]]
         event = {"type": "event", "name": "data_event", "values": {"type": "map", "entries": values}}
         begin = time.perf_counter()
         await self._event(n, event)
         while True:
             _, content = await self._message()
-            if f'"attr":"answered","new":{self.count}' in content.replace(" ", ""):
+            if f'"answered\\":{self.count}' in content.replace(" ", ""):
                 return time.perf_counter() - begin
 
     async def work(self, offset):
@@ -146,10 +145,16 @@ def resident(pid):
     return int(re.search(r"VmRSS:\s+(\d+)", Path(f"/proc/{pid}/status").read_text())[1]) / 1024
 
 
+def spent(pid):
+    """Processor time of a process, and how long its threads waited for a core (ms)."""
+    threads = Path(f"/proc/{pid}/task").glob("*/schedstat")
+    times = [path.read_text().split()[:2] for path in threads]
+    return [sum(map(int, each)) / 1e6 for each in zip(*times, strict=True)]
+
+
 def computed(pid):
     """Processor time of a process (ms)."""
-    user, system = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[11:13]
-    return 1000 * (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
+    return spent(pid)[0]
 
 
 async def many(url, pid, count):
@@ -158,12 +163,12 @@ async def many(url, pid, count):
     clients = [await Client().open(url) for _ in range(count)]
     begin = computed(pid)
     times = await asyncio.gather(*(c.work(k / RATE / count) for k, c in enumerate(clients)))
-    each, spent = (resident(pid) - before) / count, computed(pid) - begin
+    each, used = (resident(pid) - before) / count, computed(pid) - begin
     times = sorted(1000 * t for row in times for t in row)
     p95 = times[int(0.95 * len(times))]
     print(
         f"{count} sessions, {RATE:g} moves/s each: median {statistics.median(times):.0f} ms, "
-        f"p95 {p95:.0f} ms to the answer, {spent / len(times):.1f} ms of computing a move; "
+        f"p95 {p95:.0f} ms to the answer, {used / len(times):.1f} ms of computing a move; "
         f"{each:.2f} MB a session; load of the machine {os.getloadavg()[0]:.1f}",
         flush=True,
     )
@@ -209,17 +214,18 @@ def left_behind():
         server.stop()
 
 
-async def alone(url, pid):
-    """Processor time (ms) of one opening of a page: the median of some, one after the other."""
-    spent = []
+async def alone(urls, pid):
+    """Processor time (ms) of one opening of each page: the median of some, one after the other, in turn."""
+    costs = {url: [] for url in urls}
     for _ in range(ALONE):
-        begin = computed(pid)
-        visitor = await Visitor().open(url)
-        # What the server does once the input rests.
-        await asyncio.sleep(0.6)
-        visitor.socket.close()
-        spent.append(computed(pid) - begin)
-    return statistics.median(spent)
+        for url, found in costs.items():
+            begin = computed(pid)
+            visitor = await Visitor().open(url)
+            # What the server does once the input rests.
+            await asyncio.sleep(0.6)
+            visitor.socket.close()
+            found.append(computed(pid) - begin)
+    return [statistics.median(found) for found in costs.values()]
 
 
 async def at_the_same_time(url):
@@ -242,20 +248,20 @@ def openings():
     try:
         url, pid = server.url.rpartition("/")[0], server.process.pid
         asyncio.run(asyncio.wait_for(come_and_go(f"{url}/app", 2), 300))
-        costs = {name: asyncio.run(alone(f"{url}/{name}", pid)) for name in ("app", "plain_page")}
-        own, plain = costs["app"], costs["plain_page"]
+        own, plain = asyncio.run(alone([f"{url}/app", f"{url}/plain_page"], pid))
         print(
             f"one opening: {own:.0f} ms of computing, of a plain page {plain:.0f} ms: "
             f"{own / plain:.2f} times; load of the machine {os.getloadavg()[0]:.1f}",
             flush=True,
         )
-        begin = computed(pid)
+        begin = spent(pid)
         last = max(asyncio.run(asyncio.wait_for(at_the_same_time(f"{url}/app"), 1200)))
-        spent = computed(pid) - begin
+        used, idle = (after - before for after, before in zip(spent(pid), begin, strict=True))
+        # Cores that the server shares with this client and others say nothing of its queue.
         print(
-            f"{CLASS} at once: the last one has the page after {last:.1f} s, "
-            f"{1000 * last / (CLASS * own):.2f} times {CLASS} openings; "
-            f"{spent / CLASS:.0f} ms of computing each",
+            f"{CLASS} at once: the last one has the page after {last:.1f} s, of which the server waits "
+            f"{idle / 1000:.1f} s for a core; the rest is {(1000 * last - idle) / (CLASS * own):.2f} times "
+            f"{CLASS} openings; {used / CLASS:.0f} ms of computing each",
             flush=True,
         )
     finally:

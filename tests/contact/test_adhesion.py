@@ -221,7 +221,7 @@ def test_energies_of_impacts_sum_to_the_kinetic_energy(profile):
     low, high = mdr.capture_speeds(profile, YIELDING, 1e-12)
     assert (hit.captured == ((speed < low) | (speed > high))).all()
     assert np.isinf(hit.contact_time[hit.captured]).all()
-    # Deepest states of ascending speeds are those of one loading; near yield the depth is known to rounding.
+    # The deepest states of ascending speeds are those of one loading, to the rounding of the depth.
     state = mdr.indent(profile, YIELDING, hit.max_depth)
     assert hit.max_force == pytest.approx(state.force, rel=1e-9, abs=1e-9 * np.abs(state.force).max())
     assert hit.plastic_depth == pytest.approx(state.plastic_depth, rel=1e-9, abs=1e-12 * D_C)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from mdr_core.impacts.motion import released_compression
 
 from ..shapes import SHAPES, name
 from .test_equation_of_motion import E_STAR, MASS, SPEED, medium
@@ -127,3 +128,22 @@ def test_a_flat_punch_is_a_damped_oscillator():
         # About ten steps, of each of which the polynomial may miss the velocity by 1e-10.
         np.testing.assert_allclose(motion.velocity, velocity, rtol=0, atol=1e-9 * SPEED)
         assert phase[-1] == pytest.approx(math.pi - 2 * math.asin(damping), rel=1e-9)
+
+
+@pytest.mark.parametrize("q_c", [math.inf, 10.0])
+def test_released_elements_relax_as_those_of_a_chain_on_the_same_path(q_c):
+    shape = mdr.Paraboloid(radius=1e-5)
+    motion = mdr.impact(shape, medium(1.0, shape, q_c), MASS, SPEED).motion(401)
+    chain = mdr.indent_in_time(shape, motion.states.medium, motion.depth, motion.time, tolerance=1e-4)
+    i = 300
+    assert i > motion.turning_index
+    x = np.linspace(1.02 * motion.contact_radius[i], 0.98 * motion.contact_radius.max(), 40)
+    left = released_compression(motion, i, shape.reduced(x))
+    _, compression = chain.elements(x)
+    assert left.max() > 1e-3 * motion.depth.max()
+    # The compression at release is that of the next of 400 instants.
+    np.testing.assert_allclose(left, compression[i], atol=0.02 * left.max())
+    # Elements in contact are not released, and on loading none is.
+    inside = shape.reduced(0.9 * motion.contact_radius[[i]])
+    assert released_compression(motion, i, inside) == 0
+    assert not released_compression(motion, 5, shape.reduced(x)).any()

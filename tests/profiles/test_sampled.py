@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from mdr_core.profiles.sampled import tip_through
 from mdr_core.profiles.samples import axis_of_symmetry
 
 from ..shapes import integrate, lower_hull
@@ -415,3 +416,23 @@ def test_the_axis_of_a_tip_that_is_measured_on_both_sides(noise):
     assert axis_of_symmetry(r, z) == pytest.approx(axis, abs=tolerance)
     # The order of the samples does not matter.
     assert axis_of_symmetry(r[::-1], z[::-1]) == pytest.approx(axis, abs=tolerance)
+
+
+def test_few_convex_samples_are_the_tip_as_they_are():
+    r = np.array([0.0, 1e-7, 2e-7, 4e-7])
+    tip, scatter = tip_through(r, r**2 / 2e-6, 60, 2000)
+    assert (tip, scatter) == (mdr.Sampled(r, r**2 / 2e-6), None)
+
+
+@pytest.mark.parametrize("rows", [41, 4000])
+def test_noisy_samples_about_any_axis_become_a_convex_tip_of_few(rows):
+    """The noise is the scatter, and the tip is that of the paraboloid within it, in its force too."""
+    r, noise = 1e-6 * np.linspace(-1.0, 1.3, rows), 2e-9
+    z = (r - 0.12e-6) ** 2 / 2e-6 + np.random.default_rng(5).normal(0.0, noise, rows)
+    tip, scatter = tip_through(r, z, 60, 2000)
+    assert len(tip.r) <= 60
+    # Of 41 samples the standard deviation is known to a ninth, and the fit takes some of it.
+    assert scatter == pytest.approx(noise, rel=0.35)
+    exact = mdr.indent(mdr.Paraboloid(1e-6), MEDIUM, 2e-7).force
+    # Noise of the height of the apex, of a few samples, over the depth; forces go with its power 3/2.
+    assert mdr.indent(tip, MEDIUM, 2e-7).force == pytest.approx(exact, rel=1.5 * noise / 2e-7 * 2)

@@ -13,10 +13,12 @@ from mdr_core.reading import SIZES
 
 from ...extra import Extra
 from ...fields import Upload
+from ...parts import Parts, Text
 from ...plot import Overlay, View
 from ...quantities import ASSETS, QUANTITIES, Quantity
+from ...shared.widgets import button, field, tools
 from ...state import State, checked, medium, profile, with_derived
-from ...ui import WIDE, button, field, html, indexed, marked, show, tools
+from ...ui import WIDE, html, indexed, marked, show
 from ...units import written
 from .drawn import MEASURED, RESIDUAL, measured, reach
 from .measured import (
@@ -200,15 +202,16 @@ class Fitting:
         self.place, self.noise = page.numbers(), page.numbers()
         self._rest = pn.Column(
             *(pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES),
-            html("<h2>Position and background</h2>", "title"), self.place,
-            page.choices.row("fit.hardness"), html("<h2>Fixed parameters</h2>", "title"), self.fixed,
-            self.noise, self.fit, self.not_fitted, self.said, self.unloading, visible=False, **WIDE,
+            Parts(Text("title", object="<h2>Position and background</h2>"), self.place,
+                  page.choices.part("fit.hardness")),
+            html("<h2>Fixed parameters</h2>", "title"), self.fixed, Parts(self.noise), self.fit,
+            self.not_fitted, self.said, self.unloading, visible=False, **WIDE,
         )  # fmt: skip
         note = html(
             "Load a table of depth and force to compare with the model. <i>Explore</i> sets the indenter."
         )
         buttons = tools(self.silica, self.remove)
-        parts = (note, self.file, buttons, self.not_taken, self.about, self._rest)
+        parts = (note, Parts(self.file), buttons, self.not_taken, self.about, self._rest)
         self.view = pn.Column(*parts, **WIDE)
         self.silica.on_click(lambda event: self._change(silica, self.not_taken))
         self.remove.on_click(lambda event: self._change(lambda state: take(state, None), self.not_taken))
@@ -275,18 +278,18 @@ class Fitting:
         placed = curve, profile(state), state["fit.fixed"], *(state[f"fit.{name}"] for name in PLACED)
         if placed != self._placed:
             self._placed, self.unloading.object = placed, unloading(state)
-        about = f"<b>{escape(curve.name)}</b>: {escape(curve.note)}. The link to the explorer does not contain the curve."
+        about = f"<b>{escape(curve.name)}</b>: {escape(curve.note)}. A link does not contain the curve."
         show(self.about, object=about)
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
         likes = {"fit.contact_point": depth, "fit.baseline": force}
-        self.place.show(state, [f"fit.{name}" for name in PLACED if name in curve.fitted], likes)
+        self.place.update(state, [f"fit.{name}" for name in PLACED if name in curve.fitted], likes)
         options = {quantity_of(name).label: name for name in offered(state)}
         show(
             self.fixed,
             options=options,
             value=[name for name in state["fit.fixed"] if name in offered(state)],
         )
-        self.noise.show(state, ["fit.depth_noise"], {"fit.depth_noise": depth})
+        self.noise.update(state, ["fit.depth_noise"], {"fit.depth_noise": depth})
         heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.curve.table.heads)}
         for role, column in curve.curve.columns.items():
             options = heads | ({"none, rows in order": _NO_COLUMN} if role == "time" else {})
@@ -308,7 +311,7 @@ def told(view: View) -> list[tuple[str, str]]:
     curve = view.state["fit.curve"]
     if curve is None:
         return []
-    text = f"<p>{escape(curve.name)}: {escape(curve.note)}. The link to the explorer does not contain the curve.</p>"
+    text = f"<p>{escape(curve.name)}: {escape(curve.note)}. A link does not contain the curve.</p>"
     if curve.fit is None:
         return [("The measured curve", text)]
     remarks = "".join(f"<p>{marked(_in_words(remark))}</p>" for remark in curve.fit.remarks)

@@ -1,5 +1,5 @@
 // A picture of a plot: larger than on the page, with its title and its legend, and the scene below.
-async function save(figure, { rows, title, scene }) {
+export async function save(figure, { rows, title, scene }) {
   const { above, below, renderers, sizing_mode, width, height } = figure
   const { Legend, LegendItem, Title } = Bokeh.Models
   const settled = () => new Promise((done) => setTimeout(done, 250))

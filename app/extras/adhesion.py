@@ -1,0 +1,96 @@
+"""Adhesion over force and depth: first contact, the pull-off, and what a loop loses and gives back."""
+
+from functools import lru_cache
+
+import numpy as np
+from scipy.integrate import trapezoid
+
+from mdr_core.contact.unloading import AdhesiveLoop, adhesive_loop, unloading_curve
+from mdr_core.results.figures import NOTHING, area, label, line, mark
+
+from ..courses import Course
+from ..extra import Extra
+from ..plot import Overlay, View
+from ..plots import D, F
+from ..units import written
+
+ROWS = (
+    area("gained", "stick", 0.25),
+    area("given back", "elastic", 0.25),
+    line("jump", "elastic", 1.2, "dotted", legend=False),
+    mark("jump into contact", "elastic", marker="square", size=9),
+    mark("pull-off", "stick", marker="square", size=9),
+    label("Fₐ"),
+    label("W_a"),
+    label("W_U"),
+)
+
+
+def still(view: View) -> dict:
+    """Where contact begins, and the largest tension of unloading, with its value."""
+    if not view.course.adhesive:
+        return {}
+    depth, force = view.course.states.depth, view.course.states.force
+    last = view.course.peak + int(np.argmin(force[view.course.peak :]))
+    text = f"Fₐ = {written(view.course.pull_off_force[last], 'force', 3)}"
+    beside = 0.02 * (view.end(D) - view.axis(D).start)
+    above = 0.05 * (view.end(F) - view.axis(F).start)
+    return {
+        "jump into contact": (depth[:1], force[:1]),
+        "jump": (depth[[0, 0]], np.array([0.0, force[0]])),
+        "pull-off": (depth[[last]], force[[last]]),
+        "Fₐ": (depth[last] + beside, force[last] + above, text),
+    }
+
+
+@lru_cache(maxsize=4)
+def _loop(course: Course, turn: int) -> AdhesiveLoop:
+    """Loop of loading to a state and unloading: all states of unloading have the same."""
+    return adhesive_loop(course.states[: turn + 1], course.under_force)
+
+
+def moving(view: View, i: int) -> dict:
+    """Areas of a loading and unloading with adhesion, with their energies as text.
+
+    The stored energy is no area below the curve, because surfaces are separated, too: drawn is what comes
+    back before the force is tension.
+    """
+    course = view.course
+    if not course.adhesive or course.turns:
+        # Loops of several loadings overlap.
+        return {}
+    loop = _loop(course, min(i, course.peak))
+    returned = _before_tension(*unloading_curve(course.states[i], course.under_force))
+    around = np.append(loop.depth, loop.depth[::-1])
+    lost = np.maximum(loop.loading, loop.unloading), loop.unloading[::-1]
+    gained = loop.unloading, np.minimum(loop.loading, loop.unloading)[::-1]
+    closed, gains = loop.lost > loop.gained, loop.lost > loop.gained > 1e-3 * loop.lost
+    left, top = view.axis(D).start, view.end(F)
+    height, width = top - view.axis(F).start, view.end(D) - left
+    said, back = "", float(trapezoid(returned[1], returned[0]))
+    # An early loop may reach below the axis, which is that of the whole course.
+    if closed and loop.depth[0] > left - 1e-6 * width:
+        net = loop.lost - loop.gained
+        said = f"dissipated {written(loop.lost, 'energy', 3)}"
+        said += f" − {written(loop.gained, 'energy', 3)} gained = {written(net, 'energy', 3)}" * gains
+    left += 0.02 * width
+    return {
+        "dissipated": (around, np.concatenate(lost)) if closed else NOTHING,
+        "gained": (around, np.concatenate(gained)) if gains else NOTHING,
+        "given back": returned,
+        "W_a": (left, top - 0.02 * height, said),
+        "W_U": (left, top - 0.08 * height, f"given back {written(-back, 'energy', 3)}" if back < 0 else ""),
+    }
+
+
+def _before_tension(d, force) -> tuple:
+    """Area below the part of an unloading that begins with forces above zero, up to zero force."""
+    # At its end, the pull-off, there is always tension.
+    count = int(np.argmax(force <= 0))
+    if count == 0:
+        return NOTHING
+    zero = np.interp(0.0, force[[count, count - 1]], d[[count, count - 1]])
+    return np.concatenate([d[:1], d[:count], [zero]]), np.concatenate([[0.0], force[:count], [0.0]])
+
+
+EXTRA = Extra("adhesion", overlays=(Overlay("force", ROWS, still, moving),))

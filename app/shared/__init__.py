@@ -1,0 +1,1 @@
+"""What two extras or more share. The page needs nothing of it."""

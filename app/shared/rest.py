@@ -1,0 +1,157 @@
+"""Slow searches of a session, made in threads while the input rests: rows of plots, and exact courses."""
+
+import logging
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from mdr_core.results.figures import Axis
+
+from ..courses import Course
+from ..drives import DRIVES
+from ..extra import EXTRAS
+from ..plot import Plot, View
+from ..plots import PLOTS, visible
+from ..state import State
+from ..ui import is_served
+
+_LOG = logging.getLogger(__name__)
+#: Threads for the searches of all sessions, and courses that a session keeps.
+_THREADS, _KEPT = ThreadPoolExecutor(), 4
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a search has found for a plot: rows (SI) with their axes, and a note as HTML."""
+
+    rows: dict[str, Any]
+    axes: list[Axis]
+    note: str = ""
+
+
+#: Results before a search ends, and after one failed.
+COMPUTING = Found({}, [], "computing …")
+FAULT = Found({}, [], "This could not be found, because of a fault of the explorer.")
+
+
+@dataclass(frozen=True, eq=False)
+class Searched(Plot):
+    """A plot whose rows and axes are found by a search.
+
+    `find` gets the course and the result of `asks` (default: the `controls`), and returns what is found,
+    of a scene or a state (`of_state`); `quick` ones run at every move. `image`: rows and columns of pixels.
+    """
+
+    find: Callable[..., Found] = lambda course, asked: COMPUTING
+    asks: Callable[[State], Any] | None = None
+    quick: Callable[[Any], bool] = lambda asked: False
+    of_state: bool = False
+    image: tuple[int, int] | None = None
+
+    def asked(self, state: State) -> Any:
+        """Arguments of `find` beside the course."""
+        return self.asks(state) if self.asks else tuple(state[name] for name in self.controls)
+
+    def key(self, course: Course, asked: Any) -> Any:
+        """What a search is known by."""
+        return course.scene, asked, course.progress[course.now] if self.of_state else None
+
+    def found(self, view: View) -> Found:
+        return view.computed.get(self.name) or COMPUTING
+
+    def axes_of(self, view: View) -> list[Axis]:
+        return self.found(view).axes
+
+    def still_of(self, view: View) -> dict[str, Any]:
+        empty = {}
+        if self.image:
+            empty["image"] = *[np.array([0.0, 1.0])] * 2, np.full(self.image, np.nan)
+        return super().still_of(view) | empty | self.found(view).rows
+
+    def note_of(self, view: View) -> str:
+        return self.found(view).note
+
+
+class Resting:
+    """Searches of a session: the last one of each name."""
+
+    def __init__(self, page: Any):
+        self._page, self._keys, self._results = page, {}, {}
+
+    def compute(self, state: State, course: Course) -> dict[str, Found]:
+        """Results for the plots of a state; quick ones are computed."""
+        results = {}
+        for plot in (PLOTS[name] for name in state.tiles if isinstance(PLOTS[name], Searched)):
+            asked = plot.asked(state)
+            key, result = self._results.get(plot.name, (None, COMPUTING))
+            if plot.quick(asked):
+                result = plot.find(course, asked)
+            elif key != plot.key(course, asked):
+                result = replace(COMPUTING, axes=result.axes)
+            results[plot.name] = result
+        return results
+
+    def rest(self, view: View) -> None:
+        """Begin the slow searches of a view: exact courses, and those of its plots."""
+        courses = [view.course, *(course for each in EXTRAS.values() for course in each.courses(view))]
+        for k, course in enumerate(courses):
+            if course.pending:
+                self._search(f"course {k}", course.scene, _exact, course)
+        for plot in (plot for plot in visible(view) if isinstance(plot, Searched)):
+            asked = plot.asked(view.state)
+            if not plot.quick(asked):
+                self._search(plot.name, plot.key(view.course, asked), plot.find, view.course, asked)
+
+    def _search(self, name, key, search, *arguments):
+        """Search unless the last search of this name has the same key."""
+        if self._keys.get(name) == key:
+            return
+        self._keys[name], document = key, self._page.document
+
+        def run():
+            try:
+                result = search(*arguments)
+            except Exception:
+                _LOG.exception("%s could not be found, scene %s", name, arguments[0].scene.to_json())
+                result = FAULT
+            done = partial(self._done, name, key, result)
+            document.add_next_tick_callback(done) if served else done()
+
+        served = is_served(document)
+        _THREADS.submit(run) if served else run()
+
+    def _done(self, name, key, result):
+        """Draw a result if it is that of the last search; on failure go on without it."""
+        if self._keys[name] != key:
+            return
+        page, solved = self._page, self._page.solved
+        self._results[name] = key, result
+        try:
+            if isinstance(result, str):
+                page.notify(result)
+                return
+            if isinstance(result, Course):
+                page.solved = dict([*solved.items(), (result.scene, result)][-_KEPT:])
+            page.draw(page.state, again=isinstance(result, Course))
+        except Exception as error:
+            page.solved = solved
+            self._results[name] = key, FAULT
+            page.notify(page.refusal(error))
+            page.draw(page.state)
+
+
+def exact(course: Course) -> Course:
+    """The exact course of a pending one."""
+    return replace(DRIVES[course.drive].in_time(course.scene), drive=course.drive)
+
+
+def _exact(course):
+    """The exact course, or the reason of failure."""
+    try:
+        return exact(course)
+    except ValueError as error:
+        return str(error)

@@ -1,0 +1,13 @@
+"""The axis of time of the plots over time, and the line at the present time."""
+
+import numpy as np
+
+from ..plot import Along, View
+from ..plots import titled
+
+T = Along(titled("time"), "time", lambda course: float(course.motion.time[-1]))
+
+
+def line_at_time(view: View, i: int, up: Along) -> tuple:
+    """Vertical line at the time of state i, over the whole axis `up`."""
+    return view.course.motion.time[[i, i]], np.array([view.axis(up).start, view.end(up)])

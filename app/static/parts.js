@@ -1,0 +1,144 @@
+// Parts of the page: `told` says what each is, `shown` what is to be seen of it. The server hears the number of a part.
+import { save } from "./save.js"
+
+const made = (tag, className, innerHTML = "") => Object.assign(document.createElement(tag), { className, innerHTML })
+const KINDS = {
+  text({ classes }) {
+    const el = made("div", classes)
+    let text = ""
+    return [el, ({ object }) => { if (text !== object) el.innerHTML = text = object }]
+  },
+  words(_, send, named) {
+    const el = made("div", "words"), messages = named("messages")
+    const show = () => { el.innerHTML = messages.words }
+    messages.properties.words.change.connect(show)
+    return [el, show]
+  },
+  button({ key }, send) {
+    const el = made("button", "act")
+    Object.assign(el, { onclick: () => send(null) }).dataset.key = key
+    return [el, ({ label, pressed, disabled }) => Object.assign(el, { textContent: label, disabled, ariaPressed: pressed })]
+  },
+  // A picture of a plot, saved in the browser.
+  save({ figure, title }, send, named) {
+    const [el, show] = KINDS.button({ key: "" })
+    let saved = {}
+    el.onclick = () => save(named(figure), { title, ...saved })
+    return [el, (look) => { saved = look; show(look) }]
+  },
+  // Radio buttons or a list, with an explanation in a popover.
+  choice({ classes, label, about, radio, id }, send) {
+    const popover = `<div popover id="about-${id}">${about}</div>`
+    const el = made("div", `choice ${classes}`, radio
+      ? `<div class="radio"><button class="word" popovertarget="about-${id}">${label}</button>${popover}<div class="options"></div></div>`
+      : `<div class="list"><label for="list-${id}">${label}</label><select id="list-${id}"></select>
+        <button class="help" aria-label="What is ${label}?" popovertarget="about-${id}">?</button>${popover}</div>`)
+    const list = el.querySelector(radio ? ".options" : "select")
+    let [asked, offered] = [0, ""]
+    const choose = (option) => {
+      asked += 1
+      send(option)
+    }
+    const filled = (options) => list.replaceChildren(...options.map(([option, text]) => {
+      if (!radio) return new Option(text, option)
+      const label = made("label", "", `<input type="radio" name="of-${id}">`)
+      label.append(text)
+      Object.assign(label.firstChild, { value: option, onchange: () => choose(option) })
+      return label
+    }))
+    if (!radio) list.onchange = () => choose(list.value)
+    return [el, ({ options, value, answered }) => {
+      if (offered !== JSON.stringify(options)) filled(options)
+      offered = JSON.stringify(options)
+      // Also what was refused is answered: the present option stands again. Earlier answers do not touch what is asked now.
+      if (answered < asked) return
+      asked = answered
+      if (radio) for (const { firstChild } of list.children) firstChild.checked = firstChild.value === value
+      else list.value = value
+    }]
+  },
+  // Typed with its unit, or dragged. Each value has a number of its own, which its answer names. What is typed is sent at
+  // once; of a drag one value is under way, and what is dragged meanwhile replaces what waits.
+  number({ label, spoken, about, steps, id }, send) {
+    const el = made("div", "number", `<div class="row"><label for="text-${id}">${label}</label>
+      <button class="help" aria-expanded="false" aria-label="What is ${spoken}?">?</button>
+      <input id="text-${id}" type="text" spellcheck="false" autocomplete="off" aria-describedby="said-${id}" aria-label="${spoken}"></div>
+      <input type="range" max="${steps}" title="Arrow keys step, double-click resets" aria-label="${spoken}, slider">
+      <p class="said" id="said-${id}" aria-live="polite"></p><div class="about" hidden>${about}</div>`)
+    const [text, range] = el.querySelectorAll("input")
+    const [said, about_it, help] = [".said", ".about", ".help"].map((name) => el.querySelector(name))
+    let [now, asked, wish, typing] = [null, 0, null, false]
+    range.hidden = !steps
+    const busy = () => now.answered !== asked
+    const ask = (what) => {
+      ;[wish, asked, typing] = [null, asked + 1, false]
+      send({ ...what, number: asked })
+    }
+    const show = () => {
+      // An answer to an earlier value, or another change of the page, does not touch what is being typed.
+      if (busy() || typing) return
+      // What was refused stays in its field, to be corrected.
+      if (!now.refused && text.value !== now.text) {
+        text.value = now.text
+        if (text.matches(":focus")) text.select()
+      }
+      text.setAttribute("aria-invalid", String(now.refused !== ""))
+      said.textContent = now.refused
+      if (wish === null) range.value = now.position
+      range.style.setProperty("--share", range.value / range.max)
+      range.setAttribute("aria-valuetext", now.text)
+    }
+    range.addEventListener("input", () => {
+      range.style.setProperty("--share", range.value / range.max)
+      const what = { position: range.valueAsNumber }
+      if (busy()) wish = what
+      else ask(what)
+    })
+    range.addEventListener("dblclick", () => ask({ reset: true }))
+    text.addEventListener("input", () => { typing = true })
+    text.addEventListener("change", () => ask({ text: text.value }))
+    text.addEventListener("focus", () => text.select())
+    // Typed and left as it was.
+    text.addEventListener("blur", () => { typing = false; show() })
+    text.addEventListener("keydown", ({ key }) => (key === "Escape" ? ask({ restore: true }) : key === "Enter" && text.select()))
+    help.addEventListener("click", () => { help.ariaExpanded = String(!(about_it.hidden = !about_it.hidden)) })
+    return [el, (look) => {
+      const answered = now !== null && now.answered !== look.answered
+      if (now === null) asked = look.answered
+      now = look
+      show()
+      if (answered && wish !== null && !busy()) ask(wish)
+    }]
+  },
+  // A file, chosen or dropped. Its size is looked at first: a message that is too large ends the session.
+  file({ label, accept, most, id }, send) {
+    const el = made("div", "file", `<label for="file-${id}">${label}</label><input id="file-${id}" type="file" accept="${accept}">`)
+    const input = el.querySelector("input")
+    input.addEventListener("change", async () => {
+      const [file] = input.files
+      if (!file) return
+      const data = file.size > most ? null : await file.arrayBuffer()
+      send({ name: file.name, size: file.size, data })
+      // Else a file of the same name is not read again.
+      input.value = ""
+    })
+    return [el, () => {}]
+  },
+}
+export function render({ model, el, view }) {
+  el.classList.add("parts")
+  const parts = new Map(), named = (name) => view.model.document.get_model_by_name(name)
+  const show = () => {
+    const told = JSON.parse(model.told)
+    JSON.parse(model.shown).forEach(({ id, visible, ...look }, k) => {
+      if (!told[id]) return
+      if (!parts.has(id)) parts.set(id, KINDS[told[id].kind]({ ...told[id], id }, (what) => model.send_msg([id, what]), named))
+      const [part, shown] = parts.get(id)
+      if (el.children[k] !== part) el.insertBefore(part, el.children[k] ?? null)
+      part.hidden = !visible
+      shown(look)
+    })
+  }
+  model.on(["told", "shown"].map((name) => `change:${name}`), show)
+  show()
+}
