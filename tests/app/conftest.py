@@ -55,7 +55,9 @@ window.explorer = {
   all: (root = document) => [...root.querySelectorAll("*")].flatMap(
     (each) => [each, ...(each.shadowRoot ? explorer.all(each.shadowRoot) : [])]),
   idle: () => typeof explorer.model("messages")?.address === "string" &&
-    Bokeh.documents.every((each) => each.is_idle) && explorer.row("force", "now")?.[0].length === 1,
+    Bokeh.documents.every((each) => each.is_idle) &&
+    (explorer.made ||= explorer.all().some((each) => each.tagName === "H1")) &&
+    explorer.row("force", "now")?.[0].length === 1,
 }
 """
 
