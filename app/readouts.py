@@ -67,9 +67,8 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
             yield "note", sentence
     for limit in sorted(course.limits(state.density), key=lambda limit: limit.concerns != "result"):
         # The fast limit is one without adhesion; what is still computed may have dashpots.
-        if (limit.what == "fast limit" and course.adhesive) or (
-            limit.what == "viscosity" and course.pending
-        ):
+        without = {"fast limit": course.adhesive, "viscosity": bool(course.pending)}
+        if without.get(limit.what):
             continue
         own = _own_words(limit, state)
         yield ("note", own) if own else (limit.level, limit.sentence)

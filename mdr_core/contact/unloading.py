@@ -50,12 +50,12 @@ def unloading_curve(state: Indentation, under_force: bool = False) -> tuple[np.n
     back are compressed further than their load: the curve begins at the depth of the state, with the
     stiffness 2E* a.
     """
-    live, depth = state.live_interval, float(state.depth)
+    interval, depth = state.live_interval, float(state.depth)
     touching = state.contact_radius > 0
     share = np.linspace(1, 0, _STATES)
-    back = unloading(state.profile, state.medium, live, share, touching, under_force)
+    back = unloading(state.profile, state.medium, interval, share, touching, under_force)
     d, force = back.depth, back.force
-    if live.length > 0 and depth > live.upper * (1 + 1e-9):
+    if interval.length > 0 and depth > interval.upper * (1 + 1e-9):
         stiffness = 2 * state.medium.E_star * state.contact_radius
         d, force = np.append(depth, d), np.append(force[0] + stiffness * (depth - d[0]), force)
     return d, force
@@ -91,9 +91,9 @@ def adhesive_loop(path: Indentation, under_force: bool = False) -> AdhesiveLoop:
     Areas are good to three digits. Where the contact is lost above the depth of first contact before
     anything has yielded, as may be under a given force, no loop is closed and more is gained than lost.
     """
-    profile, medium, live = path.profile, path.medium, path.live_interval
+    profile, medium, interval = path.profile, path.medium, path.live_interval
     share = np.linspace(1, 0, _LOOP)
-    back, first = (unloading(profile, medium, live[i], share, True, under_force) for i in (-1, 0))
+    back, first = (unloading(profile, medium, interval[i], share, True, under_force) for i in (-1, 0))
     largest, end = path.depth[-1], back.depth[-1]
     # The force jumps at first contact and at the pull-off; what is below first contact is a small part.
     step = 1e-9 * max(largest, -end)

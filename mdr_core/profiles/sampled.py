@@ -275,26 +275,26 @@ class Sampled(Profile):
 
 
 def tip_through(r, z, most, averages):
-    """A tip of a measurement at radii r (m) and heights z (m), and the scatter (m) of these about it.
+    """Profile through measured radii r (m) and heights z (m), and the scatter (m) of these about it.
 
-    As many as `most` convex samples are the tip as they are, without a scatter, None. Other ones, more,
-    noisy or on both sides of an axis that need not be at r = 0, become the nearest convex tip, fitted to
-    at most so many `averages`, with at most so many samples.
+    Convex samples, at most `most`, are taken as they are, and the scatter is None. Others, which are more,
+    noisy or on both sides of an axis that need not be at r = 0, give the nearest convex profile of at most
+    `most` samples, fitted to at most `averages` means.
     """
     try:
         if len(r) <= most:
             return Sampled(r, z), None
     except ValueError:
-        # Noise makes any tip concave somewhere.
+        # Noise makes any profile concave somewhere.
         pass
     if min(r) < 0 < max(r):
         r = r - axis_of_symmetry(r, z)
     parts = np.array_split(np.argsort(r, kind="stable"), min(len(r), averages))
-    tip = Sampled.fit(*(np.array([np.mean(of[part]) for part in parts]) for of in (r, z)))
+    profile = Sampled.fit(*(np.array([np.mean(of[part]) for part in parts]) for of in (r, z)))
     # On a convex polygon every other one of its vertices is convex too.
-    subset = np.unique(np.linspace(0, len(tip.r) - 1, most).round().astype(int))
-    tip = Sampled(np.array(tip.r)[subset], np.array(tip.z)[subset])
-    return tip, float(np.std(z - np.interp(np.abs(r), tip.r, tip.z)))
+    subset = np.unique(np.linspace(0, len(profile.r) - 1, most).round().astype(int))
+    profile = Sampled(np.array(profile.r)[subset], np.array(profile.z)[subset])
+    return profile, float(np.std(z - np.interp(np.abs(r), profile.r, profile.z)))
 
 
 def _lists(what, r, z, **bounds):
