@@ -14,7 +14,7 @@ from .parameters import CLASSES, PARAMETERS, TOGETHER
 #: All kinds of remarks, the most important first.
 KINDS = (
     "units", "no contact", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag", "drift",
-    "misfit", "jitter", "loading", "vague", "contact", "class", "constants", "elastic", "hardly yields",
+    "misfit", "jitter", "unloading", "outliers", "blocks", "loading", "vague", "contact", "class", "constants", "elastic", "hardly yields",
     "noisy", "rest", "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
@@ -30,6 +30,10 @@ _SEEN, _BENT = 0.25, 1.1
 _SWAPPED, _NO_CONTACT = "depth and force are swapped", "no contact is seen in this record"
 #: Least distance of the pull-off from that of the model, as a share of the range of depth.
 _PULL_OFF = 0.02
+#: Standard deviations from the neighbours, by their median, from which on a sample is an outlier.
+_OUTLIER = 8.0
+#: Number of blocks of correlated residuals below which the errors of a medium that yields are too small.
+_BLOCKS = 20
 #: Root mean square of correlated residuals over the range of force above which the model does not fit, of
 #: elastic media and of those that yield, whose unloading is a small part of the curve.
 _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
@@ -37,13 +41,20 @@ _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
 
 def remarks_of(solved):
     """Remarks on each curve of a `Solution`: a sentence by its kind, the same for all curves."""
-    checks = _units, _ambiguous, _adhesion, _undetermined, _jitter, _class_b, _misfit, nested_tests
+    checks = (
+        _units, _ambiguous, _adhesion, _undetermined, _jitter, _class_b, _misfit, _outliers, _blocks,
+        nested_tests,
+    )  # fmt: skip
     count = len(solved.rows)
     remarks = [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in range(count)]
     for each in remarks:
         # The contact may be hidden by what a linear parameter describes.
         if {"tilt", "drag", "drift"} & set(each):
             each.pop("no contact", None)
+        # These say more.
+        if {"misfit", "class", "jitter"} & set(each):
+            each.pop("unloading", None)
+            each.pop("blocks", None)
     return remarks
 
 
@@ -324,4 +335,39 @@ def _misfit(solved, i):
             "noisy",
             f"χ² per degree of freedom is {chi:.3g}: the residuals ({100 * size:.2g} % of the force) are "
             "larger than the noise that is given",
+        )
+
+
+def _exact(solved, i):
+    """Whether the residuals are those of the arithmetic."""
+    size = np.sqrt(np.mean((solved.minimum.residual[i] * solved.noise[i]) ** 2))
+    return size < 1e-7 * solved.curves.load[i, 0]
+
+
+def _outliers(solved, i):
+    """Samples far from both neighbours that have most of the squares of the residuals."""
+    residual = solved.minimum.residual[i]
+    if residual.size < 10 or solved.curves.adhesive or _exact(solved, i):
+        return
+    distance = residual[1:-1] - (residual[:-2] + residual[2:]) / 2
+    far = np.abs(distance) > _OUTLIER * np.median(np.abs(distance)) / 0.6745
+    if np.sum(distance[far] ** 2) > 0.5 * np.sum(residual**2):
+        single = np.count_nonzero(far & (np.abs(distance) >= np.abs(distance[far]).max() / 3))
+        yield (
+            "outliers",
+            f"about {single} of {residual.size} samples are outliers, more than {_OUTLIER:g} standard "
+            "deviations from their neighbours: set them to NaN, or E* is off by more than its error",
+        )
+
+
+def _blocks(solved, i):
+    """Noise that is correlated over a large part of a curve that yields."""
+    curves, length = solved.curves, solved.block_length[i]
+    count = curves.depth.shape[1]
+    elastic = curves.held_elastic or solved.elastic[i]
+    if 1 < length < count < _BLOCKS * length and not (elastic or _exact(solved, i)):
+        yield (
+            "blocks",
+            f"neighbouring residuals are correlated over {length} of {count} samples: the standard errors "
+            "are from few blocks, and up to twice too small",
         )
