@@ -15,8 +15,8 @@ import numpy as np
 from ..results.quantities import engineering
 from .errors import SIGNIFICANT, SINGULAR, block_length, roughness
 
-#: What is tested: in words, its unit, the factor by which the misfit falls clearly, and what follows. A tilt
-#: lowers the misfit of measured curves without one up to 1.2 times.
+#: What is tested: in words, its unit, the factor by which the misfit falls clearly, and what follows. The
+#: misfit of measured curves without a tilt falls up to 1.2 times by one.
 _TESTS = {
     "tilt": ("a tilt of {}", "N/m", 1.5, "give tilt=None and baseline=None"),
     "drag": ("a drag of {}", "N·s/m", 1.3, "give drag=None"),
@@ -85,8 +85,8 @@ def nested_tests(solved, i):
 def _sentence(name, size, factor, change):
     what, unit, _, follows = _TESTS[name]
     return (
-        f"{what.format(engineering(size, unit))} lowers the misfit in contact {factor:.3g} times, and changes "
-        f"E* by {change:+.1f} of its errors: {follows}"
+        f"{what.format(engineering(size, unit))} lowers the misfit in contact {factor:.3g} times, and "
+        f"changes E* by {change:+.1f} of its errors: {follows}"
     )
 
 

@@ -14,8 +14,8 @@ from .parameters import CLASSES, PARAMETERS, TOGETHER
 #: All kinds of remarks, the most important first.
 KINDS = (
     "units", "no contact", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag", "drift",
-    "misfit", "jitter", "unloading", "outliers", "blocks", "loading", "vague", "contact", "class", "constants", "elastic", "hardly yields",
-    "noisy", "rest", "inviscid", "missing",
+    "misfit", "jitter", "unloading", "outliers", "blocks", "loading", "vague", "contact", "class",
+    "constants", "elastic", "hardly yields", "noisy", "rest", "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
 DOUBTS = {"units", "no contact", "tilt", "drag", "drift", "misfit", "jitter", "class", "noisy"}
