@@ -10,11 +10,12 @@ from .depth_noise import turning_points_of
 from .errors import SIGNIFICANT, SINGULAR, autocorrelation, roughness
 from .nested import nested_tests
 from .parameters import CLASSES, PARAMETERS, TOGETHER
+from .report import with_error
 
 #: All kinds of remarks, the most important first.
 KINDS = (
-    "units", "no contact", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag", "drift",
-    "misfit", "jitter", "unloading", "outliers", "blocks", "loading", "vague", "contact", "class",
+    "invalid", "units", "no contact", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag",
+    "drift", "misfit", "jitter", "unloading", "outliers", "blocks", "loading", "vague", "contact", "class",
     "constants", "elastic", "hardly yields", "noisy", "rest", "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
@@ -305,7 +306,8 @@ def _class_b(solved, i):
         yield (
             "class",
             f"the recovered depth {'grows' if trend > 0 else 'falls'} with depth (about as its power "
-            f"{trend:+.2g} ± {error:.1g}), whereas it is constant for hardness ∝ 1/radius: not class (b)",
+            f"{with_error(trend, error, '')}), whereas it is constant for hardness ∝ 1/radius: not class "
+            "(b)",
         )
 
 
