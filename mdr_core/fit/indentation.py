@@ -192,8 +192,7 @@ def fit_indentation(
     fitted = np.array([i for i in range(len(measured.depth)) if i not in reasons], int)
     held = {name: values[fitted] for name, values in held.items()}
     curves_to_fit = measured.rows(fitted)
-    if fitted.size:
-        _refuse_empty(curves_to_fit, held)
+    _refuse_empty(curves_to_fit, held)
     noise_known = measured.force_noise is not None or noise > 0
     solutions = []
     with progress(fitted.size, "curves") as done:
@@ -202,8 +201,7 @@ def fit_indentation(
                 fitted[rows], curves, noise_known, reasons if invalid == "nan" else None
             )
             done(rows.size)
-    if not solutions:
-        raise ValueError(f"none of {len(reasons)} curves can be fitted; curve 0: {reasons[0]}")
+    _refuse_all_invalid(reasons, len(measured.depth))
     return collected(profile, measured, noise, solutions, reasons)
 
 
@@ -261,8 +259,14 @@ def _without_invalid(profile, depth, force, time, held):
         except ValueError as error:
             reasons[i] = str(error)
             curves[i] = [np.full(np.size(curve[0]), np.nan)] * len(curve)
+    _refuse_all_invalid(reasons, len(curves))
     depth, force, *times = map(list, zip(*curves, strict=True))
     return depth, force, times[0] if times else None, reasons
+
+
+def _refuse_all_invalid(reasons, count):
+    if len(reasons) == count:
+        raise ValueError(f"none of {count} curves can be fitted; curve 0: {reasons[0]}")
 
 
 def _refuse_with_adhesion(held, noise):

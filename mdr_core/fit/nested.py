@@ -15,8 +15,8 @@ import numpy as np
 from ..results.quantities import engineering
 from .errors import SIGNIFICANT, SINGULAR, block_length, roughness
 
-#: What is tested: in words, its unit, the factor by which the misfit falls clearly, and what follows. The
-#: misfit of measured curves without a tilt falls up to 1.2 times by one.
+#: Words for each, its unit, the factor by which the misfit falls clearly, and what follows. The misfit of
+#: measured curves without a tilt falls up to 1.2 times by one.
 _TESTS = {
     "tilt": ("a tilt of {}", "N/m", 1.5, "give tilt=None and baseline=None"),
     "drag": ("a drag of {}", "N·s/m", 1.3, "give drag=None"),
@@ -56,26 +56,27 @@ def nested_tests(solved, i):
     small = _rms((before * noise)[contact]) < _SMALL * curves.load[i, 0]
     columns = {} if small else dict(_columns(curves, state, i, contact))
     while columns:
-        said = {}
+        trials = {}
         for name, column in columns.items():
             matrix = np.column_stack([jacobian, column / noise[:, None]])
             step = _step(matrix, minimum.residual[i])
             remainder = minimum.residual[i] + matrix @ step
             factor = _rms(before[contact]) / _rms(remainder[contact])
             gain = (before @ before - remainder @ remainder) / _rms(remainder) ** 2
-            change = step[0] / solved.errors(i)["E_star"]
             independent = gain / block_length(remainder[solved.orders[i]])
+            change = step[0] / solved.errors(i)["E_star"]
             clear = factor > _TESTS[name][2] and gain > SIGNIFICANT**2
             if clear or (independent > _SIGNIFICANT**2 and abs(change) > _UNCOVERED):
                 # The first of those that are clear, else the best one.
-                said[name] = np.inf if clear else gain, matrix, remainder, (step[-1], factor, change)
-        if not said:
+                rank = np.inf if clear else gain
+                trials[name] = rank, matrix, remainder, _sentence(name, step[-1], factor, change)
+        if not trials:
             break
         # The others are tested beside it.
-        best = max(said, key=lambda name: said[name][0])
-        _, jacobian, before, numbers = said[best]
+        best = max(trials, key=lambda name: trials[name][0])
         del columns[best]
-        yield best, _sentence(best, *numbers)
+        _, jacobian, before, text = trials[best]
+        yield best, text
     if yields and _increases(curves, i):
         drift = _drift(curves, state, i, contact) / noise
         change = _step(minimum.jacobian[i], drift)[0]

@@ -36,13 +36,13 @@ def with_error(value, error, unit):
     factor, unit = prefixed(max(*map(abs, ends), 0.0 if error == np.inf else error), unit)
     ends, error = [end / factor for end in ends], error / factor
     if error == np.inf:
-        texts, said = [f"{float(f'{end:.1g}'):g}" for end in ends], " ± ∞"
+        texts, ending = [f"{float(f'{end:.1g}'):g}" for end in ends], " ± ∞"
     elif error <= 1e-6 * max(map(abs, ends)):
-        texts, said = [f"{end:.6g}" for end in ends], ""
+        texts, ending = [f"{end:.6g}" for end in ends], ""
     else:
         digits = max(0, 1 - int(np.floor(np.log10(float(f"{error:.1e}")))))
-        texts, said = [f"{end:.{digits}f}" for end in ends], f" ± {error:.{digits}f}"
-    return f"{' … '.join(texts)}{said} {unit}".rstrip()
+        texts, ending = [f"{end:.{digits}f}" for end in ends], f" ± {error:.{digits}f}"
+    return f"{' … '.join(texts)}{ending} {unit}".rstrip()
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _check
-from .._check import Array
+from .._check import Array, ArrayLike
 from ..contact.indentation import Indentation
 from ..contact.live_interval import LiveInterval
 from ..medium import Medium
@@ -162,12 +162,18 @@ class IndentationFit(Fit):
         self._refuse_invalid("plot")
         return plot_fit(self)
 
-    def to_xarray(self) -> "xarray.Dataset":
+    def to_xarray(self, position: ArrayLike | None = None) -> "xarray.Dataset":
         """Everything as a dataset: parameters, errors and covariance, and of each sample what was measured,
-        the model and the residual; `attrs` has the remarks.
+        the model and the residual; `attrs` has the remarks, and how many curves are `invalid`, and why.
+
+        Parameters
+        ----------
+        position : array_like, optional
+            Positions (m) of the curves of a map on the surface, (R, 2): the coordinates x and y.
         """
         xarray = imported("xarray", "to_xarray()")
-        dims, parameters = self._dims(), list(self.standard_errors)
+        # Zarr has no specification of texts of fixed length.
+        dims, parameters = self._dims(), np.array(list(self.standard_errors), object)
         variables = {}
         for name, value in self.to_dict().items():
             variables[name] = dims, value, PARAMETERS[name.removesuffix("_error")].quantity.attributes
@@ -183,8 +189,18 @@ class IndentationFit(Fit):
         variables["covariance"] = (*dims, "parameter", "other_parameter"), self.covariance
         attributes = self._attributes() | {"indenter": described(self.profile), "model": str(self.model)}
         attributes["remarks"] = "\n".join(self.remarks)
-        names = {"parameter": parameters, "other_parameter": parameters}
-        return xarray.Dataset(variables, names, attributes | {"depth_noise": self.depth_noise})
+        attributes["depth_noise"] = self.depth_noise
+        if self.invalid:
+            attributes["invalid_count"] = len(self.invalid)
+            attributes["invalid"] = "\n".join(f"curve {i}: {text}" for i, text in self.invalid.items())
+        coordinates = {"parameter": parameters, "other_parameter": parameters}
+        if position is not None:
+            position = _check.finite_array("position", position, unit="m", most=_check.LONGEST)
+            if position.shape != (*self.shape, 2):
+                raise ValueError(f"position {position.shape} must have x and y of each curve, (R, 2)")
+            for name, values in zip("xy", np.moveaxis(position, -1, 0), strict=True):
+                coordinates[name] = dims, values, {"units": "m", "long_name": f"position {name}"}
+        return xarray.Dataset(variables, coordinates, attributes)
 
     def _text(self, name, value, unit):
         # Whichever constant was fitted, an elastic medium has q_c = ∞, and 0 of the others.
@@ -266,9 +282,9 @@ def collected(profile, measured, depth_noise, solutions, reasons):
     joined = {name: np.concatenate([group[name] for group in groups])[order] for name in groups[0]}
     if reasons:
         joined = {name: _among(values, rows[order], count, name in free) for name, values in joined.items()}
-    found = [each for solution in solutions for each in remarks_of(solution)]
+    of_fits = [each for solution in solutions for each in remarks_of(solution)]
     remarks = [{"invalid": f"not fitted: {reasons[i]}"} if i in reasons else {} for i in range(count)]
-    for i, own in zip(rows.tolist(), found, strict=True):
+    for i, own in zip(rows.tolist(), of_fits, strict=True):
         omitted = missing(np.count_nonzero(measured.used[i]), measured.lengths[i])
         remarks[i] = by_importance(own | omitted)
     medium = _medium(_MediumOrNone(**{name: joined.pop(name) for name in MEDIUM}))
