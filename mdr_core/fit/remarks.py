@@ -31,8 +31,9 @@ _SEEN, _BENT = 0.25, 1.1
 _SWAPPED, _NO_CONTACT = "depth and force are swapped", "no contact is seen in this record"
 #: Least distance of the pull-off from that of the model, as a share of the range of depth.
 _PULL_OFF = 0.02
-#: Standard deviations from the neighbours, by their median, from which on a sample is an outlier.
-_OUTLIER = 8.0
+#: Standard deviations from the neighbours, by their lower quartile, from which on a sample is an outlier,
+#: and least number of samples for it; the quartile of absolute normal deviations is 0.3186.
+_OUTLIER, _ENOUGH = 6.0, 30
 #: Number of blocks of correlated residuals below which the errors of a medium that yields are too small.
 _BLOCKS = 20
 #: Root mean square of correlated residuals over the range of force above which the model does not fit, of
@@ -349,12 +350,14 @@ def _exact(solved, i):
 def _outliers(solved, i):
     """Samples far from both neighbours that have most of the squares of the residuals."""
     residual = solved.minimum.residual[i]
-    if residual.size < 10 or solved.curves.adhesive or _exact(solved, i):
+    if residual.size < _ENOUGH or solved.curves.adhesive or _exact(solved, i):
         return
     distance = residual[1:-1] - (residual[:-2] + residual[2:]) / 2
-    far = np.abs(distance) > _OUTLIER * np.median(np.abs(distance)) / 0.6745
+    size = np.abs(distance)
+    far = size > _OUTLIER * np.quantile(size, 0.25) / 0.3186
     if np.sum(distance[far] ** 2) > 0.5 * np.sum(residual**2):
-        single = np.count_nonzero(far & (np.abs(distance) >= np.abs(distance[far]).max() / 3))
+        # Of an outlier both neighbours are half as far from theirs.
+        single = np.count_nonzero(far & (size > 0.6 * size.max()))
         yield (
             "outliers",
             f"about {single} of {residual.size} samples are outliers, more than {_OUTLIER:g} standard "
