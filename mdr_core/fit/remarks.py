@@ -7,16 +7,17 @@ import numpy as np
 from ..medium import critical_depth
 from ..results.quantities import engineering
 from .depth_noise import turning_points_of
-from .errors import SIGNIFICANT, SINGULAR, autocorrelation, roughness
+from .errors import SIGNIFICANT, SINGULAR
 from .nested import nested_tests
-from .parameters import CLASSES, PARAMETERS, TOGETHER
+from .noise import tests_of_noise
+from .parameters import PARAMETERS, TOGETHER
 from .report import with_error
 
 #: All kinds of remarks, the most important first.
 KINDS = (
     "invalid", "units", "no contact", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag",
-    "drift", "misfit", "jitter", "unloading", "outliers", "blocks", "loading", "vague", "contact", "class",
-    "constants", "elastic", "hardly yields", "noisy", "rest", "inviscid", "missing",
+    "drift", "misfit", "jitter", "unloading", "outliers", "blocks", "few", "loading", "vague", "contact",
+    "class", "constants", "elastic", "hardly yields", "noisy", "rest", "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
 DOUBTS = {"units", "no contact", "tilt", "drag", "drift", "misfit", "jitter", "class", "noisy"}
@@ -31,22 +32,11 @@ _SEEN, _BENT = 0.25, 1.1
 _SWAPPED, _NO_CONTACT = "depth and force are swapped", "no contact is seen in this record"
 #: Least distance of the pull-off from that of the model, as a share of the range of depth.
 _PULL_OFF = 0.02
-#: Standard deviations from the neighbours, by their lower quartile, from which on a sample is an outlier,
-#: and least number of samples for it; the quartile of absolute normal deviations is 0.3186.
-_OUTLIER, _ENOUGH = 6.0, 30
-#: Number of blocks of correlated residuals below which the errors of a medium that yields are too small.
-_BLOCKS = 20
-#: Root mean square of correlated residuals over the range of force above which the model does not fit, of
-#: elastic media and of those that yield, whose unloading is a small part of the curve.
-_MISFIT, _MISFIT_YIELDING = 0.05, 0.01
 
 
 def remarks_of(solved):
     """Remarks on each curve of a `Solution`: a sentence by its kind, the same for all curves."""
-    checks = (
-        _units, _ambiguous, _adhesion, _undetermined, _jitter, _class_b, _misfit, _outliers, _blocks,
-        nested_tests,
-    )  # fmt: skip
+    checks = _units, _ambiguous, _adhesion, _undetermined, _class_b, tests_of_noise, nested_tests
     count = len(solved.rows)
     remarks = [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in range(count)]
     for each in remarks:
@@ -253,23 +243,6 @@ def _constants(solved, i, names):
         )
 
 
-def _jitter(solved, i):
-    """Depths that go back and forth although they are taken as exact: without memory they may."""
-    depth = solved.curves.depth[[i]]
-    steps = np.diff(depth[0])
-    reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
-    noise = roughness(depth)[0, 0]
-    # On unloading alone the first depth is the largest.
-    unloading = depth[0].max() - depth[0, 0] < 5 * noise
-    exact = not (solved.curves.depth_noise or solved.curves.held_elastic)
-    if exact and not unloading and reversals > max(4, 0.05 * steps.size):
-        yield (
-            "jitter",
-            f"the depth goes back and forth at {reversals} of {steps.size} samples, and its noise counts "
-            f"as new largest depths: E* is biased; give depth_noise, about {engineering(noise, 'm')}",
-        )
-
-
 def _class_b(solved, i):
     """Whether the recovered depth depends on depth: one more parameter γ of d_c (1 + γ (D − D̄)/D̄).
 
@@ -309,70 +282,4 @@ def _class_b(solved, i):
             f"the recovered depth {'grows' if trend > 0 else 'falls'} with depth (about as its power "
             f"{with_error(trend, error, '')}), whereas it is constant for hardness ∝ 1/radius: not class "
             "(b)",
-        )
-
-
-def _named(constants):
-    """The hardness with these constants in words."""
-    letters = [f"({letter})" for letter, name in CLASSES.items() if name in constants]
-    return f"class {' + '.join(letters)}"
-
-
-def _misfit(solved, i):
-    """Residuals that are not noise."""
-    curves, residual = solved.curves, solved.minimum.residual[i]
-    freedom, chi = solved.minimum.freedom, solved.reduced_chi_square[i]
-    correlation = autocorrelation(residual[solved.orders[i]])
-    size = np.sqrt(np.mean((residual * solved.noise[i]) ** 2)) / curves.load[i, 0]
-    largest = _MISFIT if curves.held_elastic else _MISFIT_YIELDING
-    if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
-        cause = "not an elastic medium" if curves.held_elastic else f"not {_named(curves.constants)}"
-        remedy = "; give time, which tells drag and drift" * (curves.time is None and not curves.adhesive)
-        yield (
-            "misfit",
-            f"the residuals ({100 * size:.2g} % of the force) follow a curve (correlation of neighbours "
-            f"{correlation:.2f}): {cause}, or another profile{remedy}",
-        )
-    elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom) and size > 1e-7:
-        yield (
-            "noisy",
-            f"χ² per degree of freedom is {chi:.3g}: the residuals ({100 * size:.2g} % of the force) are "
-            "larger than the noise that is given",
-        )
-
-
-def _exact(solved, i):
-    """Whether the residuals are those of the arithmetic."""
-    size = np.sqrt(np.mean((solved.minimum.residual[i] * solved.noise[i]) ** 2))
-    return size < 1e-7 * solved.curves.load[i, 0]
-
-
-def _outliers(solved, i):
-    """Samples far from both neighbours that have most of the squares of the residuals."""
-    residual = solved.minimum.residual[i]
-    if residual.size < _ENOUGH or solved.curves.adhesive or _exact(solved, i):
-        return
-    distance = residual[1:-1] - (residual[:-2] + residual[2:]) / 2
-    size = np.abs(distance)
-    far = size > _OUTLIER * np.quantile(size, 0.25) / 0.3186
-    if np.sum(distance[far] ** 2) > 0.5 * np.sum(residual**2):
-        # Of an outlier both neighbours are half as far from theirs.
-        single = np.count_nonzero(far & (size > 0.6 * size.max()))
-        yield (
-            "outliers",
-            f"about {single} of {residual.size} samples are outliers, more than {_OUTLIER:g} standard "
-            "deviations from their neighbours: set them to NaN, or E* is off by more than its error",
-        )
-
-
-def _blocks(solved, i):
-    """Noise that is correlated over a large part of a curve that yields."""
-    curves, length = solved.curves, solved.block_length[i]
-    count = curves.depth.shape[1]
-    elastic = curves.held_elastic or solved.elastic[i]
-    if 1 < length < count < _BLOCKS * length and not (elastic or _exact(solved, i)):
-        yield (
-            "blocks",
-            f"neighbouring residuals are correlated over {length} of {count} samples: the standard errors "
-            "are from few blocks, and up to twice too small",
         )

@@ -1,4 +1,4 @@
-"""Families of made curves that differ from the model in one respect, for tests and the table of coverage."""
+"""Families of made curves that deviate from the model in one respect, for tests and a table."""
 
 from dataclasses import dataclass
 
