@@ -250,7 +250,7 @@ class TestCsv:
             ("r (nm); z (nm); e (nm)\n0;0;1\n1;1\n", {}, "line 3: expected 3 numbers, r and z first"),
             ("r (nm);z (nm)\n0;0\n;1\n", {}, "line 3: expected two numbers"),
             ("r (nm), z (nm)\n", {}, "no samples"),
-            ("r (nm), z (nm)\n0,0\n1,nan\n", {}, r"Sampled z\[1\] = nan m"),
+            ("r (nm), z (nm)\n0,0\n1,nan\n", {}, "line 3: expected two numbers r, z, found '1,nan'"),
             (
                 "r (nm), z (nm)\n0,0\n1e-300,1\n2,3\n",
                 {},
