@@ -109,31 +109,26 @@ def oliver_pharr(
     if not depth.size:
         raise ValueError("depth and force have no samples: five or more of an unloading are needed")
     constants = _check.positive_number("epsilon", epsilon, zero=True), _check.positive_number("beta", beta)
-    parts, names = _unloadings(force), OliverPharr._quantities
-    if not cycles or len(parts) == 0:
-        values, errors = _values_and_errors(profile, depth, force, *constants)
+    parts, results, remarks = _unloadings(force), [], []
+    for number, part in enumerate(parts if cycles and parts else [slice(None)], 1):
+        try:
+            results.append(_values_and_errors(profile, depth[part], force[part], *constants))
+        except ValueError as error:
+            if not cycles or len(parts) < 2:
+                raise
+            remarks.append(f"unloading {number} of {len(parts)} is left out: {error}")
+    if not results:
+        raise ValueError(remarks[0])
+    if len(parts) > 1 and not cycles:
         number = sum(part.start <= _deepest(depth) for part in parts)
         taken = f"unloading {number} of {len(parts)} was taken, the one after the largest depth"
-        remarks = (f"{taken}: cycles=True takes each",) if len(parts) > 1 else ()
-        if cycles:
-            values, errors = values[None], errors[None]
-    else:
-        results, remarks = [], ()
-        for number, part in enumerate(parts, 1):
-            try:
-                results.append(_values_and_errors(profile, depth[part], force[part], *constants))
-            except ValueError as error:
-                remarks += (f"unloading {number} of {len(parts)} is left out: {error}",)
-        if not results:
-            raise ValueError(remarks[0])
-        values, errors = (np.array(each) for each in zip(*results, strict=True))
-    values, errors = (dict(zip(names, _entries(each), strict=True)) for each in (values, errors))
-    return OliverPharr(profile, **values, standard_errors=errors, remarks=remarks)
-
-
-def _entries(values):
-    """Numbers of one unloading (K,), or read-only arrays of several (U, K)."""
-    return values.tolist() if values.ndim == 1 else [_check.frozen(column) for column in values.T]
+        remarks.append(f"{taken}: cycles=True takes each")
+    columns = np.array(results) if cycles else np.array(results[0])
+    values, errors = (
+        dict(zip(OliverPharr._quantities, map(_check.frozen, each.T), strict=True))
+        for each in (columns[..., 0, :], columns[..., 1, :])
+    )
+    return OliverPharr(profile, **values, standard_errors=errors, remarks=tuple(remarks))
 
 
 def _unloadings(force):
