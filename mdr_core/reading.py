@@ -31,7 +31,7 @@ _DEPTH = re.compile("(?!.*(piezo|displ|height|contact)).*(depth|indent|tiefe)", 
 #: Names of columns of the position of the piezo, in which the deflection of the cantilever is included.
 _PIEZO = re.compile("piezo|height|sens|scanner", re.I)
 #: Beginnings of the suffixes of AFM files that are no text.
-_AFM = ".jpk", ".h5", ".ibw", ".nid", ".zip"
+_AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
 #: Text that only files of AFM instruments have.
 _OF_AFM = re.compile(r"# afmformats |Force-Distance Curve|Device:\tChiaro")
 #: Sizes of the units of each quantity (SI); a minus turns the sign of a column.

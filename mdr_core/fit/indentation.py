@@ -39,9 +39,9 @@ def fit_indentation(
 ) -> IndentationFit:
     """Fit a medium to a measured force–depth curve by least squares: the inverse of `indent`.
 
-    Parameters that are None are free, numbers are held. The curve should have an unloading: it determines
-    E*, the loading the hardness. The model is the force of the contact with a background F₀ + F₁ z + ζ ż,
-    where z is the measured depth.
+    Parameters that are None are free, numbers are held. Of a medium that yields the unloading determines E*
+    and the loading the hardness; of an elastic one, `q_c=inf`, an approach is enough. The model is the
+    force of the contact with a background F₀ + F₁ z + ζ ż, where z is the measured depth.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def fit_indentation(
     depth, force : array_like
         Measured depths (m) and forces (N) in the order of time, of one shape: one curve (N,), or many
         (R, N) with one indenter, each on a virgin medium; or lists of R arrays of different lengths.
-        Samples with NaN are left out. Of a frame of compliance C (m/N) subtract the depth C F before.
+        Samples with NaN are left out. Subtract the compliance of a frame before: `curve.minus_frame`.
         With `q_c=inf`, without `time` and without adhesion the order does not matter.
     time : array_like, optional
         Increasing times (s) of the samples, of the same shape; needed for `eta` and `drag`, and for remarks

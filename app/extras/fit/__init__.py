@@ -182,7 +182,9 @@ class Fitting:
         self._apply, self._placed, self._curve, select = page.apply, None, None, pn.widgets.Select
         # A file whose columns are asked for, and its table.
         self._asked = None
-        kinds = ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx"
+        kinds = (
+            ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx,.jpk-force,.jpk-force-map,.jpk-qi-data,.h5,.ibw,.zip"
+        )
         self.file = Upload("CSV file of a measured curve: depth, force", kinds, self._read)
         self.silica, self.remove, self.fit = map(button, ("Fused silica", "Remove", "Fit"))
         self.columns = {role: field(select, "column", label=f"Column of {role}") for role in SIZES}
