@@ -316,7 +316,9 @@ class Fitting:
         about = f"<b>{escape(curve.name)}</b>: {escape(curve.note)}. It is in its file, and in no link."
         show(self.about, object=about)
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
-        likes = {"fit.contact_point": depth, "fit.baseline": force}
+        likes = {"fit.contact_point": depth, "fit.baseline": force, "fit.drift": 1e-10}
+        # A frame gives by some hundredth of the depth.
+        likes["fit.frame"] = 0.01 * depth / force if force else 0.0
         names = [f"fit.{name}" for name in curve.known((*PLACED, *SUBTRACTED))]
         self.place.show(state, names, likes)
         options = {quantity_of(name).label: name for name in offered(state)}
