@@ -46,13 +46,17 @@ class MeasuredCurve(Report):
 
     Examples
     --------
-    >>> import numpy as np
+    >>> import tempfile
+    >>> from pathlib import Path
     >>> import mdr_core as mdr
-    >>> curve = mdr.read_curve("assets/silica.csv")
-    >>> rate = curve.drift(slice(700, 900))  # samples of a hold
-    >>> corrected = curve.minus_drift(rate).minus_frame(1e-8)
-    >>> bool(np.all(corrected.force == curve.force)), corrected.remarks[-1]
-    (True, 'depth: the compliance of a frame, 10 nm/N, is subtracted')
+    >>> rows = ["t (s), h (nm), F (mN)", "0, 0, 0", "1, 20, 4", "2, 21, 4", "3, 22, 4", "4, 5, 0"]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "run.csv"
+    ...     _ = path.write_text("\\n".join(rows), encoding="utf-8")
+    ...     curve = mdr.read_curve(path)
+    >>> rate = curve.drift(slice(1, 4))  # m/s, of the samples of a hold
+    >>> (1e9 * curve.minus_drift(rate).minus_frame(1e-7).depth).round(6).tolist()
+    [0.0, 18.6, 18.6, 18.6, 1.0]
     """
 
     #: Name of the file.

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from . import _check
-from ._check import frozen, positive_number
 from .measured_curve import MODALITIES, MeasuredCurve, MeasuredCurves, named_segments, segments_of
 from .profiles.samples import UNITS, Table, decoded, read_table, unit_named
 from .results.report import imported
@@ -31,7 +30,7 @@ _DEPTH = re.compile("(?!.*(piezo|displ|height|contact)).*(depth|indent|tiefe)", 
 #: Names of columns of the position of the piezo, in which the deflection of the cantilever is included.
 _PIEZO = re.compile("piezo|height|sens|scanner", re.I)
 #: Beginnings of the suffixes of AFM files that are no text.
-_AFM = ".jpk", ".h5", ".ibw", ".nid", ".zip"
+_AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
 #: Text that only files of AFM instruments have.
 _OF_AFM = re.compile(r"# afmformats |Force-Distance Curve|Device:\tChiaro")
 #: Sizes of the units of each quantity (SI); a minus turns the sign of a column.
@@ -42,8 +41,7 @@ SIZES = {
 #: What to do about errors of `afmformats`.
 _REMEDIES = {
     "MissingMetaDataError": " Give spring_constant= (N/m) and sensitivity= (m/V)",
-    "NotImplementedError": " Its forces are in N: give neither; if its stiffness k is missing, "
-    "curve.minus_frame(1 / k) subtracts the deflection",
+    "NotImplementedError": " Its forces are in N: give neither. minus_frame(1 / k) subtracts a deflection",
     "UnicodeDecodeError": "; if it is packed, unpack it and read its files",
 }
 
@@ -147,17 +145,19 @@ def read_curves(
     path = Path(path)
     suffix, given = path.suffix.lower(), {}
     if spring_constant is not None:
-        given["spring constant"] = positive_number("spring_constant", spring_constant, unit="N/m")
+        given["spring constant"] = _check.positive_number("spring_constant", spring_constant, unit="N/m")
     if sensitivity is not None:
-        given["sensitivity"] = positive_number("sensitivity", sensitivity, unit="m/V")
-    if suffix in (".xls", ".xlsx"):
-        return MeasuredCurves(path.name, None, _sheets(path, columns, spring_constant))
-    text = "" if suffix.startswith(_AFM) else decoded(path.read_bytes())
+        given["sensitivity"] = _check.positive_number("sensitivity", sensitivity, unit="m/V")
+    text = "" if suffix.startswith((*_AFM, ".xls")) else decoded(path.read_bytes())
     of_nova = suffix == ".txt" and len(given) == 2 and not re.search("[A-Za-z]", text[:1000])
     if suffix.startswith(_AFM) or (columns is None and (of_nova or _OF_AFM.search(text[:2000]))):
         return _from_afm(path, given)
-    table = read_table(text, path.name)
-    make = partial(curve_of, table, path.name, columns, given.get("spring constant"))
+    if sensitivity is not None:
+        raise ValueError(f"{path.name} is a table, with forces in units of force: leave out sensitivity")
+    options = {"columns": columns, "spring_constant": given.get("spring constant")}
+    if suffix in (".xls", ".xlsx"):
+        return MeasuredCurves(path.name, None, _sheets(path, options))
+    make = partial(curve_of, read_table(text, path.name), path.name, **options)
     return MeasuredCurves(path.name, None, [make])
 
 
@@ -186,49 +186,41 @@ def curve_of(table, name, columns=None, spring_constant=None, *, turn=True, segm
         columns[each] = column, unit[1:] if unit[0] == "−" else f"−{unit}"
         remarks.append(f"{each} turned round: it is positive in compression")
     head = table.heads[columns["depth"][0]]
-    piezo, follows = (
-        _PIEZO.search(head),
-        "includes the deflection force/stiffness: give spring_constant= (N/m)",
-    )
-    if piezo and spring_constant is not None:
+    if _PIEZO.search(head) and spring_constant is not None:
         values["depth"] = values["depth"] - values["force"] / spring_constant
-        follows = "is the position of the piezo: the deflection, force over stiffness, is subtracted"
-    elif spring_constant is not None:
-        follows = "is taken as the depth of the tip: no deflection is subtracted"
-    if piezo or (spring_constant is not None and "tip" not in head):
-        remarks.append(f"{head!r} {follows}")
-    arrays = {"time": None} | {each: frozen(value) for each, value in values.items()}
-    arrays["segment"] = segments_of(**values) if segment is None else frozen(segment[rows])
+        remarks.append(f"{head!r} is of the piezo: the deflection, force over stiffness, is subtracted")
+    elif _PIEZO.search(head):
+        remarks.append(f"{head!r} includes the deflection force/stiffness: give spring_constant= (N/m)")
+    elif spring_constant is not None and "tip" not in head:
+        remarks.append(f"{head!r} is taken as the depth of the tip: no deflection is subtracted")
+    arrays = {"time": None} | {each: _check.frozen(value) for each, value in values.items()}
+    arrays["segment"] = segments_of(**values) if segment is None else _check.frozen(segment[rows])
     return MeasuredCurve(name, spring_constant, None, columns, tuple(remarks), table, **arrays)
 
 
 def _columns(table, name, given):
     """Number and unit of the column of each quantity, None for no time, and remarks on the choice."""
-    heads, columns, remarks = table.heads, {}, []
-    if len(heads) < 2:
+    free, columns, remarks = dict(table.heads), {}, []
+    if len(free) < 2:
         raise ValueError(f"{name} has one column of numbers: give one of depth and one of force")
     for each in given:
         _check.one_of("a key of columns", each, tuple(_WORDS))
-        columns[each] = _given(table, each, given[each])
+        columns[each] = _given(table, each, given[each], free)
+        free.pop(columns[each] and columns[each][0], None)
     for each in [each for each in ("time", "force", "depth") if each not in columns]:
-        taken = [each[0] for each in columns.values() if each]
-        fits = [column for column in heads if column not in taken and table.unit(column) in SIZES[each]]
-        best = max(fits, key=lambda column: _rank(each, heads[column]), default=None)
+        fits = [column for column in free if table.unit(column) in SIZES[each]]
+        best = max(fits, key=lambda column: _rank(each, free[column]), default=None)
         if best is None and each != "time":
-            names = ", ".join(filter(None, heads.values()))
             raise UnknownColumns(
-                f"{name} has no column of {each} with a unit in its header ({names:.200}): give columns="
+                f"{name} has no column of {each} with a unit in its header, {table.heads}: give columns="
                 '{"depth": (0, "nm"), "force": (1, "mN")}, numbers and units; a deflection is no force. '
                 "NT-MDT's files need spring_constant= (N/m) and sensitivity= (m/A)",
                 table,
             )
-        others = [repr(heads[column]) for column in fits if column != best]
-        if others:
-            remarks.append(f"{each} is taken from {heads[best]!r}, not from {', '.join(others)}")
+        others = ", ".join(repr(free[column]) for column in fits if column != best)
+        remarks += [f"{each} is taken from {free[best]!r}, not from {others}"] if others else []
         columns[each] = None if best is None else (best, table.unit(best))
-    numbers = [column[0] for column in columns.values() if column]
-    if len(set(numbers)) < len(numbers):
-        raise ValueError(f"columns = {given} has one column of {name} twice")
+        free.pop(best, None)
     return {each: columns[each] for each in _WORDS}, remarks
 
 
@@ -238,17 +230,17 @@ def _rank(each, head):
     return bool(named), "raw" not in head.lower(), _DEPTH.match(head) is not None
 
 
-def _given(table, each, column):
-    """Number and unit of a column that is given by its name or number, or by one of these and its unit."""
+def _given(table, each, column, free):
+    """Number and unit of one of the `free` columns that is given by its name or number."""
     if column is None and each == "time":
         return None
     which, unit = column if isinstance(column, tuple | list) else (column, None)
-    number = next((k for k, head in table.heads.items() if which in (k, head)), None)
+    number = next((k for k, head in free.items() if which in (k, head)), None)
     if number is not None:
         unit = unit_named(unit) or unit if unit else table.unit(number)
     if number is None or unit not in SIZES[each]:
         raise ValueError(
-            f"columns: {each} = {column!r} must be a number or name of {table.heads}, and a unit where "
+            f"columns: {each} = {column!r} must be a number or name of {free}, and a unit where "
             f"that has none, ({which!r}, {list(SIZES[each])[1]!r}), out of {', '.join(SIZES[each])}"
         )
     return number, unit
@@ -261,9 +253,9 @@ def _omissions(table, rows, name, labels):
     what = f"line{'s' * (len(lines) > 1)} {listed}: a cell is missing or no number"
     if len(lines) > len(rows):
         raise ValueError(f"most lines of {name} are no rows of numbers, as {what}")
-    words = [column for column in table.words if column != labels and " " in column.strip()]
-    remarks = [f"column {column}, which has no numbers, is left out" for column in words]
-    return remarks + [f"left out {what}"] * bool(lines)
+    named = [column for column in table.words if column != labels and " " in column.strip()]
+    words = [f"column {column}, which has no numbers, is left out" for column in named]
+    return words + [f"left out {what}"] * bool(lines)
 
 
 def _turned(depth, force):
@@ -277,7 +269,7 @@ def _turned(depth, force):
     return turned if len(turned) < 2 or abs(force[peak]) > abs(force[0]) else []
 
 
-def _sheets(path, columns, spring_constant):
+def _sheets(path, options):
     """Functions that make the curves of the sheets of an Excel file that have depth and force."""
     pandas = imported("pandas", f"reading {path.name}", "mdr-core[tables]")
     try:
@@ -291,16 +283,15 @@ def _sheets(path, columns, spring_constant):
         # Sheets of results and settings are passed over.
         with suppress(ValueError):
             table = read_table(frame.to_csv(sep="\t", header=False, index=False), name)
-            curves.append(partial(replace, curve_of(table, name, columns, spring_constant)))
+            curves.append(partial(replace, curve_of(table, name, **options)))
     if not curves:
         raise ValueError(f"{path.name} has no sheet with columns of depth and force and their units")
     return curves
 
 
 @contextmanager
-def _refused(afmformats, name):
+def _refused(errors, name):
     """Errors of `afmformats` as ValueErrors that say what to give."""
-    errors = afmformats.errors
     try:
         yield
     # Most errors of this package are none that `except Exception` would handle.
@@ -312,17 +303,18 @@ def _refused(afmformats, name):
 def _from_afm(path, given):
     """`MeasuredCurves` of a file that `afmformats` reads."""
     afmformats = imported("afmformats", f"reading {path.name}", "mdr-core[afm]")
-    with _refused(afmformats, path.name):
+    with _refused(afmformats.errors, path.name):
         curves = sorted(afmformats.load_data(path, meta_override=given), key=lambda data: data.enum)
         position = [[data.metadata.get(f"position {axis}", np.nan) for axis in "xy"] for data in curves]
-    position = None if np.isnan(position).any() else frozen(position)
-    return MeasuredCurves(path.name, position, [partial(_afm_curve, afmformats, each) for each in curves])
+    position = None if np.isnan(position).any() else _check.frozen(position)
+    makers = [partial(_afm_curve, afmformats.errors, data) for data in curves]
+    return MeasuredCurves(path.name, position, makers)
 
 
-def _afm_curve(afmformats, data):
+def _afm_curve(errors, data):
     """`MeasuredCurve` of a curve in `afmformats`, approach and retract in the order of time."""
     name = data.path.name
-    with _refused(afmformats, name):
+    with _refused(errors, name):
         heights = [head for head in ("tip position", "height (measured)", "height (piezo)") if head in data]
         heads = [heights[0], "force", *(["time"] if "time" in data else [])]
         values = {k: np.asarray(data[head], dtype=float) for k, head in enumerate(heads)}

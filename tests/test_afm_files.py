@@ -1,5 +1,8 @@
 """AFM files that the tests write, read by afmformats."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -28,6 +31,14 @@ def curve(number=0, modulus=1.0, **metadata):
     data = {"force": force, "height (measured)": -DEPTH - force / STIFFNESS, "segment": SEGMENT}
     data["time"] = 0.01 * np.arange(99)
     return afmformats.mod_force_distance.AFMForceDistance(data, known | metadata)
+
+
+def recipe(name):
+    """The block of the documentation that reads a file of this name."""
+    page = Path(__file__).parents[1] / "assets" / "docs" / "afm.md"
+    blocks = re.findall(r"```py\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+    (block,) = (block for block in blocks if f'"{name}"' in block)
+    return block
 
 
 @pytest.fixture
@@ -144,3 +155,23 @@ def test_a_file_that_is_none_is_refused(tmp_path):
         (tmp_path / name).write_bytes(b"PK\x03\x04 no curve")
         with pytest.raises(ValueError, match=f"{name} is not read by afmformats"):
             mdr.read_curve(tmp_path / name)
+
+
+def test_the_recipe_of_the_documentation(tmp_path):
+    """Under a paraboloid F ∝ E* R^(1/2): with 10 µm in place of 5 µm E* is smaller by the root of 2."""
+    curve(**{"spring constant": STIFFNESS}).export_data(tmp_path / "run.tab", fmt="tab")
+    code = recipe("fmt-jpk-fd_spot3-0192.jpk-force")
+    found = {}
+    exec(code.replace("fmt-jpk-fd_spot3-0192.jpk-force", str(tmp_path / "run.tab")), found)
+    # Eight digits of the force.
+    assert found["fit"].medium.E_star == pytest.approx(GEL.E_star / np.sqrt(2), rel=1e-5)
+    assert found["fit"].baseline == pytest.approx(0, abs=1e-6 * FORCE.max())
+
+
+def test_the_recipe_of_a_map(grid, tmp_path, monkeypatch):
+    pandas = pytest.importorskip("pandas")
+    monkeypatch.chdir(tmp_path)
+    exec(recipe("map.jpk-force-map").replace("map.jpk-force-map", str(grid)), {})
+    table = pandas.read_csv("moduli.csv")
+    np.testing.assert_allclose(table["E_star"], MODULI * GEL.E_star, rtol=1e-5)
+    np.testing.assert_allclose(table["x"], 2e-6 * np.arange(12), atol=1e-20)

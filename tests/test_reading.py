@@ -126,7 +126,10 @@ def test_columns_and_units_that_a_header_lacks_are_given(tmp_path):
         ({"depth": "h"}, "depth = 'h' must be .* and a unit where that has none"),
         ({"depth": (0, "V")}, "must be .* out of m, mm"),
         ({"force": (1, "mN")}, "no column of depth with a unit"),
-        ({"depth": (0, "nm"), "force": (0, "mN")}, "has one column of run.csv twice"),
+        (
+            {"depth": (0, "nm"), "force": (0, "mN")},
+            "columns: force = \\(0, 'mN'\\) must be a number or name of {1: 'F'}",
+        ),
         ({"height": (0, "nm")}, "a key of columns = 'height' must be one of"),
     ],
 )
@@ -182,7 +185,10 @@ def test_what_is_left_out_is_said_with_its_line(read):
         ("h (nm), F (nN)\n1, 2\n", "one row of numbers"),
         ("h (nm), F (nN)\n1, 2\nx, 3\ny, 4\nz\n", "one column of numbers"),
         ("h (nm), F (nN)\n1, 2\n3, 4\nx, y\n5, z\nend\n", "most lines of run.csv are no rows .* 4, 5, 6"),
-        ("h (nm), A (nm)\n1, 2\n3, 4\n", r"no column of force with a unit .*\(h \(nm\), A \(nm\)\)"),
+        (
+            "h (nm), A (nm)\n1, 2\n3, 4\n",
+            r"no column of force with a unit .*\{0: 'h \(nm\)', 1: 'A \(nm\)'\}",
+        ),
         ("h (nm), T-B (V)\n1, 2\n3, 4\n", "no column of force"),
     ],
 )
@@ -272,3 +278,10 @@ def test_missing_packages_are_named(monkeypatch, tmp_path):
         monkeypatch.setitem(sys.modules, package, None)
         with pytest.raises(ImportError, match=f"needs {package}"):
             mdr.read_curve(tmp_path / f"run.{suffix}")
+
+
+def test_a_sensitivity_is_for_files_of_instruments(read, tmp_path):
+    """A table has forces: what would be ignored is refused."""
+    read(text((DEPTH, FORCE), ["h (nm), F (mN)"]))
+    with pytest.raises(ValueError, match=r"run\.csv is a table, .* leave out sensitivity"):
+        mdr.read_curve(tmp_path / "run.csv", sensitivity=6e-8)

@@ -40,9 +40,9 @@ def fit_indentation(
 ) -> IndentationFit:
     """Fit a medium to a measured force–depth curve by least squares: the inverse of `indent`.
 
-    Parameters that are None are free, numbers are held. Of a medium that yields the unloading determines
-    E*, the loading the hardness; of an elastic one the approach is enough. The model is the force of the
-    contact with a background F₀ + F₁ z + ζ ż, where z is the measured depth.
+    Parameters that are None are free, numbers are held. Of a medium that yields the unloading determines E*
+    and the loading the hardness; of an elastic one, `q_c=inf`, an approach is enough. The model is the
+    force of the contact with a background F₀ + F₁ z + ζ ż, where z is the measured depth.
 
     Parameters
     ----------

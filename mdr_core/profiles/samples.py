@@ -32,6 +32,9 @@ _MISFIT, _SHARE = 4.0, 0.005
 _WAVY, _ENOUGH_FOR_WAVES, _LAGS = 0.15, 50, range(6, 26)
 #: Fewest samples whose noise is known.
 _ENOUGH = 8
+#: Share of the height below which an area function need not grow, and largest radius of a tip over its
+#: height, and height over radius.
+_BLUNT, _WIDEST = 0.05, 100.0
 #: Largest number of characters of a line.
 _LONGEST_LINE = 10_000
 
@@ -257,19 +260,33 @@ def _correlation(residual):
     return np.mean([np.dot(residual[lag:], residual[:-lag]) ** 2 for lag in _LAGS])
 
 
-def area_samples(coefficients, height, samples, limit):
-    """Radii and heights (m) of a profile with the cross-section A(h) = Σ Cᵢ h^(2/2ⁱ)."""
+def area_samples(coefficients, height, samples, limit, unit):
+    """Radii and heights (m) of a profile with A(h) = Σ Cᵢ h^(2/2ⁱ), of A in unit² and h in a unit."""
     coefficients = _check.finite_array("area coefficients", coefficients).ravel()
     height = _check.positive_number("height", height, unit="m")
     samples = _check.positive_number("samples", samples)
+    _check.one_of("unit", unit, (*UNITS["length"], "um"))
     if not 2 <= samples <= limit or samples % 1:
         raise ValueError(f"samples = {samples:g} must be a whole number from 2 to {limit}")
+    size = UNITS["length"][unit_named(unit)]
     h = height * np.geomspace(1e-4, 1.0, int(samples) - 1)
-    area = sum(c * h ** (2 / 2**i) for i, c in enumerate(coefficients.tolist()))
-    remedy = "A must be positive and grow with h: check the coefficients and their unit, m^(2 - 2/2^i)"
-    back = np.diff(area, prepend=0.0) <= 0
-    _check.refuse("area A(h)", area, back, "does not grow", unit="m²", remedy=remedy)
-    r, h = np.append(0.0, np.sqrt(area / np.pi)), np.append(0.0, h)
+    powers = 2.0 / 2.0 ** np.arange(coefficients.size)
+    area = size**2 * ((h[:, None] / size) ** powers @ coefficients)
+    remedy = f"A must be positive and grow with h: check the coefficients and their unit, {unit}"
+    back = (np.diff(area, prepend=0.0) <= 0) | (area <= 0)
+    _check.refuse(
+        "area A(h)", area, back & (h > _BLUNT * height), "does not grow", unit="m²", remedy=remedy
+    )
+    # Below its calibration a function may fall: from there to the axis the tip is a cone.
+    first = int(np.flatnonzero(back)[-1]) + 1 if back.any() else 0
+    h, radius = h[first:], np.sqrt(area[first:] / np.pi)
+    wide = radius[-1] / height
+    if not 1 / _WIDEST < wide < _WIDEST:
+        raise ValueError(
+            f"area coefficients: at height = {height:g} m the radius would be {radius[-1]:.3g} m, "
+            f"{wide:.2g} times the height: check the unit of the coefficients, {unit}"
+        )
+    r, h = np.append(0.0, radius), np.append(0.0, h)
     slopes = scipy.optimize.isotonic_regression(np.diff(h) / np.diff(r), weights=np.diff(r)).x
     z = np.append(0.0, np.cumsum(slopes * np.diff(r)))
     far = np.abs(z - h) > 0.03 * np.maximum(h, 0.1 * height)

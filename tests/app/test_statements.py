@@ -92,7 +92,7 @@ def test_6_and_7_are_of_typed_numbers():
     """In test_state.py: zeros in the unit of their column, 90°, 10 000 nm, 5 Å, 70.3°."""
     page = Page()
     page.apply(lambda state: fitting.take(state, example_curve()))
-    assert [number.text.split()[1] for number in side(page, "fit").place] == ["nm", "µN", "N/m"]
+    assert [number.text.split()[1] for number in side(page, "fit").place] == ["nm", "µN", "N/m", "nm/mN"]
 
 
 def test_8_formulas_are_those_of_the_drive():

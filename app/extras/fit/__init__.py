@@ -182,7 +182,9 @@ class Fitting:
         self._apply, self._placed, self._curve, select = page.apply, None, None, pn.widgets.Select
         # A file whose columns are asked for, and its table.
         self._asked = None
-        kinds = ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx"
+        kinds = (
+            ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx,.jpk-force,.jpk-force-map,.jpk-qi-data,.h5,.ibw,.zip"
+        )
         self.file = Upload("CSV file of a measured curve: depth, force", kinds, self._read)
         self.silica, self.remove, self.fit = map(button, ("Fused silica", "Remove", "Fit"))
         self.columns = {role: field(select, "column", label=f"Column of {role}") for role in SIZES}
@@ -314,7 +316,9 @@ class Fitting:
         about = f"<b>{escape(curve.name)}</b>: {escape(curve.note)}. It is in its file, and in no link."
         show(self.about, object=about)
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
-        likes = {"fit.contact_point": depth, "fit.baseline": force}
+        likes = {"fit.contact_point": depth, "fit.baseline": force, "fit.drift": 1e-10}
+        # A frame gives by some hundredth of the depth.
+        likes["fit.frame"] = 0.01 * depth / force if force else 0.0
         names = [f"fit.{name}" for name in curve.known((*PLACED, *SUBTRACTED))]
         self.place.show(state, names, likes)
         options = {quantity_of(name).label: name for name in offered(state)}
