@@ -89,13 +89,11 @@ def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> Measu
     ('left out line 4: a cell is missing or no number',)
     """
     curves = read_curves(path, **given)
-    count = len(curves)
-    if not 0 <= index < count:
-        raise ValueError(
-            f"index = {index} must be from 0 to less than {count}, the curves of {curves.name}"
-        )
-    several = (f"curve {index} of {count}: index= picks another one",) if count > 1 else ()
-    return replace(curves[index], remarks=(*several, *curves[index].remarks))
+    if not 0 <= index < len(curves):
+        raise ValueError(f"index = {index} must be from 0 to less than {len(curves)}, the curves of {path}")
+    curve = curves[index]
+    several = [f"curve {index} of {len(curves)}: index= picks another one"] * (len(curves) > 1)
+    return replace(curve, remarks=(*several, *curve.remarks))
 
 
 def read_curves(
@@ -121,9 +119,9 @@ def read_curves(
         stiffness k of the cantilever, and its zero is not the contact point.
     spring_constant : float, optional
         Stiffness of the cantilever (N/m) that the file lacks. With it the deflection F/k is subtracted from
-        a column of a table that is the position of the piezo, and a deflection in m or V is a force.
+        a column of a table that is the position of the piezo: its name has piezo, height, sens or scanner.
     sensitivity : float, optional
-        Deflection (m) of the cantilever for 1 V that the file lacks; m/A of NT-MDT's files. Those have no
+        Deflection (m) of the cantilever for 1 V that an AFM file lacks; m/A for NT-MDT. Its files have no
         header: they are known by the two values that are given.
     columns : dict, optional
         Columns of a table for "depth", "force" and "time": a name in the header, as in

@@ -333,6 +333,17 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
         box = page.locator(f".card.{name}").bounding_box()
         assert box["y"] + box["height"] <= 900
     page.get_by_text("It is in its file, and in no link").wait_for()
+    # A table without names asks, and keeps the curve until it is answered.
+    path.write_text("\n".join(f"{f:.9g} {z:.9g}" for f, z in zip(1e6 * F, 1e9 * d + 3, strict=True)))
+    page.get_by_label("CSV file of a measured curve: depth, force").set_input_files(path)
+    refused = page.locator(".refused:visible")
+    refused.filter(has_text=re.compile("choose them below.*What is shown is still run.csv")).wait_for()
+    for label, option in (("Column of depth", 1), ("Unit of depth", "nm"), ("Column of force", 0)):
+        where = {"label": option} if isinstance(option, str) else {"index": option}
+        page.get_by_label(label, exact=True).select_option(**where)
+    explorer.change(page.get_by_label("Unit of force", exact=True).select_option, label="µN")
+    assert refused.count() == 0
+    assert explorer.row("force", "measured")[0].min() == pytest.approx(2.0, abs=0.02)
 
 
 def test_depth_noise_counts_where_it_is_no_rounding_and_no_trifle():

@@ -239,6 +239,8 @@ class Fitting:
             text = f"Refused: {text}."
             if where is self.not_taken and self._curve is not None:
                 text += f" What is shown is still {self._curve.name}."
+            # What is asked for stands there before the request.
+            self._show_columns()
             show(where, object=f'<span class="refused" role="alert">{escape(text)}</span>')
 
         self._forget()
