@@ -32,7 +32,7 @@ from .profiles.rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
 from .profiles.sampled import Sampled
 from .profiles.smooth import Smooth
 from .profiles.truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
-from .reading import read_curve
+from .reading import read_curve, read_curves
 from .results.base import Motion
 from .scene import Scene
 
@@ -81,6 +81,7 @@ __all__ = [
     "oblique_impact",
     "oliver_pharr",
     "read_curve",
+    "read_curves",
     "sweep",
     "yield_depth",
     "yield_speed",

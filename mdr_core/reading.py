@@ -1,18 +1,25 @@
 """Measured force–depth curves from files of instruments."""
 
+import logging
 import re
-from dataclasses import dataclass, replace
+from contextlib import contextmanager, suppress
+from dataclasses import replace
+from functools import partial
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from ._check import Array, frozen
-from .profiles.samples import UNITS, Table, decoded, read_table
-from .results.report import Report, imported
+from . import _check
+from .measured_curve import MODALITIES, MeasuredCurve, MeasuredCurves, named_segments, segments_of
+from .profiles.samples import UNITS, Table, decoded, read_table, unit_named
+from .results.report import imported
 
-#: Kind of the units of each quantity, and words in the names of its columns.
-_KINDS = {"depth": "length", "force": "force", "time": "time"}
+# Without a handler its errors would be printed beside the refusals.
+logging.getLogger("afmformats").addHandler(logging.NullHandler())
+
+#: Words in the names of the columns of each quantity.
 _WORDS = {
     "depth": r"depth|displ|indent|tiefe|weg|\b[hdz]\b",
     "force": r"force|load|deflection|kraft|last|\b[fp]\b",
@@ -22,29 +29,42 @@ _WORDS = {
 _DEPTH = re.compile("(?!.*(piezo|displ|height|contact)).*(depth|indent|tiefe)", re.I)
 #: Names of columns of the position of the piezo, in which the deflection of the cantilever is included.
 _PIEZO = re.compile("piezo|height|sens|scanner", re.I)
+#: Beginnings of the suffixes of AFM files that are no text.
+_AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
+#: Text that only files of AFM instruments have.
+_OF_AFM = re.compile(r"# afmformats |Force-Distance Curve|Device:\tChiaro")
 #: Sizes of the units of each quantity (SI); a minus turns the sign of a column.
 SIZES = {
-    name: UNITS[kind] | {f"−{unit}": -size for unit, size in UNITS[kind].items()}
-    for name, kind in _KINDS.items()
+    each: UNITS[kind] | {f"−{unit}": -size for unit, size in UNITS[kind].items()}
+    for each, kind in {"depth": "length", "force": "force", "time": "time"}.items()
+}
+#: What to do about errors of `afmformats`.
+_REMEDIES = {
+    "MissingMetaDataError": " Give spring_constant= (N/m) and sensitivity= (m/V)",
+    "NotImplementedError": " Its forces are in N: give neither. minus_frame(1 / k) subtracts a deflection",
+    "UnicodeDecodeError": "; if it is packed, unpack it and read its files",
 }
 
 
-def read_curve(path: str | PathLike[str], index: int = 0) -> "MeasuredCurve":
-    """Read depth, force and time of a measured curve from a file of an instrument.
+class UnknownColumns(ValueError):
+    """A table whose header does not tell the columns of depth and force, or their units."""
 
-    Columns and units are found by the names in the header, in which units stand in brackets, after the
-    names or in a line of their own; signs by the numbers, as force and depth are positive in compression.
-    `remarks` has everything that was guessed, turned round or left out. Depth counts as in the file.
+    def __init__(self, message: str, table: Table) -> None:
+        super().__init__(message)
+        self.table = table
+
+
+def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> MeasuredCurve:
+    """Read depth, force and time of one measured curve from a file of an instrument.
 
     Parameters
     ----------
     path : path-like
-        Text in UTF-8, UTF-16 or Windows-1252, with columns separated by commas, semicolons, tabs or blanks;
-        an Excel file, for which pandas is needed; or an AFM file (.jpk-…, .h5, .ibw, .nid, .zip), for which
-        `afmformats` is needed. Of these the depth is minus the position of the tip, −(height + F/k) with
-        the stiffness k of the cantilever, and its zero is not the contact point.
+        A file, see `read_curves`.
     index : int, optional
-        Number of the curve in an Excel file with several sheets, or in a map.
+        Number of the curve in a map, or in an Excel file with several sheets.
+    **given
+        `spring_constant`, `sensitivity` and `columns` as in `read_curves`, where the file lacks them.
 
     Returns
     -------
@@ -52,10 +72,8 @@ def read_curve(path: str | PathLike[str], index: int = 0) -> "MeasuredCurve":
 
     Raises
     ------
-    ValueError
-        If most lines are no rows of numbers, or there is no column of depth or force.
-    ImportError
-        If the package is not installed that reads the format.
+    ValueError, ImportError
+        As in `read_curves`.
 
     Examples
     --------
@@ -70,175 +88,187 @@ def read_curve(path: str | PathLike[str], index: int = 0) -> "MeasuredCurve":
     >>> curve.remarks
     ('left out line 4: a cell is missing or no number',)
     """
+    curves = read_curves(path, **given)
+    if not 0 <= index < len(curves):
+        raise ValueError(f"index = {index} must be from 0 to less than {len(curves)}, the curves of {path}")
+    curve = curves[index]
+    several = [f"curve {index} of {len(curves)}: index= picks another one"] * (len(curves) > 1)
+    return replace(curve, remarks=(*several, *curve.remarks))
+
+
+def read_curves(
+    path: str | PathLike[str],
+    *,
+    spring_constant: float | None = None,
+    sensitivity: float | None = None,
+    columns: dict[str, Any] | None = None,
+) -> MeasuredCurves:
+    """Read all measured curves of a file of an instrument, which is opened once.
+
+    Columns of a table are found by the units in its header, in brackets, after the names or in a line of
+    their own, and then by their names. Signs are found by the numbers, as force and depth are positive in
+    compression. `remarks` of a curve has what was turned round or left out. Depth counts as in the file.
+
+    Parameters
+    ----------
+    path : path-like
+        A table as text in UTF-8, UTF-16 or Windows-1252, with columns separated by commas, semicolons, tabs
+        or blanks; an Excel file (.xls, .xlsx), of which each sheet with a curve is read, by pandas; or an
+        AFM file (.jpk-…, .h5, .ibw, .zip, .tab; text of AFM Workshop, Optics11 and NT-MDT), by
+        `afmformats`. Of AFM files the depth is minus the position of the tip, −(height + F/k) with the
+        stiffness k of the cantilever, and its zero is not the contact point.
+    spring_constant : float, optional
+        Stiffness of the cantilever (N/m) that the file lacks. With it the deflection F/k is subtracted from
+        a column of a table that is the position of the piezo: its name has piezo, height, sens or scanner.
+    sensitivity : float, optional
+        Deflection (m) of the cantilever for 1 V that an AFM file lacks; m/A for NT-MDT. Its files have no
+        header: they are known by the two values that are given.
+    columns : dict, optional
+        Columns of a table for "depth", "force" and "time": a name in the header, as in
+        ``{"depth": "Z-Sense (nm)"}``, or a number from 0 on and a unit, as in ``{"depth": (0, "nm")}``,
+        where the header lacks them. None leaves out the time.
+
+    Returns
+    -------
+    MeasuredCurves
+
+    Raises
+    ------
+    ValueError
+        If most lines are no rows of numbers, or there is no column of depth or force with a unit; if a
+        stiffness or a sensitivity is needed that is not given, or given where the file has its own forces.
+    ImportError
+        If the package is not installed that reads the format.
+    """
     path = Path(path)
-    suffix, name = path.suffix.lower(), path.name
+    suffix, given = path.suffix.lower(), {}
+    if spring_constant is not None:
+        given["spring constant"] = _check.positive_number("spring_constant", spring_constant, unit="N/m")
+    if sensitivity is not None:
+        given["sensitivity"] = _check.positive_number("sensitivity", sensitivity, unit="m/V")
+    text = "" if suffix.startswith((*_AFM, ".xls")) else decoded(path.read_bytes())
+    of_nova = suffix == ".txt" and len(given) == 2 and not re.search("[A-Za-z]", text[:1000])
+    if suffix.startswith(_AFM) or (columns is None and (of_nova or _OF_AFM.search(text[:2000]))):
+        return _from_afm(path, given)
+    if sensitivity is not None:
+        raise ValueError(f"{path.name} is a table, with forces in units of force: leave out sensitivity")
+    options = {"columns": columns, "spring_constant": given.get("spring constant")}
     if suffix in (".xls", ".xlsx"):
-        return _from_sheets(path, index)
-    if suffix.startswith((".jpk", ".h5", ".ibw", ".nid", ".zip")):
-        return _from_afm(path, index)
-    data = path.read_bytes()
-    if suffix == ".tab" and data.startswith(b"# afmformats"):
-        return _from_afm(path, index)
-    return curve_of(read_table(decoded(data), name), name)
+        return MeasuredCurves(path.name, None, _sheets(path, options))
+    make = partial(curve_of, read_table(text, path.name), path.name, **options)
+    return MeasuredCurves(path.name, None, [make])
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class MeasuredCurve(Report):
-    """A measured curve, returned by `read_curve`, and how its file was understood."""
+def curve_of(table, name, columns=None, spring_constant=None, *, turn=True, segment=None):
+    """`MeasuredCurve` of a table with given columns, and others by their units and names.
 
-    #: Name of the file.
-    name: str
-    #: Depth (m), force (N) and time (s), None for a time that the file does not have.
-    depth: Array
-    force: Array
-    time: Array | None
-    #: Numbers of the columns in the table, None for no time, and their units, "−nm" for a reversed sign.
-    columns: dict[str, int | None]
-    units: dict[str, str]
-    #: Guesses, reversed signs, lines and columns that are left out.
-    remarks: tuple[str, ...]
-    table: Table
-
-    _shown = ("depth", "force")
-    _dimensions = ("sample",)
-
-    @property
-    def _quantities(self):  # type: ignore[override]
-        return tuple(name for name in _KINDS if getattr(self, name) is not None)
-
-    def _rows(self):
-        yield "file", self.name
-        for name in self._quantities:
-            column = self.columns[name]
-            yield name, f"{self.table.heads[column] or f'column {column + 1}'!r} in {self.units[name]}"
-        yield from (("remark", remark) for remark in self.remarks)
-
-
-def curve_of(table, name, columns=None, units=None):
-    """`MeasuredCurve` of a table, with given columns and units, or those of its names and numbers."""
-    columns, remarks = (columns, []) if columns else _columns(table, name)
-    used = {quantity: column for quantity, column in columns.items() if column is not None}
-    values = {quantity: table.values[:, column] for quantity, column in used.items()}
+    Signs are found by the numbers unless `turn` is False.
+    """
+    columns, remarks = _columns(table, name, columns or {})
+    values = {each: table.values[column[0]] for each, column in columns.items() if column}
     rows = np.flatnonzero(np.isfinite(list(values.values())).all(axis=0))
-    remarks = _omissions(table, rows, name) + remarks
+    labels, segment = named_segments(table.words) if segment is None else ("", segment)
+    remarks += _omissions(table, rows, name, labels)
     if rows.size < 2:
         raise ValueError(f"{name} has one row of numbers: give a curve, a sample a line")
-    if "time" in values:
-        steps = np.diff(values["time"][rows])
-        if np.all(steps <= 0) and np.any(steps):
-            rows = rows[::-1]
-        elif np.any(steps < 0) or not np.any(steps):
-            remarks.append("the time does not ascend and is left out: samples are in the order of the file")
-            del values["time"]
-    values = {quantity: value[rows] for quantity, value in values.items()}
-    if units is None:
-        units, guesses = _units(table, used, values)
-        remarks += guesses
-    values = {
-        quantity: frozen(value * SIZES[quantity][units[quantity]]) for quantity, value in values.items()
-    }
-    values.setdefault("time", None)
-    return MeasuredCurve(name, **values, columns=columns, units=units, remarks=tuple(remarks), table=table)
+    steps = np.diff(values["time"][rows]) if "time" in values else np.ones(1)
+    if np.all(steps <= 0) and np.any(steps):
+        rows = rows[::-1]
+    elif np.any(steps < 0) or not np.any(steps):
+        remarks.append("the time does not ascend and is left out: samples are in the order of the file")
+        columns["time"] = None
+        del values["time"]
+    values = {each: value[rows] * SIZES[each][columns[each][1]] for each, value in values.items()}
+    for each in _turned(values["depth"], values["force"]) if turn else ():
+        values[each], (column, unit) = -values[each], columns[each]
+        columns[each] = column, unit[1:] if unit[0] == "−" else f"−{unit}"
+        remarks.append(f"{each} turned round: it is positive in compression")
+    head = table.heads[columns["depth"][0]]
+    if _PIEZO.search(head) and spring_constant is not None:
+        values["depth"] = values["depth"] - values["force"] / spring_constant
+        remarks.append(f"{head!r} is of the piezo: the deflection, force over stiffness, is subtracted")
+    elif _PIEZO.search(head):
+        remarks.append(f"{head!r} includes the deflection force/stiffness: give spring_constant= (N/m)")
+    elif spring_constant is not None and "tip" not in head:
+        remarks.append(f"{head!r} is taken as the depth of the tip: no deflection is subtracted")
+    arrays = {"time": None} | {each: _check.frozen(value) for each, value in values.items()}
+    arrays["segment"] = segments_of(**values) if segment is None else _check.frozen(segment[rows])
+    return MeasuredCurve(name, spring_constant, None, columns, tuple(remarks), table, **arrays)
 
 
-def _columns(table, name):
-    """Columns of depth, force and time by their units, names and order, and remarks on the choice."""
-    units, count = [table.unit(column) for column in range(len(table.heads))], len(table.heads)
-    if count < 2:
+def _columns(table, name, given):
+    """Number and unit of the column of each quantity, None for no time, and remarks on the choice."""
+    free, columns, remarks = dict(table.heads), {}, []
+    if len(free) < 2:
         raise ValueError(f"{name} has one column of numbers: give one of depth and one of force")
-    columns, left, remarks = {}, list(range(count)), []
-    named_at_all = any(units) or re.search("|".join(_WORDS.values()), "\n".join(table.heads), re.I)
-    for quantity in ("time", "force", "depth"):
-        kind, score = UNITS[_KINDS[quantity]], {}
-        for column in left:
-            unit, head = units[column], table.heads[column]
-            named = bool(re.search(_WORDS[quantity], head, re.I))
-            # Units of other kinds exclude a column, unknown ones if it is not named either.
-            if unit is None or unit in kind or (unit == "" and named):
-                score[column] = 2 * (unit in kind) + named
-        best = max(score, key=lambda i: (score[i], *_preference(table.heads[i])), default=None)
-        others = [i for i in score if i != best and score[i] >= max(1, min(2, score[best]))]
-        if others:
-            text = ", ".join(repr(table.heads[i]) for i in others)
-            remarks.append(f"{quantity} is taken from {table.heads[best]!r}, not from {text}")
-        if quantity == "time" and count > 2 and not named_at_all:
-            best = _ascending_column(table.values)
-            if best is not None:
-                remarks.append(f"no names: column {best + 1} is taken as time, as it grows in equal steps")
-        elif quantity == "time" and (count < 3 or not score.get(best)):
-            best = None
-        elif quantity == "force" and score.get(best) == 0 and len(score) > 1:
-            # Without names depth stands first.
-            best = list(score)[1]
-        elif best is None:
-            heads = ", ".join(table.heads)
-            raise ValueError(
-                f"{name} has no column of {quantity} among {heads}: name it and its unit in the header"
+    for each in given:
+        _check.one_of("a key of columns", each, tuple(_WORDS))
+        columns[each] = _given(table, each, given[each], free)
+        free.pop(columns[each] and columns[each][0], None)
+    for each in [each for each in ("time", "force", "depth") if each not in columns]:
+        fits = [column for column in free if table.unit(column) in SIZES[each]]
+        best = max(fits, key=lambda column: _rank(each, free[column]), default=None)
+        if best is None and each != "time":
+            raise UnknownColumns(
+                f"{name} has no column of {each} with a unit in its header, {table.heads}: give columns="
+                '{"depth": (0, "nm"), "force": (1, "mN")}, numbers and units; a deflection is no force. '
+                "NT-MDT's files need spring_constant= (N/m) and sensitivity= (m/A)",
+                table,
             )
-        if quantity == "depth" and _PIEZO.search(table.heads[best]):
-            remarks.append(
-                f"{table.heads[best]!r} is the position of the piezo: it includes the deflection of the "
-                "cantilever, force over stiffness; subtract that from the depth"
-            )
-        columns[quantity] = best
-        left = [column for column in left if column != best]
-    return {quantity: columns[quantity] for quantity in _KINDS}, remarks
+        others = ", ".join(repr(free[column]) for column in fits if column != best)
+        remarks += [f"{each} is taken from {free[best]!r}, not from {others}"] if others else []
+        columns[each] = None if best is None else (best, table.unit(best))
+        free.pop(best, None)
+    return {each: columns[each] for each in _WORDS}, remarks
 
 
-def _preference(head):
-    """Whether a column is no raw one, and says that it is the depth; of those that fit otherwise."""
-    return "raw" not in head.lower(), _DEPTH.match(head) is not None
+def _rank(each, head):
+    """Whether a column has the name of a quantity, is no raw one, and says that it is the depth."""
+    named = re.search(_WORDS[each], head, re.I)
+    return bool(named), "raw" not in head.lower(), _DEPTH.match(head) is not None
 
 
-def _ascending_column(values):
-    """The first column that grows in equal steps, if two others turn round by a fifth; else None."""
-    values = values[np.isfinite(values).all(axis=1)]
-    if len(values) < 3:
+def _given(table, each, column, free):
+    """Number and unit of one of the `free` columns that is given by its name or number."""
+    if column is None and each == "time":
         return None
-    steps, (first, last) = np.diff(values, axis=0), values[[0, -1]]
-    even = np.all((steps > 0) & (steps > 0.5 * steps.mean(axis=0)), axis=0)
-    high, low = values.max(axis=0), values.min(axis=0)
-    turn = np.maximum(high - np.maximum(first, last), np.minimum(first, last) - low)
-    turns = np.count_nonzero(turn > 0.2 * (high - low)) >= 2
-    return int(np.argmax(even)) if turns and even.any() else None
+    which, unit = column if isinstance(column, tuple | list) else (column, None)
+    number = next((k for k, head in free.items() if which in (k, head)), None)
+    if number is not None:
+        unit = unit_named(unit) or unit if unit else table.unit(number)
+    if number is None or unit not in SIZES[each]:
+        raise ValueError(
+            f"columns: {each} = {column!r} must be a number or name of {free}, and a unit where "
+            f"that has none, ({which!r}, {list(SIZES[each])[1]!r}), out of {', '.join(SIZES[each])}"
+        )
+    return number, unit
 
 
-def _omissions(table, rows, name):
-    """Remarks on columns and lines that are left out; `rows` are those that are not."""
+def _omissions(table, rows, name, labels):
+    """Remarks on columns and lines that are left out; `rows` and the column of `labels` are not."""
     lines = sorted({*table.odd, *table.lines.tolist()} - set(table.lines[rows].tolist()))
     listed = ", ".join(map(str, lines[:3])) + f" and {len(lines) - 3} more" * (len(lines) > 3)
     what = f"line{'s' * (len(lines) > 1)} {listed}: a cell is missing or no number"
     if len(lines) > len(rows):
         raise ValueError(f"most lines of {name} are no rows of numbers, as {what}")
-    remarks = [f"column {column}, which has no numbers, is left out" for column in table.omitted]
-    return remarks + [f"left out {what}"] * bool(lines)
+    named = [column for column in table.words if column != labels and " " in column.strip()]
+    words = [f"column {column}, which has no numbers, is left out" for column in named]
+    return words + [f"left out {what}"] * bool(lines)
 
 
-def _units(table, used, values):
-    """Units of the quantities, with a minus for columns of the other sign, and remarks on both."""
-    # Depths below 10⁻³ are in m, as no curve is 10⁻³ nm deep.
-    guess = ("m", "N", "s") if np.max(np.abs(values["depth"])) < 1e-3 else ("nm", "µN", "s")
-    units, remarks = dict(zip(_KINDS, guess, strict=True)), []
-    known = {quantity: table.unit(column) for quantity, column in used.items()}
-    guessed = [f"{quantity} in {units[quantity]}" for quantity, unit in known.items() if not unit]
-    units |= {quantity: unit for quantity, unit in known.items() if unit}
-    if guessed:
-        remarks.append(f"no unit in the header: {' and '.join(guessed)} is a guess")
+def _turned(depth, force):
+    """Names of the quantities that have the other sign."""
     # Depth and force grow to the farther one of the largest and the smallest force: adhesion is nearer.
-    depth, force = values["depth"], values["force"]
     apart = 0.2 * np.ptp(force)
     ends = [end for end in (force.argmax(), force.argmin()) if abs(force[end] - force[0]) >= apart]
     peak = max(ends, key=lambda end: abs(depth[end] - depth[0]))
-    turned = [quantity for quantity in ("depth", "force") if values[quantity][peak] < values[quantity][0]]
+    turned = ["depth"] * bool(depth[peak] < depth[0]) + ["force"] * bool(force[peak] < force[0])
     # Both fall in an unloading alone, from the largest force on.
-    if len(turned) < 2 or abs(force[peak]) > abs(force[0]):
-        units |= {quantity: f"−{units[quantity]}" for quantity in turned}
-        remarks += [f"{quantity} turned round: it is positive in compression" for quantity in turned]
-    return units, remarks
+    return turned if len(turned) < 2 or abs(force[peak]) > abs(force[0]) else []
 
 
-def _from_sheets(path, index):
-    """Curve of one of the sheets of an Excel file that name the units of depth and force."""
+def _sheets(path, options):
+    """Functions that make the curves of the sheets of an Excel file that have depth and force."""
     pandas = imported("pandas", f"reading {path.name}", "mdr-core[tables]")
     try:
         sheets = pandas.read_excel(path, sheet_name=None, header=None)
@@ -247,51 +277,49 @@ def _from_sheets(path, index):
         raise ValueError(f"{path.name} cannot be read as an Excel file: {error}") from error
     curves = []
     for sheet, frame in sheets.items():
-        try:
-            table = read_table(frame.to_csv(sep="\t", header=False, index=False), f"{path.name}, {sheet}")
-            curve = curve_of(table, f"{path.name}, {sheet}")
-        except ValueError:
-            continue
-        # Sheets of results and settings have columns of numbers, too.
-        if all(table.unit(curve.columns[quantity]) for quantity in ("depth", "force")):
-            curves.append(curve)
-    curve, remarks = _picked(curves, index, path.name)
-    return replace(curve, remarks=(*remarks, *curve.remarks))
+        name = f"{path.name}, {sheet}"
+        # Sheets of results and settings are passed over.
+        with suppress(ValueError):
+            table = read_table(frame.to_csv(sep="\t", header=False, index=False), name)
+            curves.append(partial(replace, curve_of(table, name, **options)))
+    if not curves:
+        raise ValueError(f"{path.name} has no sheet with columns of depth and force and their units")
+    return curves
 
 
-def _from_afm(path, index):
-    """Curve of a file that `afmformats` reads, approach and retract in the order of time."""
-    afmformats = imported("afmformats", f"reading {path.name}", "mdr-core[afm]")
+@contextmanager
+def _refused(errors, name):
+    """Errors of `afmformats` as ValueErrors that say what to give."""
     try:
-        curves = afmformats.load_data(path)
-    # Errors of this package are none that `except Exception` would handle; of a damaged or unknown file it
-    # raises any error.
-    except (
-        Exception,
-        afmformats.errors.AFMFileFormatError,
-        afmformats.errors.MissingMetaDataError,
-    ) as error:
-        raise ValueError(f"{path.name} is not read by afmformats: {error}") from None
-    data, remarks = _picked(curves, index, path.name)
-    if "tip position" in data:
-        depth = -data["tip position"]
-    else:
-        stiffness = data.metadata.get("spring constant", np.nan)
-        depth = -data["height (measured)"] - np.nan_to_num(data["force"] / stiffness)
-        if np.isnan(stiffness):
-            remarks.append("the stiffness of the cantilever is missing: the depth includes its deflection")
-    columns = {"depth (m)": depth, "force (N)": data["force"]}
-    columns |= {"time (s)": data["time"]} if "time" in data else {}
-    values = np.column_stack(list(columns.values()))
-    table = Table(tuple(columns), values, np.arange(1, len(values) + 1), {}, ())
-    # Signs are known here.
-    units = {"depth": "m", "force": "N", "time": "s"}
-    curve = curve_of(table, path.name, units=units)
-    return replace(curve, remarks=(*remarks, *curve.remarks))
+        yield
+    # Most errors of this package are none that `except Exception` would handle.
+    except (Exception, errors.AFMFileFormatError, errors.MissingMetaDataError) as error:
+        remedy = _REMEDIES.get(type(error).__name__, "")
+        raise ValueError(f"{name} is not read by afmformats: {error}{remedy}") from None
 
 
-def _picked(curves, index, name):
-    """One of the curves of a file, and a list with a remark if there are several."""
-    if not 0 <= index < len(curves):
-        raise ValueError(f"index = {index} must be from 0 to less than {len(curves)}, the curves of {name}")
-    return curves[index], [f"curve {index} of {len(curves)}: index= picks another one"] * (len(curves) > 1)
+def _from_afm(path, given):
+    """`MeasuredCurves` of a file that `afmformats` reads."""
+    afmformats = imported("afmformats", f"reading {path.name}", "mdr-core[afm]")
+    with _refused(afmformats.errors, path.name):
+        curves = sorted(afmformats.load_data(path, meta_override=given), key=lambda data: data.enum)
+        position = [[data.metadata.get(f"position {axis}", np.nan) for axis in "xy"] for data in curves]
+    position = None if np.isnan(position).any() else _check.frozen(position)
+    makers = [partial(_afm_curve, afmformats.errors, data) for data in curves]
+    return MeasuredCurves(path.name, position, makers)
+
+
+def _afm_curve(errors, data):
+    """`MeasuredCurve` of a curve in `afmformats`, approach and retract in the order of time."""
+    name = data.path.name
+    with _refused(errors, name):
+        heights = [head for head in ("tip position", "height (measured)", "height (piezo)") if head in data]
+        heads = [heights[0], "force", *(["time"] if "time" in data else [])]
+        values = {k: np.asarray(data[head], dtype=float) for k, head in enumerate(heads)}
+        number = np.asarray(data["segment"], dtype=int)
+        # Where all have one number the file does not know the segments.
+        segment = np.array(MODALITIES[data.modality])[number] if number.any() else None
+        stiffness = data.metadata.get("spring constant")
+    table = Table(dict(enumerate(heads)), values, np.arange(1, number.size + 1), {}, {})
+    columns = {"depth": (0, "−m"), "force": (1, "N"), "time": (2, "s") if 2 in values else None}
+    return curve_of(table, name, columns, stiffness, turn=False, segment=segment)

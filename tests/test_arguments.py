@@ -78,7 +78,7 @@ CALLS = {
 WITHOUT = {
     "FreeImpact", "FreeObliqueImpact", "Foundation", "Impact", "Indentation", "Motion", "ObliqueImpact",
     "Profile", "ScalingLaw", "Scene", "Smooth", "TimedIndentation", "abel", "chain_impact", "read_curve",
-    "sweep",
+    "read_curves", "sweep",
 }  # fmt: skip
 
 

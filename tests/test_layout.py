@@ -16,7 +16,8 @@ ORDER = (
     "numerics.roots", "abel", "results.quantities", "profiles.samples", "profiles.profile",
     "profiles.power", "profiles.radius_table", "profiles.rounded", "profiles.truncated", "profiles.sampled",
     "profiles.smooth", "medium", "results.limits", "results.report",
-    "results.base", "results.sweep_arguments", "results.progress", "reading", "foundation.refinement",
+    "results.base", "results.sweep_arguments", "results.progress", "measured_curve", "reading",
+    "foundation.refinement",
     "foundation.cap", "foundation.element", "foundation.grid", "foundation.foundation",
     "foundation.fronts", "foundation.depth_path", "foundation.force_path", "foundation.free_body",
     "foundation.chain_impact", "contact.live_interval", "contact.quadrature", "contact.integrals",
@@ -30,7 +31,7 @@ ORDER = (
     "sweep", "fit.parameters", "fit.least_squares", "fit.errors", "fit.report", "fit.oliver_pharr",
     "fit.hardness", "fit.measurement", "fit.model", "fit.curves", "fit.adhesion", "fit.depth_noise",
     "fit.start", "fit.solution", "fit.classes",
-    "fit.nested", "fit.remarks", "fit.figures", "fit.result",
+    "fit.nested", "fit.noise", "fit.remarks", "fit.figures", "fit.result",
     "fit.indentation", "drives", "scene", "results.figures", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.

@@ -40,7 +40,7 @@ def assert_same(curve):
         (text((TIME, DEPTH, FORCE), ["# run 7", "Time\th\tP", "s\tnm\tmN"], "\t"), ""),
         (
             text((TIME, DEPTH, FORCE), ["# columns: time height load", "# units: s nm mN"], " "),
-            "'height nm' is the position of",
+            "'height nm' includes the deflection",
         ),
         (text((DEPTH, FORCE), ["Operator, A. B.", "Date, 2020", "", "depth_nm, force_mN"]), ""),
         (text((DEPTH, FORCE, FORCE), ["h (nm), F (mN), Stiffness (N/m)"]), ""),
@@ -48,13 +48,9 @@ def assert_same(curve):
         (text((TIME[::-1], FORCE[::-1], DEPTH[::-1]), ["t/s,F/mN,d/nm"]), ""),
         (text((DEPTH, 1e3 * np.array(FORCE)), ["Weg (nm);Kraft (\u03bcN)"], ";"), ""),
         (text((DEPTH, 1e3 * np.array(FORCE)), ["h (nm); F (uN)"], "; "), ""),
-        (text((DEPTH, 1e3 * np.array(FORCE)), [""]), "depth in nm and force in µN is a guess"),
         (text((DEPTH, [-f for f in FORCE]), ["h (nm), F (mN)"]), "force turned round"),
         (text(([-d for d in DEPTH], FORCE), ["z (nm) F (mN)"], " "), "depth turned round"),
-        (
-            "h; F; \n-1e-9; 0;\n0; 0;\n2e-9; 1.5e-3;\n4e-9; 6e-3;\n3e-9; 2e-3;\n",
-            "depth in m and force in N",
-        ),
+        ("h (m); F (N); \n-1e-9; 0;\n0; 0;\n2e-9; 1.5e-3;\n4e-9; 6e-3;\n3e-9; 2e-3;\n", ""),
         ("\n\nDepth (nm)\tForce (mN)\r\n-1\t0\r\n0\t0\r\n2\t1.5\r\n\r\n4\t6\r\n3\t2\r\n", ""),
         ("h (nm), F (mN), phase\n-1, 0.0, 1\n0, 0.0, 1\n2, 1.5, 1\n4, 6.0, 2\n3, 2.0, 2\n", ""),
         (text((DEPTH, FORCE), ["Tiefe in nm\tKraft in mN"], "\t").replace("\n0.0", "\n# hold\n0.0"), ""),
@@ -88,7 +84,7 @@ def test_time_is_read_in_its_unit_and_left_out_where_it_starts_again(read):
         ("Piezo displacement (nm), Indentation depth (nm)", 0),
         ("depth (nm), Contact depth (nm)", 1),
         ("Height measured (nm), Indentation (nm)", 0),
-        ("displacement, depth", 0),
+        ("displacement (nm), depth (nm)", 0),
         ("h (nm), h corrected (nm)", 1),
         ("Raw Displacement (nm), Displacement Into Surface (nm)", 0),
     ],
@@ -98,25 +94,49 @@ def test_of_two_depths_the_one_that_says_depth_is_taken_and_said(read, heads, ot
     columns[other] = 2 * np.array(DEPTH)
     curve = read(text(columns, [f"{heads}, Load (mN)"]))
     taken, left = (heads.split(", ")[i] for i in (1 - other, other))
-    assert curve.columns["depth"] == 1 - other
+    assert curve.columns["depth"] == (1 - other, "nm")
     assert f"depth is taken from {taken!r}, not from {left!r}" in curve.remarks
 
 
-@pytest.mark.parametrize("place", [0, 1, 2])
-def test_a_time_without_a_name_is_no_depth(read, place):
-    """It grows in equal steps while depth and force turn round; here it is 0.5 s a sample."""
-    depth, force = [0, 2, 4, 3, 2], [0, 1, 4, 2, 0]
-    columns = [depth, force]
-    columns.insert(place, 0.5 * np.arange(5))
-    assert read(text(columns, ["a, b, c"])).columns["time"] == place
-    curve = read(text(columns, [""]))
-    np.testing.assert_allclose(curve.depth, 1e-9 * np.array(depth))
-    np.testing.assert_allclose(curve.force, 1e-6 * np.array(force))
-    np.testing.assert_allclose(curve.time, 0.5 * np.arange(5))
-    assert any(f"column {place + 1} is taken as time" in remark for remark in curve.remarks)
-    # Where nothing turns round the steps of a depth may be equal, too: the order counts.
-    loading = read(text([column[:3] for column in columns], [""]))
-    assert (loading.columns["depth"], loading.time) == (0, None)
+def test_columns_and_units_that_a_header_lacks_are_given(tmp_path):
+    """By number and unit without a header; by name, with the unit in it or beside it."""
+    path = tmp_path / "run.csv"
+    path.write_text(text((TIME, FORCE, DEPTH), [""]))
+    with pytest.raises(
+        ValueError, match=r'no column of force with a unit .* give columns=\{"depth": \(0, "nm"\)'
+    ):
+        mdr.read_curve(path)
+    given = {"depth": (2, "nm"), "force": (1, "mN"), "time": (0, "ms")}
+    curve = mdr.read_curve(path, columns=given)
+    assert_same(curve)
+    np.testing.assert_allclose(curve.time, 1e-3 * np.arange(5))
+    # What a curve says of its columns reads it again.
+    assert_same(mdr.read_curve(path, columns=curve.columns))
+    path.write_text(text((DEPTH, FORCE, TIME, DEPTH), ["Z-Sense (nm), lock-in, s, Depth (nm)"]))
+    columns = {"depth": "Z-Sense (nm)", "force": ("lock-in", "mN"), "time": None}
+    curve = mdr.read_curve(path, columns=columns)
+    assert (curve.columns["depth"], curve.time) == ((0, "nm"), None)
+    assert_same(curve)
+
+
+@pytest.mark.parametrize(
+    ("columns", "says"),
+    [
+        ({"depth": 7}, "columns: depth = 7 must be a number or name of .*0: 'h'"),
+        ({"depth": "h"}, "depth = 'h' must be .* and a unit where that has none"),
+        ({"depth": (0, "V")}, "must be .* out of m, mm"),
+        ({"force": (1, "mN")}, "no column of depth with a unit"),
+        (
+            {"depth": (0, "nm"), "force": (0, "mN")},
+            "columns: force = \\(0, 'mN'\\) must be a number or name of {1: 'F'}",
+        ),
+        ({"height": (0, "nm")}, "a key of columns = 'height' must be one of"),
+    ],
+)
+def test_columns_that_are_none_are_refused(tmp_path, columns, says):
+    (tmp_path / "run.csv").write_text(text((DEPTH, FORCE), ["h, F"]))
+    with pytest.raises(ValueError, match=says):
+        mdr.read_curve(tmp_path / "run.csv", columns=columns)
 
 
 def test_an_unloading_alone_keeps_its_signs(read):
@@ -125,7 +145,7 @@ def test_an_unloading_alone_keeps_its_signs(read):
     assert down.force.tolist() == pytest.approx([5e-3, 3e-3, 1e-3])
     reversed_ = read("h (nm), F (mN)\n0, 0\n-8, -3\n-9, -5\n")
     assert reversed_.depth.tolist() == pytest.approx([0, 8e-9, 9e-9])
-    assert reversed_.units["force"] == "−mN"
+    assert reversed_.columns["force"] == (1, "−mN")
 
 
 @pytest.mark.parametrize("sign", [1, -1])
@@ -139,15 +159,15 @@ def test_adhesion_does_not_turn_the_force_round(read, sign):
 
 def test_what_is_left_out_is_said_with_its_line(read):
     lines = [
-        "phase; h (nm); F (nN)",
-        *(f"load; {k}; {k * k}" for k in range(8)),
-        "load; ; 9",
-        "hold; 9; 81",
+        "tip; h (nm); F (nN)",
+        *(f"new; {k}; {k * k}" for k in range(8)),
+        "new; ; 9",
+        "old; 9; 81",
     ]
     curve = read("\n".join([*lines, "end"]))
     np.testing.assert_allclose(curve.depth, np.array([*range(8), 9]) * 1e-9, rtol=1e-12)
     assert curve.remarks == (
-        "column 1 phase, which has no numbers, is left out",
+        "column 1 tip, which has no numbers, is left out",
         "left out lines 10, 12: a cell is missing or no number",
     )
     assert "h (nm)" in repr(curve)
@@ -165,7 +185,10 @@ def test_what_is_left_out_is_said_with_its_line(read):
         ("h (nm), F (nN)\n1, 2\n", "one row of numbers"),
         ("h (nm), F (nN)\n1, 2\nx, 3\ny, 4\nz\n", "one column of numbers"),
         ("h (nm), F (nN)\n1, 2\n3, 4\nx, y\n5, z\nend\n", "most lines of run.csv are no rows .* 4, 5, 6"),
-        ("h (nm), A (nm)\n1, 2\n3, 4\n", r"no column of force among h \(nm\), A \(nm\)"),
+        (
+            "h (nm), A (nm)\n1, 2\n3, 4\n",
+            r"no column of force with a unit .*\{0: 'h \(nm\)', 1: 'A \(nm\)'\}",
+        ),
         ("h (nm), T-B (V)\n1, 2\n3, 4\n", "no column of force"),
     ],
 )
@@ -204,44 +227,31 @@ def test_sheets_of_an_excel_file(tmp_path):
     np.testing.assert_allclose(second.force, 2 * first.force)
     with pytest.raises(ValueError, match="index = 2 must be from 0 to less than 2"):
         mdr.read_curve(tmp_path / "tests.xlsx", 2)
+    curves = mdr.read_curves(tmp_path / "tests.xlsx")
+    assert [curve.name for curve in curves] == ["tests.xlsx, Test 1", "tests.xlsx, Test 2"]
     (tmp_path / "words.xlsx").write_text("only words")
     with pytest.raises(ValueError, match=r"words\.xlsx cannot be read as an Excel file: Excel file format"):
         mdr.read_curve(tmp_path / "words.xlsx")
 
 
-class Segments(dict):
-    """Columns of a curve as in `afmformats.AFMData`."""
-
-    def __init__(self, columns, stiffness):
-        super().__init__(columns)
-        self.metadata = {"spring constant": stiffness}
-
-
-@pytest.mark.parametrize(("tip", "stiffness"), [(False, 0.5), (True, 0.5), (False, np.nan)])
-def test_afm_files_are_read_by_afmformats(monkeypatch, tmp_path, tip, stiffness):
-    """By a stand-in for the package, which is not among those of the tests: force/0.5 is the deflection."""
-    height = -1e-9 * np.array(DEPTH) - 2e-3 * np.array(FORCE)
-    data = {"force": 1e-3 * np.array(FORCE), "height (measured)": height}
-    data |= {"tip position": -1e-9 * np.array(DEPTH)} if tip else {"time": np.arange(5.0)}
-    module = ModuleType("afmformats")
-    module.load_data = lambda path: [Segments(data, stiffness)]
-    module.errors = SimpleNamespace(AFMFileFormatError=KeyError, MissingMetaDataError=KeyError)
-    monkeypatch.setitem(sys.modules, "afmformats", module)
-    curve = mdr.read_curve(tmp_path / "map.jpk-force")
-    depth = -height if np.isnan(stiffness) else 1e-9 * np.array(DEPTH)
-    np.testing.assert_allclose(curve.depth, depth, atol=1e-18)
-    assert (curve.time is None) == tip
-    assert np.isnan(stiffness) == bool(curve.remarks)
-
-
-def test_a_table_with_the_position_of_the_piezo_says_so(tmp_path):
-    """As instruments write it: approach and retract side by side, the deflection not subtracted."""
+def test_the_deflection_is_subtracted_from_the_position_of_the_piezo(tmp_path):
+    """Approach and retract side by side, as instruments write it. Of 0.5 N/m a force has 2 m/N."""
+    path = tmp_path / "run.csv"
     rows = "\n".join(f"{z},{f},{z - 1},{f}" for z, f in zip(DEPTH, FORCE, strict=True))
     head = "Extend Z-Sense(nm),Extend Force(nN),Retract Z-Sense(nm),Retract Force(nN)"
-    (tmp_path / "run.csv").write_text(f"{head}\n{rows}\n", encoding="utf-8")
-    remarks = "\n".join(mdr.read_curve(tmp_path / "run.csv").remarks)
-    assert "'Extend Z-Sense(nm)' is the position of the piezo" in remarks
+    path.write_text(f"{head}\n{rows}\n", encoding="utf-8")
+    curve = mdr.read_curve(path)
+    remarks = "\n".join(curve.remarks)
+    assert "'Extend Z-Sense(nm)' includes the deflection force/stiffness: give spring_constant=" in remarks
     assert "not from 'Retract Z-Sense(nm)'" in remarks
+    tip = mdr.read_curve(path, spring_constant=0.5)
+    np.testing.assert_allclose(tip.depth, curve.depth - 2 * curve.force, rtol=1e-12)
+    assert tip.spring_constant == 0.5
+    assert any("is subtracted" in remark for remark in tip.remarks)
+    path.write_text(text((DEPTH, FORCE), ["h (nm), F (mN)"]))
+    tip = mdr.read_curve(path, spring_constant=0.5)
+    assert_same(tip)
+    assert tip.remarks == ("'h (nm)' is taken as the depth of the tip: no deflection is subtracted",)
 
 
 @pytest.mark.parametrize(
@@ -268,3 +278,10 @@ def test_missing_packages_are_named(monkeypatch, tmp_path):
         monkeypatch.setitem(sys.modules, package, None)
         with pytest.raises(ImportError, match=f"needs {package}"):
             mdr.read_curve(tmp_path / f"run.{suffix}")
+
+
+def test_a_sensitivity_is_for_files_of_instruments(read, tmp_path):
+    """A table has forces: what would be ignored is refused."""
+    read(text((DEPTH, FORCE), ["h (nm), F (mN)"]))
+    with pytest.raises(ValueError, match=r"run\.csv is a table, .* leave out sensitivity"):
+        mdr.read_curve(tmp_path / "run.csv", sensitivity=6e-8)

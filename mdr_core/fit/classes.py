@@ -59,22 +59,22 @@ def _fit(profile, measured, held, depth_noise):
     ]
     order = np.argsort(np.concatenate([solution.rows for solution in solutions]))
     index = 0 if measured.single else slice(None)
-    groups = [_arrays(solution) for solution in solutions]
-    joined = {name: np.concatenate([group[name] for group in groups])[order][index] for name in groups[0]}
-    misfit, block_length = (_check.frozen(joined.pop(name)) for name in ("misfit", "block_length"))
-    return ClassFit(misfit, Medium(**joined), block_length)
+    media = [vars(solution.medium()) for solution in solutions]
+    misfits = [_misfit(solution) for solution in solutions]
+    lengths = [solution.block_length for solution in solutions]
+
+    def joined(groups):
+        return _check.frozen(np.concatenate(groups)[order][index])
+
+    medium = {name: joined([each[name] for each in media]) for name in ("E_star", *CLASSES.values())}
+    return ClassFit(joined(misfits), Medium(**medium), joined(lengths))
 
 
-def _arrays(solution):
-    """The constants of the medium, the misfit and the block length of a `Solution` by name, arrays (R,)."""
+def _misfit(solution):
+    """Root mean square of the residuals over the largest force (R,)."""
     values, _ = solution.values_and_states
     force = np.max(np.abs(solution.curves.force - solution.curves.background(values)), axis=1)
-    residuals = solution.minimum.residual * solution.noise
-    misfit = np.sqrt(np.mean(residuals**2, axis=1)) / force
-    medium = {
-        name: np.broadcast_to(values[name], (force.size, 1))[:, 0] for name in ("E_star", *CLASSES.values())
-    }
-    return medium | {"misfit": misfit, "block_length": solution.block_length}
+    return np.sqrt(np.mean((solution.minimum.residual * solution.noise) ** 2, axis=1)) / force
 
 
 def verdict(fits, depth, force, depth_noise):

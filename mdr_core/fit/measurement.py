@@ -33,6 +33,11 @@ class Measurement:
         given = (self.depth, self.force, self.time, self.force_noise)
         return np.logical_and.reduce([np.isfinite(values) for values in given if values is not None])
 
+    def rows(self, rows):
+        """The curves at some rows."""
+        values = (self.depth, self.force, self.time, self.force_noise, self.lengths)
+        return Measurement(*(v if v is None else v[rows] for v in values), single=self.single)
+
     def groups(self):
         """Yields curves with equally many samples: their numbers, depth, force, time and force noise.
 

@@ -1,25 +1,36 @@
-"""Whether a tilt, a drag or a drift of the depth, each one more linear parameter, fits a curve better.
+"""Whether a tilt, a drag, a drift of the depth or another force on unloading fits a curve better.
 
-With residuals r, their derivatives J by the fitted parameters and c by another one, v, the least squares
-of r + J δ + c v give v and the change δ of the parameters. The misfit is the root mean square of the
-residuals in contact, which a long baseline does not hide. A drift v (m/s) makes the depth z − v t.
+Each is one more linear parameter. With residuals r, their derivatives J by the fitted parameters and c by
+another one, v, the least squares of r + J δ + c v give v and the change δ of the parameters. It is said
+where it is significant and lowers the misfit clearly, or changes E* by more than its error: then the error
+that the fit states is too small. The misfit is the root mean square of the residuals in contact, which a
+long baseline does not hide. A drift v (m/s) makes the depth z − v t.
 
-In a medium that yields a drift changes E* and hardly the residuals. Its rate is that of the depth in a
-hold, where the force is constant.
+In a medium that yields a slow drift changes E* and hardly the residuals. Its rate is that of the depth in
+a hold, where the force is constant.
 """
 
 import numpy as np
 
 from ..results.quantities import engineering
-from .errors import SIGNIFICANT, SINGULAR, roughness
+from .errors import SIGNIFICANT, SINGULAR, block_length, roughness
 
-#: Least factor by which the misfit falls, unit, and what follows. A tilt lowers the misfit of measured
-#: curves without one up to 1.2 times.
+#: Words for each, its unit, the factor by which the misfit falls clearly, and what follows. The misfit of
+#: measured curves without a tilt falls up to 1.2 times by one.
 _TESTS = {
-    "tilt": (1.5, "N/m", "give tilt=None and baseline=None"),
-    "drag": (1.3, "N·s/m", "give drag=None"),
-    "drift": (1.6, "m/s", "the force changes at rest: drift, or a medium that relaxes"),
+    "tilt": ("a tilt of {}", "N/m", 1.5, "give tilt=None and baseline=None"),
+    "drag": ("a drag of {}", "N·s/m", 1.3, "give drag=None"),
+    "drift": ("a drift of {}", "m/s", 1.6, "the force changes at rest: drift, or a medium that relaxes"),
+    "unloading": (
+        "a force that changes by {} on unloading",
+        "%",
+        np.inf,
+        "creep or hysteresis of the scanner or the medium, or a drag; compare with the loading alone",
+    ),
 }
+#: Standard deviations from which on one of them is significant, and change of E* in its errors beyond which
+#: these do not cover what is left out.
+_SIGNIFICANT, _UNCOVERED = 3.3, 1.0
 #: Least number of samples in contact and without, and least misfit as a share of the range of force.
 _FEW, _SMALL = 10, 1e-5
 #: Least share of the samples in contact before and after the depth is within a share of the largest one.
@@ -41,28 +52,43 @@ def nested_tests(solved, i):
     if np.count_nonzero(contact) < _FEW:
         return
     yields = not (curves.held_elastic or solved.elastic[i])
-    residual = before = minimum.residual[i]
-    jacobian = minimum.jacobian[i][:, ~minimum.at_bound[i]]
-    small = _rms((residual * noise)[contact]) < _SMALL * curves.load[i, 0]
-    for name, columns in () if small else _columns(curves, state, i, contact, yields):
-        least, unit, follows = _TESTS[name]
-        matrix = np.column_stack([jacobian, columns / noise[:, None]])
-        step = _step(matrix, residual)
-        remainder = residual + matrix @ step
-        factor = _rms(before[contact]) / _rms(remainder[contact])
-        if factor > least and (factor**2 - 1) * np.count_nonzero(contact) > SIGNIFICANT**2:
+    jacobian, before = minimum.jacobian[i][:, ~minimum.at_bound[i]], minimum.residual[i]
+    small = _rms((before * noise)[contact]) < _SMALL * curves.load[i, 0]
+    columns = {} if small else dict(_columns(curves, state, i, contact))
+    while columns:
+        trials = {}
+        for name, column in columns.items():
+            matrix = np.column_stack([jacobian, column / noise[:, None]])
+            step = _step(matrix, minimum.residual[i])
+            remainder = minimum.residual[i] + matrix @ step
+            factor = _rms(before[contact]) / _rms(remainder[contact])
+            gain = (before @ before - remainder @ remainder) / _rms(remainder) ** 2
+            independent = gain / block_length(remainder[solved.orders[i]])
             change = step[0] / solved.errors(i)["E_star"]
-            yield (
-                name,
-                f"a {name} of {engineering(step[-1], unit)} lowers the misfit in contact {factor:.2g} "
-                f"times, and changes E* by {change:+.1f} of its errors: {follows}",
-            )
-            # The next ones are tested beside it.
-            jacobian = matrix
-            before = remainder
+            clear = factor > _TESTS[name][2] and gain > SIGNIFICANT**2
+            if clear or (independent > _SIGNIFICANT**2 and abs(change) > _UNCOVERED):
+                # The first of those that are clear, else the best one.
+                rank = np.inf if clear else gain
+                trials[name] = rank, matrix, remainder, _sentence(name, step[-1], factor, change)
+        if not trials:
+            break
+        # The others are tested beside it.
+        best = max(trials, key=lambda name: trials[name][0])
+        del columns[best]
+        _, jacobian, before, text = trials[best]
+        yield best, text
     if yields and _increases(curves, i):
         drift = _drift(curves, state, i, contact) / noise
-        yield from _in_a_hold(curves, state, i, contact, _step(jacobian, drift)[0])
+        change = _step(minimum.jacobian[i], drift)[0]
+        yield from _in_a_hold(curves, state, i, contact, change)
+
+
+def _sentence(name, size, factor, change):
+    what, unit, _, follows = _TESTS[name]
+    return (
+        f"{what.format(engineering(size, unit))} lowers the misfit in contact {factor:.3g} times, and "
+        f"changes E* by {change:+.1f} of its errors: {follows}"
+    )
 
 
 def _rms(values):
@@ -75,7 +101,7 @@ def _step(matrix, residual):
     return np.linalg.lstsq(matrix / scale, -residual, rcond=SINGULAR)[0] / scale
 
 
-def _columns(curves, state, i, contact, yields):
+def _columns(curves, state, i, contact):
     """Yields each name with the derivatives (N, K) of measured minus modelled force."""
     depth, free = curves.depth[i], curves.free
     baseline = np.count_nonzero(~contact) >= _FEW
@@ -84,13 +110,15 @@ def _columns(curves, state, i, contact, yields):
     inside = depth[contact]
     before = np.argmax(inside > inside.max() - _REACHED * np.ptp(inside))
     turns = min(before, inside.size - before) >= max(_FEW, _TURNS * inside.size)
-    if not turns or not _increases(curves, i):
+    if not turns:
         return
-    if baseline and "drag" not in free:
-        steps = np.gradient(curves.time[i])
-        yield "drag", -(np.gradient(depth) / np.maximum(steps, 1e-3 * steps.mean()))[:, None]
-    if not yields:
+    if _increases(curves, i):
+        if baseline and "drag" not in free:
+            steps = np.gradient(curves.time[i])
+            yield "drag", -(np.gradient(depth) / np.maximum(steps, 1e-3 * steps.mean()))[:, None]
         yield "drift", _drift(curves, state, i, contact)[:, None]
+    after = np.arange(depth.size) > np.argmax(depth)
+    yield "unloading", np.where(after, -state.force[i] / 100, 0.0)[:, None]
 
 
 def _increases(curves, i):

@@ -1,7 +1,8 @@
-"""Modulus and hardness from an unloading, by the method of Oliver and Pharr."""
+"""Modulus and hardness from unloadings, by the method of Oliver and Pharr."""
 
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from ..results.quantities import QUANTITIES, Quantity, described
 from ..results.report import Report
+from .errors import roughness
 from .least_squares import least_squares
 from .report import with_error
 
@@ -27,11 +29,22 @@ _LOWER, _UPPER = np.array([[0.1, 1e-3, 0.5]]), np.array([[10.0, 1e3, 50.0]])
 _SHARES = (0.99, 0.5), (0.99, 0.4), (0.99, 0.3), (0.95, 0.5), (0.95, 0.4), (0.95, 0.3)
 
 
+#: Least fall and rise of the force, as shares of the peak before, that part one unloading from the next;
+#: least peak, as a share of the largest force; standard deviations of noise that they exceed.
+_FALL, _PEAK, _NOISE = 0.1, 0.01, 6.0
+
+
 @_check.keywords_explained
 def oliver_pharr(
-    profile: Profile, depth: ArrayLike, force: ArrayLike, *, epsilon: float = 0.75, beta: float = 1.0
+    profile: Profile,
+    depth: ArrayLike,
+    force: ArrayLike,
+    *,
+    epsilon: float = 0.75,
+    beta: float = 1.0,
+    cycles: bool = False,
 ) -> "OliverPharr":
-    """Modulus and hardness from the unloading of one force–depth curve: Oliver and Pharr (1992).
+    """Modulus and hardness from the unloadings of one force–depth curve: Oliver and Pharr (1992).
 
     F = α (h − h_f)^m is fitted to the upper half of the unloading: samples after the largest depth, from
     the last one with 99 % of the force, so that a hold is left out, to the first one below half of it. F
@@ -49,6 +62,14 @@ def oliver_pharr(
         Constant ε: 1 for a flat punch, 3/4 for a paraboloid, 2 − 4/π for a cone.
     beta : float, optional
         Correction β of the stiffness, 1 for axisymmetric indenters.
+    cycles : bool, optional
+        Whether each unloading has an entry, in the order of time: where the force falls by a tenth of a
+        peak and more, before it rises again by as much. Those that follow no power law are left out, with
+        a remark. Otherwise the unloading after the largest depth is taken.
+
+    Returns
+    -------
+    OliverPharr
 
     Raises
     ------
@@ -70,6 +91,13 @@ def oliver_pharr(
     >>> result = oliver_pharr(Cone(slope=0.3), d, F, epsilon=2 - 4 / np.pi)
     >>> print(f"{result.E_star:.6g} {result.hardness:.6g} {result.exponent:.6g}")  # H = E* s/2
     1e+10 1.5e+09 2
+
+    Two cycles, a table over contact depth by ``.to_pandas()``:
+
+    >>> d, F = np.append(0.5 * d, d), np.append(0.25 * F, F)
+    >>> table = oliver_pharr(Cone(slope=0.3), d, F, epsilon=2 - 4 / np.pi, cycles=True)
+    >>> print((1e9 * table.contact_depth).round(3), (1e-9 * table.E_star).round(6))
+    [19.099 38.197] [10. 10.]
     """
     check_pair(profile, Medium(1.0), "an unloading")
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LONGEST, missing=True)
@@ -80,8 +108,55 @@ def oliver_pharr(
     depth, force = depth[used], force[used]
     if not depth.size:
         raise ValueError("depth and force have no samples: five or more of an unloading are needed")
-    epsilon = _check.positive_number("epsilon", epsilon, zero=True)
-    beta = _check.positive_number("beta", beta)
+    constants = _check.positive_number("epsilon", epsilon, zero=True), _check.positive_number("beta", beta)
+    parts, results, remarks = _unloadings(force), [], []
+    for number, part in enumerate(parts if cycles and parts else [slice(None)], 1):
+        try:
+            results.append(_values_and_errors(profile, depth[part], force[part], *constants))
+        except ValueError as error:
+            if not cycles or len(parts) < 2:
+                raise
+            remarks.append(f"unloading {number} of {len(parts)} is left out: {error}")
+    if not results:
+        raise ValueError(remarks[0])
+    if len(parts) > 1 and not cycles:
+        number = sum(part.start <= _deepest(depth) for part in parts)
+        taken = f"unloading {number} of {len(parts)} was taken, the one after the largest depth"
+        remarks.append(f"{taken}: cycles=True takes each")
+    columns = np.array(results) if cycles else np.array(results[0])
+    values, errors = (
+        dict(zip(OliverPharr._quantities, map(_check.frozen, each.T), strict=True))
+        for each in (columns[..., 0, :], columns[..., 1, :])
+    )
+    return OliverPharr(profile, **values, standard_errors=errors, remarks=tuple(remarks))
+
+
+def _unloadings(force):
+    """Parts of a curve that end with an unloading, from the end of the one before on, as slices."""
+    least = max(_PEAK * force.max(), _NOISE * roughness(force[None])[0, 0])
+    parts, begin, peak, lowest = [], 0, 0, None
+    for i, value in enumerate(force):
+        step = max(_FALL * force[peak], least)
+        if lowest is None:
+            if value >= force[peak]:
+                peak = i
+            elif force[peak] > least and value < force[peak] - step:
+                lowest = i
+        elif value <= force[lowest]:
+            lowest = i
+        elif value > force[lowest] + step:
+            parts.append(slice(begin, lowest + 1))
+            begin, peak, lowest = lowest, i, None
+    return parts if lowest is None else [*parts, slice(begin, force.size)]
+
+
+def _deepest(depth):
+    """Index of the last sample of the largest depth."""
+    return int(np.flatnonzero(depth == depth.max())[-1])
+
+
+def _values_and_errors(profile, depth, force, epsilon, beta):
+    """Results of one unloading and their standard errors, arrays in the order of `OliverPharr`."""
 
     def results(F, S, m):
         contact_depth = depth.max() - epsilon * F / S
@@ -102,14 +177,12 @@ def oliver_pharr(
         with suppress(ValueError):
             choices.append(results(*_power_law(*_part(depth, force, *shares))[0]))
     spread = np.ptp([choice for choice in choices if np.isfinite(choice).all()], axis=0) / 2
-    errors = np.maximum(np.linalg.norm(np.array(others) - values, axis=0), spread)
-    names = OliverPharr._quantities
-    return OliverPharr(profile, *values.tolist(), dict(zip(names, errors.tolist(), strict=True)))
+    return values, np.maximum(np.linalg.norm(np.array(others) - values, axis=0), spread)
 
 
 def _part(depth, force, upper, lower):
     """Depths (m) minus the largest one, and forces (N), of the unloading between shares of the force."""
-    start = int(np.flatnonzero(depth == depth.max())[-1])
+    start = _deepest(depth)
     h, F = depth[start:] - depth[start], force[start:]
     share = F / np.abs(F).max()
     below = np.flatnonzero(share < lower)
@@ -155,31 +228,48 @@ def _radius_at_height(profile, height):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OliverPharr(Report):
-    """Results for one unloading, returned by `oliver_pharr`, and their standard errors by name.
+    """Results for one unloading, or for each of a curve, returned by `oliver_pharr`.
 
-    The errors are those of the scatter about the power law, and not less than half the range of the results
-    for six parts of the unloading: from 99 or 95 % of the largest force down to 50, 40 or 30 %.
+    The standard errors, by name, are those of the scatter about the power law, and not less than half the
+    range of the results for six parts of the unloading: from 99 or 95 % of the largest force down to 50, 40
+    or 30 %. With ``cycles=True`` all are arrays (U,), and `result[i]` is one unloading.
     """
 
     profile: Profile
     #: Stiffness S (N/m), contact depth h_c (m), modulus E* (Pa), hardness H (Pa) and exponent m.
-    stiffness: float
-    contact_depth: float
-    E_star: float
-    hardness: float
-    exponent: float
-    standard_errors: dict[str, float]
+    stiffness: Any
+    contact_depth: Any
+    E_star: Any
+    hardness: Any
+    exponent: Any
+    standard_errors: dict[str, Any]
+    #: Which unloading was taken of several, and which were left out.
+    remarks: tuple[str, ...] = ()
 
     _dimensions = ("unloading",)
     _quantities = _shown = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
 
-    def to_dict(self) -> dict[str, float]:
+    def __getitem__(self, index: Any) -> "OliverPharr":
+        if not self.shape:
+            return super().__getitem__(index)
+        errors = {name: error[index] for name, error in self.standard_errors.items()}
+        values = {name: getattr(self, name)[index] for name in self._quantities}
+        return replace(self, **values, standard_errors=errors)
+
+    def to_dict(self) -> dict[str, Any]:
         """Values by name, in SI units, and their standard errors, whose names end in `_error`."""
         return super().to_dict() | {f"{name}_error": error for name, error in self.standard_errors.items()}
 
     def _rows(self):
         yield "indenter", described(self.profile)
+        for i in range(len(self) if self.shape else 0):
+            texts = [f"{OLIVER_PHARR[name].symbol} {text}" for name, text in self[i]._texts()]
+            yield f"unloading {i + 1}", ", ".join(texts)
+        for name, text in () if self.shape else self._texts():
+            yield f"{OLIVER_PHARR[name].long_name} {OLIVER_PHARR[name].symbol}", text
+        yield from (("remark", remark) for remark in self.remarks)
+
+    def _texts(self):
+        """Names of the quantities of one unloading, and their values with errors."""
         for name, error in self.standard_errors.items():
-            quantity = OLIVER_PHARR[name]
-            text = with_error(getattr(self, name), error, quantity.unit)
-            yield f"{quantity.long_name} {quantity.symbol}", text
+            yield name, with_error(getattr(self, name), error, OLIVER_PHARR[name].unit)

@@ -7,15 +7,17 @@ import numpy as np
 from ..medium import critical_depth
 from ..results.quantities import engineering
 from .depth_noise import turning_points_of
-from .errors import SIGNIFICANT, SINGULAR, autocorrelation, roughness
+from .errors import SIGNIFICANT, SINGULAR
 from .nested import nested_tests
-from .parameters import CLASSES, PARAMETERS, TOGETHER
+from .noise import tests_of_noise
+from .parameters import PARAMETERS, TOGETHER
+from .report import with_error
 
 #: All kinds of remarks, the most important first.
 KINDS = (
-    "units", "no contact", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag", "drift",
-    "misfit", "jitter", "loading", "vague", "contact", "class", "constants", "elastic", "hardly yields",
-    "noisy", "rest", "inviscid", "missing",
+    "invalid", "units", "no contact", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag",
+    "drift", "misfit", "jitter", "unloading", "outliers", "blocks", "few", "loading", "vague", "contact",
+    "class", "constants", "elastic", "hardly yields", "noisy", "rest", "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
 DOUBTS = {"units", "no contact", "tilt", "drag", "drift", "misfit", "jitter", "class", "noisy"}
@@ -30,20 +32,21 @@ _SEEN, _BENT = 0.25, 1.1
 _SWAPPED, _NO_CONTACT = "depth and force are swapped", "no contact is seen in this record"
 #: Least distance of the pull-off from that of the model, as a share of the range of depth.
 _PULL_OFF = 0.02
-#: Root mean square of correlated residuals over the range of force above which the model does not fit, of
-#: elastic media and of those that yield, whose unloading is a small part of the curve.
-_MISFIT, _MISFIT_YIELDING = 0.05, 0.01
 
 
 def remarks_of(solved):
     """Remarks on each curve of a `Solution`: a sentence by its kind, the same for all curves."""
-    checks = _units, _ambiguous, _adhesion, _undetermined, _jitter, _class_b, _misfit, nested_tests
+    checks = _units, _ambiguous, _adhesion, _undetermined, _class_b, tests_of_noise, nested_tests
     count = len(solved.rows)
     remarks = [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in range(count)]
     for each in remarks:
         # The contact may be hidden by what a linear parameter describes.
         if {"tilt", "drag", "drift"} & set(each):
             each.pop("no contact", None)
+        # These say more.
+        if {"misfit", "class", "jitter"} & set(each):
+            each.pop("unloading", None)
+            each.pop("blocks", None)
     return remarks
 
 
@@ -240,23 +243,6 @@ def _constants(solved, i, names):
         )
 
 
-def _jitter(solved, i):
-    """Depths that go back and forth although they are taken as exact: without memory they may."""
-    depth = solved.curves.depth[[i]]
-    steps = np.diff(depth[0])
-    reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
-    noise = roughness(depth)[0, 0]
-    # On unloading alone the first depth is the largest.
-    unloading = depth[0].max() - depth[0, 0] < 5 * noise
-    exact = not (solved.curves.depth_noise or solved.curves.held_elastic)
-    if exact and not unloading and reversals > max(4, 0.05 * steps.size):
-        yield (
-            "jitter",
-            f"the depth goes back and forth at {reversals} of {steps.size} samples, and its noise counts "
-            f"as new largest depths: E* is biased; give depth_noise, about {engineering(noise, 'm')}",
-        )
-
-
 def _class_b(solved, i):
     """Whether the recovered depth depends on depth: one more parameter γ of d_c (1 + γ (D − D̄)/D̄).
 
@@ -294,34 +280,6 @@ def _class_b(solved, i):
         yield (
             "class",
             f"the recovered depth {'grows' if trend > 0 else 'falls'} with depth (about as its power "
-            f"{trend:+.2g} ± {error:.1g}), whereas it is constant for hardness ∝ 1/radius: not class (b)",
-        )
-
-
-def _named(constants):
-    """The hardness with these constants in words."""
-    letters = [f"({letter})" for letter, name in CLASSES.items() if name in constants]
-    return f"class {' + '.join(letters)}"
-
-
-def _misfit(solved, i):
-    """Residuals that are not noise."""
-    curves, residual = solved.curves, solved.minimum.residual[i]
-    freedom, chi = solved.minimum.freedom, solved.reduced_chi_square[i]
-    correlation = autocorrelation(residual[solved.orders[i]])
-    size = np.sqrt(np.mean((residual * solved.noise[i]) ** 2)) / curves.load[i, 0]
-    largest = _MISFIT if curves.held_elastic else _MISFIT_YIELDING
-    if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
-        cause = "not an elastic medium" if curves.held_elastic else f"not {_named(curves.constants)}"
-        remedy = "; give time, which tells drag and drift" * (curves.time is None and not curves.adhesive)
-        yield (
-            "misfit",
-            f"the residuals ({100 * size:.2g} % of the force) follow a curve (correlation of neighbours "
-            f"{correlation:.2f}): {cause}, or another profile{remedy}",
-        )
-    elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom) and size > 1e-7:
-        yield (
-            "noisy",
-            f"χ² per degree of freedom is {chi:.3g}: the residuals ({100 * size:.2g} % of the force) are "
-            "larger than the noise that is given",
+            f"{with_error(trend, error, '')}), whereas it is constant for hardness ∝ 1/radius: not class "
+            "(b)",
         )

@@ -23,19 +23,26 @@ LEAST_SQUARES = Model("least squares", "the medium whose model has the least squ
 def with_error(value, error, unit):
     """A number and its standard error as text, with one prefix and two digits of the error.
 
-    An error below 10⁻⁶ of the number is that of the arithmetic, and left out.
+    Of many numbers, without those that are NaN, it is the range, and the median of the errors. An error
+    below 10⁻⁶ of the number is that of the arithmetic, and left out.
     """
-    if value == np.inf:
-        return "∞"
+    known = ~np.isnan(value)
+    if not np.any(known):
+        return "none"
+    values, error = np.asarray(value)[known], float(np.median(np.asarray(error)[known]))
+    ends = sorted({float(values.min()), float(values.max())})
+    if ends[-1] == np.inf:
+        return "∞" if len(ends) == 1 else engineering(values, unit)
+    factor, unit = prefixed(max(*map(abs, ends), 0.0 if error == np.inf else error), unit)
+    ends, error = [end / factor for end in ends], error / factor
     if error == np.inf:
-        number, _, unit = engineering(value, unit).partition(" ")
-        return f"{number} ± ∞ {unit}".rstrip()
-    factor, unit = prefixed(max(abs(value), error), unit)
-    value, error = value / factor, error / factor
-    if error <= 1e-6 * abs(value):
-        return f"{value:.6g} {unit}".rstrip()
-    digits = max(0, 1 - int(np.floor(np.log10(error))))
-    return f"{value:.{digits}f} ± {error:.{digits}f} {unit}".rstrip()
+        texts, ending = [f"{float(f'{end:.1g}'):g}" for end in ends], " ± ∞"
+    elif error <= 1e-6 * max(map(abs, ends)):
+        texts, ending = [f"{end:.6g}" for end in ends], ""
+    else:
+        digits = max(0, 1 - int(np.floor(np.log10(float(f"{error:.1e}")))))
+        texts, ending = [f"{end:.{digits}f}" for end in ends], f" ± {error:.{digits}f}"
+    return f"{' … '.join(texts)}{ending} {unit}".rstrip()
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -110,14 +117,10 @@ class Fit(Report):
                 yield "correlation", f"{first}, {second}: {value:+.3f}"
 
     def _text(self, name, value, unit):
-        """A value with its standard error, or the median of those of many fits."""
-        text = engineering(value, unit)
+        """A value with its standard error, or the range and the median of those of many fits."""
         if name not in self.standard_errors:
-            return f"{text} (held)"
-        error = self.standard_errors[name]
-        if not np.ndim(value):
-            return with_error(value, error, unit)
-        return f"{text}, ± {engineering(np.median(error), unit)}" if np.size(value) else text
+            return f"{engineering(np.extract(~np.isnan(value), value), unit)} (held)"
+        return with_error(value, self.standard_errors[name], unit)
 
     def _quality(self):
         """Rows on how well the model fits."""

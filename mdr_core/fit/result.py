@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _check
-from .._check import Array
+from .._check import Array, ArrayLike
 from ..contact.indentation import Indentation
 from ..contact.live_interval import LiveInterval
 from ..medium import Medium
@@ -35,7 +35,8 @@ class IndentationFit(Fit):
 
     Parameters and errors are arrays (R,) for many curves, `covariance` is (R, P, P). q_c is infinite where
     nothing has yielded. Residuals are those of the force (N) at the measured depth. Curves of different
-    numbers of samples are filled with NaN up to the longest; `fit[i]` is not.
+    numbers of samples are filled with NaN up to the longest; `fit[i]` is not. Curves that are `invalid`
+    have NaN for what was not fitted.
     """
 
     #: Measured depth (m), force (N), and time (s), None where it was not given.
@@ -93,7 +94,7 @@ class IndentationFit(Fit):
         samples = {name: getattr(self, name) for name in _OF_SAMPLES}
         return replace(
             self,
-            medium=self.medium.entries(index),
+            medium=_medium(self.medium.entries(index)),
             standard_errors={name: error[index] for name, error in self.standard_errors.items()},
             path=self.path[index][..., :longest],
             force_noise=noise[..., :longest] if self.force_noise.ndim > 1 else noise,
@@ -117,6 +118,15 @@ class IndentationFit(Fit):
             for texts in by_importance(kinds).values()
         )
 
+    @property
+    def invalid(self) -> dict[int, str]:
+        """Reasons why curves were not fitted, by their numbers; see `fit_indentation`."""
+        return {i: remarks["invalid"] for i, remarks in enumerate(self._remarks) if "invalid" in remarks}
+
+    def _refuse_invalid(self, what):
+        for i, reason in self.invalid.items():
+            raise ValueError(f"{what}: curve {i} was {reason}; take those that were, by fit[numbers]")
+
     @cached_property
     def classes(self) -> dict[str, ClassFit]:
         """Fits with the hardness of each class alone by its letter, "a", "b", "c"; found when first read.
@@ -124,6 +134,7 @@ class IndentationFit(Fit):
         What else is held or free is as in this fit. Empty for an elastic medium, and with viscosity. How
         far the misfits tell the classes apart is in the report of one curve.
         """
+        self._refuse_invalid("classes")
         if not self._yields or "eta" in self.standard_errors or np.any(self.medium.eta):
             return {}
         # Noise from the residuals is NaN in χ²: it was not known.
@@ -148,14 +159,21 @@ class IndentationFit(Fit):
         from .figures import plot_fit
 
         self._one("plot")
+        self._refuse_invalid("plot")
         return plot_fit(self)
 
-    def to_xarray(self) -> "xarray.Dataset":
+    def to_xarray(self, position: ArrayLike | None = None) -> "xarray.Dataset":
         """Everything as a dataset: parameters, errors and covariance, and of each sample what was measured,
-        the model and the residual; `attrs` has the remarks.
+        the model and the residual; `attrs` has the remarks, and how many curves are `invalid`, and why.
+
+        Parameters
+        ----------
+        position : array_like, optional
+            Positions (m) of the curves of a map on the surface, (R, 2): the coordinates x and y.
         """
         xarray = imported("xarray", "to_xarray()")
-        dims, parameters = self._dims(), list(self.standard_errors)
+        # Zarr has no specification of texts of fixed length.
+        dims, parameters = self._dims(), np.array(list(self.standard_errors), object)
         variables = {}
         for name, value in self.to_dict().items():
             variables[name] = dims, value, PARAMETERS[name.removesuffix("_error")].quantity.attributes
@@ -171,8 +189,18 @@ class IndentationFit(Fit):
         variables["covariance"] = (*dims, "parameter", "other_parameter"), self.covariance
         attributes = self._attributes() | {"indenter": described(self.profile), "model": str(self.model)}
         attributes["remarks"] = "\n".join(self.remarks)
-        names = {"parameter": parameters, "other_parameter": parameters}
-        return xarray.Dataset(variables, names, attributes | {"depth_noise": self.depth_noise})
+        attributes["depth_noise"] = self.depth_noise
+        if self.invalid:
+            attributes["invalid_count"] = len(self.invalid)
+            attributes["invalid"] = "\n".join(f"curve {i}: {text}" for i, text in self.invalid.items())
+        coordinates = {"parameter": parameters, "other_parameter": parameters}
+        if position is not None:
+            position = _check.finite_array("position", position, unit="m", most=_check.LONGEST)
+            if position.shape != (*self.shape, 2):
+                raise ValueError(f"position {position.shape} must have x and y of each curve, (R, 2)")
+            for name, values in zip("xy", np.moveaxis(position, -1, 0), strict=True):
+                coordinates[name] = dims, values, {"units": "m", "long_name": f"position {name}"}
+        return xarray.Dataset(variables, coordinates, attributes)
 
     def _text(self, name, value, unit):
         # Whichever constant was fitted, an elastic medium has q_c = ∞, and 0 of the others.
@@ -219,27 +247,47 @@ class IndentationFit(Fit):
         return self.path.limits
 
     def _quality(self):
-        noise = np.asarray(self.force_noise)
-        yield "force noise σ_F", engineering(noise[np.isfinite(noise)], "N")
-        if np.isfinite(self.reduced_chi_square).all():
-            yield "reduced χ²", engineering(self.reduced_chi_square, "")
-        if not self.shape:
+        for label, values, unit in (
+            ("force noise σ_F", self.force_noise, "N"),
+            ("reduced χ²", self.reduced_chi_square, ""),
+        ):
+            if np.isfinite(values).any():
+                yield label, engineering(np.asarray(values)[np.isfinite(values)], unit)
+        if not self.shape and not self.invalid:
             yield from self._hardness()
             yield from self._unloading()
         if np.any(self.block_length > 1):
-            text = f"block-wise (Newey–West), blocks of {engineering(self.block_length, '')} samples"
-            yield "standard errors", text
+            lengths = engineering(self.block_length[~np.isnan(self.block_length)], "")
+            yield "standard errors", f"block-wise (Newey–West), blocks of {lengths} samples"
 
 
-def collected(profile, measured, depth_noise, solutions):
-    """One result of all solutions, in the order of the curves."""
-    order = np.argsort(np.concatenate([solution.rows for solution in solutions]))
+class _MediumOrNone(Medium):
+    """A medium whose parameters are NaN where a curve was not fitted."""
+
+    def __post_init__(self):
+        """Takes any numbers."""
+
+
+def _medium(medium):
+    """A medium without the class for NaN where it has none."""
+    return medium if np.isnan(medium.E_star).any() else Medium(**medium.__getstate__())
+
+
+def collected(profile, measured, depth_noise, solutions, reasons):
+    """One result of the solutions, in the order of the curves; `reasons` are those of invalid ones."""
+    count, free = len(measured.depth), solutions[0].curves.free
+    rows = np.concatenate([solution.rows for solution in solutions])
+    order = np.argsort(rows)
     groups = [_arrays(solution, measured.used[solution.rows]) for solution in solutions]
     joined = {name: np.concatenate([group[name] for group in groups])[order] for name in groups[0]}
-    remarks = [each for solution in solutions for each in remarks_of(solution)]
-    counts = zip(np.count_nonzero(measured.used, axis=1), measured.lengths, strict=True)
-    remarks = [by_importance(remarks[i] | missing(*pair)) for i, pair in zip(order, counts, strict=True)]
-    medium = Medium(**{name: joined.pop(name) for name in MEDIUM})
+    if reasons:
+        joined = {name: _among(values, rows[order], count, name in free) for name, values in joined.items()}
+    of_fits = [each for solution in solutions for each in remarks_of(solution)]
+    remarks = [{"invalid": f"not fitted: {reasons[i]}"} if i in reasons else {} for i in range(count)]
+    for i, own in zip(rows.tolist(), of_fits, strict=True):
+        omitted = missing(np.count_nonzero(measured.used[i]), measured.lengths[i])
+        remarks[i] = by_importance(own | omitted)
+    medium = _medium(_MediumOrNone(**{name: joined.pop(name) for name in MEDIUM}))
     ends = (joined.pop(name) for name in ("lower", "upper", "live_depth"))
     states = joined.pop("path_depth"), LiveInterval(*ends), joined.pop("uniform_load")
     path = Indentation(profile, medium.entries(np.s_[:, None]), *states, bool(np.any(medium.eta)))
@@ -247,7 +295,6 @@ def collected(profile, measured, depth_noise, solutions):
     if measured.force_noise is not None:
         joined["force_noise"] = measured.force_noise
     errors = np.sqrt(np.einsum("rpp->rp", joined["covariance"]))
-    free = solutions[0].curves.free
     fit = IndentationFit(
         profile=profile,
         medium=medium,
@@ -259,6 +306,14 @@ def collected(profile, measured, depth_noise, solutions):
         _lengths=measured.lengths,
     )
     return fit[0] if measured.single else fit
+
+
+def _among(values, fitted, count, free):
+    """Values of the fitted curves among all: others have a number that is held for all, or NaN."""
+    same = not free and values.ndim == 1 and np.all(values == values[0])
+    among = np.full((count, *values.shape[1:]), values[0] if same else np.nan)
+    among[fitted] = values
+    return among
 
 
 def _arrays(solution, used):

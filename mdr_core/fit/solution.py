@@ -6,13 +6,14 @@ from functools import cached_property
 import numpy as np
 
 from ..contact.integrals import tabulated
+from ..medium import Medium
 from .adhesion import AdhesiveCurves
 from .curves import NO_WEIGHT, Curves
 from .depth_noise import with_depth_noise
 from .errors import autocorrelation, block_factors, block_length, covariances, roughness
 from .least_squares import Minimum
 from .measurement import rates
-from .parameters import CLASSES, PARAMETERS, REACH
+from .parameters import CLASSES, MEDIUM, PARAMETERS, REACH
 from .start import first_guesses
 
 #: Constant of the hardness, in any unit, that stands for infinity.
@@ -46,6 +47,11 @@ class Solution:
         for name, value in elastic.items():
             values[name] = np.where(self.elastic[:, None], value, values[name])
         return values, state
+
+    def medium(self):
+        """The media (R,), which are refused where a parameter is out of its range."""
+        values, _ = self.values_and_states
+        return Medium(**{name: values[name][:, 0] for name in MEDIUM})
 
     @cached_property
     def noise(self):
@@ -94,7 +100,7 @@ class Solution:
 
 def problems(profile, measured, held, depth_noise):
     """Yields numbers of measured curves, and their `Curves`, which have equally many parameters."""
-    profile = tabulated(profile, _table_depth(profile, measured.depth, held))
+    profile = tabulated(profile, table_depth(profile, measured.depth, held))
     used = [name for name in PARAMETERS if name not in held or held[name].any()]
     adhesive, in_time = "work_of_adhesion" in used, any(PARAMETERS[name].in_time for name in used)
     for rows, depth, force, time, force_noise in measured.groups():
@@ -109,7 +115,7 @@ def problems(profile, measured, held, depth_noise):
             yield rows, curves.as_kind(AdhesiveCurves) if adhesive else curves
 
 
-def _table_depth(profile, depth, held):
+def table_depth(profile, depth, held):
     """Depth (m) to which the profile is tabulated: that of the farthest contact point."""
     top = np.nanmax(depth, axis=1)
     limit = (1 + REACH) * float((top - np.nanmin(depth, axis=1)).max())

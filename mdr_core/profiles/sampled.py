@@ -119,28 +119,42 @@ class Sampled(Profile):
         return cls(*convex_fit(r, z))
 
     @classmethod
-    def from_area_function(cls, coefficients: ArrayLike, height: float, samples: int = 400) -> "Sampled":
+    def from_area_function(
+        cls, coefficients: ArrayLike, height: float, samples: int = 400, *, unit: str = "m"
+    ) -> "Sampled":
         """Profile with the cross-section A(h) = C₀h² + C₁h + C₂h^(1/2) + C₃h^(1/4) + … at a height h.
 
         The area function of instrumented indentation (Oliver and Pharr 1992). The profile is a polygon;
-        where it is slightly concave, as calibrated ones are, neighbouring slopes are averaged.
+        where it is slightly concave, as calibrated ones are, neighbouring slopes are averaged. Near the
+        tip, up to 5 % of the height, the function may fall or be negative: the profile is a cone there.
 
         Parameters
         ----------
         coefficients : array_like
-            C₀, C₁, … for A in m² and h in m; Cᵢ belongs to h^(2/2ⁱ).
+            C₀, C₁, … for A in unit² and h in a unit; Cᵢ belongs to h^(2/2ⁱ).
         height : float
             Height (m) up to which the function was calibrated.
         samples : int, optional
             Number of vertices, denser towards the tip, from 10⁻⁴ of the height on.
+        unit : {"m", "mm", "um", "µm", "nm", "pm", "Å"}, optional
+            Unit of the coefficients; instruments give them in nm. The height is in m.
+
+        Raises
+        ------
+        ValueError
+            If the area does not grow, or the tip is concave by more than 3 %; if the radius there is
+            more than 100 times the height or less than a hundredth, as of coefficients in another unit.
 
         Examples
         --------
+        >>> tip = Sampled.from_area_function([24.5, 100.0], 1e-6, unit="nm")  # blunt by 100 nm
+        >>> print(f"{tip.r[-1]:.3g} {tip.z[-1]:.3g}")  # π r² = 24.6 h²
+        2.8e-06 1e-06
         >>> profile = Sampled.from_area_function([24.5], 1e-6)  # an ideal Berkovich tip
         >>> print(round(profile.height(1e-6) / 1e-6, 6))
         0.35809
         """
-        return cls(*area_samples(coefficients, height, samples, _MOST_SAMPLES))
+        return cls(*area_samples(coefficients, height, samples, _MOST_SAMPLES, unit))
 
     def _refuse_concave(self):
         slope, concave = self._slope, self._bend < 0

@@ -4,7 +4,7 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 from itertools import pairwise
-from math import isfinite
+from math import isfinite, nan
 
 import numpy as np
 import scipy
@@ -18,6 +18,7 @@ UNITS = {
     "length": {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "Å": 1e-10},
     "force": {"kN": 1e3, "N": 1.0, "mN": 1e-3, "µN": 1e-6, "nN": 1e-9, "pN": 1e-12},
     "time": {"min": 60.0, "s": 1.0, "ms": 1e-3, "µs": 1e-6},
+    "voltage": {"V": 1.0, "mV": 1e-3},
 }
 _KNOWN = set().union(*UNITS.values())
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
@@ -31,35 +32,35 @@ _MISFIT, _SHARE = 4.0, 0.005
 _WAVY, _ENOUGH_FOR_WAVES, _LAGS = 0.15, 50, range(6, 26)
 #: Fewest samples whose noise is known.
 _ENOUGH = 8
+#: Share of the height below which an area function need not grow, and largest radius of a tip over its
+#: height, and height over radius.
+_BLUNT, _WIDEST = 0.05, 100.0
 #: Largest number of characters of a line.
 _LONGEST_LINE = 10_000
 
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """Numbers of a text file (rows, columns), NaN for cells that are none, and the names of the columns.
+    """Columns of numbers of a text file, by the number of the column from 0 on.
 
-    `lines` are the line numbers of the rows, `odd` the text of lines with another number of cells or a
-    cell that is no number, by their number, and `omitted` the named columns without numbers in most rows.
+    `heads` are their names and `values` their numbers, NaN for cells that are none. `lines` are the line
+    numbers of the rows, `odd` the text of lines with another number of cells or a cell that is no number,
+    by their number. `words` are the cells of the columns that have no numbers in most rows.
     """
 
-    heads: tuple[str, ...]
-    values: Array
+    heads: dict[int, str]
+    values: dict[int, Array]
     lines: Array
     odd: dict[int, str]
-    omitted: tuple[str, ...]
+    words: dict[str, list[str]]
 
     def unit(self, column):
-        """Known unit in the name of a column, in brackets, after a slash or last; else None.
-
-        The empty text stands for another unit in brackets.
-        """
+        """Known unit in the name of a column, in brackets, after a slash or last; else the empty text."""
         head = self.heads[column]
         before, _, last = re.split(r"[\s,_]+", head)[-1].rpartition("/")
         # "N/m" is the unit of a stiffness.
-        brackets = _BRACKETS.findall(head)[-1:]
-        names = (*brackets, "" if _unit(before) else last)
-        return next(filter(None, map(_unit, names)), "" if brackets else None)
+        names = (*_BRACKETS.findall(head)[-1:], "" if unit_named(before) else last)
+        return next(filter(None, map(unit_named, names)), "")
 
 
 def decoded(data):
@@ -84,27 +85,27 @@ def read_table(text, name, limit=10**7):
         raise ValueError(f"{name} is empty")
     if any(len(line) > _LONGEST_LINE for _, line in lines):
         raise ValueError(f"{name}: a line is longer than {_LONGEST_LINE} characters; use a line a sample")
-    rows = [[] if line.startswith("#") else [_number(cell) for cell in _cells(line)] for _, line in lines]
+    cells = [[] if line.startswith("#") else _cells(line) for _, line in lines]
+    rows = [[_number(cell) for cell in row] for row in cells]
     # Rows have numbers in half of their cells; a header may have some in one of its lines.
-    counts = [len(row) if 2 * sum(map(_is_finite, row)) >= len(row) else 0 for row in rows]
+    counts = [len(row) if 2 * sum(map(isfinite, row)) >= len(row) else 0 for row in rows]
     if not any(counts):
         raise ValueError(f"{name}: no samples; expected rows of numbers")
     width = Counter(filter(None, counts)).most_common(1)[0][0]
-    pairs = pairwise([i for i, (_, line) in enumerate(lines) if not line.startswith("#")])
+    pairs = pairwise([i for i, row in enumerate(cells) if row])
     first = next((i for i, j in pairs if counts[i] == counts[j] == width), counts.index(width))
     heads = _heads([line for _, line in lines[:first]], width, f"{name}, line {lines[first][0]}")
-    body = [(*line, row) for line, row in zip(lines, rows, strict=True)][first:]
-    odd = {number: line for number, line, row in body if row and len(row) != width}
-    body = [(number, line, row) for number, line, row in body if len(row) == width]
-    if len(body) > limit:
+    whole = [i for i in range(first, len(rows)) if len(rows[i]) == width]
+    if len(whole) > limit:
         raise ValueError(f"{name}: more than {limit} samples; thin them out")
-    values = np.array([row for *_, row in body], dtype=float)
-    kept = 2 * np.count_nonzero(np.isfinite(values), axis=0) >= len(values)
-    columns = np.flatnonzero(kept).tolist()
-    odd |= {number: line for number, line, row in body if any(row[i] is None for i in columns)}
+    values = np.array([rows[i] for i in whole])
+    numeric = [k for k in range(width) if 2 * np.count_nonzero(np.isfinite(values[:, k])) >= len(values)]
+    good = {i for i in whole if all(isfinite(rows[i][k]) for k in numeric)}
     return Table(
-        tuple(heads[i] for i in columns), values[:, kept], np.array([number for number, *_ in body]), odd,
-        tuple(f"{i + 1} {heads[i]}" for i in np.flatnonzero(~kept) if heads[i]),
+        {k: heads[k] for k in numeric}, {k: values[:, k] for k in numeric},
+        np.array([lines[i][0] for i in whole]),
+        {lines[i][0]: lines[i][1] for i in range(first, len(rows)) if rows[i] and i not in good},
+        {f"{k + 1} {heads[k]}": [cells[i][k] for i in whole] for k in range(width) if k not in numeric},
     )  # fmt: skip
 
 
@@ -122,17 +123,13 @@ def _number(cell):
     try:
         return float(cell)
     except ValueError:
-        return None
+        return nan
 
 
-def _unit(text):
+def unit_named(text):
     """Name of a known unit as in `UNITS`, or None."""
     text = re.sub(r"^[uμ](?=[mNs]$)", "µ", text)
     return text if text in _KNOWN else None
-
-
-def _is_finite(value):
-    return value is not None and isfinite(value)
 
 
 def _heads(header, width, place):
@@ -154,7 +151,7 @@ def _heads(header, width, place):
             "commas are decimal ones, separate columns by semicolons"
         )
     rows = rows or [units if len(units) == width else [""] * width]
-    last = 2 if any(_unit(cell.strip(" ()[]")) for cell in rows[-1]) else 1
+    last = 2 if any(unit_named(cell.strip(" ()[]")) for cell in rows[-1]) else 1
     return [" ".join(words).strip() for words in zip(*rows[-last:], strict=True)]
 
 
@@ -163,23 +160,24 @@ def samples_of(text, name, unit, limit):
     if unit is not None:
         _check.one_of("unit", unit, (*UNITS["length"], "um"))
     table = read_table(text, name, limit)
-    count = table.values.shape[1]
+    count = len(table.heads)
     if table.odd or count < 2:
         number = min(table.odd, default=table.lines[0])
         expected = "two numbers r, z" if count <= 2 else f"{count} numbers, r and z first"
         line = f", found {table.odd[number].strip()!r:.60}" if table.odd else ""
         raise ValueError(f"{name}, line {number}: expected {expected}{line}")
-    named = [u if u in UNITS["length"] else None for u in map(table.unit, (0, 1))]
+    columns = list(table.heads)[:2]
+    named = [u if u in UNITS["length"] else None for u in map(table.unit, columns)]
     if unit is None and None in named:
         raise ValueError(
             f"{name}: the header must name the units of r and z, as in 'r (nm), z (nm)', out of "
             f"{', '.join(UNITS['length'])}; or give unit='nm'"
         )
-    units = named if unit is None else [_unit(unit)] * 2
+    units = named if unit is None else [unit_named(unit)] * 2
     if any(named) and named != units:
         given = ", ".join(filter(None, named))
         raise ValueError(f"{name}: unit={unit!r} was given, but the header says {given}")
-    r, z = table.values[:, :2].T
+    r, z = map(table.values.get, columns)
     return r * UNITS["length"][units[0]], z * UNITS["length"][units[1]]
 
 
@@ -262,19 +260,33 @@ def _correlation(residual):
     return np.mean([np.dot(residual[lag:], residual[:-lag]) ** 2 for lag in _LAGS])
 
 
-def area_samples(coefficients, height, samples, limit):
-    """Radii and heights (m) of a profile with the cross-section A(h) = Σ Cᵢ h^(2/2ⁱ)."""
+def area_samples(coefficients, height, samples, limit, unit):
+    """Radii and heights (m) of a profile with A(h) = Σ Cᵢ h^(2/2ⁱ), of A in unit² and h in a unit."""
     coefficients = _check.finite_array("area coefficients", coefficients).ravel()
     height = _check.positive_number("height", height, unit="m")
     samples = _check.positive_number("samples", samples)
+    _check.one_of("unit", unit, (*UNITS["length"], "um"))
     if not 2 <= samples <= limit or samples % 1:
         raise ValueError(f"samples = {samples:g} must be a whole number from 2 to {limit}")
+    size = UNITS["length"][unit_named(unit)]
     h = height * np.geomspace(1e-4, 1.0, int(samples) - 1)
-    area = sum(c * h ** (2 / 2**i) for i, c in enumerate(coefficients.tolist()))
-    remedy = "A must be positive and grow with h: check the coefficients and their unit, m^(2 - 2/2^i)"
-    back = np.diff(area, prepend=0.0) <= 0
-    _check.refuse("area A(h)", area, back, "does not grow", unit="m²", remedy=remedy)
-    r, h = np.append(0.0, np.sqrt(area / np.pi)), np.append(0.0, h)
+    powers = 2.0 / 2.0 ** np.arange(coefficients.size)
+    area = size**2 * ((h[:, None] / size) ** powers @ coefficients)
+    remedy = f"A must be positive and grow with h: check the coefficients and their unit, {unit}"
+    back = (np.diff(area, prepend=0.0) <= 0) | (area <= 0)
+    _check.refuse(
+        "area A(h)", area, back & (h > _BLUNT * height), "does not grow", unit="m²", remedy=remedy
+    )
+    # Below its calibration a function may fall: from there to the axis the tip is a cone.
+    first = int(np.flatnonzero(back)[-1]) + 1 if back.any() else 0
+    h, radius = h[first:], np.sqrt(area[first:] / np.pi)
+    wide = radius[-1] / height
+    if not 1 / _WIDEST < wide < _WIDEST:
+        raise ValueError(
+            f"area coefficients: at height = {height:g} m the radius would be {radius[-1]:.3g} m, "
+            f"{wide:.2g} times the height: check the unit of the coefficients, {unit}"
+        )
+    r, h = np.append(0.0, radius), np.append(0.0, h)
     slopes = scipy.optimize.isotonic_regression(np.diff(h) / np.diff(r), weights=np.diff(r)).x
     z = np.append(0.0, np.cumsum(slopes * np.diff(r)))
     far = np.abs(z - h) > 0.03 * np.maximum(h, 0.1 * height)

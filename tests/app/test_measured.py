@@ -121,10 +121,63 @@ def test_columns_and_units_are_corrected():
     curve = read_curve(table({"h (nm)": depth, "F (mN)": force, "more": force}).encode(), "run.csv")
     np.testing.assert_allclose(curve.corrected("depth", "µm").data[0], 1e3 * curve.data[0])
     np.testing.assert_allclose(curve.corrected("depth", "−nm").data[0], -curve.data[0])
-    assert curve.corrected("depth", 1).curve.columns == {"depth": 1, "force": 0, "time": None}
-    assert curve.corrected("time", 2).curve.columns["time"] == 2
+    swapped = {"depth": (1, "nm"), "force": (0, "mN"), "time": None}
+    assert curve.corrected("depth", 1).curve.columns == swapped
+    timed = table({"h (nm)": depth, "F (mN)": force, "more": range(5)}).encode()
+    assert read_curve(timed, "run.csv").corrected("time", 2).curve.columns["time"] == (2, "s")
     with pytest.raises(ValueError, match="that is the column of force"):
         curve.corrected("time", 1)
+
+
+def test_a_drift_and_the_give_of_a_frame_are_subtracted_before_a_fit():
+    """E* of a curve with both is that of the curve without; without them the fit is of other numbers."""
+    state = preset_state()
+    d = np.append(np.linspace(-0.5e-9, 9e-9, 200), np.linspace(9e-9, 7e-9, 100))
+    force, time = mdr.indent(profile(state), medium(state), d).force, 0.1 * np.arange(300)
+    drift, frame = 0.02e-9, 1e-9 / force.max()
+    z = d + drift * time + frame * force
+    text = table({"t (s)": time, "h (pm)": 1e12 * z, "F (pN)": 1e12 * force}).encode()
+    state = fitting.take(state, read_curve(text, "run.csv"))
+    state = fitting.fit(state.replace(**{"fit.drift": drift, "fit.frame": frame}))
+    # Six decimals of pN are 10⁻¹³ of the force.
+    assert state.E_star == pytest.approx(medium(preset_state()).E_star, rel=1e-6)
+    assert agrees(state)
+    np.testing.assert_allclose(view_of(state).computed["fit"].depth, d, atol=1e-6 * d.max())
+    assert not agrees(state.replace(**{"fit.frame": 0.0}))
+    # Another curve has neither.
+    state = fitting.take(state, example_curve())
+    assert (state["fit.drift"], state["fit.frame"]) == (0.0, 0.0)
+    # Without times there is no drift to type.
+    page = Page()
+    page.apply(lambda _: state)
+    shown = [each.key for each in side(page, "fit").place if each.visible]
+    assert ("fit.frame" in shown, "fit.drift" in shown) == (True, False)
+
+
+def test_a_table_without_a_header_asks_for_its_columns_and_units():
+    """Nothing is taken until depth and force have both; then as if the header named them."""
+    page, depth = Page(), np.array([0.0, 2.0, 4.0, 3.0])
+    panel = side(page, "fit")
+    rows = "\n".join(f"{t},{f},{h}" for t, f, h in zip(range(4), depth**2, depth, strict=True))
+    panel._read(Uploaded("bare.csv", len(rows), rows.encode()))
+    assert page.state["fit.curve"] is None
+    assert (
+        "bare.csv does not name its columns of depth and force, and their units" in panel.not_taken.object
+    )
+    assert panel._columns.visible
+    assert list(panel.columns["depth"].options)[:2] == ["1: 0, 1, 2 …", "2: 0, 4, 16 …"]
+    panel.columns["depth"].value = 2
+    panel.columns["force"].value = 1
+    panel.units["depth"].value = "nm"
+    assert page.state["fit.curve"] is None
+    panel.units["force"].value = "µN"
+    curve = page.state["fit.curve"].curve
+    np.testing.assert_allclose(curve.depth, 1e-9 * depth)
+    np.testing.assert_allclose(curve.force, 1e-6 * depth**2)
+    assert (curve.time, panel.not_taken.object) == (None, "")
+    panel.columns["time"].value = 0
+    assert page.state["fit.curve"].curve.time.tolist() == [0.0, 1.0, 2.0, 3.0]
+    assert panel.units["time"].value == "s"
 
 
 def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
@@ -280,6 +333,17 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
         box = page.locator(f".card.{name}").bounding_box()
         assert box["y"] + box["height"] <= 900
     page.get_by_text("A link does not contain the curve").wait_for()
+    # A table without names asks, and keeps the curve until it is answered.
+    path.write_text("\n".join(f"{f:.9g} {z:.9g}" for f, z in zip(1e6 * F, 1e9 * d + 3, strict=True)))
+    page.get_by_label("CSV file of a measured curve: depth, force").set_input_files(path)
+    refused = page.locator(".refused:visible")
+    refused.filter(has_text=re.compile("choose them below.*What is shown is still run.csv")).wait_for()
+    for label, option in (("Column of depth", 1), ("Unit of depth", "nm"), ("Column of force", 0)):
+        where = {"label": option} if isinstance(option, str) else {"index": option}
+        page.get_by_label(label, exact=True).select_option(**where)
+    explorer.change(page.get_by_label("Unit of force", exact=True).select_option, label="µN")
+    assert refused.count() == 0
+    assert explorer.row("force", "measured")[0].min() == pytest.approx(2.0, abs=0.02)
 
 
 def test_depth_noise_counts_where_it_is_no_rounding_and_no_trifle():

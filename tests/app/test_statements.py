@@ -92,7 +92,8 @@ def test_6_and_7_are_of_typed_numbers():
     """In test_state.py: zeros in the unit of their column, 90°, 10 000 nm, 5 Å, 70.3°."""
     page = Page()
     page.apply(lambda state: fitting.take(state, example_curve()))
-    assert [number.text.split()[1] for number in side(page, "fit").place.parts] == ["nm", "µN", "N/m"]
+    shown = [number.text.split()[1] for number in side(page, "fit").place.parts]
+    assert shown == ["nm", "µN", "N/m", "nm/mN"]
 
 
 def test_8_formulas_are_those_of_the_drive():

@@ -196,3 +196,106 @@ def test_an_ensemble_of_profiles_is_refused():
 def test_a_profile_known_to_a_smaller_depth_is_refused():
     with pytest.raises(ValueError, match="must be positive and within the profile"):
         mdr.oliver_pharr(mdr.Sampled([0, 1e-8], [0, 3e-9]), DEPTH, F_CONE)
+
+
+BERKOVICH, PEAKS = mdr.Cone.berkovich(), (0.01, 0.03, 0.1)
+
+
+def cycles(modulus, hardness=9.2e9):
+    """Depths (m) and forces (N) of three loadings to larger `PEAKS` (N) and unloadings to 15 % of each.
+
+    Made from the method's own definitions: at a peak F = H π a², h = z(a) + ε F/S with S = 2E* a, and an
+    unloading of power 1.3.
+    """
+    depths, forces, start = [], [], (0.0, 0.0)
+    for peak in PEAKS:
+        a = np.sqrt(peak / (np.pi * hardness))
+        stiffness = 2 * modulus * a
+        largest = BERKOVICH.height(a) + 0.75 * peak / stiffness
+        depths.append(np.linspace(start[0], largest, 200)[1:])
+        forces.append(np.linspace(start[1], peak, 200)[1:])
+        back = largest - np.linspace(0, 1.3 * peak / stiffness * (1 - 0.15 ** (1 / 1.3)), 150)
+        depths.append(back)
+        forces.append(peak * (1 + stiffness * (back - largest) / (1.3 * peak)) ** 1.3)
+        start = back[-1], forces[-1][-1]
+    return np.concatenate(depths), np.concatenate(forces)
+
+
+class TestCycles:
+    MODULUS = 69.6e9
+
+    def test_each_unloading_has_its_stiffness_modulus_and_hardness(self):
+        """To some hundred roundings, as for one unloading; S and h_c grow as the root of the force."""
+        result = mdr.oliver_pharr(BERKOVICH, *cycles(self.MODULUS), cycles=True)
+        assert result.shape == (3,)
+        assert result.E_star == pytest.approx(self.MODULUS, rel=1e-11)
+        assert result.hardness == pytest.approx(9.2e9, rel=1e-11)
+        a = np.sqrt(np.array(PEAKS) / (np.pi * 9.2e9))
+        assert result.stiffness == pytest.approx(2 * self.MODULUS * a, rel=1e-11)
+        assert result.contact_depth == pytest.approx(BERKOVICH.height(a), rel=1e-11)
+        assert not result.remarks
+
+    def test_they_are_one_table(self):
+        pytest.importorskip("pandas")
+        result = mdr.oliver_pharr(BERKOVICH, *cycles(self.MODULUS), cycles=True)
+        table = result.to_pandas()
+        assert table.index.name == "unloading"
+        assert len(table) == 3
+        assert table["E_star"].tolist() == [each.E_star for each in result]
+        assert "unloading 3              dF/dd 258.9" in repr(result)
+        assert repr(result[2]).splitlines()[2:] == repr(result[-1]).splitlines()[2:]
+
+    def test_errors_in_noise_are_those_of_repeated_measurements(self):
+        """Of 60 seeds the standard deviation of the pulls is known to 9 %: four of these above 1.
+
+        The errors are not less than the range of results for parts of the unloading, and may be larger.
+        """
+        depth, force = cycles(self.MODULUS)
+        pulls = []
+        for seed in range(60):
+            noise = 5e-5 * np.random.default_rng(seed).normal(size=force.size)
+            result = mdr.oliver_pharr(BERKOVICH, depth, force + noise, cycles=True)
+            assert result.shape == (3,)
+            pulls.append((result.E_star - self.MODULUS) / result.standard_errors["E_star"])
+        assert np.all(np.std(pulls, axis=0) < 1.36)
+
+    def test_without_cycles_a_remark_says_which_unloading_was_taken(self):
+        depth, force = cycles(self.MODULUS)
+        result = mdr.oliver_pharr(BERKOVICH, depth, force)
+        assert result.remarks[0].startswith("unloading 3 of 3 was taken, the one after the largest depth")
+        assert result.remarks[0] in repr(result)
+        # The second of two where the last peak is less deep.
+        twice = np.append(depth[:698], depth[:349]), np.append(force[:698], force[:349])
+        assert mdr.oliver_pharr(BERKOVICH, *twice).remarks[0].startswith("unloading 2 of 3")
+        assert not mdr.oliver_pharr(BERKOVICH, depth[:349], force[:349]).remarks
+
+    def test_an_unloading_that_is_none_is_left_out_with_its_reason(self):
+        """The force relaxes by 30 % at the depth of the second peak: it falls at one depth."""
+        depth, force = cycles(self.MODULUS)
+        second = slice(548, 698)
+        relaxed = depth.copy()
+        relaxed[second] = depth[547]
+        relaxed[698:897] = np.linspace(depth[547], depth[896], 199)
+        result = mdr.oliver_pharr(BERKOVICH, relaxed, force, cycles=True)
+        assert result.E_star == pytest.approx([self.MODULUS] * 2, rel=1e-11)
+        (remark,) = result.remarks
+        assert remark.startswith("unloading 2 of 3 is left out:")
+        assert "depth and force must fall" in remark
+
+    def test_a_jump_to_contact_is_no_unloading(self):
+        """An approach in air with noise, attracted by 2 % of the largest force before contact."""
+        depth, force = cycles(self.MODULUS)
+        away, random = np.linspace(-5e-8, 0, 60, endpoint=False), np.random.default_rng(2)
+        pull = np.where(away > -1e-8, -0.002, 0.0) + 1e-5 * random.normal(size=60)
+        result = mdr.oliver_pharr(BERKOVICH, np.append(away, depth), np.append(pull, force), cycles=True)
+        assert result.E_star == pytest.approx([self.MODULUS] * 3, rel=1e-11)
+
+    def test_fused_silica_has_one(self):
+        depth, force, _ = silica()
+        tip = mdr.Cone.from_half_angle(70.3)
+        result = mdr.oliver_pharr(tip, depth, force, cycles=True)
+        assert result.E_star.tolist() == [mdr.oliver_pharr(tip, depth, force).E_star]
+
+    def test_a_curve_without_unloading_is_refused(self):
+        with pytest.raises(ValueError, match="5 or more are needed"):
+            mdr.oliver_pharr(BERKOVICH, DEPTH[:60], F_CONE[:60], cycles=True)

@@ -251,7 +251,7 @@ class TestCsv:
             ("r (nm); z (nm); e (nm)\n0;0;1\n1;1\n", {}, "line 3: expected 3 numbers, r and z first"),
             ("r (nm);z (nm)\n0;0\n;1\n", {}, "line 3: expected two numbers"),
             ("r (nm), z (nm)\n", {}, "no samples"),
-            ("r (nm), z (nm)\n0,0\n1,nan\n", {}, r"Sampled z\[1\] = nan m"),
+            ("r (nm), z (nm)\n0,0\n1,nan\n", {}, "line 3: expected two numbers r, z, found '1,nan'"),
             (
                 "r (nm), z (nm)\n0,0\n1e-300,1\n2,3\n",
                 {},
@@ -387,9 +387,34 @@ class TestAreaFunction:
         tip = mdr.Sampled.from_area_function([24.5, 1e-7, 1e-11], 1e-6)
         np.testing.assert_allclose(tip.height(np.sqrt(area / math.pi)), h, rtol=0.03)
 
+    def test_coefficients_are_in_the_unit_that_is_given(self):
+        """The same tip in m, and in nm as instruments give it: Cᵢ has the unit to the 2 − 2/2ⁱ."""
+        coefficients = np.array([24.5, 80.0, 100.0])
+        size = 1e-9 ** (2 - 2.0 / 2.0 ** np.arange(3))
+        tip = mdr.Sampled.from_area_function(coefficients, 1e-6, unit="nm")
+        np.testing.assert_allclose(tip.z, mdr.Sampled.from_area_function(coefficients * size, 1e-6).z)
+        np.testing.assert_allclose(tip.r, mdr.Sampled.from_area_function(coefficients * size, 1e-6).r)
+
+    def test_a_calibration_that_is_negative_near_the_tip(self):
+        """Coefficients of an instrument (micromechanics, Example.xls): A < 0 up to 6 nm of 2 µm."""
+        c = [27.3136, 152.698859, -494.182317]
+        tip = mdr.Sampled.from_area_function(c, 2e-6, unit="nm")
+        h = np.array([50.0, 200.0, 2000.0])
+        area = c[0] * h**2 + c[1] * h + c[2] * h**0.5
+        np.testing.assert_allclose(
+            tip.height(1e-9 * np.sqrt(area / math.pi)), 1e-9 * h, rtol=0.03, atol=6e-9
+        )
+
     @pytest.mark.parametrize(
         ("arguments", "says"),
         [
+            (
+                ([24.5, 800.0], 1e-6),
+                r"radius would be 0\.016 m, 1\.6e\+04 times the height: check the unit",
+            ),
+            (([24.5, 0.5], 1e-6), "times the height: check the unit of the coefficients, m"),
+            (([1e-6], 1e-6), "times the height: check the unit"),
+            (([24.5, 0.0, -1e-7], 1e-6), r"area A\(h\).* does not grow"),
             (([-24.5], 1e-6), r"area A\(h\).* does not grow .* check the coefficients"),
             (([24.5, *[0.0] * 7, 1e-12], 1e-6), "concave by more than 3 %"),
             (([24.5], -1.0), "height = -1 m"),

@@ -9,7 +9,7 @@ import numpy as np
 import panel as pn
 
 import mdr_core as mdr
-from mdr_core.reading import SIZES
+from mdr_core.reading import SIZES, UnknownColumns
 
 from ...extra import Extra
 from ...fields import Upload
@@ -26,6 +26,7 @@ from .measured import (
     FITTED,
     OF_MEDIUM,
     PLACED,
+    SUBTRACTED,
     Curve,
     Measured,
     agrees,
@@ -36,6 +37,8 @@ from .measured import (
 
 #: The option for no column; a list shows an option of the value None as empty.
 _NO_COLUMN = -1
+#: The option for a unit that is still to be chosen.
+_NO_UNIT = "unit?"
 #: Parameters that a fit holds unless they are freed.
 DEFAULT_FIXED = ("eta", "work_of_adhesion", "baseline", "tilt", "drag")
 #: The measured example.
@@ -55,6 +58,7 @@ def take(state: State, curve: Measured | None) -> State:
     """
     tiles = ("residual",) if curve else tuple(tile for tile in state.tiles if tile != "residual")
     placed = {"fit.contact_point": 0.0, "fit.baseline": 0.0, "fit.fixed": DEFAULT_FIXED}
+    placed |= {f"fit.{name}": 0.0 for name in SUBTRACTED}
     placed["fit.hardness"] = CONSTANTS.get(state.plasticity, "q_c")
     return with_curve(state, curve).replace(tiles=tiles, **placed)
 
@@ -89,9 +93,8 @@ def fit(state: State) -> State:
     _refuse_hardness(state, asked)
     if state["fit.depth_noise"] > 0:
         asked["depth_noise"] = state["fit.depth_noise"]
-    found = mdr.fit_indentation(
-        profile(state), *state["fit.curve"].data, time=state["fit.curve"].time, **asked
-    )
+    samples, time = state["fit.curve"].samples(state), state["fit.curve"].time
+    found = mdr.fit_indentation(profile(state), *samples, time=time, **asked)
     numbers = {f"fit.{name}": float(getattr(found, name)) for name in PLACED}
     numbers["max_depth"] = float(np.max(found.path.depth))
     choices = {"drive": "depth"}
@@ -102,7 +105,8 @@ def fit(state: State) -> State:
             choices[choice] = option if there else "none"
             numbers |= {quantity_of(name).name: value} if there else {}
     numbers = {name: checked(name, value) for name, value in numbers.items()}
-    curve = Measured(state["fit.curve"].name, state["fit.curve"].curve, found)
+    subtracted = tuple(state[f"fit.{name}"] for name in SUBTRACTED)
+    curve = Measured(state["fit.curve"].name, state["fit.curve"].curve, found, subtracted)
     fitted = {"fit.curve": curve, "fit.note": _note(curve)}
     return with_derived(state.replace(progress=1.0, **fitted, **choices, **numbers))
 
@@ -185,7 +189,11 @@ class Fitting:
 
     def __init__(self, page: Any):
         self._apply, self._placed, self._curve, select = page.apply, None, None, pn.widgets.Select
-        kinds = ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx"
+        # A file whose columns are asked for, and its table.
+        self._asked = None
+        kinds = (
+            ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx,.jpk-force,.jpk-force-map,.jpk-qi-data,.h5,.ibw,.zip"
+        )
         self.file = Upload("CSV file of a measured curve: depth, force", kinds, self._read)
         self.silica, self.remove, self.fit = map(button, ("Fused silica", "Remove", "Fit"))
         self.columns = {role: field(select, "column", label=f"Column of {role}") for role in SIZES}
@@ -200,8 +208,9 @@ class Fitting:
         self.not_taken, self.not_fitted = html(), html()
         self.unloading = html("", "note", "unloading")
         self.place, self.noise = page.numbers(), page.numbers()
+        rows = (pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES)
+        self._columns = pn.Column(*rows, visible=False, **WIDE)
         self._rest = pn.Column(
-            *(pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES),
             Parts(Text("title", object="<h2>Position and background</h2>"), self.place,
                   page.choices.part("fit.hardness")),
             html("<h2>Fixed parameters</h2>", "title"), self.fixed, Parts(self.noise), self.fit,
@@ -211,7 +220,7 @@ class Fitting:
             "Load a table of depth and force to compare with the model. <i>Explore</i> sets the indenter."
         )
         buttons = tools(self.silica, self.remove)
-        parts = (note, Parts(self.file), buttons, self.not_taken, self.about, self._rest)
+        parts = (note, Parts(self.file), buttons, self.not_taken, self.about, self._columns, self._rest)
         self.view = pn.Column(*parts, **WIDE)
         self.silica.on_click(lambda event: self._change(silica, self.not_taken))
         self.remove.on_click(lambda event: self._change(lambda state: take(state, None), self.not_taken))
@@ -240,22 +249,41 @@ class Fitting:
             text = f"Refused: {text}."
             if where is self.not_taken and self._curve is not None:
                 text += f" What is shown is still {self._curve.name}."
+            # What is asked for stands there before the request.
+            self._show_columns()
             show(where, object=f'<span class="refused" role="alert">{escape(text)}</span>')
 
         self._forget()
+        self._asked = None
         self._apply(change, refuse)
+        self._show_columns()
 
     def _forget(self):
         for each in (self.not_taken, self.not_fitted):
             show(each, object="")
 
-    def _read(self, file):
-        self._change(lambda state: take(state, read_curve(file.read(), file.name)), self.not_taken)
+    def _read(self, file, columns=None):
+        def change(state):
+            try:
+                return take(state, read_curve(file.read(), file.name, columns))
+            except UnknownColumns as error:
+                self._asked = file, error.table
+                raise
+
+        self._change(change, self.not_taken)
 
     def _correct(self, role, chosen):
+        if self._asked:
+            roles = {each: (self.columns[each].value, self.units[each].value) for each in SIZES}
+            given = {
+                each: pair for each, pair in roles.items() if pair[0] != _NO_COLUMN and pair[1] != _NO_UNIT
+            }
+            if {"depth", "force"} <= set(given):
+                self._read(self._asked[0], {"time": None} | given)
+            return
         curve, chosen = self._curve, None if chosen == _NO_COLUMN else chosen
         # A list that is set to what the curve has.
-        if curve is None or chosen in (curve.curve.columns[role], curve.curve.units[role]):
+        if curve is None or chosen == _NO_UNIT or chosen in (curve.curve.columns[role] or (None,)):
             return
 
         def change(state):
@@ -263,26 +291,48 @@ class Fitting:
 
         self._change(change, self.not_taken)
 
+    def _show_columns(self):
+        """Columns and units of the curve, or the choice of those that are asked for."""
+        show(self._columns, visible=bool(self._asked or self._curve))
+        if not self._columns.visible:
+            return
+        table = self._asked[1] if self._asked else self._curve.curve.table
+        # A column without a name is known by its first numbers.
+        firsts = {k: ", ".join(f"{x:.3g}" for x in values[:3]) for k, values in table.values.items()}
+        heads = {f"{k + 1}: {head or f'{firsts[k]} …'}": k for k, head in table.heads.items()}
+        for role, sizes in SIZES.items():
+            column = None if self._asked else self._curve.curve.columns[role]
+            nothing = {"none, rows in order": _NO_COLUMN} if role == "time" else {"column?": _NO_COLUMN}
+            optional = nothing if column is None or role == "time" else {}
+            number, unit = column or (_NO_COLUMN, _NO_UNIT)
+            show(self.columns[role], options=heads | optional, value=number)
+            show(self.units[role], options=[*[_NO_UNIT] * (column is None), *sizes], value=unit)
+
     def show(self, view: View) -> None:
         state = view.state
         curve = state["fit.curve"]
         if curve is not self._curve:
             self._curve = curve
             self._forget()
+        self._show_columns()
         show(self._rest, visible=curve is not None)
         show(self.remove, disabled=curve is None)
         show(self.said, object=result(state))
         if curve is None:
             show(self.about, object=result(state))
             return
-        placed = curve, profile(state), state["fit.fixed"], *(state[f"fit.{name}"] for name in PLACED)
+        numbers = [f"fit.{name}" for name in (*PLACED, *SUBTRACTED)]
+        placed = curve, profile(state), state["fit.fixed"], *(state[name] for name in numbers)
         if placed != self._placed:
             self._placed, self.unloading.object = placed, unloading(state)
         about = f"<b>{escape(curve.name)}</b>: {escape(curve.note)}. A link does not contain the curve."
         show(self.about, object=about)
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
-        likes = {"fit.contact_point": depth, "fit.baseline": force}
-        self.place.update(state, [f"fit.{name}" for name in PLACED if name in curve.fitted], likes)
+        likes = {"fit.contact_point": depth, "fit.baseline": force, "fit.drift": 1e-10}
+        # A frame gives by some hundredth of the depth.
+        likes["fit.frame"] = 0.01 * depth / force if force else 0.0
+        names = [f"fit.{name}" for name in curve.known((*PLACED, *SUBTRACTED))]
+        self.place.update(state, names, likes)
         options = {quantity_of(name).label: name for name in offered(state)}
         show(
             self.fixed,
@@ -290,11 +340,6 @@ class Fitting:
             value=[name for name in state["fit.fixed"] if name in offered(state)],
         )
         self.noise.update(state, ["fit.depth_noise"], {"fit.depth_noise": depth})
-        heads = {f"{k + 1}: {head}".rstrip(": "): k for k, head in enumerate(curve.curve.table.heads)}
-        for role, column in curve.curve.columns.items():
-            options = heads | ({"none, rows in order": _NO_COLUMN} if role == "time" else {})
-            show(self.columns[role], options=options, value=_NO_COLUMN if column is None else column)
-            show(self.units[role], value=curve.curve.units[role])
 
 
 def compute(state: State, before: View | None, known: dict) -> Curve | None:

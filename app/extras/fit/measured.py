@@ -12,7 +12,8 @@ import mdr_core as mdr
 from mdr_core.fit.errors import roughness
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.parameters import CLASSES
-from mdr_core.reading import MeasuredCurve, curve_of
+from mdr_core.measured_curve import MeasuredCurve
+from mdr_core.reading import SIZES, UnknownColumns, curve_of
 
 from ...state import State, checked, medium, profile
 from ...tip import FITTED as MOST
@@ -25,22 +26,25 @@ OF_MEDIUM = {
     "eta": ("damping", "eta"), "work_of_adhesion": ("adhesion", "work"),
 }  # fmt: skip
 PLACED = ("contact_point", "baseline", "tilt", "drag")
+#: What is subtracted from the depth before a fit.
+SUBTRACTED = ("drift", "frame")
 FITTED = (*OF_MEDIUM, *PLACED)
 #: Constants of the hardness, of which a fit has one, by the options of the choice "plasticity".
 CONSTANTS = {option: name for name, (choice, option) in OF_MEDIUM.items() if choice == "plasticity"}
 #: What the hardness of a class is.
 _HARDNESS = {"a": "constant", "b": "∝ 1/a", "c": "∝ 1/a²"}
 #: Those that need the times of the samples.
-_IN_TIME = ("eta", "drag")
+_IN_TIME = ("eta", "drag", "drift")
 
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """A curve from a file, as the core reads it, and its fit."""
+    """A curve from a file, as the core reads it, and its fit with what that subtracts from the depth."""
 
     name: str
     curve: MeasuredCurve
     fit: IndentationFit | None = None
+    subtracted: tuple[float, ...] = (0.0, 0.0)
 
     @property
     def _step(self):
@@ -55,6 +59,15 @@ class Measured:
     def time(self):
         """Time (s) of the same samples, or None."""
         return None if self.curve.time is None else self.curve.time[:: self._step]
+
+    def samples(self, state):
+        """`data` without the drift and the give of the frame."""
+        curve = self.curve
+        if state["fit.drift"] and curve.time is not None:
+            curve = curve.minus_drift(state["fit.drift"])
+        if state["fit.frame"]:
+            curve = curve.minus_frame(state["fit.frame"])
+        return curve.depth[:: self._step], curve.force[:: self._step]
 
     @property
     def depth_noise(self):
@@ -89,10 +102,14 @@ class Measured:
             f"Class of hardness: {told}; {misfits}.{other} The class presumes {rows['the class presumes']}."
         )
 
+    def known(self, names):
+        """Those of some parameters that are known without the times of the samples, or with them."""
+        return [name for name in names if self.time is not None or name not in _IN_TIME]
+
     @property
     def fitted(self):
         """Names of the parameters that a fit can have."""
-        return [name for name in FITTED if self.time is not None or name not in _IN_TIME]
+        return self.known(FITTED)
 
     @property
     def note(self):
@@ -101,7 +118,7 @@ class Measured:
 
     def placed(self, state):
         """The curve at its position on the page."""
-        (depth, force), time = self.data, self.time
+        (depth, force), time = self.samples(state), self.time
         force = force - state["fit.baseline"] - state["fit.tilt"] * depth
         if state["fit.drag"] and time is not None:
             force = force - state["fit.drag"] * np.gradient(depth, time)
@@ -110,27 +127,41 @@ class Measured:
 
     def corrected(self, role, chosen):
         """With another column or unit of "depth", "force" or "time", without a fit."""
-        columns, units = dict(self.curve.columns), dict(self.curve.units)
+        columns, table = dict(self.curve.columns), self.curve.table
+        own = columns[role]
         if isinstance(chosen, str):
-            units[role] = chosen
+            columns[role] = own and (own[0], chosen)
+        elif chosen is None:
+            columns[role] = None
         else:
-            taken = next((k for k, column in columns.items() if column == chosen is not None), role)
-            if taken != role and columns[role] is None:
+            taken = next((k for k, column in columns.items() if column and column[0] == chosen), role)
+            if taken != role and own is None:
                 raise ValueError(f"that is the column of {taken}: choose another one for that first")
             # Who had that column gets the other one.
-            columns[taken], columns[role] = columns[role], chosen
-        return Measured(self.name, curve_of(self.curve.table, "the file", columns, units))
+            columns[taken] = own and (own[0], columns[taken][1])
+            unit = table.unit(chosen)
+            columns[role] = chosen, own[1] if own else unit if unit in SIZES[role] else "s"
+        curve = curve_of(table, "the file", columns, self.curve.spring_constant, turn=False)
+        return Measured(self.name, curve)
 
 
-def read_curve(data: bytes, name: str) -> Measured:
-    """Measured curve from a file, see `mdr.read_curve`. Raises ValueError."""
+def read_curve(data: bytes, name: str, columns: dict | None = None) -> Measured:
+    """Measured curve from a file, see `mdr.read_curve`.
+
+    Raises ValueError, and UnknownColumns if the columns are not given and the header does not name them.
+    """
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"the file{Path(name).suffix}"
         path.write_bytes(data)
         name = in_line(name)
         try:
-            return Measured(name, mdr.read_curve(path))
-        except ValueError as error:
+            return Measured(name, mdr.read_curve(path, columns=columns))
+        except UnknownColumns as error:
+            text = (
+                f"{name} does not name its columns of depth and force, and their units: choose them below"
+            )
+            raise UnknownColumns(text, error.table) from None
+        except (ValueError, ImportError) as error:
             raise ValueError(str(error).replace(path.name, name)) from None
 
 
@@ -157,6 +188,10 @@ def agrees(state: State) -> bool:
     values, names = found.to_dict(), state["fit.curve"].fitted
     pairs = [
         (state[f"fit.{name}"] if name in PLACED else getattr(made, name), values[name]) for name in names
+    ]
+    pairs += [
+        (state[f"fit.{name}"], value)
+        for name, value in zip(SUBTRACTED, state["fit.curve"].subtracted, strict=True)
     ]
     return profile(state) == found.profile and bool(
         np.allclose(*zip(*pairs, strict=True), rtol=1e-9, atol=0)

@@ -1,0 +1,124 @@
+"""Whether residuals are noise as standard errors presume it: independent, and of many samples.
+
+They may follow a curve, have outliers, be correlated over a large part of the curve, or be few.
+"""
+
+import numpy as np
+
+from ..results.quantities import engineering
+from .errors import SIGNIFICANT, autocorrelation, roughness
+from .parameters import BACKGROUND, CLASSES
+
+#: Size of the residuals of the arithmetic, as a share of the range of force.
+_EXACT = 1e-7
+#: Root mean square of correlated residuals over the range of force above which the model does not fit, of
+#: elastic media and of those that yield, whose unloading is a small part of the curve.
+_MISFIT, _MISFIT_YIELDING = 0.05, 0.01
+#: Standard deviations from the neighbours, by their lower quartile, from which on a sample is an outlier,
+#: and least number of samples for it; the quartile of absolute normal deviations is 0.3186.
+_OUTLIER, _ENOUGH = 6.0, 30
+#: Number of samples in contact beyond that of the parameters from which on errors are known.
+_SPARE = 3
+#: Number of blocks of correlated residuals below which the errors of a medium that yields are too small.
+_BLOCKS = 20
+
+
+def tests_of_noise(solved, i):
+    """Remarks on the residuals of curve i of a `Solution`."""
+    for check in (_jitter, _misfit, _few):
+        yield from check(solved, i)
+    size = np.sqrt(np.mean((solved.minimum.residual[i] * solved.noise[i]) ** 2))
+    # Smaller ones are those of the arithmetic.
+    if size > _EXACT * solved.curves.load[i, 0]:
+        yield from _outliers(solved, i)
+        yield from _blocks(solved, i)
+
+
+def _jitter(solved, i):
+    """Depths that go back and forth although they are taken as exact: without memory they may."""
+    depth = solved.curves.depth[[i]]
+    steps = np.diff(depth[0])
+    reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
+    noise = roughness(depth)[0, 0]
+    # On unloading alone the first depth is the largest.
+    unloading = depth[0].max() - depth[0, 0] < 5 * noise
+    exact = not (solved.curves.depth_noise or solved.curves.held_elastic)
+    if exact and not unloading and reversals > max(4, 0.05 * steps.size):
+        yield (
+            "jitter",
+            f"the depth goes back and forth at {reversals} of {steps.size} samples, and its noise counts "
+            f"as new largest depths: E* is biased; give depth_noise, about {engineering(noise, 'm')}",
+        )
+
+
+def _named(constants):
+    """The hardness with these constants in words."""
+    letters = [f"({letter})" for letter, name in CLASSES.items() if name in constants]
+    return f"class {' + '.join(letters)}"
+
+
+def _misfit(solved, i):
+    """Residuals that are not noise."""
+    curves, residual = solved.curves, solved.minimum.residual[i]
+    freedom, chi = solved.minimum.freedom, solved.reduced_chi_square[i]
+    correlation = autocorrelation(residual[solved.orders[i]])
+    size = np.sqrt(np.mean((residual * solved.noise[i]) ** 2)) / curves.load[i, 0]
+    largest = _MISFIT if curves.held_elastic else _MISFIT_YIELDING
+    if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
+        cause = "not an elastic medium" if curves.held_elastic else f"not {_named(curves.constants)}"
+        remedy = "; give time, which tells drag and drift" * (curves.time is None and not curves.adhesive)
+        yield (
+            "misfit",
+            f"the residuals ({100 * size:.2g} % of the force) follow a curve (correlation of neighbours "
+            f"{correlation:.2f}): {cause}, or another profile{remedy}",
+        )
+    elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom) and size > _EXACT:
+        yield (
+            "noisy",
+            f"χ² per degree of freedom is {chi:.3g}: the residuals ({100 * size:.2g} % of the force) are "
+            "larger than the noise that is given",
+        )
+
+
+def _outliers(solved, i):
+    """Samples far from both neighbours that have most of the squares of the residuals."""
+    residual = solved.minimum.residual[i]
+    if residual.size < _ENOUGH or solved.curves.adhesive:
+        return
+    distance = residual[1:-1] - (residual[:-2] + residual[2:]) / 2
+    size = np.abs(distance)
+    far = size > _OUTLIER * np.quantile(size, 0.25) / 0.3186
+    if np.sum(distance[far] ** 2) > 0.5 * np.sum(residual**2):
+        # Of an outlier both neighbours are half as far from theirs.
+        single = np.count_nonzero(far & (size > 0.6 * size.max()))
+        yield (
+            "outliers",
+            f"about {single} of {residual.size} samples are outliers, more than {_OUTLIER:g} standard "
+            "deviations from their neighbours: set them to NaN, or E* is off by more than its error",
+        )
+
+
+def _blocks(solved, i):
+    """Noise that is correlated over a large part of a curve that yields."""
+    curves, length = solved.curves, solved.block_length[i]
+    count = curves.depth.shape[1]
+    elastic = curves.held_elastic or solved.elastic[i]
+    if 1 < length < count < _BLOCKS * length and not elastic:
+        yield (
+            "blocks",
+            f"neighbouring residuals are correlated over {length} of {count} samples: the standard errors "
+            "are from few blocks, and up to twice too small",
+        )
+
+
+def _few(solved, i):
+    """Fewer samples in contact than standard errors need."""
+    _, state = solved.values_and_states
+    count = np.count_nonzero(state.live_interval.length[i] > 0)
+    names = [name for name in solved.curves.free if name not in BACKGROUND]
+    if names and count < len(names) + _SPARE:
+        yield (
+            "few",
+            f"only {count} samples are in contact for {' and '.join(names)}: errors are hardly known; "
+            "record more",
+        )
