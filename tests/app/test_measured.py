@@ -150,7 +150,7 @@ def test_a_drift_and_the_give_of_a_frame_are_subtracted_before_a_fit():
     # Without times there is no drift to type.
     page = Page()
     page.apply(lambda _: state)
-    shown = [each.key for each in side(page, "fit").place if each.visible]
+    shown = [each.key for each in side(page, "fit").place.parts if each.visible]
     assert ("fit.frame" in shown, "fit.drift" in shown) == (True, False)
 
 
