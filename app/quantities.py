@@ -146,7 +146,7 @@ def include(data: dict[str, Any]) -> None:
 def _add_options(name: str, options: dict[str, Any]) -> None:
     for option, words in options.items():
         CHOICES[name][option] = words["label"]
-        USED[name][option] = words["uses"]
+        USED[name][option] = words.get("uses", [])
 
 
 include(DATA)
