@@ -15,6 +15,8 @@ from .quantities import lowered
 from .ui import JS, marked
 
 FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
+#: Colour of the outline of a canvas, which has no sheet of its own.
+_FOCUS = ".bk-Canvas { --highlight-color: var(--elastic); --outline-width: 2px; }"
 #: Rows that are drawn together, from the back to the front.
 _GROUPS = ("areas", "lines", "lines right", "marks", "marks right", "labels")
 #: Glyphs of each kind of row, and the columns of their source.
@@ -53,6 +55,8 @@ class Layer:
         if self.kind == "labels":
             return found | {"ground": [ROLES["paper"][dark]] * len(rows)}
         found |= {key: [row.look[key] for row in rows] for key in self.rows[0].look}
+        if self.kind == "areas" and dark:
+            found["alpha"] = [min(1.6 * alpha, 1.0) for alpha in found["alpha"]]
         if self.kind == "lines":
             found["dash"] = [DASHES[dash] for dash in found["dash"]]
             found["symbol"] = [row.symbol or row.name for row in rows]
@@ -79,7 +83,8 @@ class Layer:
         """Renderer of the rows on a figure."""
         kind, look = _GLYPHS[self.kind]
         if self.kind == "areas":
-            look = look | {"line_color": None}
+            # An edge in full colour: on its ground a pale area alone is hard to see.
+            look = look | {"line_color": "color"}
             look |= _HATCH if any(row.look["hatch"] != " " for row in self.rows) else {}
         only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
         only["y_range_name"] = "right" if self.axis == 2 else "default"
@@ -149,7 +154,7 @@ class Picture:
         # The outermost pixels of a canvas keep a trace of the colour before the last one.
         f.styles = {"clip-path": "inset(1px)"}
         f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
-        f.update(sizing_mode="stretch_both", min_height=150)
+        f.update(sizing_mode="stretch_both", min_height=150, stylesheets=[_FOCUS])
         painted = bk.CustomJS(args={"figure": f}, code=JS["label"])
         for axis in f.axis:
             axis.js_on_change("axis_label", painted)
