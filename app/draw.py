@@ -15,8 +15,8 @@ from .quantities import lowered
 from .ui import JS, marked
 
 FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
-#: Colour of the outline of a canvas, which has no sheet of its own.
-_FOCUS = ".bk-Canvas { --highlight-color: var(--elastic); --outline-width: 2px; }"
+#: The outline of a canvas, which no linked sheet reaches.
+_FOCUS = [".bk-Canvas { --highlight-color: var(--elastic); --outline-width: 2px; }"]
 #: Rows that are drawn together, from the back to the front.
 _GROUPS = ("areas", "lines", "lines right", "marks", "marks right", "labels")
 #: Glyphs of each kind of row, and the columns of their source.
@@ -130,7 +130,7 @@ class Picture:
     def __init__(self, plot: Plot):
         self.plot, self.axes, self.drawn = plot, None, None
         ranges = {"x_range": bk.Range1d(0.1, 1), "y_range": bk.Range1d(0.1, 1)}
-        self.figure = figure(name=plot.name, tools="", toolbar_location=None, **ranges)
+        self.figure = figure(name=plot.name, tools="", toolbar_location=None, stylesheets=_FOCUS, **ranges)
         # Nothing is selected: the sources of a figure share what Bokeh has for it.
         shared = {"selected": bk.Selection(), "selection_policy": bk.UnionRenderers()}
         groups = [group for group in _GROUPS if any(row.group == group for row in rows_of(plot))]
@@ -154,7 +154,7 @@ class Picture:
         # The outermost pixels of a canvas keep a trace of the colour before the last one.
         f.styles = {"clip-path": "inset(1px)"}
         f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
-        f.update(sizing_mode="stretch_both", min_height=150, stylesheets=[_FOCUS])
+        f.update(sizing_mode="stretch_both", min_height=150)
         painted = bk.CustomJS(args={"figure": f}, code=JS["label"])
         for axis in f.axis:
             axis.js_on_change("axis_label", painted)
