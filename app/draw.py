@@ -15,6 +15,8 @@ from .quantities import lowered
 from .ui import JS, marked
 
 FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
+#: The outline of a canvas, which no linked sheet reaches.
+_FOCUS = [".bk-Canvas { --highlight-color: var(--elastic); --outline-width: 2px; }"]
 #: Rows that are drawn together, from the back to the front.
 _GROUPS = ("areas", "lines", "lines right", "marks", "marks right", "labels")
 #: Glyphs of each kind of row, and the columns of their source.
@@ -53,6 +55,8 @@ class Layer:
         if self.kind == "labels":
             return found | {"ground": [ROLES["paper"][dark]] * len(rows)}
         found |= {key: [row.look[key] for row in rows] for key in self.rows[0].look}
+        if self.kind == "areas" and dark:
+            found["alpha"] = [min(1.6 * alpha, 1.0) for alpha in found["alpha"]]
         if self.kind == "lines":
             found["dash"] = [DASHES[dash] for dash in found["dash"]]
             found["symbol"] = [row.symbol or row.name for row in rows]
@@ -79,7 +83,8 @@ class Layer:
         """Renderer of the rows on a figure."""
         kind, look = _GLYPHS[self.kind]
         if self.kind == "areas":
-            look = look | {"line_color": None}
+            # An edge in full colour: on its ground a pale area alone is hard to see.
+            look = look | {"line_color": "color"}
             look |= _HATCH if any(row.look["hatch"] != " " for row in self.rows) else {}
         only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
         only["y_range_name"] = "right" if self.axis == 2 else "default"
@@ -125,7 +130,7 @@ class Picture:
     def __init__(self, plot: Plot):
         self.plot, self.axes, self.drawn = plot, None, None
         ranges = {"x_range": bk.Range1d(0.1, 1), "y_range": bk.Range1d(0.1, 1)}
-        self.figure = figure(name=plot.name, tools="", toolbar_location=None, **ranges)
+        self.figure = figure(name=plot.name, tools="", toolbar_location=None, stylesheets=_FOCUS, **ranges)
         # Nothing is selected: the sources of a figure share what Bokeh has for it.
         shared = {"selected": bk.Selection(), "selection_policy": bk.UnionRenderers()}
         groups = [group for group in _GROUPS if any(row.group == group for row in rows_of(plot))]

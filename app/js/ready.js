@@ -1,8 +1,21 @@
 // Once the page is there: a name for the slider, which has none of its own, the keys Space and Z, and the theme of the system.
 const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
 const hosts = (name) => all(document).filter((each) => each.shadowRoot && each.classList.contains(name))
-for (const { shadowRoot } of hosts("slider"))
-  for (const each of shadowRoot.querySelectorAll("input, [role=slider]")) each.ariaLabel = "State along the path"
+const find = (name) => messages.document.get_model_by_name(name)
+const handle = all(hosts("slider")[0].shadowRoot).find((each) => each.role === "slider")
+handle.ariaLabel = "State along the path"
+// What is seen is told in words: the state at once, the plots once they rest.
+const told = (count) => [...messages.words.matchAll(/data-name="(\w+)">([^<]*)/g)].slice(0, count)
+  .map(([, name, value]) => `${name.replaceAll("_", " ")} ${value}`).join(", ")
+const rests = () => ["springs", "pressure", "force"].forEach((name) => { Bokeh.index.find_one(find(name)).el.ariaDescription = told() })
+let wait
+const tell = () => {
+  handle.ariaValueText = told(2)
+  clearTimeout(wait)
+  wait = setTimeout(rests, 300)
+}
+for (const each of [find("state").properties.value, messages.properties.words]) each.change.connect(tell)
+tell()
 document.documentElement.lang = "en"
 document.documentElement.classList.toggle("dark", messages.dark)
 document.addEventListener("keydown", (event) => {

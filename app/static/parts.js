@@ -17,7 +17,7 @@ const KINDS = {
   button({ key }, send) {
     const el = made("button", "act")
     Object.assign(el, { onclick: () => send(null) }).dataset.key = key
-    return [el, ({ label, pressed, disabled }) => Object.assign(el, { textContent: label, disabled, ariaPressed: pressed })]
+    return [el, ({ label, pressed, disabled }) => Object.assign(el, { textContent: label, name: label, disabled, ariaPressed: pressed })]
   },
   // A picture of a plot, saved in the browser.
   save({ figure, title }, send, named) {

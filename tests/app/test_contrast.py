@@ -1,9 +1,11 @@
 """Text and graphics stand out from their ground in both themes, as WCAG 2.2 AA asks (1.4.3, 1.4.11)."""
 
 import re
+from io import BytesIO
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 import app
 from mdr_core.results.figures import ROLES
@@ -30,6 +32,11 @@ def luminance(colour):
 def contrast(one, other):
     low, high = sorted(map(luminance, (one, other)))
     return (high + 0.05) / (low + 0.05)
+
+
+def hexadecimal(colour):
+    """A colour that a browser has computed."""
+    return "#" + "".join(f"{int(part):02x}" for part in re.findall(r"\d+", colour)[:3])
 
 
 @themes
@@ -79,15 +86,35 @@ TEXTS = """() => {
 
 
 def test_every_text_of_the_page_is_read_in_the_dark(explorer):
-    """In each part of the side, within a theme that is changed by its key."""
+    """In each part of the side, within a theme that is changed by its key.
+
+    Areas end in an edge that stands out: where what is stored ends below the present state, and where the
+    plastic zone ends above the mark of the onset of yield.
+    """
     page = explorer.page
     explorer.press("Menu")
     explorer.press("Dark")
     explorer.link("dark=1")
+    for row, up in (("now", -100), ("onset of yield", 100)):
+        x, y = explorer.place("force", row, 0)
+        clip = {"x": x - 3, "y": y - up, "width": 6, "height": 1}
+        with Image.open(BytesIO(page.screenshot(clip=clip))) as seen:
+            pixels = {hexadecimal(str(pixel)) for _, pixel in seen.convert("RGB").getcolors()}
+        assert max(contrast(pixel, DARK["paper"]) for pixel in pixels) >= 3, (row, pixels)
     for part in ("Menu", "Share", "All numbers", "Fit a measurement", "Explore"):
         explorer.press(part)
         for text, *pair in page.evaluate(TEXTS):
-            colours = [
-                "#" + "".join(f"{int(k):02x}" for k in re.findall(r"\d+", each)[:3]) for each in pair
-            ]
+            colours = list(map(hexadecimal, pair))
             assert contrast(*colours) >= 4.5, (part, text, colours)
+
+
+def test_buttons_of_the_header_have_weights(explorer):
+    """The guide stands out, what undoes stands back, and the others are between."""
+    look = "(on) => [getComputedStyle(on).fontWeight, getComputedStyle(on).borderColor]"
+    names = ("Guide", "Share", "Undo")
+    guide, share, undo = (
+        explorer.page.get_by_role("button", name=name, exact=True).evaluate(look) for name in names
+    )
+    assert guide == ["600", "rgb(0, 114, 178)"]
+    assert share == ["400", "rgb(132, 140, 151)"]
+    assert undo == ["400", "rgba(0, 0, 0, 0)"]

@@ -6,16 +6,17 @@ import numpy as np
 import pytest
 
 from .conftest import Explorer
+from .test_contrast import LIGHT, contrast, hexadecimal
 
-# All elements, also within components; targets smaller than 24 pixels but links within a text, and of a
-# radio button its label; what can be scrolled sideways.
-SEEN = """() => {
+# All elements, also within components; targets smaller than so many pixels but links within a text, and
+# of a radio button its label; what can be scrolled sideways.
+SEEN = """(least) => {
   const box = (each) => each.getBoundingClientRect()
   const within = explorer.all()
   const targets = within.filter((each) => each.matches(
     "button, input:not([type=radio]), label:has(input), select, summary, .button a, [role=slider]"))
   const size = (each) => Math.min(box(each).width, box(each).height)
-  const small = targets.filter((each) => box(each).width > 0 && size(each) < 24)
+  const small = targets.filter((each) => box(each).width > 0 && size(each) < least)
   const sideways = within.filter((each) => each.scrollWidth > each.clientWidth + 1 &&
     ["auto", "scroll"].includes(getComputedStyle(each).overflowX))
   const name = (each) => `${each.tagName}.${each.className} ${each.ariaLabel ?? each.innerText}`
@@ -72,25 +73,35 @@ def phone(server, browser):
 
 
 def test_small_screens(phone):
-    """A phone, in one column, with nothing over anything; and smaller windows."""
+    """A phone, in one column, with nothing over anything; and smaller windows.
+
+    Numbers, springs and the slider of the depth are on the first screen together; 44 pixels are what a
+    finger needs (WCAG 2.2, 2.5.5).
+    """
     page = phone.page
-    assert page.evaluate(SEEN) == {"small": [], "sideways": [], "scroll": 390}
-    places = [phone.slider(symbol) for symbol in ("d_max", "s", "E*", "q_c")]
-    places += [page.locator(f".card.{name}") for name in ("springs", "pressure", "force")]
+    assert page.evaluate(SEEN, 44) == {"small": [], "sideways": [], "scroll": 390}
+    numbers = page.locator("output")
+    assert numbers.count() == 8
+    places = [numbers.last, page.locator(".card.springs")]
+    places += [phone.slider(symbol) for symbol in ("d_max", "s", "E*", "q_c")]
+    places += [page.locator(f".card.{name}") for name in ("pressure", "force")]
     boxes = [place.bounding_box() for place in places]
-    assert boxes[0]["y"] < 300
+    assert all(box["width"] > 0 for box in [each.bounding_box() for each in numbers.all()])
+    assert boxes[1]["y"] < 500
+    assert boxes[2]["y"] + boxes[2]["height"] < 844
+    page.get_by_text("drag the indenter by ●").wait_for()
     for one, other in pairwise(boxes):
         assert one["y"] + one["height"] <= other["y"]
     phone.press("Fit a measurement")
     phone.change(phone.press, "Fused silica")
     page.get_by_label("Unit of force").wait_for()
-    assert page.evaluate(SEEN)["scroll"] == 390
+    assert page.evaluate(SEEN, 44)["scroll"] == 390
     page.set_viewport_size({"width": 720, "height": 450})
     phone.wait("explorer.model('force').inner_width > 400")
-    assert page.evaluate(SEEN)["scroll"] == 720
+    assert page.evaluate(SEEN, 44)["scroll"] == 720
     for width in (1001, 1280):
         page.set_viewport_size({"width": width, "height": 800})
-        assert page.evaluate(SEEN)["scroll"] == width
+        assert page.evaluate(SEEN, 44)["scroll"] == width
     page.set_viewport_size({"width": 390, "height": 844})
     phone.press("Explore")
     phone.change(phone.press, "Undo")
@@ -109,16 +120,17 @@ def swipe(page, begin, moved):
 def test_a_finger_scrolls_the_page_and_drags_by_the_mark(phone):
     """Over the indenter, beside it and over the curve a swipe changes nothing, whatever way it goes."""
     page = phone.page
-    for figure in ("springs", "force"):
+    for figure, down in (("springs", -120), ("force", 120)):
         card = page.locator(f".card.{figure}")
-        for across, down in ((0.5, 0.4), (0.4, 0.8)):
-            for moved in ((100, 0), (0, 120)):
+        for shares in ((0.5, 0.4), (0.4, 0.8)):
+            for moved in ((100, 0), (0, down)):
                 card.scroll_into_view_if_needed()
                 box = card.locator("canvas").first.bounding_box()
                 scrolled = page.evaluate("scrollY")
-                swipe(page, (box["x"] + across * box["width"], box["y"] + down * box["height"]), moved)
-                if moved[1] > 0:
-                    phone.wait("(before) => scrollY < before", scrolled)
+                begin = box["x"] + shares[0] * box["width"], box["y"] + shares[1] * box["height"]
+                swipe(page, begin, moved)
+                if moved[1]:
+                    phone.wait("([before, down]) => (before - scrollY) * down > 0", [scrolled, down])
     # What is asked now is answered after anything that the swipes may have asked.
     phone.change(phone.type, "q_c", "101 N/m")
     assert phone.readout("depth") == phone.field("d_max").input_value() == "8.978 nm"
@@ -155,23 +167,64 @@ def test_a_finger_scrolls_the_page_and_drags_by_the_mark(phone):
     assert float(phone.field("d_max").input_value().removesuffix(" nm")) >= begun - 1e-3
 
 
+def test_a_zoomed_window_begins_with_a_plot(phone):
+    """Of 1280 × 720 pixels at 200 % the whole plot of the springs is on the first screen."""
+    page = phone.page
+    page.set_viewport_size({"width": 640, "height": 360})
+    phone.wait("explorer.model('springs').inner_width > 400")
+    page.evaluate("scrollTo(0, 0)")
+    box = page.locator(".card.springs").bounding_box()
+    assert box["y"] > 0
+    assert box["y"] + box["height"] <= 360
+    page.set_viewport_size({"width": 390, "height": 844})
+    phone.wait("explorer.model('springs').inner_width < 400")
+
+
+def test_plots_and_the_path_are_told_in_words(phone):
+    """In the accessibility tree a plot has a name and the present numbers, and the slider its state."""
+    phone.change(phone.type, "d_max", "6 nm")
+    numbers = {name: phone.readout(name) for name in ("force", "depth", "plastic_radius", "plastic_work")}
+    assert numbers["depth"] == "6.000 nm"
+    force = "Bokeh.index.find_one(explorer.model('force')).el"
+    phone.wait(f"{force}.ariaDescription.includes('depth 6.000 nm')")
+    tree = phone.page.context.new_cdp_session(phone.page).send("Accessibility.getFullAXTree")["nodes"]
+    nodes = [node for node in tree if node.get("role", {}).get("value") in ("image", "slider")]
+    told = {node["name"]["value"]: node for node in nodes}
+    for title in ("1D foundation", "Contact pressure", "Force and depth"):
+        (name,) = [name for name in told if name.startswith(f"{title}: ")]
+        for each, text in numbers.items():
+            assert f"{each.replace('_', ' ')} {text}" in told[name]["description"]["value"]
+    handle = phone.page.get_by_label("State along the path")
+    assert handle.get_attribute("aria-valuetext") == f"force {numbers['force']}, depth 6.000 nm"
+    handle.press("Home")
+    phone.wait("explorer.row('force', 'now')[0][0] === 0")
+    assert handle.get_attribute("aria-valuetext") == "force 0, depth 0"
+    handle.press("End")
+    phone.change(phone.press, "Undo")
+
+
 def test_everything_is_reached_by_keys_and_an_equation_leads_to_the_theory(explorer, context):
-    """From one stop of the Tab key to the next, every control and explanation comes by, and is outlined."""
+    """From one stop of the Tab key to the next, every control and explanation comes by, and is outlined.
+
+    The outline has a contrast of 3 to both grounds (WCAG 2.2, 1.4.11).
+    """
     page = explorer.page
     page.locator("h1").click()
     stops = set()
     active = """() => {
         let on = document.activeElement
         while (on?.shadowRoot?.activeElement) on = on.shadowRoot.activeElement
-        if (on === document.body) return ["", ""]
+        if (on === document.body) return ["", "", "rgb(0, 0, 0)"]
         return [on.ariaLabel || on.labels?.[0]?.textContent.trim() || on.textContent.trim(),
-                getComputedStyle(on).outlineStyle]
+                getComputedStyle(on).outlineStyle, getComputedStyle(on).outlineColor]
     }"""
     for _ in range(80):
         page.keyboard.press("Tab")
-        name, outline = page.evaluate(active)
+        name, outline, colour = page.evaluate(active)
         stops.add(name)
         assert outline != "none", name
+        for ground in ("paper", "ground"):
+            assert contrast(hexadecimal(colour), LIGHT[ground]) >= 3, name
     expected = {
         "Preset", "What is q_c, yield constant?", "q_c, yield constant", "q_c, yield constant, slider",
         "Shape", "Share", "Guide", "Menu", "Hold", "F normal force", "▶ Play", "State along the path",
