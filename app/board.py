@@ -24,9 +24,10 @@ class Card:
     """A plot in its frame: title, formula, legend, controls above and a note below."""
 
     def __init__(self, plot: Plot, choices: Choices, apply: Callable[..., None]):
-        self.plot, self.picture, self._rows, self._apply = plot, picture_of(plot), None, apply
+        self.plot, self.picture, self._rows, self._apply = plot, picture_of(plot), {}, apply
+        self.scale = 1.0
         self.log = Button("Log", self._scale, pressed=False)
-        self.large = Button("Large", self._enlarge, pressed=False)
+        self.large = Button("Large", self._enlarge, "escape", pressed=False)
         self.formula, self.legend = Text("formula"), Text("key")
         #: What extras have above it.
         self.above = [each.on_plots(plot) for each in EXTRAS.values() if each.on_plots]
@@ -51,6 +52,12 @@ class Card:
         large = not self.large.pressed
         self.view.css_classes = ["card", self.plot.name, *["large"] * large]
         self.large.show(pressed=large, label="Small" if large else "Large")
+        self.letters(self.scale)
+
+    def letters(self, scale: float) -> None:
+        """Make the letters of the plot so many times as large, or as they are where it is large."""
+        self.scale, large = scale, bool(self.large.pressed)
+        self.picture.letters(max(scale, 1.5 * large), short=scale > 1 and not large)
 
     def show(self, columns: dict, view: View) -> None:
         """Draw columns made for a view, with the texts around them."""
@@ -58,6 +65,9 @@ class Card:
         self.picture.show(columns, view, view.state.dark)
         self.formula.show(object=f"<h3>{plot.title}</h3>{linked(plot.formula_of(course))}")
         rows = drawn(view, plot, {course.now, course.peak})
+        if "axes" in view.computed:
+            # What is cut off leaves no gap in the legend: the plot would move while it is dragged.
+            rows = self._rows | rows
         if rows != self._rows:
             self._rows = rows
             self.legend.show(object=legend(plot, rows))

@@ -1,5 +1,6 @@
 """Plots as Bokeh figures: one source for the rows of a kind, drawn by `source.data = …`; frames."""
 
+from dataclasses import replace
 from itertools import chain
 from math import floor, log10
 from typing import Any
@@ -68,7 +69,7 @@ class Layer:
         """Columns of the source: look, and places in the units of the axes."""
         x_axis, y_axis = axes[0], axes[self.axis]
         parts = [rows[row.name] for row in self.rows]
-        for clip in [_positive] * x_axis.log + [_inside] * self.connected:
+        for clip in (*[_positive] * x_axis.log, _inside if self.connected else _seen):
             pairs = zip(self.rows, parts, strict=True)
             parts = [clip(row, x_axis, y_axis, *part) for row, part in pairs]
         xs, ys = ([_short(part[k], axis) for part in parts] for k, axis in ((0, x_axis), (1, y_axis)))
@@ -112,8 +113,8 @@ def _positive(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, ...]:
 def _inside(row: Row, x: Axis, y: Axis, *given: Any) -> tuple[Any, Any]:
     """A line or area as far as it is within its axes, for a canvas that does not clip."""
     parts = list(given[:2])
-    for k, sign, bound in ((1, 1, y.end), (0, 1, x.end), (0, -1, -x.start)):
-        outside = sign * parts[k] > bound + 1e-9 * abs(bound)
+    for k, sign, bound in ((1, 1, y.end), (1, -1, -y.start), (0, 1, x.end), (0, -1, -x.start)):
+        outside = sign * parts[k] > bound + 1e-9 * (x, y)[k].end
         if not outside.any():
             continue
         at = np.flatnonzero(outside[:-1] != outside[1:])
@@ -122,6 +123,15 @@ def _inside(row: Row, x: Axis, y: Axis, *given: Any) -> tuple[Any, Any]:
         cut = sign * bound if row.kind == "areas" else np.nan
         parts[k] = np.where(np.insert(outside, at + 1, False), cut, parts[k])
     return parts[0], parts[1]
+
+
+def _seen(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, ...]:
+    """Marks and labels within their axes."""
+    seen = True
+    for axis, part in zip((x, y), parts[:2], strict=True):
+        near = 1e-9 * axis.end
+        seen = seen & (np.asarray(part) >= axis.start - near) & (np.asarray(part) <= axis.end + near)
+    return *(np.where(seen, part, np.nan) for part in parts[:2]), *parts[2:]
 
 
 class Picture:
@@ -151,16 +161,28 @@ class Picture:
     def _dress(self):
         f = self.figure
         f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None, title=None)
-        # The outermost pixels of a canvas keep a trace of the colour before the last one.
-        f.styles = {"clip-path": "inset(1px)"}
-        f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
+        # The outermost pixels of a canvas keep a trace of the colour before the last one. Enlarged pixels are blurred.
+        f.styles = {"clip-path": "inset(1px)", "zoom": "calc(1 / var(--zoom, 1))"}
+        f.update(min_border_right=16, min_border_top=8, min_border_bottom=44)
         f.update(sizing_mode="stretch_both", min_height=150)
         painted = bk.CustomJS(args={"figure": f}, code=JS["label"])
         for axis in f.axis:
             axis.js_on_change("axis_label", painted)
             axis.update(minor_tick_line_color=None, major_tick_in=0, axis_label_text_font_style="normal")
-            axis.update(axis_label_text_font=FONT, axis_label_text_font_size="12px")
-            axis.update(major_label_text_font=FONT, major_label_text_font_size="11px")
+            axis.update(axis_label_text_font=FONT, major_label_text_font=FONT)
+        self.letters(1.0)
+
+    def letters(self, scale: float, short: bool = False) -> None:
+        """Make the letters so many times as large as on the page; `short`: of an axis the symbol alone."""
+        self.short = short
+        title, tick = f"{12 * scale:g}px", f"{11 * scale:g}px"
+        self.figure.min_border_left = round(48 * scale) + 16
+        for axis in self.figure.axis:
+            axis.update(axis_label_text_font_size=title, major_label_text_font_size=tick)
+        for text in self.figure.select(bk.Text):
+            text.text_font_size = title
+        if self.axes is not None:
+            self.set_axes(*self.axes)
 
     def columns(self, view: View, i: int, dark: bool) -> dict[Any, dict[str, list]]:
         """What each source has in state i."""
@@ -201,7 +223,8 @@ class Picture:
             start, end = axis.ends
             if bounds is not None:
                 bounds.update(start=start, end=end)
-                side.axis_label = axis.label
+                title = axis.title.split(",")[0] if self.short else axis.title
+                side.axis_label = replace(axis, title=title).label
                 self._scale(side, axis)
         for hover, number in self.hovers:
             symbol = axes[0].title.split(",")[0]

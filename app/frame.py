@@ -59,7 +59,8 @@ class Frame:
                 self.buttons[name] = each.header(page)
                 rows["header"].append(self.buttons[name].view)
             if each.side:
-                self.tabs[name] = Button(each.tab, partial(self._switch, name), pressed=False)
+                key = "escape" * (each.place != "side")
+                self.tabs[name] = Button(each.tab, partial(self._switch, name), key, pressed=False)
                 rows[each.place].append(self.tabs[name])
         title, board = Text("name", object="<h1>Indentation explorer</h1>"), page.board
         parts = (title, page.choices.part("preset"), *rows["header"])
@@ -76,27 +77,31 @@ class Frame:
         self.open("explore")
 
     def open(self, name: str) -> None:
-        """Show a part of the side in the place of the present one, or above it."""
+        """Show a part: in the side in the place of the present one, above it, or over the plots."""
         if name not in self.parts:
             self.parts[name] = self._offers[name].side(self._page)
         if self._view is not None:
             self.parts[name].show(self._view)
         if not self._offers[name].above:
-            self.opened = name
+            self.opened = name if self._in_side(name) else self.opened
             for other in self.parts:
-                if not self._offers[other].above:
+                if other != self.opened and not self._offers[other].above:
                     self._reveal(other, False)
         self._reveal(name, True)
 
+    def _in_side(self, name):
+        return self._offers[name].above or self._offers[name].place == "side"
+
     def _reveal(self, name, visible):
-        reveal(self._side, self.parts[name].view, visible, 1 if self._offers[name].above else None)
+        column = self._side if self._in_side(name) else self.view
+        reveal(column, self.parts[name].view, visible, 1 if self._offers[name].above else None)
         self.tabs[name].show(pressed=visible)
 
     def _switch(self, name):
-        """Open a part of the side, or close it."""
+        """Open a part, or close it."""
         if not self.tabs[name].pressed:
             self.open(name)
-        elif self._offers[name].above:
+        elif self._offers[name].above or not self._in_side(name):
             self._reveal(name, False)
         else:
             self.open("explore")

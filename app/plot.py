@@ -120,7 +120,8 @@ class View:
 
     def __init__(self, state: State, course: Course, computed: dict[str, Any] | None = None):
         self.state, self.course, self.computed = state, course, computed or {}
-        self._axes: dict[Along, Axis] = {}
+        #: Axes by what is along them, at first those that are kept.
+        self._axes: dict[Along, Axis] = dict(self.computed.get("axes", {}))
         self._drawn: dict[Any, dict[str, Any]] = {}
 
     def axis(self, along: Along) -> Axis:

@@ -1,4 +1,4 @@
-// Once the page is there: a name for the slider, which has none of its own, the keys Space and Z, and the theme of the system.
+// Once the page is there: a name for the slider, which has none of its own, the keys Space, Z and Escape, and the theme of the system.
 const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
 const hosts = (name) => all(document).filter((each) => each.shadowRoot && each.classList.contains(name))
 const find = (name) => messages.document.get_model_by_name(name)
@@ -22,6 +22,11 @@ document.addEventListener("keydown", (event) => {
   const on = event.composedPath()[0]
   if (event.ctrlKey || event.altKey || event.metaKey || on.matches?.("input[type=text], textarea, select")) return
   const key = event.key === " " ? "space" : event.key.toLowerCase()
+  if (key === "escape") {
+    const open = all(document).filter((each) => each.matches(":popover-open, [data-key=escape][aria-pressed=true], .help[aria-expanded=true]"))
+    // The browser closes popovers.
+    return void (open.some(({ popover }) => popover) || open.at(-1)?.click())
+  }
   const host = key === "space" ? hosts("key-space")[0]?.shadowRoot : document
   const target = all(host).find((each) => each.matches(key === "space" ? "button" : `button[data-key="${key}"]`))
   if (!target || !["z", "space"].includes(key) || (key === "space" && on.matches?.("button, summary, input"))) return
