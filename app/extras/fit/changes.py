@@ -138,7 +138,11 @@ def choose_samples(state: State, first: int, last: int) -> State:
     if not 1 <= first < last <= count:
         raise ValueError(f"samples {first} to {last} are not two of 1 to {count}, the first one before")
     chosen = () if (first, last) == (1, count) else (str(first), str(last))
-    return state.replace(**{"fit.samples": chosen})
+    state = state.replace(**{"fit.samples": chosen})
+    if np.count_nonzero(state["fit.curve"].used(state)) < 2:
+        step = state["fit.curve"].step
+        raise ValueError(f"samples {first} to {last} are too few: one in {step} is taken")
+    return state
 
 
 def choose_part(state: State, part: str) -> State:

@@ -49,18 +49,19 @@ class Measured:
     chosen: tuple[int, ...] = ()
 
     @property
-    def _step(self):
+    def step(self):
+        """One in this many samples is taken."""
         return -(-len(self.curve) // MOST)
 
     @property
     def data(self):
         """Depth (m) and force (N) of the samples that are taken."""
-        return self.curve.depth[:: self._step], self.curve.force[:: self._step]
+        return self.curve.depth[:: self.step], self.curve.force[:: self.step]
 
     @property
     def time(self):
         """Time (s) of the same samples, or None."""
-        return None if self.curve.time is None else self.curve.time[:: self._step]
+        return None if self.curve.time is None else self.curve.time[:: self.step]
 
     def samples(self, state):
         """`data` without the drift and the give of the frame."""
@@ -69,7 +70,7 @@ class Measured:
             curve = curve.minus_drift(state["fit.drift"])
         if state["fit.frame"]:
             curve = curve.minus_frame(state["fit.frame"])
-        return curve.depth[:: self._step], curve.force[:: self._step]
+        return curve.depth[:: self.step], curve.force[:: self.step]
 
     def range(self, state):
         """Numbers of the first and the last sample that are chosen, from 1 on."""
@@ -79,12 +80,12 @@ class Measured:
     def used(self, state):
         """Which of the samples that are taken are in the chosen range."""
         first, last = self.range(state)
-        number = np.arange(1, len(self.curve) + 1)[:: self._step]
+        number = np.arange(1, len(self.curve) + 1)[:: self.step]
         return (first <= number) & (number <= last)
 
     def deepest(self, state):
         """Number of the sample with the largest depth, from 1 on."""
-        return 1 + self._step * int(np.argmax(self.samples(state)[0]))
+        return 1 + self.step * int(np.argmax(self.samples(state)[0]))
 
     @property
     def depth_noise(self):
@@ -119,7 +120,7 @@ class Measured:
 
     @property
     def note(self):
-        taken = f"{len(self.curve)} samples" + f", one in {self._step} of them taken" * (self._step > 1)
+        taken = f"{len(self.curve)} samples" + f", one in {self.step} of them taken" * (self.step > 1)
         return "; ".join([taken, *self.curve.remarks])
 
     def placed(self, state):

@@ -88,10 +88,9 @@ class Fitting:
 
     def _make_indenter(self):
         """The choice of the shape and its numbers, as in the form."""
-        self.shape, self.tip = (
-            Choice("shape", partial(self._page.choices.choose, "shape")),
-            self._page.numbers(),
-        )
+        # A part has one place: that of the form stands there.
+        self.shape = Choice("shape", partial(self._page.choices.choose, "shape"))
+        self.tip = self._page.numbers()
         file = Upload("CSV file of a measured tip: r, z", ".csv,.txt,text/csv", self._take_tip)
         self._indenter = Parts(Text("title", object="<h2>Indenter</h2>"), self.shape, self.tip, file)
 
@@ -160,6 +159,7 @@ class Fitting:
     def _choose(self, change, *values, mark=None):
         """Choose samples; the slider is set to those of the state, which is no choice."""
         if self._curve is not None and values != self._curve.range(self._page.state):
+            self._forget()
             self._apply(lambda state: change(state, *values), mark=mark)
 
     def _hold(self, names):
