@@ -19,6 +19,9 @@ _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
 _OUTLIER, _ENOUGH = 6.0, 30
 #: Number of samples in contact beyond that of the parameters from which on errors are known.
 _SPARE = 3
+#: Least noise of the depth that counts, as a share of the depth that is recovered on unloading, and share
+#: of the largest force above which that is: E* changes by about that share.
+_COUNTS, _LOADED = 1e-3, 0.05
 #: Number of blocks of correlated residuals below which the errors of a medium that yields are too small.
 _BLOCKS = 20
 
@@ -34,20 +37,33 @@ def tests_of_noise(solved, i):
         yield from _blocks(solved, i)
 
 
+def jitter(depth, force):
+    """Noise (m) of depths (N,) that go back and forth, and how often; 0 where the noise hardly counts.
+
+    Taken for real maxima of the depth it changes E* by about its share of the recovered depth. Below a
+    thousandth that is less than what the model misses.
+    """
+    steps, noise = np.diff(depth), roughness(depth[None])[0, 0]
+    reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
+    last = int(np.argmax(depth))
+    loaded = depth[last:][force[last:] > _LOADED * force.max()]
+    recovered = np.ptp(np.append(depth[last], loaded))
+    # On unloading alone the first depth is the largest.
+    unloading = depth[last] - depth[0] < 5 * noise
+    counts = reversals > max(4, 0.05 * steps.size) and noise > _COUNTS * recovered and not unloading
+    return (float(noise), reversals) if counts else (0.0, 0)
+
+
 def _jitter(solved, i):
     """Depths that go back and forth although they are taken as exact: without memory they may."""
-    depth = solved.curves.depth[[i]]
-    steps = np.diff(depth[0])
-    reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
-    noise = roughness(depth)[0, 0]
-    # On unloading alone the first depth is the largest.
-    unloading = depth[0].max() - depth[0, 0] < 5 * noise
-    exact = not (solved.curves.depth_noise or solved.curves.held_elastic)
-    if exact and not unloading and reversals > max(4, 0.05 * steps.size):
+    depth, curves = solved.curves.depth[i], solved.curves
+    noise, reversals = jitter(depth, curves.force[i])
+    if reversals and not (curves.depth_noise or curves.held_elastic):
+        size = engineering(noise, "m")
         yield (
             "jitter",
-            f"the depth goes back and forth at {reversals} of {steps.size} samples, and its noise counts "
-            f"as new largest depths: E* is biased; give depth_noise, about {engineering(noise, 'm')}",
+            f"the depth goes back and forth at {reversals} of {depth.size - 1} samples, and its noise "
+            f"counts as new largest depths: E* is biased; give depth_noise, about {size}",
         )
 
 

@@ -39,7 +39,7 @@ def test_long_files_are_thinned_and_refused_in_words_of_the_page():
     with pytest.raises(ValueError, match=r"run\.csv has 5 MB, more than 5 MB"):
         Uploaded("run.csv", 5_000_001, b"1, 2\n" * 10**6 + b"3").read()
     flat = read_curve(table({"h (nm)": range(6), "F (nN)": [0] * 6}).encode(), "flat")
-    with pytest.raises(ValueError, match=r"largest force\[0\] = 0 N above the baseline: no contact"):
+    with pytest.raises(ValueError, match=r"largest force = 0 above the baseline: no contact"):
         fitting.fit(fitting.take(preset_state(), flat))
 
 
@@ -225,7 +225,7 @@ def test_a_work_of_adhesion_is_fitted_where_there_is_adhesion():
     assert state.work_of_adhesion == pytest.approx(start.work_of_adhesion, rel=1e-2)
     assert agrees(state)
     assert "work_of_adhesion" not in offered(other.replace(adhesion="none"))
-    with pytest.raises(ValueError, match=r"with adhesion a fit is of an elastic medium, q_c = inf"):
+    with pytest.raises(ValueError, match="elastic medium: choose yield none, and hold the hardness"):
         fitting.fit(other.replace(plasticity="q_c"))
 
 
@@ -314,7 +314,9 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
         with page.expect_file_chooser() as chooser:
             page.get_by_label("CSV file of a measured curve: depth, force").click()
         explorer.change(chooser.value.set_files, path)
+    explorer.press("Columns")
     time = page.get_by_label("Column of time")
+    time.locator("option").first.wait_for(state="attached")
     assert time.evaluate("(list) => list.selectedOptions[0]?.text") == "none, rows in order"
     # The axes reach the samples before contact.
     assert explorer.axis("force")["x"][0] <= -0.5
@@ -326,7 +328,7 @@ def test_a_curve_is_dropped_corrected_and_fitted(explorer, tmp_path):
     size = unit_of(explorer.axis("residual")["labels"][1], "force")
     assert np.nanmax(np.abs(y)) * size < 1e-3 * F.max()
     assert explorer.readout("depth") == "9.000 nm"
-    modulus = re.search(r"E\*\s+([\d.]+)", page.locator(".said table").inner_text())[1]
+    modulus = re.search(r"E\*\s+([\d.]+)", page.locator(".said table").first.inner_text())[1]
     assert float(modulus) == pytest.approx(60, rel=1e-3)
     # The plots stay in view beside the form.
     for name in ("springs", "pressure", "force", "residual"):

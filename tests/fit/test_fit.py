@@ -105,6 +105,18 @@ class TestIndentation:
         assert abs(pulls(fit, E_star=E)["E_star"]) < 3
         assert fit.standard_errors["E_star"] < 0.2 * E
 
+    def test_noise_of_silica_hardly_counts(self):
+        """A ten-thousandth of the recovered 0.88 µm; as much again changes E* by a hundredth of its error."""
+        depth, force, _ = silica()
+        assert np.count_nonzero(np.diff(np.sign(np.diff(depth)))) > 0.05 * depth.size
+        normal, fits = np.random.default_rng(2).normal(size=depth.size), []
+        for size in (0.0, 0.12e-9):
+            held = {"q_c": 0.0, "contact_point": 0.0, "hardness": None}
+            fits.append(mdr.fit_indentation(mdr.Cone.berkovich(), depth + size * normal, force, **held))
+            assert "back and forth" not in " ".join(fits[-1].remarks)
+        change = fits[1].medium.E_star - fits[0].medium.E_star
+        assert abs(change) < 0.1 * fits[0].standard_errors["E_star"]
+
     def test_noise_is_no_new_largest_depth_on_unloading_alone(self):
         profile, back = mdr.Cone(0.3), slice(int(np.argmax(OUT)), None)
         depth, force = noisy(profile, 1, seed=2, depth_noise=1e-9)

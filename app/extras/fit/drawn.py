@@ -18,16 +18,22 @@ def placed(view: View) -> Curve | None:
 
 
 def sampled(x, y):
-    step = -(-len(x) // _DRAWN)
+    step = max(1, -(-len(x) // _DRAWN))
     return x[::step], y[::step]
 
 
-MEASURED = (mark("measured", "measured", "measured", size=4),)
+MEASURED = (
+    mark("measured, not fitted", "body", "free", size=4),
+    mark("measured", "measured", "measured", size=4),
+)
 
 
 def measured(view: View) -> dict:
     curve = placed(view)
-    return {} if curve is None else {"measured": sampled(curve.depth, curve.force)}
+    if curve is None:
+        return {}
+    parts = {"measured": curve.used, "measured, not fitted": ~curve.used}
+    return {name: sampled(curve.depth[part], curve.force[part]) for name, part in parts.items()}
 
 
 def reach(view: View, along: Along) -> tuple[float, float]:
@@ -50,15 +56,16 @@ RESIDUAL_FORCE = Along("ΔF, residual force", "force", lambda course: 0.0, lambd
 def residual(view: View) -> dict:
     """Residual and its standard deviation."""
     curve, ends = placed(view), np.array([view.axis(D).start, view.end(D)])
+    depth = curve.depth[curve.used]
     missing = "no model at these depths" * bool(np.isnan(placed(view).residual(view.course.scene)).all())
     rows = {
         "zero": (ends, np.zeros(2)),
-        "measured − model": sampled(curve.depth, placed(view).residual(view.course.scene)),
+        "measured − model": sampled(depth, placed(view).residual(view.course.scene)),
         "missing": (0.05 * ends[1], 0.9 * view.end(RESIDUAL_FORCE), missing),
     }
     if curve.fit is not None:
         size = curve.fit.residual_noise
-        d = np.append(curve.depth, [np.nan, *curve.depth])
+        d = np.append(depth, [np.nan, *depth])
         rows["± noise"] = d, np.concatenate([size, [np.nan], -size])
     return rows
 

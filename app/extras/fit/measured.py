@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.fit.errors import roughness
 from mdr_core.fit.indentation import IndentationFit
+from mdr_core.fit.noise import jitter
 from mdr_core.fit.parameters import CLASSES
 from mdr_core.measured_curve import MeasuredCurve
 from mdr_core.reading import SIZES, UnknownColumns, curve_of
@@ -39,26 +39,29 @@ _IN_TIME = ("eta", "drag", "drift")
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """A curve from a file, as the core reads it, and its fit with what that subtracts from the depth."""
+    """A curve from a file, as the core reads it, and its fit with what that subtracts and which samples."""
 
     name: str
     curve: MeasuredCurve
     fit: IndentationFit | None = None
     subtracted: tuple[float, ...] = (0.0, 0.0)
+    #: Numbers of the first and the last sample of the fit, from 1 on.
+    chosen: tuple[int, ...] = ()
 
     @property
-    def _step(self):
+    def step(self):
+        """One in this many samples is taken."""
         return -(-len(self.curve) // MOST)
 
     @property
     def data(self):
         """Depth (m) and force (N) of the samples that are taken."""
-        return self.curve.depth[:: self._step], self.curve.force[:: self._step]
+        return self.curve.depth[:: self.step], self.curve.force[:: self.step]
 
     @property
     def time(self):
         """Time (s) of the same samples, or None."""
-        return None if self.curve.time is None else self.curve.time[:: self._step]
+        return None if self.curve.time is None else self.curve.time[:: self.step]
 
     def samples(self, state):
         """`data` without the drift and the give of the frame."""
@@ -67,23 +70,27 @@ class Measured:
             curve = curve.minus_drift(state["fit.drift"])
         if state["fit.frame"]:
             curve = curve.minus_frame(state["fit.frame"])
-        return curve.depth[:: self._step], curve.force[:: self._step]
+        return curve.depth[:: self.step], curve.force[:: self.step]
+
+    def range(self, state):
+        """Numbers of the first and the last sample that are chosen, from 1 on."""
+        first, last = map(int, state["fit.samples"] or (1, len(self.curve)))
+        return first, min(last, len(self.curve))
+
+    def used(self, state):
+        """Which of the samples that are taken are in the chosen range."""
+        first, last = self.range(state)
+        number = np.arange(1, len(self.curve) + 1)[:: self.step]
+        return (first <= number) & (number <= last)
+
+    def deepest(self, state):
+        """Number of the sample with the largest depth, from 1 on."""
+        return 1 + self.step * int(np.argmax(self.samples(state)[0]))
 
     @property
     def depth_noise(self):
-        """Standard deviation (m) of depths that go back and forth, 0 where it hardly counts.
-
-        Taken for real maxima of depth it changes E* by about its share of the depth that is recovered on
-        unloading; below a thousandth the model is further off.
-        """
-        depth, force = self.data
-        steps, noise = np.diff(depth), roughness(depth[None])[0, 0]
-        reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
-        last = int(np.argmax(depth))
-        loaded = depth[last:][force[last:] > 0.05 * force.max()]
-        recovered = np.ptp(np.append(depth[last], loaded))
-        counts = reversals > max(4, 0.05 * steps.size) and noise > 1e-3 * recovered
-        return float(f"{noise:.2g}") if counts else 0.0
+        """Standard deviation (m) of depths that go back and forth, 0 where it hardly counts."""
+        return float(f"{jitter(*self.data)[0]:.2g}")
 
     #: Report of the fit as HTML.
     report = cached_property(lambda self: self.fit._repr_html_())
@@ -113,7 +120,7 @@ class Measured:
 
     @property
     def note(self):
-        taken = f"{len(self.curve)} samples" + f", one in {self._step} of them taken" * (self._step > 1)
+        taken = f"{len(self.curve)} samples" + f", one in {self.step} of them taken" * (self.step > 1)
         return "; ".join([taken, *self.curve.remarks])
 
     def placed(self, state):
@@ -123,7 +130,7 @@ class Measured:
         if state["fit.drag"] and time is not None:
             force = force - state["fit.drag"] * np.gradient(depth, time)
         fit = self.fit if self.fit is not None and agrees(state) else None
-        return Curve(depth - state["fit.contact_point"], force, fit)
+        return Curve(depth - state["fit.contact_point"], force, self.used(state), fit)
 
     def corrected(self, role, chosen):
         """With another column or unit of "depth", "force" or "time", without a fit."""
@@ -169,7 +176,8 @@ def with_curve(state: State, curve: Measured | None) -> State:
     """With a curve that has no fit, or none, and the noise of its depth; with adhesion none is fitted."""
     noise = curve.depth_noise if curve and state.adhesion == "none" else 0.0
     noise = checked("fit.depth_noise", noise)
-    return state.replace(**{"fit.curve": curve, "fit.note": "", "fit.depth_noise": noise})
+    values = {"fit.curve": curve, "fit.note": "", "fit.depth_noise": noise, "fit.samples": ()}
+    return state.replace(**values)
 
 
 def offered(state: State) -> list[str]:
@@ -193,24 +201,28 @@ def agrees(state: State) -> bool:
         (state[f"fit.{name}"], value)
         for name, value in zip(SUBTRACTED, state["fit.curve"].subtracted, strict=True)
     ]
-    return profile(state) == found.profile and bool(
-        np.allclose(*zip(*pairs, strict=True), rtol=1e-9, atol=0)
-    )
+    same = profile(state) == found.profile and state["fit.curve"].range(state) == state["fit.curve"].chosen
+    return same and bool(np.allclose(*zip(*pairs, strict=True), rtol=1e-9, atol=0))
 
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """Depths (m) below first contact and forces (N) above the baseline, with the fit if it holds."""
+    """Depths (m) below first contact and forces (N) above the baseline, with the fit if it holds.
+
+    `used` says which of the samples are in the chosen range.
+    """
 
     depth: np.ndarray
     force: np.ndarray
+    used: np.ndarray
     fit: IndentationFit | None = None
 
     def residual(self, scene):
-        """Measured minus modelled force (N); NaN if the scene cannot be solved."""
+        """Measured minus modelled force (N) of the samples in use; NaN if the scene cannot be solved."""
         if self.fit is not None:
             return self.fit.residuals
         try:
-            return self.force - mdr.indent(scene.profile, scene.medium, self.depth).force
+            modelled = mdr.indent(scene.profile, scene.medium, self.depth).force
+            return (self.force - modelled)[self.used]
         except ValueError:
-            return np.full_like(self.depth, np.nan)
+            return np.full(np.count_nonzero(self.used), np.nan)
