@@ -67,14 +67,18 @@ def _units(solved, i):
     squares = np.sum((solved.minimum.residual[i] * solved.noise[i]) ** 2)
     variance = np.sum((force - force.mean()) ** 2)
     line = variance * (1 - np.corrcoef(depth, force)[0, 1] ** 2)
+    straight = not curves.adhesive and line < 1.1 * squares
+    plausible = 1.0 <= E <= 1e13
+    if plausible and not straight:
+        return
     shares, own = _shares_of_others(depth, force), _share_of_contact(depth, force)
-    least, plausible = max(_EXPLAINED, own), 1.0 <= E <= 1e13
+    least = max(_EXPLAINED, own)
     swapped = not plausible and shares.get(_SWAPPED, 0.0) >= least
     cause = _SWAPPED if swapped else max(shares, key=shares.get)
     other = shares[cause] >= least
     unexplained = squares > (1 - _EXPLAINED) * variance
     bent = other and 1 - own > _BENT * (1 - shares[cause])
-    if not curves.adhesive and line < 1.1 * squares and (unexplained or bent):
+    if straight and (unexplained or bent):
         text = "a straight line fits the force as well as an indentation"
         if other:
             yield "units", f"{text}: {cause}"
