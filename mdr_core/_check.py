@@ -294,7 +294,8 @@ class Parameters:
     def shape(self) -> tuple[int, ...]:
         """Shape to which array-valued parameters broadcast, () for a single one."""
         # A tuple, as of vertices, is one parameter.
-        arrays = (value for value in self.__getstate__().values() if isinstance(value, np.ndarray))
+        values = self.__getstate__().values()
+        arrays = (value for value in values if isinstance(value, np.ndarray | Parameters))
         return np.broadcast_shapes(*(value.shape for value in arrays))
 
     def entries(self, index: Any, shape: tuple[int, ...] | None = None) -> Self:
@@ -306,6 +307,8 @@ class Parameters:
         for name, value in values.items():
             if isinstance(value, np.ndarray):
                 values[name] = np.broadcast_to(value, shape)[index]
+            elif isinstance(value, Parameters):
+                values[name] = value.entries(index, shape)
         return type(self)(**values)
 
     def flat_entries(self, rows: Any, shape: tuple[int, ...]) -> Self:

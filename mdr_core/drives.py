@@ -16,8 +16,20 @@ from .oblique.oblique_impact import FRICTION, oblique_impact
 from .results.base import CHAIN, CLOSED_FORM, SCALAR_ODE, Model
 
 
+class _Path:
+    """Base class of paths: in time, or infinitely slow where `time` is None."""
+
+    time: ArrayLike | None
+
+    def models(self, medium: Medium) -> tuple[Model, ...]:
+        """Names of the models for this drive, the cheapest exact one first."""
+        if medium.work_of_adhesion > 0:
+            return (CLOSED_FORM,)
+        return (CHAIN,) if self.time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
+
+
 @dataclass(frozen=True)
-class DepthPath:
+class DepthPath(_Path):
     """Press along prescribed depths.
 
     Parameters
@@ -36,10 +48,6 @@ class DepthPath:
         time = _times(self.time, depth, "depth")
         _check.store(self, depth=_plain(depth), time=time)
 
-    def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models for this drive, the cheapest exact one first."""
-        return _path_models(medium, self.time)
-
     def solve(self, profile, medium, model):
         """The `Indentation` along this path, or on the chain the `TimedIndentation`."""
         if model == CLOSED_FORM:
@@ -48,7 +56,7 @@ class DepthPath:
 
 
 @dataclass(frozen=True)
-class ForcePath:
+class ForcePath(_Path):
     """Press with prescribed forces.
 
     Parameters
@@ -66,10 +74,6 @@ class ForcePath:
         force = _path("ForcePath force", self.force, "N")
         time = _times(self.time, force, "force")
         _check.store(self, force=_plain(force), time=time)
-
-    def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models for this drive, the cheapest exact one first."""
-        return _path_models(medium, self.time)
 
     def solve(self, profile, medium, model):
         """The `Indentation` along this path, or on the chain the `TimedIndentation`."""
@@ -94,13 +98,6 @@ def _times(time, path, quantity):
 def _plain(array):
     """An array of one dimension as a tuple, of none as a number: scenes are compared, and kept as JSON."""
     return tuple(array.tolist()) if array.ndim else array.item()
-
-
-def _path_models(medium, time):
-    """Names of the models for a path at some times (s), or infinitely slow."""
-    if medium.work_of_adhesion > 0:
-        return (CLOSED_FORM,)
-    return (CHAIN,) if time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
 
 
 def _on_chain(solve, profile, medium, path, time):

@@ -24,7 +24,8 @@ def test_the_tutorial_saves_a_labelled_curve(tmp_path):
     assert run.returncode == 0, run.stderr
     # The figure of the README, under a sphere of 200 nm at 10 nm.
     assert "Indentation: 300 states" in run.stdout
-    assert "from_half_angle" in run.stdout
+    # The limit of a slope of 70.3.
+    assert "no angle" in run.stdout
     # The unloading of silica, and the remark on the fit of it.
     assert "hardness H               9.09" in run.stdout
     assert "not class (b)" in run.stdout

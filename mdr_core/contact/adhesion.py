@@ -16,6 +16,7 @@ from functools import lru_cache
 import numpy as np
 
 from .. import _check
+from ..numerics.roots import crossing
 from .integrals import integrals
 from .live_interval import LiveInterval
 from .yielding import yield_rule
@@ -128,27 +129,6 @@ def _rates(profile):
     if profile.wall < np.inf:
         x, rate = np.append(x, profile.wall), np.append(rate, np.inf)
     return x[rate == rate], rate[rate == rate]
-
-
-def crossing(function, x, low, high):
-    """Root x of a function that is negative at `low`, elementwise, by Newton's method inside a bracket.
-
-    `function` gives values and slopes. NaN where there is no root up to the largest length.
-    """
-    with np.errstate(all="ignore"):
-        for _ in range(200):
-            value, slope = function(x)
-            low, high = np.where(value < 0, x, low), np.where(value >= 0, x, high)
-            step = value / slope
-            new = x - step
-            inside = (slope > 0) & (new >= low) & (new <= high)
-            # After a step of 10⁻⁹ the next one is rounding.
-            settled = inside & (np.abs(step) <= 1e-9 * np.abs(x)) | (high - low <= 4e-16 * np.abs(x))
-            middle = np.where(high < np.inf, (low + high) / 2, 2 * np.maximum(x, low))
-            x = np.where(inside, new, middle)
-            if settled.all() or not np.any(np.abs(x) < _check.FARTHEST):
-                break
-    return np.where(np.abs(x) < _check.FARTHEST, x, np.nan)
 
 
 def contact_interval(profile, medium, lower, live_depth, low, high):

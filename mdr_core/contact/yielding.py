@@ -34,8 +34,8 @@ _NODES = 24
 _TINY = np.finfo(float).tiny
 
 
-@dataclass(frozen=True)
-class YieldRule(ABC):
+@dataclass(frozen=True, eq=False)
+class YieldRule(_check.Parameters, ABC):
     """How a medium yields under a profile, elementwise for arrays of depths.
 
     A subclass gives the cap, the depth at which loading reaches a plastic depth, the rate of the plastic
@@ -67,14 +67,6 @@ class YieldRule(ABC):
     @abstractmethod
     def plastic_integral(self, imprint, increase):
         """Plastic work over 2E* (m³) while the plastic depth grows from `imprint` by `increase` (m)."""
-
-    @abstractmethod
-    def entries(self, index, shape):
-        """The rule at an index of an ensemble of this shape."""
-
-    @abstractmethod
-    def flat_entries(self, rows, shape):
-        """The rule at rows of the flattened `shape` of an ensemble."""
 
     @abstractmethod
     def in_units_of(self, unit, length, depth):
@@ -140,7 +132,7 @@ class YieldRule(ABC):
         return None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ConstantCap(YieldRule):
     """Hardness q_c/a: the cap is the critical depth (m), infinite where nothing yields."""
 
@@ -185,19 +177,11 @@ class ConstantCap(YieldRule):
     def turning_interval(self, energy):
         return integrals(self.profile).turning_interval(energy, self.critical_depth)
 
-    def entries(self, index, shape):
-        cap = np.broadcast_to(self.critical_depth, shape)[index]
-        return ConstantCap(self.profile.entries(index, shape), cap)
-
-    def flat_entries(self, rows, shape):
-        cap = np.broadcast_to(self.critical_depth, shape).reshape(-1)[rows]
-        return ConstantCap(self.profile.flat_entries(rows, shape), cap)
-
     def in_units_of(self, unit, length, depth):
         return ConstantCap(unit, self.critical_depth / depth)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RadiusCap(YieldRule):
     """Hardness H + q_c/a + f_c/a²: the cap u_c = A a + B + C/a of the contact radius a on loading.
 
@@ -296,23 +280,6 @@ class RadiusCap(YieldRule):
                 work = np.where(stop > start, work * (stop - start), 0.0)
                 total += (work * (4 * node**3 * weight)).sum(axis=1)
         return total
-
-    def entries(self, index, shape):
-        def entry(values):
-            return np.broadcast_to(values, shape)[index] if np.ndim(values) else values
-
-        return replace(
-            self,
-            profile=self.profile.entries(index, shape),
-            volume=entry(self.volume),
-            surface=entry(self.surface),
-            line=entry(self.line),
-        )
-
-    def flat_entries(self, rows, shape):
-        if isinstance(rows, slice):
-            rows = np.arange(*rows.indices(np.prod(shape, dtype=int)))
-        return self.entries(np.unravel_index(rows, shape or (1,)), shape or (1,))
 
     def in_units_of(self, unit, length, depth):
         return replace(

@@ -10,7 +10,7 @@ from .._check import Array, ArrayLike
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
-from ..impacts.scaling import class_of, straight_line
+from ..impacts.scaling import class_of
 from ..medium import Medium, check_pair, yield_constant
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
@@ -20,8 +20,8 @@ from .least_squares import least_squares
 from .parameters import CLASSES, hardness_by_default, held_values
 from .report import Fit
 
-#: Power of the contact radius in the hardness of each class.
-_POWERS = {"a": 0.0, "b": -1.0, "c": -2.0}
+#: Power of the contact radius in the hardness of each class, and its tolerance.
+_POWERS = {"a": (0.0, 0.1), "b": (-1.0, 0.1), "c": (-2.0, 0.1)}
 
 
 @_check.keywords_explained
@@ -100,7 +100,7 @@ def fit_hardness(
         )
     a, depth, area, cap = a[yielded], depth[yielded], area[yielded], cap[yielded]
     values = yield_constant(E_star, cap)
-    power_law = _class(a, values)
+    power_law = class_of(_POWERS, np.log(a), np.log(values / a), "radii")
     given = {"hardness": hardness, "q_c": q_c, "f_c": f_c}
     if all(value is ... for value in given.values()):
         given = {CLASSES[_nearest(power_law)]: None}
@@ -180,23 +180,12 @@ def _caps(profile, depth, area):
     return cap, cap < depth
 
 
-def _class(a, q_c):
-    """Power of the radius a in q_c/a with its error, the class that has this power, and the reason."""
-    slope, error = np.nan, np.inf
-    name, reason = None, "insufficient: one radius determines no class"
-    if np.unique(a).size > 1:
-        slope, error = straight_line(np.log(a), np.log(q_c / a))
-        expected = {letter: (power, 0.1) for letter, power in _POWERS.items()}
-        name, reason = class_of(expected, slope, error, "radii")
-    return {"hardness_class": name, "reason": reason, "slope": slope, "slope_error": error}
-
-
 def _nearest(power_law):
-    """The class of a `_class`, that with the nearest power if none fits alone, (b) of a single radius."""
+    """The class of a `class_of`, that with the nearest power if none fits alone, (b) of a single radius."""
     slope = power_law["slope"]
     if np.isnan(slope):
         return "b"
-    return power_law["hardness_class"] or min(_POWERS, key=lambda letter: abs(_POWERS[letter] - slope))
+    return power_law["hardness_class"] or min(_POWERS, key=lambda letter: abs(_POWERS[letter][0] - slope))
 
 
 def _remarks(yielded, constants, errors, free, power_law):

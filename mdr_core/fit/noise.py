@@ -67,12 +67,6 @@ def _jitter(solved, i):
         )
 
 
-def _named(constants):
-    """The hardness with these constants in words."""
-    letters = [f"({letter})" for letter, name in CLASSES.items() if name in constants]
-    return f"class {' + '.join(letters)}"
-
-
 def _misfit(solved, i):
     """Residuals that are not noise."""
     curves, residual = solved.curves, solved.minimum.residual[i]
@@ -81,7 +75,8 @@ def _misfit(solved, i):
     size = np.sqrt(np.mean((residual * solved.noise[i]) ** 2)) / curves.load[i, 0]
     largest = _MISFIT if curves.held_elastic else _MISFIT_YIELDING
     if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
-        cause = "not an elastic medium" if curves.held_elastic else f"not {_named(curves.constants)}"
+        letters = [f"({letter})" for letter, name in CLASSES.items() if name in curves.constants]
+        cause = "not an elastic medium" if curves.held_elastic else f"not class {' + '.join(letters)}"
         remedy = "; give time, which tells drag and drift" * (curves.time is None and not curves.adhesive)
         yield (
             "misfit",

@@ -4,23 +4,20 @@ from itertools import chain
 
 import numpy as np
 
-from ..medium import critical_depth
 from ..results.quantities import engineering
-from .depth_noise import turning_points_of
-from .errors import SIGNIFICANT, SINGULAR
+from .errors import SIGNIFICANT
 from .nested import nested_tests
 from .noise import tests_of_noise
 from .parameters import PARAMETERS, TOGETHER
-from .report import with_error
 
 #: All kinds of remarks, the most important first.
 KINDS = (
     "invalid", "units", "no contact", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag",
     "drift", "misfit", "jitter", "unloading", "outliers", "blocks", "few", "loading", "vague", "contact",
-    "class", "constants", "elastic", "hardly yields", "noisy", "rest", "inviscid", "missing",
+    "constants", "elastic", "hardly yields", "noisy", "rest", "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
-DOUBTS = {"units", "no contact", "tilt", "drag", "drift", "misfit", "jitter", "class", "noisy"}
+DOUBTS = {"units", "no contact", "tilt", "drag", "drift", "misfit", "jitter", "noisy"}
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
 #: Number of standard errors below which a constant of the hardness beside another one may be 0.
@@ -36,7 +33,7 @@ _PULL_OFF = 0.02
 
 def remarks_of(solved):
     """Remarks on each curve of a `Solution`: a sentence by its kind, the same for all curves."""
-    checks = _units, _ambiguous, _adhesion, _undetermined, _class_b, tests_of_noise, nested_tests
+    checks = _units, _ambiguous, _adhesion, _undetermined, tests_of_noise, nested_tests
     count = len(solved.rows)
     remarks = [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in range(count)]
     for each in remarks:
@@ -44,7 +41,7 @@ def remarks_of(solved):
         if {"tilt", "drag", "drift"} & set(each):
             each.pop("no contact", None)
         # These say more.
-        if {"misfit", "class", "jitter"} & set(each):
+        if {"misfit", "jitter"} & set(each):
             each.pop("unloading", None)
             each.pop("blocks", None)
     return remarks
@@ -70,14 +67,18 @@ def _units(solved, i):
     squares = np.sum((solved.minimum.residual[i] * solved.noise[i]) ** 2)
     variance = np.sum((force - force.mean()) ** 2)
     line = variance * (1 - np.corrcoef(depth, force)[0, 1] ** 2)
+    straight = not curves.adhesive and line < 1.1 * squares
+    plausible = 1.0 <= E <= 1e13
+    if plausible and not straight:
+        return
     shares, own = _shares_of_others(depth, force), _share_of_contact(depth, force)
-    least, plausible = max(_EXPLAINED, own), 1.0 <= E <= 1e13
+    least = max(_EXPLAINED, own)
     swapped = not plausible and shares.get(_SWAPPED, 0.0) >= least
     cause = _SWAPPED if swapped else max(shares, key=shares.get)
     other = shares[cause] >= least
     unexplained = squares > (1 - _EXPLAINED) * variance
     bent = other and 1 - own > _BENT * (1 - shares[cause])
-    if not curves.adhesive and line < 1.1 * squares and (unexplained or bent):
+    if straight and (unexplained or bent):
         text = "a straight line fits the force as well as an indentation"
         if other:
             yield "units", f"{text}: {cause}"
@@ -240,46 +241,4 @@ def _constants(solved, i, names):
             "constants",
             f"the data do not tell {symbols} apart: {symbol} is {shares[name]:.2g} of its errors; "
             f"hold {name} = 0",
-        )
-
-
-def _class_b(solved, i):
-    """Whether the recovered depth depends on depth: one more parameter γ of d_c (1 + γ (D − D̄)/D̄).
-
-    Tested by one linear step on the residuals, with −∂F/∂d_p the derivative by the largest depth so far.
-    """
-    curves, (values, state) = solved.curves, solved.values_and_states
-    if curves.constants != ("q_c",):
-        return
-    d_c = critical_depth(values["E_star"], values["q_c"])[i, 0]
-    memory_slope = state.memory_slope[i]
-    jacobian, residual = solved.minimum.jacobian[i], solved.minimum.residual[i]
-    unloading = ~state.loading[i] & ((state.live_interval.length[i] > 0) | (memory_slope < 0))
-    turning_points, _ = turning_points_of(curves.depth[i], curves.force[i], curves.depth_noise)
-    if len(turning_points) < 2 or d_c == np.inf or not unloading.any():
-        return
-    depth = state.live_interval.lower[i] + d_c
-    mean = np.mean(depth[unloading])
-    change = np.where(unloading, memory_slope * d_c * (depth / mean - 1), 0.0)
-    column = change / solved.noise[i]
-    if curves.depth_noise:
-        # Free turning depths would absorb the trend; each is known about as well as one sample.
-        count, width = curves.turning_points.shape[1], jacobian.shape[1]
-        pins = np.eye(count, width, width - count) * curves.length[i] / curves.depth_noise
-        jacobian = np.vstack([jacobian, pins])
-        column, residual = (np.append(values, np.zeros(count)) for values in (column, residual))
-    basis, s, _ = np.linalg.svd(jacobian, full_matrices=False)
-    basis = basis[:, s > SINGULAR * s[:1]]
-    independent = column - basis @ (basis.T @ column)
-    power = independent @ independent
-    if power <= 1e-12 * (column @ column):
-        return
-    variance = residual @ residual / max(residual.size - jacobian.shape[1] - 1, 1)
-    trend, error = independent @ residual / power, np.sqrt(variance / power)
-    if abs(trend) > max(SIGNIFICANT * error, 0.05):
-        yield (
-            "class",
-            f"the recovered depth {'grows' if trend > 0 else 'falls'} with depth (about as its power "
-            f"{with_error(trend, error, '')}), whereas it is constant for hardness ∝ 1/radius: not class "
-            "(b)",
         )

@@ -16,7 +16,6 @@ from .._check import Array, ArrayLike
 from ..contact.adhesion import (
     AT_DEPTH,
     contact_interval,
-    crossing,
     last_interval,
     loaded_interval,
     single_range,
@@ -30,6 +29,7 @@ from ..contact.yielding import yield_rule
 from ..medium import Medium, check_pair
 from ..numerics.blocks import LONG, chunks
 from ..numerics.gauss import gauss_legendre
+from ..numerics.roots import crossing
 from ..profiles.profile import Profile
 from .energy_balance import turning_interval
 from .result import Impact, tabulated_for

@@ -14,7 +14,7 @@ from ..numerics.gauss import gauss_integrals, gauss_legendre
 from ..numerics.roots import largest_value
 from ..numerics.stable import cube_rise, cube_way
 from ..results.base import Entries
-from .equation_of_motion import Loading, MotionState, Unloading
+from .equation_of_motion import Equation, MotionState
 
 _NODES, _WEIGHTS = gauss_legendre(24)
 
@@ -46,7 +46,7 @@ class Steps(Entries):
     the unknown, of time and of work at the nodes.
     """
 
-    equation: Loading | Unloading
+    equation: Equation
     coordinate: DepthCoordinate
     start: MotionState
     origin: np.ndarray

@@ -14,7 +14,7 @@ from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
 from ..numerics.blocks import LONG, broadcast_flat, chunks
-from ..numerics.roots import increasing_root
+from ..numerics.roots import increasing_root, largest_value
 from .contact_time import contact_time
 from .result import Impact, tabulated_for
 
@@ -66,15 +66,8 @@ def _largest_area(rule, imprint, penetration):
         interval, _ = rule.loading(start + (penetration - start) * share**3, imprint)
         return integrals(rule.profile).radius_integral(interval)
 
-    low, rows = np.zeros_like(start), np.arange(len(start))
-    high = low + 1
-    for _ in range(5):
-        shares = low + (high - low) * np.linspace(0, 1, 17)
-        values = area(shares)
-        best = np.clip(values.argmax(axis=1), 1, 15)
-        low, high = shares[rows, best - 1, None], shares[rows, best + 1, None]
-    # The last grid has 10⁵ places: an error of 10⁻⁹ next to a smooth maximum, none at the onset.
-    return values.max(axis=1)
+    # The last grid has 10⁵ places: at the onset there is no parabola.
+    return largest_value(area, np.zeros_like(start), np.ones_like(start), grids=5)
 
 
 def turning_interval(rule, target, before):

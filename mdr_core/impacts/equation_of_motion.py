@@ -88,16 +88,24 @@ class Bodies:
 
 
 @dataclass(frozen=True)
-class Loading(Entries):
-    """Equation of motion from first contact to the turning point, in the penetration y."""
+class Equation(Entries):
+    """Base class of the equations of motion in a depth q."""
 
     bodies: Bodies
 
     def load(self, depth):
-        """Φ (m²) and contact radius a (m) at penetrations (m)."""
-        interval, _ = self._interval(depth)
-        profile = self.bodies.profile
+        """Φ (m²) and contact radius a (m) at depths q (m)."""
+        interval, profile = self.interval(depth), self.bodies.profile
         return integrals(profile).radius_integral(interval), profile._radius(interval.upper)
+
+
+@dataclass(frozen=True)
+class Loading(Equation):
+    """Equation of motion from first contact to the turning point, in the penetration y."""
+
+    def interval(self, depth):
+        """Live interval at penetrations (m)."""
+        return self.bodies.rule.loading(np.maximum(depth, 0.0), self.bodies.imprint_depth)[0]
 
     def rates(self, load, radius, velocity):
         """Rates of y (m/s), velocity (m/s²), viscous work over 2E* (m³/s) at loads Φ, radii, velocities."""
@@ -111,31 +119,25 @@ class Loading(Entries):
     def stiffness(self, depth, radius, velocity):
         """−μ ∂v̇/∂y (m): a (less c dp/ds while yielding), and the drag on a contact that grows."""
         rule, profile, slope = self.bodies.rule, self.bodies.profile, radius
-        interval, increase = self._interval(depth)
-        if np.any(increase > 0):
+        interval = self.interval(depth)
+        yields = interval.lower > self.bodies.imprint_depth
+        if yields.any():
             c = profile._radius(interval.lower)
-            slope = np.where(increase > 0, radius - c * rule.rate(interval.upper), radius)
+            slope = np.where(yields, radius - c * rule.rate(interval.upper), radius)
         # At a wall the contact no longer grows.
         spread = np.where(radius < profile.wall, 1 / profile._reduced_slope(radius), 0.0)
         return slope + self.bodies.relaxation_time * velocity * spread
 
-    def _interval(self, depth):
-        return self.bodies.rule.loading(np.maximum(depth, 0.0), self.bodies.imprint_depth)
-
 
 @dataclass(frozen=True)
-class Unloading(Entries):
+class Unloading(Equation):
     """Equation of motion from the turning point to the loss of contact, in the live depth ℓ."""
 
-    bodies: Bodies
     plastic_depth: np.ndarray
 
-    def load(self, depth):
-        """Φ (m²) and contact radius a (m) at live depths (m)."""
-        length = np.maximum(depth, 0.0)
-        interval = LiveInterval.above(self.plastic_depth, length)
-        profile = self.bodies.profile
-        return integrals(profile).radius_integral(interval), profile._radius(interval.upper)
+    def interval(self, depth):
+        """Live interval at live depths (m)."""
+        return LiveInterval.above(self.plastic_depth, np.maximum(depth, 0.0))
 
     def rates(self, load, radius, velocity):
         """Rates of ℓ (m/s), velocity (m/s²), viscous work over 2E* (m³/s) at loads Φ, radii, velocities."""

@@ -1,6 +1,5 @@
 """Impacts of a free rigid body, as results."""
 
-from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
@@ -26,7 +25,8 @@ class Impact(Entries, ImpactResult):
     """One impact or many; made by `impact`. `result[i]` picks one.
 
     `turning_point` is the state of largest depth; `plastic_depth_increase` (m) is due to this impact alone.
-    A subclass is the solution by one solver.
+    A subclass is the solution by one solver, which gives `restitution`, the coefficient e, 0 for a captured
+    body, and `contact_time` (s) from first contact to its loss, infinite for a captured body.
     """
 
     mass: Array
@@ -37,16 +37,6 @@ class Impact(Entries, ImpactResult):
     _name = "Impact"
     #: How it was solved: by the energy balance in closed form, or by the equation of motion.
     model: ClassVar[Model] = CLOSED_FORM
-
-    @property
-    @abstractmethod
-    def restitution(self) -> Array:
-        """Coefficient of restitution e, speed after over speed before; 0 for a captured body."""
-
-    @property
-    @abstractmethod
-    def contact_time(self) -> Array:
-        """Time (s) from first contact to the loss of contact; infinite for a captured body."""
 
     @property
     def profile(self) -> Profile:
@@ -93,8 +83,8 @@ class Impact(Entries, ImpactResult):
         """Elastic energy (J) at the turning point; without viscosity all of it is returned."""
         return self.turning_point.stored_energy
 
-    @property
-    def max_force(self) -> Array:
+    @_check.frozen_property
+    def max_force(self):
         """Largest force (N), with adhesion that at the turning point; a viscous one is before it."""
         return self.turning_point.force
 
@@ -105,10 +95,10 @@ class Impact(Entries, ImpactResult):
         integral = self._rule.plastic_integral(self.plastic_depth - increase, increase)
         return 2 * self.medium.E_star * integral
 
-    @property
-    def viscous_work(self) -> Array:
+    @_check.frozen_property
+    def viscous_work(self):
         """Energy (J) dissipated by viscosity, during the contact and by relaxation after it."""
-        return np.zeros(np.shape(self.mass))[()]
+        return np.zeros(np.shape(self.mass))
 
     @cached_property
     def _rule(self):

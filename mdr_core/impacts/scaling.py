@@ -125,38 +125,42 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
         bound = "must be of the same shape, with at least two different energies"
         raise ValueError(f"energy {energy.shape} and radius {radius.shape} {bound}")
     laws = {name: ScalingLaw(name, exponent) for name in _FORCE_POWER}
-    slope, error = straight_line(x, y)
     expected = {name: (law.radius, _MAX_ERROR * law.radius) for name, law in laws.items()}
-    name, reason = class_of(expected, slope, error)
-    return HardnessClass(name, slope, error, laws, reason)
+    return HardnessClass(laws=laws, **class_of(expected, x, y, "energies"))
 
 
-def straight_line(x, y):
-    """Slope of y over x by least squares, and its standard error: infinite for two different x."""
-    x, y = x - x.mean(), y - y.mean()
-    slope = (x @ y) / (x @ x)
-    residual = y - slope * x
-    if np.unique(x).size <= 2:
-        return float(slope), np.inf
-    return float(slope), float(np.sqrt(residual @ residual / (x.size - 2) / (x @ x)))
-
-
-def class_of(expected, slope, error, points="energies"):
-    """The class that fits a measured power, None if there is not exactly one, and the reason in words.
+def class_of(expected, x, y, points):
+    """Fields of a `HardnessClass` by name, but for `laws`: the slope of y over x at some `points`.
 
     `expected` has the power of each class, and the tolerance of it if two standard errors are smaller.
     """
-    if error == np.inf:
-        return (
-            None,
-            f"insufficient: two {points} leave no error of the slope {slope:.3g}; give three or more",
-        )
+    slope, error = _straight_line(x, y)
+    fits = [n for n, (power, limit) in expected.items() if abs(slope - power) <= max(2 * error, limit)]
     powers = ", ".join(f"{name}: {power:.3g}" for name, (power, _) in expected.items())
     measured = f"the slope {slope:.3g} ± {error:.2g}, where the classes have {powers}"
-    fits = [n for n, (power, limit) in expected.items() if abs(slope - power) <= max(2 * error, limit)]
-    if len(fits) == 1:
-        return fits[0], f"class {fits[0]} alone fits {measured}"
-    return None, f"{'none' if not fits else 'more than one class'} fits {measured}"
+    name = fits[0] if len(fits) == 1 else None
+    if np.isnan(slope):
+        reason = f"insufficient: {points} of one value determine no class"
+    elif error == np.inf:
+        reason = f"insufficient: two {points} leave no error of the slope {slope:.3g}; give three or more"
+    elif name:
+        reason = f"class {name} alone fits {measured}"
+    else:
+        reason = f"{'more than one class' if fits else 'none'} fits {measured}"
+    return {"hardness_class": name, "slope": slope, "slope_error": error, "reason": reason}
+
+
+def _straight_line(x, y):
+    """Slope of y over x by least squares, NaN for a single x, and its standard error, infinite for two."""
+    count = np.unique(x).size
+    if count < 2:
+        return np.nan, np.inf
+    x, y = x - x.mean(), y - y.mean()
+    slope = (x @ y) / (x @ x)
+    residual = y - slope * x
+    if count == 2:
+        return float(slope), np.inf
+    return float(slope), float(np.sqrt(residual @ residual / (x.size - 2) / (x @ x)))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -1,10 +1,11 @@
 """Impacts by the equation of motion: on a viscous medium, and for a comparison on others."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from .. import _check
+from .._check import Array
 from ..contact.indentation import Indentation
 from ..contact.yielding import yield_rule
 from ..numerics.blocks import chunks
@@ -17,37 +18,15 @@ from .result import Impact
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ViscousImpact(Impact):
-    """Impacts solved by the equation of motion.
+    """Impacts solved by the equation of motion."""
 
-    Speed after the impact (m/s), time of the loss of contact (s), viscous work (J) and largest force (N).
-    """
-
-    speed_after: np.ndarray
-    end_time: np.ndarray
-    dissipated: np.ndarray
-    largest_force: np.ndarray
+    # As fields these hide the properties of the base class.
+    restitution: Array = field()
+    contact_time: Array = field()
+    max_force: Array = field()
+    viscous_work: Array = field()
 
     model = SCALAR_ODE
-
-    @_check.frozen_property
-    def restitution(self):
-        """Coefficient of restitution e."""
-        return self.speed_after / self.speed
-
-    @_check.frozen_property
-    def contact_time(self):
-        """Time (s) from first contact to the loss of contact."""
-        return self.end_time
-
-    @_check.frozen_property
-    def max_force(self):
-        """Largest force (N), which is before the turning point."""
-        return self.largest_force
-
-    @_check.frozen_property
-    def viscous_work(self):
-        """Energy (J) dissipated by viscosity, during the contact and by relaxation after it."""
-        return self.dissipated
 
 
 def viscous_impact(profile, medium, mass, speed, imprint_depth, in_time=False):
@@ -78,10 +57,10 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, in_time=False):
         speed=speed[()],
         turning_point=Indentation(profile, medium, interval.upper, interval, in_time=True),
         plastic_depth_increase=increase,
-        speed_after=np.minimum(speed_after, speed),
-        end_time=end_time,
-        dissipated=2 * medium.E_star * work,
-        largest_force=mass * deceleration,
+        restitution=_check.frozen(np.minimum(speed_after / speed, 1.0)),
+        contact_time=_check.frozen(end_time),
+        max_force=_check.frozen(mass * deceleration),
+        viscous_work=_check.frozen(2 * medium.E_star * work),
     )
 
 

@@ -5,13 +5,13 @@ import numpy as np
 from .. import _check
 
 
-def largest_value(function, low, high):
+def largest_value(function, low, high, grids=2):
     """Largest value of a function with one maximum between `low` and `high` (N, 1), one a row.
 
-    `function` takes arguments of shape (N, K). Two grids, and the parabola through the best three points.
+    `function` takes arguments of shape (N, K). Grids, and the parabola through the best three points.
     """
     rows = np.arange(len(low))
-    for _ in range(2):
+    for _ in range(grids):
         places = low + (high - low) * np.linspace(0, 1, 17)
         values = function(places)
         best = np.clip(values.argmax(axis=1), 1, 15)
@@ -71,6 +71,27 @@ def increasing_root(function, target, start, highest=np.inf, *, largest=_check.L
             return np.where(reachable, np.where(target > 0, best, 0.0), np.inf)
         x = np.where(sought, new, x)
     raise ValueError(f"no {quantity} was found in 200 steps; check that all quantities are in SI units")
+
+
+def crossing(function, x, low, high):
+    """Root x of a function that is negative at `low`, elementwise, by Newton's method inside a bracket.
+
+    `function` gives values and slopes. NaN where there is no root up to the largest length.
+    """
+    with np.errstate(all="ignore"):
+        for _ in range(200):
+            value, slope = function(x)
+            low, high = np.where(value < 0, x, low), np.where(value >= 0, x, high)
+            step = value / slope
+            new = x - step
+            inside = (slope > 0) & (new >= low) & (new <= high)
+            # After a step of 10⁻⁹ the next one is rounding.
+            settled = inside & (np.abs(step) <= 1e-9 * np.abs(x)) | (high - low <= 4e-16 * np.abs(x))
+            middle = np.where(high < np.inf, (low + high) / 2, 2 * np.maximum(x, low))
+            x = np.where(inside, new, middle)
+            if settled.all() or not np.any(np.abs(x) < _check.FARTHEST):
+                break
+    return np.where(np.abs(x) < _check.FARTHEST, x, np.nan)
 
 
 def root_in_bracket(function, x, low, high, close):

@@ -97,6 +97,7 @@ class ImpactResult(Result):
     medium: Any
     speed: Any
     restitution: Any
+    contact_time: Any
     plastic_radius: Any
 
     @property

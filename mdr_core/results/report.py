@@ -171,8 +171,9 @@ class Report:
         return texts | ({"limits": " ".join(exceeded)} if exceeded else {})
 
     def _title(self):
-        shape, source = self.shape, self._source()
-        size = f"{' × '.join(map(str, shape))} {self._noun}s" if shape else f"one {self._noun}"
+        source = self._source()
+        noun = self._noun if np.prod(self.shape) == 1 else f"{self._noun}s"
+        size = f"{' × '.join(map(str, self.shape)) or 'one'} {noun}"
         return f"{self._name}: {size}{f', {source.model}' if source else ''}"
 
     def _rows(self):

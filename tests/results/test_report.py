@@ -34,6 +34,22 @@ RESULTS = {
 every_result = pytest.mark.parametrize("result", RESULTS.values(), ids=RESULTS)
 
 
+@pytest.mark.parametrize(
+    ("result", "size"),
+    [
+        (PATH[0], "one state"),
+        (PATH[:1], "1 state"),
+        (PATH[:2], "2 states"),
+        (PATH[:0], "0 states"),
+        (MANY, "2 × 3 impacts"),
+        (MANY[:1, :1], "1 × 1 impact"),
+    ],
+)
+def test_the_title_counts_in_the_singular_or_the_plural(result, size):
+    title = repr(result).splitlines()[0]
+    assert title.split(": ")[1].split(",")[0] == size
+
+
 @every_result
 def test_repr_is_short_and_says_what_it_is(result):
     lines = repr(result).splitlines()
