@@ -43,12 +43,12 @@ def code(path):
 
 
 def test_the_page_stays_small():
-    assert sum(map(code, SMALL)) <= 2210
+    assert sum(map(code, SMALL)) <= 2239
     assert max(lines(SMALL)) <= 350
     assert max(lines(EXTRAS)) <= 350
     assert max(sum(lines((APP / "extras").glob(f"{path.stem}.*"))) for path in EXTRAS) <= 350
-    assert sum(lines(SCRIPTS)) <= 285
-    assert sum(lines((APP / "static").glob("*.css"))) <= 210
+    assert sum(lines(SCRIPTS)) <= 286
+    assert sum(lines((APP / "static").glob("*.css"))) <= 217
 
 
 def test_nothing_private_of_the_toolkit_is_used():
