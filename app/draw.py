@@ -161,10 +161,11 @@ class Picture:
     def _dress(self):
         f = self.figure
         f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None, title=None)
-        # The outermost pixels of a canvas keep a trace of the colour before the last one. Enlarged pixels are blurred.
+        # The outermost pixels of a canvas keep a trace of the colour before the last one. What is enlarged
+        # is drawn anew, not its pixels.
         f.styles = {"clip-path": "inset(1px)", "zoom": "calc(1 / var(--zoom, 1))"}
         f.update(min_border_right=16, min_border_top=8, min_border_bottom=44)
-        f.update(sizing_mode="stretch_both", min_height=150)
+        f.update(sizing_mode="stretch_both", min_height=100)
         painted = bk.CustomJS(args={"figure": f}, code=JS["label"])
         for axis in f.axis:
             axis.js_on_change("axis_label", painted)

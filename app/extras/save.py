@@ -1,4 +1,4 @@
-"""The button *Save* of each plot: its picture, saved in the browser, with title, legend and scene."""
+"""The buttons *Save* of each plot and *Save plots*: pictures with titles, legends and the scene."""
 
 from typing import Any
 
@@ -7,23 +7,44 @@ from ..draw import drawn
 from ..extra import Extra
 from ..parts import Part
 from ..plot import Plot, View, rows_of
+from ..plots import NAMED
 from ..shared.summary import summary
 from ..state import State
 
+#: Width and height of a picture in points, and where its plots are: left, top, width and height.
+_SIZE, _WHOLE = (840, 624), (0, 0, 840, 600)
+_SCREEN = (1280, 720)
+_PLACES = {"springs": (0, 0, 640, 348), "pressure": (0, 348, 640, 348), "force": (640, 0, 640, 696)}
+
 
 class Save(Part):
-    """The button that saves the picture of a plot, in the browser, with the scene below it."""
+    """A button that saves the picture of plots, in the browser, with the scene below it."""
 
     KIND = "save"
-    LOOK = ("label", "rows", "scene")
+    LOOK = ("label", "looks", "scene")
 
-    def __init__(self, plot: Plot):
-        super().__init__(figure=plot.name, title=plot.title)
-        self.label, self.rows, self.scene = "Save", [], ""
+    def __init__(self, label: str, name: str, places: dict[str, Any], size: tuple[int, int]):
+        plots = [{"figure": figure, "place": place} for figure, place in places.items()]
+        super().__init__(name=name, plots=plots, size=size)
+        self.label, self.names, self.looks, self.scene = label, list(places), [], ""
+
+
+def of_plot(plot: Plot) -> Save:
+    return Save("Save", plot.name, {plot.name: _WHOLE}, _SIZE)
+
+
+class All:
+    """The button that saves the three plots as one picture."""
+
+    def __init__(self, page: Any):
+        self.view = Save("Save plots", "plots", {name: _PLACES[name] for name in NAMED}, _SCREEN)
+
+    def show(self, view: View) -> None:
+        pass
 
 
 class Saving:
-    """Keeps the legend and the scene of the pictures that are saved."""
+    """Keeps the legends and the scene of the pictures that are saved."""
 
     def __init__(self, page: Any):
         self._page = page
@@ -33,11 +54,15 @@ class Saving:
 
     def rest(self, view: View) -> None:
         states, board = {view.course.now, view.course.peak}, self._page.board
+        looks = {}
         for card in map(board.cards.get, board.names):
             called = drawn(view, card.plot, states)
             rows = [called.get(row.name, row.name) for row in rows_of(card.plot) if row.legend]
-            for part in (part for part in card.above if isinstance(part, Save)):
-                part.show(rows=rows, scene=summary(view.state))
+            looks[card.plot.name] = {"rows": rows, "title": card.plot.title}
+        parts = [part for name in board.names for part in board.cards[name].above]
+        for part in (*parts, self._page.frame.buttons["save"].view):
+            if isinstance(part, Save):
+                part.show(looks=[looks[name] for name in part.names], scene=summary(view.state))
 
 
-EXTRA = Extra("save", on_plots=Save, service=Saving)
+EXTRA = Extra("save", order=32, on_plots=of_plot, header=All, service=Saving)

@@ -23,7 +23,7 @@ document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.altKey || event.metaKey || on.matches?.("input[type=text], textarea, select")) return
   const key = event.key === " " ? "space" : event.key.toLowerCase()
   if (key === "escape") {
-    const open = all(document).filter((each) => each.matches(":popover-open, [data-key=escape][aria-pressed=true], .help[aria-expanded=true]"))
+    const open = all(document).filter((each) => each.matches("[popover='']:popover-open, [data-key=escape][aria-pressed=true], .help[aria-expanded=true]"))
     // The browser closes popovers.
     return void (open.some(({ popover }) => popover) || open.at(-1)?.click())
   }
@@ -34,3 +34,10 @@ document.addEventListener("keydown", (event) => {
   target.click()
 })
 if (matchMedia("(prefers-color-scheme: dark)").matches && !location.search.includes("dark=")) messages.dark = true
+// Bokeh does not see that a plot has become a few pixels less high, as by a note that is opened.
+let before = null
+new ResizeObserver(([{ contentRect: { height } }]) => {
+  const figures = [...messages.document.all_models].filter(({ type }) => type === "Figure")
+  if (before !== null) for (const figure of figures) Bokeh.index.find_one(figure)?.invalidate_layout()
+  before = height
+}).observe(hosts("plots")[0])

@@ -19,12 +19,12 @@ const KINDS = {
     Object.assign(el, { onclick: () => send(null) }).dataset.key = key
     return [el, ({ label, pressed, disabled }) => Object.assign(el, { textContent: label, name: label, disabled, ariaPressed: pressed })]
   },
-  // A picture of a plot, saved in the browser.
-  save({ figure, title }, send, named) {
+  // A picture of plots, saved in the browser: each with its figure and its place.
+  save({ name, plots, size }, send, named) {
     const [el, show] = KINDS.button({ key: "" })
-    let saved = {}
-    el.onclick = () => save(named(figure), { title, ...saved })
-    return [el, (look) => { saved = look; show(look) }]
+    let [looks, scene] = [[], ""]
+    el.onclick = () => save(name, scene, plots.map(({ figure, place }, k) => ({ figure: named(figure), place, look: looks[k] })), size)
+    return [el, (look) => { ({ looks, scene } = look); show(look) }]
   },
   // Radio buttons or a list, with an explanation in a popover.
   choice({ classes, label, about, radio, id }, send) {

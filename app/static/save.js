@@ -1,22 +1,38 @@
-// A picture of a plot: larger than on the page, with its title and its legend, and the scene below.
-export async function save(figure, { rows, title, scene }) {
-  const { above, below, renderers, sizing_mode, width, height } = figure
+// Plots as one picture of two pixels a point, each in its place with its title and its legend, and the scene below.
+const settled = () => new Promise((done) => setTimeout(done, 250))
+async function drawn(figure, { rows, title }, width, height) {
+  const { above, renderers, sizing_mode, width: before, height: high } = figure
   const { Legend, LegendItem, Title } = Bokeh.Models
-  const settled = () => new Promise((done) => setTimeout(done, 250))
   const some = (part) => (typeof part === "number" ? isFinite(part) : Array.from(part ?? []).some(some))
   const items = renderers.flatMap((renderer) => {
     const { row = [], ys, y } = renderer.data_source.data
     const named = (label, k) => rows.includes(label) && row.indexOf(label) === k && some((ys ?? y)[k])
     return row.flatMap((label, index) => (named(label, index) ? [new LegendItem({ label, renderers: [renderer], index })] : []))
   })
-  const label_text_color = getComputedStyle(document.documentElement).getPropertyValue("--ink")
-  const legend = new Legend({ items, label_text_color, orientation: "horizontal", ncols: 5, location: "left", border_line_color: null, background_fill_color: null })
-  const words = (text, size) => new Title({ text, text_font_size: size, text_font_style: "normal", text_color: label_text_color })
-  figure.setv({ above: [...above, legend, words(title, "14px")], below: [...below, words(scene, "11px")] }, { sync: false })
+  const color = getComputedStyle(document.documentElement).getPropertyValue("--ink"), ncols = Math.floor(width / 165)
+  const legend = new Legend({ items, label_text_color: color, orientation: "horizontal", ncols, location: "left", border_line_color: null, background_fill_color: null })
+  const head = new Title({ text: title, text_font_size: "14px", text_font_style: "normal", text_color: color })
+  figure.setv({ above: [...above, legend, head] }, { sync: false })
   await settled()
-  figure.setv({ sizing_mode: "fixed", width: 840, height: 600 }, { sync: false })
+  figure.setv({ sizing_mode: "fixed", width, height }, { sync: false })
   await settled()
-  const blob = await Bokeh.index.find_one(figure).export("png", true).to_blob()
-  figure.setv({ sizing_mode, width, height, above, below }, { sync: false })
-  Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: `${figure.name}.png` }).click()
+  const ratio = Object.getOwnPropertyDescriptor(window, "devicePixelRatio")
+  window.devicePixelRatio = 2
+  const { canvas } = Bokeh.index.find_one(figure).export("png", true)
+  Object.defineProperty(window, "devicePixelRatio", ratio)
+  figure.setv({ sizing_mode, width: before, height: high, above }, { sync: false })
+  return canvas
+}
+export async function save(name, scene, plots, [width, height]) {
+  const canvas = Object.assign(document.createElement("canvas"), { width: 2 * width, height: 2 * height })
+  const context = canvas.getContext("2d"), style = getComputedStyle(document.documentElement)
+  const pictures = await Promise.all(plots.map(({ figure, look, place: [, , ...size] }) => drawn(figure, look, ...size)))
+  context.fillStyle = style.getPropertyValue("--paper")
+  context.fillRect(0, 0, canvas.width, canvas.height)
+  pictures.forEach((picture, k) => context.drawImage(picture, 2 * plots[k].place[0], 2 * plots[k].place[1]))
+  context.fillStyle = style.getPropertyValue("--ink")
+  context.font = "22px Helvetica, Arial, sans-serif"
+  context.fillText(scene, 24, canvas.height - 16, canvas.width - 48)
+  const blob = await new Promise((done) => canvas.toBlob(done))
+  Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: `${name}.png` }).click()
 }

@@ -5,6 +5,7 @@ import json
 import re
 import shutil
 import sys
+from functools import cache
 
 import numpy as np
 import pytest
@@ -30,6 +31,12 @@ def copied(folder, package, *without):
     return folder / package
 
 
+@cache
+def buttons():
+    """Labels of what extras have in the header."""
+    return {name: each.view.label for name, each in Page().frame.buttons.items()}
+
+
 def words(name):
     """What a person reads of an extra: buttons, titles, choices with their options, numbers, readouts."""
     extra, path = EXTRAS[name], ROOT / f"app/extras/{name}.json"
@@ -41,6 +48,7 @@ def words(name):
     found += [drive["label"] for drive in data.get("drives", {}).values()]
     found += [choice["label"] for choice in data.get("choices", {}).values()]
     found += [extra.on_plots(PLOTS["force"]).label] if extra.on_plots else []
+    found += [buttons()[name]] if extra.header else []
     return {each for each in found if each}
 
 

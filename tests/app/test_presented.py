@@ -1,0 +1,175 @@
+"""What a lecturer shows to a room: scales that stay, large letters, one picture of all plots."""
+
+import io
+
+import numpy as np
+import pytest
+
+from app import changes
+from app.page import Page
+from app.plots import PLOTS, D, F, R, X, Z
+
+from .conftest import Explorer
+
+#: Sizes of the letters of a plot: of titles, ticks and labels.
+LETTERS = """(name) => {
+  const { below, renderers } = explorer.model(name)
+  const text = renderers.find(({ glyph }) => glyph.type === "Text")
+  const sizes = [below[0].axis_label_text_font_size, below[0].major_label_text_font_size]
+  return [...sizes, text.glyph.text_font_size.value].map(parseFloat)
+}"""
+#: How far the titles of the axes reach beyond their plots, below.
+BELOW = """() => Math.max(...["springs", "pressure", "force"].map((name) => {
+  const { inner_height, above, min_border_top, min_border_bottom } = explorer.model(name)
+  const { bbox } = Bokeh.index.find_one(explorer.model(name))
+  return inner_height + min_border_top + min_border_bottom - bbox.height
+}))"""
+
+
+def test_twice_the_depth_is_twice_the_picture():
+    """On kept axes; what leaves them is not drawn, and said. Another drive has its own."""
+    page = Page()
+    before = page.shown
+    page.frame.buttons["scales"].view.act()
+    page.apply(lambda state: changes.put(state, "max_depth", 2 * state.max_depth))
+    view, i = page.shown, page.shown.course.now
+    assert [view.axis(each) for each in (X, Z, R, D, F)] == [before.axis(each) for each in (X, Z, R, D, F)]
+    state = view.course.state
+    a, d, force = (float(each) for each in (state.contact_radius, state.depth, state.force))
+    # A cone: a = 2 d/(π s).
+    assert a == pytest.approx(2 * float(before.course.state.contact_radius), rel=1e-9)
+    for plot, said in (("springs", (a * 1e9, d * 1e9)), ("force", (d * 1e9, force * 1e6))):
+        text = view.rows(PLOTS[plot], i)["cut off"][2]
+        assert text.startswith("cut off: ")
+        told = [float(each.split(" = ")[1].split()[0]) for each in text[9:].split(", ")]
+        # Three digits.
+        assert told == pytest.approx(said, rel=5e-3)
+    for name in ("springs", "pressure", "force"):
+        x, y = PLOTS[name].axes_of(view)
+        for layer in page.board.cards[name].picture.layers:
+            for axis, names in ((x, ("x", "xs")), (y, ("y", "ys"))):
+                (key,) = [each for each in names if each in layer.source.data]
+                values = np.hstack([np.atleast_1d(part) for part in layer.source.data[key]])
+                low, high = axis.ends
+                # Rounded to the fourth digit of the axis.
+                near = 1e-4 * max(abs(low), abs(high))
+                values = values[np.isfinite(values)]
+                assert ((values >= low - near) & (values <= high + near)).all(), (name, layer.name)
+    page.frame.undo.act()
+    assert page.state["scales.keep"]
+    assert page.shown.rows(PLOTS["force"], i)["cut off"][2] == ""
+    page.apply(lambda state: changes.choose(state, "drive", "impact"))
+    assert "axes" not in page.shown.computed
+
+
+@pytest.fixture(scope="module")
+def lecture(server, browser):
+    with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
+        explorer = Explorer(context.new_page(), server.url)
+        yield explorer
+        assert explorer.problems == []
+
+
+def test_scales_stay_while_a_slider_is_dragged(lecture):
+    mouse, box = lecture.page.mouse, lecture.slider("d_max").bounding_box()
+    before, y = lecture.axis("force"), box["y"] + box["height"] / 2
+    mouse.move(box["x"] + box["width"] / 2, y)
+    mouse.down()
+    mouse.move(box["x"] + 0.6 * box["width"], y, steps=5)
+    lecture.wait("explorer.text('force', 'cut off')?.startsWith('cut off: d = 1')")
+    assert lecture.axis("force") == before
+    mouse.up()
+    lecture.wait("(end) => explorer.model('force').x_range.end > end", before["x"][1])
+    lecture.wait("explorer.text('force', 'cut off') === ''")
+    lecture.link("max_depth=")
+    lecture.change(lecture.press, "Undo")
+
+
+def test_present_fills_the_page_with_large_letters(lecture):
+    page = lecture.page
+    seen = [page.locator(name).first for name in ("output", ".act:visible", ".card.force h3")]
+    before, letters = [each.bounding_box()["height"] for each in seen], page.evaluate(LETTERS, "pressure")
+    lecture.press("Present")
+    page.locator(".side").wait_for(state="hidden")
+    present = page.get_by_role("button", name="Present")
+    lecture.wait("(size) => explorer.model('force').inner_width > 500")
+    assert present.get_attribute("aria-pressed") == "true"
+    after = [each.bounding_box()["height"] for each in seen]
+    # To a pixel.
+    np.testing.assert_allclose(after, np.multiply(1.5, before), atol=1)
+    assert page.evaluate(LETTERS, "pressure") == [1.5 * size for size in letters]
+    cards = [page.locator(f".card.{name}").bounding_box() for name in ("springs", "pressure", "force")]
+    assert min(box["x"] for box in cards) < 20
+    assert max(box["x"] + box["width"] for box in cards) > 1260
+    assert max(box["y"] + box["height"] for box in cards) <= 720
+    for part in ("Play", "Menu", "All numbers"):
+        box = page.get_by_role("button", name=part).bounding_box()
+        assert box["x"] + box["width"] <= 1280
+    # What the pointer is over is what is drawn there.
+    assert lecture.hover("force", "yielding", 20)[0].startswith("yielding")
+    page.keyboard.press("Escape")
+    page.locator(".side").wait_for()
+    assert present.get_attribute("aria-pressed") == "false"
+    assert page.evaluate(LETTERS, "pressure") == letters
+
+
+def test_what_is_opened_leaves_the_form_and_is_closed_by_escape(lecture):
+    page, field = lecture.page, lecture.field("d_max")
+    opened = (
+        ("Menu", page.get_by_role("button", name="Dark")),
+        ("Share", page.get_by_label("This scene in Python")),
+        ("All numbers", page.locator('tr[data-name="half_angle"]')),
+    )
+    for name, part in opened:
+        lecture.press(name)
+        part.wait_for()
+        assert field.is_visible()
+        page.keyboard.press("Escape")
+        part.wait_for(state="hidden")
+    lecture.number("d_max").locator(".help").click()
+    page.keyboard.press("Escape")
+    assert lecture.number("d_max").locator(".about").is_hidden()
+    letters, card = page.evaluate(LETTERS, "force"), page.locator(".card.force")
+    title = card.locator("h3").bounding_box()["height"]
+    card.get_by_role("button", name="Large").click()
+    card.get_by_role("button", name="Small").wait_for()
+    lecture.wait("explorer.model('force').inner_width > 700")
+    assert page.evaluate(LETTERS, "force") == [1.5 * size for size in letters]
+    assert card.locator("h3").bounding_box()["height"] == pytest.approx(1.5 * title, abs=1)
+    page.keyboard.press("Escape")
+    card.get_by_role("button", name="Large").wait_for()
+    assert page.evaluate(LETTERS, "force") == letters
+
+
+def test_nothing_is_cut_with_notes_open_at_720_pixels(lecture):
+    page = lecture.page
+    lecture.open("Sweep", "sweep", "this scene")
+    note = page.locator(".card.sweep .found")
+    note.wait_for()
+    page.get_by_text("Assumptions and notes").click()
+    lecture.wait(f"({BELOW})() < 1")
+    card, said = page.locator(".card.sweep").bounding_box(), note.bounding_box()
+    figure = page.locator(".card.sweep canvas").first.bounding_box()
+    assert said["y"] + said["height"] <= card["y"] + card["height"] + 1
+    assert figure["y"] + figure["height"] <= said["y"] + 1
+    sizes = page.evaluate("""() => explorer.all().filter((each) => each.matches(".strip .word, h1, h2, h3"))
+        .map((each) => parseFloat(getComputedStyle(each).fontSize))""")
+    assert min(sizes) >= 12
+
+
+def test_all_plots_are_one_picture_of_twice_the_screen(lecture):
+    page = lecture.page
+    with page.expect_download() as download:
+        lecture.press("Save plots")
+    data = download.value.path().read_bytes()
+    assert [int.from_bytes(data[k : k + 4], "big") for k in (16, 20)] == [2560, 1440]
+    # Each plot has its colours: springs that have yielded, the pressure, the curve.
+    image = np.asarray(pytest.importorskip("PIL.Image").open(io.BytesIO(data)).convert("RGB"), int)
+    places = (
+        (image[:696, :1280], "#d55e00"),
+        (image[696:1392, :1280], "#0072b2"),
+        (image[:, 1280:], "#d55e00"),
+    )
+    for part, colour in places:
+        wanted = [int(colour[k : k + 2], 16) for k in (1, 3, 5)]
+        assert (np.abs(part - wanted).max(axis=2) < 8).sum() > 500
