@@ -9,6 +9,7 @@ import pytest
 
 import mdr_core as mdr
 from app import changes, link
+from app.extra import EXTRAS
 from app.extras import fit as fitting
 from app.extras.fit.changes import choose_part, choose_samples
 from app.extras.fit.files import as_csv, as_json
@@ -87,6 +88,9 @@ def test_loading_and_unloading_are_parts_of_the_curve():
     # The model misses the curve by 0.4 % of the force.
     assert page.state.E_star == pytest.approx(fitting.fit(fitting.silica(preset_state())).E_star, rel=0.03)
     assert "fitted values have been put" in panel.said.object
+    said = f"1220 samples; the fit is of samples {top} to 1220."
+    assert said in panel.about.object
+    assert said in EXTRAS["fit"].told(page.shown)[0][1]
 
 
 def test_the_shape_is_chosen_in_the_part_of_the_fit_and_in_the_form():

@@ -106,7 +106,7 @@ class TestIndentation:
         assert fit.standard_errors["E_star"] < 0.2 * E
 
     def test_noise_of_silica_hardly_counts(self):
-        """A ten-thousandth of the recovered 0.88 µm; as much again changes E* by a hundredth of its error."""
+        """A ten-thousandth of the recovered 0.88 µm; as much again hardly changes E*."""
         depth, force, _ = silica()
         assert np.count_nonzero(np.diff(np.sign(np.diff(depth)))) > 0.05 * depth.size
         normal, fits = np.random.default_rng(2).normal(size=depth.size), []

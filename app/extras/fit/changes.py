@@ -184,8 +184,7 @@ def _note(curve: Measured) -> str:
     # Without a given noise χ² is not known.
     if np.isfinite(found.reduced_chi_square):
         texts.append(f"χ² = {float(found.reduced_chi_square):.3g}")
-    first, last = curve.chosen
-    part = "" if last - first + 1 == len(curve.curve) else f", samples {first} to {last}"
+    part = ", samples {} to {}".format(*curve.chosen) if curve.of_part else ""
     return f"fit to {curve.name}{part}: {', '.join(texts)}"[:300]
 
 

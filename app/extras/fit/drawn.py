@@ -23,7 +23,7 @@ def sampled(x, y):
 
 
 MEASURED = (
-    mark("measured, not fitted", "body", "free", size=4),
+    mark("measured, not fitted", "free", size=3),
     mark("measured", "measured", "measured", size=4),
 )
 

@@ -121,7 +121,13 @@ class Measured:
     @property
     def note(self):
         taken = f"{len(self.curve)} samples" + f", one in {self.step} of them taken" * (self.step > 1)
-        return "; ".join([taken, *self.curve.remarks])
+        part = ["the fit is of samples {} to {}".format(*self.chosen)] if self.of_part else []
+        return "; ".join([taken, *part, *self.curve.remarks])
+
+    @property
+    def of_part(self):
+        """Whether the fit is of a part of the samples."""
+        return self.fit is not None and self.chosen != (1, len(self.curve))
 
     def placed(self, state):
         """The curve at its position on the page."""
