@@ -162,13 +162,13 @@ def depth_path(profile, medium, depth):
 def first_contacts(profile, medium, depth):
     """Live intervals and line loads (N/m) of first loadings to depths (m), elementwise."""
     low = single_range(profile, medium, AT_DEPTH)
-    lower, touching = yield_rule(profile, medium).plastic_depth(depth), depth >= 0
-    live_depth = np.maximum(np.where(lower > 0, medium.critical_depth, depth), 0.0)
-    interval, stretched = contact_interval(profile, medium, lower, live_depth, low, profile.known_depth)
+    loaded, _ = yield_rule(profile, medium).loading(np.maximum(depth, 0.0))
+    lower, known = loaded.lower, profile.known_depth
+    interval, stretched = contact_interval(profile, medium, lower, loaded.length, low, known)
     _check.refuse("depth", depth, np.isnan(stretched), f"presses {profile._too_deep()}", unit="m")
-    pairs = (interval.upper, lower), (interval.length, 0.0), (-medium.E_star * stretched, 0.0)
-    upper, length, load = (np.where(touching, *pair) for pair in pairs)
-    return LiveInterval(interval.lower, upper, length), load
+    length = np.where(depth >= 0, interval.length, 0.0)
+    load = np.where(depth >= 0, -medium.E_star * stretched, 0.0)
+    return LiveInterval.above(lower, length), load
 
 
 def _one_path(profile, medium, depth):

@@ -92,14 +92,10 @@ class YieldRule(_check.Parameters, ABC):
         length = np.where(increase > 0, self.cap(upper), penetration)
         return LiveInterval(lower, upper, length), increase
 
-    def at(self, largest, depth):
-        """Live interval at each depth (m) where the largest depth so far is `largest` (m)."""
-        return interval_at(largest, depth, self.cap(largest))
-
     def path(self, depth):
         """Live interval after each point of a path of depths (m) along the last axis."""
         largest = np.maximum.accumulate(depth, axis=-1) if depth.ndim else depth
-        return self.at(largest, depth)
+        return interval_at(largest, depth, self.cap(largest))
 
     def past_onset(self, imprint, onset, distance):
         """Live interval at a distance (m) of loading past the penetration `onset` (m) into an imprint."""

@@ -41,7 +41,9 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, in_time=False):
     viscous = (bodies.relaxation_time.reshape(mass.shape) > 0) | in_time
     motions = np.zeros((4, *mass.shape))
     if not viscous.all():
-        motions[:, ~viscous] = _of_dry(dry[~viscous])
+        rest = dry[~viscous]
+        deceleration = rest.max_force / rest.mass
+        motions[:, ~viscous] = rest.restitution, rest.contact_time, 0 * rest.mass, deceleration
     penetrations = penetration.ravel()
     # A view, with one column for each impact.
     columns = motions.reshape(4, -1)
@@ -49,7 +51,7 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, in_time=False):
     for block in chunks(numbers.size, 256):
         rows = numbers[block]
         penetrations[rows], columns[:, rows] = _solved(bodies[rows])
-    speed_after, end_time, work, deceleration = motions
+    restitution, end_time, work, deceleration = motions
     rule = yield_rule(profile, medium)
     interval, increase = rule.loading(penetrations.reshape(mass.shape), imprint_depth)
     return ViscousImpact(
@@ -57,7 +59,7 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, in_time=False):
         speed=speed[()],
         turning_point=Indentation(profile, medium, interval.upper, interval, in_time=True),
         plastic_depth_increase=increase,
-        restitution=_check.frozen(np.minimum(speed_after / speed, 1.0)),
+        restitution=_check.frozen(np.minimum(restitution, 1.0)),
         contact_time=_check.frozen(end_time),
         max_force=_check.frozen(mass * deceleration),
         viscous_work=_check.frozen(2 * medium.E_star * work),
@@ -65,14 +67,8 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, in_time=False):
 
 
 def _solved(bodies):
-    """Penetrations (m); speed after, contact time, viscous work over 2E*, largest deceleration."""
+    """Penetrations (m); restitution, contact time, viscous work over 2E*, largest deceleration."""
     solution = solve(bodies)
     end = solution.end
-    values = -end.velocity, end.time, end.work, solution.max_deceleration[:, None]
+    values = -end.velocity / bodies.speed, end.time, end.work, solution.max_deceleration[:, None]
     return solution.turning_point.depth[:, 0], np.hstack(values).T
-
-
-def _of_dry(dry):
-    """Speed after, contact time, viscous work over 2E*, largest deceleration without viscosity."""
-    speed_after = dry.restitution * dry.speed
-    return speed_after, dry.contact_time, np.zeros_like(speed_after), dry.max_force / dry.mass

@@ -57,6 +57,8 @@ class Profile(_check.Parameters, ABC):
     kinks = ()
     #: Depth (m) at which g changes from one power of x to another, None if it is not known.
     transition_depth = None
+    #: What is at the known depth, in words.
+    _last = "the shape is known"
 
     @abstractmethod
     def _height(self, r): ...
@@ -127,4 +129,4 @@ class Profile(_check.Parameters, ABC):
 
     def _too_deep(self):
         """Text for a refusal of depths below `known_depth`."""
-        return f"deeper than the shape is known, {np.min(self.known_depth, initial=_check.LONGEST):g} m"
+        return f"deeper than {self._last}, {np.min(self.known_depth, initial=_check.LONGEST):g} m"

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import _check
 from .._check import Parameter
 from .radius_table import OneLength
 
@@ -29,11 +28,8 @@ class Sphere(OneLength):
     _length = _depth = body_radius = property(lambda self: self.radius)
     # At this depth a is R to rounding.
     known_depth = property(lambda self: 100 * self.radius)
+    _last = "the equator, which the contact has reached at d = 100 R"
     _end = np.nextafter(1.0, 0.0)
-
-    def _too_deep(self):
-        depth = np.min(self.known_depth, initial=_check.LONGEST)
-        return f"deeper than the equator, which the contact has reached at d = 100 R, {depth:g} m"
 
     @staticmethod
     def _Z(u):
