@@ -172,7 +172,7 @@ def test_a_new_extra_is_a_file_of_its_own(folder):
     (code,) = re.findall(r"```python\n(\"\"\"The plot \*Area\*.*?)```", text, re.DOTALL)
     (data,) = re.findall(r"```json\n(.*?)```", text, re.DOTALL)
     extras = copied(folder, "with_area") / "extras"
-    (extras / "area.py").write_text(code, encoding="utf-8")
+    (extras / "area.py").write_text(code.replace("from app.", "from .."), encoding="utf-8")
     (extras / "area.json").write_text(data, encoding="utf-8")
     page = importlib.import_module("with_area.page").Page(f"preset={DROP}&tiles=area&area.of=plastic")
     assert page.board.tabs["area"].pressed
