@@ -83,6 +83,7 @@ def test_small_screens(phone):
         assert one["y"] + one["height"] <= other["y"]
     phone.press("Fit a measurement")
     phone.change(phone.press, "Fused silica")
+    phone.press("Columns")
     page.get_by_label("Unit of force").wait_for()
     assert page.evaluate(SEEN)["scroll"] == 390
     page.set_viewport_size({"width": 720, "height": 450})
