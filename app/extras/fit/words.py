@@ -25,7 +25,8 @@ def result(state: State) -> str:
     table = re.sub(r"(?<![\w/])-(?=\d)", "−", indexed(in_page_words(curve.report)))
     # The verdict stands between the numbers and the remarks.
     parts = re.split(r"(?:<tr><th[^>]*>(?:class of hardness|the class presumes)<.*?</tr>)+", table)
-    return text + f"</table><p>{escape(curve.verdict)}</p><table>".join(parts)
+    row = f"<tr><td colspan='2' style='text-align:left'>{escape(curve.verdict)}</td></tr>"
+    return text + row.join(parts)
 
 
 def unloading(state: State) -> str:
