@@ -24,9 +24,11 @@ async function drawn(figure, { rows, title }, width, height) {
   return canvas
 }
 export async function save(name, scene, plots, [width, height]) {
-  const canvas = Object.assign(document.createElement("canvas"), { width: 2 * width, height: 2 * height })
-  const context = canvas.getContext("2d"), style = getComputedStyle(document.documentElement)
+  const style = getComputedStyle(document.documentElement)
   const pictures = await Promise.all(plots.map(({ figure, look, place: [, , ...size] }) => drawn(figure, look, ...size)))
+  // A canvas of Bokeh, empty once it has another size.
+  const { canvas, ctx: context } = Bokeh.index.find_one(plots[0].figure).export("png", true)
+  Object.assign(canvas, { width: 2 * width, height: 2 * height })
   context.fillStyle = style.getPropertyValue("--paper")
   context.fillRect(0, 0, canvas.width, canvas.height)
   pictures.forEach((picture, k) => context.drawImage(picture, 2 * plots[k].place[0], 2 * plots[k].place[1]))
