@@ -137,6 +137,8 @@ class Scene:
             data = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_duplicates)
         except RecursionError:
             raise ValueError("scene: JSON is nested too deeply") from None
+        except UnicodeDecodeError as error:
+            raise ValueError(f"scene: not UTF-8 text ({error.reason})") from None
         except ValueError as error:
             raise ValueError(f"scene: no JSON text ({error})") from None
         _keys("scene", data, {"format", "version", "profile", "medium", "drive"})

@@ -41,9 +41,10 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, in_time=False):
     viscous = (bodies.relaxation_time.reshape(mass.shape) > 0) | in_time
     motions = np.zeros((4, *mass.shape))
     if not viscous.all():
-        rest = dry[~viscous]
-        deceleration = rest.max_force / rest.mass
-        motions[:, ~viscous] = rest.restitution, rest.contact_time, 0 * rest.mass, deceleration
+        remainder = dry[~viscous]
+        deceleration = remainder.max_force / remainder.mass
+        work = np.zeros_like(deceleration)
+        motions[:, ~viscous] = remainder.restitution, remainder.contact_time, work, deceleration
     penetrations = penetration.ravel()
     # A view, with one column for each impact.
     columns = motions.reshape(4, -1)

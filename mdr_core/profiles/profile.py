@@ -57,7 +57,7 @@ class Profile(_check.Parameters, ABC):
     kinks = ()
     #: Depth (m) at which g changes from one power of x to another, None if it is not known.
     transition_depth = None
-    #: What is at the known depth, in words.
+    #: Words for the end of the known depth.
     _last = "the shape is known"
 
     @abstractmethod
