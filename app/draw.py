@@ -138,7 +138,7 @@ class Picture:
     """One plot as a figure."""
 
     def __init__(self, plot: Plot):
-        self.plot, self.axes, self.drawn = plot, None, None
+        self.plot, self.axes, self._letters = plot, None, None
         ranges = {"x_range": bk.Range1d(0.1, 1), "y_range": bk.Range1d(0.1, 1)}
         self.figure = figure(name=plot.name, tools="", toolbar_location=None, stylesheets=_FOCUS, **ranges)
         # Nothing is selected: the sources of a figure share what Bokeh has for it.
@@ -175,7 +175,9 @@ class Picture:
 
     def letters(self, scale: float, short: bool = False) -> None:
         """Make the letters so many times as large as on the page; `short`: of an axis the symbol alone."""
-        self.short = short
+        if (scale, short) == self._letters:
+            return
+        self._letters, self.short = (scale, short), short
         title, tick = f"{12 * scale:g}px", f"{11 * scale:g}px"
         self.figure.min_border_left = round(48 * scale) + 16
         for axis in self.figure.axis:

@@ -8,6 +8,7 @@ from .changes import CONVERT, OFFERED
 from .courses import Course
 from .drives import DRIVES, Drive
 from .link import CHECKS, FORMER
+from .parts import Part
 from .plot import OVERLAYS, Overlay, Plot, View
 from .plots import PLOTS
 from .quantities import CHOICES, OF_DRIVE, QUANTITIES
@@ -15,8 +16,8 @@ from .state import OF_EXTRAS, VIEW, State
 from .ui import LINKS
 
 
-class Part(Protocol):
-    """A part of the page: what is served, and what it does when another view is shown."""
+class Side(Protocol):
+    """A part of the side: what is served, and what it does when another view is shown."""
 
     view: Any
 
@@ -54,19 +55,18 @@ class Extra:
     drives: dict[str, Drive] = field(default_factory=dict)
     plots: tuple[Plot, ...] = ()
     overlays: tuple[Overlay, ...] = ()
-    #: Label of the button that opens its part of the side; whether that button is in the "header", in the
-    #: "side" or in the "line" of readouts, whether the part is above the form instead of in its place, and
-    #: whether the button is there.
+    #: Label of the button that opens its part of the page; where that is: in the "side", "above" the form
+    #: with a button in the header, or over the plots with a button in the "header" or in the "line" of
+    #: readouts; whether the button is there; and the part, made of a page when it is first opened.
     tab: str = ""
     place: str = "side"
-    above: bool = False
     offered: Callable[[View], bool] = lambda view: True
-    #: Its part of the side, of a page: made when it is first opened.
-    side: Callable[[Any], Part] | None = None
-    #: What it has in the header of a page: the view of this part is a `Button`.
-    header: Callable[[Any], Part] | None = None
-    #: A button that it has above a plot.
-    on_plots: Callable[[Plot], Any] | None = None
+    side: Callable[[Any], Side] | None = None
+    #: A button that it has in the header of a page, and one that it has above a plot, or None.
+    header: Callable[[Any, View], Part] | None = None
+    on_plots: Callable[[Any, Plot, View], Part | None] | None = None
+    #: What it does to a page whenever a view is shown.
+    shown: Callable[[Any, View], None] = lambda page, view: None
     #: Why a link with its values is refused, or nothing.
     check: Callable[[State], str] = lambda state: ""
     #: What it and others need once in a session of a page, which it is made of.

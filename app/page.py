@@ -2,6 +2,8 @@
 
 import logging
 from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
 from html import escape
 from typing import Any
 
@@ -10,17 +12,18 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
 from panel.io.location import Location
 
-from . import changes, link, readouts
+from . import changes, link
 from .board import Board
 from .courses import Course
 from .drives import follow, scene_of
 from .extra import EXTRAS, SERVICES
-from .fields import Choices, Form, Numbers
+from .fields import Field
 from .frame import Frame
+from .parts import Part, choice
 from .plot import View
 from .plots import Z, visible
 from .state import VIEW, State, preset_state
-from .ui import JS, Messages, is_served, show
+from .ui import JS, Messages, is_served
 from .units import in_words
 
 _LOG = logging.getLogger(__name__)
@@ -38,25 +41,36 @@ class Address(Location):
         return {}
 
 
+@dataclass(frozen=True)
+class History:
+    """States that can be undone and redone, the latest last; and the mark of the last change."""
+
+    past: tuple[State, ...] = ()
+    future: tuple[State, ...] = ()
+    mark: str | None = None
+
+    def after(self, state: State, mark: str | None) -> "History":
+        """The history once a state has been changed; changes with the same mark are one step."""
+        if mark is not None and mark == self.mark:
+            return History(self.past, (), mark)
+        return History((*self.past[1 - _UNDO_STEPS :], state), (), mark)
+
+
 class Page:
     """The page of one session."""
 
     def __init__(self, query: str = ""):
-        self.document, self.past, self.future, self._drag = pn.state.curdoc, [], [], None
+        self.document, self.state, self.history = pn.state.curdoc, preset_state(), History()
         self.solved: dict[Any, Course] = {}
         self._waiting, self._ready, self.shown = None, False, None
         # Notices until the browser is ready, and whether the address holds a link that was not opened.
         self._notices, self._refused = [], False
-        self._numbers: list[Numbers] = []
-        self.state = preset_state()
+        self._fields: dict[str, Field] = {}
         self.services = [make(self) for make in SERVICES]
-        self.choices = Choices(self.apply, lambda: self.state)
         self.messages = Messages(name="messages")
-        self.board = Board(self.choices, self.apply, self.messages)
-        self.form = Form(self)
+        self.board = Board(self)
         self.frame = Frame(self)
         self.view = self.frame.view
-        self._show_history()
         self._watch()
         try:
             self.draw(link.read(query))
@@ -91,17 +105,28 @@ class Page:
         """Take the theme of the system."""
         self.apply(lambda state: state.replace(dark=new))
 
-    def numbers(self) -> Numbers:
-        """A new column of number fields of this page."""
-        self._numbers.append(Numbers(self.apply_or_raise))
-        return self._numbers[-1]
-
     def query(self) -> tuple[str, str]:
         """The page as a query, or why it has none."""
         try:
             return link.write(self.shown.state), ""
         except ValueError as error:
             return "", f"No link: {error}."
+
+    # What is set on the page.
+
+    def number(self, name: str, like: float = 0.0) -> Part:
+        """The field of a number; zero is shown in the unit that fits the value `like`."""
+        if name not in self._fields:
+            self._fields[name] = Field(name, self)
+        return self._fields[name].part(self.state, like)
+
+    def choice(self, name: str) -> Part:
+        """A choice."""
+        return choice(name, self.state, partial(self.choose, name))
+
+    def choose(self, name: str, option: str) -> None:
+        """Take another option of a choice."""
+        self.apply(lambda state: changes.choose(state, name, option))
 
     # Changes and refusals.
 
@@ -111,58 +136,45 @@ class Page:
 
         Changes with the same mark, as of one drag, are one step of undo.
         """
-        before = after = self.state
+        before, history = self.state, self.history
+        after = before
         try:
             after = change(before)
             if after == before:
                 return
+            if after.scene_values != before.scene_values:
+                self.history = history.after(before, mark)
             self.draw(after)
         except Exception as error:
-            message = self.refusal(error, after)
+            message, self.history = self.refusal(error, after), history
             if self.shown is not None and self.state is not before:
                 self.draw(before)
             raise ValueError(message) from None
-        if after.scene_values != before.scene_values:
-            if mark is None or mark != self._drag:
-                self.past = [*self.past[1 - _UNDO_STEPS :], before]
-            self.future, self._drag, self._refused = [], mark, False
-            self._show_history()
+        self._refused = self._refused and self.history is history
 
     def apply(self, change: Any, refused: Any = None, mark: str | None = None) -> None:
-        """Apply a change; show a refusal as a notice, or by `refused`.
-
-        Fields forget what was refused in them when the scene is changed elsewhere than in a field.
-        """
-        before = self.state
+        """Apply a change; show a refusal as a notice, or by `refused`."""
         try:
             self.apply_or_raise(change, mark)
-            if self.state.scene_values != before.scene_values:
-                for numbers in self._numbers:
-                    numbers.forget()
         except ValueError as error:
             (refused or self.notify)(str(error))
-            self._show_panels()
+            self.refresh()
 
     def undo(self) -> None:
-        self._step(self.past, self.future)
+        if past := self.history.past:
+            self._return(past[-1], History(past[:-1], (*self.history.future, self.state)))
 
     def redo(self) -> None:
-        self._step(self.future, self.past)
+        if future := self.history.future:
+            self._return(future[-1], History((*self.history.past, self.state), future[:-1]))
 
-    def _step(self, source, target):
-        """Undo or redo; the view stays."""
-        if source:
-            now, past, future = self.state, self.past, self.future
-            self.apply(lambda state: source[-1].replace(**{name: now[name] for name in VIEW}))
-            if self.past is not past:
-                self.past, self.future, self._drag = past, future, None
-                source.pop()
-                target.append(now)
-                self._show_history()
-
-    def _show_history(self):
-        self.frame.undo.show(disabled=not self.past)
-        self.frame.redo.show(disabled=not self.future)
+    def _return(self, state, history):
+        """Go to a state of the history; the view stays."""
+        before = self.history
+        self.apply(lambda now: state.replace(**{name: now[name] for name in VIEW}))
+        if self.history is not before:
+            self.history = history
+            self.refresh()
 
     def notify(self, text: str) -> None:
         """Show a notice, once the browser is ready; its text may contain user input."""
@@ -205,22 +217,19 @@ class Page:
         self.board.player.show(view, moved)
         if self.board.player.play.active:
             self._send()
-        self._show_panels()
-
-    def _show_panels(self):
-        """Update everything beside the plots."""
-        self.choices.show(self.state)
-        self.board.show_tabs(self.shown)
-        self.frame.show(self.shown)
-        # Changed texts cause a new layout, so they wait while a slider moves.
         if not self._ready:
-            self._show_texts()
-        self.messages.dark = self.state.dark
+            self.frame.rest(view)
+        self.messages.dark = state.dark
+        for each in EXTRAS.values():
+            each.shown(self, view)
+        self.refresh()
         self._schedule()
 
-    def _show_texts(self):
-        show(self.frame.warnings, object=readouts.warnings(self.shown.course, self.state))
-        self.form.show_texts(self.state, self.shown.course)
+    @pn.io.hold()
+    def refresh(self) -> None:
+        """Show the texts, buttons and fields of the present view."""
+        self.board.show_parts(self.shown)
+        self.frame.show(self.shown)
 
     # Player and dragging.
 
@@ -264,10 +273,11 @@ class Page:
 
     def _input_rests(self):
         self._waiting = None
-        self._show_texts()
+        self.frame.rest(self.shown)
         query, _ = self.query()
         # The empty address leaves the present one, of a link that was not opened.
         self.messages.address = "" if self._refused else f"?{query}"
         view = self.shown
         for each in self.services:
             each.rest(view)
+        self.refresh()

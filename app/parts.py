@@ -1,114 +1,119 @@
-"""Texts, buttons and the like in one component, each of which costs some 4 ms of an opening."""
+"""Parts of the page: texts, buttons, choices, numbers and files, many of them in one component.
+
+A component of its own for each would cost some 4 ms of an opening.
+"""
 
 import json
 from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 import panel as pn
 import param
 
-from .ui import JS, WIDE, show
+from .changes import option, options
+from .quantities import ABOUT, CHOICES, LABELS
+from .state import PRESETS, State, altered
+from .tip import MAX_BYTES, Uploaded
+from .ui import JS, WIDE, linked, show
+
+#: Letters of all options of a choice below which it is shown as radio buttons, else as a list.
+_SHORT = 48
+#: Option of the list of presets for a scene that is none of them, so that its preset can be chosen again.
+_ALTERED = "altered"
 
 
+@dataclass(frozen=True)
 class Part:
-    """A part: `told` is what it is, said once; `LOOK` are the names of what is shown of it."""
+    """A part: its kind, its name in the component, and what is shown of it.
 
-    KIND = ""
-    LOOK: tuple[str, ...] = ()
+    `told` is what it is, sent to the browser once; `act` is called with what a person does with it.
+    """
 
-    def __init__(self, **told: Any):
-        self.told, self.visible = {"kind": self.KIND} | told, True
-        self.place: Parts | None = None
-
-    @property
-    def parts(self) -> list["Part"]:
-        return [self]
-
-    def show(self, **values: Any) -> None:
-        """Change what is shown of it: `visible`, and what is in `LOOK`."""
-        changed = any(getattr(self, name) != value for name, value in values.items())
-        vars(self).update(values)
-        if changed and self.place is not None:
-            self.place.refresh()
-
-    def take(self, message: Any) -> None:
-        """Do what a person wants of it."""
+    kind: str
+    name: str
+    look: dict[str, Any]
+    told: dict[str, Any] = field(default_factory=dict)
+    act: Callable[[Any], None] = lambda message: None
 
 
-class Group:
-    """Parts that come and go; they stay where they were made."""
-
-    def __init__(self):
-        self.parts: list[Any] = []
-        self.place: Parts | None = None
-
-    def show(self, parts: list[Part]) -> None:
-        """Show some parts, and hide all others."""
-        self.parts += [part for part in parts if part not in self.parts]
-        for part in self.parts:
-            part.show(visible=part in parts)
-        if self.place is not None:
-            self.place.refresh()
-
-
-class Text(Part):
+def text(name: str, html: str, classes: str = "note") -> Part:
     """A text (HTML)."""
-
-    KIND = "text"
-    LOOK = ("object",)
-
-    def __init__(self, *classes: str, object: str = ""):
-        super().__init__(classes=" ".join(classes or ["note"]))
-        self.object = object
+    return Part("text", name, {"object": html}, {"classes": classes})
 
 
-class Button(Part):
-    """A button: `act` is called when it is pressed; `pressed` is None if it does not stay down."""
+def button(
+    label: str, act: Callable[[], None], pressed: bool | None = None, disabled: bool = False, key: str = ""
+) -> Part:
+    """A button: `pressed` is None if it does not stay down, `key` is a key of the keyboard."""
+    look = {"label": label, "pressed": pressed, "disabled": disabled}
+    return Part("button", label, look, {"key": key}, lambda message: None if disabled else act())
 
-    KIND = "button"
-    LOOK = ("label", "pressed", "disabled")
 
-    def __init__(self, label: str, act: Callable[[], None], key: str = "", pressed: bool | None = None):
-        super().__init__(key=key)
-        self.label, self.act, self.pressed, self.disabled = label, act, pressed, False
+def upload(label: str, accept: str, take: Callable[[Uploaded], None]) -> Part:
+    """A field for a file."""
+    told = {"label": label, "accept": accept, "most": MAX_BYTES}
+    return Part("file", label, {}, told, lambda message: take(Uploaded(**message)))
 
-    def take(self, message: Any) -> None:
-        if not self.disabled:
-            self.act()
+
+def choice(name: str, state: State, choose: Callable[[str], None]) -> Part:
+    """A choice with its explanation, as radio buttons or a list.
+
+    No preset is chosen if the scene differs from all of them.
+    """
+    chosen = option(state, name)
+    pairs = [[each, CHOICES[name][each]] for each in options(state, name)]
+    if name == "preset" and altered(state):
+        chosen = _ALTERED
+        pairs.append([_ALTERED, f"altered, from: {PRESETS[state.preset].label}"])
+    offered = [each for each, _ in pairs if each != chosen]
+    look = {"options": pairs, "value": chosen}
+    return Part(
+        "choice", name, look, _about(name), lambda message: choose(message) if message in offered else None
+    )
+
+
+@cache
+def _about(name: str) -> dict[str, Any]:
+    radio = sum(map(len, CHOICES[name].values())) < _SHORT
+    classes = f"of-{name.replace('.', '-')}"
+    return {"label": LABELS[name], "about": linked(ABOUT[name]), "radio": radio, "classes": classes}
 
 
 class Parts(pn.custom.JSComponent):
     """Parts of the page below each other, or in a row (class "bar")."""
 
     # As text: Panel and Bokeh would look at every value.
-    told, shown = param.String("[]"), param.String("[]")
+    told, shown = param.String("{}"), param.String("[0, []]")
 
     # A link, so that the script is sent once.
     _esm = JS["parts"]
 
-    def __init__(self, *places: Any, classes: tuple[str, ...] = (), **options: Any):
-        self.places, self._known = places, []
+    def __init__(self, *classes: str, **options: Any):
+        self.parts: dict[str, Part] = {}
+        self._known, self._answered = {}, 0
         super().__init__(css_classes=list(classes), **WIDE | options)
-        self.refresh()
         self.on_msg(self._on_message)
 
-    def refresh(self) -> None:
-        """Show all as they are."""
-        for each in self.places:
-            each.place = self
-        parts = [part for each in self.places for part in each.parts]
-        for part in parts:
-            part.place = self
-        self._known += [part for part in parts if part not in self._known]
-        looks = [
-            {"id": self._known.index(part), "visible": part.visible}
-            | {name: getattr(part, name) for name in part.LOOK}
-            for part in parts
-        ]
-        told = json.dumps([part.told for part in self._known], ensure_ascii=False)
-        show(self, told=told, shown=json.dumps(looks, ensure_ascii=False))
+    def show(self, parts: list[Part]) -> None:
+        """Show some parts, and no others."""
+        self.parts = {part.name: part for part in parts}
+        new = {part.name: {"kind": part.kind} | part.told for part in parts if part.name not in self._known}
+        if new:
+            self._known |= new
+            self.told = json.dumps(self._known, ensure_ascii=False)
+        self._send()
 
+    def _send(self):
+        looks = [{"name": part.name} | part.look for part in self.parts.values()]
+        show(self, shown=json.dumps([self._answered, looks], ensure_ascii=False))
+
+    @pn.io.hold()
     def _on_message(self, event):
-        part, message = event.data
-        if part in range(len(self._known)):
-            self._known[part].take(message)
+        """Do what a person wants; what is refused is answered, too."""
+        name, message = event.data
+        self._answered += 1
+        if name in self.parts:
+            self.parts[name].act(message)
+        self._send()

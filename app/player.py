@@ -8,7 +8,6 @@ from bokeh.models import CustomJS, ImportedStyleSheet, Row, Slider, Toggle
 
 from . import readouts
 from .draw import Picture
-from .parts import Part, Text
 from .plot import View
 from .plots import D, F, Z
 from .ui import JS, LAYOUT, SHEETS, WIDE, Messages
@@ -50,7 +49,8 @@ class Player:
             "css_classes": ["slider"],
         }
         self.state = Slider(start=0, end=1, value=1, step=1, name="state", **look)
-        self.heads, self.words = Text("heads"), Part(kind="words")
+        #: Heads of the readouts (HTML).
+        self.heads = ""
         self._messages = messages
         code = CustomJS(code=JS["named"] + JS["player"])
         self.state.js_on_change("value", code)
@@ -67,7 +67,7 @@ class Player:
             self._messages.frames = []
         self.state.update(end=len(course) - 1, value=i)
         self._messages.path = path(view)
-        self.heads.show(object=readouts.heads(course, numbers))
+        self.heads = readouts.heads(course, numbers)
         self._messages.words = readouts.values(course, numbers, i)
 
     def send(self, view: View, pictures: list[Picture]) -> None:

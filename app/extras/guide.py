@@ -93,6 +93,6 @@ class Guide:
 
 
 EXTRA = Extra(
-    "guide", order=30, tab="Guide", place="header", above=True,
+    "guide", order=30, tab="Guide", place="above",
     side=lambda page: Guide(page.apply, lambda: page.shown),
 )  # fmt: skip

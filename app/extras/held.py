@@ -14,13 +14,13 @@ from .. import link
 from ..courses import Course
 from ..drives import follow, scene_of
 from ..extra import Extra
-from ..parts import Button
+from ..parts import Part, button
 from ..plot import Along, Overlay, View
 from ..plots import PLOTS, P, R
 from ..quantities import CHOICES, OF_DRIVE
 from ..readouts import line as readout_line
 from ..readouts import readings, text
-from ..shared.widgets import button
+from ..shared import widgets
 from ..state import PRESETS, State, altered, used
 from ..ui import WIDE, html, marked, show, symbol
 from ..units import with_symbol
@@ -178,7 +178,7 @@ class Table:
     def __init__(self, apply: Callable[..., None]):
         self._rows, self._numbers = [], html("", "key")
         for k in range(len(DASHES)):
-            remove = button(f"Remove {k + 1}", width=76)
+            remove = widgets.button(f"Remove {k + 1}", width=76)
             remove.on_click(lambda event, k=k: apply(lambda state: _without(state, k)))
             self._rows.append(pn.Row(html("", "key"), remove, css_classes=["head"], visible=False, **WIDE))
         note = html("<i>Hold</i> keeps the present scene for comparison; axes are those of the later one.")
@@ -196,14 +196,10 @@ class Table:
         show(self._numbers, object=f"<table>{cells}</table>" if held else "")
 
 
-class Hold:
+def hold(page: Any, view: View) -> Part:
     """The button *Hold*."""
-
-    def __init__(self, page: Any):
-        self.view = Button("Hold", lambda: page.apply(toggle_hold), pressed=False)
-
-    def show(self, view: View) -> None:
-        self.view.show(pressed=bool(view.state["held.scenes"]) and is_held(view.state))
+    pressed = bool(view.state["held.scenes"]) and is_held(view.state)
+    return button("Hold", lambda: page.apply(toggle_hold), pressed=pressed)
 
 
 def compute(state: State, before: View | None, known: dict) -> list[Held]:
@@ -241,7 +237,7 @@ EXTRA = Extra(
     compute=compute,
     courses=lambda view: [each.course for each in scenes(view)],
     offered=lambda view: bool(view.state["held.scenes"]),
-    header=Hold,
+    header=hold,
     side=lambda page: Table(page.apply),
     told=told,
 )

@@ -1,33 +1,55 @@
-"""The button *Present*: the plots over the whole page, with large letters, for a lecture."""
+"""Plots for a lecture, with large letters: *Large*, one over all others, and *Present*, over the page."""
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from ..extra import Extra
-from ..parts import Button
-from ..plot import View
+from ..parts import Part, button
+from ..plot import Plot, View
+from ..state import State
 from ..ui import LAYOUT, show
 
 _SHEET = Path(__file__).with_suffix(".css").read_text(encoding="utf-8")
+#: Letters of plots that are presented or large, over those of the page.
 _SCALE = 1.5
 
 
-class Present:
+def turned(state: State, name: str, value: str) -> State:
+    """With a value, or without it if it is there."""
+    return state.replace(**{name: None if state[name] == value else value})
+
+
+def present(page: Any, view: View) -> Part:
     """The button *Present*."""
-
-    def __init__(self, page: Any):
-        self._page = page
-        self.view = Button("Present", self._turn, "escape", pressed=False)
-
-    def _turn(self) -> None:
-        on = not self.view.pressed
-        self.view.show(pressed=on)
-        show(self._page.frame.view, stylesheets=[*LAYOUT, *[_SHEET] * on])
-        self.show(self._page.shown)
-
-    def show(self, view: View) -> None:
-        for card in self._page.board.cards.values():
-            card.letters(_SCALE if self.view.pressed else 1.0)
+    act = partial(page.apply, lambda state: turned(state, "present.on", "1"))
+    return button("Present", act, pressed=bool(view.state["present.on"]), key="escape")
 
 
-EXTRA = Extra("present", order=35, header=Present)
+def large(page: Any, plot: Plot, view: View) -> Part:
+    """The button *Large* of a plot."""
+    is_large = view.state["present.large"] == plot.name
+    act = partial(page.apply, lambda state: turned(state, "present.large", plot.name))
+    return button("Small" if is_large else "Large", act, pressed=is_large, key="escape")
+
+
+def shown(page: Any, view: View) -> None:
+    """Show the plots as large as they are asked for, with letters of that size."""
+    on, name_of_large = bool(view.state["present.on"]), view.state["present.large"]
+    show(page.frame.view, stylesheets=[*LAYOUT, *[_SHEET] * on])
+    for name, card in page.board.cards.items():
+        is_large = name == name_of_large
+        show(card.view, css_classes=["card", name, *["large"] * is_large])
+        # On a small plot large titles of axes have no room.
+        card.picture.letters(_SCALE if on or is_large else 1.0, short=on and not is_large)
+
+
+EXTRA = Extra(
+    "present",
+    order=35,
+    values={"present.on": None, "present.large": None},
+    of_view=("present.on", "present.large"),
+    header=present,
+    on_plots=large,
+    shown=shown,
+)

@@ -7,7 +7,7 @@ from ..draw import drawn
 from ..extra import Extra
 from ..parts import Part
 from ..plot import Plot, View, rows_of
-from ..plots import NAMED
+from ..plots import NAMED, PLOTS
 from ..shared.summary import summary
 from ..state import State
 
@@ -17,52 +17,40 @@ _SCREEN = (1280, 720)
 _PLACES = {"springs": (0, 0, 640, 348), "pressure": (0, 348, 640, 348), "force": (640, 0, 640, 696)}
 
 
-class Save(Part):
-    """A button that saves the picture of plots, in the browser, with the scene below it."""
-
-    KIND = "save"
-    LOOK = ("label", "looks", "scene")
-
-    def __init__(self, label: str, name: str, places: dict[str, Any], size: tuple[int, int]):
-        plots = [{"figure": figure, "place": place} for figure, place in places.items()]
-        super().__init__(name=name, plots=plots, size=size)
-        self.label, self.names, self.looks, self.scene = label, list(places), [], ""
-
-
-def of_plot(plot: Plot) -> Save:
-    return Save("Save", plot.name, {plot.name: _WHOLE}, _SIZE)
-
-
-class All:
-    """The button that saves the three plots as one picture."""
+class Legends:
+    """Legends and the scene of pictures that are saved, as of the last rest of a session."""
 
     def __init__(self, page: Any):
-        self.view = Save("Save plots", "plots", {name: _PLACES[name] for name in NAMED}, _SCREEN)
-
-    def show(self, view: View) -> None:
-        pass
-
-
-class Saving:
-    """Keeps the legends and the scene of the pictures that are saved."""
-
-    def __init__(self, page: Any):
-        self._page = page
+        self._legends: dict[str, Any] = {}
 
     def compute(self, state: State, course: Course) -> dict[str, Any]:
-        return {}
+        return {"save": self._legends}
 
     def rest(self, view: View) -> None:
-        states, board = {view.course.now, view.course.peak}, self._page.board
-        looks = {}
-        for card in map(board.cards.get, board.names):
-            called = drawn(view, card.plot, states)
-            rows = [called.get(row.name, row.name) for row in rows_of(card.plot) if row.legend]
-            looks[card.plot.name] = {"rows": rows, "title": card.plot.title}
-        parts = [part for name in board.names for part in board.cards[name].above]
-        for part in (*parts, self._page.frame.buttons["save"].view):
-            if isinstance(part, Save):
-                part.show(looks=[looks[name] for name in part.names], scene=summary(view.state))
+        states = {view.course.now, view.course.peak}
+        self._legends["scene"] = summary(view.state)
+        for plot in (PLOTS[name] for name in (*NAMED, *view.state.tiles)):
+            called = drawn(view, plot, states)
+            rows = [called.get(row.name, row.name) for row in rows_of(plot) if row.legend]
+            self._legends[plot.name] = {"rows": rows, "title": plot.title}
 
 
-EXTRA = Extra("save", order=32, on_plots=of_plot, header=All, service=Saving)
+def save(label: str, name: str, places: dict[str, Any], size: tuple[int, int], view: View) -> Part:
+    """A button that saves the picture of plots, in the browser, with the scene below it."""
+    legends = view.computed["save"]
+    looks = [legends.get(each, {"rows": [], "title": ""}) for each in places]
+    plots = [{"figure": figure, "place": place} for figure, place in places.items()]
+    told = {"name": name, "plots": plots, "size": size}
+    return Part("save", label, {"label": label, "looks": looks, "scene": legends.get("scene", "")}, told)
+
+
+def of_plot(page: Any, plot: Plot, view: View) -> Part:
+    return save("Save", plot.name, {plot.name: _WHOLE}, _SIZE, view)
+
+
+def of_all(page: Any, view: View) -> Part:
+    """The button that saves the three plots as one picture."""
+    return save("Save plots", "plots", {name: _PLACES[name] for name in NAMED}, _SCREEN, view)
+
+
+EXTRA = Extra("save", order=32, on_plots=of_plot, header=of_all, service=Legends)

@@ -13,7 +13,7 @@ from mdr_core.results.figures import label
 
 from ..courses import Course
 from ..extra import Extra
-from ..parts import Button
+from ..parts import Part, button
 from ..plot import Overlay, View
 from ..plots import NAMED, PLOTS, D, F, R, X, Z
 from ..state import State
@@ -60,14 +60,9 @@ class Scales:
         pass
 
 
-class Keep:
+def keep(page: Any, view: View) -> Part:
     """The button *Keep scales*."""
-
-    def __init__(self, page: Any):
-        self.view = Button("Keep scales", lambda: page.apply(toggle), pressed=False)
-
-    def show(self, view: View) -> None:
-        self.view.show(pressed=bool(view.state["scales.keep"]))
+    return button("Keep scales", lambda: page.apply(toggle), pressed=bool(view.state["scales.keep"]))
 
 
 def toggle(state: State) -> State:
@@ -104,6 +99,6 @@ EXTRA = Extra(
     values={"scales.keep": None},
     of_view=("scales.keep",),
     overlays=tuple(map(_overlay, _PLOTS)),
-    header=Keep,
+    header=keep,
     service=Scales,
 )

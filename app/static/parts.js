@@ -1,4 +1,5 @@
-// Parts of the page: `told` says what each is, `shown` what is to be seen of it. The server hears the number of a part.
+// Parts of the page: `told` says what each is, `shown` how many messages are answered and what is seen. The server hears the
+// name of a part and what is done with it.
 import { save } from "./save.js"
 
 const made = (tag, className, innerHTML = "") => Object.assign(document.createElement(tag), { className, innerHTML })
@@ -35,10 +36,7 @@ const KINDS = {
         <button class="help" aria-label="What is ${label}?" popovertarget="about-${id}">?</button>${popover}</div>`)
     const list = el.querySelector(radio ? ".options" : "select")
     let [asked, offered] = [0, ""]
-    const choose = (option) => {
-      asked += 1
-      send(option)
-    }
+    const choose = (option) => { asked = send(option) }
     const filled = (options) => list.replaceChildren(...options.map(([option, text]) => {
       if (!radio) return new Option(text, option)
       const label = made("label", "", `<input type="radio" name="of-${id}">`)
@@ -47,18 +45,17 @@ const KINDS = {
       return label
     }))
     if (!radio) list.onchange = () => choose(list.value)
-    return [el, ({ options, value, answered }) => {
+    return [el, ({ options, value }, answered) => {
       if (offered !== JSON.stringify(options)) filled(options)
       offered = JSON.stringify(options)
       // Also what was refused is answered: the present option stands again. Earlier answers do not touch what is asked now.
       if (answered < asked) return
-      asked = answered
       if (radio) for (const { firstChild } of list.children) firstChild.checked = firstChild.value === value
       else list.value = value
     }]
   },
-  // Typed with its unit, or dragged. Each value has a number of its own, which its answer names. What is typed is sent at
-  // once; of a drag one value is under way, and what is dragged meanwhile replaces what waits.
+  // Typed with its unit, or dragged. What is typed is sent at once; of a drag one value is under way, and what is dragged
+  // meanwhile replaces what waits.
   number({ label, spoken, about, steps, id }, send) {
     const el = made("div", "number", `<div class="row"><label for="text-${id}">${label}</label>
       <button class="help" aria-expanded="false" aria-label="What is ${spoken}?">?</button>
@@ -67,13 +64,10 @@ const KINDS = {
       <p class="said" id="said-${id}" aria-live="polite"></p><div class="about" hidden>${about}</div>`)
     const [text, range] = el.querySelectorAll("input")
     const [said, about_it, help] = [".said", ".about", ".help"].map((name) => el.querySelector(name))
-    let [now, asked, wish, typing] = [null, 0, null, false]
+    let [now, answered, asked, wish, typing] = [null, 0, 0, null, false]
     range.hidden = !steps
-    const busy = () => now.answered !== asked
-    const ask = (what) => {
-      ;[wish, asked, typing] = [null, asked + 1, false]
-      send({ ...what, number: asked })
-    }
+    const busy = () => answered < asked
+    const ask = (what) => { [asked, wish, typing] = [send(what), null, false] }
     const show = () => {
       // An answer to an earlier value, or another change of the page, does not touch what is being typed.
       if (busy() || typing) return
@@ -102,12 +96,10 @@ const KINDS = {
     text.addEventListener("blur", () => { typing = false; show() })
     text.addEventListener("keydown", ({ key }) => (key === "Escape" ? ask({ restore: true }) : key === "Enter" && text.select()))
     help.addEventListener("click", () => { help.ariaExpanded = String(!(about_it.hidden = !about_it.hidden)) })
-    return [el, (look) => {
-      const answered = now !== null && now.answered !== look.answered
-      if (now === null) asked = look.answered
-      now = look
+    return [el, (look, count) => {
+      [now, answered] = [look, count]
       show()
-      if (answered && wish !== null && !busy()) ask(wish)
+      if (wish !== null && !busy()) ask(wish)
     }]
   },
   // A file, chosen or dropped. Its size is looked at first: a message that is too large ends the session.
@@ -128,17 +120,22 @@ const KINDS = {
 export function render({ model, el, view }) {
   el.classList.add("parts")
   const parts = new Map(), named = (name) => view.model.document.get_model_by_name(name)
-  const show = () => {
-    const told = JSON.parse(model.told)
-    JSON.parse(model.shown).forEach(({ id, visible, ...look }, k) => {
-      if (!told[id]) return
-      if (!parts.has(id)) parts.set(id, KINDS[told[id].kind]({ ...told[id], id }, (what) => model.send_msg([id, what]), named))
-      const [part, shown] = parts.get(id)
-      if (el.children[k] !== part) el.insertBefore(part, el.children[k] ?? null)
-      part.hidden = !visible
-      shown(look)
-    })
+  let [asked] = JSON.parse(model.shown)
+  const sender = (name) => (what) => {
+    model.send_msg([name, what])
+    return asked += 1
   }
-  model.on(["told", "shown"].map((name) => `change:${name}`), show)
+  const show = () => {
+    const told = JSON.parse(model.told), [answered, looks] = JSON.parse(model.shown)
+    const seen = looks.map(({ name, ...look }, k) => {
+      if (!parts.has(name)) parts.set(name, KINDS[told[name].kind]({ ...told[name], id: parts.size }, sender(name), named))
+      const [part, shown] = parts.get(name)
+      if (el.children[k] !== part) el.insertBefore(part, el.children[k] ?? null)
+      shown(look, answered)
+      return part
+    })
+    for (const part of el.children) part.hidden = !seen.includes(part)
+  }
+  model.on("change:shown", show)
   show()
 }

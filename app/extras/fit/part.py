@@ -8,17 +8,15 @@ from typing import Any
 import numpy as np
 import panel as pn
 
-from mdr_core.profiles.samples import decoded
 from mdr_core.reading import SIZES, UnknownColumns
 
-from ...changes import take_tip
-from ...fields import Choice, Upload
-from ...parts import Button, Parts, Text
+from ...fields import take_tip, title
+from ...parts import Parts, button, text, upload
 from ...plot import View
 from ...quantities import shape_quantities
-from ...shared.widgets import button, field, tools
+from ...shared import widgets
+from ...shared.widgets import field, tools
 from ...state import profile
-from ...tip import read_tip
 from ...ui import WIDE, html, show
 from ...units import written
 from .changes import choose_part, choose_samples, fit, quantity_of, silica, take
@@ -26,6 +24,8 @@ from .files import as_csv, as_json
 from .measured import FITTED, PLACED, SUBTRACTED, offered, read_curve, with_curve
 from .words import result, unloading
 
+#: Names of files of measured curves.
+_KINDS = ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx,.jpk-force,.jpk-force-map,.jpk-qi-data,.h5,.ibw,.zip"
 #: Script of the button that copies the report: as text, and as tables where they are pasted into one.
 COPY = """
 const report = document.createElement("div")
@@ -46,16 +46,16 @@ class Fitting:
 
     def __init__(self, page: Any):
         self._page, self._apply, self._placed, self._curve = page, page.apply, None, None
-        # A file whose columns are asked for, and its table.
-        self._asked = None
+        # A file whose columns are asked for, and its table; and whether the columns are shown.
+        self._asked, self._folded = None, False
         self._make_file()
-        self._make_indenter()
+        self._indenter, self._hardness, self._place = Parts(), Parts(), Parts()
         self._make_samples()
         self._make_result()
         self._make_parameters()
         self._rest = pn.Column(
             self._indenter, self._samples, self.samples, self._results, self.not_fitted, self.said,
-            self.unloading, self._parameters, self.fixed, Parts(self.noise, self.place),
+            self.unloading, self._hardness, self.fixed, self._place,
             visible=False, **WIDE,
         )  # fmt: skip
         parts = (self._file, self.not_taken, self.about, self._columns, self._rest)
@@ -63,16 +63,8 @@ class Fitting:
 
     def _make_file(self):
         """The file, what is read of it, and what was refused."""
-        kinds = (
-            ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx,.jpk-force,.jpk-force-map,.jpk-qi-data,.h5,.ibw,.zip"
-        )
-        self.file = Upload("CSV file of a measured curve: depth, force", kinds, self._read)
-        self.silica = Button("Fused silica", lambda: self._change(silica, self.not_taken))
-        self.remove = Button("Remove", self._remove)
-        self.folded = Button("Columns", self._fold, pressed=False)
-        self._file = pn.Column(
-            Parts(self.file), Parts(self.silica, self.remove, self.folded, classes=("bar",)), **WIDE
-        )
+        self._upload, self._tools = Parts(), Parts("bar")
+        self._file = pn.Column(self._upload, self._tools, **WIDE)
         self.about, self.not_taken = html(), html()
         select = pn.widgets.Select
         self.columns = {role: field(select, "column", label=f"Column of {role}") for role in SIZES}
@@ -86,25 +78,11 @@ class Fitting:
         rows = (pn.Row(self.columns[role], self.units[role], **WIDE) for role in SIZES)
         self._columns = pn.Column(*rows, visible=False, **WIDE)
 
-    def _make_indenter(self):
-        """The choice of the shape and its numbers, as in the form."""
-        # A part has one place: that of the form stands there.
-        self.shape = Choice("shape", partial(self._page.choices.choose, "shape"))
-        self.tip = self._page.numbers()
-        file = Upload("CSV file of a measured tip: r, z", ".csv,.txt,text/csv", self._take_tip)
-        self._indenter = Parts(Text("title", object="<h2>Indenter</h2>"), self.shape, self.tip, file)
-
     def _make_samples(self):
         """The range of samples that is fitted."""
-        self.parts = [
-            Button(name, partial(self._choose, choose_part, name), pressed=False)
-            for name in ("All", "Loading", "Unloading")
-        ]
-        self.ends = Text()
-        self._samples = pn.Column(
-            html("<h2>Samples that are fitted</h2>", "title"), Parts(*self.parts, classes=("bar",)),
-            Parts(self.ends), **WIDE,
-        )  # fmt: skip
+        self._parts, self._ends = Parts("bar"), Parts()
+        head = html("<h2>Samples that are fitted</h2>", "title")
+        self._samples = pn.Column(head, self._parts, self._ends, **WIDE)
         self.samples = field(
             pn.widgets.IntRangeSlider, "slider", label="Samples", start=1, end=2, show_value=False
         )
@@ -114,7 +92,7 @@ class Fitting:
 
     def _make_result(self):
         """The button that fits, the result, and its files."""
-        self.fit, self.said, self.not_fitted = button("Fit"), html("", "note", "said"), html()
+        self.fit, self.said, self.not_fitted = widgets.button("Fit"), html("", "note", "said"), html()
         self.unloading = html("", "note", "unloading")
         self.fit.on_click(lambda event: self._change(fit, self.not_fitted))
         self.files = [
@@ -126,7 +104,7 @@ class Fitting:
                 ("Fit (JSON)", "fit.json", as_json), ("Fit (CSV)", "fit.csv", as_csv),
             )
         ]  # fmt: skip
-        self.copy = button("Copy", visible=False)
+        self.copy = widgets.button("Copy", visible=False)
         self.copy.js_on_click(args={"said": self.said}, code=COPY)
         self._results = tools(self.fit, *self.files, self.copy)
 
@@ -135,9 +113,6 @@ class Fitting:
         names = {quantity_of(name).label: name for name in FITTED}
         self.fixed = field(pn.widgets.CheckBoxGroup, "fixed", inline=False, options=names)
         self.fixed.param.watch(lambda event: self._hold(event.new), "value")
-        self.place, self.noise = self._page.numbers(), self._page.numbers()
-        hardness = self._page.choices.part("fit.hardness")
-        self._parameters = Parts(hardness, Text("title", object="<h2>Fixed parameters</h2>"))
 
     def _written(self, write):
         return StringIO(write(self._curve))
@@ -147,14 +122,8 @@ class Fitting:
 
     def _fold(self):
         """Show the columns and units of the curve, or hide them."""
-        self.folded.show(pressed=not self.folded.pressed)
-        self._show_columns()
-
-    def _take_tip(self, file):
-        def change(state):
-            return take_tip(state, *read_tip(decoded(file.read()), file.name))
-
-        self._apply(change)
+        self._folded = not self._folded
+        self._page.refresh()
 
     def _choose(self, change, *values, mark=None):
         """Choose samples; the slider is set to those of the state, which is no choice."""
@@ -200,7 +169,7 @@ class Fitting:
                 return take(state, read_curve(file.read(), file.name, columns))
             except UnknownColumns as error:
                 self._asked = file, error.table
-                self.folded.show(pressed=True)
+                self._folded = True
                 raise
 
         self._change(change, self.not_taken)
@@ -226,7 +195,7 @@ class Fitting:
 
     def _show_columns(self):
         """Columns and units of the curve, or the choice of those that are asked for."""
-        show(self._columns, visible=bool(self.folded.pressed and (self._asked or self._curve)))
+        show(self._columns, visible=bool(self._folded and (self._asked or self._curve)))
         if not self._columns.visible:
             return
         table = self._asked[1] if self._asked else self._curve.curve.table
@@ -249,8 +218,15 @@ class Fitting:
             self._forget()
         self._show_columns()
         show(self._rest, visible=curve is not None)
-        self.remove.show(disabled=curve is None)
-        self.folded.show(disabled=curve is None)
+        self._upload.show([upload("CSV file of a measured curve: depth, force", _KINDS, self._read)])
+        silica_ = partial(self._change, silica, self.not_taken)
+        self._tools.show(
+            [
+                button("Fused silica", silica_),
+                button("Remove", self._remove, disabled=curve is None),
+                button("Columns", self._fold, pressed=self._folded, disabled=curve is None),
+            ]
+        )
         show(self.said, object=result(state))
         if curve is None:
             show(
@@ -260,8 +236,9 @@ class Fitting:
             return
         about = f"<b>{escape(curve.name)}</b>: {escape(curve.note)}. A link does not contain the curve."
         show(self.about, object=about)
-        self.shape.update(state)
-        self.tip.update(state, [name for name, _ in shape_quantities(state.shape)])
+        page = self._page
+        numbers = [page.number(name) for name, _ in shape_quantities(state.shape)]
+        self._indenter.show([title("Indenter"), page.choice("shape"), *numbers, take_tip(page)])
         self._show_samples(state)
         for each in (*self.files, self.copy):
             show(each, visible=curve.fit is not None)
@@ -277,10 +254,15 @@ class Fitting:
             f"{written(float(curve.curve.force[k - 1]), 'force', 4)})"
             for k in (first, last)
         ]
-        self.ends.show(object=f"From sample {' to '.join(texts)}, of {count}.")
+        self._ends.show([text("ends", f"From sample {' to '.join(texts)}, of {count}.")])
         top = curve.deepest(state)
-        for each, ends in zip(self.parts, ((1, count), (1, top), (top, count)), strict=True):
-            each.show(pressed=(first, last) == ends)
+        ranges = {"All": (1, count), "Loading": (1, top), "Unloading": (top, count)}
+        self._parts.show(
+            [
+                button(name, partial(self._choose, choose_part, name), pressed=(first, last) == ends)
+                for name, ends in ranges.items()
+            ]
+        )
 
     def _show_parameters(self, state):
         curve = self._curve
@@ -291,11 +273,13 @@ class Fitting:
             self._placed, self.unloading.object = placed, unloading(state)
         depth, force = (float(np.max(np.abs(part))) for part in curve.data)
         likes = {"fit.contact_point": depth, "fit.baseline": force, "fit.drift": 1e-10}
+        likes["fit.depth_noise"] = depth
         # A frame gives by some hundredth of the depth.
         likes["fit.frame"] = 0.01 * depth / force if force else 0.0
         names = [f"fit.{name}" for name in curve.known((*PLACED, *SUBTRACTED))]
-        self.place.update(state, names, likes)
-        self.noise.update(state, ["fit.depth_noise"], {"fit.depth_noise": depth})
+        numbers = [self._page.number(name, likes.get(name, 0.0)) for name in ("fit.depth_noise", *names)]
+        self._hardness.show([self._page.choice("fit.hardness"), title("Fixed parameters")])
+        self._place.show(numbers)
         options = {quantity_of(name).label: name for name in offered(state)}
         held = [name for name in state["fit.fixed"] if name in offered(state)]
         show(self.fixed, options=options, value=held)

@@ -1,0 +1,29 @@
+"""The menu: dark or light, and what the page is."""
+
+from pathlib import Path
+from typing import Any
+
+import panel as pn
+
+from ..changes import turn_dark
+from ..extra import Extra
+from ..parts import Parts, button
+from ..plot import View
+from ..ui import WIDE, html
+
+_ABOUT = Path(__file__).with_suffix(".html").read_text(encoding="utf-8")
+
+
+class Menu:
+    """What the page is, and what is seldom used."""
+
+    def __init__(self, page: Any):
+        self._page, self._buttons = page, Parts("bar")
+        self.view = pn.Column(self._buttons, html(_ABOUT), **WIDE)
+
+    def show(self, view: View) -> None:
+        dark = button("Dark", lambda: self._page.apply(turn_dark), pressed=view.state.dark)
+        self._buttons.show([dark])
+
+
+EXTRA = Extra("menu", order=100, tab="Menu", place="header", side=Menu)
