@@ -153,7 +153,12 @@ class Page:
         self._refused = self._refused and self.history is history
 
     def apply(self, change: Any, refused: Any = None, mark: str | None = None) -> None:
-        """Apply a change; show a refusal as a notice, or by `refused`."""
+        """Apply a change; show a refusal as a notice, or by `refused`.
+
+        Fields forget what was refused in them: the scene is changed elsewhere.
+        """
+        for each in self._fields.values():
+            each.refused = ""
         try:
             self.apply_or_raise(change, mark)
         except ValueError as error:

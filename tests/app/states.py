@@ -9,6 +9,7 @@ from app.extra import EXTRAS
 from app.extras import fit as fitting
 from app.extras.fit.measured import read_curve
 from app.extras.guide import TOURS, step_state
+from app.parts import Parts
 from app.plot import View
 from app.readouts import readings
 from app.shared.rest import exact
@@ -55,6 +56,23 @@ def side(page, name: str):
     """A part of the side, opened."""
     page.frame.open(name)
     return page.frame.parts[name]
+
+
+def part(page, name: str):
+    """A part that the page shows: a button by its label, a field or choice by its name."""
+    shown = [each.parts for each in page.view.select(Parts) if name in each.parts]
+    assert shown, f"the page has no {name}"
+    return shown[0][name]
+
+
+def press(page, label: str) -> None:
+    """Press a button."""
+    part(page, label).act(None)
+
+
+def fields_of(parts) -> list[str]:
+    """Names of the number fields that a component shows, in their order."""
+    return [each.name for each in parts.parts.values() if each.kind == "number"]
 
 
 def viscous() -> State:

@@ -32,9 +32,9 @@ def copied(folder, package, *without):
 
 
 @cache
-def buttons():
-    """Labels of what extras have in the header."""
-    return {name: each.view.label for name, each in Page().frame.buttons.items()}
+def opened():
+    """A page as it opens."""
+    return Page()
 
 
 def words(name):
@@ -47,8 +47,9 @@ def words(name):
     found += [number["label"] for number in data.get("numbers", ())]
     found += [drive["label"] for drive in data.get("drives", {}).values()]
     found += [choice["label"] for choice in data.get("choices", {}).values()]
-    found += [extra.on_plots(PLOTS["force"]).label] if extra.on_plots else []
-    found += [buttons()[name]] if extra.header else []
+    page = opened()
+    found += [extra.on_plots(page, PLOTS["force"], page.shown).look["label"]] if extra.on_plots else []
+    found += [extra.header(page, page.shown).look["label"]] if extra.header else []
     return {each for each in found if each}
 
 
@@ -56,9 +57,6 @@ def strings(value):
     """All texts within a value of a model; of the columns of a source, names of rows."""
     if isinstance(value, str):
         yield value
-        # What parts of the page are and show.
-        for part in json.loads(value) if value.startswith("[{") else ():
-            yield from strings(list(part.values()))
     if isinstance(value, dict):
         yield from strings(value.get("row"))
     for each in value if isinstance(value, list | tuple) else ():
@@ -67,15 +65,24 @@ def strings(value):
 
 def texts(page):
     """All that a page has for the browser, with every part and plot opened."""
-    for name in page.frame.tabs:
-        page.frame.open(name)
+    seen = set()
+
+    def look():
+        for parts in page.view.select(type(page.frame.header)):
+            for part in parts.parts.values():
+                seen.update(strings([*part.told.values(), *part.look.values()]))
+
+    for name, extra in sys.modules[type(page).__module__].EXTRAS.items():
+        if extra.side:
+            page.frame.open(name)
+            look()
     page.frame.open("explore")
-    for drive in list(dict(page.choices.part("drive").options)):
-        page.apply(lambda state, drive=drive: changes.choose(state, "drive", drive))
-    for tab in page.board.tabs.values():
-        if tab.visible:
-            tab.act()
-    document, seen = Document(), set()
+    for drive in dict(page.choice("drive").look["options"]):
+        page.choose("drive", drive)
+        for tab in list(page.board.tabs.parts):
+            page.board.tabs.parts[tab].act(None)
+            look()
+    document = Document()
     document.add_root(page.view.get_root(document))
     for model in document.models:
         for value in model.properties_with_values(include_defaults=False).values():
@@ -138,7 +145,7 @@ def test_without_an_extra_the_page_builds_and_has_no_word_of_it(folder, whole, n
     # And it is in use.
     before = page.state
     page.apply(lambda state: changes.put(state, "mass", 2 * state.mass))
-    page.frame.undo.act()
+    page.undo()
     assert page.state == before
 
 
@@ -150,7 +157,7 @@ def test_the_page_with_no_extras_at_all(browser, tmp_path):
         with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
             explorer = Explorer(context.new_page(), server.url)
             assert explorer.readout("force") == "4.514 µN"
-            assert explorer.page.locator(".header .act").all_inner_texts() == ["Undo", "Redo", "Menu"]
+            assert explorer.page.locator(".header .act").all_inner_texts() == ["Undo", "Redo"]
             assert explorer.page.locator(".card").count() == 3
             assert explorer.page.locator(".tabs button").count() == 0
             explorer.change(explorer.type, "d_max", "5 nm")
@@ -175,11 +182,11 @@ def test_a_new_extra_is_a_file_of_its_own(folder):
     (extras / "area.py").write_text(code.replace("from app.", "from .."), encoding="utf-8")
     (extras / "area.json").write_text(data, encoding="utf-8")
     page = importlib.import_module("with_area.page").Page(f"preset={DROP}&tiles=area&area.of=plastic")
-    assert page.board.tabs["area"].pressed
+    assert page.board.tabs.parts["Area"].look["pressed"]
     states = page.shown.course.states
     plot = page.board.cards["area"].plot
     for option, radius in (("plastic", states.plastic_radius), ("contact", states.contact_radius)):
-        page.choices.choose("area.of", option)
+        page.choose("area.of", option)
         _, area = page.shown.rows(plot, 0)["area"]
         np.testing.assert_allclose(area, np.pi * radius**2, rtol=1e-12)
         assert ("area.of=plastic" in page.query()[0]) == (option == "plastic")

@@ -10,6 +10,7 @@ from app.shared.rest import COMPUTING, FAULT
 from app.state import PRESETS, preset_state
 
 from .conftest import DROP, GOLD
+from .states import part, press
 
 Q_C = PRESETS[GOLD].values["q_c"]
 
@@ -36,7 +37,7 @@ def assert_in_use(page):
     assert "Everything is as it was before" in notices
     put(page, "q_c", 1.5 * Q_C)
     assert page.shown.course.scene.medium.q_c == page.state.q_c == 1.5 * Q_C
-    page.frame.undo.act()
+    page.undo()
     assert page.shown.course.scene.medium.q_c == Q_C
     assert len(page.notices) == 1
 
@@ -44,58 +45,56 @@ def assert_in_use(page):
 def test_a_plot_or_a_held_scene_that_fails(page, monkeypatch):
     with monkeypatch.context() as failure:
         failure.setattr(page.board, "_make", failing)
-        page.board.tabs["surface"].act()
-    assert (page.state.tiles, page.board.tabs["surface"].pressed) == ((), False)
+        press(page, "Surface")
+    assert (page.state.tiles, part(page, "Surface").look["pressed"]) == ((), False)
     assert_in_use(page)
     page.notices.clear()
-    hold = page.frame.buttons["held"]
-    monkeypatch.setattr(hold, "show", lambda view: failing() if view.computed["held"] else None)
-    hold.view.act()
+    made = page.choice
+
+    def unless_held(name):
+        return failing() if page.shown.computed["held"] else made(name)
+
+    monkeypatch.setattr(page, "choice", unless_held)
+    press(page, "Hold")
     assert (page.state["held.scenes"], page.shown.computed["held"]) == ((), [])
     assert_in_use(page)
 
 
 def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
     """What is beside the plots counts as shown too: undo leads to nothing that was refused."""
-    shown = page.form.show
+    shown = page.frame.form.show
     monkeypatch.setattr(
-        page.form, "show", lambda now: shown(now) if now.state.preset == GOLD else failing()
+        page.frame.form, "show", lambda now: shown(now) if now.state.preset == GOLD else failing()
     )
-    page.choices.choose("preset", DROP)
-    assert page.state.preset == page.choices.part("preset").value == GOLD
-    assert page.frame.undo.disabled
+    page.choose("preset", DROP)
+    assert page.state.preset == page.choice("preset").look["value"] == GOLD
+    assert not page.history.past
     assert_in_use(page)
-
-
-def send(number, **data):
-    """What a field or slider sends."""
-    number.take(data | {"number": number.answered + 1})
 
 
 @pytest.mark.parametrize("act", ["preset", "undo"])
 def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
-    (depth,), (_, q_c) = page.form.numbers["drive"].parts, page.form.numbers["medium"].parts
-    send(depth, text="5 nm")
-    send(q_c, text="abc")
-    assert q_c.refused == "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m"
+    part(page, "max_depth").act({"text": "5 nm"})
+    part(page, "q_c").act({"text": "abc"})
+    refused = part(page, "q_c").look["refused"]
+    assert refused == "“abc” is not a number with one of the units µN/m, mN/m, N/m, kN/m, MN/m, GN/m"
     if act == "preset":
-        page.choices.choose("preset", DROP)
+        page.choose("preset", DROP)
     else:
-        page.frame.undo.act()
-    assert q_c.refused == ""
+        page.undo()
+    assert part(page, "q_c").look["refused"] == ""
 
 
 def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
-    (number,) = page.form.numbers["drive"].parts
     start = page.state.max_depth
     for position in (210, 220, 230):
-        send(number, position=position)
+        part(page, "max_depth").act({"position": position})
     assert page.state.max_depth > start
     page.apply(lambda state: state.replace(progress=0.5))
-    page.frame.undo.act()
+    page.undo()
     assert (page.state.max_depth, page.state.progress) == (start, 0.5)
-    assert page.frame.undo.disabled
-    page.frame.redo.act()
+    assert not page.history.past
+    page.redo()
     assert page.state.max_depth > start
 
 
@@ -115,12 +114,12 @@ def rested(page):
 
 
 def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
-    page.board.tabs["section"].act()
+    press(page, "Section")
     assert page.shown.computed["section"] == COMPUTING
     first = rested(page)
     put(page, "q_c", 1.2 * Q_C)
     assert page.shown.computed["section"] == replace(COMPUTING, axes=first.axes)
-    page.frame.undo.act()
+    page.undo()
     assert page.shown.computed["section"] is first
     page._state_chosen("value_throttled", page.shown.course.now, 5)
     assert page.shown.computed["section"].note == "computing …"
@@ -129,7 +128,7 @@ def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
 
 def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
     show = page.board.show
-    page.board.tabs["section"].act()
+    press(page, "Section")
 
     def fails(columns, view):
         return failing() if view.computed["section"].rows else show(columns, view)

@@ -15,10 +15,11 @@ from app.extras.fit.changes import choose_part, choose_samples
 from app.extras.fit.files import as_csv, as_json
 from app.extras.fit.measured import agrees, read_curve
 from app.page import Page
+from app.parts import Parts
 from app.plots import PLOTS
 from app.state import medium, preset_state, profile
 
-from .states import fitted, linked_state, side, table
+from .states import fields_of, fitted, linked_state, part, side, table
 
 
 def curve_on_a_substrate(start, timed=False):
@@ -56,8 +57,8 @@ def test_only_the_chosen_samples_are_fitted_and_the_others_are_faint():
     assert page.board.cards["force"].plot is PLOTS["force"]
     # What is chosen is in links, and is undone.
     assert linked_state(page.state)["fit.samples"] == ("1", "150")
-    page.frame.undo.act()
-    page.frame.undo.act()
+    page.undo()
+    page.undo()
     assert page.state["fit.samples"] == ()
     assert agrees(page.state)
     # Another curve is fitted whole.
@@ -77,11 +78,11 @@ def test_loading_and_unloading_are_parts_of_the_curve():
     curve = page.state["fit.curve"].curve
     top = 1 + int(np.argmax(curve.depth))
     for name, ends in (("Loading", (1, top)), ("Unloading", (top, 1220)), ("All", (1, 1220))):
-        (button,) = (each for each in panel.parts if each.label == name)
-        button.act()
-        assert (panel.samples.value, button.pressed) == (ends, True)
-        assert f"From sample {ends[0]} (" in panel.ends.object
-        assert re.search(rf"to {ends[1]} \(\S+ .m, \S+ mN\), of 1220\.$", panel.ends.object)
+        part(page, name).act(None)
+        assert (panel.samples.value, part(page, name).look["pressed"]) == (ends, True)
+        said = part(page, "ends").look["object"]
+        assert f"From sample {ends[0]} (" in said
+        assert re.search(rf"to {ends[1]} \(\S+ .m, \S+ mN\), of 1220\.$", said)
     panel.samples.value = (top, 1220)
     assert page.state["fit.samples"] == (str(top), "1220")
     page.apply(fitting.fit)
@@ -98,13 +99,18 @@ def test_the_shape_is_chosen_in_the_part_of_the_fit_and_in_the_form():
     page = Page()
     page.apply(fitting.silica)
     panel = side(page, "fit")
-    panel.shape.take("paraboloid")
-    assert page.state.shape == page.choices.part("shape").value == panel.shape.value == "paraboloid"
-    assert [each.key for each in panel.tip.parts if each.visible] == ["paraboloid_radius"]
-    page.choices.choose("shape", "cone")
-    assert panel.shape.value == "cone"
+    (of_fit,) = [each for each in panel.view.select(Parts) if "shape" in each.parts]
+    of_fit.parts["shape"].act("paraboloid")
+    assert page.state.shape == of_fit.parts["shape"].look["value"] == "paraboloid"
+    assert fields_of(of_fit) == ["paraboloid_radius"]
+    page.frame.open("explore")
+    form = page.frame.form.view
+    assert form.parts["shape"].look["value"] == "paraboloid"
+    form.parts["shape"].act("cone")
     page.apply(lambda state: changes.put(state, "cone_slope", 0.4))
-    assert [(each.key, each.text) for each in panel.tip.parts if each.visible] == [("cone_slope", "0.4")]
+    page.frame.open("fit")
+    assert of_fit.parts["shape"].look["value"] == "cone"
+    assert of_fit.parts["cone_slope"].look["text"] == "0.4"
 
 
 def test_refusals_name_their_cause_in_words_of_the_page():

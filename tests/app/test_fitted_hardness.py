@@ -12,7 +12,7 @@ from app.extras.fit.measured import CONSTANTS, agrees, read_curve
 from app.page import Page
 from app.state import YIELD_CONSTANT, medium, preset_state, profile
 
-from .states import linked_state, side, table
+from .states import linked_state, part, side, table
 
 SILICA = "berkovich-fused_silica"
 
@@ -100,11 +100,12 @@ def test_the_chosen_constant_is_offered_and_the_choice_is_in_links():
     page = Page()
     page.apply(fitting.silica)
     panel = side(page, "fit")
-    row = page.choices.part("fit.hardness")
-    assert (row.value, [option for option, _ in row.options]) == ("hardness", ["q_c", "hardness", "f_c"])
+    row = part(page, "fit.hardness").look
+    assert row["value"] == "hardness"
+    assert [option for option, _ in row["options"]] == ["q_c", "hardness", "f_c"]
     shown = {fitting.quantity_of(name).label for name in CONSTANTS.values()}
     for constant in ("f_c", "q_c", "hardness"):
-        page.choices.choose("fit.hardness", constant)
+        page.choose("fit.hardness", constant)
         assert shown & set(panel.fixed.options) == {fitting.quantity_of(constant).label}
     assert linked_state(page.state)["fit.hardness"] == "hardness"
     # As links of version 0.6 are.

@@ -17,7 +17,7 @@ from app.quantities import ASSETS
 from app.state import PRESETS, medium, preset_state, profile
 from app.tip import MAX_BYTES, Uploaded
 
-from .states import example_curve, fitted, side, table, view_of
+from .states import example_curve, fitted, part, side, table, view_of
 from .test_page import unit as unit_of
 
 
@@ -54,7 +54,8 @@ def test_a_refused_tip_is_named_with_its_misfit():
         ("r (nm), z (nm)\n0, 0\n1, x\n", "expected two numbers r, z, found"),
         ("r, z\n0, 0\n1, 1\n", "the header must name the units of r and z"),
     ):
-        page.form._take_tip(Uploaded("my  tip.csv", len(text), text.encode()))
+        file = {"name": "my  tip.csv", "size": len(text), "data": text.encode()}
+        part(page, "CSV file of a measured tip: r, z").act(file)
         found = re.match(rf"my tip\.csv(?:, line \d)?: {why}", notices[-1])
         assert found, notices[-1]
         if text is wavy:
@@ -150,8 +151,10 @@ def test_a_drift_and_the_give_of_a_frame_are_subtracted_before_a_fit():
     # Without times there is no drift to type.
     page = Page()
     page.apply(lambda _: state)
-    shown = [each.key for each in side(page, "fit").place.parts if each.visible]
-    assert ("fit.frame" in shown, "fit.drift" in shown) == (True, False)
+    side(page, "fit")
+    assert part(page, "fit.frame").kind == "number"
+    with pytest.raises(AssertionError, match=r"no fit\.drift"):
+        part(page, "fit.drift")
 
 
 def test_a_table_without_a_header_asks_for_its_columns_and_units():
@@ -191,14 +194,14 @@ def test_a_fit_moves_the_page_to_the_medium_and_is_undone():
     assert state.q_c == pytest.approx(0.8 * before.q_c, rel=5e-3)
     assert scene_of(state).drive == mdr.DepthPath(float(np.max(state["fit.curve"].fit.path.depth)))
     assert agrees(state)
-    assert "residual" in page.board.names
-    page.frame.undo.act()
+    assert "residual" in [card.plot.name for card in page.board.seen()]
+    page.undo()
     assert medium(page.state) == before
     assert page.state["fit.curve"].fit is None
-    page.frame.undo.act()
+    page.undo()
     assert page.state["fit.curve"] is None
-    page.frame.redo.act()
-    page.frame.redo.act()
+    page.redo()
+    page.redo()
     assert page.state["fit.curve"] is not None
 
 

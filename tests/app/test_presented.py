@@ -10,6 +10,7 @@ from app.page import Page
 from app.plots import PLOTS, D, F, R, X, Z
 
 from .conftest import Explorer
+from .states import press
 
 #: Sizes of the letters of a plot: of titles, ticks and labels.
 LETTERS = """(name) => {
@@ -30,7 +31,7 @@ def test_twice_the_depth_is_twice_the_picture():
     """On kept axes; what leaves them is not drawn, and said. Another drive has its own."""
     page = Page()
     before = page.shown
-    page.frame.buttons["scales"].view.act()
+    press(page, "Keep scales")
     page.apply(lambda state: changes.put(state, "max_depth", 2 * state.max_depth))
     view, i = page.shown, page.shown.course.now
     assert [view.axis(each) for each in (X, Z, R, D, F)] == [before.axis(each) for each in (X, Z, R, D, F)]
@@ -55,7 +56,7 @@ def test_twice_the_depth_is_twice_the_picture():
                 near = 1e-4 * max(abs(low), abs(high))
                 values = values[np.isfinite(values)]
                 assert ((values >= low - near) & (values <= high + near)).all(), (name, layer.name)
-    page.frame.undo.act()
+    page.undo()
     assert page.state["scales.keep"]
     assert page.shown.rows(PLOTS["force"], i)["cut off"][2] == ""
     page.apply(lambda state: changes.choose(state, "drive", "impact"))

@@ -19,7 +19,7 @@ from app.state import preset_state, with_derived
 from mdr_core.results.figures import SPRINGS
 
 from .conftest import DROP
-from .states import example_curve, fitted, numbers, side, solved, state_with, view_of, viscous
+from .states import example_curve, fitted, numbers, part, side, solved, state_with, view_of, viscous
 from .test_drives import oblique_state, path
 from .test_scene_file import plain
 
@@ -69,8 +69,8 @@ def test_4_saved_scene_and_link_of_a_fit_have_the_fit():
     text = plain(scene_file(view_of(state)))
     assert "Fit to A made curve" in text
     assert "± " in text[text.index("Fit to A made curve") :]
-    for part in ("reduced χ²", "contact point", *found.remarks):
-        assert part in text
+    for words in ("reduced χ²", "contact point", *found.remarks):
+        assert words in text
     again = link.read(link.write(state))
     assert "χ² =" in again["fit.note"]
     assert "E* =" in again["fit.note"]
@@ -92,7 +92,9 @@ def test_6_and_7_are_of_typed_numbers():
     """In test_state.py: zeros in the unit of their column, 90°, 10 000 nm, 5 Å, 70.3°."""
     page = Page()
     page.apply(lambda state: fitting.take(state, example_curve()))
-    shown = [number.text.split()[1] for number in side(page, "fit").place.parts]
+    side(page, "fit")
+    names = [f"fit.{name}" for name in ("contact_point", "baseline", "tilt", "frame")]
+    shown = [part(page, name).look["text"].split()[1] for name in names]
     assert shown == ["nm", "µN", "N/m", "nm/mN"]
 
 
@@ -128,7 +130,7 @@ def test_10_held_scenes_are_named_by_what_differs():
 
 
 def test_11_small_things_are_said_right():
-    assert "never cut" not in (ui.HERE / "static" / "about.html").read_text(encoding="utf-8")
+    assert "never cut" not in (ui.HERE / "extras" / "menu.html").read_text(encoding="utf-8")
     course = follow(state_with(plasticity="none"))
     assert "∞ m" not in str(readouts.table(course, readouts.readings(follow(preset_state())), 0))
     assert "line load" in QUANTITIES["q_c"].help
@@ -166,16 +168,16 @@ def test_13_springs_are_elastic_or_yielded_also_in_an_oblique_impact():
 
 def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept_and_a_preset_stands_deepest():
     page = Page()
-    page.board.tabs["forces"].act()
+    page.apply(lambda state: state.replace(tiles=("forces",)))
     assert visible(page.shown) == [PLOTS[name] for name in ("springs", "pressure", "force")]
-    assert not page.board.tabs["forces"].pressed
+    assert "Friction" not in page.board.tabs.parts
     page.apply(lambda state: changes.put(state, "max_depth", 5e-9))
     assert page.state.max_depth == 5e-9
     assert "forces" not in link.write(page.state)
     # A measured tip can be chosen where there is one only.
-    assert "sampled" not in dict(page.choices.part("shape").options)
+    assert "sampled" not in dict(page.choice("shape").look["options"])
     page.apply(lambda state: state.replace(progress=0.0))
-    page.choices.choose("preset", page.state.preset)
+    page.choose("preset", page.state.preset)
     assert page.state.progress == 1.0
     assert step_text(TOURS["First yield"][0], page.shown.course)
 

@@ -8,6 +8,7 @@ from app.state import preset_state
 from app.units import UNITS, read
 
 from .conftest import DROP, Explorer
+from .states import part
 
 # Answers of the server can be held up on their way, as when it is still solving.
 HELD = """
@@ -92,57 +93,58 @@ def test_a_bare_number_has_the_unit_that_was_last_seen_and_only_typing_changes_i
     assert drop.link("speed=1.5")["mass"] == "0.7"
 
 
-def sent(number, text):
-    """What a field shows after a text was typed: its text and refusal. Without a browser."""
-    number.take({"text": text, "number": number.answered + 1})
-    return number.text, number.refused
+def seen(page, name):
+    """What a field shows: its text and refusal. Without a browser."""
+    look = part(page, name).look
+    return look["text"], look["refused"]
+
+
+def sent(page, name, text):
+    """What a field shows after a text was typed."""
+    part(page, name).act({"text": text})
+    return seen(page, name)
 
 
 def test_a_field_shows_the_unit_of_a_bare_number_also_where_the_number_stays():
     page = Page()
-    (depth,) = page.form.numbers["drive"].parts
-    assert sent(depth, "20 nm") == ("20 nm", "")
-    assert sent(depth, "0.02 µm") == ("0.02 µm", "")
-    assert sent(depth, "0.03") == ("0.03 µm", "")
+    assert sent(page, "max_depth", "20 nm") == ("20 nm", "")
+    assert sent(page, "max_depth", "0.02 µm") == ("0.02 µm", "")
+    assert sent(page, "max_depth", "0.03") == ("0.03 µm", "")
     assert page.state.max_depth == 3e-8
     # A refused unit is not that of the next number.
-    assert sent(depth, "1e9 mm")[0] == "0.03 µm"
-    assert sent(depth, "0.04") == ("0.04 µm", "")
+    assert sent(page, "max_depth", "1e9 mm")[0] == "0.03 µm"
+    assert sent(page, "max_depth", "0.04") == ("0.04 µm", "")
 
 
 def test_a_refusal_stays_while_an_earlier_number_is_solved_and_another_is_typed():
     page = Page(f"preset={DROP}")
-    (speed,) = [each for each in page.form.numbers["drive"].parts if each.key == "speed"]
-    modulus, _ = page.form.numbers["medium"].parts
-    sent(speed, "6 m/s")
-    text, refused = sent(modulus, "abc")
+    sent(page, "speed", "6 m/s")
+    text, refused = sent(page, "E_star", "abc")
     assert "“abc” is not a number" in refused
     # A result that is found at rest is drawn.
     page.draw(page.state, again=True)
-    assert (modulus.text, modulus.refused) == (text, refused)
-    assert "“abc” is not a number" in sent(speed, "abc")[1]
+    assert seen(page, "E_star") == (text, refused)
+    assert "“abc” is not a number" in sent(page, "speed", "abc")[1]
     page.draw(page.state, again=True)
-    assert "“abc” is not a number" in speed.refused
-    assert sent(speed, "4.5") == ("4.5 m/s", "")
-    assert modulus.refused == refused
+    assert "“abc” is not a number" in seen(page, "speed")[1]
+    assert sent(page, "speed", "4.5") == ("4.5 m/s", "")
+    assert seen(page, "E_star")[1] == refused
     # The present number is typed instead.
-    assert sent(modulus, text) == (text, "")
+    assert sent(page, "E_star", text) == (text, "")
 
 
 def test_a_refusal_is_left_behind_with_its_number():
     page = Page()
-    (depth,) = page.form.numbers["drive"].parts
-    assert sent(depth, "abc")[1] != ""
+    assert sent(page, "max_depth", "abc")[1] != ""
     page.apply_or_raise(lambda state: changes.put(state, "max_depth", 2e-8))
-    assert (depth.text, depth.refused) == ("20 nm", "")
+    assert seen(page, "max_depth") == ("20 nm", "")
 
 
 @pytest.mark.parametrize("shown", UNITS["length"])
 def test_an_angstrom_is_shown_as_such_in_any_field(shown):
     page = Page()
-    (depth,) = page.form.numbers["drive"].parts
-    sent(depth, f"{preset_state().max_depth / shown.factor!r} {shown.name}")
-    assert sent(depth, "9 Å") == ("9 Å", "")
+    sent(page, "max_depth", f"{preset_state().max_depth / shown.factor!r} {shown.name}")
+    assert sent(page, "max_depth", "9 Å") == ("9 Å", "")
     assert page.state.max_depth == 9e-10
-    assert sent(depth, "12") == ("12 Å", "")
+    assert sent(page, "max_depth", "12") == ("12 Å", "")
     assert read("3 um", "length", shown)[1].name == "µm"

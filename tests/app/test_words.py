@@ -21,7 +21,7 @@ from app.ui import linked, marked
 from app.units import in_words
 
 from .conftest import DROP
-from .states import side, state_with, stepped, view_of
+from .states import fields_of, part, press, side, state_with, stepped, view_of
 
 
 def places(html):
@@ -64,35 +64,31 @@ def test_every_equation_leads_to_the_theory():
 
 def test_half_angle_beside_the_slope_and_drop_height_beside_the_speed():
     page = Page()
-    assert "Half-angle 70.30°" in page.form.notes["shape"].object
+    assert "Half-angle 70.30°" in part(page, "note shape").look["object"]
     page.apply(lambda state: changes.choose(state, "preset", DROP))
     # 5.5 kg at 1 m/s: half a joule a kilogram; v²/2g is 1 m²/s² over 19.6133 m/s².
-    said = re.sub("<[^>]+>", "", page.form.notes["drive"].object)
+    said = re.sub("<[^>]+>", "", part(page, "note drive").look["object"])
     assert "Energy 2.750 J" in said
     assert "drop height 50.99 mm" in said
-    assert "Half-angle" not in page.form.notes["shape"].object
+    assert "Half-angle" not in part(page, "note shape").look["object"]
     assert page.state.density == 1900
 
 
 def test_the_form_begins_with_the_drive_and_has_what_is_used():
     page = Page()
-
-    def shown(region):
-        return [number.key for number in page.form.numbers[region].parts if number.visible]
-
-    regions = [shown(region) for region in ("drive", "shape", "medium")]
-    assert regions == [["max_depth"], ["cone_slope"], ["E_star", "q_c"]]
-    assert not page.form.more.pressed
-    sources = unescape(page.form.notes["sources"].object)
+    form = page.frame.form.view
+    assert fields_of(form) == ["max_depth", "cone_slope", "E_star", "q_c"]
+    assert not part(page, "More about the medium").look["pressed"]
+    sources = unescape(part(page, "note sources").look["object"])
     assert all(source in sources for source in PRESETS[page.state.preset].sources.values())
     page.apply(lambda state: changes.choose(state, "damping", "eta"))
-    assert page.form.more.pressed
-    assert "eta" in shown("more")
+    assert part(page, "More about the medium").look["pressed"]
+    assert "eta" in fields_of(form)
     page.apply(lambda state: changes.choose(state, "drive", "impact"))
-    assert shown("drive") == ["mass", "speed", "plastic_depth"]
+    assert fields_of(form)[:3] == ["mass", "speed", "plastic_depth"]
     page.apply(lambda state: changes.choose(state, "drive", "oblique"))
     page.apply(lambda state: changes.choose(state, "drive", "depth"))
-    assert shown("drive") == ["max_depth"]
+    assert fields_of(form)[:2] == ["max_depth", "cone_slope"]
 
 
 def test_guided_scenes_say_what_is_so():
@@ -128,7 +124,7 @@ def test_guided_scenes_say_what_is_so():
 
 def test_a_guided_scene_is_stepped_through_and_undone():
     page = Page()
-    page.board.tabs["surface"].act()
+    press(page, "Surface")
     opening = page.state.scene_values
     for at, step in enumerate(TOURS["First yield"]):
         side(page, "guide").next.clicks += 1
@@ -148,13 +144,13 @@ def test_a_guided_scene_is_stepped_through_and_undone():
     # What it says is gone while the page shows something else.
     page.apply(lambda state: changes.put(state, "speed", 2 * state.speed))
     assert "1 of 6. The scene has been changed" in side(page, "guide").words.object
-    page.frame.undo.act()
+    page.undo()
     assert "e = 1.00" in re.sub("<[^>]+>", "", side(page, "guide").words.object)
     # Each step that sets something is one change.
     for _ in range(4):
-        page.frame.undo.act()
-    while page.past:
-        page.frame.undo.act()
+        page.undo()
+    while page.history.past:
+        page.undo()
     assert page.state.scene_values == opening
 
 
