@@ -158,10 +158,9 @@ def scene_of(state: State) -> mdr.Scene:
     return mdr.Scene(profile(state), made, DRIVES[state.drive].make(state, made))
 
 
-def follow(state: State, known: dict[mdr.Scene, Course] | None = None) -> Course:
-    """Course of a state; `known` has exact courses."""
-    scene = scene_of(state)
-    course = (known or {}).get(scene) or DRIVES[state.drive].follow(scene, state.progress)
+def follow(state: State) -> Course:
+    """Course of a state."""
+    course = DRIVES[state.drive].follow(scene_of(state), state.progress)
     return replace(course, now=nearest(course.progress, state.progress), drive=state.drive)
 
 

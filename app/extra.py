@@ -71,9 +71,8 @@ class Extra:
     check: Callable[[State], str] = lambda state: ""
     #: What it and others need once in a session of a page, which it is made of.
     service: Callable[[Any], Service] | None = None
-    #: What its overlays need, `view.computed[name]`, before anything is changed: of a state, the present
-    #: view, None if exact courses have been found, and these.
-    compute: Callable[[State, View | None, dict[Any, Course]], Any] = lambda state, before, known: None
+    #: What its overlays need, `view.computed[name]`, of a state and the view that is shown before it.
+    compute: Callable[[State, View | None], Any] = lambda state, before: None
     #: Courses of which the exact ones are found at rest.
     courses: Callable[[View], list[Course]] = lambda view: []
     #: Puts links into a text (HTML).

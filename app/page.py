@@ -14,7 +14,6 @@ from panel.io.location import Location
 
 from . import changes, link
 from .board import Board
-from .courses import Course
 from .drives import follow, scene_of
 from .extra import EXTRAS, SERVICES
 from .fields import Field
@@ -61,7 +60,6 @@ class Page:
 
     def __init__(self, query: str = ""):
         self.document, self.state, self.history = pn.state.curdoc, preset_state(), History()
-        self.solved: dict[Any, Course] = {}
         self._waiting, self._ready, self.shown = None, False, None
         # Notices until the browser is ready, and whether the address holds a link that was not opened.
         self._notices, self._refused = [], False
@@ -202,14 +200,13 @@ class Page:
     # Drawing.
 
     @pn.io.hold()
-    def draw(self, state: State, again: bool = False, moved: bool = False) -> None:
+    def draw(self, state: State, moved: bool = False) -> None:
         """Show a state; everything is computed before anything is changed.
 
-        `again`: exact courses have been found; `moved`: only the present state has changed.
+        `moved`: only the place along the path has changed.
         """
-        course = follow(state, self.solved)
-        before = None if again else self.shown
-        computed = {name: each.compute(state, before, self.solved) for name, each in EXTRAS.items()}
+        course = follow(state)
+        computed = {name: each.compute(state, self.shown) for name, each in EXTRAS.items()}
         for service in self.services:
             computed |= service.compute(state, course)
         view = View(state, course, computed)

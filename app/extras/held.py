@@ -43,10 +43,10 @@ class Held:
 # The scenes.
 
 
-def held_scene(query: str, known: dict) -> Held:
+def held_scene(query: str) -> Held:
     """A held scene from its link; ValueError if that is invalid."""
     state = link.read(query)
-    return Held(difference(state), follow(state, known), state)
+    return Held(difference(state), follow(state), state)
 
 
 def _others(state: State) -> tuple[str, ...]:
@@ -202,11 +202,11 @@ def hold(page: Any, view: View) -> Part:
     return button("Hold", lambda: page.apply(toggle_hold), pressed=pressed)
 
 
-def compute(state: State, before: View | None, known: dict) -> list[Held]:
-    """The held scenes, named by what differs from the present one; courses that are known are kept."""
-    found = scenes(before) if before is not None else []
-    if before is None or before.state["held.scenes"] != state["held.scenes"]:
-        found = [held_scene(query, known) for query in state["held.scenes"]]
+def compute(state: State, before: View | None) -> list[Held]:
+    """The held scenes, named by what differs from the present one; exact courses are kept."""
+    shown = {} if before is None else dict(zip(before.state["held.scenes"], scenes(before), strict=True))
+    kept = {query: each for query, each in shown.items() if not each.course.pending}
+    found = [kept.get(query) or held_scene(query) for query in state["held.scenes"]]
     return [replace(each, name=difference(each.state, state)) for each in found]
 
 

@@ -21,7 +21,7 @@ from ..extra import Extra
 from ..plot import Along, Overlay, Plot, View
 from ..plots import X, Z
 from ..quantities import QUANTITIES
-from ..shared.rest import Resting
+from ..shared.rest import EXACT, Resting
 from ..shared.time import T, line_at_time
 from ..state import refuse_other_classes
 from ..units import written
@@ -73,7 +73,9 @@ class Oblique(Impact):
         return mdr.FreeObliqueImpact(state.mass, *speeds, state["oblique.friction"], felt)
 
     def follow(self, scene, progress):
-        """States from one coarse solution of friction."""
+        """States from one coarse solution of friction until the exact ones are found."""
+        if scene in EXACT:
+            return EXACT[scene]
         drive, normal = scene.drive, _normal(scene)
         given = drive.tangential_speed, drive.friction, drive.tangential_mass
         motion = along_surface(motion_of(normal, INSTANTS, BEFORE_YIELD), *given, 0)

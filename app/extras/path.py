@@ -15,7 +15,7 @@ from mdr_core.medium import refuse_adhesion
 from ..courses import Course, Timed, nearest, onset_depth, path_progress
 from ..drives import DRIVES, Drive, limited_force, turning_point
 from ..extra import Extra
-from ..shared.rest import Resting
+from ..shared.rest import EXACT, Resting
 from ..state import profile, refuse_other_classes
 
 #: Steps of a piece of a path; of creep, each of which takes eight steps of the chain and more.
@@ -209,7 +209,9 @@ class Path(Drive):
         return mdr.DepthPath([depth for pair in zip(peaks, unloaded, strict=True) for depth in pair])
 
     def follow(self, scene, progress):
-        """States; creep of a viscous medium without dashpots at first."""
+        """States; creep of a viscous medium without dashpots until the exact ones are found."""
+        if scene in EXACT:
+            return EXACT[scene]
         viscous = scene.drive.time is not None and scene.medium.eta > 0
         pending = viscous and _by_force(scene.drive)
         return _solved(

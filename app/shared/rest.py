@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from mdr_core import Scene
 from mdr_core.results.figures import Axis
 
 from ..courses import Course
@@ -20,8 +21,11 @@ from ..state import State
 from ..ui import is_served
 
 _LOG = logging.getLogger(__name__)
-#: Threads for the searches of all sessions, and courses that a session keeps.
-_THREADS, _KEPT = ThreadPoolExecutor(), 4
+#: Threads for the searches of all sessions.
+_THREADS = ThreadPoolExecutor()
+#: Exact courses by their scenes, the last ones that were found in any session, and how many are kept.
+EXACT: dict[Scene, Course] = {}
+_KEPT = 64
 
 
 @dataclass(frozen=True)
@@ -128,20 +132,28 @@ class Resting:
         """Draw a result if it is that of the last search; on failure go on without it."""
         if self._keys[name] != key:
             return
-        page, solved = self._page, self._page.solved
+        page = self._page
         self._results[name] = key, result
         try:
             if isinstance(result, str):
                 page.notify(result)
                 return
             if isinstance(result, Course):
-                page.solved = dict([*solved.items(), (result.scene, result)][-_KEPT:])
-            page.draw(page.state, again=isinstance(result, Course))
+                _keep(result)
+            page.draw(page.state)
         except Exception as error:
-            page.solved = solved
+            if isinstance(result, Course):
+                EXACT.pop(result.scene, None)
             self._results[name] = key, FAULT
             page.notify(page.refusal(error))
             page.draw(page.state)
+
+
+def _keep(course: Course) -> None:
+    """Keep an exact course in the place of the oldest one."""
+    EXACT[course.scene] = course
+    for scene in list(EXACT)[:-_KEPT]:
+        del EXACT[scene]
 
 
 def exact(course: Course) -> Course:

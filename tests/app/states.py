@@ -32,7 +32,7 @@ def view_of(state: State, progress=1.0, *held: State) -> View:
     state = state.replace(progress=progress)
     if held:
         state = state.replace(**{"held.scenes": tuple(link.write(each) for each in held)})
-    computed = {name: each.compute(state, None, {}) for name, each in EXTRAS.items()}
+    computed = {name: each.compute(state, None) for name, each in EXTRAS.items()}
     return View(state, follow(state), computed)
 
 

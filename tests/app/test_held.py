@@ -29,12 +29,12 @@ def holding(*depths):
 
 def depths(state):
     """Largest depths of the scenes that are held."""
-    return [held_scene(query, {}).course.turning_point.depth for query in state["held.scenes"]]
+    return [held_scene(query).course.turning_point.depth for query in state["held.scenes"]]
 
 
 def test_one_gesture_holds_a_scene_and_lets_it_go():
     state = holding(6e-9, 9e-9)
-    assert [held_scene(query, {}).course.turning_point.depth for query in state["held.scenes"]] == [
+    assert [held_scene(query).course.turning_point.depth for query in state["held.scenes"]] == [
         6e-9,
         9e-9,
     ]
@@ -101,7 +101,7 @@ def test_a_held_scene_is_named_by_what_differs_from_the_present_one():
     later = drop.replace(**{"held.scenes": (link.write(gold),)})
     view = view_of(soft, 1.0, gold)
     assert [each.name for each in view.computed["held"]] == ["q_c = 100 N/m"]
-    assert [each.name for each in EXTRAS["held"].compute(later, view, {})] == [difference(gold, drop)]
+    assert [each.name for each in EXTRAS["held"].compute(later, view)] == [difference(gold, drop)]
 
 
 def test_a_scene_of_another_scale_leaves_the_axes():

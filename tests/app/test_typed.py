@@ -122,10 +122,10 @@ def test_a_refusal_stays_while_an_earlier_number_is_solved_and_another_is_typed(
     text, refused = sent(page, "E_star", "abc")
     assert "“abc” is not a number" in refused
     # A result that is found at rest is drawn.
-    page.draw(page.state, again=True)
+    page.draw(page.state)
     assert seen(page, "E_star") == (text, refused)
     assert "“abc” is not a number" in sent(page, "speed", "abc")[1]
-    page.draw(page.state, again=True)
+    page.draw(page.state)
     assert "“abc” is not a number" in seen(page, "speed")[1]
     assert sent(page, "speed", "4.5") == ("4.5 m/s", "")
     assert seen(page, "E_star")[1] == refused

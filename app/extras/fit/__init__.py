@@ -14,7 +14,7 @@ from .words import result, told, unloading
 __all__ = ["DEFAULT_FIXED", "EXTRA", "fit", "quantity_of", "result", "silica", "take", "unloading"]
 
 
-def compute(state: State, before: View | None, known: dict) -> Curve | None:
+def compute(state: State, before: View | None) -> Curve | None:
     curve = state["fit.curve"]
     return None if curve is None else curve.placed(state)
 
