@@ -4,8 +4,6 @@ from functools import partial
 from typing import Any
 
 import panel as pn
-from bokeh.events import Pan, PanEnd, PanStart
-from bokeh.models import CustomJS
 
 from .draw import Picture, drawn, legend, picture_of
 from .extra import EXTRAS
@@ -13,7 +11,7 @@ from .parts import Parts, button, text
 from .player import Player
 from .plot import Plot, View
 from .plots import NAMED, PLOTS, visible
-from .ui import FULL, JS, html, linked, reveal, show
+from .ui import FULL, html, linked, reveal, show
 
 #: Plots that share the axis x of another one.
 _SAME_X = {"pressure": "springs"}
@@ -58,13 +56,9 @@ class Board:
         self._page, self.cards = page, {}
         self.tabs = Parts("bar", "tabs")
         self.grid = pn.Column(css_classes=["plots"], **FULL)
-        figures = {name: self._make(name) for name in NAMED}
+        for name in NAMED:
+            self._make(name)
         self.player = Player(page.messages)
-        #: Figures that are dragged.
-        self.dragged = [figures["springs"], figures["force"]]
-        for figure in self.dragged:
-            for event in (PanStart, Pan, PanEnd):
-                figure.js_on_event(event, CustomJS(code=JS["named"] + JS["drag"]))
 
     def _make(self, name):
         card = self.cards[name] = Card(PLOTS[name], self._page)
@@ -72,7 +66,6 @@ class Board:
         if name in _SAME_X:
             figure.x_range = self.cards[_SAME_X[name]].picture.figure.x_range
         self.grid.append(card.view)
-        return figure
 
     def columns(self, view: View) -> dict[str, dict]:
         """Columns of all plots that are seen, by their names; nothing on the page is changed."""

@@ -6,7 +6,7 @@ from typing import Any
 import mdr_core as mdr
 
 from .courses import Timed
-from .drives import DRIVES, follow, scene_of, turning_point
+from .drives import DRIVES, follow, turning_point
 from .quantities import CHOICES, QUANTITIES, SHAPES, shape_quantities
 from .state import PRESETS, YIELD_CONSTANT, State, altered, checked, medium, preset_state, with_derived
 
@@ -85,15 +85,6 @@ def hit_again(state: State, hit: mdr.Impact) -> State:
     if not hit.plastic_depth_increase > 0:
         raise ValueError("nothing has yielded further: the next impact is the same as this one")
     return state.replace(plastic_depth=checked("plastic_depth", float(hit.plastic_depth)))
-
-
-def press_to(state: State, depth: float) -> State:
-    """Press to a depth (m), as dragged by hand."""
-    depth = QUANTITIES["max_depth"].bounded(depth)
-    pressed = mdr.indent(scene_of(state).profile, medium(state), depth)
-    numbers = DRIVES[state.drive].equivalent(state, pressed)
-    numbers = {name: checked(name, shown(value)) for name, value in numbers.items()}
-    return state.replace(progress=1.0, **numbers)
 
 
 def turn_dark(state: State) -> State:

@@ -24,12 +24,21 @@ class Side(Protocol):
     def show(self, view: View) -> None: ...
 
 
-class Service(Protocol):
-    """Something that extras share in a session: what it adds to `view.computed`, and does at rest."""
+class Service:
+    """What an extra has and does in a session of a page, beside its part of the side."""
 
-    def compute(self, state: State, course: Course) -> dict[str, Any]: ...
+    def __init__(self, page: Any):
+        self.page = page
 
-    def rest(self, view: View) -> None: ...
+    def compute(self, state: State, course: Course) -> dict[str, Any]:
+        """What it adds to `view.computed`, before anything is changed."""
+        return {}
+
+    def show(self, view: View) -> None:
+        """Show another view."""
+
+    def rest(self, view: View) -> None:
+        """Do what waits until the input rests."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,8 +74,6 @@ class Extra:
     #: A button that it has in the header of a page, and one that it has above a plot, or None.
     header: Callable[[Any, View], Part] | None = None
     on_plots: Callable[[Any, Plot, View], Part | None] | None = None
-    #: What it does to a page whenever a view is shown.
-    shown: Callable[[Any, View], None] = lambda page, view: None
     #: Why a link with its values is refused, or nothing.
     check: Callable[[State], str] = lambda state: ""
     #: What it and others need once in a session of a page, which it is made of.

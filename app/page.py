@@ -20,7 +20,7 @@ from .fields import Field
 from .frame import Frame
 from .parts import Part, choice
 from .plot import View
-from .plots import Z, visible
+from .plots import visible
 from .state import VIEW, State, preset_state
 from .ui import JS, Messages, is_served
 from .units import in_words
@@ -64,10 +64,10 @@ class Page:
         # Notices until the browser is ready, and whether the address holds a link that was not opened.
         self._notices, self._refused = [], False
         self._fields: dict[str, Field] = {}
-        self.services = [make(self) for make in SERVICES]
         self.messages = Messages(name="messages")
         self.board = Board(self)
         self.frame = Frame(self)
+        self.services = [make(self) for make in SERVICES]
         self.view = self.frame.view
         self._watch()
         try:
@@ -84,7 +84,6 @@ class Page:
         player.state.on_change("value_throttled", self._state_chosen)
         player.state.on_change("value", self._slider_moved)
         player.play.on_change("active", lambda attr, old, new: new and self._send())
-        self.messages.on_change("hand", self._dragged)
         if self.document is None:
             return
         self.messages.on_change("dark", self._theme_chosen)
@@ -93,9 +92,8 @@ class Page:
         self.messages.js_on_change("dark", told)
         self.document.add_root(self.messages)
         self.document.on_event(DocumentReady, self._browser_ready)
-        told = {"messages": self.messages, "figures": self.board.dragged}
-        for name in ("ready", "touch"):
-            self.document.js_on_event(DocumentReady, CustomJS(args=told, code=JS[name]))
+        ready = CustomJS(args={"messages": self.messages}, code=JS["ready"])
+        self.document.js_on_event(DocumentReady, ready)
         # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
 
@@ -222,8 +220,8 @@ class Page:
         if not self._ready:
             self.frame.rest(view)
         self.messages.dark = state.dark
-        for each in EXTRAS.values():
-            each.shown(self, view)
+        for service in self.services:
+            service.show(view)
         self.refresh()
         self._schedule()
 
@@ -233,7 +231,7 @@ class Page:
         self.board.show_parts(self.shown)
         self.frame.show(self.shown)
 
-    # Player and dragging.
+    # The player.
 
     def _slider_moved(self, attr, old, new):
         if int(new) != self.shown.course.now:
@@ -249,13 +247,6 @@ class Page:
         now = min(int(new), len(course) - 1)
         if now != course.now:
             self.draw(self.state.replace(progress=float(course.progress[now])), moved=True)
-
-    def _dragged(self, attr, old, new):
-        """Press to a depth given in the height unit of the springs plot."""
-        if isinstance(new, int | float):
-            depth = new * self.shown.axis(Z).factor
-            self.apply(lambda state: changes.press_to(state, depth), mark="hand")
-            self.messages.hand = None
 
     # Updates when the input rests.
 

@@ -9,16 +9,7 @@ from bokeh.models import CustomJS, ImportedStyleSheet, Row, Slider, Toggle
 from . import readouts
 from .draw import Picture
 from .plot import View
-from .plots import D, F, Z
 from .ui import JS, LAYOUT, SHEETS, WIDE, Messages
-
-
-def path(view: View) -> dict[str, Any]:
-    """Depth and force of all states in the units of the plots, for what is dragged."""
-    course, d, force = view.course, view.axis(D).factor, view.axis(F).factor
-    found = {"d": course.states.depth / d, "F": course.states.force / force}
-    found = {name: [float(f"{value:.6g}") for value in values] for name, values in found.items()}
-    return found | {"unit": d / view.axis(Z).factor, "pressing": course.pressed}
 
 
 def frames(view: View, pictures: list[Picture]) -> tuple[list[Any], str]:
@@ -66,7 +57,6 @@ class Player:
         if not moved:
             self._messages.frames = []
         self.state.update(end=len(course) - 1, value=i)
-        self._messages.path = path(view)
         self.heads = readouts.heads(course, numbers)
         self._messages.words = readouts.values(course, numbers, i)
 

@@ -69,12 +69,9 @@ P = Along("−σzz, pressure", "pressure", _pressure_size, lambda course: float(
 
 
 def springs(view: View, i: int) -> dict:
-    """Springs by their state, and a handle at the rim of the contact, or without contact at the tip."""
+    """Springs by their state."""
     course, state = view.course, view.course.states[i]
-    rows = figures.springs(state, view.end(X), view.end(Z), lambda g: course.relaxing(i, g))
-    a = float(state.contact_radius)
-    height = float(state.live_interval.upper) if a > 0 else 0.0
-    return rows | {"handle": (np.array([a]), np.array([height - float(state.depth)]))}
+    return figures.springs(state, view.end(X), view.end(Z), lambda g: course.relaxing(i, g))
 
 
 def _spring_formula(course: Course) -> str:
@@ -88,7 +85,7 @@ def _spring_formula(course: Course) -> str:
 
 SPRINGS = Plot(
     "springs", "1D foundation", _spring_formula, (X, Z),
-    (*figures.SPRING_ROWS, mark("handle", legend=False)), moving=springs,
+    figures.SPRING_ROWS, moving=springs,
 )  # fmt: skip
 
 

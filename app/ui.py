@@ -6,7 +6,7 @@ from html import escape
 from pathlib import Path
 
 import panel as pn
-from bokeh.core.properties import Any, AnyRef, Bool, List, Nullable, String
+from bokeh.core.properties import AnyRef, Bool, List, Nullable, String
 from bokeh.model import DataModel
 
 HERE = Path(__file__).parent
@@ -30,8 +30,6 @@ class Messages(DataModel):
     dark = Bool(False)
     #: Sources and, as text, what they are in each state of the scene; empty until they are asked for.
     frames = List(AnyRef)
-    #: Depth and force of each state, for what is dragged; and the depth that the indenter is dragged to.
-    path, hand = Any(default={}), Any(default=None)
     #: Readouts of the state that is seen, as HTML.
     words = String("")
 

@@ -4,7 +4,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..extra import Extra
+from ..extra import Extra, Service
 from ..parts import Part, button
 from ..plot import Plot, View
 from ..state import State
@@ -33,15 +33,17 @@ def large(page: Any, plot: Plot, view: View) -> Part:
     return button("Small" if is_large else "Large", act, pressed=is_large, key="escape")
 
 
-def shown(page: Any, view: View) -> None:
-    """Show the plots as large as they are asked for, with letters of that size."""
-    on, name_of_large = bool(view.state["present.on"]), view.state["present.large"]
-    show(page.frame.view, stylesheets=[*LAYOUT, *[_SHEET] * on])
-    for name, card in page.board.cards.items():
-        is_large = name == name_of_large
-        show(card.view, css_classes=["card", name, *["large"] * is_large])
-        # On a small plot large titles of axes have no room.
-        card.picture.letters(_SCALE if on or is_large else 1.0, short=on and not is_large)
+class Letters(Service):
+    """Shows the plots as large as they are asked for, with letters of that size."""
+
+    def show(self, view: View) -> None:
+        on, name_of_large = bool(view.state["present.on"]), view.state["present.large"]
+        show(self.page.frame.view, stylesheets=[*LAYOUT, *[_SHEET] * on])
+        for name, card in self.page.board.cards.items():
+            is_large = name == name_of_large
+            show(card.view, css_classes=["card", name, *["large"] * is_large])
+            # On a small plot large titles of axes have no room.
+            card.picture.letters(_SCALE if on or is_large else 1.0, short=on and not is_large)
 
 
 EXTRA = Extra(
@@ -51,5 +53,5 @@ EXTRA = Extra(
     of_view=("present.on", "present.large"),
     header=present,
     on_plots=large,
-    shown=shown,
+    service=Letters,
 )

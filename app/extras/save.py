@@ -4,7 +4,7 @@ from typing import Any
 
 from ..courses import Course
 from ..draw import drawn
-from ..extra import Extra
+from ..extra import Extra, Service
 from ..parts import Part
 from ..plot import Plot, View, rows_of
 from ..plots import NAMED, PLOTS
@@ -17,10 +17,11 @@ _SCREEN = (1280, 720)
 _PLACES = {"springs": (0, 0, 640, 348), "pressure": (0, 348, 640, 348), "force": (640, 0, 640, 696)}
 
 
-class Legends:
+class Legends(Service):
     """Legends and the scene of pictures that are saved, as of the last rest of a session."""
 
     def __init__(self, page: Any):
+        super().__init__(page)
         self._legends: dict[str, Any] = {}
 
     def compute(self, state: State, course: Course) -> dict[str, Any]:

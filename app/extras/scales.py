@@ -12,7 +12,7 @@ from bokeh.models import CustomJS
 from mdr_core.results.figures import label
 
 from ..courses import Course
-from ..extra import Extra
+from ..extra import Extra, Service
 from ..parts import Part, button
 from ..plot import Overlay, View
 from ..plots import NAMED, PLOTS, D, F, R, X, Z
@@ -34,11 +34,12 @@ class Dragged(DataModel):
     on = Bool(False)
 
 
-class Scales:
+class Scales(Service):
     """Keeps the axes of the three plots until the drive or the preset changes."""
 
     def __init__(self, page: Any):
-        self._page, self._kept, self.dragged = page, False, Dragged()
+        super().__init__(page)
+        self._kept, self.dragged = False, Dragged()
         if page.document is not None:
             page.document.add_root(self.dragged)
             script = CustomJS(args={"dragged": self.dragged}, code=_SCRIPT)
@@ -47,17 +48,14 @@ class Scales:
 
     def _released(self, attr, old, new):
         if not new and self._kept:
-            self._page.draw(self._page.state)
+            self.page.draw(self.page.state)
 
     def compute(self, state: State, course: Course) -> dict[str, Any]:
-        shown = self._page.shown
+        shown = self.page.shown
         self._kept = shown is not None and bool(state["scales.keep"] or self.dragged.on)
         if not self._kept or any(state[name] != shown.state[name] for name in ("preset", "drive")):
             return {}
         return {"axes": {along: shown.axis(along) for name in NAMED for along in PLOTS[name].axes}}
-
-    def rest(self, view: View) -> None:
-        pass
 
 
 def keep(page: Any, view: View) -> Part:

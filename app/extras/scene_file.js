@@ -1,6 +1,7 @@
 // A saved scene: the page's own scripts move it, with a plain slider and button in the place of the page's widgets.
 const [slider, button, numbers, theme] = ["state", "play", "readout", "dark"].map((id) => document.getElementById(id))
-const messages = { frames: [], path, hand: null, setv: ({ words }) => { numbers.innerHTML = words } }
+const dragging = { path, depth: null }
+const messages = { frames: [], setv: ({ words }) => { numbers.innerHTML = words } }
 const play = {
   set label(text) { button.textContent = text },
   get active() { return button.ariaPressed === "true" },
@@ -45,7 +46,7 @@ document.onkeydown = (event) => {
   button.click()
 }
 // A drag finds these by their names, as if they were the page's.
-Object.assign(window, { messages, play, state })
+Object.assign(window, { messages, dragging, play, state })
 touched(figures.filter(({ name }) => name !== "pressure"))
 const bytes = Uint8Array.from(atob(packed), (letter) => letter.charCodeAt(0))
 const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))

@@ -12,7 +12,7 @@ from zlib import compress
 import panel as pn
 from bokeh.document import Document
 from bokeh.embed import file_html
-from bokeh.events import DocumentReady, Pan, PanEnd, PanStart
+from bokeh.events import DocumentReady
 from bokeh.models import CustomJS
 from bokeh.resources import Resources
 
@@ -22,10 +22,11 @@ from mdr_core.results.figures import ROLES
 from .. import link, readouts
 from ..draw import Picture, drawn, legend
 from ..extra import EXTRAS, Extra
-from ..player import frames, path
+from ..player import frames
 from ..plot import Plot, View
 from ..plots import NAMED, PLOTS
 from ..quantities import CHOICES, LABELS, QUANTITIES, SHAPES
+from ..shared.dragging import DRAGGED, TOUCH, let_drag, path
 from ..shared.summary import summary
 from ..state import MEDIUM_CHOICES, PRESETS, YIELD_CONSTANT, State, altered, used
 from ..ui import CSS, JS, marked, symbol
@@ -36,7 +37,7 @@ _TEMPLATE = _HERE.with_suffix(".html").read_text(encoding="utf-8")
 #: The page's scripts of player and touch as functions, and what calls them.
 _CODE = f"""
 const moved = (cb_obj) => {{\n{JS["player"]}\n}}
-const touched = (figures) => {{\n{JS["touch"]}\n}}
+const touched = (figures) => {{\n{TOUCH}\n}}
 {_HERE.with_suffix(".js").read_text(encoding="utf-8")}"""
 #: Columns of a source that are of another colour in the dark.
 _COLOURS = ("color", "edge", "ground")
@@ -110,10 +111,8 @@ def _connect(document: Document, view: View, pictures: list[Picture]) -> None:
     }
     document.js_on_event(DocumentReady, CustomJS(args=told, code=_CODE))
     for picture in pictures:
-        drag = CustomJS(args={"figure": picture.figure}, code=JS["drag"])
-        if picture.plot.name != "pressure":
-            for event in (PanStart, Pan, PanEnd):
-                picture.figure.js_on_event(event, drag)
+        if picture.plot.name in DRAGGED:
+            let_drag(picture.figure, {"figure": picture.figure})
 
 
 def _folded(view: View) -> Iterator[tuple[str, str]]:

@@ -14,7 +14,7 @@ from mdr_core.results.figures import Axis
 
 from ..courses import Course
 from ..drives import DRIVES
-from ..extra import EXTRAS
+from ..extra import EXTRAS, Service
 from ..plot import Plot, View
 from ..plots import PLOTS, visible
 from ..state import State
@@ -80,11 +80,12 @@ class Searched(Plot):
         return self.found(view).note
 
 
-class Resting:
+class Resting(Service):
     """Searches of a session: the last one of each name."""
 
     def __init__(self, page: Any):
-        self._page, self._keys, self._results = page, {}, {}
+        super().__init__(page)
+        self._keys, self._results = {}, {}
 
     def compute(self, state: State, course: Course) -> dict[str, Found]:
         """Results for the plots of a state; quick ones are computed."""
@@ -114,7 +115,7 @@ class Resting:
         """Search unless the last search of this name has the same key."""
         if self._keys.get(name) == key:
             return
-        self._keys[name], document = key, self._page.document
+        self._keys[name], document = key, self.page.document
 
         def run():
             try:
@@ -132,7 +133,7 @@ class Resting:
         """Draw a result if it is that of the last search; on failure go on without it."""
         if self._keys[name] != key:
             return
-        page = self._page
+        page = self.page
         self._results[name] = key, result
         try:
             if isinstance(result, str):

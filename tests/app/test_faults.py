@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from app import changes
+from app.extras.drag import Dragging
 from app.page import Page
 from app.shared.rest import COMPUTING, FAULT
 from app.state import PRESETS, preset_state
@@ -98,12 +99,18 @@ def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
     assert page.state.max_depth > start
 
 
+def drag(page, depth):
+    """What the browser sends while the indenter is dragged."""
+    (dragging,) = (each for each in page.services if isinstance(each, Dragging))
+    dragging.hand.depth = depth
+
+
 def test_the_indenter_is_dragged_to_a_depth_under_a_given_force_too(page):
     page.apply(lambda state: changes.choose(state, "drive", "force"))
-    page._dragged("hand", None, 5.0)
+    drag(page, 5.0)
     # A force that is found has the five digits that its field shows.
     assert float(page.shown.course.turning_point.depth) == pytest.approx(5e-9, rel=5e-5)
-    page._dragged("hand", None, "<b>")
+    drag(page, "<b>")
     assert page.notices == []
 
 

@@ -103,7 +103,7 @@ def test_keys_player_and_hand_move_every_plot(explorer):
     assert_draws(explorer, preset_state())
     # The indenter is taken by the hand: deeper, and one change to undo.
     explorer.drag("springs", (0, 0.2))
-    explorer.wait("explorer.row('force', 'now')[0][0] > 9.5 && explorer.model('messages').hand === null")
+    explorer.wait("explorer.row('force', 'now')[0][0] > 9.5 && explorer.model('dragging').depth === null")
     explorer.wait("explorer.idle()")
     explorer.link("max_depth=")
     assert explorer.slider("d_max").input_value() != "200"

@@ -1,6 +1,6 @@
 // A drag takes the indenter along, or the mark on the curve: to another depth when pressing, else to the nearest state.
 const { name, x_range: x, y_range: y, inner_height } = figure
-const { d, F, unit, pressing } = messages.path, wide = (range) => range.end - range.start
+const { d, F, unit, pressing } = dragging.path, wide = (range) => range.end - range.start
 const [begin, depth, pixel] = cb_obj.event_name === "panstart" ? [cb_obj.sy, d[state.value] * unit, wide(y) / inner_height] : figure.tags
 figure.setv({ tags: [begin, depth, pixel] }, { sync: false })
 const wish = Math.max(depth + (cb_obj.sy - begin) * pixel, 1e-3 * wide(y))
@@ -8,8 +8,8 @@ const end = cb_obj.event_name === "panend"
 // Without a hold the finger scrolls the page, or the browser has cancelled the drag and its place is none.
 if (!figure.held && !end) return
 if (name === "springs" && pressing) {
-  // One request at a time: the server empties the hand once it has drawn.
-  if (figure.held && (end || messages.hand === null)) messages.hand = wish
+  // One request at a time: the server empties it once it has drawn.
+  if (figure.held && (end || dragging.depth === null)) dragging.depth = wish
 } else if (end) state.value_throttled = state.value
 else {
   const near = name === "springs" ? (k) => Math.abs(d[k] * unit - wish) / wide(y)

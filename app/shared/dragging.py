@@ -1,0 +1,31 @@
+"""Dragging of the indenter, and of the mark on the curve, in a page and in saved scenes."""
+
+from pathlib import Path
+from typing import Any
+
+from bokeh.events import Pan, PanEnd, PanStart
+from bokeh.models import CustomJS
+
+from ..plot import View
+from ..plots import D, F, Z
+
+_HERE = Path(__file__).parent
+#: Script of the gestures, and that of fingers, which drag a plot by its mark alone.
+_DRAG = (_HERE / "drag.js").read_text(encoding="utf-8")
+TOUCH = (_HERE / "touch.js").read_text(encoding="utf-8")
+#: Plots that are dragged.
+DRAGGED = ("springs", "force")
+
+
+def path(view: View) -> dict[str, Any]:
+    """Depth and force of all states in the units of the plots."""
+    course, d, force = view.course, view.axis(D).factor, view.axis(F).factor
+    found = {"d": course.states.depth / d, "F": course.states.force / force}
+    found = {name: [float(f"{value:.6g}") for value in values] for name, values in found.items()}
+    return found | {"unit": d / view.axis(Z).factor, "pressing": course.pressed}
+
+
+def let_drag(figure: Any, args: dict[str, Any], before: str = "") -> None:
+    """Let a figure be dragged: arguments of the script, and a script before it, find what is moved."""
+    for event in (PanStart, Pan, PanEnd):
+        figure.js_on_event(event, CustomJS(args=args, code=before + _DRAG))
