@@ -86,6 +86,8 @@ class Extra:
     linked: Callable[[str], str] | None = None
     #: Files to download, each with its label, its name, and its text of a view.
     files: tuple[tuple[str, str, Callable[[View], str]], ...] = ()
+    #: Notes (HTML) by their places in the form, and "below" the player: found when the input rests.
+    notes: Callable[[View], dict[str, str]] = lambda view: {}
     #: Titles and texts (HTML) that a saved scene has of it.
     told: Callable[[View], list[tuple[str, str]]] = lambda view: []
     #: A page of its own at the address `?NAME=place`.

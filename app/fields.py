@@ -1,25 +1,21 @@
 """The form: number fields and choices, each with symbol, name, unit and explanation."""
 
 from functools import cache
-from html import escape
-from math import degrees
 from typing import Any
 
 from mdr_core.profiles.samples import decoded
 
 from . import changes
-from .courses import Course
 from .parts import Part, Parts, button, text, upload
 from .plot import View
-from .quantities import OF_DRIVE, QUANTITIES, SHAPES, Scale
-from .readouts import law_of_hardness
+from .quantities import OF_DRIVE, QUANTITIES, Scale
 from .state import MEDIUM_CHOICES, PRESETS, State, altered, regions
 from .tip import read_tip
 from .ui import linked, marked, symbol
-from .units import UNITS, digits, entry, fitting, read, with_symbol, written
+from .units import UNITS, entry, fitting, read, written
 
-#: Standard acceleration of free fall (m/s²).
-_GRAVITY = 9.80665
+#: Places of the form that have notes of extras.
+_PLACES = ("first", "drive", "shape", "medium", "more", "sources")
 
 
 class Field:
@@ -118,9 +114,9 @@ class Form:
         self._page, self._open, self._in_use, self._notes = page, False, False, {}
         self.view = Parts("form")
 
-    def rest(self, view: View) -> None:
-        """Update the texts: a changed one causes a new layout, so they wait while a slider moves."""
-        self._notes = notes(view.state, view.course)
+    def rest(self, notes: dict[str, str]) -> None:
+        """Take notes (HTML) on regions of the form."""
+        self._notes = notes
 
     def show(self, view: View) -> None:
         state, page = view.state, self._page
@@ -133,10 +129,10 @@ class Form:
             region: [page.number(name, likes.get(name, 0.0)) for name in names]
             for region, names in regions(state).items()
         }
-        note = {name: text(f"note {name}", html) for name, html in self._notes.items()}
+        note = {place: text(f"note {place}", self._notes.get(place, "")) for place in _PLACES}
         again = button("Hit again", self._hit_again)
         parts = [
-            text("first", "Move a slider or drag the indenter by ●: orange springs have yielded."),
+            text("first", "Move a slider: orange springs have yielded."), note["first"],
             page.choice("drive"), *numbers["drive"], note["drive"],
             *map(page.choice, OF_DRIVE[state.drive]["form"]), *[again] * (state.drive == "impact"),
             title("Indenter"), page.choice("shape"), note["shape"], *numbers["shape"],
@@ -155,26 +151,3 @@ class Form:
         """Open or close the rest of the medium."""
         self._open = not self._open
         self._page.refresh()
-
-
-def notes(state: State, course: Course) -> dict[str, str]:
-    """Texts of the form (HTML) by its regions."""
-    preset, shape, made = PRESETS[state.preset], SHAPES[state.shape], course.scene.medium
-    sources = ""
-    for name, source in preset.sources.items():
-        value = marked(with_symbol(name, preset.values[name]))
-        sources += f"<dt>{value}</dt><dd>{escape(source)}</dd>"
-    head = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
-    energy = written(state.mass * state.speed**2 / 2, "energy")
-    height = written(state.speed**2 / (2 * _GRAVITY), "length")
-    angle = f"Half-angle {digits(degrees(course.half_angle))}°" if course.half_angle else ""
-    eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
-    idle = "" if course.dashpots else "; no effect here, where pressing is quasi-static"
-    return {
-        "drive": f"Energy {energy}; equivalent drop height {height}" * (state.drive == "impact"),
-        "shape": f"<figcaption>{marked(shape.height)}<br>{marked(shape.reduced)}</figcaption>"
-        + marked(state.tip_note if state.shape == "sampled" else angle),
-        "medium": linked(law_of_hardness(course)),
-        "more": linked(f"η = {eta}, τ = 4η/E* = {tau} (1){idle}") if made.eta > 0 else "",
-        "sources": f"<details><summary>{head}</summary><dl>{sources}</dl></details>",
-    }

@@ -6,7 +6,6 @@ from typing import Any
 
 import panel as pn
 
-from . import readouts
 from .extra import EXTRAS, Extra, Side
 from .fields import Form
 from .parts import Part, Parts, button, text
@@ -30,11 +29,11 @@ class Frame:
         self.header = Parts("header", "bar", stylesheets=LAYOUT)
         self.tabs = Parts("bar")
         self.line = Parts("top", stylesheets=LAYOUT)
-        self.warnings = html("", "lights")
+        self.below = html("", "lights")
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
         self._side = pn.Column(self.tabs, self.form.view, **look)
         board = page.board
-        plots = (self.line, board.player.view, self.warnings, board.grid, board.tabs)
+        plots = (self.line, board.player.view, self.below, board.grid, board.tabs)
         results = pn.Column(*plots, css_classes=["results"], **FULL)
         columns = pn.Row(self._side, results, css_classes=["columns"], **FULL)
         self.view = pn.Column(self.header, columns, css_classes=["page"], **FULL)
@@ -87,5 +86,9 @@ class Frame:
 
     def rest(self, view: View) -> None:
         """Show texts that wait while a slider moves, because a changed one causes a new layout."""
-        show(self.warnings, object=readouts.warnings(view.course, view.state))
-        self.form.rest(view)
+        notes: dict[str, str] = {}
+        for extra in EXTRAS.values():
+            for place, html_ in extra.notes(view).items():
+                notes[place] = notes.get(place, "") + html_
+        show(self.below, object=notes.get("below", ""))
+        self.form.rest(notes)

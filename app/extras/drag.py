@@ -74,5 +74,6 @@ def handle(view: View, i: int) -> dict:
 EXTRA = Extra(
     "drag",
     overlays=(Overlay("springs", (mark("handle", legend=False),), moving=handle),),
+    notes=lambda view: {"first": "Or drag the indenter by ●."},
     service=Dragging,
 )

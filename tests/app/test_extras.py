@@ -6,6 +6,7 @@ import re
 import shutil
 import sys
 from functools import cache
+from html import unescape
 
 import numpy as np
 import pytest
@@ -50,13 +51,17 @@ def words(name):
     page = opened()
     found += [extra.on_plots(page, PLOTS["force"], page.shown).look["label"]] if extra.on_plots else []
     found += [extra.header(page, page.shown).look["label"]] if extra.header else []
+    notes = extra.notes(page.shown)
+    found += re.findall("<summary>(.*?)</summary>", notes.get("below", ""))
+    found += [note for place, note in notes.items() if place != "below"]
     return {each for each in found if each}
 
 
 def strings(value):
     """All texts within a value of a model; of the columns of a source, names of rows."""
     if isinstance(value, str):
-        yield value
+        # Panes of HTML escape theirs.
+        yield unescape(value)
     if isinstance(value, dict):
         yield from strings(value.get("row"))
     for each in value if isinstance(value, list | tuple) else ():

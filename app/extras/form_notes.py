@@ -1,0 +1,42 @@
+"""Notes in the form: formulas of the shape, the law of the hardness, the energy, sources of a preset."""
+
+from html import escape
+from math import degrees
+
+from ..extra import Extra
+from ..plot import View
+from ..quantities import SHAPES
+from ..readouts import law_of_hardness
+from ..state import PRESETS, altered
+from ..ui import linked, marked
+from ..units import digits, with_symbol, written
+
+#: Standard acceleration of free fall (m/s²).
+_GRAVITY = 9.80665
+
+
+def notes(view: View) -> dict[str, str]:
+    """Notes (HTML) by the places of the form."""
+    state, course = view.state, view.course
+    preset, shape, made = PRESETS[state.preset], SHAPES[state.shape], course.scene.medium
+    sources = ""
+    for name, source in preset.sources.items():
+        value = marked(with_symbol(name, preset.values[name]))
+        sources += f"<dt>{value}</dt><dd>{escape(source)}</dd>"
+    head = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
+    energy = written(state.mass * state.speed**2 / 2, "energy")
+    height = written(state.speed**2 / (2 * _GRAVITY), "length")
+    angle = f"Half-angle {digits(degrees(course.half_angle))}°" if course.half_angle else ""
+    eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
+    idle = "" if course.dashpots else "; no effect here, where pressing is quasi-static"
+    return {
+        "drive": f"Energy {energy}; equivalent drop height {height}" * (state.drive == "impact"),
+        "shape": f"<figcaption>{marked(shape.height)}<br>{marked(shape.reduced)}</figcaption>"
+        + marked(state.tip_note if state.shape == "sampled" else angle),
+        "medium": linked(law_of_hardness(course)),
+        "more": linked(f"η = {eta}, τ = 4η/E* = {tau} (1){idle}") if made.eta > 0 else "",
+        "sources": f"<details><summary>{head}</summary><dl>{sources}</dl></details>",
+    }
+
+
+EXTRA = Extra("form_notes", notes=notes)
