@@ -37,10 +37,11 @@ def tours() -> dict[str, list[dict[str, Any]]]:
 def step_state(step: dict[str, Any], now: State) -> State:
     """State of a step; theme, values of extras that it does not set, and other tiles stay."""
     state = link.read(urlencode(step["set"]))
-    tiles = state.tiles or now.tiles
-    return state.replace(
-        tiles=tiles, log=state.log or now.log, dark=now.dark, **(now.extras | state.extras)
-    )
+    # Also a value that is set to its default is set.
+    named = {link.FORMER.get(name, name) for name in step["set"]}
+    kept = {name: value for name, value in now.extras.items() if name not in named}
+    view = {"tiles": state.tiles or now.tiles, "log": state.log or now.log, "dark": now.dark}
+    return state.replace(**view, **(kept | state.extras))
 
 
 def step_text(step: dict[str, Any], course: Course) -> str:

@@ -63,6 +63,17 @@ def test_scenes_on_the_classes_are_within_the_assumptions(step):
     assert [limit.sentence for limit in course.limits(1900) if limit.level == "beyond"] == []
 
 
+def test_a_step_sets_what_is_the_default_too():
+    """After another result has been swept, a step on the damaged area shows that: it is the first option."""
+    steps = [step for steps in TOURS.values() for step in steps]
+    step = next(each for each in steps if each["set"].get("against") == "damaged_area")
+    before = preset_state().replace(**{"sweep.against": "max_depth", "section.stress": "von_mises"})
+    state = step_state(step, before)
+    assert state["sweep.against"] == "damaged_area"
+    # What it does not set stays.
+    assert state["section.stress"] == "von_mises"
+
+
 def test_a_round_nose_tells_them_by_restitution_and_area():
     a, b = KINDS[3:5]
     assert powers(a)["own"] == pytest.approx(-1 / 4, abs=2e-3)
