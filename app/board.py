@@ -24,29 +24,20 @@ class Card:
     """A plot in its frame: title, formula, legend, controls above and a note below."""
 
     def __init__(self, plot: Plot, choices: Choices, apply: Callable[..., None]):
-        self.plot, self.picture, self._rows, self._apply = plot, picture_of(plot), {}, apply
+        self.plot, self.picture, self._rows = plot, picture_of(plot), {}
         self.scale = 1.0
-        self.log = Button("Log", self._scale, pressed=False)
         self.large = Button("Large", self._enlarge, "escape", pressed=False)
         self.formula, self.legend = Text("formula"), Text("key")
         #: What extras have above it.
-        self.above = [each.on_plots(plot) for each in EXTRAS.values() if each.on_plots]
-        buttons = (*[self.log] * plot.logs, *self.above, self.large)
+        made = [each.on_plots(plot, apply) for each in EXTRAS.values() if each.on_plots]
+        self.above = [each for each in made if each is not None]
+        buttons = (*(each.view for each in self.above), self.large)
         head = Parts(self.formula, *buttons, self.legend, classes=("heading",))
         self.note = html("", "note", "found")
         parts = [head, pn.pane.Bokeh(self.picture.figure, **FULL)]
         if plot.controls:
             parts.insert(1, Parts(*map(choices.part, plot.controls), classes=("above",)))
         self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
-
-    def _scale(self) -> None:
-        """Make the axes logarithmic, or linear again."""
-
-        def change(state):
-            others = tuple(name for name in state.log if name != self.plot.name)
-            return state.replace(log=others if len(others) < len(state.log) else (*others, self.plot.name))
-
-        self._apply(change)
 
     def _enlarge(self) -> None:
         large = not self.large.pressed
@@ -71,7 +62,8 @@ class Card:
         if rows != self._rows:
             self._rows = rows
             self.legend.show(object=legend(plot, rows))
-        self.log.show(pressed=plot.name in view.state.log)
+        for each in self.above:
+            each.show(view)
         note = plot.note_of(view)
         show(self.note, object=note)
         reveal(self.view, self.note, bool(note))

@@ -65,8 +65,8 @@ class Extra:
     side: Callable[[Any], Part] | None = None
     #: What it has in the header of a page: the view of this part is a `Button`.
     header: Callable[[Any], Part] | None = None
-    #: A button that it has above a plot.
-    on_plots: Callable[[Plot], Any] | None = None
+    #: A button that it has above a plot, made of that and of what applies a change; None above others.
+    on_plots: Callable[[Plot, Callable[..., None]], Part | None] | None = None
     #: Why a link with its values is refused, or nothing.
     check: Callable[[State], str] = lambda state: ""
     #: What it and others need once in a session of a page, which it is made of.

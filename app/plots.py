@@ -171,7 +171,7 @@ FORCE = Plot(
         mark("now", size=13),
         label("dₚ"),
     ),
-    force_still, force, logs=True,
+    force_still, force,
 )  # fmt: skip
 
 

@@ -38,9 +38,7 @@ def step_state(step: dict[str, Any], now: State) -> State:
     """State of a step; theme, values of extras that it does not set, and other tiles stay."""
     state = link.read(urlencode(step["set"]))
     tiles = state.tiles or now.tiles
-    return state.replace(
-        tiles=tiles, log=state.log or now.log, dark=now.dark, **(now.extras | state.extras)
-    )
+    return state.replace(tiles=tiles, dark=now.dark, **(now.extras | state.extras))
 
 
 def step_text(step: dict[str, Any], course: Course) -> str:

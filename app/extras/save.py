@@ -29,18 +29,23 @@ class Save(Part):
         self.label, self.names, self.looks, self.scene = label, list(places), [], ""
 
 
-def of_plot(plot: Plot) -> Save:
-    return Save("Save", plot.name, {plot.name: _WHOLE}, _SIZE)
+class Saves:
+    """What has a button that saves."""
 
-
-class All:
-    """The button that saves the three plots as one picture."""
-
-    def __init__(self, page: Any):
-        self.view = Save("Save plots", "plots", {name: _PLACES[name] for name in NAMED}, _SCREEN)
+    def __init__(self, *told: Any):
+        self.view = Save(*told)
 
     def show(self, view: View) -> None:
         pass
+
+
+def of_plot(plot: Plot, apply: Any) -> Saves:
+    return Saves("Save", plot.name, {plot.name: _WHOLE}, _SIZE)
+
+
+def of_all(page: Any) -> Saves:
+    """The button that saves the three plots as one picture."""
+    return Saves("Save plots", "plots", {name: _PLACES[name] for name in NAMED}, _SCREEN)
 
 
 class Saving:
@@ -59,10 +64,10 @@ class Saving:
             called = drawn(view, card.plot, states)
             rows = [called.get(row.name, row.name) for row in rows_of(card.plot) if row.legend]
             looks[card.plot.name] = {"rows": rows, "title": card.plot.title}
-        parts = [part for name in board.names for part in board.cards[name].above]
+        parts = [part.view for name in board.names for part in board.cards[name].above]
         for part in (*parts, self._page.frame.buttons["save"].view):
             if isinstance(part, Save):
                 part.show(looks=[looks[name] for name in part.names], scene=summary(view.state))
 
 
-EXTRA = Extra("save", order=32, on_plots=of_plot, header=All, service=Saving)
+EXTRA = Extra("save", order=32, on_plots=of_plot, header=of_all, service=Saving)

@@ -47,7 +47,7 @@ def words(name):
     found += [number["label"] for number in data.get("numbers", ())]
     found += [drive["label"] for drive in data.get("drives", {}).values()]
     found += [choice["label"] for choice in data.get("choices", {}).values()]
-    found += [extra.on_plots(PLOTS["force"]).label] if extra.on_plots else []
+    found += [extra.on_plots(PLOTS["force"], None).view.label] if extra.on_plots else []
     found += [buttons()[name]] if extra.header else []
     return {each for each in found if each}
 

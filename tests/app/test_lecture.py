@@ -75,7 +75,7 @@ def test_a_round_nose_tells_them_by_restitution_and_area():
 def test_the_mean_pressure_over_the_radius_is_drawn_as_the_text_says(step, power):
     """It is the hardness less what the elastic ring lacks: within 2 % of σ_c, 0.02 of the slope."""
     state = step_state(step, preset_state())
-    assert (state.tiles, state.log) == (("hardness",), ("hardness",))
+    assert (state.tiles, state["log.plots"]) == (("hardness",), ("hardness",))
     course = follow(state)
     found = hardness.found(course, (True,))
     assert all(axis.log for axis in found.axes)
