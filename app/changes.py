@@ -93,7 +93,7 @@ def turn_dark(state: State) -> State:
 
 
 def _preset(state: State, key: str) -> State:
-    return preset_state(key, tiles=state.tiles, log=state.log, dark=state.dark, **state.extras)
+    return preset_state(key, tiles=state.tiles, dark=state.dark, **state.extras)
 
 
 # Numbers that keep their meaning under another option of a choice.

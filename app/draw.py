@@ -9,9 +9,9 @@ import bokeh.models as bk
 import numpy as np
 from bokeh.plotting import figure
 
-from mdr_core.results.figures import DASHES, NOTHING, ROLES, Axis, Row
+from mdr_core.results.figures import DASHES, ROLES, Axis, Row
 
-from .plot import Plot, View, rows_of
+from .plot import Plot, View, overlays, rows_of
 from .quantities import lowered
 from .ui import JS, marked
 
@@ -69,9 +69,8 @@ class Layer:
         """Columns of the source: look, and places in the units of the axes."""
         x_axis, y_axis = axes[0], axes[self.axis]
         parts = [rows[row.name] for row in self.rows]
-        for clip in (*[_positive] * x_axis.log, _inside if self.connected else _seen):
-            pairs = zip(self.rows, parts, strict=True)
-            parts = [clip(row, x_axis, y_axis, *part) for row, part in pairs]
+        clip = _inside if self.connected else _seen
+        parts = [clip(row, x_axis, y_axis, *part) for row, part in zip(self.rows, parts, strict=True)]
         xs, ys = ([_short(part[k], axis) for part in parts] for k, axis in ((0, x_axis), (1, y_axis)))
         if self.connected:
             names = [lowered(row.called(rows[row.name])) for row in self.rows]
@@ -100,14 +99,6 @@ def _short(values: Any, axis: Axis) -> list[float]:
         return values.tolist()
     size = max(abs(axis.start), abs(axis.end)) / axis.factor or 1.0
     return np.round(values, 4 - floor(log10(size))).tolist()
-
-
-def _positive(row: Row, x: Axis, y: Axis, *parts: Any) -> tuple[Any, ...]:
-    """Lines and marks within logarithmic axes; areas and labels have no place there."""
-    if row.kind in ("areas", "labels"):
-        return *NOTHING, ""
-    inside = (np.asarray(parts[0]) >= x.start) & (np.asarray(parts[1]) >= y.start)
-    return tuple(np.where(inside, part, np.nan) for part in parts[:2])
 
 
 def _inside(row: Row, x: Axis, y: Axis, *given: Any) -> tuple[Any, Any]:
@@ -187,16 +178,20 @@ class Picture:
         if self.axes is not None:
             self.set_axes(*self.axes)
 
+    def axes_of(self, view: View) -> list[Axis]:
+        """Axes on which the plot is drawn."""
+        return self.plot.axes_of(view)
+
     def columns(self, view: View, i: int, dark: bool) -> dict[Any, dict[str, list]]:
         """What each source has in state i."""
-        axes, rows = self.plot.axes_of(view), view.rows(self.plot, i)
+        axes, rows = self.axes_of(view), view.rows(self.plot, i)
         if not axes:
             return {}
         return {layer.source: layer.columns(rows, axes, dark) for layer in self.layers}
 
     def frame(self, view: View, i: int) -> dict[Any, dict[str, list]]:
         """Places of what moves in state i; the rest of its columns is as it is drawn."""
-        axes, rows = self.plot.axes_of(view), view.rows(self.plot, i)
+        axes, rows = self.axes_of(view), view.rows(self.plot, i)
         moving = view.moving(self.plot, view.course.now).keys()
         found = {}
         for layer in self.layers:
@@ -207,7 +202,7 @@ class Picture:
 
     def show(self, columns: dict, view: View, dark: bool) -> None:
         """Draw columns that were made for a view."""
-        axes = self.plot.axes_of(view)
+        axes = self.axes_of(view)
         if axes and (axes, dark) != self.axes:
             self.axes = axes, dark
             self.set_axes(axes, dark)
@@ -228,37 +223,14 @@ class Picture:
                 bounds.update(start=start, end=end)
                 title = axis.title.split(",")[0] if self.short else axis.title
                 side.axis_label = replace(axis, title=title).label
-                self._scale(side, axis)
         for hover, number in self.hovers:
             symbol = axes[0].title.split(",")[0]
             hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=axes[number])
 
-    def _scale(self, side, axis: Axis):
-        """Make the scale along one side logarithmic, or linear again."""
-        f, log = self.figure, axis.log
-        name = "x_scale" if side is f.below[0] else "y_scale"
-        if isinstance(getattr(f, name), bk.LogScale) != log:
-            setattr(f, name, bk.LogScale() if log else bk.LinearScale())
-        elif not log:
-            return
-        ticker, formatter = ticks(*axis.ends) if log else (bk.BasicTicker(), bk.BasicTickFormatter())
-        side.update(ticker=ticker, formatter=formatter)
-        for grid in (each for each in f.center if getattr(each, "axis", None) is side):
-            grid.ticker = side.ticker
-
-
-def ticks(low: float, high: float) -> tuple[Any, Any]:
-    """Ticker and formatter of a logarithmic axis; over two decades or less Bokeh's has too many."""
-    if high > 101 * low:
-        return bk.LogTicker(), bk.LogTickFormatter()
-    powers = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
-    fixed = bk.FixedTicker(ticks=[float(f"{n}e{power:.0f}") for power in powers for n in (1, 2, 5)])
-    return fixed if high > 5 * low else bk.BasicTicker(), bk.BasicTickFormatter()
-
 
 def picture_of(plot: Plot) -> Picture:
-    """The picture of a plot."""
-    return (plot.picture or Picture)(plot)
+    """The picture of a plot, as it is drawn with its overlays."""
+    return next((each.picture for each in (*overlays(plot), plot) if each.picture), Picture)(plot)
 
 
 def drawn(view: View, plot: Plot, states: set[int]) -> dict[str, str]:

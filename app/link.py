@@ -23,7 +23,7 @@ from .tip import MAX_SAMPLES
 
 #: Limits of a link: characters, values, names in a list, characters of a text.
 MAX_LENGTH, _MAX_VALUES, _MAX_NAMES, _MAX_TEXT = 8000, 100, 12, 300
-_LISTS = ("tiles", "log")
+_LISTS = ("tiles",)
 #: Names of version 0.6 for values of extras, which add theirs, with their present names.
 FORMER: dict[str, str] = {}
 #: What version 0.6 had and is gone: left out in silence.

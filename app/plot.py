@@ -41,8 +41,7 @@ class Plot:
 
     `still` returns rows that stay during playback, `moving` those of one state: x and y (SI), and the text
     of a label. A plot with a `tab` is optional; `order` is its place among these. `applies` says whether a
-    view has it. `controls` are choices above it. `logs`: its axes can be logarithmic. `picture` draws it,
-    if that is not a `Picture`.
+    view has it. `controls` are choices above it. `picture` draws it, if that is not a `Picture`.
     """
 
     name: str
@@ -56,18 +55,13 @@ class Plot:
     tab: str = ""
     order: int = 0
     controls: tuple[str, ...] = ()
-    logs: bool = False
     picture: Callable[..., Any] | None = None
 
     def formula_of(self, course: Course) -> str:
         return self.formula if isinstance(self.formula, str) else self.formula(course)
 
     def axes_of(self, view: "View") -> list[Axis]:
-        axes = [view.axis(along) for along in self.axes]
-        if not (self.logs and self.name in view.state.log):
-            return axes
-        columns = [row for row in view.still(self).values() if len(row) == 2]
-        return [_logarithmic(each, [row[k] for row in columns]) for k, each in enumerate(axes)]
+        return [view.axis(along) for along in self.axes]
 
     def still_of(self, view: "View") -> dict[str, Any]:
         """All rows, those that stay during playback with what they have."""
@@ -83,7 +77,7 @@ class Overlay:
     """What an extra draws into a plot of the page: rows behind those of the plot, `still` and `moving`.
 
     `moving` may also give other columns for rows of the plot. `reach` says of an axis how far the rows go,
-    lowest and largest value (SI).
+    lowest and largest value (SI). `picture` draws the plot, if that is not its own.
     """
 
     on: str
@@ -91,6 +85,7 @@ class Overlay:
     still: Callable[["View"], dict] = lambda view: {}
     moving: Callable[["View", int], dict] = lambda view, i: {}
     reach: Callable[["View", Along], tuple[float, float]] = lambda view, along: (0.0, 0.0)
+    picture: Callable[..., Any] | None = None
 
 
 #: All overlays, from the back to the front.
@@ -161,14 +156,6 @@ class View:
     def rows(self, plot: Plot, i: int) -> dict[str, Any]:
         """All rows of a plot in state i."""
         return self.still(plot) | self.moving(plot, i)
-
-
-def _logarithmic(axis: Axis, columns: list[Any]) -> Axis:
-    """The axis, logarithmic from a power of ten below its least positive value, six decades at most."""
-    positive = [float(part[part > 0].min()) for part in map(np.asarray, columns) if (part > 0).any()]
-    least = max(min(positive, default=axis.end), 1e-6 * axis.end)
-    power = np.floor(np.log10(least / axis.factor))
-    return replace(axis, start=float(10.0**power) * axis.factor, log=True)
 
 
 def exceeds(r: Any, p: Any, top: float) -> str:

@@ -168,7 +168,7 @@ FORCE = Plot(
         mark("now", size=13),
         label("dₚ"),
     ),
-    force_still, force, logs=True,
+    force_still, force,
 )  # fmt: skip
 
 

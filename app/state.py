@@ -66,7 +66,7 @@ OPENING = next(iter(PRESETS))
 #: height of the undeformed surface.
 LAST_PROGRESS = 2.2
 #: What the view is like rather than the scene: undo leaves it alone. Extras add names of theirs.
-VIEW = ["progress", "tiles", "log", "dark"]
+VIEW = ["progress", "tiles", "dark"]
 #: Values of extras by their names, as in "sweep.swept", with their defaults.
 OF_EXTRAS: dict[str, Any] = {}
 
@@ -76,14 +76,13 @@ class State:
     """Everything set on the page; `replace` returns a copy with other values.
 
     A number of a shape that has not been looked at is None: it is sized when it is. `samples` has radii and
-    heights of a measured tip, `tiles` the optional plots that are shown, `log` those with logarithmic axes,
-    `extras` the values of extras that are not at their defaults: `state["sweep.swept"]` is one of them.
+    heights of a measured tip, `tiles` the optional plots that are shown, `extras` the values of extras that
+    are not at their defaults: `state["sweep.swept"]` is one of them.
     """
 
     preset: str = OPENING
     progress: float = 1.0
     tiles: tuple[str, ...] = ()
-    log: tuple[str, ...] = ()
     dark: bool = False
     shape: str = "cone"
     elasticity: str = "modulus"

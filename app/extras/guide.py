@@ -40,8 +40,8 @@ def step_state(step: dict[str, Any], now: State) -> State:
     # Also a value that is set to its default is set.
     named = {link.FORMER.get(name, name) for name in step["set"]}
     kept = {name: value for name, value in now.extras.items() if name not in named}
-    view = {"tiles": state.tiles or now.tiles, "log": state.log or now.log, "dark": now.dark}
-    return state.replace(**view, **(kept | state.extras))
+    tiles = state.tiles or now.tiles
+    return state.replace(tiles=tiles, dark=now.dark, **(kept | state.extras))
 
 
 def step_text(step: dict[str, Any], course: Course) -> str:

@@ -9,7 +9,9 @@ from mdr_core.results.figures import line, mark, parts, split
 from ..courses import Course
 from ..extra import Extra
 from ..plot import View, axis
+from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
+from ..state import State
 from ..ui import marked
 from ..units import digits, written
 
@@ -59,11 +61,16 @@ def now(view: View, i: int) -> dict:
     return {"now": (states.contact_radius[[i]], states.mean_pressure[[i]])}
 
 
+def asked(state: State) -> tuple[bool]:
+    """Whether logarithmic axes are asked for, of which another extra knows."""
+    return ("hardness" in state.extras.get("log.plots", ()),)
+
+
 HARDNESS = Searched(
     "hardness", "Mean pressure and hardness", "(11)  p_m = F/(π a²),  σ_c = H + q_c/a + f_c/a²  § 20", (),
     (line("hardness", "ink", 1.4, "dotted", "σ"), *parts("pₘ"), mark("now", size=13)),
-    moving=now, find=found, asks=lambda state: ("hardness" in state.log,), quick=lambda asked: True,
-    tab="Hardness", order=15, logs=True,
+    moving=now, find=found, asks=asked, quick=lambda asked: True, tab="Hardness", order=15,
+    picture=Logarithmic,
 )  # fmt: skip
 
 

@@ -21,7 +21,7 @@ from ..quantities import CHOICES, OF_DRIVE
 from ..readouts import line as readout_line
 from ..readouts import readings, text
 from ..shared import widgets
-from ..state import PRESETS, State, altered, used
+from ..state import OF_EXTRAS, PRESETS, VIEW, State, altered, used
 from ..ui import WIDE, html, marked, show, symbol
 from ..units import with_symbol
 
@@ -66,7 +66,8 @@ def toggle_hold(state: State) -> State:
         return state.replace(**{"held.scenes": others})
     if len(others) == len(DASHES):
         raise ValueError(f"{len(DASHES)} scenes are held: remove one of them first")
-    scene = state.replace(tiles=(), log=(), dark=False, **{"held.scenes": ()})
+    of_view = {name: OF_EXTRAS[name] for name in VIEW if name in OF_EXTRAS}
+    scene = state.replace(tiles=(), dark=False, **of_view)
     return state.replace(**{"held.scenes": (*others, link.write(scene))})
 
 

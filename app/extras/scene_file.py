@@ -20,7 +20,7 @@ import mdr_core as mdr
 from mdr_core.results.figures import ROLES
 
 from .. import link, readouts
-from ..draw import Picture, drawn, legend
+from ..draw import Picture, drawn, legend, picture_of
 from ..extra import EXTRAS, Extra
 from ..player import frames
 from ..plot import Plot, View
@@ -60,7 +60,7 @@ def scene_file(view: View) -> str:
     state, course = view.state, view.course
     title = PRESETS[state.preset].label + ", altered" * bool(altered(state))
     numbers = readouts.readings(course)
-    pictures = [Picture(PLOTS[name]) for name in NAMED]
+    pictures = [picture_of(PLOTS[name]) for name in NAMED]
     document = Document()
     for picture in pictures:
         picture.show(picture.columns(view, course.now, state.dark), view, state.dark)

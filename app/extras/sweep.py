@@ -15,6 +15,7 @@ from ..changes import option, shown
 from ..extra import Extra
 from ..plot import axis
 from ..quantities import CHOICES, QUANTITIES, USED, Scale, lowered, quantity, read_data
+from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
 from ..state import PRESETS, State, medium, profile, used
 from ..ui import marked
@@ -272,7 +273,7 @@ SWEEP = Searched(
         line("this scene", "elastic", 2.4, symbol="y"),
         mark("present value"),
     ),
-    find=found, asks=asked, quick=quick, tab="Sweep", order=90,
+    find=found, asks=asked, quick=quick, tab="Sweep", order=90, picture=Logarithmic,
     controls=("sweep.swept", "sweep.against", "sweep.scale"),
 )  # fmt: skip
 

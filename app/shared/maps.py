@@ -28,7 +28,7 @@ class Map(Picture):
     def columns(self, view: View, i: int, dark: bool) -> dict[Any, dict[str, list]]:
         found = super().columns(view, i, dark)
         if found:
-            axes, (across, up, values) = self.plot.axes_of(view), view.rows(self.plot, i)["image"]
+            axes, (across, up, values) = self.axes_of(view), view.rows(self.plot, i)["image"]
             (left, right), (low, high) = across / axes[0].factor, up / axes[1].factor
             corner = {"x": [left], "y": [low], "dw": [right - left], "dh": [high - low]}
             found[self.source] = corner | {"image": [np.float32(values / axes[2].factor)]}

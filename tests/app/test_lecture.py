@@ -64,7 +64,7 @@ def test_scenes_on_the_classes_are_within_the_assumptions(step):
 
 
 def test_a_step_sets_what_is_the_default_too():
-    """After another result has been swept, a step on the damaged area shows that: it is the first option."""
+    """After another result has been swept, a step on the damaged area, the first option, shows that."""
     steps = [step for steps in TOURS.values() for step in steps]
     step = next(each for each in steps if each["set"].get("against") == "damaged_area")
     before = preset_state().replace(**{"sweep.against": "max_depth", "section.stress": "von_mises"})
@@ -86,7 +86,7 @@ def test_a_round_nose_tells_them_by_restitution_and_area():
 def test_the_mean_pressure_over_the_radius_is_drawn_as_the_text_says(step, power):
     """It is the hardness less what the elastic ring lacks: within 2 % of σ_c, 0.02 of the slope."""
     state = step_state(step, preset_state())
-    assert (state.tiles, state.log) == (("hardness",), ("hardness",))
+    assert (state.tiles, state["log.plots"]) == (("hardness",), ("hardness",))
     course = follow(state)
     found = hardness.found(course, (True,))
     assert all(axis.log for axis in found.axes)

@@ -11,7 +11,7 @@ from scipy.integrate import trapezoid
 
 import mdr_core as mdr
 from app import changes
-from app.draw import Picture, drawn, legend, picture_of, ticks
+from app.draw import Picture, drawn, legend, picture_of
 from app.drives import follow, scene_of
 from app.extras import notes
 from app.extras.oblique import leaning
@@ -20,15 +20,17 @@ from app.extras.relief import plane
 from app.extras.section import section
 from app.extras.surface import Z as FAR_Z
 from app.extras.surface import surface
+from app.page import Page
 from app.plot import Plot, View, rows_of
 from app.plots import NAMED, PLOTS, D, F, P, R, X, force_still, pressure
 from app.quantities import SHAPES, lowered
+from app.shared.logarithmic import ticks
 from app.state import medium, preset_state, profile
 from app.units import written
 from mdr_core.results.figures import SPRINGS, line, mark, radii
 
 from .conftest import DROP, ELASTIC, GOLD, PUNCH
-from .states import numbers, solved, state_with, view_of, viscous
+from .states import numbers, part, press, solved, state_with, view_of, viscous
 from .test_drawn import amounts
 from .test_drives import oblique_state
 
@@ -338,6 +340,37 @@ def test_legends_name_what_is_drawn_only():
     assert not drawn(view_of(elastic), PLOTS["force"], {20, 40}).keys() & {"yielding", "plastic work Wₚ"}
     elastic = changes.choose(elastic, "drive", "impact")
     assert set(drawn(view_of(elastic), PLOTS["energy"], {20})) == {"stored", "kinetic", "time"}
+
+
+def test_on_logarithmic_axes_the_force_is_a_line_without_areas_and_back_again():
+    """F = 2 E* d²/(π tan θ) of an elastic cone: the slope is 2."""
+    page = Page("plasticity=none")
+    card = page.board.cards["force"]
+    figure = card.picture.figure
+
+    def columns(group):
+        return next(layer.source.data for layer in card.picture.layers if layer.name == group)
+
+    def areas():
+        return np.isfinite(np.hstack(columns("areas")["ys"])).any()
+
+    assert areas()
+    press(page, "Log")
+    assert part(page, "Log").look["pressed"]
+    assert isinstance(figure.x_scale, bk.LogScale)
+    assert 0 < figure.y_range.start < 1e-2 * figure.y_range.end
+    assert not areas()
+    row = columns("lines")["row"].index("elastic")
+    x, y = (np.array(columns("lines")[key][row]) for key in ("xs", "ys"))
+    assert np.nanmin(x) >= figure.x_range.start * (1 - 1e-6)
+    x, y = (part[np.isfinite(x) & np.isfinite(y)] for part in (x, y))
+    assert np.log(y[-1] / y[9]) / np.log(x[-1] / x[9]) == pytest.approx(2, rel=1e-3)
+    # The legend names nothing that is not drawn.
+    assert "stored" not in card.legend.object
+    press(page, "Log")
+    assert not part(page, "Log").look["pressed"]
+    assert isinstance(figure.x_scale, bk.LinearScale)
+    assert areas()
 
 
 def test_numbers_along_a_logarithmic_axis_have_room():

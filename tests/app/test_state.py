@@ -98,7 +98,7 @@ def test_the_link_of_a_preset_is_its_name():
 @pytest.mark.parametrize("drive", DRIVES)
 def test_a_link_holds_the_whole_page(drive):
     state = state_with(DROP, drive, damping="eta", shape="sphere")
-    state = state.replace(progress=0.75, tiles=("sweep", "section"), log=("force",), dark=True)
+    state = state.replace(progress=0.75, tiles=("sweep", "section"), dark=True, **{"log.plots": ("force",)})
     others = {"held.scenes": (link.write(state),), "fit.note": "a < b", "section.stress": "zz"}
     state = state.replace(**others)
     again = linked_state(state)
@@ -129,6 +129,7 @@ LINKS = {
         "fit.fixed": ("q_c", "tilt"), "fit.contact_point": 1e-9, "fit.baseline": 1e-8,
         "fit.depth_noise": 1e-11, "fit.note": "fit to a curve",
     },
+    "tiles=hardness&log=force+hardness": {"tiles": ("hardness",), "log.plots": ("force", "hardness")},
     # A hardness is that of class (b) at a radius.
     "plasticity=hardness&hardness=2000000000.0&hardness_radius=5e-08": {"q_c": 100.0, "hardness": 2e9},
     # A compliance of the frame and the logarithmic plot are gone.
