@@ -22,9 +22,9 @@ class Card:
 
     def __init__(self, plot: Plot, page: Any):
         self.plot, self.picture, self._page, self._legend = plot, picture_of(plot), page, {}
-        self._head, self._controls = Parts("heading"), Parts("above")
+        self.head, self.controls = Parts("heading"), Parts("above")
         self.note = html("", "note", "found")
-        parts = [self._head, *[self._controls] * bool(plot.controls)]
+        parts = [self.head, *[self.controls] * bool(plot.controls)]
         parts.append(pn.pane.Bokeh(self.picture.figure, **FULL))
         self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
 
@@ -42,8 +42,8 @@ class Card:
         formula = f"<h3>{plot.title}</h3>{linked(plot.formula_of(view.course))}"
         above = [each.on_plots(page, plot, view) for each in EXTRAS.values() if each.on_plots]
         key = text("key", legend(plot, self._legend), "key")
-        self._head.show([text("formula", formula, "formula"), *filter(None, above), key])
-        self._controls.show([page.choice(name) for name in plot.controls])
+        self.head.show([text("formula", formula, "formula"), *filter(None, above), key])
+        self.controls.show([page.choice(name) for name in plot.controls])
         note = plot.note_of(view)
         show(self.note, object=note)
         reveal(self.view, self.note, bool(note))

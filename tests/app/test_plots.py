@@ -366,7 +366,7 @@ def test_on_logarithmic_axes_the_force_is_a_line_without_areas_and_back_again():
     x, y = (part[np.isfinite(x) & np.isfinite(y)] for part in (x, y))
     assert np.log(y[-1] / y[9]) / np.log(x[-1] / x[9]) == pytest.approx(2, rel=1e-3)
     # The legend names nothing that is not drawn.
-    assert "stored" not in card.legend.object
+    assert "stored" not in card.head.parts["key"].look["object"]
     press(page, "Log")
     assert not part(page, "Log").look["pressed"]
     assert isinstance(figure.x_scale, bk.LinearScale)
