@@ -22,39 +22,34 @@ from .units import written
 
 @dataclass(frozen=True)
 class Preset:
-    """A preset: its key in links, choices, values (SI), and sources of values, by name."""
+    """A preset: its choices, values (SI), and sources of values, by name."""
 
     label: str
-    key: str
     choices: dict[str, str]
     values: dict[str, float]
     sources: dict[str, str]
 
 
 def _preset(scene: dict, media: dict, indenters: dict) -> Preset:
-    medium, indenter, remark = media[scene["medium"]], indenters[scene["indenter"]], scene.get("remark", "")
-    given = {k: v for part in (medium, indenter, scene) for k, v in part.items() if k in QUANTITIES}
-    values = {name: each["value"] for name, each in given.items()}
-    sources = {name: each["source"] for name, each in given.items()}
-    bodies = (values[n] for n in USED["elasticity"]["bodies"])
-    made = mdr.Medium.from_bodies(*bodies, q_c=values.get("q_c"))
-    values |= {"E_star": made.E_star, "plastic_depth": 0.0}
-    plasticity = "q_c" if "q_c" in values else "constant"
-    choices = {"shape": indenter["shape"], "elasticity": "bodies", "plasticity": plasticity}
-    choices |= {"damping": "none", "adhesion": "none"}
-    if "depth" in scene:
-        values["max_depth"] = float(f"{scene['depth'] * made.critical_depth:.5g}")
-        sources["max_depth"] = f"{scene['depth']:g} times the depth at which yield begins"
-    choices["drive"] = "depth" if "max_depth" in values else "impact"
-    label = f"{indenter['label']} on {medium['label']}" + f", {remark}" * bool(remark)
-    key = "-".join([scene["indenter"], scene["medium"], *remark.split()])
-    return Preset(label[0].upper() + label[1:], key, choices, values, sources)
+    """A scene with all that its medium and its indenter have."""
+    given = media[scene["medium"]] | indenters[scene["indenter"]] | scene
+    numbers = {name: each for name, each in given.items() if name in QUANTITIES}
+    values = {name: each["value"] for name, each in numbers.items()}
+    bodies = mdr.Medium.from_bodies(*(values[name] for name in USED["elasticity"]["bodies"]))
+    return Preset(
+        scene["label"],
+        {"elasticity": "bodies", "damping": "none", "adhesion": "none"}
+        | {name: given[name] for name in ("shape", "plasticity", "drive")},
+        values | {"E_star": bodies.E_star, "plastic_depth": 0.0},
+        {name: each["source"] for name, each in numbers.items()},
+    )
 
 
 _DATA = read_data(ASSETS / "presets.json")
-_MADE = (_preset(scene, _DATA["media"], _DATA["indenters"]) for scene in _DATA["scenes"])
-#: By their keys.
-PRESETS = {preset.key: preset for preset in _MADE}
+#: By their keys, as in links.
+PRESETS = {
+    key: _preset(scene, _DATA["media"], _DATA["indenters"]) for key, scene in _DATA["scenes"].items()
+}
 CHOICES["preset"] = {key: preset.label for key, preset in PRESETS.items()}
 
 #: Choices about the medium.

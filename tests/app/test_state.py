@@ -251,6 +251,19 @@ def test_the_csv_has_the_scene_and_its_states():
     np.testing.assert_allclose(-sigma, follow(state).state.pressure(r), rtol=1e-12)
 
 
+def test_depths_of_presets_are_so_many_times_the_depth_of_yield():
+    """To the five digits that a field shows."""
+    said = {}
+    for key, preset in PRESETS.items():
+        if found := re.fullmatch(
+            r"(\S+) times the depth at which yield begins", preset.sources.get("max_depth", "")
+        ):
+            said[key] = float(found[1])
+            depth = said[key] * medium(preset_state(key)).critical_depth
+            assert preset.values["max_depth"] == float(f"{depth:.5g}")
+    assert len(said) == 6
+
+
 @pytest.mark.parametrize("key", PRESETS)
 def test_every_drive_can_be_chosen_and_its_python_makes_the_scene_and_solves_it(key):
     state = preset_state(key)
