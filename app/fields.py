@@ -14,8 +14,9 @@ from .tip import read_tip
 from .ui import linked, marked, symbol
 from .units import UNITS, entry, fitting, read, written
 
+_FIRST = "Move a slider: orange springs have yielded."
 #: Places of the form that have notes of extras.
-_PLACES = ("first", "drive", "shape", "medium", "more", "sources")
+_PLACES = ("drive", "shape", "medium", "more", "sources")
 
 
 class Field:
@@ -132,7 +133,7 @@ class Form:
         note = {place: text(f"note {place}", self._notes.get(place, "")) for place in _PLACES}
         again = button("Hit again", self._hit_again)
         parts = [
-            text("first", "Move a slider: orange springs have yielded."), note["first"],
+            text("first", f"{_FIRST} {self._notes.get('first', '')}"),
             page.choice("drive"), *numbers["drive"], note["drive"],
             *map(page.choice, OF_DRIVE[state.drive]["form"]), *[again] * (state.drive == "impact"),
             title("Indenter"), page.choice("shape"), note["shape"], *numbers["shape"],

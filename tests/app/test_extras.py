@@ -96,9 +96,10 @@ def texts(page):
 
 
 def said(word, texts):
-    """Whether texts have a word: as a whole text, or as that of an element."""
+    """Whether texts have a word, as a whole text or that of an element, or a sentence."""
     inside = re.compile(rf">([^<>]* )?{re.escape(word)}<")
-    return word in texts or any(inside.search(text) for text in texts)
+    sentence = word.endswith(".")
+    return any(inside.search(text) or text == word or (sentence and word in text) for text in texts)
 
 
 def linked(name):
