@@ -43,8 +43,6 @@ class Course:
     #: Whether dashpots carry load along this path, and what else the law of the springs has.
     dashpots: ClassVar[bool] = False
     more_law: ClassVar[str] = ""
-    #: Plastic depth (m) of an earlier imprint.
-    initial_plastic_depth: ClassVar[float] = 0.0
 
     def __len__(self) -> int:
         return len(self.progress)
@@ -70,6 +68,11 @@ class Course:
     def limits(self, density: float) -> list[Any]:
         """Assumptions of the model, for a medium of some density (kg/m³)."""
         return list(self.states.limits)
+
+    @property
+    def initial_plastic_depth(self) -> float:
+        """Plastic depth (m) of an earlier imprint."""
+        return getattr(self.scene.drive, "plastic_depth", 0.0)
 
     @property
     def adhesive(self) -> bool:
@@ -106,11 +109,6 @@ class Course:
         slope = getattr(self.scene.profile, "slope", None)
         return None if slope is None else np.arctan(1 / slope)
 
-    @property
-    def under_force(self) -> bool:
-        """Whether a force is prescribed: contact is then lost earlier with adhesion."""
-        return isinstance(self.scene.drive, mdr.ForcePath)
-
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Timed(Course):
@@ -144,10 +142,6 @@ class Hit(Course):
 
     hit: mdr.Impact
     pressed: ClassVar[bool] = False
-
-    @property
-    def initial_plastic_depth(self) -> float:
-        return getattr(self.scene.drive, "plastic_depth", 0.0)
 
     @property
     def yield_speed(self) -> Any:

@@ -4,14 +4,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
 from mdr_core.results.figures import NOTHING, Axis, Row
 from mdr_core.results.quantities import QUANTITIES
 
 from .courses import Course
 from .state import State
-from .units import fitting, round_up, written
+from .units import fitting, round_up
 
 
 @dataclass(frozen=True)
@@ -103,9 +101,7 @@ def rows_of(plot: Plot) -> tuple[Row, ...]:
 
 def axis(name: str, title: str, kind: str, largest: float, below: float = 0.0) -> Axis:
     """Axis up to the next round number above `largest` (SI), in a fitting unit."""
-    unit = fitting(largest, kind)
-    if round_up(largest / unit.factor) >= 1000:
-        unit = fitting(round_up(largest / unit.factor) * unit.factor, kind)
+    unit = fitting(round_up(largest), kind)
     end = round_up(largest / unit.factor) * unit.factor
     return Axis(name, title, unit.name, unit.factor, 0.0 - below * end, end)
 
@@ -156,17 +152,3 @@ class View:
     def rows(self, plot: Plot, i: int) -> dict[str, Any]:
         """All rows of a plot in state i."""
         return self.still(plot) | self.moving(plot, i)
-
-
-def exceeds(r: Any, p: Any, top: float) -> str:
-    """Note on a pressure (Pa) at radii r (m) beyond its axis."""
-    infinite, k = np.isinf(p), int(np.argmax(np.where(np.isinf(p), -1.0, p)))
-    if infinite.any():
-        # A sharp tip that has not yielded is infinite on the axis, a flat face at its rim.
-        at = np.argmax(infinite)
-        sign = "↑ −σzz → ∞" if p[at] > 0 else "↓ −σzz → −∞"
-        return f"{sign} at the " + ("axis" if r[at] == 0 else "rim")
-    if p[k] <= top:
-        return ""
-    where = "on the axis" if r[k] == 0 else f"at r = {written(r[k], 'length', 3)}"
-    return f"↑ −σzz = {written(p[k], 'pressure', 3)} {where}"

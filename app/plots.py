@@ -1,13 +1,14 @@
 """The plots of the page: springs, pressure, and force over depth."""
 
+from collections.abc import Callable
+
 import numpy as np
 
-from mdr_core.contact.unloading import unloading_curve
 from mdr_core.results import figures
-from mdr_core.results.figures import NOTHING, REST, area, label, line, mark, parts, split
+from mdr_core.results.figures import REST, label, line, mark, split
 
 from .courses import Course
-from .plot import Along, Plot, View, exceeds, titled
+from .plot import Along, Plot, View, titled
 
 # Axes, which other plots may share.
 
@@ -18,37 +19,29 @@ def largest_radius(course: Course) -> float:
 
 def deepest(course: Course) -> float:
     """Largest depth (m), or height to which adhesion lifts the indenter."""
-    depth = course.states.depth
-    return float(max(np.max(depth), -np.min(depth) if course.adhesive else 0.0))
+    return float(np.max(np.abs(course.states.depth)))
 
 
-def _onset_ahead(course: Course):
-    """The onset of yield, if the path ends slightly before: it stays visible."""
-    onset, depth = course.onset, np.max(course.states.depth)
-    return onset if onset is not None and depth < onset.depth <= 2.5 * depth else None
+def _most(name: str) -> Callable[[Course], float]:
+    """Largest value of a quantity, also at an onset of yield slightly ahead, which stays visible."""
 
+    def size(course):
+        states, onset = course.states, course.onset
+        values, depth = getattr(states, name), np.max(states.depth)
+        # With adhesion there may be tension alone.
+        most = max(np.max(values), -0.25 * np.min(values))
+        if onset is not None and depth < onset.depth <= 2.5 * depth:
+            most = max(most, getattr(onset, name))
+        return 1.02 * float(most)
 
-def _depth_size(course: Course) -> float:
-    onset = _onset_ahead(course)
-    depth = float(np.max(course.states.depth))
-    return 1.02 * max(depth, 0.0 if onset is None else 1.02 * float(onset.depth))
-
-
-def _force_size(course: Course) -> float:
-    onset, force = _onset_ahead(course), course.states.force
-    # There may be tension alone.
-    tension = 0.25 * float(-np.min(force)) if course.adhesive else 0.0
-    return max(1.05 * float(np.max(force)), tension, 0.0 if onset is None else 1.05 * float(onset.force))
+    return size
 
 
 def _pressure_size(course: Course) -> float:
-    state = course.turning_point
-    # Twice the tension on the axis from adhesion alone.
-    tension = -2 / np.pi * float(state.uniform_load / state.contact_radius) if course.adhesive else 0.0
-    return 1.05 * max(figures.ceiling(state, 1.25 * largest_radius(course)), tension)
+    return 1.05 * figures.ceiling(course.turning_point, radius_size(course))
 
 
-def _reached(name: str):
+def _least(name: str) -> Callable[[Course], float]:
     """Least value of a quantity: adhesion reaches below zero."""
     return lambda course: float(np.min(getattr(course.states, name))) if course.adhesive else 0.0
 
@@ -60,8 +53,8 @@ def radius_size(course: Course) -> float:
 X = Along("x, coordinate of the springs", "length", radius_size, lambda course: 1.0)
 R = Along("r, radius", "length", radius_size, lambda course: 1.0)
 Z = Along("z, height", "length", deepest, lambda course: REST)
-D = Along(titled("depth"), "length", _depth_size, least=_reached("depth"))
-F = Along(titled("force"), "force", _force_size, least=_reached("force"))
+D = Along(titled("depth"), "length", _most("depth"), least=_least("depth"))
+F = Along(titled("force"), "force", _most("force"), least=_least("force"))
 P = Along("−σzz, pressure", "pressure", _pressure_size, lambda course: float(course.adhesive))
 
 
@@ -95,14 +88,12 @@ SPRINGS = Plot(
 def pressure(view: View, i: int) -> dict:
     half, top, state = view.end(R), view.end(P), view.course.states[i]
     r = figures.radii(state, half)
-    p = state.pressure(r)
-    rows = figures.pressure(state, r, p, half, top)
-    return rows | {"exceeds": (-0.97 * half, 0.98 * top, exceeds(r, p, top))}
+    return figures.pressure(state, r, state.pressure(r), half, top)
 
 
 PRESSURE = Plot(
     "pressure", "Contact pressure", "(10)  σ_zz(r) = (1/π) ∫ q′(x) dx/√(x² − r²)", (R, P),
-    (*figures.PRESSURE_ROWS, label("exceeds")), moving=pressure,
+    figures.PRESSURE_ROWS, moving=pressure,
 )  # fmt: skip
 
 
@@ -129,25 +120,15 @@ def force(view: View, i: int) -> dict:
     """The present state, the path so far, and the areas of lost and stored energy."""
     course, right = view.course, 0.02 * view.end(D)
     states = course.states
-    lower = float(states.plastic_depth[i])
     rows = {"now": (states.depth[[i]], states.force[[i]]), "dₚ": (np.nan, np.nan, "")}
-    if lower > 0:
+    if (lower := float(states.plastic_depth[i])) > 0:
         rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end(F), "dₚ"
     rows |= _curve(course, i + 1) if course.turns else {}
     if course.chained or course.adhesive:
         # No live interval tells what is stored in elements that have each a memory of their own, and with
         # adhesion the area below the curve is not what is stored.
         return rows
-    back_depth, back_force = unloading_curve(states[i], course.under_force)
-    d, so_far = (np.asarray(part[: i + 1]) for part in (states.depth, states.force))
-    elastic = lower == course.initial_plastic_depth and not course.dashpots
-    # The path so far, and back along what is stored: lost is the loop that it encloses.
-    around = np.concatenate([d[:1], d, back_depth, back_depth[-1:]])
-    lost = around, np.concatenate([[0.0], so_far, back_force, [0.0]])
-    return rows | {
-        "dissipated" if course.dashpots else "plastic work Wₚ": NOTHING if elastic else lost,
-        "stored": (np.append(back_depth[:1], back_depth), np.append(0.0, back_force)),
-    }
+    return rows | figures.work(states, i)
 
 
 def _force_formula(course: Course) -> str:
@@ -160,10 +141,8 @@ def _force_formula(course: Course) -> str:
 FORCE = Plot(
     "force", "Force and depth", _force_formula, (D, F),
     (
-        *(area(name, "yielded", 0.13, "/") for name in ("plastic work Wₚ", "dissipated")),
-        area("stored", "elastic", 0.25),
         line("path ahead", "free", 1.0),
-        *parts("F"),
+        *figures.FORCE_ROWS,
         mark("onset of yield", "paper", "yielded", "diamond", 11),
         mark("now", size=13),
         label("dₚ"),

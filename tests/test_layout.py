@@ -32,7 +32,7 @@ ORDER = (
     "fit.hardness", "fit.measurement", "fit.model", "fit.curves", "fit.adhesion", "fit.depth_noise",
     "fit.start", "fit.solution", "fit.classes",
     "fit.nested", "fit.noise", "fit.remarks", "fit.figures", "fit.result",
-    "fit.indentation", "drives", "scene", "results.figures", "__init__",
+    "fit.indentation", "drives", "scene", "results.figures", "results.elements", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {
@@ -56,7 +56,7 @@ def modules():
 def imports(name, path):
     """Modules of the package that one of them imports, those for annotations included.
 
-    Plots are left out: results import `results.figures` when they are plotted.
+    Plots are left out: results import `results.elements` when they are plotted.
     """
     here = name.split(".")[:-1]
     tree = ast.parse(path.read_text(encoding="utf-8"))
@@ -69,7 +69,7 @@ def imports(name, path):
         base = [*here[: len(here) + 1 - node.level], *(node.module.split(".") if node.module else [])]
         parts = [".".join([*base, alias.name]) for alias in node.names]
         found |= {part if part in KNOWN else ".".join(base) for part in parts}
-    return found - {"results.figures"}
+    return found - {"results.figures", "results.elements"}
 
 
 KNOWN = {name for name, _ in modules()}

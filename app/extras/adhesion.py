@@ -5,6 +5,7 @@ from functools import lru_cache
 import numpy as np
 from scipy.integrate import trapezoid
 
+from mdr_core import ForcePath
 from mdr_core.contact.unloading import AdhesiveLoop, adhesive_loop, unloading_curve
 from mdr_core.results.figures import NOTHING, area, label, line, mark
 
@@ -43,10 +44,15 @@ def still(view: View) -> dict:
     }
 
 
+def _under_force(course: Course) -> bool:
+    """Whether a force is prescribed: contact is then lost earlier."""
+    return isinstance(course.scene.drive, ForcePath)
+
+
 @lru_cache(maxsize=4)
 def _loop(course: Course, turn: int) -> AdhesiveLoop:
     """Loop of loading to a state and unloading: all states of unloading have the same."""
-    return adhesive_loop(course.states[: turn + 1], course.under_force)
+    return adhesive_loop(course.states[: turn + 1], _under_force(course))
 
 
 def moving(view: View, i: int) -> dict:
@@ -60,7 +66,7 @@ def moving(view: View, i: int) -> dict:
         # Loops of several loadings overlap.
         return {}
     loop = _loop(course, min(i, course.peak))
-    returned = _before_tension(*unloading_curve(course.states[i], course.under_force))
+    returned = _before_tension(*unloading_curve(course.states[i], _under_force(course)))
     around = np.append(loop.depth, loop.depth[::-1])
     lost = np.maximum(loop.loading, loop.unloading), loop.unloading[::-1]
     gained = loop.unloading, np.minimum(loop.loading, loop.unloading)[::-1]

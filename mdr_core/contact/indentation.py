@@ -299,13 +299,13 @@ class Indentation(Result):
 
     def plot_pressure(self) -> Any:
         """Contact pressure p(r) of one state with a, c and the mean pressure, as HoloViews elements."""
-        from ..results.figures import plot_pressure
+        from ..results.elements import plot_pressure
 
         return plot_pressure(self)
 
     def plot_springs(self) -> Any:
         """The 1D foundation in one state, springs below the profile g(x), as HoloViews elements."""
-        from ..results.figures import plot_springs
+        from ..results.elements import plot_springs
 
         return plot_springs(self)
 

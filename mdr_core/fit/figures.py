@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ..results.figures import Axis, area, line, mark, overlay
+from ..results.elements import overlay
+from ..results.figures import Axis, area, line, mark
 from ..results.report import imported
 
 _CURVE_ROWS = mark("measured", "measured", size=4), line("fit", "elastic")

@@ -73,7 +73,7 @@ class Result(Report):
             If a name is unknown, or the result has other than one dimension.
         """
         # Plots stand above results, and HoloViews is needed for them only.
-        from .figures import plot_curve
+        from .elements import plot_curve
 
         return plot_curve(self, quantity, over)
 

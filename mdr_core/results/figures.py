@@ -1,6 +1,6 @@
-"""Plots of results as HoloViews elements: rows, their colours, and their columns in SI units.
+"""What plots of results show: rows, their colours, and their columns in SI units.
 
-The explorer draws the same rows from the same columns. HoloViews is imported when a result is plotted.
+`elements` draws them with HoloViews, the explorer the same rows from the same columns with Bokeh.
 """
 
 from dataclasses import dataclass, field
@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from .quantities import QUANTITIES, prefixed
-from .report import imported
+from ..contact.unloading import unloading_curve
+from .quantities import prefixed
 
 #: Colours of the roles on light and on dark background (Okabe–Ito), the same in every plot.
 ROLES = {
@@ -138,6 +138,13 @@ PRESSURE_ROWS = (
     line("−σzz(r)", "elastic", 2.0, symbol="−σzz"),
     line("mean F/(πa²)", "ink", 1.0, "dotdash", "mean"),
     *RADII,
+    label("exceeds"),
+)
+FORCE_ROWS = (
+    area("plastic work Wₚ", "yielded", 0.13, "/"),
+    area("dissipated", "yielded", 0.13, "/"),
+    area("stored", "elastic", 0.25),
+    *parts("F"),
 )
 
 
@@ -250,10 +257,17 @@ def radii(state, half):
 
 
 def ceiling(state, half):
-    """Largest pressure (Pa) of a plot; where it is infinite, at most four times the mean."""
+    """Largest pressure (Pa) of a plot; where it is infinite, at most four times the mean.
+
+    With adhesion it is at least twice the tension on the axis that adhesion alone makes.
+    """
     p = state.pressure(radii(state, half))
     largest = float(np.max(p[np.isfinite(p)], initial=0.0))
-    return largest if not np.isposinf(p).any() else min(largest, 4 * float(state.mean_pressure))
+    if np.isposinf(p).any():
+        largest = min(largest, 4 * float(state.mean_pressure))
+    if state.medium.work_of_adhesion > 0:
+        largest = max(largest, -2 / np.pi * float(state.uniform_load / state.contact_radius))
+    return largest
 
 
 def cut(p, top):
@@ -270,99 +284,50 @@ def pressure(state, r, p, half, top):
         "below": curve,
         "−σzz(r)": curve,
         "mean F/(πa²)": (np.array([-a, a]), np.array([mean, mean])) if a else NOTHING,
+        "exceeds": (-0.97 * half, 0.98 * top, exceeds(r, p, top)),
+    }
+
+
+def exceeds(r, p, top):
+    """Text on a pressure (Pa) at radii r (m) beyond its axis, empty where there is none."""
+    infinite, k = np.isinf(p), int(np.argmax(np.where(np.isinf(p), -1.0, p)))
+    if infinite.any():
+        # A sharp tip that has not yielded is infinite on the axis, a flat face at its rim.
+        at = np.argmax(infinite)
+        sign = "↑ −σzz → ∞" if p[at] > 0 else "↓ −σzz → −∞"
+        return f"{sign} at the " + ("axis" if r[at] == 0 else "rim")
+    if p[k] <= top:
+        return ""
+    where = "on the axis" if r[k] == 0 else f"at r = {_written(r[k], 'm')}"
+    return f"↑ −σzz = {_written(p[k], 'Pa')} {where}"
+
+
+def _written(value, unit):
+    """A positive value with three digits and its unit."""
+    value = float(f"{value:.3g}")
+    factor, unit = prefixed(value, unit)
+    return f"{value / factor:#.3g}".rstrip(".") + f" {unit}"
+
+
+def work(path, i):
+    """Areas of the force over depth of a path up to its state i: what is lost so far, and what is stored.
+
+    `path` is an `Indentation` without adhesion. With viscosity in time, what is lost is not plastic work
+    alone.
+    """
+    depth, force = path.depth[: i + 1], path.force[: i + 1]
+    plastic_depth, viscous = path.live_interval.lower[: i + 1], path.in_time and path.medium.eta > 0
+    back, back_force = unloading_curve(path[i])
+    # The path so far, and back along what is stored: lost is the loop that it encloses.
+    loop = (
+        np.concatenate([depth[:1], depth, back, back[-1:]]),
+        np.concatenate([[0.0], force, back_force, [0.0]]),
+    )
+    loses = viscous or plastic_depth[-1] > plastic_depth[0]
+    return {
+        "dissipated" if viscous else "plastic work Wₚ": loop if loses else NOTHING,
+        "stored": (np.append(back[:1], back), np.append(0.0, back_force)),
     }
 
 
 DASHES = {"solid": "solid", "dashed": "6 4", "dotted": "2 3", "dotdash": "6 3 2 3"}
-
-
-def _styled(row):
-    """Style of a row in options of Bokeh."""
-    colour = ROLES[row.role][0]
-    if row.kind == "lines":
-        return {"color": colour, "line_width": row.look["width"], "line_dash": DASHES[row.look["dash"]]}
-    if row.kind == "areas":
-        return {"fill_color": colour, "fill_alpha": row.look["alpha"], "line_alpha": 0}
-    if row.kind == "marks":
-        return {"color": colour, "size": row.look["size"], "line_alpha": 0}
-    return {"text_color": colour, "text_font_style": "italic", "text_font_size": "12px"}
-
-
-def overlay(title, rows, columns, axes):
-    """A plot as a HoloViews overlay, with one element for each row that has data."""
-    hv = imported("holoviews", "a plot", "holoviews bokeh")
-    if not hv.Store.loaded_backends():
-        hv.extension("bokeh", logo=False)
-    bokeh, made = "bokeh" in hv.Store.loaded_backends(), []
-    dims = [hv.Dimension((axis.name, axis.title), unit=axis.unit or None) for axis in axes]
-    for row in rows:
-        x, y, *text = columns.get(row.name, NOTHING)
-        if not np.isfinite(y).any():
-            continue
-        x, y = (np.asarray(v) / axis.factor for v, axis in zip((x, y), axes, strict=True))
-        named = {"label": row.name} if row.legend else {}
-        if row.kind == "lines":
-            element = hv.Curve((x, y), dims[0], dims[1], **named)
-        elif row.kind == "marks":
-            element = hv.Scatter((x, y), dims[0], dims[1], **named)
-        elif row.kind == "areas":
-            element = hv.Polygons([{dims[0].name: x, dims[1].name: y}], dims, **named)
-        else:
-            element = hv.Labels(([x], [y], text), dims, "text")
-        made.append(element.opts(backend="bokeh", **_styled(row)) if bokeh else element)
-    look = {"title": title, "width": 600, "height": 400, "show_grid": True, "legend_position": "right"}
-    look |= {"xlim": axes[0].ends, "ylim": axes[1].ends}
-    return hv.Overlay(made).opts(backend="bokeh", **look) if bokeh else hv.Overlay(made)
-
-
-def plot_curve(result, quantity, over):
-    """A quantity of a result over another one: `Result.plot`."""
-    for name in {quantity, over} - set(result._quantities):
-        known = ", ".join(result._quantities)
-        raise ValueError(f"{type(result).__name__} has no {name!r} to plot; it has {known}")
-    if len(result.shape) != 1:
-        raise ValueError(f"plot() is for one path, this is of shape {result.shape}: take one of it")
-    x, y = (np.asarray(getattr(result, name)) for name in (over, quantity))
-    axes = [_axis_of(name, values) for name, values in ((over, x), (quantity, y))]
-    if {"depth", "plastic_depth"} <= set(result._quantities):
-        columns = split(x, y, result.depth, result.plastic_depth)
-        return overlay(result._title(), parts(""), columns, axes)
-    return overlay(result._title(), [line("", "elastic", legend=False)], {"": (x, y)}, axes)
-
-
-def _axis_of(name, values):
-    known = QUANTITIES[name]
-    largest = float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
-    return Axis.fitting(name, f"{known.symbol}, {known.long_name}", known.unit, largest)
-
-
-def plot_pressure(state):
-    """Contact pressure of one state: `Indentation.plot_pressure`."""
-    half = _drawn_radius(state, "plot_pressure")
-    top, r = 1.05 * ceiling(state, half), radii(state, half)
-    axes = [
-        Axis.fitting("r", "r, radius", "m", half, start=-half, end=half),
-        Axis.fitting("pressure", "−σzz, contact pressure", "Pa", top, start=0.0, end=top),
-    ]
-    columns = pressure(state, r, state.pressure(r), half, top)
-    return overlay("Contact pressure", PRESSURE_ROWS, columns, axes)
-
-
-def plot_springs(state):
-    """Springs of the 1D foundation in one state: `Indentation.plot_springs`."""
-    half = _drawn_radius(state, "plot_springs")
-    height = max(float(state.depth), float(state.live_interval.upper))
-    axes = [
-        Axis.fitting("x", "x, coordinate of the springs", "m", half, start=-half, end=half),
-        Axis.fitting("z", "z, height", "m", height, start=-REST * height, end=height),
-    ]
-    return overlay("1D foundation", SPRING_ROWS, springs(state, half, height), axes)
-
-
-def _drawn_radius(state, what):
-    """Half-width (m) of a plot: the radius of the contact or of the imprint, and a quarter more."""
-    state._one(what)
-    largest = max(float(state.contact_radius), float(state.plastic_radius))
-    if not largest:
-        raise ValueError(f"{what} needs a contact or an imprint, and at d = {state.depth:g} m is none")
-    return 1.25 * largest

@@ -154,3 +154,45 @@ def test_a_fit_is_drawn_with_its_residuals():
     # The band is the given noise on both sides.
     (band,) = [each for each in below if isinstance(each, hv.Polygons)]
     np.testing.assert_allclose(np.ptp(band.dimension_values(1)), 2 * noise * 1e9, rtol=1e-12)
+
+
+def shoelace(x, y):
+    return abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2
+
+
+def polygon(plot, label):
+    """Columns (nm, µN) of the one area with a label."""
+    (found,) = [each for each in plot if isinstance(each, hv.Polygons) and each.label == label]
+    return [found.dimension_values(dimension) for dimension in found.dimensions()[:2]]
+
+
+def test_areas_of_a_force_depth_curve_are_the_energies_of_its_last_state():
+    """Pressed past the onset, half unloaded, and reloaded: areas to the chords of the curve."""
+    depth = D_C * np.concatenate(
+        [np.linspace(0, 4, 400), np.linspace(4, 3.5, 50), np.linspace(3.5, 3.8, 50)]
+    )
+    path = mdr.indent(mdr.Sphere(1e-6), MEDIUM, depth)
+    plot, last = path.plot(), path[-1]
+    lost, stored = (shoelace(*polygon(plot, name)) * 1e-15 for name in ("plastic work Wₚ", "stored"))
+    assert lost == pytest.approx(last.plastic_work, rel=2e-3)
+    assert stored == pytest.approx(last.stored_energy, rel=2e-3)
+    elastic = {each.label for each in path[:100].plot()}
+    assert elastic == {"stored", "elastic"}
+    assert all(not isinstance(each, hv.Polygons) for each in path.plot("contact_radius"))
+
+
+def test_a_plot_says_which_pressure_its_axis_does_not_reach():
+    def said(profile, medium, depth):
+        plot = mdr.indent(profile, medium, depth).plot_pressure()
+        texts = [text for each in plot if isinstance(each, hv.Labels) for text in each.dimension_values(2)]
+        return [text for text in texts if "σzz" in text]
+
+    assert said(mdr.FlatPunch(1e-6), mdr.Medium(1e9), 1e-9) == ["↑ −σzz → ∞ at the rim"]
+    assert said(mdr.Cone(0.3), mdr.Medium(1e9), 1e-9) == ["↑ −σzz → ∞ at the axis"]
+    sphere = mdr.Paraboloid(1e-6)
+    assert said(sphere, mdr.Medium(1e9), 1e-9) == []
+    adhesive = mdr.indent(sphere, mdr.Medium(1e9, work_of_adhesion=0.05), 0.0)
+    assert said(sphere, adhesive.medium, 0.0) == ["↓ −σzz → −∞ at the rim"]
+    # Tension is below zero on the axis of pressures.
+    low, high = hv.Store.lookup_options("bokeh", adhesive.plot_pressure(), "plot").kwargs["ylim"]
+    assert low == -high < 0

@@ -1,0 +1,110 @@
+"""Plots of results as HoloViews elements, which is imported when a result is plotted."""
+
+import numpy as np
+
+from ..contact.indentation import Indentation
+from . import figures
+from .figures import DASHES, FORCE_ROWS, NOTHING, PRESSURE_ROWS, REST, ROLES, SPRING_ROWS, Axis, line, parts
+from .quantities import QUANTITIES
+from .report import imported
+
+
+def _styled(row):
+    """Style of a row in options of Bokeh."""
+    colour = ROLES[row.role][0]
+    if row.kind == "lines":
+        return {"color": colour, "line_width": row.look["width"], "line_dash": DASHES[row.look["dash"]]}
+    if row.kind == "areas":
+        return {"fill_color": colour, "fill_alpha": row.look["alpha"], "line_alpha": 0}
+    if row.kind == "marks":
+        return {"color": colour, "size": row.look["size"], "line_alpha": 0}
+    return {"text_color": colour, "text_font_style": "italic", "text_font_size": "12px"}
+
+
+def overlay(title, rows, columns, axes):
+    """A plot as a HoloViews overlay, with one element for each row that has data."""
+    hv = imported("holoviews", "a plot", "holoviews bokeh")
+    if not hv.Store.loaded_backends():
+        hv.extension("bokeh", logo=False)
+    bokeh, made = "bokeh" in hv.Store.loaded_backends(), []
+    dims = [hv.Dimension((axis.name, axis.title), unit=axis.unit or None) for axis in axes]
+    for row in rows:
+        x, y, *text = columns.get(row.name, NOTHING)
+        if not np.isfinite(y).any() or text == [""]:
+            continue
+        x, y = (np.asarray(v) / axis.factor for v, axis in zip((x, y), axes, strict=True))
+        named = {"label": row.name} if row.legend else {}
+        if row.kind == "lines":
+            element = hv.Curve((x, y), dims[0], dims[1], **named)
+        elif row.kind == "marks":
+            element = hv.Scatter((x, y), dims[0], dims[1], **named)
+        elif row.kind == "areas":
+            element = hv.Polygons([{dims[0].name: x, dims[1].name: y}], dims, **named)
+        else:
+            element = hv.Labels(([x], [y], text), dims, "text")
+        made.append(element.opts(backend="bokeh", **_styled(row)) if bokeh else element)
+    look = {"title": title, "width": 600, "height": 400, "show_grid": True, "legend_position": "right"}
+    look |= {"xlim": axes[0].ends, "ylim": axes[1].ends}
+    return hv.Overlay(made).opts(backend="bokeh", **look) if bokeh else hv.Overlay(made)
+
+
+def plot_curve(result, quantity, over):
+    """A quantity of a result over another one: `Result.plot`."""
+    for name in {quantity, over} - set(result._quantities):
+        known = ", ".join(result._quantities)
+        raise ValueError(f"{type(result).__name__} has no {name!r} to plot; it has {known}")
+    if len(result.shape) != 1:
+        raise ValueError(f"plot() is for one path, this is of shape {result.shape}: take one of it")
+    x, y = (np.asarray(getattr(result, name)) for name in (over, quantity))
+    axes = [_axis_of(name, values) for name, values in ((over, x), (quantity, y))]
+    if {"depth", "plastic_depth"} <= set(result._quantities):
+        columns = figures.split(x, y, result.depth, result.plastic_depth)
+        if (quantity, over) == ("force", "depth") and _stores(result):
+            columns |= figures.work(result, len(x) - 1)
+            return overlay(result._title(), FORCE_ROWS, columns, axes)
+        return overlay(result._title(), parts(""), columns, axes)
+    return overlay(result._title(), [line("", "elastic", legend=False)], {"": (x, y)}, axes)
+
+
+def _stores(path):
+    """Whether the area below the unloading of a path is what it stores: without adhesion."""
+    return isinstance(path, Indentation) and path.shape[0] > 0 and not np.any(path.medium.work_of_adhesion)
+
+
+def _axis_of(name, values):
+    known = QUANTITIES[name]
+    largest = float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
+    return Axis.fitting(name, f"{known.symbol}, {known.long_name}", known.unit, largest)
+
+
+def plot_pressure(state):
+    """Contact pressure of one state: `Indentation.plot_pressure`."""
+    half = _drawn_radius(state, "plot_pressure")
+    top, r = 1.05 * figures.ceiling(state, half), figures.radii(state, half)
+    bottom = -top if state.medium.work_of_adhesion > 0 else 0.0
+    axes = [
+        Axis.fitting("r", "r, radius", "m", half, start=-half, end=half),
+        Axis.fitting("pressure", "−σzz, contact pressure", "Pa", top, start=bottom, end=top),
+    ]
+    columns = figures.pressure(state, r, state.pressure(r), half, top)
+    return overlay("Contact pressure", PRESSURE_ROWS, columns, axes)
+
+
+def plot_springs(state):
+    """Springs of the 1D foundation in one state: `Indentation.plot_springs`."""
+    half = _drawn_radius(state, "plot_springs")
+    height = max(float(state.depth), float(state.live_interval.upper))
+    axes = [
+        Axis.fitting("x", "x, coordinate of the springs", "m", half, start=-half, end=half),
+        Axis.fitting("z", "z, height", "m", height, start=-REST * height, end=height),
+    ]
+    return overlay("1D foundation", SPRING_ROWS, figures.springs(state, half, height), axes)
+
+
+def _drawn_radius(state, what):
+    """Half-width (m) of a plot: the radius of the contact or of the imprint, and a quarter more."""
+    state._one(what)
+    largest = max(float(state.contact_radius), float(state.plastic_radius))
+    if not largest:
+        raise ValueError(f"{what} needs a contact or an imprint, and at d = {state.depth:g} m is none")
+    return 1.25 * largest
