@@ -11,7 +11,7 @@ from .plot import View
 from .quantities import OF_DRIVE, QUANTITIES, Scale
 from .state import MEDIUM_CHOICES, PRESETS, State, altered, regions
 from .tip import read_tip
-from .ui import linked, marked, symbol
+from .ui import LAYOUT, linked, marked, symbol
 from .units import UNITS, entry, fitting, read, written
 
 _FIRST = "Move a slider: orange springs have yielded."
@@ -113,7 +113,7 @@ class Form:
 
     def __init__(self, page: Any):
         self._page, self._open, self._in_use, self._notes = page, False, False, {}
-        self.view = Parts("form")
+        self.view = Parts("form", stylesheets=LAYOUT)
 
     def rest(self, notes: dict[str, str]) -> None:
         """Take notes (HTML) on regions of the form."""

@@ -27,7 +27,7 @@ class Frame:
         self.parts: dict[str, Side] = {"explore": self.form}
         self.opened = {"explore"}
         self.header = Parts("header", "bar", stylesheets=LAYOUT)
-        self.tabs = Parts("bar")
+        self.tabs = Parts("bar", "sides", stylesheets=LAYOUT)
         self.line = Parts("top", stylesheets=LAYOUT)
         self.below = html("", "lights")
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}

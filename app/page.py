@@ -220,14 +220,14 @@ class Page:
         if not self._ready:
             self.frame.rest(view)
         self.messages.dark = state.dark
-        for service in self.services:
-            service.show(view)
         self.refresh()
         self._schedule()
 
     @pn.io.hold()
     def refresh(self) -> None:
-        """Show the texts, buttons and fields of the present view."""
+        """Show what is beside the plots of the present view."""
+        for service in self.services:
+            service.show(self.shown)
         self.board.show_parts(self.shown)
         self.frame.show(self.shown)
 

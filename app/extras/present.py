@@ -4,13 +4,15 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..extra import Extra, Service
+from ..extra import EXTRAS, Extra, Service
 from ..parts import Part, button
 from ..plot import Plot, View
 from ..state import State
 from ..ui import LAYOUT, show
 
 _SHEET = Path(__file__).with_suffix(".css").read_text(encoding="utf-8")
+#: With a part above the form, such as a guided scene: that part alone stays in the side.
+_WITH_SIDE = ":host { --side: flex; --form: none; --digits: 9.5px; }"
 #: Letters of plots that are presented or large, over those of the page.
 _SCALE = 1.5
 
@@ -38,7 +40,10 @@ class Letters(Service):
 
     def show(self, view: View) -> None:
         on, name_of_large = bool(view.state["present.on"]), view.state["present.large"]
-        show(self.page.frame.view, stylesheets=[*LAYOUT, *[_SHEET] * on])
+        frame = self.page.frame
+        with_side = any(EXTRAS[name].place == "above" for name in frame.opened & EXTRAS.keys())
+        sheets = [_SHEET, *[_WITH_SIDE] * with_side] if on else []
+        show(frame.view, stylesheets=[*LAYOUT, *sheets])
         for name, card in self.page.board.cards.items():
             is_large = name == name_of_large
             show(card.view, css_classes=["card", name, *["large"] * is_large])

@@ -203,7 +203,9 @@ def test_a_number_that_is_shown_is_the_one_that_is_used(server, page):
     page.change(page.type, "d_max", "8.12345678 nm")
     assert page.field("d_max").input_value() == "8.12345678 nm"
     page.drag("springs", (0, 0.2))
-    page.wait("!location.search.includes('8.123') && explorer.idle()")
+    page.wait(
+        "!location.search.includes('8.123') && explorer.model('dragging').depth === null && explorer.idle()"
+    )
     used = float(page.link("max_depth=")["max_depth"])
     assert amounts(page.field("d_max").input_value())[0] == pytest.approx(used, rel=1e-12)
     page.change(page.pick, "force")

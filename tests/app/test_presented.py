@@ -114,6 +114,26 @@ def test_present_fills_the_page_with_large_letters(lecture):
     assert page.evaluate(LETTERS, "pressure") == letters
 
 
+def test_a_guided_scene_is_gone_through_while_it_is_presented(lecture):
+    page = lecture.page
+    lecture.press("Present")
+    page.locator(".side").wait_for(state="hidden")
+    lecture.press("Guide")
+    lecture.change(page.get_by_role("button", name="Next").click)
+    status = page.get_by_role("status").get_by_text("1 of 4")
+    status.wait_for()
+    # The form is not there; the text ends before the plots begin.
+    assert page.locator(".form").is_hidden()
+    springs = page.locator(".card.springs").bounding_box()
+    text = status.bounding_box()
+    assert text["x"] + text["width"] <= springs["x"]
+    lecture.press("Guide")
+    page.locator(".side").wait_for(state="hidden")
+    page.keyboard.press("Escape")
+    page.locator(".form").wait_for()
+    lecture.change(lecture.press, "Undo")
+
+
 def test_what_is_opened_leaves_the_form_and_is_closed_by_escape(lecture):
     page, field = lecture.page, lecture.field("d_max")
     opened = (
