@@ -215,14 +215,13 @@ class Picture:
         f.update(background_fill_color=ground, border_fill_color=ground)
         about = f"{self.plot.title}: {axes[1].title}, over {axes[0].title}"
         f.html_attributes = {"role": "img", "aria-label": about}
-        ranges = (f.x_range, f.y_range, f.extra_y_ranges.get("right"))
-        sides = (f.below[0], f.left[0], *f.right[:1])
+        ranges = (f.x_range, f.y_range, *f.extra_y_ranges.values())
+        sides = (f.below[0], f.left[0], *f.right)
         for bounds, side, axis in zip(ranges, sides, axes, strict=False):
             start, end = axis.ends
-            if bounds is not None:
-                bounds.update(start=start, end=end)
-                title = axis.title.split(",")[0] if self.short else axis.title
-                side.axis_label = replace(axis, title=title).label
+            bounds.update(start=start, end=end)
+            title = axis.title.split(",")[0] if self.short else axis.title
+            side.axis_label = replace(axis, title=title).label
         for hover, number in self.hovers:
             symbol = axes[0].title.split(",")[0]
             hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=axes[number])

@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from mdr_core.results.figures import NOTHING, Axis, Row
-from mdr_core.results.quantities import QUANTITIES
 
 from .courses import Course
 from .state import State
@@ -25,12 +24,6 @@ class Along:
     size: Callable[[Course], float]
     below: Callable[[Course], float] = lambda course: 0.0
     least: Callable[[Course], float] = lambda course: 0.0
-
-
-def titled(name: str) -> str:
-    """Title of an axis of a quantity of the core."""
-    known = QUANTITIES[name]
-    return f"{known.symbol}, {known.long_name}"
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,9 +6,10 @@ import numpy as np
 
 from mdr_core.results import figures
 from mdr_core.results.figures import REST, label, line, mark, split
+from mdr_core.results.quantities import QUANTITIES
 
 from .courses import Course
-from .plot import Along, Plot, View, titled
+from .plot import Along, Plot, View
 
 # Axes, which other plots may share.
 
@@ -53,8 +54,8 @@ def radius_size(course: Course) -> float:
 X = Along("x, coordinate of the springs", "length", radius_size, lambda course: 1.0)
 R = Along("r, radius", "length", radius_size, lambda course: 1.0)
 Z = Along("z, height", "length", deepest, lambda course: REST)
-D = Along(titled("depth"), "length", _most("depth"), least=_least("depth"))
-F = Along(titled("force"), "force", _most("force"), least=_least("force"))
+D = Along(QUANTITIES["depth"].title, "length", _most("depth"), least=_least("depth"))
+F = Along(QUANTITIES["force"].title, "force", _most("force"), least=_least("force"))
 P = Along("−σzz, pressure", "pressure", _pressure_size, lambda course: float(course.adhesive))
 
 

@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from ..plot import Along, View
-from ..plots import titled
+from mdr_core.results.quantities import QUANTITIES
 
-T = Along(titled("time"), "time", lambda course: float(course.motion.time[-1]))
+from ..plot import Along, View
+
+T = Along(QUANTITIES["time"].title, "time", lambda course: float(course.motion.time[-1]))
 
 
 def line_at_time(view: View, i: int, up: Along) -> tuple:

@@ -74,7 +74,7 @@ def _stores(path):
 def _axis_of(name, values):
     known = QUANTITIES[name]
     largest = float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
-    return Axis.fitting(name, f"{known.symbol}, {known.long_name}", known.unit, largest)
+    return Axis.fitting(name, known.title, known.unit, largest)
 
 
 def plot_pressure(state):

@@ -18,6 +18,11 @@ class Quantity:
     long_name: str
 
     @property
+    def title(self):
+        """Symbol and long name, as an axis has them."""
+        return f"{self.symbol}, {self.long_name}"
+
+    @property
     def attributes(self):
         """Attributes of the variable in an xarray.Dataset."""
         return {"units": self.unit or "1", "long_name": self.long_name, "symbol": self.symbol}
