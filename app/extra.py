@@ -80,6 +80,8 @@ class Extra:
     linked: Callable[[str], str] | None = None
     #: Files to download, each with its label, its name, and its text of a view.
     files: tuple[tuple[str, str, Callable[[View], str]], ...] = ()
+    #: What it has below the player (HTML), found when the input rests.
+    below: Callable[[View], str] = lambda view: ""
     #: Titles and texts (HTML) that a saved scene has of it.
     told: Callable[[View], list[tuple[str, str]]] = lambda view: []
     #: A page of its own at the address `?NAME=place`.

@@ -69,8 +69,8 @@ class Frame:
         self._side = pn.Column(Parts(*rows["side"], classes=("bar",)), **look)
         line = board.player.heads, board.player.words, *rows["line"]
         top = Parts(*line, classes=("top",), stylesheets=LAYOUT)
-        self.warnings = html("", "lights")
-        plots = (top, board.player.view, self.warnings, board.grid, board.tab_row)
+        self.below = html("", "lights")
+        plots = (top, board.player.view, self.below, board.grid, board.tab_row)
         results = pn.Column(*plots, css_classes=["results"], **FULL)
         columns = pn.Row(self._side, results, css_classes=["columns"], **FULL)
         self.view = pn.Column(header, columns, css_classes=["page"], **FULL)

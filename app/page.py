@@ -10,7 +10,7 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
 from panel.io.location import Location
 
-from . import changes, link, readouts
+from . import changes, link
 from .board import Board
 from .courses import Course
 from .drives import follow, scene_of
@@ -219,7 +219,7 @@ class Page:
         self._schedule()
 
     def _show_texts(self):
-        show(self.frame.warnings, object=readouts.warnings(self.shown.course, self.state))
+        show(self.frame.below, object="".join(each.below(self.shown) for each in EXTRAS.values()))
         self.form.show_texts(self.state, self.shown.course)
 
     # Player and dragging.

@@ -1,6 +1,5 @@
-"""Readouts, assumptions, and summary of the scene."""
+"""Readouts: numbers of a course, with their units and explanations."""
 
-from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
@@ -8,7 +7,6 @@ import numpy as np
 
 from .courses import Course, onset_depth
 from .quantities import OF_DRIVE, READOUTS, Readout
-from .state import State
 from .ui import explained, linked, symbol
 from .units import KINDS, written
 
@@ -58,46 +56,6 @@ def _head(readout: Readout) -> str:
     known = readout.known
     about = f"<p>{linked(readout.help)}</p><em>{linked(readout.equation)}</em>"
     return explained(f"about-{readout.name}", f"{symbol(known.symbol)} {known.long_name}", about)
-
-
-def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
-    """Levels ("good", "note", "beyond") and sentences of the assumptions."""
-    for sentence in (*course.notes, course.pending):
-        if sentence:
-            yield "note", sentence
-    for limit in sorted(course.limits(state.density), key=lambda limit: limit.concerns != "result"):
-        # The fast limit is one without adhesion; what is still computed may have dashpots.
-        without = {"fast limit": course.adhesive, "viscosity": bool(course.pending)}
-        if without.get(limit.what):
-            continue
-        own = _own_words(limit, state)
-        yield ("note", own) if own else (limit.level, limit.sentence)
-
-
-#: What is said where E* is given without ν.
-_OF_INCOMPRESSIBLE = {
-    "Poisson ratio": "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*.",
-    "coupling": "Friction along the surface is that of ν = ½; ν is not given with E*.",
-}
-
-
-def _own_words(limit: Any, state: State) -> str:
-    """What the page says of a limit in the place of the core, or nothing."""
-    if limit.what == "viscosity":
-        remedy = ", or ".join(drive["in_time"] for drive in OF_DRIVE.values() if "in_time" in drive)
-        tau = written(limit.value, "time")
-        return f"Pressing is quasi-static here; dashpots, τ = {tau}, act in {remedy}."
-    return _OF_INCOMPRESSIBLE.get(limit.what, "") if state.elasticity == "modulus" else ""
-
-
-def warnings(course: Course, state: State) -> str:
-    """Exceeded assumptions as HTML; the others fold."""
-    exceeded, others = "", ""
-    for level, sentence in limits(course, state):
-        html = f'<span class="{level}">{linked(sentence)}</span>'
-        exceeded += html * (level == "beyond")
-        others += html * (level != "beyond")
-    return exceeded + f"<details><summary>Assumptions and notes</summary>{others}</details>" * bool(others)
 
 
 def law_of_hardness(course: Course) -> str:

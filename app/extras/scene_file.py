@@ -119,9 +119,6 @@ def _connect(document: Document, view: View, pictures: list[Picture]) -> None:
 def _folded(view: View) -> Iterator[tuple[str, str]]:
     """Titles and texts (HTML) below the plots."""
     yield from (each for extra in EXTRAS.values() for each in extra.told(view) if each[1])
-    limits = readouts.limits(view.course, view.state)
-    sentences = "".join(f'<span class="{level}">{marked(text)}</span>' for level, text in limits)
-    yield "Assumptions and notes", sentences
     rows = ("".join(f"<td>{cell}</td>" for cell in row) for row in _inputs(view.state))
     yield "Inputs and their sources", f"<table>{''.join(f'<tr>{row}</tr>' for row in rows)}</table>"
 

@@ -7,7 +7,7 @@ from scipy.integrate import trapezoid
 import mdr_core as mdr
 from app import changes, readouts
 from app.drives import DRIVES, follow, scene_of
-from app.extras import share
+from app.extras import notes, share
 from app.plot import View
 from app.plots import force, force_still
 from app.quantities import CHOICES
@@ -161,7 +161,7 @@ def test_looking_at_the_other_impact_keeps_body_and_normal_speed():
 
 def test_presets_are_within_what_the_model_assumes():
     for key in PRESETS:
-        levels = [level for level, _ in readouts.limits(follow(preset_state(key)), preset_state(key))]
+        levels = [level for level, _ in notes.limits(follow(preset_state(key)), preset_state(key))]
         assert "beyond" not in levels, key
 
 

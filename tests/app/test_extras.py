@@ -6,6 +6,7 @@ import re
 import shutil
 import sys
 from functools import cache
+from html import unescape
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from app.plots import PLOTS
 from app.state import preset_state
 
 from .conftest import DROP, ROOT, Explorer, Server
+from .states import view_of
 
 
 def copied(folder, package, *without):
@@ -49,13 +51,15 @@ def words(name):
     found += [choice["label"] for choice in data.get("choices", {}).values()]
     found += [extra.on_plots(PLOTS["force"]).label] if extra.on_plots else []
     found += [buttons()[name]] if extra.header else []
+    found += re.findall("<summary>(.*?)</summary>", extra.below(view_of(preset_state())))
     return {each for each in found if each}
 
 
 def strings(value):
     """All texts within a value of a model; of the columns of a source, names of rows."""
     if isinstance(value, str):
-        yield value
+        # Panes of HTML escape theirs.
+        yield unescape(value)
         # What parts of the page are and show.
         for part in json.loads(value) if value.startswith("[{") else ():
             yield from strings(list(part.values()))

@@ -12,8 +12,8 @@ from app.extras import fit as fitting
 from app.extras import hardness, oblique, reading, sweep
 from app.extras.fit.measured import read_curve
 from app.extras.guide import TOURS, step_state, step_text
+from app.extras.notes import limits
 from app.plots import PLOTS, D, X
-from app.readouts import limits
 from app.state import medium, preset_state, profile
 
 from .conftest import DROP, ELASTIC, GOLD, PUNCH

@@ -10,9 +10,10 @@ import pytest
 from scipy.integrate import trapezoid
 
 import mdr_core as mdr
-from app import changes, readouts
+from app import changes
 from app.draw import Picture, drawn, legend, picture_of, ticks
 from app.drives import follow, scene_of
+from app.extras import notes
 from app.extras.oblique import leaning
 from app.extras.radii import RADII
 from app.extras.relief import plane
@@ -100,16 +101,16 @@ def test_after_another_hit_depth_and_force_of_yield_belong_together():
 
 def test_only_exceeded_assumptions_are_seen_and_the_rest_folds():
     def poisson(state):
-        return {level for level, text in readouts.limits(follow(state), state) if "ν = ½" in text}
+        return {level for level, text in notes.limits(follow(state), state) if "ν = ½" in text}
 
     state = viscous()
     assert poisson(state) == {"beyond"}
     assert poisson(state.replace(nu_1=0.5)) == {"good"}
     assert poisson(changes.choose(state, "elasticity", "modulus")) == {"note"}
-    html = readouts.warnings(follow(preset_state()), preset_state())
+    html = notes.below(view_of(preset_state()))
     assert html.index("<details>") == 0
     steep = preset_state(DROP).replace(speed=500.0)
-    html = readouts.warnings(follow(steep), steep)
+    html = notes.below(view_of(steep))
     assert html[: html.index("<details>")].count('class="beyond"') >= 2
 
 
@@ -118,7 +119,7 @@ def test_a_hold_of_a_medium_without_viscosity_says_that_nothing_changes():
     for damping, pattern in product(("none", "eta"), ("creep", "hold", "cycles")):
         state = state_with(GOLD, "path", pattern=pattern, damping=damping)
         course = follow(state)
-        said = [text for _, text in readouts.limits(course, state) if "Without viscosity" in text]
+        said = [text for _, text in notes.limits(course, state) if "Without viscosity" in text]
         assert len(said) == (damping == "none" and pattern != "cycles")
         if said:
             held = course.motion.time >= state["path.ramp_time"]

@@ -6,7 +6,7 @@ import pytest
 from app import changes, link, readouts, ui
 from app.drives import follow
 from app.extras import fit as fitting
-from app.extras import held
+from app.extras import held, notes
 from app.extras.fit.drawn import residual
 from app.extras.guide import TOURS, step_state, step_text
 from app.extras.scene_file import scene_file
@@ -47,12 +47,12 @@ def test_1_areas_of_a_viscous_impact_are_its_energies(progress):
 
 def test_2_the_fast_limit_is_compared_with_the_contact_area():
     course = follow(preset_state(DROP))
-    text = " ".join(sentence for _, sentence in readouts.limits(course, preset_state(DROP)))
+    text = " ".join(sentence for _, sentence in notes.limits(course, preset_state(DROP)))
     more = float(course.hit.fast_limit.contact_area / course.hit.turning_point.contact_area) - 1
     assert f"The fast limit, Eqs. (23), (24), is off by −{-100 * more:.3g} % of the area" in text
     # It is one without adhesion.
     state = adhesive("impact")
-    assert "fast limit" not in str(list(readouts.limits(follow(state), state)))
+    assert "fast limit" not in str(list(notes.limits(follow(state), state)))
 
 
 def test_3_the_guide_says_of_which_shape_the_area_goes_with_the_energy():

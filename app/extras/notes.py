@@ -1,0 +1,62 @@
+"""Assumptions of the model, and notes on the course, below the player."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from ..courses import Course
+from ..extra import Extra
+from ..plot import View
+from ..quantities import OF_DRIVE
+from ..state import State
+from ..ui import linked, marked
+from ..units import written
+
+
+def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
+    """Levels ("good", "note", "beyond") and sentences of the assumptions."""
+    for sentence in (*course.notes, course.pending):
+        if sentence:
+            yield "note", sentence
+    for limit in sorted(course.limits(state.density), key=lambda limit: limit.concerns != "result"):
+        # The fast limit is one without adhesion; what is still computed may have dashpots.
+        without = {"fast limit": course.adhesive, "viscosity": bool(course.pending)}
+        if without.get(limit.what):
+            continue
+        own = _own_words(limit, state)
+        yield ("note", own) if own else (limit.level, limit.sentence)
+
+
+#: What is said where E* is given without ν.
+_OF_INCOMPRESSIBLE = {
+    "Poisson ratio": "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*.",
+    "coupling": "Friction along the surface is that of ν = ½; ν is not given with E*.",
+}
+
+
+def _own_words(limit: Any, state: State) -> str:
+    """What the page says of a limit in the place of the core, or nothing."""
+    if limit.what == "viscosity":
+        remedy = ", or ".join(drive["in_time"] for drive in OF_DRIVE.values() if "in_time" in drive)
+        tau = written(limit.value, "time")
+        return f"Pressing is quasi-static here; dashpots, τ = {tau}, act in {remedy}."
+    return _OF_INCOMPRESSIBLE.get(limit.what, "") if state.elasticity == "modulus" else ""
+
+
+def below(view: View) -> str:
+    """Exceeded assumptions as HTML; the others fold."""
+    exceeded, others = "", ""
+    for level, sentence in limits(view.course, view.state):
+        html = f'<span class="{level}">{linked(sentence)}</span>'
+        exceeded += html * (level == "beyond")
+        others += html * (level != "beyond")
+    return exceeded + f"<details><summary>Assumptions and notes</summary>{others}</details>" * bool(others)
+
+
+def told(view: View) -> list[tuple[str, str]]:
+    """All of them as HTML, without links to pages of the server."""
+    sentences = limits(view.course, view.state)
+    html = (f'<span class="{level}">{marked(sentence)}</span>' for level, sentence in sentences)
+    return [("Assumptions and notes", "".join(html))]
+
+
+EXTRA = Extra("notes", order=30, below=below, told=told)
