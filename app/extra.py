@@ -7,7 +7,7 @@ from typing import Any, Protocol
 from .changes import CONVERT, OFFERED
 from .courses import Course
 from .drives import DRIVES, Drive
-from .link import CHECKS, FORMER
+from .link import CHECKS, TRANSLATIONS, Pairs
 from .parts import Part
 from .plot import OVERLAYS, Overlay, Plot, View
 from .plots import PLOTS
@@ -55,9 +55,8 @@ class Extra:
     #: Values beside those of its JSON file, with their defaults: texts and lists of names. A value whose
     #: default is None is in no link.
     values: dict[str, Any] = field(default_factory=dict)
-    #: Names of values that undo leaves alone, and names of version 0.6 in links with their present names.
+    #: Names of values that undo leaves alone.
     of_view: tuple[str, ...] = ()
-    former: dict[str, str] = field(default_factory=dict)
     #: Numbers that keep their meaning under another option of a choice, and options that apply to a state.
     converts: dict[str, Callable[[State, str], dict[str, Any]]] = field(default_factory=dict)
     offers: dict[str, Callable[[State], list[str]]] = field(default_factory=dict)
@@ -74,6 +73,8 @@ class Extra:
     #: A button that it has in the header of a page, and one that it has above a plot, or None.
     header: Callable[[Any, View], Part] | None = None
     on_plots: Callable[[Any, Plot, View], Part | None] | None = None
+    #: Changes names and values of a link before it is read.
+    translated: Callable[[Pairs], Pairs] | None = None
     #: Why a link with its values is refused, or nothing.
     check: Callable[[State], str] = lambda state: ""
     #: What it and others need once in a session of a page, which it is made of.
@@ -105,7 +106,7 @@ def register(extra: Extra, data: dict[str, Any]) -> None:
     OF_EXTRAS.update({name: next(iter(CHOICES[name]), "") for name in data.get("choices", {})})
     OF_EXTRAS.update(extra.values)
     VIEW.extend(extra.of_view)
-    FORMER.update(extra.former)
+    TRANSLATIONS.extend([extra.translated] if extra.translated else [])
     CHECKS.append(extra.check)
     CONVERT.update(extra.converts)
     OFFERED.update(extra.offers)

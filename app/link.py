@@ -1,6 +1,5 @@
 """States as links: defaults are left out, and links are read as hostile input."""
 
-import re
 from collections.abc import Callable
 from math import isfinite, isinf, nan
 from typing import Any
@@ -21,22 +20,12 @@ from .state import (
 )
 from .tip import MAX_SAMPLES
 
-#: Limits of a link: characters, values, names in a list, characters of a text.
-MAX_LENGTH, _MAX_VALUES, _MAX_NAMES, _MAX_TEXT = 8000, 100, 12, 300
+#: Most characters of a link and of a text in it, and most names in a list.
+MAX_LENGTH, _MAX_TEXT, _MAX_NAMES = 8000, 300, 12
 _LISTS = ("tiles",)
-#: Names of version 0.6 for values of extras, which add theirs, with their present names.
-FORMER: dict[str, str] = {}
-#: What version 0.6 had and is gone: left out in silence.
-_GONE = {"frame_compliance", "loglog"}
-#: Names that mail programs and search engines append to links.
-_APPENDED = re.compile(
-    r"utm_.*|\w*clk?id|gclsrc|[gw]braid|igsh(id)?|mc_[ce]id|_ga|_gl|_hs\w+|li_fat_id|srsltid|bokeh-.*"
-    r"|mkt_tok|mibextid|si|vero_id|ref",
-    re.IGNORECASE,
-)
-#: Presets of version 0.6 that had a paraboloid for a ball, and what else their links do not say.
-_FORMER_PRESETS = {"striker-glass_epoxy": "ball-glass_epoxy", "striker-epoxy-elastic": "ball-epoxy-elastic"}
-_FORMER_BALL = {"shape": "paraboloid", "paraboloid_radius": "0.008", "mass": "1"}
+Pairs = list[tuple[str, str]]
+#: Changes of the names and values of a link before it is read; extras add theirs.
+TRANSLATIONS: list[Callable[[Pairs], Pairs]] = []
 
 
 def write(state: State) -> str:
@@ -62,40 +51,38 @@ def _text(value: Any) -> str:
     return value if isinstance(value, str) else repr(value)
 
 
+def translated(query: str) -> Pairs:
+    """Names and values of a link, in the names of today."""
+    found = parse_qsl(query, keep_blank_values=True)
+    for each in TRANSLATIONS:
+        found = each(found)
+    return found
+
+
 def _known(name: str) -> bool:
-    return name in (*CHOICES, *QUANTITIES, *OF_EXTRAS, *FORMER, *_GONE, *_LISTS, "samples", "at", "dark")
+    return name in (*CHOICES, *QUANTITIES, *OF_EXTRAS, *_LISTS, "samples", "at", "dark")
 
 
 def unknown(query: str) -> list[str]:
-    """Names in a query that no version has, without those that are appended to links on their way."""
-    pairs = dict(parse_qsl(query, keep_blank_values=True))
-    names = [name for name in pairs if not (_known(name) or _APPENDED.fullmatch(name))]
-    names += [tile for tile in pairs.get("tiles", "").split() if tile not in (*PLOTS, *_GONE)]
-    held = pairs.get("held.scenes", pairs.get("hold", ""))
-    return names + [name for query in held.split() for name in unknown(query)]
+    """Names in a link that no version has, also in links within it."""
+    pairs = dict(translated(query))
+    names = [name for name in pairs if not _known(name)]
+    names += [tile for tile in pairs.get("tiles", "").split() if tile not in PLOTS]
+    return names + [name for held in pairs.get("held.scenes", "").split() for name in unknown(held)]
 
 
 def read(query: str) -> State:
-    """State of a query, of this version or 0.6; ValueError if it is invalid.
-
-    What is not known is left out.
-    """
-    values = [pair for pair in parse_qsl(query, keep_blank_values=True) if _known(pair[0])]
-    if len(values) > _MAX_VALUES or sum(len(text) for _, text in values) > MAX_LENGTH:
+    """State of a link, without what is not known in it. Raises ValueError if a value is invalid."""
+    values = [(name, text) for name, text in translated(query) if _known(name)]
+    if sum(len(text) for _, text in values) > MAX_LENGTH:
         raise ValueError("this link is too long")
     pairs = dict(values)
     if len(pairs) < len(values):
         raise ValueError("this link sets a value twice")
     key = pairs.pop("preset", OPENING)
-    if key in _FORMER_PRESETS:
-        pairs = _FORMER_BALL | pairs
-        key = _FORMER_PRESETS[key]
     if key not in PRESETS:
         raise ValueError("this link names no preset that is known")
-    changes = dict(
-        _value(FORMER.get(name, name), text) for name, text in pairs.items() if name not in _GONE
-    )
-    state = preset_state(key).replace(**changes)
+    state = preset_state(key).replace(**dict(_value(*pair) for pair in pairs.items()))
     for reason in (check(state) for check in CHECKS):
         if reason:
             raise ValueError(reason)
@@ -126,7 +113,7 @@ def _value(name: str, text: str) -> tuple[str, Any]:
     if name in _LISTS:
         return name, tuple(plot for plot in text.split()[:_MAX_NAMES] if plot in PLOTS)
     if isinstance(OF_EXTRAS.get(name), tuple):
-        return name, tuple(each for each in text.split()[:_MAX_NAMES] if each not in _GONE)
+        return name, tuple(text.split()[:_MAX_NAMES])
     if name == "dark":
         return name, text == "1"
     if name == "samples":
@@ -149,7 +136,7 @@ def _samples(text: str) -> tuple[tuple[float, ...], ...]:
 
 def _number(name: str, text: str) -> float:
     try:
-        value = float(text) if len(text) <= 40 else nan
+        value = float(text)
     except ValueError:
         value = nan
     if not isfinite(value):

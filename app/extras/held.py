@@ -225,7 +225,6 @@ EXTRA = Extra(
     order=10,
     values={"held.scenes": ()},
     of_view=("held.scenes",),
-    former={"hold": "held.scenes"},
     tab="Held",
     overlays=(
         _overlay("force", _rows("F"), _force),

@@ -66,7 +66,6 @@ EXTRA = Extra(
     order=31,
     values={"log.plots": ()},
     of_view=("log.plots",),
-    former={"log": "log.plots"},
     overlays=(Overlay("force", (), moving=hidden, picture=Switched),),
     on_plots=switch,
 )

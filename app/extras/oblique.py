@@ -216,7 +216,6 @@ FORCES = Plot(
 
 EXTRA = Extra(
     "oblique",
-    former={key: f"oblique.{key}" for key in ("incoming_speed", "attack", "friction", "body")},
     drives={"oblique": Oblique()},
     service=Resting,
     plots=(FORCES,),

@@ -236,7 +236,6 @@ class Path(Drive):
 
 EXTRA = Extra(
     "path",
-    former={"pattern": "path.pattern", "ramp_time": "path.ramp_time"},
     converts={"path.pattern": lambda state, wanted: DRIVES["path"].equivalent(state, turning_point(state))},
     drives={"path": Path()},
     service=Resting,

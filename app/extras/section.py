@@ -69,4 +69,4 @@ SECTION = Searched(
 )  # fmt: skip
 
 
-EXTRA = Extra("section", plots=(SECTION,), service=Resting, former={"section": "section.stress"})
+EXTRA = Extra("section", plots=(SECTION,), service=Resting)

@@ -280,7 +280,6 @@ SWEEP = Searched(
 
 EXTRA = Extra(
     "sweep",
-    former={"swept": "sweep.swept", "against": "sweep.against"},
     offers={"sweep.swept": swept, "sweep.against": against},
     plots=(SWEEP,),
     service=Resting,

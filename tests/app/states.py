@@ -8,6 +8,7 @@ from app.drives import follow
 from app.extra import EXTRAS
 from app.extras import fit as fitting
 from app.extras.fit.measured import read_curve
+from app.extras.former import NAMES
 from app.extras.guide import TOURS, step_state
 from app.parts import Parts
 from app.plot import View
@@ -23,7 +24,7 @@ def state_with(key=GOLD, drive=None, **choices) -> State:
     state = changes.choose(preset_state(key), "drive", drive) if drive else preset_state(key)
     for name, option in choices.items():
         # Choices of extras by their former names: "pattern" is "path.pattern".
-        state = changes.choose(state, link.FORMER.get(name, name), option)
+        state = changes.choose(state, NAMES.get(name, name), option)
     return state
 
 

@@ -5,9 +5,10 @@ import re
 import numpy as np
 import pytest
 
-from app import changes, link
+from app import changes
 from app.drives import follow
 from app.extras import sweep
+from app.extras.former import NAMES
 from app.extras.guide import TOURS, step_state
 from app.state import OPENING, medium, profile
 from app.units import in_full
@@ -18,7 +19,7 @@ from .test_hardness import STEEL
 
 
 def swept(state, **choices):
-    state = state.replace(**{link.FORMER.get(name, name): value for name, value in choices.items()})
+    state = state.replace(**{NAMES.get(name, name): value for name, value in choices.items()})
     asked = sweep.asked(state)
     return state, asked, sweep.found(follow(state), asked)
 

@@ -7,7 +7,7 @@ from ...plot import Overlay, View
 from ...state import State
 from .changes import DEFAULT_FIXED, fit, quantity_of, silica, take
 from .drawn import MEASURED, RESIDUAL, measured, reach
-from .measured import FITTED, PLACED, Curve
+from .measured import FITTED, Curve
 from .part import Fitting
 from .words import result, told, unloading
 
@@ -34,7 +34,6 @@ EXTRA = Extra(
     "fit",
     order=5,
     values={"fit.curve": None, "fit.fixed": DEFAULT_FIXED, "fit.note": "", "fit.samples": ()},
-    former={key: f"fit.{key}" for key in (*PLACED, "depth_noise", "fixed")} | {"fit_note": "fit.note"},
     tab="Fit a measurement",
     plots=(RESIDUAL,),
     overlays=(Overlay("force", MEASURED, measured, reach=reach),),
