@@ -22,15 +22,16 @@ class Course:
 
     `states` are an `mdr.Indentation`, or have the same quantities; `states[i]` is one state. `progress` is
     0 at first contact, 1 at the largest depth, 2 at loss of contact and 2.2 with the indenter at the
-    undeformed surface. `now` and `peak` are the indices of the present state and of the largest depth.
-    `pending` describes the approximation used until the exact solution. `drive` is the key of the drive.
+    undeformed surface. `peak` is the index of the largest depth. `pending` describes the approximation used
+    until the exact solution. The index `now` of the present state and the key `drive` are set by
+    `drives.follow`.
     """
 
     scene: mdr.Scene
     progress: Any
     states: Any
-    now: int
     peak: int
+    now: int = 0
     pending: str = ""
     drive: str = ""
 

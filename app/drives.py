@@ -71,7 +71,6 @@ def slow(scene: mdr.Scene, progress: float, turning_point: mdr.Indentation) -> d
         "scene": scene,
         "progress": places,
         "states": states,
-        "now": nearest(places, progress),
         "peak": nearest(places, 1.0),
     }
 
@@ -107,14 +106,13 @@ class Force(Press):
         return {"max_force": limited_force(turning_point)}
 
 
-def along(scene: mdr.Scene, progress: float, motion: mdr.Motion) -> dict[str, Any]:
+def along(scene: mdr.Scene, motion: mdr.Motion) -> dict[str, Any]:
     """Fields of a course of an impact from its motion along the normal."""
     places = path_progress(motion.time, motion.turning_index)
     return {
         "scene": scene,
         "progress": places,
         "states": motion.states,
-        "now": nearest(places, progress),
         "peak": motion.turning_index,
         "motion": motion,
     }
@@ -131,7 +129,7 @@ class Impact(Drive):
         hit = scene.solve()
         if scene.medium.work_of_adhesion > 0 and not scene.drive.plastic_depth:
             return Hit(**slow(scene, progress, hit.turning_point), hit=hit)
-        return HitInTime(**along(scene, progress, motion_of(hit, INSTANTS, BEFORE_YIELD)), hit=hit)
+        return HitInTime(**along(scene, motion_of(hit, INSTANTS, BEFORE_YIELD)), hit=hit)
 
     def turning_point(self, scene):
         return scene.solve().turning_point

@@ -79,7 +79,7 @@ class Oblique(Impact):
         drive, normal = scene.drive, _normal(scene)
         given = drive.tangential_speed, drive.friction, drive.tangential_mass
         motion = along_surface(motion_of(normal, INSTANTS, BEFORE_YIELD), *given, 0)
-        course = _course(scene, progress, normal, motion)
+        course = _course(scene, normal, motion)
         return replace(course, pending="Computing friction; drawn so far to three digits.")
 
     def in_time(self, scene):
@@ -89,7 +89,7 @@ class Oblique(Impact):
         thinned = slice(None, None, -(-motion.x.size // _ELEMENTS))
         load, sticks = (np.array(part[:, thinned]) for part in (motion.tangential_line_load, motion.sticks))
         motion = replace(motion, x=motion.x[thinned], tangential_line_load=load, sticks=sticks)
-        return _course(scene, 1.0, hit.normal, motion)
+        return _course(scene, hit.normal, motion)
 
     def turning_point(self, scene):
         return _normal(scene).turning_point
@@ -102,8 +102,8 @@ class Oblique(Impact):
         return numbers | {"oblique.incoming_speed": incoming}
 
 
-def _course(scene, progress, hit, motion):
-    return ObliqueCourse(**along(scene, progress, motion.normal), hit=hit, oblique=motion)
+def _course(scene, hit, motion):
+    return ObliqueCourse(**along(scene, motion.normal), hit=hit, oblique=motion)
 
 
 def _normal(scene):

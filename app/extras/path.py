@@ -12,7 +12,7 @@ from mdr_core.contact.live_interval import LiveInterval
 from mdr_core.contact.yielding import yield_rule
 from mdr_core.medium import refuse_adhesion
 
-from ..courses import Course, Timed, nearest, onset_depth, path_progress
+from ..courses import Course, Timed, onset_depth, path_progress
 from ..drives import DRIVES, Drive, limited_force, turning_point
 from ..extra import Extra
 from ..shared.rest import EXACT, Resting
@@ -91,7 +91,7 @@ def _shares(steps, chain, held):
     return np.append((1 - np.cos(np.pi * share)) / 2, 1 - 1e-9)
 
 
-def _solved(scene, progress, chain, pending):
+def _solved(scene, chain, pending):
     values, along = _refined(scene, chain)
     by_force, bodies = _by_force(scene.drive), (scene.profile, scene.medium)
     if chain:
@@ -101,8 +101,7 @@ def _solved(scene, progress, chain, pending):
         states = _slowly(scene, values)
     peak = int(np.argmax(states.depth))
     places = path_progress(along, peak)
-    made = {"scene": scene, "progress": places, "states": states, "now": nearest(places, progress)}
-    made |= {"peak": peak, "pending": pending}
+    made = {"scene": scene, "progress": places, "states": states, "peak": peak, "pending": pending}
     if scene.drive.time is None:
         return Turns(**made)
     return TurnsInTime(**made, motion=_motion(states, along))
@@ -216,13 +215,12 @@ class Path(Drive):
         pending = viscous and _by_force(scene.drive)
         return _solved(
             scene,
-            progress,
             viscous and not pending,
             "Computing with viscosity; drawn so far without dashpots." * pending,
         )
 
     def in_time(self, scene):
-        return _solved(scene, 1.0, True, "")
+        return _solved(scene, True, "")
 
     def turning_point(self, scene):
         return _slowly(scene, float(np.max(_vertices(scene.drive)[0])))

@@ -12,7 +12,7 @@ import numpy as np
 from mdr_core import Scene
 from mdr_core.results.figures import Axis
 
-from ..courses import Course
+from ..courses import Course, nearest
 from ..drives import DRIVES
 from ..extra import EXTRAS, Service
 from ..plot import Plot, View
@@ -158,8 +158,9 @@ def _keep(course: Course) -> None:
 
 
 def exact(course: Course) -> Course:
-    """The exact course of a pending one."""
-    return replace(DRIVES[course.drive].in_time(course.scene), drive=course.drive)
+    """The exact course of a pending one, in the same state."""
+    made = DRIVES[course.drive].in_time(course.scene)
+    return replace(made, now=nearest(made.progress, course.progress[course.now]), drive=course.drive)
 
 
 def _exact(course):

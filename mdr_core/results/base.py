@@ -60,7 +60,8 @@ class Result(Report):
     def plot(self, quantity: str = "force", over: str = "depth") -> Any:
         """One quantity over another as HoloViews elements, by default the force–depth curve.
 
-        A path is shown in parts: loaded elastically, yielding, unloaded. Axes have names and units.
+        A path is shown in parts: loaded elastically, yielding, unloaded. Axes have names and units. Areas
+        of a force–depth curve are the plastic work of the path and what its last state stores.
 
         Parameters
         ----------
