@@ -40,7 +40,7 @@ class Card:
         """Show the texts and buttons around the plot."""
         plot, page = self.plot, self._page
         formula = f"<h3>{plot.title}</h3>{linked(plot.formula_of(view.course))}"
-        above = [each.on_plots(page, plot, view) for each in EXTRAS.values() if each.on_plots]
+        above = [each.on_plots(page, plot, view) for each in EXTRAS.values()]
         key = text("key", legend(plot, self._legend), "key")
         self.head.show([text("formula", formula, "formula"), *filter(None, above), key])
         self.controls.show([page.choice(name) for name in plot.controls])

@@ -70,9 +70,9 @@ class Extra:
     place: str = "side"
     offered: Callable[[View], bool] = lambda view: True
     side: Callable[[Any], Side] | None = None
-    #: A button that it has in the header of a page, and one that it has above a plot, or None.
-    header: Callable[[Any, View], Part] | None = None
-    on_plots: Callable[[Any, Plot, View], Part | None] | None = None
+    #: A button in the header of a page for a view, and one above a plot; each may be None.
+    header: Callable[[Any, View], Part | None] = lambda page, view: None
+    on_plots: Callable[[Any, Plot, View], Part | None] = lambda page, plot, view: None
     #: Changes names and values of a link before it is read.
     translated: Callable[[Pairs], Pairs] | None = None
     #: Why a link with its values is refused, or nothing.
@@ -87,7 +87,8 @@ class Extra:
     linked: Callable[[str], str] | None = None
     #: Files to download, each with its label, its name, and its text of a view.
     files: tuple[tuple[str, str, Callable[[View], str]], ...] = ()
-    #: Notes (HTML) by their places in the form, and "below" the player: found when the input rests.
+    #: Notes (HTML) by their places, found when the input rests: in the form in the "first" line, on "drive",
+    #: "shape", "medium", the "more" of it and "sources"; and "below" the player.
     notes: Callable[[View], dict[str, str]] = lambda view: {}
     #: Titles and texts (HTML) that a saved scene has of it.
     told: Callable[[View], list[tuple[str, str]]] = lambda view: []

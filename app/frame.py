@@ -77,8 +77,8 @@ class Frame:
     def _buttons(self, view: View, *places: str) -> Iterator[Part]:
         """Buttons that open parts, and what else extras have in the header."""
         for name, each in self._offers.items():
-            if each.header and "header" in places:
-                yield each.header(self._page, view)
+            if "header" in places and (part := each.header(self._page, view)):
+                yield part
             if each.side and each.place in places and each.offered(view):
                 opened = name in self.opened
                 act = partial(self.close if opened else self.open, name)
@@ -89,6 +89,6 @@ class Frame:
         notes: dict[str, str] = {}
         for extra in EXTRAS.values():
             for place, html_ in extra.notes(view).items():
-                notes[place] = notes.get(place, "") + html_
+                notes[place] = f"{notes.get(place, '')} {html_}".strip()
         show(self.below, object=notes.get("below", ""))
         self.form.rest(notes)

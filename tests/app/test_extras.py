@@ -50,8 +50,8 @@ def words(name):
     found += [drive["label"] for drive in data.get("drives", {}).values()]
     found += [choice["label"] for choice in data.get("choices", {}).values()]
     page = opened()
-    found += [extra.on_plots(page, PLOTS["force"], page.shown).look["label"]] if extra.on_plots else []
-    found += [extra.header(page, page.shown).look["label"]] if extra.header else []
+    buttons = extra.on_plots(page, PLOTS["force"], page.shown), extra.header(page, page.shown)
+    found += [each.look["label"] for each in buttons if each is not None]
     notes = extra.notes(page.shown)
     found += re.findall("<summary>(.*?)</summary>", notes.get("below", ""))
     found += [note for place, note in notes.items() if place != "below"]
