@@ -9,18 +9,18 @@ from typing import Any
 import panel as pn
 
 from mdr_core.profiles.samples import decoded
+from mdr_core.results.units import UNITS, digits, entry, fitting, read, written
 
 from . import changes
 from .changes import option, options
 from .courses import Course
 from .parts import Button, Group, Part, Parts, Text
 from .plot import View
-from .quantities import ABOUT, CHOICES, LABELS, OF_DRIVE, QUANTITIES, SHAPES, Scale
+from .quantities import ABOUT, CHOICES, LABELS, OF_DRIVE, QUANTITIES, SHAPES, Scale, with_symbol
 from .readouts import law_of_hardness
 from .state import MEDIUM_CHOICES, PRESETS, State, altered, regions
 from .tip import MAX_BYTES, Uploaded, read_tip
 from .ui import linked, marked, symbol
-from .units import UNITS, digits, entry, fitting, read, with_symbol, written
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665

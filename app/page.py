@@ -19,9 +19,9 @@ from .fields import Choices, Form, Numbers
 from .frame import Frame
 from .plot import View
 from .plots import Z, visible
+from .quantities import in_words
 from .state import VIEW, State, preset_state
 from .ui import JS, Messages, is_served, show
-from .units import in_words
 
 _LOG = logging.getLogger(__name__)
 #: Milliseconds of rest before slow updates.

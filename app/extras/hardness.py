@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 
 from mdr_core.results.figures import line, mark, parts, split
+from mdr_core.results.units import digits, written
 
 from ..courses import Course
 from ..extra import Extra
 from ..plot import View, axis
 from ..shared.rest import Found, Resting, Searched
 from ..ui import marked
-from ..units import digits, written
 
 #: Decades of logarithmic axes of radii and of pressures.
 _RADII, _PRESSURES = 2, 3

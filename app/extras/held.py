@@ -17,13 +17,12 @@ from ..extra import Extra
 from ..parts import Button
 from ..plot import Along, Overlay, View
 from ..plots import PLOTS, P, R
-from ..quantities import CHOICES, OF_DRIVE
+from ..quantities import CHOICES, OF_DRIVE, with_symbol
 from ..readouts import line as readout_line
 from ..readouts import readings, text
 from ..shared.widgets import button
 from ..state import PRESETS, State, altered, used
 from ..ui import WIDE, html, marked, show, symbol
-from ..units import with_symbol
 
 #: Scenes that are held have each its own dashes.
 DASHES = ("dotdash", "dashed", "dotted", "solid")

@@ -18,6 +18,7 @@ from bokeh.resources import Resources
 
 import mdr_core as mdr
 from mdr_core.results.figures import ROLES
+from mdr_core.results.units import written
 
 from .. import link, readouts
 from ..draw import Picture, drawn, legend
@@ -29,7 +30,6 @@ from ..quantities import CHOICES, LABELS, QUANTITIES, SHAPES
 from ..shared.summary import summary
 from ..state import MEDIUM_CHOICES, PRESETS, YIELD_CONSTANT, State, altered, used
 from ..ui import CSS, JS, marked, symbol
-from ..units import written
 
 _HERE = Path(__file__)
 _TEMPLATE = _HERE.with_suffix(".html").read_text(encoding="utf-8")

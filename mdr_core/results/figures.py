@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .quantities import QUANTITIES, prefixed
+from .quantities import QUANTITIES, unit_of
 from .report import imported
 
 #: Colours of the roles on light and on dark background (Okabe–Ito), the same in every plot.
@@ -92,9 +92,9 @@ class Axis:
 
     @classmethod
     def fitting(cls, name, title, unit, largest, **ends):
-        """An axis with the unit prefix that fits its largest value (SI)."""
-        factor, unit = prefixed(largest, unit)
-        return cls(name, title, unit, factor, **ends)
+        """An axis with the unit that fits its largest value (SI)."""
+        fit = unit_of(largest, unit)
+        return cls(name, title, fit.name, fit.factor, **ends)
 
     @property
     def ends(self):

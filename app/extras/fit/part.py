@@ -10,6 +10,7 @@ import panel as pn
 
 from mdr_core.profiles.samples import decoded
 from mdr_core.reading import SIZES, UnknownColumns
+from mdr_core.results.units import written
 
 from ...changes import take_tip
 from ...fields import Choice, Upload
@@ -20,7 +21,6 @@ from ...shared.widgets import button, field, tools
 from ...state import profile
 from ...tip import read_tip
 from ...ui import WIDE, html, show
-from ...units import written
 from .changes import choose_part, choose_samples, fit, quantity_of, silica, take
 from .files import as_csv, as_json
 from .measured import FITTED, PLACED, SUBTRACTED, offered, read_curve, with_curve
