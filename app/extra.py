@@ -87,7 +87,7 @@ class Extra:
     linked: Callable[[str], str] | None = None
     #: Files to download, each with its label, its name, and its text of a view.
     files: tuple[tuple[str, str, Callable[[View], str]], ...] = ()
-    #: Notes (HTML) by their places, found when the input rests: in the form in the "first" line, on "drive",
+    #: Notes (HTML) by their places, found when the input rests: in the form the "first" line, "drive",
     #: "shape", "medium", the "more" of it and "sources"; and "below" the player.
     notes: Callable[[View], dict[str, str]] = lambda view: {}
     #: Titles and texts (HTML) that a saved scene has of it.

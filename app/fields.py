@@ -4,6 +4,7 @@ from functools import cache
 from typing import Any
 
 from mdr_core.profiles.samples import decoded
+from mdr_core.results.units import UNITS, entry, fitting, read, written
 
 from . import changes
 from .parts import Part, Parts, button, text, upload
@@ -12,7 +13,6 @@ from .quantities import OF_DRIVE, QUANTITIES, Scale
 from .state import MEDIUM_CHOICES, PRESETS, State, altered, regions
 from .tip import read_tip
 from .ui import LAYOUT, linked, marked, symbol
-from .units import UNITS, entry, fitting, read, written
 
 _FIRST = "Move a slider: orange springs have yielded."
 #: Places of the form that have notes of extras.

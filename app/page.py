@@ -21,9 +21,9 @@ from .frame import Frame
 from .parts import Part, choice
 from .plot import View
 from .plots import visible
+from .quantities import in_words
 from .state import VIEW, State, preset_state
 from .ui import JS, Messages, is_served
-from .units import in_words
 
 _LOG = logging.getLogger(__name__)
 #: Milliseconds of rest before slow updates.

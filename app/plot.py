@@ -2,13 +2,26 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import floor, isfinite, log10
 from typing import Any
 
+import numpy as np
+
 from mdr_core.results.figures import NOTHING, Axis, Row
+from mdr_core.results.units import fitting
 
 from .courses import Course
 from .state import State
-from .units import fitting, round_up
+
+_ROUND = np.array([1, 1.5, 2, 3, 4, 5, 6, 8, 10])
+
+
+def round_up(value: float) -> float:
+    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8 × 10ⁿ, so that axes rest while a slider moves."""
+    if not value > 0 or not isfinite(value):
+        return 1.0
+    power = 10.0 ** floor(log10(value))
+    return float(_ROUND[np.searchsorted(_ROUND, value / power * (1 - 1e-9))] * power)
 
 
 @dataclass(frozen=True)

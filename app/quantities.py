@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import mdr_core as mdr
+from mdr_core._errors import InvalidArgument
 from mdr_core.results.quantities import QUANTITIES as RESULTS
 from mdr_core.results.quantities import Quantity as Described
+from mdr_core.results.units import KINDS, in_full, written
 
 ASSETS = Path(__file__).parents[1] / "assets"
 
@@ -19,7 +21,7 @@ ASSETS = Path(__file__).parents[1] / "assets"
 class Quantity:
     """A number that can be set.
 
-    `kind` is a key of `units.UNITS`. `bounds` and `default` are in SI, but a length of a shape has its
+    `kind` is that of its units. `bounds` and `default` are in SI, but a length of a shape has its
     `default` in contact radii. The slider covers a factor `span` each way; 0: linear between bounds; below
     0: no slider.
     """
@@ -81,7 +83,7 @@ def read_data(path: Path) -> dict[str, Any]:
     return json.loads(path.read_text(encoding="utf-8"), parse_int=float)
 
 
-#: Units, and the words and bounds of quantities, choices and shapes.
+#: The words and bounds of quantities, choices and shapes.
 DATA = read_data(ASSETS / "quantities.json")
 
 
@@ -153,6 +155,25 @@ include(DATA)
 OF_DRIVE.update(DATA["choices"]["drive"]["options"])
 CHOICES["shape"] = {key: shape.label for key, shape in SHAPES.items()}
 QUANTITIES.update(pair for shape in SHAPES for pair in shape_quantities(shape))
+
+
+def with_symbol(name: str, value: float) -> str:
+    """A number of the page with its symbol, in full."""
+    return f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}"
+
+
+def in_words(error: ValueError) -> str:
+    """Message of an error of the core: of a refused number its symbol, value with unit, bound and remedy.
+
+    All other messages are as they stand.
+    """
+    if not isinstance(error, InvalidArgument) or not isinstance(error.value, int | float):
+        return str(error)
+    known = QUANTITIES.get(error.argument)
+    name = f"{lowered(known.symbol)}, {known.label}," if known else error.quantity
+    value = written(float(error.value), KINDS.get(error.unit, "number"))
+    remedy = f"; {error.remedy}" if error.remedy and "SI units" not in error.remedy else ""
+    return f"{name} = {value} {error.bound}{remedy}"
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from mdr_core.results.units import KINDS, written
+
 from .courses import Course, onset_depth
 from .quantities import OF_DRIVE, READOUTS, Readout
 from .ui import explained, linked, symbol
-from .units import KINDS, written
 
 
 def readings(course: Course) -> dict[Readout, Any]:

@@ -5,6 +5,7 @@ from math import inf, isclose
 from typing import Any
 
 import mdr_core as mdr
+from mdr_core.results.units import written
 
 from .quantities import (
     ASSETS,
@@ -17,7 +18,6 @@ from .quantities import (
     read_data,
     shape_quantities,
 )
-from .units import written
 
 
 @dataclass(frozen=True)

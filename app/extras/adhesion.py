@@ -8,12 +8,12 @@ from scipy.integrate import trapezoid
 from mdr_core import ForcePath
 from mdr_core.contact.unloading import AdhesiveLoop, adhesive_loop, unloading_curve
 from mdr_core.results.figures import NOTHING, area, label, line, mark
+from mdr_core.results.units import written
 
 from ..courses import Course
 from ..extra import Extra
 from ..plot import Overlay, View
 from ..plots import D, F
-from ..units import written
 
 ROWS = (
     area("gained", "stick", 0.25),

@@ -3,13 +3,14 @@
 from html import escape
 from math import degrees
 
+from mdr_core.results.units import digits, written
+
 from ..extra import Extra
 from ..plot import View
-from ..quantities import SHAPES
+from ..quantities import SHAPES, with_symbol
 from ..readouts import law_of_hardness
 from ..state import PRESETS, altered
 from ..ui import linked, marked
-from ..units import digits, with_symbol, written
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from mdr_core.results.figures import line, mark, parts, split
+from mdr_core.results.units import digits, written
 
 from ..courses import Course
 from ..extra import Extra
@@ -13,7 +14,6 @@ from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
 from ..state import State
 from ..ui import marked
-from ..units import digits, written
 
 #: Decades of logarithmic axes of radii and of pressures.
 _RADII, _PRESSURES = 2, 3

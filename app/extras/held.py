@@ -17,13 +17,12 @@ from ..extra import Extra
 from ..parts import Part, button
 from ..plot import Along, Overlay, View
 from ..plots import PLOTS, P, R
-from ..quantities import CHOICES, OF_DRIVE
+from ..quantities import CHOICES, OF_DRIVE, with_symbol
 from ..readouts import line as readout_line
 from ..readouts import readings, text
 from ..shared import widgets
 from ..state import OF_EXTRAS, PRESETS, VIEW, State, altered, used
 from ..ui import WIDE, html, marked, show, symbol
-from ..units import with_symbol
 
 #: Scenes that are held have each its own dashes.
 DASHES = ("dotdash", "dashed", "dotted", "solid")

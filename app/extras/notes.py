@@ -3,13 +3,14 @@
 from collections.abc import Iterator
 from typing import Any
 
+from mdr_core.results.units import written
+
 from ..courses import Course
 from ..extra import Extra
 from ..plot import View
 from ..quantities import OF_DRIVE
 from ..state import State
 from ..ui import linked, marked
-from ..units import written
 
 
 def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:

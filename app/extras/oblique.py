@@ -14,6 +14,7 @@ from mdr_core.oblique.oblique_motion import ObliqueMotion, along_surface, obliqu
 from mdr_core.results import figures
 from mdr_core.results.figures import label, line, mark
 from mdr_core.results.limits import friction_limits
+from mdr_core.results.units import written
 
 from ..courses import HitInTime
 from ..drives import BEFORE_YIELD, INSTANTS, Impact, along
@@ -24,7 +25,6 @@ from ..quantities import QUANTITIES
 from ..shared.rest import EXACT, Resting
 from ..shared.time import T, line_at_time
 from ..state import refuse_other_classes
-from ..units import written
 
 #: Largest number of drawn elements, and halvings of their steps (errors about 10⁻⁵).
 _ELEMENTS, _HALVINGS = 300, 2

@@ -3,12 +3,12 @@
 import numpy as np
 
 from mdr_core.results.figures import NOTHING, area, label
+from mdr_core.results.units import written
 
 from ..courses import Course, onset_depth
 from ..extra import Extra
 from ..plot import Overlay, View
 from ..plots import D, F, X, Z
-from ..units import written
 
 
 def sentence(course: Course, i: int) -> str:

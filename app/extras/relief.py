@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 
 from mdr_core.results.figures import line
+from mdr_core.results.units import written
 
 from ..courses import Course
 from ..extra import Extra
 from ..plot import axis
 from ..shared.maps import Map
 from ..shared.rest import Found, Resting, Searched
-from ..units import written
 
 _PIXELS = 96
 #: Pressures over the mean one beyond which all have one colour: they may be infinite.

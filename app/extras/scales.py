@@ -10,6 +10,7 @@ from bokeh.model import DataModel
 from bokeh.models import CustomJS
 
 from mdr_core.results.figures import label
+from mdr_core.results.units import written
 
 from ..courses import Course
 from ..extra import Extra, Service
@@ -17,7 +18,6 @@ from ..parts import Part, button
 from ..plot import Overlay, View
 from ..plots import NAMED, PLOTS, D, F, R, X, Z
 from ..state import State
-from ..units import written
 
 _SCRIPT = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 #: What may leave each plot, of its axes, and where that is said: a share of the upright axis.

@@ -18,6 +18,7 @@ from bokeh.resources import Resources
 
 import mdr_core as mdr
 from mdr_core.results.figures import ROLES
+from mdr_core.results.units import written
 
 from .. import link, readouts
 from ..draw import Picture, drawn, legend, picture_of
@@ -30,7 +31,6 @@ from ..shared.dragging import DRAGGED, TOUCH, let_drag, path
 from ..shared.summary import summary
 from ..state import MEDIUM_CHOICES, PRESETS, YIELD_CONSTANT, State, altered, used
 from ..ui import CSS, JS, marked, symbol
-from ..units import written
 
 _HERE = Path(__file__)
 _TEMPLATE = _HERE.with_suffix(".html").read_text(encoding="utf-8")

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 
 from mdr_core.results.figures import NOTHING, line, mark
+from mdr_core.results.units import written
 
 from ..courses import Course
 from ..extra import Extra
 from ..plot import axis
 from ..shared.maps import Map
 from ..shared.rest import Found, Resting, Searched
-from ..units import written
 
 #: Pixels down and along the radius.
 _PIXELS = (72, 96)

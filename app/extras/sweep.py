@@ -10,16 +10,16 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.results.figures import NOTHING, line, mark
 from mdr_core.results.quantities import QUANTITIES as RESULTS
+from mdr_core.results.units import KINDS, digits, in_full
 
 from ..changes import option, shown
 from ..extra import Extra
 from ..plot import axis
-from ..quantities import CHOICES, QUANTITIES, USED, Scale, lowered, quantity, read_data
+from ..quantities import CHOICES, QUANTITIES, USED, Scale, in_words, lowered, quantity, read_data
 from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
 from ..state import PRESETS, State, medium, profile, used
 from ..ui import marked
-from ..units import KINDS, digits, in_full, in_words
 
 _DATA = read_data(Path(__file__).with_suffix(".json"))
 #: Functions of the core and their arguments, by drives, and the results of each.

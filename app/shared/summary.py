@@ -1,8 +1,7 @@
 """A scene in one line."""
 
-from ..quantities import CHOICES, OF_DRIVE, SHAPES
+from ..quantities import CHOICES, OF_DRIVE, SHAPES, with_symbol
 from ..state import State, regions, used_by
-from ..units import with_symbol
 
 
 def summary(state: State) -> str:

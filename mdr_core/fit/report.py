@@ -10,7 +10,7 @@ from .._check import Array
 from ..medium import Medium
 from ..profiles.profile import Profile
 from ..results.base import Model
-from ..results.quantities import described, engineering, prefixed
+from ..results.quantities import described, engineering, unit_of
 from ..results.report import Report
 from .parameters import CLASSES, MEDIUM, PARAMETERS
 
@@ -21,7 +21,7 @@ LEAST_SQUARES = Model("least squares", "the medium whose model has the least squ
 
 
 def with_error(value, error, unit):
-    """A number and its standard error as text, with one prefix and two digits of the error.
+    """A number and its standard error as text, with one unit and two digits of the error.
 
     Of many numbers, without those that are NaN, it is the range, and the median of the errors. An error
     below 10⁻⁶ of the number is that of the arithmetic, and left out.
@@ -33,8 +33,8 @@ def with_error(value, error, unit):
     ends = sorted({float(values.min()), float(values.max())})
     if ends[-1] == np.inf:
         return "∞" if len(ends) == 1 else engineering(values, unit)
-    factor, unit = prefixed(max(*map(abs, ends), 0.0 if error == np.inf else error), unit)
-    ends, error = [end / factor for end in ends], error / factor
+    fit = unit_of(max(*map(abs, ends), 0.0 if error == np.inf else error), unit)
+    ends, error = [end / fit.factor for end in ends], error / fit.factor
     if error == np.inf:
         texts, ending = [f"{float(f'{end:.1g}'):g}" for end in ends], " ± ∞"
     elif error <= 1e-6 * max(map(abs, ends)):
@@ -42,7 +42,7 @@ def with_error(value, error, unit):
     else:
         digits = max(0, 1 - int(np.floor(np.log10(float(f"{error:.1e}")))))
         texts, ending = [f"{end:.{digits}f}" for end in ends], f" ± {error:.{digits}f}"
-    return f"{' … '.join(texts)}{ending} {unit}".rstrip()
+    return f"{' … '.join(texts)}{ending} {fit.name}".rstrip()
 
 
 @dataclass(frozen=True, eq=False, repr=False)

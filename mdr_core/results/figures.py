@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..contact.unloading import unloading_curve
-from .quantities import prefixed
+from .quantities import unit_of
+from .units import written
 
 #: Colours of the roles on light and on dark background (Okabe–Ito), the same in every plot.
 ROLES = {
@@ -92,9 +93,9 @@ class Axis:
 
     @classmethod
     def fitting(cls, name, title, unit, largest, **ends):
-        """An axis with the unit prefix that fits its largest value (SI)."""
-        factor, unit = prefixed(largest, unit)
-        return cls(name, title, unit, factor, **ends)
+        """An axis with the unit that fits its largest value (SI)."""
+        fit = unit_of(largest, unit)
+        return cls(name, title, fit.name, fit.factor, **ends)
 
     @property
     def ends(self):
@@ -298,15 +299,8 @@ def exceeds(r, p, top):
         return f"{sign} at the " + ("axis" if r[at] == 0 else "rim")
     if p[k] <= top:
         return ""
-    where = "on the axis" if r[k] == 0 else f"at r = {_written(r[k], 'm')}"
-    return f"↑ −σzz = {_written(p[k], 'Pa')} {where}"
-
-
-def _written(value, unit):
-    """A positive value with three digits and its unit."""
-    value = float(f"{value:.3g}")
-    factor, unit = prefixed(value, unit)
-    return f"{value / factor:#.3g}".rstrip(".") + f" {unit}"
+    where = "on the axis" if r[k] == 0 else f"at r = {written(float(r[k]), 'length', 3)}"
+    return f"↑ −σzz = {written(float(p[k]), 'pressure', 3)} {where}"
 
 
 def work(path, i):

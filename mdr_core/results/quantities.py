@@ -5,8 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import _check
-
-_PREFIXES = dict(zip(range(-15, 13, 3), "fpnµm kMGT", strict=True)) | {0: ""}
+from .units import KINDS, Unit, fitting
 
 
 @dataclass(frozen=True)
@@ -102,29 +101,22 @@ def engineering(values, unit):
     if not values.size:
         return "none"
     ends = [float(np.min(values)), float(np.max(values))] if values.ndim else [float(values)]
-    if unit == "kg":
-        ends, unit = [1e3 * end for end in ends], "g"
-    factor, unit = prefixed(max(map(abs, ends)), unit)
-    written = [_digits(end / factor) for end in ends]
+    # 999.96 nm is written as 1 µm.
+    fit = unit_of(float(f"{max(map(abs, ends)):.4g}"), unit)
+    written = [_digits(end / fit.factor) for end in ends]
     text = written[0] if len(written) == 1 or written[0] == written[1] else " … ".join(written)
-    return f"{text} {unit}".rstrip()
+    return f"{text} {fit.name}".rstrip()
 
 
-def prefixed(largest, unit):
-    """Size and name of the unit with a prefix in which a value has one to three digits before the point.
+def unit_of(largest, unit):
+    """Unit in which a value has one to three digits before the point, of those of an SI unit.
 
     Examples
     --------
-    >>> prefixed(2e-8, "m")
-    (1e-09, 'nm')
+    >>> unit_of(2e-8, "m")
+    Unit(name='nm', factor=1e-09)
     """
-    if unit in ("", "m^(1-n)") or not 0 < largest < np.inf:
-        return 1.0, unit
-    # 999.95 is written as 1000; a prefix of an area spans six decades, from 0.1.
-    power = 2 if unit == "m²" else 1
-    exponent = 3 * int(np.floor((np.log10(largest * 1.00005) + power - 1) / 3 / power))
-    exponent = min(max(exponent, -15), 12)
-    return float(f"1e{power * exponent}"), f"{_PREFIXES[exponent]}{unit}"
+    return fitting(largest, KINDS[unit]) if unit in KINDS else Unit(unit, 1.0)
 
 
 def _digits(value):

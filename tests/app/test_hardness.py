@@ -16,7 +16,7 @@ from app.page import Page
 from app.plots import PLOTS
 from app.shared.rest import Searched, exact
 from app.state import PRESETS, altered, medium, preset_state, profile
-from app.units import written
+from mdr_core.results.units import written
 
 from .conftest import GOLD, PUNCH
 from .states import fields_of, linked_state, numbers, part, state_with, view_of

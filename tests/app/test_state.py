@@ -2,7 +2,6 @@
 
 import re
 from dataclasses import fields
-from math import pi, radians, tan
 
 import numpy as np
 import pytest
@@ -14,7 +13,6 @@ from app.extras import share
 from app.quantities import QUANTITIES, SHAPES
 from app.state import OPENING, PRESETS, VIEW, altered, medium, preset_state, profile, used
 from app.tip import MAX_SAMPLES, read_tip
-from app.units import entry, fitting, read, written
 
 from .conftest import DROP
 from .states import linked_state, state_with, table, view_of
@@ -43,39 +41,7 @@ def test_a_shape_that_was_looked_at_keeps_its_values(shape):
     assert changes.choose(state, "shape", "sphere").sphere_radius == state.paraboloid_radius
 
 
-TYPED = [
-    ("25", "length", 25e-9), ("2,5", "length", 2.5e-9), ("1e-6", "length", 1e-6), ("5 Å", "length", 5e-10),
-    ("0.012 µm", "length", 12e-9), ("3e-3um", "length", 3e-9), ("10 000 nm", "length", 1e-5),
-    ("10\u202f000 nm", "length", 1e-5), ("70.3°", "slope", 1 / tan(radians(70.3))), ("0.36", "slope", 0.36),
-    ("90", "angle", pi / 2), ("0,125", "length", 0.125e-9), ("1234,567 nm", "length", 1234.567e-9),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("text", "kind", "value"), TYPED)
-def test_typed_numbers(text, kind, value):
-    shown = fitting(9e-9 if kind == "length" else 0.3, kind)
-    assert read(text, kind, shown)[0] == pytest.approx(value, rel=1e-14)
-
-
-@pytest.mark.parametrize("text", ["1,500 nm", "-12,345", "−999,000 nm"])
-def test_a_comma_that_may_separate_thousands_is_refused_with_both_readings(text):
-    whole, part = (text.replace(",", instead).replace("−", "-") for instead in ("", "."))
-    with pytest.raises(ValueError, match=f"“{text}” can be {whole} or {part}: type one of these"):
-        read(text, "length", fitting(9e-9, "length"))
-
-
-def test_a_zero_has_the_unit_of_its_column():
-    """A bare 5 typed over it is 5 nm, not 5 m."""
-    unit = fitting(0.0, "length", 9e-9)
-    assert entry(0.0, unit) == "0 nm"
-    assert written(float("inf"), "length") == "∞"
-    assert read("5", "length", unit) == (5e-9, unit)
-
-
-@pytest.mark.parametrize("text", ["", "abc", "1e999", "nan", "3 MPa", "1,5,2", "1.000,5", "<b>", "5°"])
-def test_what_is_no_number_is_refused(text):
-    with pytest.raises(ValueError, match=r"is not a number|too large"):
-        read(text, "length", fitting(9e-9, "length"))
+def test_a_number_out_of_bounds_is_refused_with_its_symbol_and_bounds():
     with pytest.raises(ValueError, match=r"dₘₐₓ = 1000 m is out of bounds: .* to 10\.00 m"):
         changes.put(preset_state(), "max_depth", 1000.0)
 

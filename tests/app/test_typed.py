@@ -5,7 +5,7 @@ import pytest
 from app import changes
 from app.page import Page
 from app.state import preset_state
-from app.units import UNITS, read
+from mdr_core.results.units import UNITS, read
 
 from .conftest import DROP, Explorer
 from .states import part

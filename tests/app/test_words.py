@@ -12,13 +12,12 @@ from app.extras import theory
 from app.extras.guide import TOURS
 from app.page import Page
 from app.plots import PLOTS
-from app.quantities import ABOUT, CHOICES, QUANTITIES, SHAPES, USED
+from app.quantities import ABOUT, CHOICES, QUANTITIES, SHAPES, USED, in_words
 from app.readouts import READOUTS, heads, readings
 from app.shared.rest import Searched
 from app.state import PRESETS, preset_state
 from app.tip import read_tip
 from app.ui import linked, marked
-from app.units import in_words
 
 from .conftest import DROP
 from .states import fields_of, part, press, side, state_with, stepped, view_of

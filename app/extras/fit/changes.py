@@ -7,10 +7,10 @@ import numpy as np
 
 import mdr_core as mdr
 from mdr_core.fit.indentation import IndentationFit
+from mdr_core.results.units import written
 
-from ...quantities import ASSETS, QUANTITIES, Quantity
+from ...quantities import ASSETS, QUANTITIES, Quantity, in_words
 from ...state import State, checked, medium, profile, with_derived
-from ...units import in_words, written
 from .measured import (
     CONSTANTS,
     FITTED,

@@ -9,6 +9,7 @@ import numpy as np
 import panel as pn
 
 from mdr_core.reading import SIZES, UnknownColumns
+from mdr_core.results.units import written
 
 from ...fields import take_tip, title
 from ...parts import Parts, button, text, upload
@@ -18,7 +19,6 @@ from ...shared import widgets
 from ...shared.widgets import field, tools
 from ...state import profile
 from ...ui import WIDE, html, show
-from ...units import written
 from .changes import choose_part, choose_samples, fit, quantity_of, silica, take
 from .files import as_csv, as_json
 from .measured import FITTED, PLACED, SUBTRACTED, offered, read_curve, with_curve

@@ -1,14 +1,8 @@
-"""Units of the page, and numbers as texts. The core knows SI only."""
+"""Units: numbers in SI as text in the unit that fits them, and typed text as numbers in SI."""
 
 import re
 from dataclasses import dataclass
-from math import floor, isclose, isfinite, log10, radians, tan
-
-import numpy as np
-
-from mdr_core._errors import InvalidArgument
-
-from .quantities import DATA, QUANTITIES, lowered
+from math import floor, isclose, isfinite, log10, pi, radians, tan
 
 
 @dataclass(frozen=True)
@@ -23,13 +17,44 @@ class Unit:
         return value == 0 or 1e-3 <= abs(value) / self.factor < 1e5
 
 
-#: The units of each kind of quantity, smallest first; the first of factor 1 is the SI unit.
+#: The units of each kind of quantity, smallest first; the one of factor 1 is the SI unit.
 UNITS = {
-    kind: tuple(Unit(name, float(factor)) for name, factor in units.items())
-    for kind, units in DATA["units"].items()
-}
-#: Kinds by the names of their SI units, as the core has them: "N" is a force.
-KINDS = {unit.name: kind for kind, units in reversed(UNITS.items()) for unit in units if unit.factor == 1}
+    kind: tuple(Unit(name, size) for name, size in sizes.items())
+    for kind, sizes in {
+        "number": {"": 1.0},
+        "length": {"pm": 1e-12, "nm": 1e-9, "µm": 1e-6, "mm": 1e-3, "m": 1.0},
+        "force": {
+            "fN": 1e-15, "pN": 1e-12, "nN": 1e-9, "µN": 1e-6, "mN": 1e-3, "N": 1.0, "kN": 1e3, "MN": 1e6,
+            "GN": 1e9,
+        },
+        "pressure": {"mPa": 1e-3, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "TPa": 1e12},
+        "energy": {
+            "yJ": 1e-24, "zJ": 1e-21, "aJ": 1e-18, "fJ": 1e-15, "pJ": 1e-12, "nJ": 1e-9, "µJ": 1e-6,
+            "mJ": 1e-3, "J": 1.0, "kJ": 1e3, "MJ": 1e6,
+        },
+        "yield constant": {
+            "µN/m": 1e-6, "mN/m": 1e-3, "N/m": 1.0, "kN/m": 1e3, "MN/m": 1e6, "GN/m": 1e9,
+        },
+        "mass": {
+            "pg": 1e-15, "ng": 1e-12, "µg": 1e-9, "mg": 1e-6, "g": 1e-3, "kg": 1.0, "t": 1e3,
+        },
+        "speed": {"pm/s": 1e-12, "nm/s": 1e-9, "µm/s": 1e-6, "mm/s": 1e-3, "m/s": 1.0, "km/s": 1e3},
+        "time": {"ps": 1e-12, "ns": 1e-9, "µs": 1e-6, "ms": 1e-3, "s": 1.0},
+        "drag": {"nN·s/m": 1e-9, "µN·s/m": 1e-6, "mN·s/m": 1e-3, "N·s/m": 1.0, "kN·s/m": 1e3},
+        "compliance": {"pm/N": 1e-12, "nm/N": 1e-9, "nm/mN": 1e-6, "µm/mN": 1e-3, "m/N": 1.0},
+        "viscosity": {
+            "nPa·s": 1e-9, "µPa·s": 1e-6, "mPa·s": 1e-3, "Pa·s": 1.0, "kPa·s": 1e3, "MPa·s": 1e6,
+        },
+        "density": {"kg/m³": 1.0},
+        "angle": {"°": pi / 180},
+        "slope": {"": 1.0},
+        "surface energy": {"µJ/m²": 1e-6, "mJ/m²": 1e-3, "J/m²": 1.0, "kJ/m²": 1e3},
+        "spin": {"rad/s": 1.0, "krad/s": 1e3, "Mrad/s": 1e6},
+        "area": {"nm²": 1e-18, "µm²": 1e-12, "mm²": 1e-6, "m²": 1.0},
+    }.items()
+}  # fmt: skip
+#: Kinds by the names of their SI units: "N" is a force.
+KINDS = {unit.name: kind for kind, units in UNITS.items() for unit in units if unit.factor == 1}
 KINDS |= {"": "number", "rad": "angle"}
 #: Units that are read, and shown where they were typed.
 _READ = {"length": (Unit("Å", 1e-10), Unit("um", 1e-6))}
@@ -39,6 +64,11 @@ def fitting(value: float, kind: str, like: float = 0.0) -> Unit:
     """Unit in which a value (SI) has one to three digits before the point; areas up to four.
 
     Zero has the unit of the value `like`.
+
+    Examples
+    --------
+    >>> fitting(2e-8, "length").name
+    'nm'
     """
     units = UNITS[kind]
     size = abs(value) if isfinite(value) and value else abs(like)
@@ -65,7 +95,13 @@ def digits(value: float, count: int = 4) -> str:
 
 
 def written(value: float, kind: str, count: int = 4) -> str:
-    """A value (SI) as text with its unit."""
+    """A value (SI) as text with its unit.
+
+    Examples
+    --------
+    >>> written(4.5136e-6, "force"), written(2e-30, "force")
+    ('4.514 µN', '2.000 × 10⁻¹⁵ fN')
+    """
     if value == 0 or not isfinite(value):
         return digits(value)
     unit = fitting(value, kind)
@@ -86,39 +122,36 @@ def in_full(value: float, kind: str) -> str:
     return entry(value, fitting(value, kind)) if isfinite(value) else digits(value)
 
 
-def with_symbol(name: str, value: float) -> str:
-    """A number of the page with its symbol, in full."""
-    return f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}"
-
-
-def in_words(error: ValueError) -> str:
-    """Message of an error of the core: of a refused number its symbol, value with unit, bound and remedy.
-
-    All other messages are as they stand.
-    """
-    if not isinstance(error, InvalidArgument) or not isinstance(error.value, int | float):
-        return str(error)
-    known = QUANTITIES.get(error.argument)
-    name = f"{lowered(known.symbol)}, {known.label}," if known else error.quantity
-    value = written(float(error.value), KINDS.get(error.unit, "number"))
-    remedy = f"; {error.remedy}" if error.remedy and "SI units" not in error.remedy else ""
-    return f"{name} = {value} {error.bound}{remedy}"
-
-
 #: Letters of units, with those that keyboards have for them.
 _KEYBOARD = str.maketrans("µ·³²", "u*32")
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
-
-
 #: A comma before exactly three digits is a decimal comma, or separates thousands.
 _TWO_READINGS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?!\d)", re.ASCII)
 
 
 def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
-    """Value (SI) of typed text, and its unit; ValueError if it is no number.
+    """Value (SI) of typed text, and its unit.
 
-    Bare numbers are in the displayed unit, with an exponent in SI; decimal commas, spaces between
-    thousands, and half-angles for slopes are accepted.
+    Decimal commas, spaces between thousands, and half-angles for slopes are accepted.
+
+    Parameters
+    ----------
+    text : str
+        A number, with a unit or without. One with an exponent and without a unit is in SI.
+    kind : str
+        Kind of quantity, a key of `UNITS`.
+    shown : Unit
+        Unit of numbers without one.
+
+    Raises
+    ------
+    ValueError
+        If the text is no number, or can be two.
+
+    Examples
+    --------
+    >>> read("12,5 um", "length", Unit("nm", 1e-9))
+    (1.25e-05, Unit(name='µm', factor=1e-06))
     """
     plain = text.strip().replace("−", "-").replace("μ", "µ")
     plain = re.sub(r"(?<=\d)\s(?=\d{3}(?!\d))", "", plain)
@@ -144,14 +177,3 @@ def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
         raise ValueError(f"“{text}” is too large")
     typed = (unit for unit in known if match[3] and unit.factor == factor)
     return value, next(typed, shown)
-
-
-_ROUND = np.array([1, 1.5, 2, 3, 4, 5, 6, 8, 10])
-
-
-def round_up(value: float) -> float:
-    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8 × 10ⁿ, so that axes rest while a slider moves."""
-    if not value > 0 or not isfinite(value):
-        return 1.0
-    power = 10.0 ** floor(log10(value))
-    return float(_ROUND[np.searchsorted(_ROUND, value / power * (1 - 1e-9))] * power)
