@@ -87,11 +87,6 @@ def hit_again(state: State, hit: mdr.Impact) -> State:
     return state.replace(plastic_depth=checked("plastic_depth", float(hit.plastic_depth)))
 
 
-def turn_dark(state: State) -> State:
-    """Dark instead of light, or back."""
-    return state.replace(dark=not state.dark)
-
-
 def _preset(state: State, key: str) -> State:
     return preset_state(key, tiles=state.tiles, dark=state.dark, **state.extras)
 

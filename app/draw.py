@@ -129,7 +129,9 @@ class Picture:
     """One plot as a figure."""
 
     def __init__(self, plot: Plot):
-        self.plot, self.axes, self._letters = plot, None, None
+        self.plot, self.axes = plot, None
+        #: Whether titles of axes are symbols alone.
+        self.short = False
         ranges = {"x_range": bk.Range1d(0.1, 1), "y_range": bk.Range1d(0.1, 1)}
         self.figure = figure(name=plot.name, tools="", toolbar_location=None, stylesheets=_FOCUS, **ranges)
         # Nothing is selected: the sources of a figure share what Bokeh has for it.
@@ -155,28 +157,14 @@ class Picture:
         # The outermost pixels of a canvas keep a trace of the colour before the last one. What is enlarged
         # is drawn anew, not its pixels.
         f.styles = {"clip-path": "inset(1px)", "zoom": "calc(1 / var(--zoom, 1))"}
-        f.update(min_border_right=16, min_border_top=8, min_border_bottom=44)
+        f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
         f.update(sizing_mode="stretch_both", min_height=100)
         painted = bk.CustomJS(args={"figure": f}, code=JS["label"])
         for axis in f.axis:
             axis.js_on_change("axis_label", painted)
             axis.update(minor_tick_line_color=None, major_tick_in=0, axis_label_text_font_style="normal")
             axis.update(axis_label_text_font=FONT, major_label_text_font=FONT)
-        self.letters(1.0)
-
-    def letters(self, scale: float, short: bool = False) -> None:
-        """Make the letters so many times as large as on the page; `short`: of an axis the symbol alone."""
-        if (scale, short) == self._letters:
-            return
-        self._letters, self.short = (scale, short), short
-        title, tick = f"{12 * scale:g}px", f"{11 * scale:g}px"
-        self.figure.min_border_left = round(48 * scale) + 16
-        for axis in self.figure.axis:
-            axis.update(axis_label_text_font_size=title, major_label_text_font_size=tick)
-        for text in self.figure.select(bk.Text):
-            text.text_font_size = title
-        if self.axes is not None:
-            self.set_axes(*self.axes)
+            axis.update(axis_label_text_font_size="12px", major_label_text_font_size="11px")
 
     def axes_of(self, view: View) -> list[Axis]:
         """Axes on which the plot is drawn."""

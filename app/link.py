@@ -22,7 +22,6 @@ from .tip import MAX_SAMPLES
 
 #: Most characters of a link and of a text in it, and most names in a list.
 MAX_LENGTH, _MAX_TEXT, _MAX_NAMES = 8000, 300, 12
-_LISTS = ("tiles",)
 Pairs = list[tuple[str, str]]
 #: Changes of the names and values of a link before it is read; extras add theirs.
 TRANSLATIONS: list[Callable[[Pairs], Pairs]] = []
@@ -31,14 +30,13 @@ TRANSLATIONS: list[Callable[[Pairs], Pairs]] = []
 def write(state: State) -> str:
     """State as a query. Raises ValueError if it is too long."""
     start = preset_state(state.preset)
-    others = [name for name, default in OF_EXTRAS.items() if default is not None and name not in CHOICES]
-    names = [*CHOICES, *dict.fromkeys([*used(state), *others]), *_LISTS]
+    of_extras = [name for name, default in OF_EXTRAS.items() if default is not None]
+    names = dict.fromkeys([*CHOICES, *used(state), *of_extras, "tiles", "dark"])
     pairs = {"preset": state.preset} if state.preset != OPENING else {}
     pairs |= {name: _text(state[name]) for name in names if state[name] not in (start[name], None)}
     pairs |= {"at": f"{state.progress:.6g}"} if state.progress != 1 else {}
     if state.shape == "sampled":
         pairs["samples"] = " ".join(f"{r!r},{z!r}" for r, z in zip(*state.samples, strict=True))
-    pairs |= {"dark": "1"} if state.dark else {}
     query = urlencode(pairs, safe=",*")
     if len(query) > MAX_LENGTH:
         raise ValueError("there are too many samples in this scene for a link")
@@ -48,6 +46,8 @@ def write(state: State) -> str:
 def _text(value: Any) -> str:
     if isinstance(value, tuple):
         return " ".join(value)
+    if isinstance(value, bool):
+        return str(int(value))
     return value if isinstance(value, str) else repr(value)
 
 
@@ -60,15 +60,15 @@ def translated(query: str) -> Pairs:
 
 
 def _known(name: str) -> bool:
-    return name in (*CHOICES, *QUANTITIES, *OF_EXTRAS, *_LISTS, "samples", "at", "dark")
+    others = name in ("tiles", "samples", "at", "dark") or OF_EXTRAS.get(name) is not None
+    return others or name in CHOICES or name in QUANTITIES
 
 
 def unknown(query: str) -> list[str]:
-    """Names in a link that no version has, also in links within it."""
+    """Names in a link that no version has."""
     pairs = dict(translated(query))
-    names = [name for name in pairs if not _known(name)]
-    names += [tile for tile in pairs.get("tiles", "").split() if tile not in PLOTS]
-    return names + [name for held in pairs.get("held.scenes", "").split() for name in unknown(held)]
+    tiles = pairs.get("tiles", "").split()
+    return [name for name in pairs if not _known(name)] + [tile for tile in tiles if tile not in PLOTS]
 
 
 def read(query: str) -> State:
@@ -106,23 +106,20 @@ def _value(name: str, text: str) -> tuple[str, Any]:
     """Name and value of a state from a pair of a link."""
     if not text.strip() and name in (*CHOICES, *QUANTITIES, "at"):
         raise ValueError(f"{name:.40} in this link has no value")
-    if name in CHOICES and text in CHOICES[name]:
-        return name, text
     if name in QUANTITIES:
         return name, checked(name, _number(name, text))
-    if name in _LISTS:
-        return name, tuple(plot for plot in text.split()[:_MAX_NAMES] if plot in PLOTS)
-    if isinstance(OF_EXTRAS.get(name), tuple):
-        return name, tuple(text.split()[:_MAX_NAMES])
-    if name == "dark":
-        return name, text == "1"
-    if name == "samples":
-        return name, _samples(text)
     if name == "at":
         return "progress", _number(name, text)
-    if name in OF_EXTRAS and name not in CHOICES:
-        return name, text[:_MAX_TEXT]
-    raise ValueError(f"{name:.40} = {text:.40} in this link is not known")
+    if name == "samples":
+        return name, _samples(text)
+    if name in CHOICES and text not in CHOICES[name]:
+        raise ValueError(f"{name:.40} = {text:.40} in this link is not known")
+    default = State()[name]
+    if isinstance(default, bool):
+        return name, text == "1"
+    if isinstance(default, tuple):
+        return name, tuple(text.split()[:_MAX_NAMES])
+    return name, text[:_MAX_TEXT]
 
 
 def _samples(text: str) -> tuple[tuple[float, ...], ...]:

@@ -12,7 +12,7 @@ import mdr_core as mdr
 from mdr_core._errors import InvalidArgument
 from mdr_core.results.quantities import QUANTITIES as RESULTS
 from mdr_core.results.quantities import Quantity as Described
-from mdr_core.results.units import KINDS, in_full, written
+from mdr_core.results.units import KINDS, written
 
 ASSETS = Path(__file__).parents[1] / "assets"
 
@@ -155,11 +155,6 @@ include(DATA)
 OF_DRIVE.update(DATA["choices"]["drive"]["options"])
 CHOICES["shape"] = {key: shape.label for key, shape in SHAPES.items()}
 QUANTITIES.update(pair for shape in SHAPES for pair in shape_quantities(shape))
-
-
-def with_symbol(name: str, value: float) -> str:
-    """A number of the page with its symbol, in full."""
-    return f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}"
 
 
 def in_words(error: ValueError) -> str:

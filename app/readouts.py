@@ -7,7 +7,7 @@ import numpy as np
 
 from mdr_core.results.units import KINDS, written
 
-from .courses import Course, onset_depth
+from .courses import Course
 from .quantities import OF_DRIVE, READOUTS, Readout
 from .ui import explained, linked, symbol
 
@@ -40,37 +40,12 @@ def values(course: Course, numbers: dict[Readout, Any], i: int) -> str:
 
 def heads(course: Course, numbers: dict[Readout, Any]) -> str:
     """Heads of the line, with explanations, as HTML."""
-    return f'<div class="strip">{"".join(map(_head, line(course, numbers)))}</div>'
-
-
-def table(course: Course, numbers: dict[Readout, Any], i: int) -> str:
-    """All numbers in state i, as HTML."""
-    rows = (
-        f'<tr data-name="{each.name}"><th>{_head(each)}</th><td>{text(each, value, i)}</td></tr>'
-        for each, value in numbers.items()
-    )
-    return f"<table>{''.join(rows)}</table>"
+    return f'<div class="strip">{"".join(map(head, line(course, numbers)))}</div>'
 
 
 @cache
-def _head(readout: Readout) -> str:
+def head(readout: Readout) -> str:
+    """Head of a readout with its explanation, as HTML."""
     known = readout.known
     about = f"<p>{linked(readout.help)}</p><em>{linked(readout.equation)}</em>"
     return explained(f"about-{readout.name}", f"{symbol(known.symbol)} {known.long_name}", about)
-
-
-def law_of_hardness(course: Course) -> str:
-    """The hardness at the contact radius of the largest depth, and where yield begins."""
-    made, onset = course.scene.medium, onset_depth(course.scene)
-    a = float(course.turning_point.contact_radius)
-    if made.q_c == np.inf:
-        return "Nothing yields: q_c = ∞"
-    law = "q_c/a" if made.q_c else "f_c/a²" if made.f_c else "H"
-    hardness = written(float(made.hardness_at(a)), "pressure")
-    place = " at every a" if law == "H" else f" at a = {written(a, 'length')}"
-    starts = f"Yield starts at d_y = {written(onset, 'length')}"
-    if onset == np.inf:
-        starts = "Nothing yields under this shape: H is too large"
-    elif onset == 0:
-        starts = "Yield starts at first touch, d_y = 0"
-    return f"σ_c = {law} = {hardness}{place}. {starts} " + ("(19)" if made.inverse_to_radius else "§ 20")

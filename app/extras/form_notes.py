@@ -3,12 +3,15 @@
 from html import escape
 from math import degrees
 
+import numpy as np
+
 from mdr_core.results.units import digits, written
 
+from ..courses import Course, onset_depth
 from ..extra import Extra
 from ..plot import View
-from ..quantities import SHAPES, with_symbol
-from ..readouts import law_of_hardness
+from ..quantities import SHAPES
+from ..shared.summary import with_symbol
 from ..state import PRESETS, altered
 from ..ui import linked, marked
 
@@ -38,6 +41,23 @@ def notes(view: View) -> dict[str, str]:
         "more": linked(f"η = {eta}, τ = 4η/E* = {tau} (1){idle}") if made.eta > 0 else "",
         "sources": f"<details><summary>{head}</summary><dl>{sources}</dl></details>",
     }
+
+
+def law_of_hardness(course: Course) -> str:
+    """The hardness at the contact radius of the largest depth, and where yield begins."""
+    made, onset = course.scene.medium, onset_depth(course.scene)
+    a = float(course.turning_point.contact_radius)
+    if made.q_c == np.inf:
+        return "Nothing yields: q_c = ∞"
+    law = "q_c/a" if made.q_c else "f_c/a²" if made.f_c else "H"
+    hardness = written(float(made.hardness_at(a)), "pressure")
+    place = " at every a" if law == "H" else f" at a = {written(a, 'length')}"
+    starts = f"Yield starts at d_y = {written(onset, 'length')}"
+    if onset == np.inf:
+        starts = "Nothing yields under this shape: H is too large"
+    elif onset == 0:
+        starts = "Yield starts at first touch, d_y = 0"
+    return f"σ_c = {law} = {hardness}{place}. {starts} " + ("(19)" if made.inverse_to_radius else "§ 20")
 
 
 EXTRA = Extra("form_notes", notes=notes)

@@ -17,10 +17,11 @@ from ..extra import Extra
 from ..parts import Part, button
 from ..plot import Along, Overlay, View
 from ..plots import PLOTS, P, R
-from ..quantities import CHOICES, OF_DRIVE, with_symbol
+from ..quantities import CHOICES, OF_DRIVE
 from ..readouts import line as readout_line
 from ..readouts import readings, text
 from ..shared import widgets
+from ..shared.summary import with_symbol
 from ..state import OF_EXTRAS, PRESETS, VIEW, State, altered, used
 from ..ui import WIDE, html, marked, show, symbol
 

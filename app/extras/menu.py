@@ -5,13 +5,18 @@ from typing import Any
 
 import panel as pn
 
-from ..changes import turn_dark
 from ..extra import Extra
 from ..parts import Parts, button
 from ..plot import View
+from ..state import State
 from ..ui import WIDE, html
 
 _ABOUT = Path(__file__).with_suffix(".html").read_text(encoding="utf-8")
+
+
+def _turned(state: State) -> State:
+    """Dark instead of light, or back."""
+    return state.replace(dark=not state.dark)
 
 
 class Menu:
@@ -22,7 +27,7 @@ class Menu:
         self.view = pn.Column(self._buttons, html(_ABOUT), **WIDE)
 
     def show(self, view: View) -> None:
-        dark = button("Dark", lambda: self._page.apply(turn_dark), pressed=view.state.dark)
+        dark = button("Dark", lambda: self._page.apply(_turned), pressed=view.state.dark)
         self._buttons.show([dark])
 
 

@@ -2,9 +2,10 @@
 
 from typing import Any
 
+from ..courses import Course
 from ..extra import Extra
 from ..plot import View
-from ..readouts import readings, table
+from ..readouts import head, readings, text
 from ..ui import html, show
 
 
@@ -15,8 +16,16 @@ class Numbers:
         self.view = html("", "all-numbers")
 
     def show(self, view: View) -> None:
-        course = view.course
-        show(self.view, object=table(course, readings(course), course.now))
+        show(self.view, object=table(view.course))
+
+
+def table(course: Course) -> str:
+    """All numbers of the present state, as HTML."""
+    rows = (
+        f'<tr data-name="{each.name}"><th>{head(each)}</th><td>{text(each, value, course.now)}</td></tr>'
+        for each, value in readings(course).items()
+    )
+    return f"<table>{''.join(rows)}</table>"
 
 
 EXTRA = Extra("numbers", order=101, tab="All numbers", place="line", side=Numbers)

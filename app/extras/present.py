@@ -4,6 +4,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from bokeh.models import Text
+
+from ..draw import Picture
 from ..extra import EXTRAS, Extra, Service
 from ..parts import Part, button
 from ..plot import Plot, View
@@ -38,6 +41,11 @@ def large(page: Any, plot: Plot, view: View) -> Part:
 class Letters(Service):
     """Shows the plots as large as they are asked for, with letters of that size."""
 
+    def __init__(self, page: Any):
+        super().__init__(page)
+        # Of each plot what was set: the scale, and whether titles of axes are short.
+        self._set: dict[str, tuple[float, bool]] = {}
+
     def show(self, view: View) -> None:
         on, name_of_large = bool(view.state["present.on"]), view.state["present.large"]
         frame = self.page.frame
@@ -48,7 +56,22 @@ class Letters(Service):
             is_large = name == name_of_large
             show(card.view, css_classes=["card", name, *["large"] * is_large])
             # On a small plot large titles of axes have no room.
-            card.picture.letters(_SCALE if on or is_large else 1.0, short=on and not is_large)
+            look = (_SCALE if on or is_large else 1.0, on and not is_large)
+            if look != self._set.get(name, (1.0, False)):
+                self._set[name] = look
+                set_letters(card.picture, *look)
+
+
+def set_letters(picture: Picture, scale: float, short: bool) -> None:
+    """Make the letters of a plot so many times as large as on the page, titles of axes symbols alone."""
+    title, tick = f"{12 * scale:g}px", f"{11 * scale:g}px"
+    picture.short = short
+    picture.figure.min_border_left = round(48 * scale) + 16
+    for axis in picture.figure.axis:
+        axis.update(axis_label_text_font_size=title, major_label_text_font_size=tick)
+    for text in picture.figure.select(Text):
+        text.text_font_size = title
+    picture.set_axes(*picture.axes)
 
 
 EXTRA = Extra(

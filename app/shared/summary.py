@@ -1,7 +1,14 @@
-"""A scene in one line."""
+"""Numbers of a scene with their symbols, and a scene in one line."""
 
-from ..quantities import CHOICES, OF_DRIVE, SHAPES, with_symbol
+from mdr_core.results.units import in_full
+
+from ..quantities import CHOICES, OF_DRIVE, QUANTITIES, SHAPES
 from ..state import State, regions, used_by
+
+
+def with_symbol(name: str, value: float) -> str:
+    """A number of the page with its symbol, in full."""
+    return f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}"
 
 
 def summary(state: State) -> str:
