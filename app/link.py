@@ -118,7 +118,8 @@ def _value(name: str, text: str) -> tuple[str, Any]:
     if isinstance(default, bool):
         return name, text == "1"
     if isinstance(default, tuple):
-        return name, tuple(text.split()[:_MAX_NAMES])
+        names = text.split()[:_MAX_NAMES]
+        return name, tuple(each for each in names if name != "tiles" or each in PLOTS)
     return name, text[:_MAX_TEXT]
 
 

@@ -15,7 +15,7 @@ from ..ui import LAYOUT, show
 
 _SHEET = Path(__file__).with_suffix(".css").read_text(encoding="utf-8")
 #: With a part above the form, such as a guided scene: that part alone stays in the side.
-_WITH_SIDE = ":host { --side: flex; --form: none; --digits: 9.5px; }"
+_WITH_SIDE = ":host { --side: flex; --form: 0px; --seen: hidden; --digits: 9.5px; }"
 #: Letters of plots that are presented or large, over those of the page.
 _SCALE = 1.5
 

@@ -2,6 +2,7 @@
 
 import re
 from html import escape
+from pathlib import Path
 
 import panel as pn
 from bokeh.events import DocumentReady
@@ -11,7 +12,9 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from ..extra import Extra
 from ..quantities import ASSETS
-from ..ui import JS
+
+#: Goes to the place that the address names.
+_SCRIPT = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 
 #: Equations that a text names, (4) or (4)–(8).
 _NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
@@ -40,7 +43,7 @@ def html():
 
 def page(place):
     """The page, starting at an id such as "eq-11" or "section-4"."""
-    pn.state.curdoc.js_on_event(DocumentReady, CustomJS(args={"place": place}, code=JS["theory"]))
+    pn.state.curdoc.js_on_event(DocumentReady, CustomJS(args={"place": place}, code=_SCRIPT))
     return pn.pane.LaTeX(html(), css_classes=["theory"], renderer="katex")
 
 

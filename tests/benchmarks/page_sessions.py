@@ -104,8 +104,8 @@ class Client(Visitor):
         await super().open(url)
         # The control of the largest depth, by what it is called.
         for each in objects(self.document):
-            told = json.loads(dig(each, "attributes", "data", "attributes", "told") or "[]")
-            for part, known in enumerate(told):
+            told = json.loads(dig(each, "attributes", "data", "attributes", "told") or "{}")
+            for part, known in told.items():
                 if known.get("spoken") == "d_max, largest depth":
                     self.form, self.control = each["id"], part
         self.count = 0
@@ -114,7 +114,7 @@ class Client(Visitor):
     async def move(self, n):
         """Move a slider; seconds until the server has answered with a new picture."""
         self.count += 1
-        data = {"position": 150 + n % 100, "number": self.count}
+        data = {"position": 150 + n % 100}
         message = [self.control, {"type": "map", "entries": [list(item) for item in data.items()]}]
         values = [["model", {"id": self.form}], ["data", message]]
         event = {"type": "event", "name": "data_event", "values": {"type": "map", "entries": values}}
@@ -122,7 +122,7 @@ class Client(Visitor):
         await self._event(n, event)
         while True:
             _, content = await self._message()
-            if f'"answered\\":{self.count}' in content.replace(" ", ""):
+            if f'"[{self.count},[' in content.replace(" ", ""):
                 return time.perf_counter() - begin
 
     async def work(self, offset):
