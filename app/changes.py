@@ -8,7 +8,17 @@ import mdr_core as mdr
 from .courses import Timed
 from .drives import DRIVES, follow, turning_point
 from .quantities import CHOICES, QUANTITIES, SHAPES, shape_quantities
-from .state import PRESETS, YIELD_CONSTANT, State, altered, checked, medium, preset_state, with_derived
+from .state import (
+    PRESETS,
+    YIELD_CONSTANT,
+    State,
+    altered,
+    checked,
+    medium,
+    preset_state,
+    used,
+    with_derived,
+)
 
 #: Options of a choice that apply to a state, the default first, where these are not all; extras add theirs.
 OFFERED: dict[str, Callable[[State], list[str]]] = {
@@ -39,7 +49,7 @@ def choose(state: State, name: str, wanted: str) -> State:
     if wanted == option(state, name):
         return state
     numbers = CONVERT[name](state, wanted) if name in CONVERT else {}
-    numbers = {k: shown(v) if k in QUANTITIES else v for k, v in numbers.items()}
+    numbers = {k: checked(k, shown(v)) if k in QUANTITIES else v for k, v in numbers.items()}
     changed, made = state.replace(**{name: wanted}, **numbers), medium(state)
     if name == "elasticity":
         return put(changed, "E_star", made.E_star)
@@ -57,7 +67,8 @@ def put(state: State, name: str, value: float) -> State:
     """Set a number; E* of two bodies through their moduli, q_c of a hardness through the hardness."""
     value = checked(name, value)
     if name == "E_star" and state.elasticity != "modulus":
-        return with_derived(state.replace(**_moduli(state, value)))
+        moduli = {each: checked(each, modulus) for each, modulus in _moduli(state, value).items()}
+        return with_derived(state.replace(**moduli))
     if name == "q_c" and state.plasticity == "hardness":
         name, value = "hardness", checked("hardness", value / state.hardness_radius)
     return with_derived(state.replace(**{name: value}))
@@ -75,7 +86,7 @@ def _moduli(state: State, E_star: float) -> dict[str, float]:
 def take_tip(state: State, samples: tuple[Any, Any], note: str) -> State:
     """Use samples of a measured tip as the indenter; the depth is limited to their range."""
     tip, more = mdr.Sampled(*samples), {}
-    if state.drive == "depth" and state.max_depth > tip.known_depth:
+    if "max_depth" in used(state) and state.max_depth > tip.known_depth:
         more["max_depth"] = float(f"{tip.known_depth / 2:.3g}")
     return state.replace(samples=(tip.r, tip.z), tip_note=note, shape="sampled", **more)
 
@@ -130,8 +141,10 @@ def _plasticity(state: State, wanted: str) -> dict[str, Any]:
 
 def _damping(state: State, wanted: str) -> dict[str, Any]:
     """Viscosity with a relaxation time that shows, and does not rule, over the course."""
+    if wanted != "eta":
+        return {}
     course = follow(state)
-    tau = float(course.motion.time[-1]) / 30 if wanted == "eta" and isinstance(course, Timed) else 1e-4
+    tau = float(course.motion.time[-1]) / 30 if isinstance(course, Timed) else 1e-4
     return {"eta": float(f"{tau * medium(state).E_star / 4:.2g}")}
 
 

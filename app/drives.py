@@ -135,16 +135,16 @@ class Impact(Drive):
         return scene.solve().turning_point
 
     def equivalent(self, state, turning_point):
-        """Present mass and speed, or those of an impact of equal depth."""
+        """Present mass and speed, or those of an impact of equal depth, on a virgin surface."""
         present = DRIVES[state.drive].make(state, turning_point.medium)
         if hasattr(present, "speed"):
-            return {"mass": present.mass, "speed": present.speed}
+            return {"mass": present.mass, "speed": present.speed, "plastic_depth": 0.0}
         mass = state.mass
         if mass == QUANTITIES["mass"].default:
             # Nobody has set it: as heavy as a ball of the contact's size times ten, of steel.
             mass = float(f"{4.2 * 7800 * (10 * float(turning_point.contact_radius)) ** 3:.1g}")
         work = float(turning_point.stored_energy + turning_point.plastic_work)
-        return {"mass": mass, "speed": (2 * work / mass) ** 0.5}
+        return {"mass": mass, "speed": (2 * work / mass) ** 0.5, "plastic_depth": 0.0}
 
 
 #: Every drive by its option of the choice "drive"; extras add theirs.

@@ -2,7 +2,7 @@
 
 import logging
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from html import escape
 from typing import Any
@@ -171,9 +171,9 @@ class Page:
 
     def _return(self, state, history):
         """Go to a state of the history; the view stays."""
-        before = self.history
         self.apply(lambda now: state.replace(**{name: now[name] for name in VIEW}))
-        if self.history is not before:
+        # Else it was refused.
+        if self.state.scene_values == state.scene_values:
             self.history = history
             self.refresh()
 
@@ -198,12 +198,12 @@ class Page:
     # Drawing.
 
     @pn.io.hold()
-    def draw(self, state: State, moved: bool = False) -> None:
+    def draw(self, state: State, now: int | None = None) -> None:
         """Show a state; everything is computed before anything is changed.
 
-        `moved`: only the place along the path has changed.
+        `now`: the course is the same, and this the index of its present state.
         """
-        course = follow(state)
+        course = follow(state) if now is None else replace(self.shown.course, now=now)
         computed = {name: each.compute(state, self.shown) for name, each in EXTRAS.items()}
         for service in self.services:
             computed |= service.compute(state, course)
@@ -214,7 +214,7 @@ class Page:
         columns = self.board.columns(view)
         self.state, self.shown = state, view
         self.board.show(columns, view)
-        self.board.player.show(view, moved)
+        self.board.player.show(view, now is not None)
         if self.board.player.play.active:
             self._send()
         if not self._ready:
@@ -246,7 +246,7 @@ class Page:
         course = self.shown.course
         now = min(int(new), len(course) - 1)
         if now != course.now:
-            self.draw(self.state.replace(progress=float(course.progress[now])), moved=True)
+            self.draw(self.state.replace(progress=float(course.progress[now])), now)
 
     # Updates when the input rests.
 

@@ -14,12 +14,12 @@ from .ui import JS, LAYOUT, SHEETS, WIDE, Messages
 
 def frames(view: View, pictures: list[Picture]) -> tuple[list[Any], str]:
     """Sources that move, and what they are in each state with readouts and times, as one text."""
-    course, numbers = view.course, readouts.readings(view.course)
+    course, numbers = view.course, readouts.line(view.course)
     states = range(len(course))
     found = [[picture.frame(view, i) for picture in pictures] for i in states]
     sent = {
         "pictures": [[columns for frame in each for columns in frame.values()] for each in found],
-        "words": [readouts.values(course, numbers, i) for i in states],
+        "words": [readouts.values(numbers, i) for i in states],
         "times": course.times.tolist(),
     }
     return [source for frame in found[0] for source in frame], json.dumps(sent).replace("NaN", "null")
@@ -53,12 +53,12 @@ class Player:
     def show(self, view: View, moved: bool) -> None:
         """Show the present state of a course and its readouts; drop frames unless it has only moved."""
         course, i = view.course, view.course.now
-        numbers = readouts.readings(course)
+        numbers = readouts.line(course)
         if not moved:
             self._messages.frames = []
         self.state.update(end=len(course) - 1, value=i)
-        self.heads = readouts.heads(course, numbers)
-        self._messages.words = readouts.values(course, numbers, i)
+        self.heads = readouts.heads(numbers)
+        self._messages.words = readouts.values(numbers, i)
 
     def send(self, view: View, pictures: list[Picture]) -> None:
         """Send all states, once."""

@@ -1,5 +1,6 @@
 """Readouts: numbers of a course, with their units and explanations."""
 
+from collections.abc import Container
 from functools import cache
 from typing import Any
 
@@ -9,13 +10,19 @@ from mdr_core.results.units import KINDS, written
 
 from .courses import Course
 from .quantities import OF_DRIVE, READOUTS, Readout
-from .ui import explained, linked, symbol
+from .ui import linked, symbol
 
 
-def readings(course: Course) -> dict[Readout, Any]:
-    """Values of all readouts that a course has."""
-    numbers = ((readout, readout.values(course)) for readout in READOUTS)
+def readings(course: Course, names: Container[str] | None = None) -> dict[Readout, Any]:
+    """Values of the readouts that a course has, of all or of those with some names."""
+    asked = (readout for readout in READOUTS if names is None or readout.name in names)
+    numbers = ((readout, readout.values(course)) for readout in asked)
     return {readout: values for readout, values in numbers if values is not None}
+
+
+def line(course: Course) -> dict[Readout, Any]:
+    """Values of the readouts above the plots."""
+    return readings(course, OF_DRIVE[course.drive]["line"])
 
 
 def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
@@ -24,28 +31,25 @@ def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
     return written(float(value), KINDS[readout.known.unit], count)
 
 
-def line(course: Course, numbers: dict[Readout, Any]) -> list[Readout]:
-    """Readouts of the line above the plots."""
-    return [readout for readout in numbers if readout.name in OF_DRIVE[course.drive]["line"]]
-
-
-def values(course: Course, numbers: dict[Readout, Any], i: int) -> str:
+def values(numbers: dict[Readout, Any], i: int) -> str:
     """Cells of the line in state i, as HTML."""
     cells = (
-        f'<output data-name="{each.name}">{text(each, numbers[each], i)}</output>'
-        for each in line(course, numbers)
+        f'<output data-name="{each.name}">{text(each, value, i)}</output>'
+        for each, value in numbers.items()
     )
     return f'<div class="strip">{"".join(cells)}</div>'
 
 
-def heads(course: Course, numbers: dict[Readout, Any]) -> str:
+def heads(numbers: dict[Readout, Any]) -> str:
     """Heads of the line, with explanations, as HTML."""
-    return f'<div class="strip">{"".join(map(head, line(course, numbers)))}</div>'
+    return f'<div class="strip">{"".join(map(head, numbers))}</div>'
 
 
 @cache
 def head(readout: Readout) -> str:
     """Head of a readout with its explanation, as HTML."""
     known = readout.known
+    key, name = f"about-{readout.name}", f"{symbol(known.symbol)} {known.long_name}"
     about = f"<p>{linked(readout.help)}</p><em>{linked(readout.equation)}</em>"
-    return explained(f"about-{readout.name}", f"{symbol(known.symbol)} {known.long_name}", about)
+    button = f'<button class="word" popovertarget="{key}">{name}</button>'
+    return f'{button}<div popover id="{key}">{about}</div>'

@@ -1,4 +1,4 @@
-"""Style sheet, scripts, texts as HTML, and widgets."""
+"""Style sheet, scripts, texts as HTML, and what server and browser tell each other."""
 
 import re
 from collections.abc import Callable
@@ -54,11 +54,6 @@ def linked(text):
     for each in LINKS:
         html = each(html)
     return html
-
-
-def explained(key, label, about, look='class="word"'):
-    """A label with an explanation in a popover."""
-    return f'<button {look} popovertarget="{key}">{label}</button><div popover id="{key}">{about}</div>'
 
 
 def html(text="", *classes, **options):

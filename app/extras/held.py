@@ -19,7 +19,7 @@ from ..plot import Along, Overlay, View
 from ..plots import PLOTS, P, R
 from ..quantities import CHOICES, OF_DRIVE
 from ..readouts import line as readout_line
-from ..readouts import readings, text
+from ..readouts import text
 from ..shared import widgets
 from ..shared.summary import with_symbol
 from ..state import OF_EXTRAS, PRESETS, VIEW, State, altered, used
@@ -97,9 +97,8 @@ def difference(state: State, now: State | None = None) -> str:
 
 def numbers(course: Course) -> dict[str, str]:
     """Readouts of a scene at its largest depth, by symbol."""
-    values = readings(course)
-    shown = readout_line(course, values)
-    return {each.known.symbol: text(each, values[each], course.peak, 3) for each in shown}
+    shown = readout_line(course).items()
+    return {each.known.symbol: text(each, values, course.peak, 3) for each, values in shown}
 
 
 # What is drawn beside the present scene.

@@ -59,7 +59,7 @@ def scene_file(view: View) -> str:
     """A view as one HTML: the three plots, a slider along the path, readouts, and notes."""
     state, course = view.state, view.course
     title = PRESETS[state.preset].label + ", altered" * bool(altered(state))
-    numbers = readouts.readings(course)
+    numbers = readouts.line(course)
     pictures = [picture_of(PLOTS[name]) for name in NAMED]
     document = Document()
     for picture in pictures:
@@ -74,8 +74,8 @@ def scene_file(view: View) -> str:
         "heading": escape(title),
         "scene": marked(summary(state)),
         # Links of explanations lead to pages of the server.
-        "heads": re.sub(r"</?a\b[^>]*>", "", readouts.heads(course, numbers)),
-        "readout": readouts.values(course, numbers, course.now),
+        "heads": re.sub(r"</?a\b[^>]*>", "", readouts.heads(numbers)),
+        "readout": readouts.values(numbers, course.now),
         "last": len(course) - 1,
         "now": course.now,
         "plots": [_card(view, picture.plot) for picture in pictures],

@@ -43,7 +43,7 @@ def test_every_drive_gives_the_same_interface(drive, damping):
     r = float(state.contact_radius) * np.array([0.1, 0.5, 1.2])
     for field in (state.pressure, state.line_load, state.surface, state.imprint):
         assert np.shape(field(r)) == (3,)
-    assert 6 <= len(readouts.line(course, readouts.readings(course))) <= 8
+    assert 6 <= len(readouts.line(course)) <= 8
     assert set(DRIVES) == set(CHOICES["drive"])
 
 

@@ -2,9 +2,11 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from app import changes
+from app.drives import follow
 from app.extras.drag import Dragging
 from app.page import Page
 from app.shared.rest import COMPUTING, FAULT
@@ -151,3 +153,65 @@ def test_a_link_that_cannot_be_opened_is_a_notice(monkeypatch):
     page = Page("preset=none")
     assert notices == ["The link was not opened: this link names no preset that is known"]
     assert page.state == preset_state()
+
+
+def test_a_drag_that_returns_to_its_start_is_undone_with_what_was_before(page):
+    """The depth is as before the drag; one more step back is the mass."""
+    put(page, "mass", 2.0)
+    for value in (7e-9, preset_state().max_depth):
+        page.apply_or_raise(lambda state, value=value: changes.put(state, "max_depth", value), "max_depth")
+    page.undo()
+    page.undo()
+    assert page.state.mass == preset_state().mass
+    assert not page.history.past
+
+
+def test_frames_stay_right_where_the_player_leaves_a_state_that_another_depth_has_not(page):
+    """All states that the browser has are those of the server, until the scene is another."""
+    page._state_chosen("value_throttled", 0, 10)
+    put(page, "max_depth", 1.37e-8)
+    count = len(page.shown.course)
+    page._state_chosen("value_throttled", page.shown.course.now, 60)
+    assert (len(page.shown.course), page.shown.course.now) == (count, 60)
+    assert page.state.progress == page.shown.course.progress[60]
+
+
+@pytest.mark.parametrize(
+    ("query", "name", "value"),
+    [
+        ("", "E_star", 9e13),
+        ("drive=force&max_force=1e5", "drive", "depth"),
+        ("max_depth=1e-12", "drive", "impact"),
+    ],
+)
+def test_a_number_that_a_change_leads_to_is_refused_beyond_its_bounds(monkeypatch, query, name, value):
+    notices = []
+    monkeypatch.setattr(Page, "notify", lambda page, text: notices.append(text))
+    page = Page(query)
+    before = page.state
+    take = changes.choose if name == "drive" else changes.put
+    page.apply(lambda state: take(state, name, value))
+    (notice,) = notices
+    assert "is out of bounds" in notice
+    assert page.state == before
+
+
+def test_an_impact_after_pressing_is_as_deep_and_on_a_virgin_surface():
+    state = changes.hit_again(preset_state("ball-steel"), follow(preset_state("ball-steel")).hit)
+    pressed = changes.choose(state, "drive", "depth")
+    hit = changes.choose(pressed, "drive", "impact")
+    assert hit.plastic_depth == 0
+    assert float(follow(hit).turning_point.depth) == pytest.approx(pressed.max_depth, rel=1e-4)
+
+
+def test_the_viscosity_stays_where_damping_is_turned_off_and_on():
+    state = changes.put(changes.choose(preset_state(DROP), "damping", "eta"), "eta", 123.0)
+    assert changes.choose(state, "damping", "none").eta == 123.0
+
+
+def test_a_tip_limits_the_depth_of_every_drive_that_has_one():
+    state = changes.choose(preset_state(), "drive", "path")
+    r = np.linspace(0, 5e-9, 20)
+    taken = changes.take_tip(state, (r, r**2 / 2e-9), "a tip")
+    assert taken.max_depth < 0.51 * r[-1] ** 2 / 1e-9
+    assert follow(taken).turning_point.depth == pytest.approx(taken.max_depth)

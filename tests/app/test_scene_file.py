@@ -11,7 +11,6 @@ from app.draw import Picture
 from app.extras.held import Held
 from app.extras.scene_file import scene_file
 from app.plots import NAMED, PLOTS
-from app.readouts import readings
 from app.state import PRESETS, preset_state
 
 from .conftest import DROP
@@ -40,7 +39,7 @@ def test_it_says_what_the_page_says():
     assert "<b>stiff</b>." in said
     # Of equations the text alone: the links of the page lead to its server.
     assert "?theory=" not in html
-    for each in readouts.line(course, readings(course)):
+    for each in readouts.line(course):
         assert each.known.long_name in said
     # What the preset says has its source; what was typed says so.
     assert PRESETS[DROP].sources["q_c"] in said
@@ -103,11 +102,10 @@ def test_the_numbers_of_a_cone_are_read_and_drawn_in_every_state(saved):
 
 def test_every_row_is_drawn_as_on_the_page(saved):
     view = view_of(preset_state())
-    numbers = readings(view.course)
+    numbers = readouts.line(view.course)
     for number in STATES:
         go(saved, number)
-        line = readouts.line(view.course, numbers)
-        said = {each.name: readouts.text(each, numbers[each], number) for each in line}
+        said = {each.name: readouts.text(each, values, number) for each, values in numbers.items()}
         assert {name: saved.readout(name) for name in said} == said
         for name in NAMED:
             for layer, columns in Picture(PLOTS[name]).columns(view, number, False).items():

@@ -13,7 +13,7 @@ from app.extras.guide import TOURS
 from app.page import Page
 from app.plots import PLOTS
 from app.quantities import ABOUT, CHOICES, QUANTITIES, SHAPES, USED, in_words
-from app.readouts import READOUTS, heads, readings
+from app.readouts import READOUTS, heads, line
 from app.shared.rest import Searched
 from app.state import PRESETS, preset_state
 from app.tip import read_tip
@@ -31,7 +31,7 @@ def places(html):
 def test_every_number_says_what_it_is():
     for drive in ("depth", "impact", "oblique"):
         course = follow(state_with(DROP, drive, damping="eta"))
-        html = heads(course, readings(course))
+        html = heads(line(course))
         ids = re.findall(r' popover id="([^"]+)"', html)
         assert 6 <= len(set(ids)) == len(ids) == html.count("popovertarget=") <= 8
     assert all(each.help.endswith(".") for each in (*READOUTS, *QUANTITIES.values()))
