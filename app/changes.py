@@ -8,17 +8,7 @@ import mdr_core as mdr
 from .courses import Timed
 from .drives import DRIVES, follow, turning_point
 from .quantities import CHOICES, QUANTITIES, SHAPES, shape_quantities
-from .state import (
-    PRESETS,
-    YIELD_CONSTANT,
-    State,
-    altered,
-    checked,
-    medium,
-    preset_state,
-    used,
-    with_derived,
-)
+from .state import PRESETS, YIELD_CONSTANT, State, altered, checked, medium, preset_state, with_derived
 
 #: Options of a choice that apply to a state, the default first, where these are not all; extras add theirs.
 OFFERED: dict[str, Callable[[State], list[str]]] = {
@@ -86,7 +76,7 @@ def _moduli(state: State, E_star: float) -> dict[str, float]:
 def take_tip(state: State, samples: tuple[Any, Any], note: str) -> State:
     """Use samples of a measured tip as the indenter; the depth is limited to their range."""
     tip, more = mdr.Sampled(*samples), {}
-    if "max_depth" in used(state) and state.max_depth > tip.known_depth:
+    if state.max_depth > tip.known_depth:
         more["max_depth"] = float(f"{tip.known_depth / 2:.3g}")
     return state.replace(samples=(tip.r, tip.z), tip_note=note, shape="sampled", **more)
 
