@@ -88,6 +88,8 @@ const KINDS = {
       if (busy()) wish = what
       else ask(what)
     })
+    // What waits when the slider is let go is sent at once: an answer may have been lost.
+    range.addEventListener("change", () => wish !== null && ask(wish))
     range.addEventListener("dblclick", () => ask({ reset: true }))
     text.addEventListener("input", () => { typing = true })
     text.addEventListener("change", () => ask({ text: text.value }))
