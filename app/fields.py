@@ -24,8 +24,6 @@ class Field:
 
     def __init__(self, name: str, page: Any):
         self._name, self._page, self._known = name, page, QUANTITIES[name]
-        self._unit = fitting(self._known.default, self._known.kind)
-        self._scale = Scale.about(self._known, self._known.default, self._known.default)
         # The number and its preset as they were shown, and whether the next one was typed or dragged here.
         self._value, self._preset, self._asked = self._known.default, "", False
         self.refused = ""

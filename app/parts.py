@@ -114,6 +114,7 @@ class Parts(pn.custom.JSComponent):
         """Do what a person wants; what is refused is answered, too."""
         name, message = event.data
         self._answered += 1
-        if name in self.parts:
-            self.parts[name].act(message)
+        # Whatever comes from outside, a list too, names a part or none.
+        if part := self.parts.get(str(name)):
+            part.act(message)
         self._send()

@@ -1,6 +1,8 @@
 """What cannot be shown leaves the page as it was, and in use, wherever it fails. Without a browser."""
 
+import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -215,3 +217,14 @@ def test_a_tip_limits_the_depth_of_every_drive_that_has_one():
     taken = changes.take_tip(state, (r, r**2 / 2e-9), "a tip")
     assert taken.max_depth < 0.51 * r[-1] ** 2 / 1e-9
     assert follow(taken).turning_point.depth == pytest.approx(taken.max_depth)
+
+
+def test_a_message_that_names_no_part_is_answered_and_changes_nothing(page):
+    before, form = page.state, page.frame.form.view
+    for name in ("nothing", ["max_depth"], 3, None):
+        form._on_message(SimpleNamespace(data=(name, {"position": 1})))
+    assert page.state == before
+    # Four answers; the fifth is that of a number.
+    form._on_message(SimpleNamespace(data=("max_depth", {"text": "5 nm"})))
+    assert page.state.max_depth == 5e-9
+    assert json.loads(form.shown)[0] == 5
