@@ -1,19 +1,20 @@
-"""The seam: what an extra brings to the page, and its registration. The page knows no extra by name."""
+"""The seam: what an extra brings to the page. The page knows no extra by name."""
+
+from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from .changes import CONVERT, OFFERED
-from .courses import Course
-from .drives import DRIVES, Drive
-from .link import CHECKS, TRANSLATIONS, Pairs
-from .parts import Part
-from .plot import OVERLAYS, Overlay, Plot, View
-from .plots import PLOTS
-from .quantities import CHOICES, OF_DRIVE, QUANTITIES
-from .state import OF_EXTRAS, VIEW, State
-from .ui import LINKS
+if TYPE_CHECKING:
+    from .courses import Course
+    from .drives import Drive
+    from .parts import Part
+    from .plot import Overlay, Plot, View
+    from .state import State
+
+#: Names and values of a link.
+Pairs = list[tuple[str, str]]
 
 
 class Side(Protocol):
@@ -74,7 +75,7 @@ class Extra:
     header: Callable[[Any, View], Part | None] = lambda page, view: None
     on_plots: Callable[[Any, Plot, View], Part | None] = lambda page, plot, view: None
     #: Changes names and values of a link before it is read.
-    translated: Callable[[Pairs], Pairs] | None = None
+    translated: Callable[[Pairs], Pairs] = lambda pairs: pairs
     #: Why a link with its values is refused, or nothing.
     check: Callable[[State], str] = lambda state: ""
     #: What it and others need once in a session of a page, which it is made of.
@@ -84,7 +85,7 @@ class Extra:
     #: Courses of which the exact ones are found at rest.
     courses: Callable[[View], list[Course]] = lambda view: []
     #: Puts links into a text (HTML).
-    linked: Callable[[str], str] | None = None
+    linked: Callable[[str], str] = lambda html: html
     #: Files to download, each with its label, its name, and its text of a view.
     files: tuple[tuple[str, str, Callable[[View], str]], ...] = ()
     #: Notes (HTML) by their places, found when the input rests: in the form the "first" line, "drive",
@@ -96,29 +97,5 @@ class Extra:
     served: Callable[[str], Any] | None = None
 
 
-#: All extras by name, and the services that they need.
+#: All extras by name, in their order.
 EXTRAS: dict[str, Extra] = {}
-SERVICES: list[Callable[[Any], Service]] = []
-
-
-def register(extra: Extra, data: dict[str, Any]) -> None:
-    """Let the page have an extra; the data of its JSON file are included already."""
-    OF_EXTRAS.update({each["name"]: QUANTITIES[each["name"]].default for each in data.get("numbers", ())})
-    OF_EXTRAS.update({name: next(iter(CHOICES[name]), "") for name in data.get("choices", {})})
-    OF_EXTRAS.update(extra.values)
-    VIEW.extend(extra.of_view)
-    TRANSLATIONS.extend([extra.translated] if extra.translated else [])
-    CHECKS.append(extra.check)
-    CONVERT.update(extra.converts)
-    OFFERED.update(extra.offers)
-    OVERLAYS.extend(extra.overlays)
-    SERVICES.extend([extra.service] if extra.service and extra.service not in SERVICES else [])
-    LINKS.extend([extra.linked] if extra.linked else [])
-    DRIVES.update(extra.drives)
-    drives = sorted(CHOICES["drive"].items(), key=lambda each: OF_DRIVE[each[0]]["order"])
-    CHOICES["drive"] = dict(drives)
-    PLOTS.update({plot.name: plot for plot in extra.plots})
-    plots = sorted(PLOTS.items(), key=lambda each: each[1].order)
-    PLOTS.clear()
-    PLOTS.update(plots)
-    EXTRAS[extra.name] = extra

@@ -57,8 +57,10 @@ class Field:
         try:
             self._change(message)
         except ValueError as error:
-            self.refused, self._unit = str(error), unit
+            self._refuse(str(error))
         self._asked = False
+        if self.refused:
+            self._unit = unit
         if self.refused or "position" not in message:
             # A number in another unit may be the present one, so that nothing else shows the unit.
             self._page.refresh()
@@ -73,7 +75,10 @@ class Field:
             self._put(self._scale.middle)
 
     def _put(self, value, mark=None):
-        self._page.apply_or_raise(lambda state: changes.put(state, self._name, value), mark)
+        self._page.apply(lambda state: changes.put(state, self._name, value), self._refuse, mark)
+
+    def _refuse(self, text: str) -> None:
+        self.refused = text
 
 
 @cache

@@ -60,8 +60,8 @@ class Frame:
         if not any(self._offers[name].place == "side" for name in self.opened):
             self.opened.add("explore")
         page = self._page
-        undo = button("Undo", page.undo, disabled=not page.history.past, key="z")
-        redo = button("Redo", page.redo, disabled=not page.history.future)
+        undo = button("Undo", page.undo, disabled=page.history.at == 0, key="z")
+        redo = button("Redo", page.redo, disabled=page.history.at == page.history.last)
         buttons = self._buttons(view, "header", "above")
         self.header.show([_TITLE, page.choice("preset"), undo, redo, *buttons])
         self.tabs.show([*self._buttons(view, "side")])

@@ -1,10 +1,10 @@
 """States as links: defaults are left out, and links are read as hostile input."""
 
-from collections.abc import Callable
 from math import isfinite, isinf, nan
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
+from .extra import EXTRAS, Pairs
 from .plots import PLOTS
 from .quantities import CHOICES, QUANTITIES
 from .state import (
@@ -22,9 +22,6 @@ from .tip import MAX_SAMPLES
 
 #: Most characters of a link and of a text in it, and most names in a list.
 MAX_LENGTH, _MAX_TEXT, _MAX_NAMES = 8000, 300, 12
-Pairs = list[tuple[str, str]]
-#: Changes of the names and values of a link before it is read; extras add theirs.
-TRANSLATIONS: list[Callable[[Pairs], Pairs]] = []
 
 
 def write(state: State) -> str:
@@ -54,8 +51,8 @@ def _text(value: Any) -> str:
 def translated(query: str) -> Pairs:
     """Names and values of a link, in the names of today."""
     found = parse_qsl(query, keep_blank_values=True)
-    for each in TRANSLATIONS:
-        found = each(found)
+    for extra in EXTRAS.values():
+        found = extra.translated(found)
     return found
 
 
@@ -83,7 +80,7 @@ def read(query: str) -> State:
     if key not in PRESETS:
         raise ValueError("this link names no preset that is known")
     state = preset_state(key).replace(**dict(_value(*pair) for pair in pairs.items()))
-    for reason in (check(state) for check in CHECKS):
+    for reason in (_wrong(state), *(extra.check(state) for extra in EXTRAS.values())):
         if reason:
             raise ValueError(reason)
     return with_derived(state)
@@ -96,10 +93,6 @@ def _wrong(state: State) -> str:
         return "this link has a measured tip without samples"
     missing = any(state[name] is None for name in used(state))
     return "this link has a shape without its numbers" * missing
-
-
-#: Reasons to refuse a state, or none; extras add theirs.
-CHECKS: list[Callable[[State], str]] = [_wrong]
 
 
 def _value(name: str, text: str) -> tuple[str, Any]:

@@ -1,13 +1,14 @@
 """The page of one session, a function of one state."""
 
 import logging
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from html import escape
-from typing import Any
 
 import panel as pn
+from bokeh.document import Document
 from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
 from panel.io.location import Location
@@ -15,7 +16,7 @@ from panel.io.location import Location
 from . import changes, link
 from .board import Board
 from .drives import follow, scene_of
-from .extra import EXTRAS, SERVICES
+from .extra import EXTRAS
 from .fields import Field
 from .frame import Frame
 from .parts import Part, choice
@@ -42,39 +43,56 @@ class Address(Location):
 
 @dataclass(frozen=True)
 class History:
-    """States that can be undone and redone, the latest last; and the mark of the last change."""
+    """The states that a person has set, the index of the present one, and the mark of the last change."""
 
-    past: tuple[State, ...] = ()
-    future: tuple[State, ...] = ()
+    states: tuple[State, ...]
+    at: int = 0
     mark: str | None = None
 
+    @property
+    def last(self) -> int:
+        return len(self.states) - 1
+
     def after(self, state: State, mark: str | None) -> "History":
-        """The history once a state has been changed; changes with the same mark are one step."""
-        if mark is not None and mark == self.mark:
-            return History(self.past, (), mark)
-        return History((*self.past[1 - _UNDO_STEPS :], state), (), mark)
+        """The history with a state that has been changed; changes with the same mark are one step."""
+        if state.scene_values == self.states[self.at].scene_values:
+            return self
+        same = mark is not None and mark == self.mark
+        kept = self.states[: self.at + (not same)][-_UNDO_STEPS:]
+        return History((*kept, state), len(kept), mark)
 
 
 class Page:
     """The page of one session."""
 
     def __init__(self, query: str = ""):
-        self.document, self.state, self.history = pn.state.curdoc, preset_state(), History()
-        self._waiting, self._ready, self.shown = None, False, None
-        # Notices until the browser is ready, and whether the address holds a link that was not opened.
-        self._notices, self._refused = [], False
+        self.document = pn.state.curdoc or Document()
+        self.state = preset_state()
+        self.shown: View | None = None
+        self._waiting = None
+        # Whether the address holds a link that was not opened.
+        self._refused = False
         self._fields: dict[str, Field] = {}
         self.messages = Messages(name="messages")
         self.board = Board(self)
         self.frame = Frame(self)
-        self.services = [make(self) for make in SERVICES]
+        makers = dict.fromkeys(extra.service for extra in EXTRAS.values() if extra.service)
+        self.services = [make(self) for make in makers]
         self.view = self.frame.view
         self._watch()
+        self.history = History((self.state,))
+        self._open(query)
+
+    def _open(self, query):
+        """Show the state of a link; if it is refused, say so and show the opening one."""
         try:
-            self.draw(link.read(query))
+            state = link.read(query)
+            self.history = History((state,))
+            self.draw(state)
             if names := link.unknown(query):
                 self.notify(f"Unknown names in this link are ignored: {', '.join(names):.200}")
         except Exception as error:
+            self.history = History((self.state,))
             self.draw(self.state)
             self._refused = True
             self.notify(f"The link was not opened: {self.refusal(error)}")
@@ -84,14 +102,12 @@ class Page:
         player.state.on_change("value_throttled", self._state_chosen)
         player.state.on_change("value", self._slider_moved)
         player.play.on_change("active", lambda attr, old, new: new and self._send())
-        if self.document is None:
-            return
         self.messages.on_change("dark", self._theme_chosen)
         told = CustomJS(code=JS["tell"])
         self.messages.js_on_change("address", told)
         self.messages.js_on_change("dark", told)
         self.document.add_root(self.messages)
-        self.document.on_event(DocumentReady, self._browser_ready)
+        self.document.on_event(DocumentReady, lambda event: self._input_rests())
         ready = CustomJS(args={"messages": self.messages}, code=JS["ready"])
         self.document.js_on_event(DocumentReady, ready)
         # The address restores the page when its session is lost.
@@ -127,63 +143,59 @@ class Page:
     # Changes and refusals.
 
     @pn.io.hold()
-    def apply_or_raise(self, change: Any, mark: str | None = None) -> None:
-        """Apply a change and show it; on failure restore the page and raise ValueError with a message.
+    def apply(
+        self,
+        change: Callable[[State], State],
+        refused: Callable[[str], None] | None = None,
+        mark: str | None = None,
+        history: History | None = None,
+    ) -> None:
+        """Apply a change and show it; what fails leaves the page as it was.
 
-        Changes with the same mark, as of one drag, are one step of undo.
+        The message is a notice, or given to `refused`. Changes with the same mark, as of one drag, are one
+        step of undo. `history` is the history after the change, if the change does not add to it.
         """
-        before, history = self.state, self.history
+        if refused is None:
+            # The scene is changed elsewhere than in the field in which something was refused.
+            for each in self._fields.values():
+                each.refused = ""
+        before, old = self.state, self.history
         after = before
         try:
             after = change(before)
-            if after == before:
+            self.history = history or old.after(after, mark)
+            if after == before and self.history is old:
                 return
-            if after.scene_values != before.scene_values:
-                self.history = history.after(before, mark)
             self.draw(after)
         except Exception as error:
-            message, self.history = self.refusal(error, after), history
-            if self.shown is not None and self.state is not before:
+            message = self.refusal(error, after)
+            self.history = old
+            if self.state is not before:
                 self.draw(before)
-            raise ValueError(message) from None
-        self._refused = self._refused and self.history is history
-
-    def apply(self, change: Any, refused: Any = None, mark: str | None = None) -> None:
-        """Apply a change; show a refusal as a notice, or by `refused`.
-
-        Fields forget what was refused in them: the scene is changed elsewhere.
-        """
-        for each in self._fields.values():
-            each.refused = ""
-        try:
-            self.apply_or_raise(change, mark)
-        except ValueError as error:
-            (refused or self.notify)(str(error))
+            (refused or self.notify)(message)
             self.refresh()
+        else:
+            self._refused = self._refused and self.history is old
 
     def undo(self) -> None:
-        if past := self.history.past:
-            self._return(past[-1], History(past[:-1], (*self.history.future, self.state)))
+        self._go(-1)
 
     def redo(self) -> None:
-        if future := self.history.future:
-            self._return(future[-1], History((*self.history.past, self.state), future[:-1]))
+        self._go(1)
 
-    def _return(self, state, history):
-        """Go to a state of the history; the view stays."""
-        self.apply(lambda now: state.replace(**{name: now[name] for name in VIEW}))
-        # Else it was refused.
-        if self.state.scene_values == state.scene_values:
-            self.history = history
-            self.refresh()
+    def _go(self, steps: int) -> None:
+        """Go to another state of the history; the view stays."""
+        at = min(max(self.history.at + steps, 0), self.history.last)
+        state = self.history.states[at]
+        view = {name: self.state[name] for name in VIEW}
+        self.apply(lambda now: state.replace(**view), history=History(self.history.states, at))
 
     def notify(self, text: str) -> None:
         """Show a notice, once the browser is ready; its text may contain user input."""
-        if is_served(self.document) and not self._ready:
-            self._notices.append(text)
-        elif pn.state.notifications is not None:
+        if pn.state.notifications is not None:
             # Screen readers are told the text itself, in which quotation marks need no escape.
-            pn.state.notifications.error(escape(text, quote=False), duration=7000)
+            tell = partial(pn.state.notifications.error, escape(text, quote=False), duration=7000)
+            pn.state.onload(tell)
 
     def refusal(self, error, state=None):
         """Message for an error; a fault is logged with its scene."""
@@ -217,11 +229,9 @@ class Page:
         self.board.player.show(view, now is not None)
         if self.board.player.play.active:
             self._send()
-        if not self._ready:
-            self.frame.rest(view)
         self.messages.dark = state.dark
-        self.refresh()
         self._schedule()
+        self.refresh()
 
     @pn.io.hold()
     def refresh(self) -> None:
@@ -250,15 +260,10 @@ class Page:
 
     # Updates when the input rests.
 
-    def _browser_ready(self, event):
-        self._ready = True
-        for text in self._notices:
-            self.notify(text)
-        self._input_rests()
-
     def _schedule(self):
-        """Schedule the slow updates."""
-        if not (is_served(self.document) and self._ready):
+        """Schedule the slow updates; before a browser shows the page, notes need not wait."""
+        if not (is_served(self.document) and pn.state.loaded):
+            self.frame.rest(self.shown)
             return
         if self._waiting is not None:
             self.document.remove_timeout_callback(self._waiting)

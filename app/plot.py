@@ -11,6 +11,7 @@ from mdr_core.results.figures import NOTHING, Axis, Row
 from mdr_core.results.units import fitting
 
 from .courses import Course
+from .extra import EXTRAS
 from .state import State
 
 _ROUND = np.array([1, 1.5, 2, 3, 4, 5, 6, 8, 10])
@@ -92,12 +93,14 @@ class Overlay:
     picture: Callable[..., Any] | None = None
 
 
-#: All overlays, from the back to the front.
-OVERLAYS: list[Overlay] = []
+def all_overlays() -> list[Overlay]:
+    """All overlays, from the back to the front."""
+    return [overlay for extra in EXTRAS.values() for overlay in extra.overlays]
 
 
 def overlays(plot: Plot) -> list[Overlay]:
-    return [each for each in OVERLAYS if each.on == plot.name]
+    """Those of a plot."""
+    return [each for each in all_overlays() if each.on == plot.name]
 
 
 def rows_of(plot: Plot) -> tuple[Row, ...]:
@@ -123,7 +126,7 @@ class View:
 
     def axis(self, along: Along) -> Axis:
         if along not in self._axes:
-            reached = [each.reach(self, along) for each in OVERLAYS]
+            reached = [each.reach(self, along) for each in all_overlays()]
             size = max([along.size(self.course), *(largest for _, largest in reached)])
             least = min([along.least(self.course), *(lowest for lowest, _ in reached)])
             made = axis(along.title, along.title, along.kind, size, along.below(self.course))

@@ -1,13 +1,14 @@
 """Style sheet, scripts, texts as HTML, and what server and browser tell each other."""
 
 import re
-from collections.abc import Callable
 from html import escape
 from pathlib import Path
 
 import panel as pn
 from bokeh.core.properties import AnyRef, Bool, List, Nullable, String
 from bokeh.model import DataModel
+
+from .extra import EXTRAS
 
 HERE = Path(__file__).parent
 JS = {path.stem: path.read_text(encoding="utf-8") for path in (HERE / "js").glob("*.js")}
@@ -16,8 +17,6 @@ CSS = (HERE / "static" / "style.css").read_text(encoding="utf-8")
 LAYOUT = [(HERE / "static" / "layout.css").read_text(encoding="utf-8")]
 #: Linked by every component of Panel; components of Bokeh link them themselves.
 SHEETS = ["app/static/layout.css", "app/static/style.css"]
-#: Functions that put links into a text (HTML); extras add theirs.
-LINKS: list[Callable[[str], str]] = []
 WIDE = {"sizing_mode": "stretch_width", "margin": 0}
 FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": LAYOUT}
 
@@ -51,8 +50,8 @@ def symbol(text):
 def linked(text):
     """HTML of a text, with the links that extras have for it."""
     html = marked(text)
-    for each in LINKS:
-        html = each(html)
+    for extra in EXTRAS.values():
+        html = extra.linked(html)
     return html
 
 
@@ -76,4 +75,4 @@ def show(part, **values):
 
 def is_served(document):
     """Whether a document is that of a session of the server."""
-    return document is not None and document.session_context is not None
+    return document.session_context is not None

@@ -40,9 +40,8 @@ class Dragging(Service):
         figures = [page.board.cards[name].picture.figure for name in DRAGGED]
         for figure in figures:
             let_drag(figure, {}, _FIND)
-        if page.document is not None:
-            page.document.add_root(self.hand)
-            page.document.js_on_event(DocumentReady, CustomJS(args={"figures": figures}, code=TOUCH))
+        page.document.add_root(self.hand)
+        page.document.js_on_event(DocumentReady, CustomJS(args={"figures": figures}, code=TOUCH))
 
     def _dragged(self, attr, old, new):
         if isinstance(new, int | float):

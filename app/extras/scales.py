@@ -40,11 +40,10 @@ class Scales(Service):
     def __init__(self, page: Any):
         super().__init__(page)
         self._kept, self.dragged = False, Dragged()
-        if page.document is not None:
-            page.document.add_root(self.dragged)
-            script = CustomJS(args={"dragged": self.dragged}, code=_SCRIPT)
-            page.document.js_on_event(DocumentReady, script)
-            self.dragged.on_change("on", self._released)
+        page.document.add_root(self.dragged)
+        script = CustomJS(args={"dragged": self.dragged}, code=_SCRIPT)
+        page.document.js_on_event(DocumentReady, script)
+        self.dragged.on_change("on", self._released)
 
     def _released(self, attr, old, new):
         if not new and self._kept:

@@ -10,7 +10,6 @@ from html import unescape
 
 import numpy as np
 import pytest
-from bokeh.document import Document
 
 from app import changes
 from app.extra import EXTRAS
@@ -88,9 +87,8 @@ def texts(page):
         for tab in list(page.board.tabs.parts):
             page.board.tabs.parts[tab].act(None)
             look()
-    document = Document()
-    document.add_root(page.view.get_root(document))
-    for model in document.models:
+    page.document.add_root(page.view.get_root(page.document))
+    for model in page.document.models:
         for value in model.properties_with_values(include_defaults=False).values():
             seen.update(strings(value))
     return seen

@@ -73,7 +73,7 @@ def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
     )
     page.choose("preset", DROP)
     assert page.state.preset == page.choice("preset").look["value"] == GOLD
-    assert not page.history.past
+    assert page.history.at == 0
     assert_in_use(page)
 
 
@@ -98,7 +98,7 @@ def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
     page.apply(lambda state: state.replace(progress=0.5))
     page.undo()
     assert (page.state.max_depth, page.state.progress) == (start, 0.5)
-    assert not page.history.past
+    assert page.history.at == 0
     page.redo()
     assert page.state.max_depth > start
 
@@ -161,11 +161,11 @@ def test_a_drag_that_returns_to_its_start_is_undone_with_what_was_before(page):
     """The depth is as before the drag; one more step back is the mass."""
     put(page, "mass", 2.0)
     for value in (7e-9, preset_state().max_depth):
-        page.apply_or_raise(lambda state, value=value: changes.put(state, "max_depth", value), "max_depth")
+        page.apply(lambda state, value=value: changes.put(state, "max_depth", value), mark="max_depth")
     page.undo()
     page.undo()
     assert page.state.mass == preset_state().mass
-    assert not page.history.past
+    assert page.history.at == 0
 
 
 def test_frames_stay_right_where_the_player_leaves_a_state_that_another_depth_has_not(page):

@@ -148,7 +148,7 @@ def test_a_guided_scene_is_stepped_through_and_undone():
     # Each step that sets something is one change.
     for _ in range(4):
         page.undo()
-    while page.history.past:
+    while page.history.at:
         page.undo()
     assert page.state.scene_values == opening
 
