@@ -2,7 +2,6 @@
 
 import logging
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from html import escape
@@ -15,7 +14,7 @@ from panel.io.location import Location
 
 from . import changes, link
 from .board import Board
-from .drives import follow, scene_of
+from .drives import follow
 from .extra import EXTRAS
 from .fields import Field
 from .frame import Frame
@@ -197,14 +196,11 @@ class Page:
             tell = partial(pn.state.notifications.error, escape(text, quote=False), duration=7000)
             pn.state.onload(tell)
 
-    def refusal(self, error, state=None):
-        """Message for an error; a fault is logged with its scene."""
+    def refusal(self, error: Exception, state: State | None = None) -> str:
+        """Message for an error; a fault is logged with its state."""
         if isinstance(error, ValueError):
             return in_words(error)
-        scene = state or self.state
-        with suppress(Exception):
-            scene = scene_of(scene).to_json()
-        _LOG.error("a change could not be shown, scene %s", scene, exc_info=error)
+        _LOG.error("a change could not be shown, %s", state or self.state, exc_info=error)
         return _FAULT
 
     # Drawing.
