@@ -44,12 +44,12 @@ class Field:
         middle = PRESETS[state.preset].values.get(self._name, value) if loaded else self._scale.middle
         self._scale = Scale.about(self._known, middle, value)
         self._value, self._preset = value, state.preset
-        look = {
+        look = _words(self._name) | {
             "text": entry(value, self._unit),
             "refused": self.refused,
             "position": self._scale.position(value),
         }
-        return Part("number", self._name, look, _words(self._name), self._take)
+        return Part("number", self._name, look, self._take)
 
     def _take(self, message: dict[str, Any]) -> None:
         """Take a number that is typed or dragged; a refusal is shown beside it."""

@@ -5,7 +5,7 @@ A component of its own for each would cost some 4 ms of an opening.
 
 import json
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
@@ -26,35 +26,34 @@ _ALTERED = "altered"
 
 @dataclass(frozen=True)
 class Part:
-    """A part: its kind, its name in the component, and what is shown of it.
+    """A part: its kind, its name in the component, and what the browser is told of it.
 
-    `told` is what it is, sent to the browser once; `act` is called with what a person does with it.
+    `act` is called with what a person does with it.
     """
 
     kind: str
     name: str
     look: dict[str, Any]
-    told: dict[str, Any] = field(default_factory=dict)
     act: Callable[[Any], None] = lambda message: None
 
 
 def text(name: str, html: str, classes: str = "note") -> Part:
     """A text (HTML)."""
-    return Part("text", name, {"object": html}, {"classes": classes})
+    return Part("text", name, {"object": html, "classes": classes})
 
 
 def button(
     label: str, act: Callable[[], None], pressed: bool | None = None, disabled: bool = False, key: str = ""
 ) -> Part:
     """A button: `pressed` is None if it does not stay down, `key` is a key of the keyboard."""
-    look = {"label": label, "pressed": pressed, "disabled": disabled}
-    return Part("button", label, look, {"key": key}, lambda message: None if disabled else act())
+    look = {"label": label, "pressed": pressed, "disabled": disabled, "key": key}
+    return Part("button", label, look, lambda message: None if disabled else act())
 
 
 def upload(label: str, accept: str, take: Callable[[Uploaded], None]) -> Part:
     """A field for a file."""
-    told = {"label": label, "accept": accept, "most": MAX_BYTES}
-    return Part("file", label, {}, told, lambda message: take(Uploaded(**message)))
+    look = {"label": label, "accept": accept, "most": MAX_BYTES}
+    return Part("file", label, look, lambda message: take(Uploaded(**message)))
 
 
 def choice(name: str, state: State, choose: Callable[[str], None]) -> Part:
@@ -68,10 +67,8 @@ def choice(name: str, state: State, choose: Callable[[str], None]) -> Part:
         chosen = _ALTERED
         pairs.append([_ALTERED, f"altered, from: {PRESETS[state.preset].label}"])
     offered = [each for each, _ in pairs if each != chosen]
-    look = {"options": pairs, "value": chosen}
-    return Part(
-        "choice", name, look, _about(name), lambda message: choose(message) if message in offered else None
-    )
+    look = _about(name) | {"options": pairs, "value": chosen}
+    return Part("choice", name, look, lambda message: choose(message) if message in offered else None)
 
 
 @cache
@@ -84,29 +81,25 @@ def _about(name: str) -> dict[str, Any]:
 class Parts(pn.custom.JSComponent):
     """Parts of the page below each other, or in a row (class "bar")."""
 
-    # As text: Panel and Bokeh would look at every value.
-    told, shown = param.String("{}"), param.String("[0, []]")
+    #: The number of messages that are answered, and looks, as text: Bokeh would look at each value.
+    shown = param.String("[0, []]")
 
     # A link, so that the script is sent once.
     _esm = JS["parts"]
 
     def __init__(self, *classes: str, **options: Any):
         self.parts: dict[str, Part] = {}
-        self._known, self._answered = {}, 0
+        self._answered = 0
         super().__init__(css_classes=list(classes), **WIDE | options)
         self.on_msg(self._on_message)
 
     def show(self, parts: list[Part]) -> None:
         """Show some parts, and no others."""
         self.parts = {part.name: part for part in parts}
-        new = {part.name: {"kind": part.kind} | part.told for part in parts if part.name not in self._known}
-        if new:
-            self._known |= new
-            self.told = json.dumps(self._known, ensure_ascii=False)
         self._send()
 
     def _send(self):
-        looks = [{"name": part.name} | part.look for part in self.parts.values()]
+        looks = [{"kind": part.kind, "name": part.name} | part.look for part in self.parts.values()]
         show(self, shown=json.dumps([self._answered, looks], ensure_ascii=False))
 
     @pn.io.hold()

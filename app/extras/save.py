@@ -41,8 +41,8 @@ def save(label: str, name: str, places: dict[str, Any], size: tuple[int, int], v
     legends = view.computed["save"]
     looks = [legends.get(each, {"rows": [], "title": ""}) for each in places]
     plots = [{"figure": figure, "place": place} for figure, place in places.items()]
-    told = {"name": name, "plots": plots, "size": size}
-    return Part("save", label, {"label": label, "looks": looks, "scene": legends.get("scene", "")}, told)
+    look = {"label": label, "looks": looks, "scene": legends.get("scene", "")}
+    return Part("save", label, look | {"file": name, "plots": plots, "size": size})
 
 
 def of_plot(page: Any, plot: Plot, view: View) -> Part:

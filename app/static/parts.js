@@ -1,5 +1,5 @@
-// Parts of the page: `told` says what each is, `shown` how many messages are answered and what is seen. The server hears the
-// name of a part and what is done with it.
+// Parts of the page: `shown` says how many messages are answered and what is seen. The server hears the name of a part and
+// what is done with it. A part is made of what is told of it first; what may change later is shown by the function beside it.
 import { save } from "./save.js"
 
 const made = (tag, className, innerHTML = "") => Object.assign(document.createElement(tag), { className, innerHTML })
@@ -21,10 +21,10 @@ const KINDS = {
     return [el, ({ label, pressed, disabled }) => Object.assign(el, { textContent: label, name: label, disabled, ariaPressed: pressed })]
   },
   // A picture of plots, saved in the browser: each with its figure and its place.
-  save({ name, plots, size }, send, named) {
+  save({ file, plots, size }, send, named) {
     const [el, show] = KINDS.button({ key: "" })
     let [looks, scene] = [[], ""]
-    el.onclick = () => save(name, scene, plots.map(({ figure, place }, k) => ({ figure: named(figure), place, look: looks[k] })), size)
+    el.onclick = () => save(file, scene, plots.map(({ figure, place }, k) => ({ figure: named(figure), place, look: looks[k] })), size)
     return [el, (look) => { ({ looks, scene } = look); show(look) }]
   },
   // Radio buttons or a list, with an explanation in a popover.
@@ -128,9 +128,9 @@ export function render({ model, el, view }) {
     return asked += 1
   }
   const show = () => {
-    const told = JSON.parse(model.told), [answered, looks] = JSON.parse(model.shown)
-    const seen = looks.map(({ name, ...look }, k) => {
-      if (!parts.has(name)) parts.set(name, KINDS[told[name].kind]({ ...told[name], id: parts.size }, sender(name), named))
+    const [answered, looks] = JSON.parse(model.shown)
+    const seen = looks.map(({ kind, name, ...look }, k) => {
+      if (!parts.has(name)) parts.set(name, KINDS[kind]({ ...look, id: parts.size }, sender(name), named))
       const [part, shown] = parts.get(name)
       if (el.children[k] !== part) el.insertBefore(part, el.children[k] ?? null)
       shown(look, answered)

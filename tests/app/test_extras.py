@@ -75,7 +75,7 @@ def texts(page):
     def look():
         for parts in page.view.select(type(page.frame.header)):
             for part in parts.parts.values():
-                seen.update(strings([*part.told.values(), *part.look.values()]))
+                seen.update(strings(list(part.look.values())))
 
     for name, extra in sys.modules[type(page).__module__].EXTRAS.items():
         if extra.side:
