@@ -132,7 +132,7 @@ def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
     assert page.shown.computed["section"] == replace(COMPUTING, axes=first.axes)
     page.undo()
     assert page.shown.computed["section"] is first
-    page._state_chosen("value_throttled", page.shown.course.now, 5)
+    page.move(5)
     assert page.shown.computed["section"].note == "computing …"
     assert rested(page).rows["contact radius a"][0][0] == page.shown.course.state.contact_radius
 
@@ -170,10 +170,10 @@ def test_a_drag_that_returns_to_its_start_is_undone_with_what_was_before(page):
 
 def test_frames_stay_right_where_the_player_leaves_a_state_that_another_depth_has_not(page):
     """All states that the browser has are those of the server, until the scene is another."""
-    page._state_chosen("value_throttled", 0, 10)
+    page.move(10)
     put(page, "max_depth", 1.37e-8)
     count = len(page.shown.course)
-    page._state_chosen("value_throttled", page.shown.course.now, 60)
+    page.move(60)
     assert (len(page.shown.course), page.shown.course.now) == (count, 60)
     assert page.state.progress == page.shown.course.progress[60]
 

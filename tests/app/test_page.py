@@ -78,7 +78,7 @@ def test_the_page_opens_on_a_cone_that_has_yielded_and_says_what_everything_is(e
     for each in page.locator("input:visible, select:visible, textarea:visible").all():
         named = each.evaluate("(on) => on.ariaLabel || on.labels?.[0]?.textContent.trim()")
         assert named, each.evaluate("(on) => on.outerHTML")
-    assert page.get_by_label("State along the path").get_attribute("role") == "slider"
+    assert page.get_by_role("slider", name="State along the path").count() == 1
     page.get_by_label("What is q_c, yield constant?").click()
     about = explorer.number("q_c").locator(".about")
     assert "Hardness times contact radius" in about.inner_text()
@@ -114,11 +114,11 @@ def test_keys_player_and_hand_move_every_plot(explorer):
     assert explorer.readout("contact_radius") == "0"
     explorer.link("at=2.2")
     # A frame is the picture that the server draws of its state.
-    page.evaluate("explorer.model('state').value = 70")
+    page.evaluate("player.go(70)")
     explorer.wait("explorer.row('force', 'now')[1][0] > 0 && explorer.idle()")
     canvases = [page.locator(f".card.{name} canvas").first for name in ("springs", "pressure")]
     frame = [canvas.screenshot() for canvas in canvases]
-    page.evaluate("explorer.model('state').value_throttled = 70")
+    page.evaluate("player.rest()")
     assert explorer.link("at=0.")["at"] != "2.2"
     assert frame == [canvas.screenshot() for canvas in canvases]
     page.mouse.move(0, 0)
