@@ -10,8 +10,8 @@ from ..plot import View
 from ..plots import D, F, Z
 
 _HERE = Path(__file__).parent
-#: Script of the gestures, and that of fingers, which drag a plot by its mark alone. It is given `figures`, and
-#: as `dragging` their `path` and the `depth` that is asked for.
+#: Script of the gestures, and that of fingers, which drag a plot by its mark alone: it is given `figures`,
+#: and as `dragging` the `path` and the `depth` that is asked for.
 _DRAG = (_HERE / "drag.js").read_text(encoding="utf-8")
 TOUCH = (_HERE / "touch.js").read_text(encoding="utf-8")
 #: Plots that are dragged.

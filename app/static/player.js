@@ -1,16 +1,14 @@
 // The player: a button and a slider that move through the states of a scene, on the page and in a saved scene. Frames are
-// sources and, as one text, what these have in each state. `ask` is called with null when it begins to move, and with the
-// state in which it ends. Other scripts find it as `player`.
+// sources and, as one text, what they have in each state. `ask` is called with null when a move begins, and with the state
+// in which it ends; `say` shows readouts. Other scripts find it as `player`.
 export function make_player({ figures, say, ask }) {
   const el = Object.assign(document.createElement("div"), { className: "player" })
   el.innerHTML = `<button class="act"></button><input type="range" aria-label="State along the path">`
   const [button, range] = el.children
   let [value, moving, sources, sent, wait] = [0, false, [], null, null]
-  const place = (k) => {
+  const stand = (k) => {
     range.value = value = Math.min(k, range.max)
     range.style.setProperty("--share", value / range.max)
-  }
-  const draw = () => {
     if (!sent) return
     sources.forEach((source, n) => { source.data = { ...source.data, ...sent.pictures[value][n] } })
     say(sent.words[value])
@@ -20,15 +18,9 @@ export function make_player({ figures, say, ask }) {
   const move = (k) => {
     if (!moving) ask(null)
     moving = true
-    if (k === value) return
-    place(k)
-    draw()
+    if (k !== value) stand(k)
   }
-  const rest = () => {
-    if (moving) ask(value)
-    moving = false
-  }
-  const turn = (playing) => Object.assign(button, { ariaPressed: playing, textContent: playing ? "❚❚ Pause" : "▶ Play" })
+  const turn = (on) => Object.assign(button, { ariaPressed: on, textContent: on ? "❚❚ Pause" : "▶ Play" })
   const play = () => {
     let begin = null
     const step = (now) => {
@@ -44,53 +36,49 @@ export function make_player({ figures, say, ask }) {
     move(value)
     requestAnimationFrame(step)
   }
-  const told = (words, count) => [...words.matchAll(/data-name="(\w+)">([^<]*)/g)].slice(0, count)
-    .map(([, name, number]) => `${name.replaceAll("_", " ")} ${number}`).join(", ")
   const player = {
     el,
-    rest,
     get value() { return value },
     get playing() { return button.ariaPressed === "true" },
     go(k) {
       turn(false)
       move(k)
     },
-    // Another scene, or another state of it, which is drawn already.
+    rest() {
+      if (!moving || player.playing) return
+      moving = false
+      ask(value)
+    },
+    // The course of the scene, and the state that the server has drawn.
     show({ last, now }) {
       range.max = last
-      place(moving ? value : now)
+      stand(moving ? value : now)
     },
     take([those, text]) {
       sources = those
       // A gap in a line is null in a text, which would be drawn as zero.
       sent = text && JSON.parse(text, (_, part) => part ?? NaN)
       if (sent) player.show({ last: sent.times.length - 1, now: value })
-      draw()
     },
-    // What is seen in words (HTML): the slider says it at once, the plots once they rest.
+    // Readouts (HTML) in words: of the slider at once, of the plots once they rest.
     tell(words) {
-      range.ariaValueText = told(words, 2)
+      const told = Array.from(words.matchAll(/data-name="(\w+)">([^<]*)/g), ([, name, text]) => `${name.replaceAll("_", " ")} ${text}`)
+      range.ariaValueText = told.slice(0, 2).join(", ")
       clearTimeout(wait)
-      wait = setTimeout(() => {
-        const views = figures.map((figure) => Bokeh.index.find_one(figure))
-        // Plots are there later than the player.
-        if (!views.every(Boolean)) return player.tell(words)
-        for (const view of views) view.el.ariaDescription = told(words)
-      }, 300)
+      wait = setTimeout(() => figures.forEach((figure) => { Bokeh.index.find_one(figure).el.ariaDescription = told.join(", ") }), 300)
     },
   }
   turn(false)
   range.oninput = () => player.go(range.valueAsNumber)
-  range.onchange = rest
+  range.onchange = player.rest
   button.onclick = () => {
     if (!player.playing) return play()
-    turn(false)
-    rest()
+    player.go(value)
+    player.rest()
   }
   document.addEventListener("keydown", (event) => {
-    const [on] = event.composedPath()
     if (event.key !== " " || event.ctrlKey || event.altKey || event.metaKey) return
-    if (on.matches?.("button, summary, select, textarea, input:not([type=range])")) return
+    if (event.composedPath()[0].matches?.("button, summary, select, textarea, input:not([type=range])")) return
     event.preventDefault()
     button.click()
   })

@@ -178,6 +178,35 @@ def test_frames_stay_right_where_the_player_leaves_a_state_that_another_depth_ha
     assert page.state.progress == page.shown.course.progress[60]
 
 
+def test_frames_are_those_of_the_scene_while_the_player_moves(page):
+    """One for each state, also where the course becomes another; at rest frames of others are dropped."""
+
+    def states():
+        return [len(json.loads(text)["words"]) for text in page.messages.frames[1:]]
+
+    page.move(None)
+    assert states() == [len(page.shown.course)]
+    sent = page.messages.frames
+    page.move(5)
+    assert page.shown.course.now == 5
+    page.move(None)
+    assert page.messages.frames is sent
+    page.apply(lambda state: changes.choose(state, "drive", "impact"))
+    assert page.messages.frames != sent
+    assert states() == [len(page.shown.course)]
+    page.move(5)
+    put(page, "mass", 2.0)
+    assert page.messages.frames == []
+
+
+def test_a_state_that_the_player_has_not_changes_nothing(page):
+    before = page.state
+    for message in (len(page.shown.course), -1, 10**400, 2.5, "5", [5], {"now": 5}):
+        page.move(message)
+    assert page.state == before
+    assert page.messages.frames == []
+
+
 @pytest.mark.parametrize(
     ("query", "name", "value"),
     [

@@ -90,6 +90,36 @@ def test_the_page_opens_on_a_cone_that_has_yielded_and_says_what_everything_is(e
     assert re.fullmatch(r"d = [\d.]+ nm", tip[2])
 
 
+def test_it_plays_by_the_space_bar_also_while_the_scene_changes(explorer):
+    """From the end of the path it begins anew; where it pauses is the state of the page and its link."""
+    page = explorer.page
+    slider, play = page.get_by_label("State along the path"), page.locator(".player button")
+    plot = "Bokeh.index.find_one(explorer.model('force')).el"
+    explorer.wait(f"{plot}.ariaDescription?.includes('depth 8.978 nm')")
+    assert slider.get_attribute("aria-valuetext") == "force 4.514 µN, depth 8.978 nm"
+    slider.press("End")
+    explorer.wait("explorer.played() && explorer.idle()")
+    slider.press("Space")
+    assert play.inner_text() == "❚❚ Pause"
+    explorer.wait("explorer.row('force', 'now')[1][0] > 0")
+    explorer.slider("q_c").press("PageUp")
+    explorer.wait("explorer.played() && explorer.idle()")
+    assert play.inner_text() == "❚❚ Pause"
+    seen = now(explorer)
+    explorer.wait("(depth) => Math.abs(explorer.row('force', 'now')[0][0] - depth) > 0.5", seen[0] * 1e9)
+    # Long before the end, which is the state that the link has.
+    explorer.wait("player.value > 5 && player.value < 40")
+    explorer.change(play.click)
+    assert play.inner_text() == "▶ Play"
+    stopped, words = slider.input_value(), slider.get_attribute("aria-valuetext")
+    drawn, text = now(explorer), explorer.readout("depth")
+    assert words.endswith(f"depth {text}")
+    explorer.goto(page.url)
+    assert slider.input_value() == stopped
+    assert now(explorer) == drawn
+    assert explorer.readout("depth") == text
+
+
 def test_keys_player_and_hand_move_every_plot(explorer):
     """Playing needs no server; the indenter and the mark are dragged."""
     page = explorer.page

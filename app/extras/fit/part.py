@@ -28,7 +28,7 @@ from .words import result, unloading
 #: Names of files of measured curves.
 _KINDS = ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx,.jpk-force,.jpk-force-map,.jpk-qi-data,.h5,.ibw,.zip"
 #: The look of the slider of two handles.
-_SLIDER = Path(__file__).with_name("slider.css").read_text(encoding="utf-8")
+_SLIDER = {"stylesheets": [Path(__file__).with_name("slider.css").read_text(encoding="utf-8")]}
 #: Script of the button that copies the report: as text, and as tables where they are pasted into one.
 COPY = """
 const report = document.createElement("div")
@@ -87,8 +87,7 @@ class Fitting:
         head = html("<h2>Samples that are fitted</h2>", "title")
         self._samples = pn.Column(head, self._parts, self._ends, **WIDE)
         self.samples = field(
-            pn.widgets.IntRangeSlider, "slider", label="Samples", start=1, end=2, show_value=False,
-            stylesheets=[_SLIDER],
+            pn.widgets.IntRangeSlider, label="Samples", start=1, end=2, show_value=False, **_SLIDER
         )
         self.samples.param.watch(
             lambda event: self._choose(choose_samples, *event.new, mark="fit.samples"), "value"
