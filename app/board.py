@@ -1,4 +1,4 @@
-"""The board on the right: plots in frames with title, formula and legend; their tabs, and the player."""
+"""The board on the right: plots in frames with title, formula and legend; and their tabs."""
 
 from functools import partial
 from typing import Any
@@ -8,7 +8,6 @@ import panel as pn
 from .draw import Picture, drawn, legend, picture_of
 from .extra import EXTRAS
 from .parts import Parts, button, text
-from .player import Player
 from .plot import Plot, View
 from .plots import NAMED, PLOTS, visible
 from .ui import FULL, html, linked, reveal, show
@@ -58,7 +57,6 @@ class Board:
         self.grid = pn.Column(css_classes=["plots"], **FULL)
         for name in NAMED:
             self._make(name)
-        self.player = Player(page.messages)
 
     def _make(self, name):
         card = self.cards[name] = Card(PLOTS[name], self._page)

@@ -6,9 +6,11 @@ from typing import Any
 
 import panel as pn
 
+from . import readouts
 from .extra import EXTRAS, Extra, Side
 from .fields import Form
 from .parts import Part, Parts, button, text
+from .player import player
 from .plot import View
 from .ui import FULL, LAYOUT, html, reveal, show
 
@@ -29,11 +31,12 @@ class Frame:
         self.header = Parts("header", "bar", stylesheets=LAYOUT)
         self.tabs = Parts("bar", "sides", stylesheets=LAYOUT)
         self.line = Parts("top", stylesheets=LAYOUT)
+        self.player = Parts("player", stylesheets=LAYOUT)
         self.below = html("", "lights")
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
         self._side = pn.Column(self.tabs, self.form.view, **look)
         board = page.board
-        plots = (self.line, board.player.view, self.below, board.grid, board.tabs)
+        plots = (self.line, self.player, self.below, board.grid, board.tabs)
         results = pn.Column(*plots, css_classes=["results"], **FULL)
         columns = pn.Row(self._side, results, css_classes=["columns"], **FULL)
         self.view = pn.Column(self.header, columns, css_classes=["page"], **FULL)
@@ -65,8 +68,11 @@ class Frame:
         buttons = self._buttons(view, "header", "above")
         self.header.show([_TITLE, page.choice("preset"), undo, redo, *buttons])
         self.tabs.show([*self._buttons(view, "side")])
-        heads = text("heads", page.board.player.heads, "heads")
+        numbers = readouts.line(view.course)
+        heads = text("heads", readouts.heads(numbers), "heads")
+        page.messages.words = readouts.values(numbers, view.course.now)
         self.line.show([heads, _WORDS, *self._buttons(view, "line")])
+        self.player.show([player(view, page.move)])
         for name, part in self.parts.items():
             place = self._offers[name].place
             column = self._side if place in ("side", "above") else self.view

@@ -19,6 +19,7 @@ from .extra import EXTRAS
 from .fields import Field
 from .frame import Frame
 from .parts import Part, choice
+from .player import frames
 from .plot import View
 from .plots import visible
 from .quantities import in_words
@@ -69,6 +70,8 @@ class Page:
         self.state = preset_state()
         self.shown: View | None = None
         self._waiting = None
+        # Whether the player moves, which needs frames of each scene that is shown.
+        self._moving = False
         # Whether the address holds a link that was not opened.
         self._refused = False
         self._fields: dict[str, Field] = {}
@@ -97,10 +100,6 @@ class Page:
             self.notify(f"The link was not opened: {self.refusal(error)}")
 
     def _watch(self):
-        player = self.board.player
-        player.state.on_change("value_throttled", self._state_chosen)
-        player.state.on_change("value", self._slider_moved)
-        player.play.on_change("active", lambda attr, old, new: new and self._send())
         self.messages.on_change("dark", self._theme_chosen)
         told = CustomJS(code=JS["tell"])
         self.messages.js_on_change("address", told)
@@ -222,9 +221,8 @@ class Page:
         columns = self.board.columns(view)
         self.state, self.shown = state, view
         self.board.show(columns, view)
-        self.board.player.show(view, now is not None)
-        if self.board.player.play.active:
-            self._send()
+        if now is None:
+            self._send_frames()
         self.messages.dark = state.dark
         self._schedule()
         self.refresh()
@@ -239,20 +237,18 @@ class Page:
 
     # The player.
 
-    def _slider_moved(self, attr, old, new):
-        if int(new) != self.shown.course.now:
-            self._send()
+    def _send_frames(self):
+        """Send all states of the course while the player moves, else drop those of another."""
+        self.messages.frames = [*frames(self.shown, self.board.pictures())] if self._moving else []
 
-    def _send(self):
-        self.board.player.send(self.shown, self.board.pictures())
-
-    @pn.io.hold()
-    def _state_chosen(self, attr, old, new):
-        """Accept the state chosen with the player; frames that the browser has stay."""
+    def move(self, message: int | None) -> None:
+        """Send frames when the player begins to move (None); accept the state in which it ends."""
         course = self.shown.course
-        now = min(int(new), len(course) - 1)
-        if now != course.now:
-            self.draw(self.state.replace(progress=float(course.progress[now])), now)
+        self._moving = message is None
+        if self._moving and not self.messages.frames:
+            self._send_frames()
+        elif isinstance(message, int) and message in range(len(course)) and message != course.now:
+            self.draw(self.state.replace(progress=float(course.progress[message])), message)
 
     # Updates when the input rests.
 

@@ -1,15 +1,13 @@
 """The player: it moves through the states of a scene in the browser."""
 
 import json
+from collections.abc import Callable
 from typing import Any
-
-import panel as pn
-from bokeh.models import CustomJS, ImportedStyleSheet, Row, Slider, Toggle
 
 from . import readouts
 from .draw import Picture
+from .parts import Part
 from .plot import View
-from .ui import JS, LAYOUT, SHEETS, WIDE, Messages
 
 
 def frames(view: View, pictures: list[Picture]) -> tuple[list[Any], str]:
@@ -25,43 +23,10 @@ def frames(view: View, pictures: list[Picture]) -> tuple[list[Any], str]:
     return [source for frame in found[0] for source in frame], json.dumps(sent).replace("NaN", "null")
 
 
-class Player:
-    """Moves through the states of a scene in the browser, from frames that are sent once."""
+def player(view: View, move: Callable[[Any], None]) -> Part:
+    """A button and a slider that move through the states of a view, in the browser.
 
-    def __init__(self, messages: Messages):
-        sheets = [ImportedStyleSheet(url=url) for url in SHEETS]
-        look = {"css_classes": ["button", "key-space"], "stylesheets": sheets, "margin": 0}
-        self.play = Toggle(label="▶ Play", name="play", width=84, **look)
-        look = WIDE | {
-            "stylesheets": sheets,
-            "show_value": False,
-            "title": None,
-            "tooltips": False,
-            "css_classes": ["slider"],
-        }
-        self.state = Slider(start=0, end=1, value=1, step=1, name="state", **look)
-        #: Heads of the readouts (HTML).
-        self.heads = ""
-        self._messages = messages
-        code = CustomJS(code=JS["named"] + JS["player"])
-        self.state.js_on_change("value", code)
-        messages.js_on_change("frames", code)
-        self.play.js_on_change("active", code)
-        row = Row(self.play, self.state, css_classes=["player"], stylesheets=LAYOUT, **WIDE)
-        self.view = pn.pane.Bokeh(row, **WIDE)
-
-    def show(self, view: View, moved: bool) -> None:
-        """Show the present state of a course and its readouts; drop frames unless it has only moved."""
-        course, i = view.course, view.course.now
-        numbers = readouts.line(course)
-        if not moved:
-            self._messages.frames = []
-        self.state.update(end=len(course) - 1, value=i)
-        self.heads = readouts.heads(numbers)
-        self._messages.words = readouts.values(numbers, i)
-
-    def send(self, view: View, pictures: list[Picture]) -> None:
-        """Send all states, once."""
-        if not self._messages.frames:
-            # As one text: Bokeh would look at every number of it.
-            self._messages.frames = [*frames(view, pictures)]
+    `move` is called with None when one of them begins to, and with the index of the state in which it ends.
+    """
+    look = {"last": len(view.course) - 1, "now": view.course.now}
+    return Part("player", "player", look, act=move)

@@ -141,7 +141,7 @@ def test_the_site_is_built_without_warnings_and_its_links_lead_somewhere(tmp_pat
     assert len(pages) > len(EXAMPLES)
     # A scene to play stands on the first page, with its plots and the frames of its slider.
     assert "scene.html" in pages[(tmp_path / "site" / "index.html").resolve()].loaded
-    assert {"state", "play", "readout"} <= pages[(tmp_path / "site" / "scene.html").resolve()].anchors
+    assert {"player", "readout"} <= pages[(tmp_path / "site" / "scene.html").resolve()].anchors
     for page, found in pages.items():
         for link in found.links + found.loaded:
             target, _, anchor = unquote(link).partition("#")

@@ -19,9 +19,6 @@ from ..plots import Z
 from ..quantities import QUANTITIES
 from ..shared.dragging import DRAGGED, TOUCH, let_drag, path
 from ..state import State, checked, medium
-from ..ui import JS
-
-_FIND = JS["named"] + 'const dragging = figure.document.get_model_by_name("dragging")\n'
 
 
 class Hand(DataModel):
@@ -39,9 +36,10 @@ class Dragging(Service):
         self.hand.on_change("depth", self._dragged)
         figures = [page.board.cards[name].picture.figure for name in DRAGGED]
         for figure in figures:
-            let_drag(figure, {}, _FIND)
+            let_drag(figure)
         page.document.add_root(self.hand)
-        page.document.js_on_event(DocumentReady, CustomJS(args={"figures": figures}, code=TOUCH))
+        args = {"figures": figures, "dragging": self.hand}
+        page.document.js_on_event(DocumentReady, CustomJS(args=args, code=TOUCH))
 
     def _dragged(self, attr, old, new):
         if isinstance(new, int | float):

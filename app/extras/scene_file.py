@@ -30,14 +30,14 @@ from ..quantities import CHOICES, LABELS, QUANTITIES, SHAPES
 from ..shared.dragging import DRAGGED, TOUCH, let_drag, path
 from ..shared.summary import summary
 from ..state import MEDIUM_CHOICES, PRESETS, YIELD_CONSTANT, State, altered, used
-from ..ui import CSS, JS, marked, symbol
+from ..ui import CSS, HERE, marked, symbol
 
 _HERE = Path(__file__)
 _TEMPLATE = _HERE.with_suffix(".html").read_text(encoding="utf-8")
+_PLAYER = (HERE / "static" / "player.js").read_text(encoding="utf-8").replace("export ", "")
 #: The page's scripts of player and touch as functions, and what calls them.
-_CODE = f"""
-const moved = (cb_obj) => {{\n{JS["player"]}\n}}
-const touched = (figures) => {{\n{TOUCH}\n}}
+_CODE = f"""{_PLAYER}
+const touched = (figures, dragging) => {{\n{TOUCH}\n}}
 {_HERE.with_suffix(".js").read_text(encoding="utf-8")}"""
 #: Columns of a source that are of another colour in the dark.
 _COLOURS = ("color", "edge", "ground")
@@ -76,8 +76,6 @@ def scene_file(view: View) -> str:
         # Links of explanations lead to pages of the server.
         "heads": re.sub(r"</?a\b[^>]*>", "", readouts.heads(numbers)),
         "readout": readouts.values(numbers, course.now),
-        "last": len(course) - 1,
-        "now": course.now,
         "plots": [_card(view, picture.plot) for picture in pictures],
         "folded": list(_folded(view)),
         "link": escape(address(state)),
@@ -105,14 +103,15 @@ def _connect(document: Document, view: View, pictures: list[Picture]) -> None:
         "layers": [source for source, _ in columns],
         "looks": looks,
         "papers": [ROLES["paper"][dark] for dark in (False, True)],
-        "path": path(view) | {"pressing": False},
+        "dragging": {"path": path(view) | {"pressing": False}},
+        "look": {"last": len(view.course) - 1, "now": now},
         # A tenth of its size.
         "packed": b64encode(compress(sent.encode(), 9)).decode(),
     }
     document.js_on_event(DocumentReady, CustomJS(args=told, code=_CODE))
     for picture in pictures:
         if picture.plot.name in DRAGGED:
-            let_drag(picture.figure, {"figure": picture.figure})
+            let_drag(picture.figure)
 
 
 def _folded(view: View) -> Iterator[tuple[str, str]]:

@@ -1,7 +1,7 @@
 // A drag takes the indenter along, or the mark on the curve: to another depth when pressing, else to the nearest state.
-const { name, x_range: x, y_range: y, inner_height } = figure
+const figure = cb_obj.origin, { name, x_range: x, y_range: y, inner_height } = figure
 const { d, F, unit, pressing } = dragging.path, wide = (range) => range.end - range.start
-const [begin, depth, pixel] = cb_obj.event_name === "panstart" ? [cb_obj.sy, d[state.value] * unit, wide(y) / inner_height] : figure.tags
+const [begin, depth, pixel] = cb_obj.event_name === "panstart" ? [cb_obj.sy, d[player.value] * unit, wide(y) / inner_height] : figure.tags
 figure.setv({ tags: [begin, depth, pixel] }, { sync: false })
 const wish = Math.max(depth + (cb_obj.sy - begin) * pixel, 1e-3 * wide(y))
 const end = cb_obj.event_name === "panend"
@@ -10,12 +10,10 @@ if (!figure.held && !end) return
 if (name === "springs" && pressing) {
   // One request at a time: the server empties it once it has drawn.
   if (figure.held && (end || dragging.depth === null)) dragging.depth = wish
-} else if (end) state.value_throttled = state.value
+} else if (end) player.rest()
 else {
   const near = name === "springs" ? (k) => Math.abs(d[k] * unit - wish) / wide(y)
     : (k) => Math.hypot((d[k] - cb_obj.x) / wide(x), (F[k] - cb_obj.y) / wide(y))
-  const away = d.map((_, k) => near(k) + 1e-4 * Math.abs(k - state.value))
-  play.active = false
-  // The first move asks for the states that are to be shown.
-  state.setv({ value: away.indexOf(Math.min(...away)) }, { sync: !messages.frames.length })
+  const away = d.map((_, k) => near(k) + 1e-4 * Math.abs(k - player.value))
+  player.go(away.indexOf(Math.min(...away)))
 }

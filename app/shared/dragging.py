@@ -10,7 +10,8 @@ from ..plot import View
 from ..plots import D, F, Z
 
 _HERE = Path(__file__).parent
-#: Script of the gestures, and that of fingers, which drag a plot by its mark alone.
+#: Script of the gestures, and that of fingers, which drag a plot by its mark alone: it is given `figures`,
+#: and as `dragging` the `path` and the `depth` that is asked for.
 _DRAG = (_HERE / "drag.js").read_text(encoding="utf-8")
 TOUCH = (_HERE / "touch.js").read_text(encoding="utf-8")
 #: Plots that are dragged.
@@ -25,7 +26,7 @@ def path(view: View) -> dict[str, Any]:
     return found | {"unit": d / view.axis(Z).factor, "pressing": course.pressed}
 
 
-def let_drag(figure: Any, args: dict[str, Any], before: str = "") -> None:
-    """Let a figure be dragged: arguments of the script, and a script before it, find what is moved."""
+def let_drag(figure: Any) -> None:
+    """Let a figure be dragged."""
     for event in (PanStart, Pan, PanEnd):
-        figure.js_on_event(event, CustomJS(args=args, code=before + _DRAG))
+        figure.js_on_event(event, CustomJS(code=_DRAG))

@@ -1,4 +1,5 @@
 // A finger drags a plot by its mark alone, within 24 pixels of it; elsewhere it scrolls the page. A mouse drags anywhere.
+window.dragging = dragging
 for (const figure of figures) {
   const view = Bokeh.index.find_one(figure), { el } = view
   const at_mark = ({ clientX, clientY }) => {

@@ -1,5 +1,6 @@
 // Parts of the page: `shown` says how many messages are answered and what is seen. The server hears the name of a part and
 // what is done with it. A part is made of what is told of it first; what may change later is shown by the function beside it.
+import { make_player } from "./player.js"
 import { save } from "./save.js"
 
 const made = (tag, className, innerHTML = "") => Object.assign(document.createElement(tag), { className, innerHTML })
@@ -103,6 +104,20 @@ const KINDS = {
       show()
       if (wish !== null && !busy()) ask(wish)
     }]
+  },
+  player(_, send, named) {
+    const messages = named("messages"), { frames, words } = messages.properties
+    let asked = 0
+    const player = make_player({
+      figures: ["springs", "pressure", "force"].map(named),
+      say: (said) => messages.setv({ words: said }, { sync: false }),
+      ask: (what) => { asked = send(what) },
+    })
+    frames.change.connect(() => player.take(messages.frames))
+    words.change.connect(() => player.tell(messages.words))
+    player.tell(messages.words)
+    // An answer to an earlier move, or another change of the page, does not undo the last one.
+    return [player.el, (look, answered) => { if (answered >= asked) player.show(look) }]
   },
   // A file, chosen or dropped. Its size is looked at first: a message that is too large ends the session.
   file({ label, accept, most, id }, send) {

@@ -282,7 +282,7 @@ def opened(browser):
         files = []
 
         def open_file(path):
-            ready = "document.querySelector('#state')?.disabled === false"
+            ready = "document.querySelector('#player input')"
             files.append(Explorer(context.new_page(), path.as_uri(), ready))
             return files[-1]
 

@@ -132,7 +132,7 @@ def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
     assert page.shown.computed["section"] == replace(COMPUTING, axes=first.axes)
     page.undo()
     assert page.shown.computed["section"] is first
-    page._state_chosen("value_throttled", page.shown.course.now, 5)
+    page.move(5)
     assert page.shown.computed["section"].note == "computing …"
     assert rested(page).rows["contact radius a"][0][0] == page.shown.course.state.contact_radius
 
@@ -170,12 +170,41 @@ def test_a_drag_that_returns_to_its_start_is_undone_with_what_was_before(page):
 
 def test_frames_stay_right_where_the_player_leaves_a_state_that_another_depth_has_not(page):
     """All states that the browser has are those of the server, until the scene is another."""
-    page._state_chosen("value_throttled", 0, 10)
+    page.move(10)
     put(page, "max_depth", 1.37e-8)
     count = len(page.shown.course)
-    page._state_chosen("value_throttled", page.shown.course.now, 60)
+    page.move(60)
     assert (len(page.shown.course), page.shown.course.now) == (count, 60)
     assert page.state.progress == page.shown.course.progress[60]
+
+
+def test_frames_are_those_of_the_scene_while_the_player_moves(page):
+    """One for each state, also where the course becomes another; at rest frames of others are dropped."""
+
+    def states():
+        return [len(json.loads(text)["words"]) for text in page.messages.frames[1:]]
+
+    page.move(None)
+    assert states() == [len(page.shown.course)]
+    sent = page.messages.frames
+    page.move(5)
+    assert page.shown.course.now == 5
+    page.move(None)
+    assert page.messages.frames is sent
+    page.apply(lambda state: changes.choose(state, "drive", "impact"))
+    assert page.messages.frames != sent
+    assert states() == [len(page.shown.course)]
+    page.move(5)
+    put(page, "mass", 2.0)
+    assert page.messages.frames == []
+
+
+def test_a_state_that_the_player_has_not_changes_nothing(page):
+    before = page.state
+    for message in (len(page.shown.course), -1, 10**400, 2.5, "5", [5], {"now": 5}):
+        page.move(message)
+    assert page.state == before
+    assert page.messages.frames == []
 
 
 @pytest.mark.parametrize(

@@ -51,7 +51,7 @@ def test_a_newcomer_takes_the_scene_home(explorer, opened, tmp_path):
     # Where it was left, and in a state that is elastic still: the same numbers, and the same is drawn.
     for number in (None, 20):
         if number is not None:
-            page.evaluate("(number) => { explorer.model('state').value = number }", number)
+            page.get_by_label("State along the path").fill(str(number))
             explorer.wait("explorer.played() && explorer.idle()")
             taken.page.get_by_label("State along the path").fill(str(number))
         here, there = (each.page.locator("output").all_inner_texts() for each in (explorer, taken))

@@ -78,7 +78,7 @@ def test_the_page_opens_on_a_cone_that_has_yielded_and_says_what_everything_is(e
     for each in page.locator("input:visible, select:visible, textarea:visible").all():
         named = each.evaluate("(on) => on.ariaLabel || on.labels?.[0]?.textContent.trim()")
         assert named, each.evaluate("(on) => on.outerHTML")
-    assert page.get_by_label("State along the path").get_attribute("role") == "slider"
+    assert page.get_by_role("slider", name="State along the path").count() == 1
     page.get_by_label("What is q_c, yield constant?").click()
     about = explorer.number("q_c").locator(".about")
     assert "Hardness times contact radius" in about.inner_text()
@@ -88,6 +88,36 @@ def test_the_page_opens_on_a_cone_that_has_yielded_and_says_what_everything_is(e
     tip = explorer.hover("radii", "plastic zone c", len(c) * 2 // 3)
     assert re.fullmatch(r"c = [\d.]+ nm", tip[1])
     assert re.fullmatch(r"d = [\d.]+ nm", tip[2])
+
+
+def test_it_plays_by_the_space_bar_also_while_the_scene_changes(explorer):
+    """From the end of the path it begins anew; where it pauses is the state of the page and its link."""
+    page = explorer.page
+    slider, play = page.get_by_label("State along the path"), page.locator(".player button")
+    plot = "Bokeh.index.find_one(explorer.model('force')).el"
+    explorer.wait(f"{plot}.ariaDescription?.includes('depth 8.978 nm')")
+    assert slider.get_attribute("aria-valuetext") == "force 4.514 µN, depth 8.978 nm"
+    slider.press("End")
+    explorer.wait("explorer.played() && explorer.idle()")
+    slider.press("Space")
+    assert play.inner_text() == "❚❚ Pause"
+    explorer.wait("explorer.row('force', 'now')[1][0] > 0")
+    explorer.slider("q_c").press("PageUp")
+    explorer.wait("explorer.played() && explorer.idle()")
+    assert play.inner_text() == "❚❚ Pause"
+    seen = now(explorer)
+    explorer.wait("(depth) => Math.abs(explorer.row('force', 'now')[0][0] - depth) > 0.5", seen[0] * 1e9)
+    # Long before the end, which is the state that the link has.
+    explorer.wait("player.value > 5 && player.value < 40")
+    explorer.change(play.click)
+    assert play.inner_text() == "▶ Play"
+    stopped, words = slider.input_value(), slider.get_attribute("aria-valuetext")
+    drawn, text = now(explorer), explorer.readout("depth")
+    assert words.endswith(f"depth {text}")
+    explorer.goto(page.url)
+    assert slider.input_value() == stopped
+    assert now(explorer) == drawn
+    assert explorer.readout("depth") == text
 
 
 def test_keys_player_and_hand_move_every_plot(explorer):
@@ -114,11 +144,11 @@ def test_keys_player_and_hand_move_every_plot(explorer):
     assert explorer.readout("contact_radius") == "0"
     explorer.link("at=2.2")
     # A frame is the picture that the server draws of its state.
-    page.evaluate("explorer.model('state').value = 70")
+    page.evaluate("player.go(70)")
     explorer.wait("explorer.row('force', 'now')[1][0] > 0 && explorer.idle()")
     canvases = [page.locator(f".card.{name} canvas").first for name in ("springs", "pressure")]
     frame = [canvas.screenshot() for canvas in canvases]
-    page.evaluate("explorer.model('state').value_throttled = 70")
+    page.evaluate("player.rest()")
     assert explorer.link("at=0.")["at"] != "2.2"
     assert frame == [canvas.screenshot() for canvas in canvases]
     page.mouse.move(0, 0)

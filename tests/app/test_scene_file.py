@@ -119,7 +119,7 @@ def test_every_row_is_drawn_as_on_the_page(saved):
 def test_it_plays_is_dragged_and_turns_dark(saved):
     """As the page does, with the mouse and with keys."""
     page = saved.page
-    slider, play = page.get_by_label("State along the path"), page.locator("#play")
+    slider, play = page.get_by_label("State along the path"), page.locator(".player button")
     go(saved, 80)
     before = saved.row("force", "now")
     saved.drag("force", (-0.3, 0.3))
@@ -172,13 +172,13 @@ def test_it_fits_a_slide_and_a_phone(saved):
     saved.wait("explorer.model('force').inner_width < 330")
     assert page.evaluate("document.documentElement.scrollWidth") == 390
     assert page.locator("output:visible").count() == page.locator(".strip .word:visible").count() == 8
-    for control in ("#state", "#play", "#dark"):
+    for control in (".player input", ".player button", "#dark"):
         assert page.locator(control).bounding_box()["height"] >= 44
     assert page.locator(".card.springs").bounding_box()["y"] < 300
     # The slider stays in sight of every plot.
     page.locator(".card.force").scroll_into_view_if_needed()
     assert page.evaluate("scrollY") > 200
-    assert 0 <= page.locator("#state").bounding_box()["y"] < 44
+    assert 0 <= page.locator(".player input").bounding_box()["y"] < 44
     page.set_viewport_size({"width": 1280, "height": 720})
 
 

@@ -64,7 +64,7 @@ HOOK = """(names) => {
 
 # A hand on the slider of a saved scene: a browser passes one move on in each frame.
 HAND = """(seconds) => new Promise((done) => {
-  const slider = document.querySelector("#state"), begin = performance.now()
+  const slider = document.querySelector(".player input"), begin = performance.now()
   const move = (now) => {
     const time = (now - begin) / 1000
     slider.value = slider.max * (0.5 + 0.4 * Math.sin(4 * time))
@@ -135,7 +135,7 @@ def smoothness(browser, url):
         rate = frames_per_second(page, partial(drag, page, symbol))
         print(f"drag, {name}: {rate:.0f} pictures/s", flush=True)
         if not query:
-            play = page.locator(".key-space button")
+            play = page.locator(".player button")
             begin = time.perf_counter()
             play.click()
             page.wait_for_function("explorer.played()", polling=20)
@@ -155,10 +155,10 @@ def saved_scenes(browser):
             page = browser.new_page(viewport={"width": 1280, "height": 720})
             page.add_init_script(SCRIPT)
             page.goto(path.as_uri())
-            page.wait_for_function("document.querySelector('#state')?.disabled === false")
+            page.wait_for_function("document.querySelector('#player input')")
             page.evaluate(HOOK, FIGURES)
             dragged = frames_per_second(page, partial(page.evaluate, HAND, 3))
-            page.locator("#play").click()
+            page.locator(".player button").click()
             played = frames_per_second(page, partial(page.wait_for_timeout, 3000))
             size = path.stat().st_size / 1e6
             print(f"{name}, as a file of {size:.2f} MB: {dragged:.0f} and {played:.0f} pictures/s")

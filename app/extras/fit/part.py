@@ -3,6 +3,7 @@
 from functools import partial
 from html import escape
 from io import StringIO
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -26,6 +27,8 @@ from .words import result, unloading
 
 #: Names of files of measured curves.
 _KINDS = ".csv,.txt,.dat,.tab,text/csv,.xls,.xlsx,.jpk-force,.jpk-force-map,.jpk-qi-data,.h5,.ibw,.zip"
+#: The look of the slider of two handles.
+_SLIDER = {"stylesheets": [Path(__file__).with_name("slider.css").read_text(encoding="utf-8")]}
 #: Script of the button that copies the report: as text, and as tables where they are pasted into one.
 COPY = """
 const report = document.createElement("div")
@@ -84,7 +87,7 @@ class Fitting:
         head = html("<h2>Samples that are fitted</h2>", "title")
         self._samples = pn.Column(head, self._parts, self._ends, **WIDE)
         self.samples = field(
-            pn.widgets.IntRangeSlider, "slider", label="Samples", start=1, end=2, show_value=False
+            pn.widgets.IntRangeSlider, label="Samples", start=1, end=2, show_value=False, **_SLIDER
         )
         self.samples.param.watch(
             lambda event: self._choose(choose_samples, *event.new, mark="fit.samples"), "value"
