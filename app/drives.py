@@ -19,6 +19,7 @@ from .state import State, medium, profile, with_derived
 _SPREAD = (1 - np.cos(np.linspace(0, np.pi, 41))) / 2
 #: Instants of an impact, and more of them up to the onset of yield, which a fast one passes in one step.
 INSTANTS, BEFORE_YIELD = 120, 20
+#: What is said of a captured body.
 _HELD = "Adhesion holds the body: e = 0. Unloading is drawn as if it were pulled off."
 
 
@@ -52,10 +53,10 @@ def limited_force(turning_point):
 
 
 def slow(scene: mdr.Scene, progress: float, turning_point: mdr.Indentation) -> Course:
-    """Loading to a state, unloading to the pull-off, and lifting to the undeformed surface."""
+    """Loading to a state, unloading to the loss of contact, and lifting to the undeformed surface."""
     depth = float(turning_point.depth)
-    share = min(onset_depth(scene) / depth, 1.0) if depth > 0 else 1.0
-    loading = np.concatenate([share * _SPREAD, share + (1 - share) * _SPREAD])
+    elastic = min(onset_depth(scene) / depth, 1.0) if depth > 0 else 1.0
+    loading = np.concatenate([elastic * _SPREAD, elastic + (1 - elastic) * _SPREAD])
     # With adhesion the force jumps to zero at the pull-off.
     lifted = 2 + 0.2 * np.append(5e-5, np.linspace(0, 1, 9))
     # Rounded as in links, so that the present place is one of them, and no new one.

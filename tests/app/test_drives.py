@@ -159,6 +159,17 @@ def test_looking_at_the_other_impact_keeps_body_and_normal_speed():
     assert back.speed == pytest.approx(before.speed, rel=1e-12)
 
 
+def test_another_drive_goes_as_deep_as_a_hit_on_an_imprint_and_as_a_viscous_path():
+    d_c = float(medium(preset_state(DROP)).critical_depth)
+    # At these speeds the imprint grows, and does not.
+    hits = [state_with(DROP).replace(plastic_depth=20 * d_c, speed=speed) for speed in (1.0, 0.01)]
+    for state in (*hits, path("hold", damping="eta")):
+        depth = float(follow(state).turning_point.depth)
+        for drive in ("depth", "force"):
+            pressed = follow(changes.choose(state, "drive", drive))
+            assert float(pressed.turning_point.depth) == pytest.approx(depth, rel=5e-4)
+
+
 def test_presets_are_within_what_the_model_assumes():
     for key in PRESETS:
         levels = [level for level, _ in notes.limits(follow(preset_state(key)), preset_state(key))]
