@@ -5,7 +5,6 @@ from typing import Any
 
 import mdr_core as mdr
 
-from .courses import Timed
 from .drives import DRIVES, follow, turning_point
 from .quantities import CHOICES, QUANTITIES, SHAPES, shape_quantities
 from .state import PRESETS, YIELD_CONSTANT, State, altered, checked, medium, preset_state, with_derived
@@ -134,7 +133,7 @@ def _damping(state: State, wanted: str) -> dict[str, Any]:
     if wanted != "eta":
         return {}
     course = follow(state)
-    tau = float(course.motion.time[-1]) / 30 if isinstance(course, Timed) else 1e-4
+    tau = float(course.motion.time[-1]) / 30 if course.motion is not None else 1e-4
     return {"eta": float(f"{tau * medium(state).E_star / 4:.2g}")}
 
 

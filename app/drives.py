@@ -11,7 +11,7 @@ from mdr_core.contact.unloading import unloading
 from mdr_core.contact.yielding import yield_rule
 from mdr_core.impacts.motion import motion as motion_of
 
-from .courses import Course, Hit, HitInTime, nearest, onset_depth, path_progress, rounded
+from .courses import Course, nearest, onset_depth, path_progress
 from .quantities import QUANTITIES
 from .state import State, medium, profile, with_derived
 
@@ -19,6 +19,8 @@ from .state import State, medium, profile, with_derived
 _SPREAD = (1 - np.cos(np.linspace(0, np.pi, 41))) / 2
 #: Instants of an impact, and more of them up to the onset of yield, which a fast one passes in one step.
 INSTANTS, BEFORE_YIELD = 120, 20
+#: What is said of a captured body.
+_HELD = "Adhesion holds the body: e = 0. Unloading is drawn as if it were pulled off."
 
 
 class Drive(ABC):
@@ -28,16 +30,15 @@ class Drive(ABC):
     """
 
     @abstractmethod
-    def make(self, state: State, medium: mdr.Medium) -> Any:
+    def make(self, state: State) -> Any:
         """Drive of a scene, from the state of the page."""
 
-    @abstractmethod
     def follow(self, scene: mdr.Scene, progress: float) -> Course:
-        """States of a scene; may be approximate where an exact solution is slow."""
+        """States of a scene, one of them at a progress; approximate where an exact solution is slow.
 
-    @abstractmethod
-    def turning_point(self, scene: mdr.Scene) -> mdr.Indentation:
-        """State of largest depth of a scene."""
+        Unless a drive has its own they are those of slow loading and unloading.
+        """
+        return slow(scene, progress, scene.solve())
 
     @abstractmethod
     def equivalent(self, state: State, turning_point: mdr.Indentation) -> dict[str, Any]:
@@ -51,92 +52,61 @@ def limited_force(turning_point):
     return min(float(turning_point.force), 0.9 * most)
 
 
-def slow(scene: mdr.Scene, progress: float, turning_point: mdr.Indentation) -> dict[str, Any]:
-    """Fields of a course of slow loading to a state, unloading to the pull-off, and lifting."""
+def slow(scene: mdr.Scene, progress: float, turning_point: mdr.Indentation) -> Course:
+    """Loading to a state, unloading to the loss of contact, and lifting to the undeformed surface."""
     depth = float(turning_point.depth)
-    share = min(onset_depth(scene) / depth, 1.0) if depth > 0 else 1.0
-    loading = np.concatenate([share * _SPREAD, share + (1 - share) * _SPREAD])
+    elastic = min(onset_depth(scene) / depth, 1.0) if depth > 0 else 1.0
+    loading = np.concatenate([elastic * _SPREAD, elastic + (1 - elastic) * _SPREAD])
     # With adhesion the force jumps to zero at the pull-off.
     lifted = 2 + 0.2 * np.append(5e-5, np.linspace(0, 1, 9))
-    places = np.unique(rounded(np.concatenate([loading, 1 + _SPREAD, lifted, [progress]])))
+    # Rounded as in links, so that the present place is one of them, and no new one.
+    every = np.concatenate([loading, 1 + _SPREAD, lifted, [progress]])
+    places = np.unique([float(f"{place:.6g}") for place in every])
     path = mdr.indent(scene.profile, scene.medium, np.minimum(places, 1.0) * depth)
-    touching = places <= 2
-    share, under_force = np.clip(2 - places, 0.0, 1.0), isinstance(scene.drive, mdr.ForcePath)
-    states = unloading(scene.profile, scene.medium, path.live_interval, share, touching, under_force)
-    start = states.depth[touching][-1]
-    end = min(2 * start, 0.0)
-    lifted = end + (start - end) * np.maximum(2.2 - places, 0.0) / 0.2
-    states = replace(states, depth=np.where(touching, states.depth, lifted))
-    return {
-        "scene": scene,
-        "progress": places,
-        "states": states,
-        "peak": nearest(places, 1.0),
-    }
+    share = np.where(places > 2, 5 * (2 - places), np.minimum(2 - places, 1.0))
+    states = unloading(path, share, isinstance(scene.drive, mdr.ForcePath))
+    return Course(scene=scene, progress=places, states=states)
 
 
-class Press(Drive):
-    """Quasi-static loading to a depth or force, and unloading."""
-
-    def follow(self, scene, progress):
-        """Loading, unloading, and lifting of the indenter to the undeformed surface."""
-        return Course(**slow(scene, progress, scene.solve()))
-
-    def turning_point(self, scene):
-        return scene.solve()
-
-
-class Depth(Press):
+class Depth(Drive):
     """Pressed to a depth."""
 
-    def make(self, state, medium):
+    def make(self, state):
         return mdr.DepthPath(state.max_depth)
 
     def equivalent(self, state, turning_point):
         return {"max_depth": float(turning_point.depth)}
 
 
-class Force(Press):
+class Force(Drive):
     """Pressed to a force."""
 
-    def make(self, state, medium):
+    def make(self, state):
         return mdr.ForcePath(state.max_force)
 
     def equivalent(self, state, turning_point):
         return {"max_force": limited_force(turning_point)}
 
 
-def along(scene: mdr.Scene, motion: mdr.Motion) -> dict[str, Any]:
-    """Fields of a course of an impact from its motion along the normal."""
-    places = path_progress(motion.time, motion.turning_index)
-    return {
-        "scene": scene,
-        "progress": places,
-        "states": motion.states,
-        "peak": motion.turning_index,
-        "motion": motion,
-    }
-
-
 class Impact(Drive):
     """A free body hits along the normal."""
 
-    def make(self, state, medium):
+    def make(self, state):
         return mdr.FreeImpact(state.mass, state.speed, state.plastic_depth)
 
     def follow(self, scene, progress):
         """Motion of the body; with adhesion states without times, as if pressed and pulled off."""
         hit = scene.solve()
         if scene.medium.work_of_adhesion > 0 and not scene.drive.plastic_depth:
-            return Hit(**slow(scene, progress, hit.turning_point), hit=hit)
-        return HitInTime(**along(scene, motion_of(hit, INSTANTS, BEFORE_YIELD)), hit=hit)
-
-    def turning_point(self, scene):
-        return scene.solve().turning_point
+            notes = (_HELD,) * bool(hit.captured)
+            return replace(slow(scene, progress, hit.turning_point), hit=hit, notes=notes)
+        motion = motion_of(hit, INSTANTS, BEFORE_YIELD)
+        places = path_progress(motion.time, motion.depth)
+        return Course(scene=scene, progress=places, states=motion.states, motion=motion, hit=hit)
 
     def equivalent(self, state, turning_point):
         """Present mass and speed, or those of an impact of equal depth, on a virgin surface."""
-        present = DRIVES[state.drive].make(state, turning_point.medium)
+        present = DRIVES[state.drive].make(state)
         if hasattr(present, "speed"):
             return {"mass": present.mass, "speed": present.speed, "plastic_depth": 0.0}
         mass = state.mass
@@ -149,19 +119,23 @@ class Impact(Drive):
 
 #: Every drive by its option of the choice "drive"; extras add theirs.
 DRIVES: dict[str, Drive] = {"depth": Depth(), "force": Force(), "impact": Impact()}
+#: Exact courses by their scenes, where that of the drive is approximate; extras add those they find.
+EXACT: dict[mdr.Scene, Course] = {}
 
 
 def scene_of(state: State) -> mdr.Scene:
-    made = medium(state)
-    return mdr.Scene(profile(state), made, DRIVES[state.drive].make(state, made))
+    return mdr.Scene(profile(state), medium(state), DRIVES[state.drive].make(state))
 
 
 def follow(state: State) -> Course:
     """Course of a state."""
-    course = DRIVES[state.drive].follow(scene_of(state), state.progress)
+    scene = scene_of(state)
+    course = EXACT.get(scene) or DRIVES[state.drive].follow(scene, state.progress)
     return replace(course, now=nearest(course.progress, state.progress), drive=state.drive)
 
 
 def turning_point(state: State) -> mdr.Indentation:
-    """State of largest depth, without the path."""
-    return DRIVES[state.drive].turning_point(scene_of(with_derived(state)))
+    """State of the largest depth of a scene, as if pressed there slowly."""
+    scene = scene_of(with_derived(state))
+    course = DRIVES[state.drive].follow(scene, 1.0)
+    return mdr.indent(scene.profile, scene.medium, course.turning_point.depth)

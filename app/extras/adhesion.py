@@ -33,7 +33,7 @@ def still(view: View) -> dict:
         return {}
     depth, force = view.course.states.depth, view.course.states.force
     last = view.course.peak + int(np.argmin(force[view.course.peak :]))
-    text = f"Fₐ = {written(view.course.pull_off_force[last], 'force', 3)}"
+    text = f"Fₐ = {written(view.course.states.pull_off_force[last], 'force', 3)}"
     beside = 0.02 * (view.end(D) - view.axis(D).start)
     above = 0.05 * (view.end(F) - view.axis(F).start)
     return {

@@ -4,7 +4,7 @@ import numpy as np
 
 from mdr_core.results.figures import NOTHING, area, line
 
-from ..courses import Course, Hit, Timed
+from ..courses import Course
 from ..extra import Extra
 from ..plot import Along, Plot, View
 from ..shared.time import T, line_at_time
@@ -40,7 +40,7 @@ def still(view: View) -> dict:
 def _ledger(course: Course) -> str:
     friction = "friction" in energies(course)
     lost = "U + W_p" + " + W_v" * course.dashpots + " + W_f" * friction
-    if not isinstance(course, Hit):
+    if course.hit is None:
         return f"{lost} = ∫ F dd  § 14"
     along = " + m_t v_t²/2" * friction
     return f"{lost} + m v²/2{along} = const.  § 9" + ", § 13" * friction
@@ -57,7 +57,7 @@ ENERGY = Plot(
         line("time", "ink", 1.0, "dashed", legend=False),
     ),
     still, lambda view, i: {"time": line_at_time(view, i, E)},
-    applies=lambda view: isinstance(view.course, Timed), tab="Energy", order=40,
+    applies=lambda view: view.course.motion is not None, tab="Energy", order=40,
 )  # fmt: skip
 
 

@@ -1,7 +1,7 @@
 """Notes in the form: formulas of the shape, the law of the hardness, the energy, sources of a preset."""
 
 from html import escape
-from math import degrees
+from math import atan, degrees
 
 import numpy as np
 
@@ -30,7 +30,8 @@ def notes(view: View) -> dict[str, str]:
     head = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
     energy = written(state.mass * state.speed**2 / 2, "energy")
     height = written(state.speed**2 / (2 * _GRAVITY), "length")
-    angle = f"Half-angle {digits(degrees(course.half_angle))}°" if course.half_angle else ""
+    slope = getattr(course.scene.profile, "slope", None)
+    angle = f"Half-angle {digits(degrees(atan(1 / slope)))}°" if slope else ""
     eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
     idle = "" if course.dashpots else "; no effect here, where pressing is quasi-static"
     return {

@@ -2,7 +2,6 @@
 
 from mdr_core.results.figures import line, mark
 
-from ..courses import Hit, Timed
 from ..extra import Extra
 from ..plot import Plot, View
 from ..plots import D, F
@@ -25,7 +24,7 @@ def moving(view: View, i: int) -> dict:
 
 MOTION = Plot(
     "motion", "Depth and force over time",
-    lambda course: "m d²d/dt² = −F,  § 9" if isinstance(course, Hit) else "prescribed  § 8, § 14",
+    lambda course: "prescribed  § 8, § 14" if course.hit is None else "m d²d/dt² = −F,  § 9",
     (T, D, F),
     (
         line("depth d", "speed", 2.2, symbol="d"),
@@ -34,7 +33,7 @@ MOTION = Plot(
         mark("now"),
         mark("F now", marker="diamond", size=11, axis=2, legend=False),
     ),
-    still, moving, applies=lambda view: isinstance(view.course, Timed), tab="In time", order=30,
+    still, moving, applies=lambda view: view.course.motion is not None, tab="In time", order=30,
 )  # fmt: skip
 
 

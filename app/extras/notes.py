@@ -18,7 +18,8 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
     for sentence in (*course.notes, course.pending):
         if sentence:
             yield "note", sentence
-    for limit in sorted(course.limits(state.density), key=lambda limit: limit.concerns != "result"):
+    speed = [] if course.hit is None else [course.hit.speed_limit(state.density)]
+    for limit in sorted([*course.limits, *speed], key=lambda limit: limit.concerns != "result"):
         # The fast limit is one without adhesion; what is still computed may have dashpots.
         without = {"fast limit": course.adhesive, "viscosity": bool(course.pending)}
         if without.get(limit.what):

@@ -10,19 +10,19 @@ import numpy as np
 
 import mdr_core as mdr
 from mdr_core.impacts.motion import motion as motion_of
-from mdr_core.oblique.oblique_motion import ObliqueMotion, along_surface, oblique_motion
+from mdr_core.oblique.oblique_motion import along_surface, oblique_motion
 from mdr_core.results import figures
 from mdr_core.results.figures import label, line, mark
 from mdr_core.results.limits import friction_limits
 from mdr_core.results.units import written
 
-from ..courses import HitInTime
-from ..drives import BEFORE_YIELD, INSTANTS, Impact, along
+from ..courses import Course, path_progress
+from ..drives import BEFORE_YIELD, INSTANTS, Impact
 from ..extra import Extra
 from ..plot import Along, Overlay, Plot, View
 from ..plots import X, Z
 from ..quantities import QUANTITIES
-from ..shared.rest import EXACT, Resting
+from ..shared.rest import Resting
 from ..shared.time import T, line_at_time
 from ..state import refuse_other_classes
 
@@ -31,23 +31,19 @@ _ELEMENTS, _HALVINGS = 300, 2
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ObliqueCourse(HitInTime):
-    """A course of an impact with friction: `oblique` is its motion, along the surface too."""
+class ObliqueCourse(Course):
+    """A course of an impact with friction: `motion` is an `ObliqueMotion`, `hit` that along the normal."""
 
-    oblique: ObliqueMotion
     more_law: ClassVar[str] = ";  |q_x| ≤ μ q  § 13"
 
     @property
-    def ledger(self):
-        return self.oblique
-
-    def limits(self, density):
-        return [*super().limits(density), *friction_limits(self.scene.medium)]
+    def limits(self):
+        return [*super().limits, *friction_limits(self.scene.medium)]
 
     @cached_property
     def rebound(self) -> SimpleNamespace:
         """Results (SI) of an oblique impact, of the contact point and of the body."""
-        drive, hit, motion = self.scene.drive, self.oblique.impact, self.oblique
+        drive, hit, motion = self.scene.drive, self.motion.impact, self.motion
         after = float(motion.tangential_velocity[-1] if hit is None else hit.tangential_velocity)
         largest = np.max(np.abs(motion.tangential_force)) if hit is None else hit.max_tangential_force
         # The impulse changes the speed of the body and its spin.
@@ -65,7 +61,7 @@ class ObliqueCourse(HitInTime):
 class Oblique(Impact):
     """A free body hits with a speed along the surface."""
 
-    def make(self, state, medium):
+    def make(self, state):
         refuse_other_classes(state, "friction", "the drive impact")
         speeds = map(float, mdr.at_angle(state["oblique.incoming_speed"], pi / 2 - state["oblique.attack"]))
         ball = mdr.Ball(state.mass, 1.0, state["oblique.body"] == "hollow")
@@ -74,8 +70,6 @@ class Oblique(Impact):
 
     def follow(self, scene, progress):
         """States from one coarse solution of friction until the exact ones are found."""
-        if scene in EXACT:
-            return EXACT[scene]
         drive, normal = scene.drive, _normal(scene)
         given = drive.tangential_speed, drive.friction, drive.tangential_mass
         motion = along_surface(motion_of(normal, INSTANTS, BEFORE_YIELD), *given, 0)
@@ -91,9 +85,6 @@ class Oblique(Impact):
         motion = replace(motion, x=motion.x[thinned], tangential_line_load=load, sticks=sticks)
         return _course(scene, hit.normal, motion)
 
-    def turning_point(self, scene):
-        return _normal(scene).turning_point
-
     def equivalent(self, state, turning_point):
         numbers = super().equivalent(state, turning_point)
         incoming = QUANTITIES["oblique.incoming_speed"].bounded(
@@ -103,7 +94,8 @@ class Oblique(Impact):
 
 
 def _course(scene, hit, motion):
-    return ObliqueCourse(**along(scene, motion.normal), hit=hit, oblique=motion)
+    places, states = path_progress(motion.time, motion.depth), motion.normal.states
+    return ObliqueCourse(scene=scene, progress=places, states=states, motion=motion, hit=hit)
 
 
 def _normal(scene):
@@ -113,7 +105,7 @@ def _normal(scene):
 
 def leaning(course: ObliqueCourse, i: int, r):
     """Tangential displacement (m) of elements in state i, and whether they stick."""
-    m, medium = course.oblique, course.scene.medium
+    m, medium = course.motion, course.scene.medium
     # The first element is a flat face; most shapes have none.
     first = int(m.x[0] == 0)
     load, sticks = (
@@ -154,7 +146,7 @@ def springs(view: View, i: int) -> dict:
 
 def _most(course):
     """Largest force (N) along one of the directions."""
-    forces = course.states.force, np.abs(course.oblique.tangential_force)
+    forces = course.states.force, np.abs(course.motion.tangential_force)
     return float(max(np.max(force) for force in forces))
 
 
@@ -163,7 +155,7 @@ FORCE = Along("F, Fₓ, force", "force", _most, below=lambda course: min(course.
 
 def _regime(course) -> str:
     """Whether and when the contact sticks, in words."""
-    motion = course.oblique
+    motion = course.motion
     sticking = np.flatnonzero(motion.stick_radius > 0)
     if not sticking.size:
         return "slips throughout"
@@ -182,7 +174,7 @@ def forces_still(view: View) -> dict:
     most = course.scene.drive.friction * force
     return {
         "normal force F": (time, force),
-        "tangential force Fₓ": (time, course.oblique.tangential_force),
+        "tangential force Fₓ": (time, course.motion.tangential_force),
         "regime": (0.02 * view.end(T), 0.98 * view.end(FORCE), _regime(course)),
         "largest friction ±μF": (np.append(time, [np.nan, *time]), np.append(most, [np.nan, *-most])),
     }
@@ -192,7 +184,7 @@ def forces_moving(view: View, i: int) -> dict:
     course = view.course
     time = course.motion.time[[i]]
     return {
-        "now": (time, course.oblique.tangential_force[[i]]),
+        "now": (time, course.motion.tangential_force[[i]]),
         "F now": (time, course.states.force[[i]]),
         "time": line_at_time(view, i, FORCE),
     }

@@ -1,8 +1,9 @@
 """The drive *path*: several loadings, ramp and hold, and creep."""
 
 from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from itertools import pairwise
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -12,11 +13,11 @@ from mdr_core.contact.live_interval import LiveInterval
 from mdr_core.contact.yielding import yield_rule
 from mdr_core.medium import refuse_adhesion
 
-from ..courses import Course, Timed, onset_depth, path_progress
+from ..courses import Course, onset_depth, path_progress
 from ..drives import DRIVES, Drive, limited_force, turning_point
 from ..extra import Extra
-from ..shared.rest import EXACT, Resting
-from ..state import profile, refuse_other_classes
+from ..shared.rest import Resting
+from ..state import medium, profile, refuse_other_classes
 
 #: Steps of a piece of a path; of creep, each of which takes eight steps of the chain and more.
 _STEPS, _CREEP_STEPS = 24, 12
@@ -24,30 +25,8 @@ _STEPS, _CREEP_STEPS = 24, 12
 _TOLERANCE = 3e-3
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Turns(Course):
-    """A course that may reverse several times."""
-
-    pressed: ClassVar[bool] = False
-    turns: ClassVar[bool] = True
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class TurnsInTime(Turns, Timed):
-    """A course along a path in time, with dashpots if the medium has any."""
-
-    @property
-    def chained(self):
-        return not isinstance(self.states, mdr.Indentation)
-
-    def relaxing(self, i, g):
-        return self.states[i].relaxing(g) if self.chained else 0.0
-
-    @property
-    def notes(self):
-        if self.scene.medium.eta > 0:
-            return []
-        return ["Without viscosity nothing changes while the depth or force is held."]
+#: What is said of a path in time of a medium without dashpots.
+_IDLE = "Without viscosity nothing changes while the depth or force is held."
 
 
 def _vertices(drive):
@@ -91,6 +70,7 @@ def _shares(steps, chain, held):
     return np.append((1 - np.cos(np.pi * share)) / 2, 1 - 1e-9)
 
 
+@lru_cache(maxsize=8)
 def _solved(scene, chain, pending):
     values, along = _refined(scene, chain)
     by_force, bodies = _by_force(scene.drive), (scene.profile, scene.medium)
@@ -99,12 +79,17 @@ def _solved(scene, chain, pending):
         states = PathStates.of(solve(*bodies, values, along, tolerance=_TOLERANCE))
     else:
         states = _slowly(scene, values)
-    peak = int(np.argmax(states.depth))
-    places = path_progress(along, peak)
-    made = {"scene": scene, "progress": places, "states": states, "peak": peak, "pending": pending}
-    if scene.drive.time is None:
-        return Turns(**made)
-    return TurnsInTime(**made, motion=_motion(states, along))
+    in_time = scene.drive.time is not None
+    return Course(
+        scene=scene,
+        progress=path_progress(along, states.depth),
+        states=states,
+        motion=_motion(states, along) if in_time else None,
+        turns=True,
+        chained=chain,
+        pending=pending,
+        notes=(_IDLE,) * (in_time and scene.medium.eta == 0),
+    )
 
 
 def _slowly(scene, values):
@@ -167,11 +152,6 @@ class PathStates(mdr.TimedIndentation):
         length = np.where(a > 0, np.maximum(upper - lower, np.finfo(float).tiny), 0.0)
         return LiveInterval(lower, upper, length)
 
-    def relaxing(self, g):
-        """Remaining elastic compression (m) of released elements at heights g (m)."""
-        compression = np.where(self.load > 0, 0.0, self.compression)
-        return np.interp(g, self.profile.reduced(self.x), compression, right=0.0)
-
     def surface(self, r):
         """Elastic displacement (m), including that of released elements."""
         return abel.surface_displacement(self.x, self.compression, r)
@@ -192,25 +172,24 @@ class PathStates(mdr.TimedIndentation):
 class Path(Drive):
     """Pressed along a path."""
 
-    def make(self, state, medium):
+    def make(self, state):
+        made = medium(state)
         if _in_time(state):
-            refuse_adhesion(medium, "a path in time")
+            refuse_adhesion(made, "a path in time")
             times = (0.0, state["path.ramp_time"], 5 * state["path.ramp_time"])
             if state["path.pattern"] == "creep":
-                if medium.eta > 0:
+                if made.eta > 0:
                     refuse_other_classes(state, "creep with viscosity", "ramp and hold")
                 return mdr.ForcePath((0.0, state.max_force, state.max_force), times)
             return mdr.DepthPath((0.0, state.max_depth, state.max_depth), times)
         tenths = (2, 4, 6, 8, 10) if state["path.pattern"] == "cycles" else (7, 10)
         peaks = [state.max_depth * tenth / 10 for tenth in tenths]
         # Unloading ends at loss of contact.
-        unloaded = map(float, yield_rule(profile(state), medium).plastic_depth(np.array(peaks)))
+        unloaded = map(float, yield_rule(profile(state), made).plastic_depth(np.array(peaks)))
         return mdr.DepthPath([depth for pair in zip(peaks, unloaded, strict=True) for depth in pair])
 
     def follow(self, scene, progress):
         """States; creep of a viscous medium without dashpots until the exact ones are found."""
-        if scene in EXACT:
-            return EXACT[scene]
         viscous = scene.drive.time is not None and scene.medium.eta > 0
         pending = viscous and _by_force(scene.drive)
         return _solved(
@@ -221,9 +200,6 @@ class Path(Drive):
 
     def in_time(self, scene):
         return _solved(scene, True, "")
-
-    def turning_point(self, scene):
-        return _slowly(scene, float(np.max(_vertices(scene.drive)[0])))
 
     def equivalent(self, state, turning_point):
         """Pattern of the present depth, and a ramp of one relaxation time unless there is one already."""

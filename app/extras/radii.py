@@ -4,7 +4,7 @@ import numpy as np
 
 from mdr_core.results.figures import area, line, mark, split
 
-from ..courses import Course, Timed
+from ..courses import Course
 from ..extra import Extra
 from ..plot import Along, Plot, View
 from ..plots import D, largest_radius
@@ -15,7 +15,7 @@ A = Along("a, c, radius", "length", lambda course: 1.14 * largest_radius(course)
 def _loading(course: Course):
     """Depths and contact radii of loading, dense at the start, where a(d) is vertical."""
     depth, a = course.states.depth[: course.peak + 1], course.states.contact_radius[: course.peak + 1]
-    if not isinstance(course, Timed):
+    if course.motion is None:
         return depth, a
     start = course.initial_plastic_depth
     fine = start + (depth[-1] - start) * np.linspace(0, 1, 81) ** 2

@@ -196,7 +196,8 @@ def found(course, sweep: Sweep):
     """Curve of the sweep with the present value and limits."""
     if not sweep.solver:
         return Found({}, [], "This drive has no sweep: press to a depth or a force, or let a body hit.")
-    numbers, present = sweep.numbers, getattr(getattr(course, "hit", course.turning_point), sweep.against)
+    result = course.turning_point if course.hit is None else course.hit
+    numbers, present = sweep.numbers, getattr(result, sweep.against)
     values = sweep.column(numbers, sweep.against)
     inside = sweep.low <= sweep.present <= sweep.high
     classes = sweep.classes() if inside else {}

@@ -23,7 +23,9 @@ def path(view: View) -> dict[str, Any]:
     course, d, force = view.course, view.axis(D).factor, view.axis(F).factor
     found = {"d": course.states.depth / d, "F": course.states.force / force}
     found = {name: [float(f"{value:.6g}") for value in values] for name, values in found.items()}
-    return found | {"unit": d / view.axis(Z).factor, "pressing": course.pressed}
+    # A depth on a path that turns, or of an impact, is not one that can be set.
+    pressing = not course.turns and course.hit is None
+    return found | {"unit": d / view.axis(Z).factor, "pressing": pressing}
 
 
 def let_drag(figure: Any) -> None:

@@ -9,11 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from mdr_core import Scene
 from mdr_core.results.figures import Axis
 
 from ..courses import Course, nearest
-from ..drives import DRIVES
+from ..drives import DRIVES, EXACT
 from ..extra import EXTRAS, Service
 from ..plot import Plot, View
 from ..plots import PLOTS, visible
@@ -23,8 +22,7 @@ from ..ui import is_served
 _LOG = logging.getLogger(__name__)
 #: Threads for the searches of all sessions.
 _THREADS = ThreadPoolExecutor()
-#: Exact courses by their scenes, the last ones that were found in any session, and how many are kept.
-EXACT: dict[Scene, Course] = {}
+#: How many exact courses are kept, the last ones that were found in any session.
 _KEPT = 64
 
 

@@ -5,8 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import trapezoid
 
-from ..medium import Medium
-from ..profiles.profile import Profile
 from . import adhesion
 from .indentation import Indentation
 from .live_interval import LiveInterval
@@ -16,31 +14,31 @@ from .loading import indent
 _STATES, _LOOP = 25, 80
 
 
-def unloading(
-    profile: Profile,
-    medium: Medium,
-    start: LiveInterval,
-    share: np.ndarray,
-    touching: np.ndarray | bool = True,
-    under_force: bool = False,
-) -> Indentation:
-    """States on elastic unloading from live intervals, which broadcast with `share`.
+def unloading(path: Indentation, share: np.ndarray, under_force: bool = False) -> Indentation:
+    """States on elastic unloading from those of a path, which broadcast with `share`.
 
     `share` falls from 1 at the start to 0 where the contact is lost: at d = d_p, with adhesion at the
-    pull-off, which under a given force (`under_force`) is earlier than at a given depth. States that are
-    not `touching` have no contact.
+    pull-off, which under a given force (`under_force`) is earlier than at a given depth. Below 0 the
+    indenter is lifted out of contact, at −1 to the undeformed surface, or from a pull-off above that
+    surface to twice its height. States without contact stay without.
     """
+    profile, medium, start = path.profile, path.medium, path.live_interval
+    touching, held, lifted = path.contact_radius > 0, np.maximum(share, 0.0), np.minimum(share, 0.0)
     end = 0.0
     if medium.work_of_adhesion > 0:
         # Weak adhesion changes the curve just before the pull-off only.
-        share = share**3
+        held = held**3
         least = adhesion.AT_FORCE if under_force else adhesion.AT_DEPTH
         low = adhesion.stable_ranges(profile, medium, least)[0][0]
         end = adhesion.last_interval(start.lower, low).length
-    length = np.where(touching, end + share * (start.length - end), 0.0)
-    interval = LiveInterval.above(start.lower, length)
+    interval = LiveInterval.above(start.lower, np.where(touching, end + held * (start.length - end), 0.0))
     stretched = np.where(touching, adhesion.stretch(medium, profile._radius(interval.upper)), 0.0)
-    return Indentation(profile, medium, interval.upper - stretched, interval, -medium.E_star * stretched)
+    depth = interval.upper - stretched
+    depth = depth + lifted * (depth - np.minimum(2 * depth, 0.0))
+    interval = LiveInterval.above(start.lower, np.where(share < 0, 0.0, interval.length))
+    return Indentation(
+        profile, medium, depth, interval, np.where(share < 0, 0.0, -medium.E_star * stretched)
+    )
 
 
 def unloading_curve(state: Indentation, under_force: bool = False) -> tuple[np.ndarray, np.ndarray]:
@@ -51,9 +49,7 @@ def unloading_curve(state: Indentation, under_force: bool = False) -> tuple[np.n
     stiffness 2E* a.
     """
     interval, depth = state.live_interval, float(state.depth)
-    touching = state.contact_radius > 0
-    share = np.linspace(1, 0, _STATES)
-    back = unloading(state.profile, state.medium, interval, share, touching, under_force)
+    back = unloading(state, np.linspace(1, 0, _STATES), under_force)
     d, force = back.depth, back.force
     if interval.length > 0 and depth > interval.upper * (1 + 1e-9):
         stiffness = 2 * state.medium.E_star * state.contact_radius
@@ -91,9 +87,8 @@ def adhesive_loop(path: Indentation, under_force: bool = False) -> AdhesiveLoop:
     Areas are good to three digits. Where the contact is lost above the depth of first contact before
     anything has yielded, as may be under a given force, no loop is closed and more is gained than lost.
     """
-    profile, medium, interval = path.profile, path.medium, path.live_interval
-    share = np.linspace(1, 0, _LOOP)
-    back, first = (unloading(profile, medium, interval[i], share, True, under_force) for i in (-1, 0))
+    profile, medium, share = path.profile, path.medium, np.linspace(1, 0, _LOOP)
+    back, first = (unloading(path[i], share, under_force) for i in (-1, 0))
     largest, end = path.depth[-1], back.depth[-1]
     # The force jumps at first contact and at the pull-off; what is below first contact is a small part.
     step = 1e-9 * max(largest, -end)

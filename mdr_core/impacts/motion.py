@@ -75,18 +75,19 @@ def _released_energy(hit, dense, time):
     return np.interp(time, finer, energy)
 
 
-def released_compression(motion, i, height):
-    """Elastic compression (m) left at instant i in released elements, at heights g (m) of the profile.
+def released_compression(states, time, i, height):
+    """Elastic compression (m) left in released elements, at heights g (m) of the profile.
 
-    0 of elements in contact. An element is released with the compression by which the depth is ahead of
-    the live interval, which relaxes as exp(−t/τ).
+    The state is that of index i among the states of an impact at some times (s). 0 of elements in contact.
+    An element is released with the compression by which the depth is ahead of the live interval, which
+    relaxes as exp(−t/τ).
     """
-    tau, turn = motion.states.medium.relaxation_time, motion.turning_index
+    tau, turn = states.medium.relaxation_time, int(np.argmax(states.depth))
     if tau == 0 or i <= turn:
         return np.zeros_like(height)
     past = slice(turn, i + 1)
-    upper, time = motion.states.live_interval.upper[past], motion.time[past]
-    ahead = motion.states.depth[past] - upper
+    upper, time = states.live_interval.upper[past], time[past]
+    ahead = states.depth[past] - upper
     released = np.minimum(np.searchsorted(-upper, -height), len(upper) - 1)
     left = ahead[released] * np.exp((time[released] - time[-1]) / tau)
     return np.where(height >= upper[-1], left, 0.0)

@@ -139,7 +139,7 @@ def test_numbers_of_the_rebound_are_those_of_the_ball():
     found, drive = numbers(course), course.scene.drive
     body = mdr.Ball(drive.mass, float(course.scene.profile.body_radius))
     assert drive.tangential_mass == pytest.approx(float(body.tangential_mass))
-    hit = course.oblique.impact
+    hit = course.motion.impact
     speed, spin = body.rebound(hit, drive.tangential_speed)
     assert found["body_speed"] == pytest.approx(float(speed), rel=1e-12)
     assert found["spin"] == pytest.approx(float(spin), rel=1e-12)
@@ -157,6 +157,17 @@ def test_looking_at_the_other_impact_keeps_body_and_normal_speed():
     assert (drive.mass, drive.speed) == pytest.approx((before.mass, before.speed), rel=1e-12)
     back = scene_of(changes.choose(state, "drive", "impact")).drive
     assert back.speed == pytest.approx(before.speed, rel=1e-12)
+
+
+def test_another_drive_goes_as_deep_as_a_hit_on_an_imprint_and_as_a_viscous_path():
+    d_c = float(medium(preset_state(DROP)).critical_depth)
+    # At these speeds the imprint grows, and does not.
+    hits = [state_with(DROP).replace(plastic_depth=20 * d_c, speed=speed) for speed in (1.0, 0.01)]
+    for state in (*hits, path("hold", damping="eta")):
+        depth = float(follow(state).turning_point.depth)
+        for drive in ("depth", "force"):
+            pressed = follow(changes.choose(state, "drive", drive))
+            assert float(pressed.turning_point.depth) == pytest.approx(depth, rel=5e-4)
 
 
 def test_presets_are_within_what_the_model_assumes():
@@ -181,5 +192,3 @@ def test_the_speed_and_depth_of_onset_are_those_of_the_energy():
     viscous = state_with(DROP, damping="eta")
     for other in (state.replace(plastic_depth=2 * d_c), viscous, state_with(DROP, plasticity="none")):
         assert "yield_speed" not in numbers(follow(other))
-    assert np.degrees(numbers(follow(preset_state()))["half_angle"]) == pytest.approx(70.3, abs=5e-3)
-    assert "half_angle" not in numbers(follow(state))

@@ -174,7 +174,7 @@ def test_the_section_shows_the_stress_of_the_core(key, quantity):
 
 def test_springs_lean_as_far_as_they_are_loaded_and_stick_where_the_core_says():
     course = solved(oblique_state())
-    view, m = View(oblique_state(), course), course.oblique
+    view, m = View(oblique_state(), course), course.motion
     spacing = 2 * view.end(X) / SPRINGS
     share = m.stick_radius[1:-1] / m.contact_radius[1:-1]
     i = 1 + int(np.argmin(np.abs(share - 0.6)))

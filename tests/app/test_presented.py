@@ -139,7 +139,7 @@ def test_what_is_opened_leaves_the_form_and_is_closed_by_escape(lecture):
     opened = (
         ("Menu", page.get_by_role("button", name="Dark")),
         ("Share", page.get_by_label("This scene in Python")),
-        ("All numbers", page.locator('tr[data-name="half_angle"]')),
+        ("All numbers", page.locator('tr[data-name="critical_depth"]')),
     )
     for name, part in opened:
         lecture.press(name)

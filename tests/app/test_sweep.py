@@ -29,7 +29,7 @@ def one(state, name, value, quantity):
     if name == "energy":
         name, value = "speed", (2 * value / state.mass) ** 0.5
     course = follow(linked_state(state.replace(**{name: float(value)})))
-    return float(getattr(getattr(course, "hit", course.turning_point), quantity))
+    return float(getattr(course.hit or course.turning_point, quantity))
 
 
 @pytest.mark.parametrize("drive", ["impact", "depth", "force"])

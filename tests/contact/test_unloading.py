@@ -24,7 +24,7 @@ def turning_point(shape, medium):
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_unloading_is_the_path_back_and_gives_back_what_is_stored(shape, q_c):
     state = turning_point(shape, mdr.Medium(E_STAR, q_c))
-    states = unloading(shape, state.medium, state.live_interval, np.linspace(1, 0, 4001))
+    states = unloading(state, np.linspace(1, 0, 4001))
     path = mdr.indent(shape, state.medium, np.append(state.depth, states.depth))
     # The live depth of the path is a difference of depths.
     np.testing.assert_allclose(states.force, path.force[1:], rtol=1e-9, atol=1e-9 * state.force)
@@ -37,13 +37,26 @@ def test_unloading_is_the_path_back_and_gives_back_what_is_stored(shape, q_c):
 @pytest.mark.parametrize("q_c", [2.0, math.inf])
 def test_unloading_with_adhesion_ends_where_the_path_loses_contact(q_c):
     state = mdr.indent(mdr.Paraboloid(R), mdr.Medium(E_STAR, q_c, work_of_adhesion=W), 1e-7)
-    back = unloading(state.profile, state.medium, state.live_interval, np.linspace(1, 0, 30))
+    back = unloading(state, np.linspace(1, 0, 30))
     path = mdr.indent(state.profile, state.medium, np.append(state.depth, back.depth))
     # At the last depth contact is lost within rounding.
     np.testing.assert_allclose(back.force[:-1], path.force[1:-1], rtol=1e-6, atol=1e-9 * state.force)
     gone = mdr.indent(state.profile, state.medium, [state.depth, back.depth[-1] - 1e-13])
     assert gone.force[-1] == 0
     assert back.force[-1] < 0
+
+
+@pytest.mark.parametrize(("q_c", "w"), [(2.0, 0.0), (2.0, W), (math.inf, W)])
+def test_a_lifted_indenter_has_no_contact_and_leaves_the_imprint(q_c, w):
+    state = mdr.indent(mdr.Paraboloid(R), mdr.Medium(E_STAR, q_c, work_of_adhesion=w), 1e-7)
+    lost, lifted, up = unloading(state, np.array([0.0, -0.5, -1.0]))
+    # Without an imprint the pull-off is above the undeformed surface.
+    assert (lost.depth < 0) == (q_c == math.inf)
+    assert up.depth == (2 * lost.depth if lost.depth < 0 else 0.0)
+    assert lifted.depth == pytest.approx((lost.depth + up.depth) / 2, rel=1e-12)
+    for each in (lifted, up):
+        assert (each.force, each.contact_radius, each.pressure(0.0)) == (0, 0, 0)
+        assert each.plastic_depth == state.plastic_depth
 
 
 def test_under_a_force_the_end_is_the_pull_off_force():

@@ -138,12 +138,12 @@ def test_released_elements_relax_as_those_of_a_chain_on_the_same_path(q_c):
     i = 300
     assert i > motion.turning_index
     x = np.linspace(1.02 * motion.contact_radius[i], 0.98 * motion.contact_radius.max(), 40)
-    left = released_compression(motion, i, shape.reduced(x))
+    left = released_compression(motion.states, motion.time, i, shape.reduced(x))
     _, compression = chain.elements(x)
     assert left.max() > 1e-3 * motion.depth.max()
     # The compression at release is that of the next of 400 instants.
     np.testing.assert_allclose(left, compression[i], atol=0.02 * left.max())
     # Elements in contact are not released, and on loading none is.
     inside = shape.reduced(0.9 * motion.contact_radius[[i]])
-    assert released_compression(motion, i, inside) == 0
-    assert not released_compression(motion, 5, shape.reduced(x)).any()
+    assert released_compression(motion.states, motion.time, i, inside) == 0
+    assert not released_compression(motion.states, motion.time, 5, shape.reduced(x)).any()
