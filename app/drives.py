@@ -13,7 +13,7 @@ from mdr_core.impacts.motion import motion as motion_of
 
 from .courses import Course, Hit, HitInTime, nearest, onset_depth, path_progress, rounded
 from .quantities import QUANTITIES
-from .state import State, medium, profile, with_derived
+from .state import State, medium, profile
 
 #: Places from 0 to 1, dense at both ends, where radii change as a root of the depth.
 _SPREAD = (1 - np.cos(np.linspace(0, np.pi, 41))) / 2
@@ -164,4 +164,4 @@ def follow(state: State) -> Course:
 
 def turning_point(state: State) -> mdr.Indentation:
     """State of largest depth, without the path."""
-    return DRIVES[state.drive].turning_point(scene_of(with_derived(state)))
+    return DRIVES[state.drive].turning_point(scene_of(state))

@@ -11,7 +11,7 @@ from .link import CHECKS, TRANSLATIONS, Pairs
 from .parts import Part
 from .plot import OVERLAYS, Overlay, Plot, View
 from .plots import PLOTS
-from .quantities import CHOICES, OF_DRIVE, QUANTITIES
+from .quantities import CHOICES, QUANTITIES
 from .state import OF_EXTRAS, VIEW, State
 from .ui import LINKS
 
@@ -104,9 +104,10 @@ SERVICES: list[Callable[[Any], Service]] = []
 def register(extra: Extra, data: dict[str, Any]) -> None:
     """Let the page have an extra; the data of its JSON file are included already."""
     OF_EXTRAS.update({each["name"]: QUANTITIES[each["name"]].default for each in data.get("numbers", ())})
-    OF_EXTRAS.update({name: next(iter(CHOICES[name]), "") for name in data.get("choices", {})})
+    choices = [name for name in data.get("choices", {}) if "." in name]
+    OF_EXTRAS.update({name: next(iter(CHOICES[name].options), "") for name in choices})
     OF_EXTRAS.update(extra.values)
-    VIEW.extend(extra.of_view)
+    VIEW.update({name: OF_EXTRAS[name] for name in extra.of_view})
     TRANSLATIONS.extend([extra.translated] if extra.translated else [])
     CHECKS.append(extra.check)
     CONVERT.update(extra.converts)
@@ -115,8 +116,6 @@ def register(extra: Extra, data: dict[str, Any]) -> None:
     SERVICES.extend([extra.service] if extra.service and extra.service not in SERVICES else [])
     LINKS.extend([extra.linked] if extra.linked else [])
     DRIVES.update(extra.drives)
-    drives = sorted(CHOICES["drive"].items(), key=lambda each: OF_DRIVE[each[0]]["order"])
-    CHOICES["drive"] = dict(drives)
     PLOTS.update({plot.name: plot for plot in extra.plots})
     plots = sorted(PLOTS.items(), key=lambda each: each[1].order)
     PLOTS.clear()
