@@ -6,20 +6,22 @@ from typing import Any
 import mdr_core as mdr
 
 from .drives import DRIVES, follow, turning_point
-from .quantities import CHOICES, QUANTITIES, SHAPES, shape_quantities
-from .state import PRESETS, YIELD_CONSTANT, State, altered, checked, medium, preset_state, with_derived
+from .quantities import CHOICES, QUANTITIES
+from .state import PRESETS, State, checked, medium, preset_state, yield_constant
 
 #: Options of a choice that apply to a state, the default first, where these are not all; extras add theirs.
 OFFERED: dict[str, Callable[[State], list[str]]] = {
-    "shape": lambda state: [shape for shape in SHAPES if shape != "sampled" or state.samples],
+    "shape": lambda state: [
+        each for each in CHOICES["shape"].options if each != "sampled" or state.samples
+    ],
 }
-#: The power of the contact radius in the constants of the hardness.
-_POWER = {"volume_hardness": 0, "q_c": 1, "f_c": 2}
+#: Constants of the hardness, by the power of the contact radius in them.
+CONSTANTS = ("volume_hardness", "q_c", "f_c")
 
 
 def options(state: State, name: str) -> list[str]:
     """Applicable options of a choice, the default first."""
-    return OFFERED[name](state) if name in OFFERED else list(CHOICES[name])
+    return OFFERED[name](state) if name in OFFERED else list(CHOICES[name].options)
 
 
 def option(state: State, name: str) -> str:
@@ -33,40 +35,30 @@ def choose(state: State, name: str, wanted: str) -> State:
     known = options(state, name)
     if wanted not in known:
         raise ValueError(f"{wanted!r:.40} is not one of {', '.join(known)}")
-    if name == "preset" and (wanted != state.preset or altered(state)):
-        return _preset(state, wanted)
+    if name == "preset":
+        return preset_state(wanted, tiles=state.tiles, dark=state.dark, **state.extras)
     if wanted == option(state, name):
         return state
-    numbers = CONVERT[name](state, wanted) if name in CONVERT else {}
-    numbers = {k: checked(k, shown(v)) if k in QUANTITIES else v for k, v in numbers.items()}
-    changed, made = state.replace(**{name: wanted}, **numbers), medium(state)
-    if name == "elasticity":
-        return put(changed, "E_star", made.E_star)
-    if name == "plasticity" and wanted != "none":
-        return _same_hardness(state, changed)
-    return with_derived(changed)
-
-
-def shown(value: float) -> float:
-    """A number that is found, with the five digits that its field shows: the one that is used."""
-    return float(f"{value:.5g}")
+    changed = state.replace(**{name: wanted})
+    if name in CONVERT:
+        for number, value in CONVERT[name](state, wanted).items():
+            changed = put(changed, number, value)
+    return changed
 
 
 def put(state: State, name: str, value: float) -> State:
     """Set a number; E* of two bodies through their moduli, q_c of a hardness through the hardness."""
-    value = checked(name, value)
-    if name == "E_star" and state.elasticity != "modulus":
-        moduli = {each: checked(each, modulus) for each, modulus in _moduli(state, value).items()}
-        return with_derived(state.replace(**moduli))
-    if name == "q_c" and state.plasticity == "hardness":
-        name, value = "hardness", checked("hardness", value / state.hardness_radius)
-    return with_derived(state.replace(**{name: value}))
+    given = {name: checked(name, value)}
+    if name == "E_star" and state.elasticity == "bodies":
+        given = _moduli(state, value)
+    elif name == "q_c" and state.plasticity == "hardness":
+        given = {"hardness": value / state.hardness_radius}
+    return state.replace(**{each: checked(each, number) for each, number in given.items()})
 
 
 def _moduli(state: State, E_star: float) -> dict[str, float]:
-    """Moduli with an effective modulus, Popov (2015), Eq. (2)."""
-    other = (1 - state.nu_2**2) / state.E_2 if state.elasticity == "bodies" else 0.0
-    compliance = 1 / E_star - other
+    """Moduli of two bodies with an effective modulus, Popov (2015), Eq. (2)."""
+    compliance = 1 / E_star - (1 - state.nu_2**2) / state.E_2
     if compliance > 0.01 / E_star:
         return {"E_1": (1 - state.nu_1**2) / compliance}
     return {"E_1": 2 * E_star * (1 - state.nu_1**2), "E_2": 2 * E_star * (1 - state.nu_2**2)}
@@ -87,60 +79,66 @@ def hit_again(state: State, hit: mdr.Impact) -> State:
     return state.replace(plastic_depth=checked("plastic_depth", float(hit.plastic_depth)))
 
 
-def _preset(state: State, key: str) -> State:
-    return preset_state(key, tiles=state.tiles, dark=state.dark, **state.extras)
-
-
 # Numbers that keep their meaning under another option of a choice.
 
 
-def _shape(state: State, shape: str) -> dict[str, Any]:
+def shown(value: float) -> float:
+    """A number that is found, with the five digits that its field shows: the one that is used."""
+    return float(f"{value:.5g}")
+
+
+def equivalent(state: State, drive: str) -> dict[str, float]:
+    """Numbers of a drive that lead to the present largest depth."""
+    numbers = DRIVES[drive].equivalent(state, turning_point(state))
+    return {name: shown(value) for name, value in numbers.items()}
+
+
+def _shape(state: State, shape: str) -> dict[str, float]:
     """Initial numbers of a shape: those of the present one, or multiples of the contact radius."""
-    if all(state[name] is not None for name, _ in shape_quantities(shape)):
+    names = CHOICES["shape"].options[shape].uses
+    if None not in [state[name] for name in names]:
         return {}
-    present = {q.name: state[name] for name, q in shape_quantities(state.shape)}
-    radius = float(turning_point(state).contact_radius)
-    return {
-        name: present.get(q.name)
-        or q.bounded(float(f"{q.default * radius:.2g}") if q.kind == "length" else q.default)
-        for name, q in shape_quantities(shape)
-    }
+    numbers, radius = {}, float(turning_point(state).contact_radius)
+    for name in names:
+        known = QUANTITIES[name]
+        size = known.default * radius if known.kind == "length" else known.default
+        present = getattr(state, f"{state.shape}{name.removeprefix(shape)}", None)
+        numbers[name] = present or known.bounded(float(f"{size:.2g}"))
+    return numbers
 
 
-def _same_hardness(state: State, changed: State) -> State:
-    """With the constant of its class that gives the hardness of a state at its contact radius.
+def _plasticity(state: State, wanted: str) -> dict[str, float]:
+    """The constant that gives the present hardness at the contact radius, at which a hardness is measured.
 
-    Where nothing yields in the state that is the hardness of the class of its preset.
+    Where nothing yields that is the hardness of the class of the preset.
     """
-    if state.plasticity == "none":
-        state = state.replace(plasticity=PRESETS[state.preset].choices["plasticity"])
-    made, (name,) = medium(state), YIELD_CONSTANT[changed.plasticity]
-    if name in YIELD_CONSTANT[state.plasticity]:
-        return put(changed, name, state[name])
-    a = float(turning_point(state).contact_radius)
-    return put(changed, name, shown(float(made.hardness_at(a)) * a ** _POWER[name]))
-
-
-def _plasticity(state: State, wanted: str) -> dict[str, Any]:
-    """A hardness is measured at about the present contact radius."""
-    if wanted != "hardness":
+    if wanted == "none":
         return {}
-    return {"hardness_radius": float(f"{float(turning_point(state).contact_radius):.1g}")}
+    if state.plasticity == "none":
+        state = state.replace(plasticity=PRESETS[state.preset].values["plasticity"])
+    a = float(turning_point(state).contact_radius)
+    (name,) = yield_constant(state.replace(plasticity=wanted))
+    value = state[name]
+    if name not in yield_constant(state):
+        value = shown(float(medium(state).hardness_at(a)) * a ** CONSTANTS.index(name))
+    radius = {"hardness_radius": float(f"{a:.1g}")} if wanted == "hardness" else {}
+    return radius | {name: value}
 
 
-def _damping(state: State, wanted: str) -> dict[str, Any]:
+def _damping(state: State, wanted: str) -> dict[str, float]:
     """Viscosity with a relaxation time that shows, and does not rule, over the course."""
     if wanted != "eta":
         return {}
     course = follow(state)
     tau = float(course.motion.time[-1]) / 30 if course.motion is not None else 1e-4
-    return {"eta": float(f"{tau * medium(state).E_star / 4:.2g}")}
+    return {"eta": float(f"{tau * state.E_star / 4:.2g}")}
 
 
 #: Extras add conversions of their choices.
-CONVERT: dict[str, Callable[[State, str], dict[str, Any]]] = {
+CONVERT: dict[str, Callable[[State, str], dict[str, float]]] = {
     "shape": _shape,
+    "elasticity": lambda state, wanted: {"E_star": state.E_star},
     "plasticity": _plasticity,
     "damping": _damping,
-    "drive": lambda state, wanted: DRIVES[wanted].equivalent(state, turning_point(state)),
+    "drive": equivalent,
 }

@@ -13,7 +13,7 @@ from mdr_core.impacts.motion import motion as motion_of
 
 from .courses import Course, nearest, onset_depth, path_progress
 from .quantities import QUANTITIES
-from .state import State, medium, profile, with_derived
+from .state import State, medium, profile
 
 #: Places from 0 to 1, dense at both ends, where radii change as a root of the depth.
 _SPREAD = (1 - np.cos(np.linspace(0, np.pi, 41))) / 2
@@ -136,6 +136,6 @@ def follow(state: State) -> Course:
 
 def turning_point(state: State) -> mdr.Indentation:
     """State of the largest depth of a scene, as if pressed there slowly."""
-    scene = scene_of(with_derived(state))
+    scene = scene_of(state)
     course = DRIVES[state.drive].follow(scene, 1.0)
     return mdr.indent(scene.profile, scene.medium, course.turning_point.depth)

@@ -9,7 +9,7 @@ from mdr_core.results.units import UNITS, entry, fitting, read, written
 from . import changes
 from .parts import Part, Parts, button, text, upload
 from .plot import View
-from .quantities import OF_DRIVE, QUANTITIES, Scale
+from .quantities import QUANTITIES, Scale
 from .state import MEDIUM_CHOICES, PRESETS, State, altered, regions
 from .tip import read_tip
 from .ui import LAYOUT, linked, marked, symbol
@@ -138,7 +138,7 @@ class Form:
         parts = [
             text("first", f"{_FIRST} {self._notes.get('first', '')}"),
             page.choice("drive"), *numbers["drive"], note["drive"],
-            *map(page.choice, OF_DRIVE[state.drive]["form"]), *[again] * (state.drive == "impact"),
+            *map(page.choice, state.chosen("drive").form), *[again] * (state.drive == "impact"),
             title("Indenter"), page.choice("shape"), note["shape"], *numbers["shape"],
             title("Medium"), *numbers["medium"], note["medium"],
             button("More about the medium", self._fold, pressed=self._open),

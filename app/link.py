@@ -8,7 +8,6 @@ from .extra import EXTRAS, Pairs
 from .plots import PLOTS
 from .quantities import CHOICES, QUANTITIES
 from .state import (
-    LAST_PROGRESS,
     OF_EXTRAS,
     OPENING,
     PRESETS,
@@ -16,10 +15,12 @@ from .state import (
     checked,
     preset_state,
     used,
-    with_derived,
 )
 from .tip import MAX_SAMPLES
 
+#: Progress at the end: 0 first contact, 1 largest depth, 2 loss of contact, 2.2 indenter at the
+#: height of the undeformed surface.
+LAST_PROGRESS = 2.2
 #: Most characters of a link and of a text in it, and most names in a list.
 MAX_LENGTH, _MAX_TEXT, _MAX_NAMES = 8000, 300, 12
 
@@ -83,7 +84,7 @@ def read(query: str) -> State:
     for reason in (_wrong(state), *(extra.check(state) for extra in EXTRAS.values())):
         if reason:
             raise ValueError(reason)
-    return with_derived(state)
+    return state
 
 
 def _wrong(state: State) -> str:
@@ -105,7 +106,7 @@ def _value(name: str, text: str) -> tuple[str, Any]:
         return "progress", _number(name, text)
     if name == "samples":
         return name, _samples(text)
-    if name in CHOICES and text not in CHOICES[name]:
+    if name in CHOICES and text not in CHOICES[name].options:
         raise ValueError(f"{name:.40} = {text:.40} in this link is not known")
     default = State()[name]
     if isinstance(default, bool):

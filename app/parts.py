@@ -13,7 +13,7 @@ import panel as pn
 import param
 
 from .changes import option, options
-from .quantities import ABOUT, CHOICES, LABELS
+from .quantities import CHOICES
 from .state import PRESETS, State, altered
 from .tip import MAX_BYTES, Uploaded
 from .ui import JS, WIDE, linked, show
@@ -62,7 +62,7 @@ def choice(name: str, state: State, choose: Callable[[str], None]) -> Part:
     No preset is chosen if the scene differs from all of them.
     """
     chosen = option(state, name)
-    pairs = [[each, CHOICES[name][each]] for each in options(state, name)]
+    pairs = [[each, CHOICES[name].options[each].label] for each in options(state, name)]
     if name == "preset" and altered(state):
         chosen = _ALTERED
         pairs.append([_ALTERED, f"altered, from: {PRESETS[state.preset].label}"])
@@ -73,9 +73,10 @@ def choice(name: str, state: State, choose: Callable[[str], None]) -> Part:
 
 @cache
 def _about(name: str) -> dict[str, Any]:
-    radio = sum(map(len, CHOICES[name].values())) < _SHORT
+    known = CHOICES[name]
+    radio = sum(len(each.label) for each in known.options.values()) < _SHORT
     classes = f"of-{name.replace('.', '-')}"
-    return {"label": LABELS[name], "about": linked(ABOUT[name]), "radio": radio, "classes": classes}
+    return {"label": known.label, "about": linked(known.help), "radio": radio, "classes": classes}
 
 
 class Parts(pn.custom.JSComponent):

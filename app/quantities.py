@@ -1,17 +1,14 @@
-"""Numbers, choices and shapes, with their texts and bounds: assets/quantities.json and those of extras."""
+"""Numbers, choices and readouts with their texts: assets/quantities.json, and those of extras."""
 
 import json
 import re
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import log
 from pathlib import Path
 from typing import Any, ClassVar
 
-import mdr_core as mdr
 from mdr_core._errors import InvalidArgument
 from mdr_core.results.quantities import QUANTITIES as RESULTS
-from mdr_core.results.quantities import Quantity as Described
 from mdr_core.results.units import KINDS, written
 
 ASSETS = Path(__file__).parents[1] / "assets"
@@ -42,32 +39,43 @@ class Quantity:
 
 
 @dataclass(frozen=True)
-class Shape:
-    """A shape: its name, formulas, parameters and constructor."""
+class Option:
+    """An option of a choice, and the numbers of the form that it needs.
+
+    Shapes have formulas of their `height` and `reduced` profile. Drives have choices of their own (`form`),
+    readouts above the plots (`line`), and words for where dashpots act (`in_time`).
+    """
 
     label: str
-    height: str
-    reduced: str
-    quantities: tuple[Quantity, ...]
-    build: Callable[..., mdr.Profile]
+    uses: list[str] = field(default_factory=list)
+    order: float = 0.0
+    height: str = ""
+    reduced: str = ""
+    form: list[str] = field(default_factory=list)
+    line: list[str] = field(default_factory=list)
+    in_time: str = ""
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A choice, and its options by their keys."""
+
+    label: str = ""
+    help: str = ""
+    options: dict[str, Option] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Readout:
-    """A readout: its name in the table of quantities of the core, and its attribute `of` a course.
-
-    `own` is its symbol, unit and name if the core has none.
-    """
+    """A readout: an attribute `of` a course, with its symbol, unit and long name."""
 
     name: str
     of: str
+    symbol: str
+    unit: str
+    long_name: str
     help: str
     equation: str = ""
-    own: tuple[str, str, str] | None = None
-
-    @property
-    def known(self) -> Described:
-        return Described(*self.own) if self.own else RESULTS[self.name]
 
     def values(self, course: Any) -> Any:
         for name in self.of.split("."):
@@ -75,27 +83,45 @@ class Readout:
         return course
 
 
-def _power_law(height, width, exponent):
-    return mdr.PowerLaw(coefficient=height / width**exponent, exponent=exponent)
+#: By their names; numbers of a shape begin with its own, as "cone_slope".
+QUANTITIES: dict[str, Quantity] = {}
+CHOICES: dict[str, Choice] = {}
+#: Every number that can be read, in the order in which all of them are listed.
+READOUTS: list[Readout] = []
 
 
 def read_data(path: Path) -> dict[str, Any]:
     return json.loads(path.read_text(encoding="utf-8"), parse_int=float)
 
 
-#: The words and bounds of quantities, choices and shapes.
-DATA = read_data(ASSETS / "quantities.json")
+_DATA = read_data(ASSETS / "quantities.json")
 
 
-def quantity(like="", **own):
-    values = DATA["like"].get(like, {}) | own
-    return Quantity(**values | {"bounds": tuple(values["bounds"])})
+def quantity(like: str = "", **own: Any) -> Quantity:
+    """A number with its own words, and those of the numbers that are like it."""
+    words = _DATA["like"].get(like, {}) | own
+    return Quantity(**words | {"bounds": tuple(words["bounds"])})
 
 
-def _shape(key, label, height, reduced, quantities):
-    build = _power_law if key == "power_law" else getattr(mdr, key.title().replace("_", ""))
-    return Shape(label, height, reduced, tuple(quantity(**each) for each in quantities), build)
+def include(data: dict[str, Any]) -> None:
+    """Add the numbers, readouts and choices of the page, or those of an extra.
 
+    Choices that are there get further options and a longer help. Readouts that the core has, too, have its
+    symbol, unit and long name.
+    """
+    QUANTITIES.update({each["name"]: quantity(**each) for each in data.get("numbers", ())})
+    for words in data.get("readouts", ()):
+        result = RESULTS.get(words["name"])
+        READOUTS.append(Readout(**(vars(result) if result else {}) | words))
+    for name, words in data.get("choices", {}).items():
+        known = CHOICES.get(name, Choice())
+        added = {key: Option(**each) for key, each in words.get("options", {}).items()}
+        options = sorted((known.options | added).items(), key=lambda each: each[1].order)
+        help_ = f"{known.help} {words.get('help', '')}".strip()
+        CHOICES[name] = Choice(known.label or words["label"], help_, dict(options))
+
+
+include(_DATA)
 
 _LOWERED = str.maketrans("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
 
@@ -103,58 +129,6 @@ _LOWERED = str.maketrans("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆�
 def lowered(text):
     """Text with indices, as in v_0, as Unicode subscripts where they exist."""
     return re.sub("_([a-z0-9]+)", lambda index: index[1].translate(_LOWERED), text)
-
-
-SHAPES = {key: _shape(key, **words) for key, words in DATA["shapes"].items()}
-
-
-def shape_quantities(shape):
-    """Names and quantities of the parameters of a shape."""
-    return [(f"{shape}_{q.name}", q) for q in SHAPES[shape].quantities]
-
-
-#: Every quantity by its name; those of the shapes are named as in "cone_slope".
-QUANTITIES: dict[str, Quantity] = {}
-#: What each choice is called, its options as they are shown, the numbers that each of them uses, and
-#: what it is.
-LABELS: dict[str, str] = {}
-CHOICES: dict[str, dict[str, str]] = {}
-USED: dict[str, dict[str, list[str]]] = {}
-ABOUT: dict[str, str] = {}
-#: Choices of a drive (`form`) and readouts above the plots (`line`), by the options of the choice "drive".
-OF_DRIVE: dict[str, dict[str, Any]] = {}
-#: Every number that can be read, in the order in which all of them are listed.
-READOUTS: list[Readout] = []
-
-
-def include(data: dict[str, Any]) -> None:
-    """Add the numbers, choices, drives and readouts of the page, or those of an extra."""
-    QUANTITIES.update({each["name"]: quantity(**each) for each in data.get("numbers", ())})
-    for row in data.get("readouts", ()):
-        READOUTS.append(Readout(**row | {"own": tuple(row["own"])} if "own" in row else row))
-    for name, choice in data.get("choices", {}).items():
-        LABELS[name] = choice["label"]
-        ABOUT[name] = choice["help"]
-        CHOICES[name] = {}
-        USED[name] = {}
-        _add_options(name, choice["options"])
-    drives = data.get("drives", {})
-    _add_options("drive", drives)
-    OF_DRIVE.update(drives)
-    for name, text in data.get("help", {}).items():
-        ABOUT[name] = f"{ABOUT[name]} {text}"
-
-
-def _add_options(name: str, options: dict[str, Any]) -> None:
-    for option, words in options.items():
-        CHOICES[name][option] = words["label"]
-        USED[name][option] = words.get("uses", [])
-
-
-include(DATA)
-OF_DRIVE.update(DATA["choices"]["drive"]["options"])
-CHOICES["shape"] = {key: shape.label for key, shape in SHAPES.items()}
-QUANTITIES.update(pair for shape in SHAPES for pair in shape_quantities(shape))
 
 
 def in_words(error: ValueError) -> str:

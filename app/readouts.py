@@ -9,7 +9,7 @@ import numpy as np
 from mdr_core.results.units import KINDS, written
 
 from .courses import Course
-from .quantities import OF_DRIVE, READOUTS, Readout
+from .quantities import CHOICES, READOUTS, Readout
 from .ui import linked, symbol
 
 
@@ -22,13 +22,13 @@ def readings(course: Course, names: Container[str] | None = None) -> dict[Readou
 
 def line(course: Course) -> dict[Readout, Any]:
     """Values of the readouts above the plots."""
-    return readings(course, OF_DRIVE[course.drive]["line"])
+    return readings(course, CHOICES["drive"].options[course.drive].line)
 
 
 def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
     """Value in state i with its unit."""
     value = values if np.ndim(values) == 0 else values[i]
-    return written(float(value), KINDS[readout.known.unit], count)
+    return written(float(value), KINDS[readout.unit], count)
 
 
 def values(numbers: dict[Readout, Any], i: int) -> str:
@@ -48,8 +48,7 @@ def heads(numbers: dict[Readout, Any]) -> str:
 @cache
 def head(readout: Readout) -> str:
     """Head of a readout with its explanation, as HTML."""
-    known = readout.known
-    key, name = f"about-{readout.name}", f"{symbol(known.symbol)} {known.long_name}"
+    key, name = f"about-{readout.name}", f"{symbol(readout.symbol)} {readout.long_name}"
     about = f"<p>{linked(readout.help)}</p><em>{linked(readout.equation)}</em>"
     button = f'<button class="word" popovertarget="{key}">{name}</button>'
     return f'{button}<div popover id="{key}">{about}</div>'

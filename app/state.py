@@ -1,67 +1,21 @@
 """The state of the page: a frozen set of numbers (SI) and choices, and its presets."""
 
-from dataclasses import dataclass, field, fields, replace
-from math import inf, isclose
+from dataclasses import dataclass, field, replace
+from math import isclose
 from typing import Any
 
 import mdr_core as mdr
 from mdr_core.results.units import written
 
-from .quantities import (
-    ASSETS,
-    CHOICES,
-    OF_DRIVE,
-    QUANTITIES,
-    SHAPES,
-    USED,
-    lowered,
-    read_data,
-    shape_quantities,
-)
+from .quantities import ASSETS, CHOICES, QUANTITIES, Option, lowered, read_data
 
-
-@dataclass(frozen=True)
-class Preset:
-    """A preset: its choices, values (SI), and sources of values, by name."""
-
-    label: str
-    choices: dict[str, str]
-    values: dict[str, float]
-    sources: dict[str, str]
-
-
-def _preset(scene: dict, media: dict, indenters: dict) -> Preset:
-    """A scene with all that its medium and its indenter have."""
-    given = media[scene["medium"]] | indenters[scene["indenter"]] | scene
-    numbers = {name: each for name, each in given.items() if name in QUANTITIES}
-    values = {name: each["value"] for name, each in numbers.items()}
-    bodies = mdr.Medium.from_bodies(*(values[name] for name in USED["elasticity"]["bodies"]))
-    return Preset(
-        scene["label"],
-        {"elasticity": "bodies", "damping": "none", "adhesion": "none"}
-        | {name: given[name] for name in ("shape", "plasticity", "drive")},
-        values | {"E_star": bodies.E_star, "plastic_depth": 0.0},
-        {name: each["source"] for name, each in numbers.items()},
-    )
-
-
-_DATA = read_data(ASSETS / "presets.json")
-#: By their keys, as in links.
-PRESETS = {
-    key: _preset(scene, _DATA["media"], _DATA["indenters"]) for key, scene in _DATA["scenes"].items()
-}
-CHOICES["preset"] = {key: preset.label for key, preset in PRESETS.items()}
-
+_PRESETS = read_data(ASSETS / "presets.json")
+#: The preset that the page opens with.
+OPENING = next(iter(_PRESETS["scenes"]))
 #: Choices about the medium.
 MEDIUM_CHOICES = ("elasticity", "plasticity", "damping", "adhesion")
-#: What the page opens on.
-OPENING = next(iter(PRESETS))
-
-#: Progress at the end: 0 first contact, 1 largest depth, 2 loss of contact, 2.2 indenter at the
-#: height of the undeformed surface.
-LAST_PROGRESS = 2.2
-#: What the view is like rather than the scene: undo leaves it alone. Extras add names of theirs.
-VIEW = ["progress", "tiles", "dark"]
+#: What the view is like rather than the scene, with defaults: undo leaves it alone. Extras add theirs.
+VIEW: dict[str, Any] = {"progress": 1.0, "tiles": (), "dark": False}
 #: Values of extras by their names, as in "sweep.swept", with their defaults.
 OF_EXTRAS: dict[str, Any] = {}
 
@@ -70,9 +24,10 @@ OF_EXTRAS: dict[str, Any] = {}
 class State:
     """Everything set on the page; `replace` returns a copy with other values.
 
-    A number of a shape that has not been looked at is None: it is sized when it is. `samples` has radii and
-    heights of a measured tip, `tiles` the optional plots that are shown, `extras` the values of extras that
-    are not at their defaults: `state["sweep.swept"]` is one of them.
+    E* of two bodies, and q_c of a hardness at a radius, follow from these. A number of a shape that has not
+    been looked at is None: it is sized when it is. `samples` has radii and heights of a measured tip,
+    `tiles` the optional plots that are shown, `extras` the values of extras that are not at their defaults:
+    `state["sweep.swept"]` is one of them.
     """
 
     preset: str = OPENING
@@ -126,6 +81,13 @@ class State:
     tip_note: str = ""
     extras: dict[str, Any] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        if self.elasticity == "bodies":
+            bodies = mdr.Medium.from_bodies(self.E_1, self.nu_1, self.E_2, self.nu_2)
+            object.__setattr__(self, "E_star", bodies.E_star)
+        if self.plasticity == "hardness":
+            object.__setattr__(self, "q_c", self.hardness * self.hardness_radius)
+
     def __getitem__(self, name: str) -> Any:
         return self.extras.get(name, OF_EXTRAS[name]) if "." in name else getattr(self, name)
 
@@ -135,85 +97,79 @@ class State:
         kept = {name: value for name, value in (self.extras | own).items() if value != OF_EXTRAS[name]}
         return replace(self, extras=kept, **changes)
 
+    def chosen(self, choice: str) -> Option:
+        """The chosen option of a choice."""
+        return CHOICES[choice].options[self[choice]]
+
     @property
-    def scene_values(self) -> dict[str, Any]:
-        """Values that undo restores."""
-        names = [each.name for each in fields(self) if each.name != "extras"]
-        return {name: self[name] for name in (*names, *OF_EXTRAS) if name not in VIEW}
+    def scene_values(self) -> "State":
+        """Values that undo restores: the state with the view at its defaults."""
+        return self.replace(**VIEW)
+
+
+@dataclass(frozen=True)
+class Preset:
+    """A preset: its options and numbers (SI), and sources of numbers, by name."""
+
+    label: str
+    values: dict[str, Any]
+    sources: dict[str, str]
+
+
+def _preset(scene: dict[str, Any]) -> Preset:
+    """A scene with all that its medium and its indenter have, on a virgin surface."""
+    given = _PRESETS["media"][scene["medium"]] | _PRESETS["indenters"][scene["indenter"]] | scene
+    numbers = {name: each for name, each in given.items() if name in QUANTITIES}
+    values = {"elasticity": "bodies", "damping": "none", "adhesion": "none", "plastic_depth": 0.0}
+    values |= {name: given[name] for name in ("shape", "plasticity", "drive")}
+    values |= {name: each["value"] for name, each in numbers.items()}
+    values["E_star"] = State(**values).E_star
+    return Preset(scene["label"], values, {name: each["source"] for name, each in numbers.items()})
+
+
+#: By their keys, as in links.
+PRESETS = {key: _preset(scene) for key, scene in _PRESETS["scenes"].items()}
+CHOICES["preset"].options.update({key: Option(preset.label) for key, preset in PRESETS.items()})
 
 
 def preset_state(key: str = OPENING, **view: Any) -> State:
     """State of a preset, with a view."""
-    preset = PRESETS[key]
-    return with_derived(State(preset=key, **preset.choices, **preset.values).replace(**view))
+    return State(preset=key, **PRESETS[key].values).replace(**view)
 
 
-def profile(state: Any) -> mdr.Profile:
-    if state.shape != "sampled":
-        values = {q.name: getattr(state, name) for name, q in shape_quantities(state.shape)}
-        return SHAPES[state.shape].build(**values)
-    if not state.samples:
-        raise ValueError("load a tip first: a CSV file with radii r and heights z")
-    return mdr.Sampled(*state.samples)
-
-
-#: Hardness of the medium by the options of the choice "plasticity", as arguments of `mdr.Medium`.
-_HARDNESS = {
-    "q_c": lambda state: {"q_c": state.q_c},
-    "hardness": lambda state: {"q_c": state.hardness * state.hardness_radius},
-    "constant": lambda state: {"q_c": 0.0, "hardness": state.volume_hardness},
-    "line": lambda state: {"q_c": 0.0, "f_c": state.f_c},
-    "none": lambda state: {"q_c": inf},
-}
-#: The constant of the hardness by the same options; q_c also of a hardness at a radius.
-YIELD_CONSTANT = USED["plasticity"] | {"hardness": ["q_c"]}
-
-
-def refuse_other_classes(state: Any, what: str, instead: str) -> None:
-    """Refuses what is modelled for a hardness ∝ 1/a only, with what else to choose."""
-    if state.plasticity in ("constant", "line"):
-        raise ValueError(f"{what} is modelled for a hardness ∝ 1/a only: choose that or {instead} first")
-
-
-def medium(state: Any) -> mdr.Medium:
-    numbers = [getattr(state, name) for name in USED["elasticity"][state.elasticity]]
-    make = mdr.Medium if state.elasticity == "modulus" else mdr.Medium.from_bodies
-    made = make(*numbers)
-    eta = state.eta if state.damping == "eta" else 0.0
-    w = state.work_of_adhesion if state.adhesion == "work" else 0.0
-    if w:
-        refuse_other_classes(state, "adhesion", "yield none")
-    return replace(made, eta=eta, work_of_adhesion=w, **_HARDNESS[state.plasticity](state))
-
-
-def with_derived(state: State) -> State:
-    """With E* and q_c derived from two bodies or a hardness."""
-    made = medium(state)
-    q_c = {"q_c": float(made.q_c)} if "q_c" in YIELD_CONSTANT[state.plasticity] else {}
-    return state.replace(E_star=float(made.E_star), **q_c)
-
-
-def used(state: State) -> list[str]:
-    """Names of the numbers in use."""
-    names = [name for name, _ in shape_quantities(state.shape)]
-    return names + used_by(state, *MEDIUM_CHOICES, "drive", *OF_DRIVE[state.drive]["form"])
+def altered(state: State) -> list[str]:
+    """Names of choices and numbers that differ from the preset."""
+    return [
+        name
+        for name, value in PRESETS[state.preset].values.items()
+        if state[name] != value and (name in CHOICES or not isclose(state[name], value, rel_tol=1e-9))
+    ]
 
 
 def used_by(state: State, *choices: str) -> list[str]:
-    """Names of the numbers that the options of some choices use."""
-    return [name for choice in choices for name in USED[choice][state[choice]]]
+    """Names of the numbers that the chosen options of some choices use."""
+    return [name for choice in choices for name in state.chosen(choice).uses]
+
+
+def yield_constant(state: State) -> list[str]:
+    """Name of the constant of the hardness, q_c also of a hardness at a radius; none if nothing yields."""
+    return ["q_c"] if state.plasticity == "hardness" else used_by(state, "plasticity")
 
 
 def regions(state: State) -> dict[str, list[str]]:
     """Names of the numbers in the form, by its regions."""
-    medium, drive = used_by(state, *MEDIUM_CHOICES), used_by(state, "drive", *OF_DRIVE[state.drive]["form"])
-    main = ["E_star", *YIELD_CONSTANT[state.plasticity]]
+    main = ["E_star", *yield_constant(state)]
     return {
-        "shape": [name for name, _ in shape_quantities(state.shape)],
-        "drive": [name for name in drive if name != "density"],
+        "shape": used_by(state, "shape"),
+        "drive": used_by(state, "drive", *state.chosen("drive").form),
         "medium": main,
-        "more": [n for n in medium if n not in main] + ["density"] * ("density" in drive),
+        "more": [name for name in used_by(state, *MEDIUM_CHOICES) if name not in main],
     }
+
+
+def used(state: State) -> list[str]:
+    """Names of the numbers in use."""
+    return used_by(state, "shape", *MEDIUM_CHOICES, "drive", *state.chosen("drive").form)
 
 
 def checked(name: str, value: float) -> float:
@@ -225,12 +181,35 @@ def checked(name: str, value: float) -> float:
     return float(known.bounded(value))
 
 
-def altered(state: State) -> list[str]:
-    """Names of choices and numbers that differ from the preset."""
-    preset = PRESETS[state.preset]
-    loaded = preset.choices | preset.values
-    return [
-        name
-        for name, value in loaded.items()
-        if state[name] != value and not (name in QUANTITIES and isclose(state[name], value, rel_tol=1e-9))
-    ]
+def profile(state: State) -> mdr.Profile:
+    """Shape of the indenter."""
+    if state.shape == "sampled":
+        if not state.samples:
+            raise ValueError("load a tip first: a CSV file with radii r and heights z")
+        return mdr.Sampled(*state.samples)
+    if state.shape == "power_law":
+        coefficient = state.power_law_height / state.power_law_width**state.power_law_exponent
+        return mdr.PowerLaw(coefficient, state.power_law_exponent)
+    make = getattr(mdr, state.shape.title().replace("_", ""))
+    return make(**{name.removeprefix(f"{state.shape}_"): state[name] for name in used_by(state, "shape")})
+
+
+def refuse_other_classes(state: State, what: str, instead: str) -> None:
+    """Refuses what is modelled for a hardness ∝ 1/a only, with what else to choose."""
+    if state.plasticity in ("constant", "line"):
+        raise ValueError(f"{what} is modelled for a hardness ∝ 1/a only: choose that or {instead} first")
+
+
+def medium(state: State) -> mdr.Medium:
+    """Medium under the indenter."""
+    if state.adhesion == "work":
+        refuse_other_classes(state, "adhesion", "yield none")
+    # The core calls the constant hardness `hardness`, which is another number of the page.
+    constants = {name.removeprefix("volume_"): state[name] for name in yield_constant(state)}
+    return mdr.Medium(
+        state.E_star,
+        poisson=state.nu_1 if state.elasticity == "bodies" else 0.5,
+        eta=state.eta if state.damping == "eta" else 0.0,
+        work_of_adhesion=state.work_of_adhesion if state.adhesion == "work" else 0.0,
+        **constants,
+    )

@@ -9,7 +9,7 @@ from ..changes import CONVERT, OFFERED
 from ..drives import DRIVES
 from ..extra import EXTRAS, Extra
 from ..plots import PLOTS
-from ..quantities import CHOICES, OF_DRIVE, QUANTITIES, include, read_data
+from ..quantities import CHOICES, QUANTITIES, include, read_data
 from ..state import OF_EXTRAS, VIEW
 
 _HERE = Path(__file__).parent
@@ -24,27 +24,22 @@ def _load() -> None:
     extras: dict[str, Extra] = {name: import_module(f".{name}", __name__).EXTRA for name in names}
     for name, extra in sorted(extras.items(), key=lambda each: each[1].order):
         _register(extra, data.get(name, {}))
-    _sort(PLOTS, key=lambda name: PLOTS[name].order)
-    _sort(CHOICES["drive"], key=lambda name: OF_DRIVE[name]["order"])
+    for name in sorted(PLOTS, key=lambda name: PLOTS[name].order):
+        PLOTS[name] = PLOTS.pop(name)
 
 
 def _register(extra: Extra, data: dict[str, Any]) -> None:
     """Let the page have an extra; the data of its JSON file are included already."""
     OF_EXTRAS.update({each["name"]: QUANTITIES[each["name"]].default for each in data.get("numbers", ())})
-    OF_EXTRAS.update({name: next(iter(CHOICES[name]), "") for name in data.get("choices", {})})
+    choices = [name for name in data.get("choices", {}) if "." in name]
+    OF_EXTRAS.update({name: next(iter(CHOICES[name].options), "") for name in choices})
     OF_EXTRAS.update(extra.values)
-    VIEW.extend(extra.of_view)
+    VIEW.update({name: OF_EXTRAS[name] for name in extra.of_view})
     CONVERT.update(extra.converts)
     OFFERED.update(extra.offers)
     DRIVES.update(extra.drives)
     PLOTS.update({plot.name: plot for plot in extra.plots})
     EXTRAS[extra.name] = extra
-
-
-def _sort(known: dict[str, Any], key: Any) -> None:
-    """Sort the entries of a dictionary."""
-    for name in sorted(known, key=key):
-        known[name] = known.pop(name)
 
 
 _load()

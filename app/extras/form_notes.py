@@ -10,7 +10,6 @@ from mdr_core.results.units import digits, written
 from ..courses import Course, onset_depth
 from ..extra import Extra
 from ..plot import View
-from ..quantities import SHAPES
 from ..shared.summary import with_symbol
 from ..state import PRESETS, altered
 from ..ui import linked, marked
@@ -22,7 +21,7 @@ _GRAVITY = 9.80665
 def notes(view: View) -> dict[str, str]:
     """Notes (HTML) by the places of the form."""
     state, course = view.state, view.course
-    preset, shape, made = PRESETS[state.preset], SHAPES[state.shape], course.scene.medium
+    preset, shape, made = PRESETS[state.preset], state.chosen("shape"), course.scene.medium
     sources = ""
     for name, source in preset.sources.items():
         value = marked(with_symbol(name, preset.values[name]))

@@ -46,9 +46,7 @@ def step_state(step: dict[str, Any], now: State) -> State:
 
 def step_text(step: dict[str, Any], course: Course) -> str:
     """Text of a step, with the numbers of a course."""
-    numbers = {
-        each.known.symbol: text(each, values, course.now, 3) for each, values in readings(course).items()
-    }
+    numbers = {each.symbol: text(each, values, course.now, 3) for each, values in readings(course).items()}
     return step["says"].format_map(numbers)
 
 

@@ -17,12 +17,11 @@ from ..extra import Extra
 from ..parts import Part, button
 from ..plot import Along, Overlay, View
 from ..plots import PLOTS, P, R
-from ..quantities import CHOICES, OF_DRIVE
 from ..readouts import line as readout_line
 from ..readouts import text
 from ..shared import widgets
 from ..shared.summary import with_symbol
-from ..state import OF_EXTRAS, PRESETS, VIEW, State, altered, used
+from ..state import MEDIUM_CHOICES, PRESETS, State, altered, used
 from ..ui import WIDE, html, marked, show, symbol
 
 #: Scenes that are held have each its own dashes.
@@ -66,8 +65,7 @@ def toggle_hold(state: State) -> State:
         return state.replace(**{"held.scenes": others})
     if len(others) == len(DASHES):
         raise ValueError(f"{len(DASHES)} scenes are held: remove one of them first")
-    of_view = {name: OF_EXTRAS[name] for name in VIEW if name in OF_EXTRAS}
-    scene = state.replace(tiles=(), dark=False, **of_view)
+    scene = state.scene_values.replace(progress=state.progress)
     return state.replace(**{"held.scenes": (*others, link.write(scene))})
 
 
@@ -82,13 +80,13 @@ def difference(state: State, now: State | None = None) -> str:
     A scene of another preset than the present one has the name of its preset, too.
     """
     preset, known = PRESETS[state.preset], altered(state)
-    choices = (*preset.choices, *OF_DRIVE[state.drive]["form"])
+    choices = ("shape", *MEDIUM_CHOICES, "drive", *state.chosen("drive").form)
     other = now is not None and now.preset != state.preset
     if now is not None and not other and scene_of(now) != scene_of(state):
         changed = {name for name in (*choices, *used(state)) if state[name] != now[name]}
     else:
         changed = {*known, *(name for name in used(state) if name not in preset.values)}
-    words = [CHOICES[name][state[name]] for name in choices if name in changed and name != "elasticity"]
+    words = [state.chosen(name).label for name in choices if name in changed and name != "elasticity"]
     for name in sorted(used(state), key=lambda name: name not in known):
         if name in changed:
             words.append(with_symbol(name, state[name]))
@@ -98,7 +96,7 @@ def difference(state: State, now: State | None = None) -> str:
 def numbers(course: Course) -> dict[str, str]:
     """Readouts of a scene at its largest depth, by symbol."""
     shown = readout_line(course).items()
-    return {each.known.symbol: text(each, values, course.peak, 3) for each, values in shown}
+    return {each.symbol: text(each, values, course.peak, 3) for each, values in shown}
 
 
 # What is drawn beside the present scene.

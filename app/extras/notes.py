@@ -8,7 +8,7 @@ from mdr_core.results.units import written
 from ..courses import Course
 from ..extra import Extra
 from ..plot import View
-from ..quantities import OF_DRIVE
+from ..quantities import CHOICES
 from ..state import State
 from ..ui import linked, marked
 
@@ -38,7 +38,7 @@ _OF_INCOMPRESSIBLE = {
 def _own_words(limit: Any, state: State) -> str:
     """What the page says of a limit in the place of the core, or nothing."""
     if limit.what == "viscosity":
-        remedy = ", or ".join(drive["in_time"] for drive in OF_DRIVE.values() if "in_time" in drive)
+        remedy = ", or ".join(each.in_time for each in CHOICES["drive"].options.values() if each.in_time)
         tau = written(limit.value, "time")
         return f"Pressing is quasi-static here; dashpots, τ = {tau}, act in {remedy}."
     return _OF_INCOMPRESSIBLE.get(limit.what, "") if state.elasticity == "modulus" else ""

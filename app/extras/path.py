@@ -13,8 +13,9 @@ from mdr_core.contact.live_interval import LiveInterval
 from mdr_core.contact.yielding import yield_rule
 from mdr_core.medium import refuse_adhesion
 
+from ..changes import equivalent
 from ..courses import Course, onset_depth, path_progress
-from ..drives import DRIVES, Drive, limited_force, turning_point
+from ..drives import Drive, limited_force
 from ..extra import Extra
 from ..shared.rest import Resting
 from ..state import medium, profile, refuse_other_classes
@@ -210,7 +211,7 @@ class Path(Drive):
 
 EXTRA = Extra(
     "path",
-    converts={"path.pattern": lambda state, wanted: DRIVES["path"].equivalent(state, turning_point(state))},
+    converts={"path.pattern": lambda state, wanted: equivalent(state, "path")},
     drives={"path": Path()},
     service=Resting,
 )

@@ -26,10 +26,10 @@ from ..extra import EXTRAS, Extra
 from ..player import frames
 from ..plot import Plot, View
 from ..plots import NAMED, PLOTS
-from ..quantities import CHOICES, LABELS, QUANTITIES, SHAPES
+from ..quantities import CHOICES, QUANTITIES
 from ..shared.dragging import DRAGGED, TOUCH, let_drag, path
 from ..shared.summary import summary
-from ..state import MEDIUM_CHOICES, PRESETS, YIELD_CONSTANT, State, altered, used
+from ..state import MEDIUM_CHOICES, PRESETS, State, altered, used, yield_constant
 from ..ui import CSS, HERE, marked, symbol
 
 _HERE = Path(__file__)
@@ -123,13 +123,13 @@ def _folded(view: View) -> Iterator[tuple[str, str]]:
 
 def _inputs(state: State) -> Iterator[tuple[str, str, str, str]]:
     """Symbol, name, value and source of all inputs, as HTML."""
-    preset, shape = PRESETS[state.preset], SHAPES[state.shape]
+    preset, shape = PRESETS[state.preset], state.chosen("shape")
     note = state.tip_note if state.shape == "sampled" else f"{shape.height},  {shape.reduced}"
     yield "", "indenter", escape(shape.label), marked(note)
     for choice in (*MEDIUM_CHOICES, "drive"):
-        yield "", LABELS[choice].lower(), CHOICES[choice][state[choice]], ""
+        yield "", CHOICES[choice].label.lower(), state.chosen(choice).label, ""
     given = used(state)
-    for name in dict.fromkeys([*given, "E_star", *YIELD_CONSTANT[state.plasticity]]):
+    for name in dict.fromkeys([*given, "E_star", *yield_constant(state)]):
         known, value = QUANTITIES[name], state[name]
         source = "set on the page" if name in given else "from the numbers above"
         if name in preset.sources and isclose(value, preset.values[name]):

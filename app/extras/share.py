@@ -19,7 +19,7 @@ from ..ui import WIDE, html, show
 def csv(view: View) -> str:
     """All states along the path: every readout that changes."""
     columns = {
-        f"{each.known.long_name} {each.known.symbol} ({each.known.unit or '1'})": values
+        f"{each.long_name} {each.symbol} ({each.unit or '1'})": values
         for each, values in readings(view.course).items()
         if np.ndim(values)
     }

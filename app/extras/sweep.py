@@ -3,7 +3,6 @@
 from dataclasses import dataclass, replace
 from operator import attrgetter
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 
@@ -12,13 +11,13 @@ from mdr_core.results.figures import NOTHING, line, mark
 from mdr_core.results.quantities import QUANTITIES as RESULTS
 from mdr_core.results.units import KINDS, digits, in_full
 
-from ..changes import option, shown
+from ..changes import CONSTANTS, option, shown
 from ..extra import Extra
 from ..plot import axis
-from ..quantities import CHOICES, QUANTITIES, USED, Scale, in_words, lowered, quantity, read_data
+from ..quantities import CHOICES, QUANTITIES, Option, Scale, in_words, lowered, quantity, read_data
 from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
-from ..state import PRESETS, State, medium, profile, used
+from ..state import PRESETS, State, medium, profile, used, used_by, yield_constant
 from ..ui import marked
 
 _DATA = read_data(Path(__file__).with_suffix(".json"))
@@ -32,8 +31,6 @@ _RESULTS = _DATA["results"]
 #: The energy of an impact, which is swept by the speed.
 _ENERGY = quantity(**_DATA["energy"])
 
-#: Constants of the hardness by their power of the contact radius.
-CONSTANTS = ("volume_hardness", "q_c", "f_c")
 #: Points along the range, and of a viscous impact, which takes a millisecond each.
 POINTS, VISCOUS = 81, 31
 #: Rows of the fast limit, which is that of class (b), and of the three classes: options and constants.
@@ -56,9 +53,9 @@ _SHAPES = ("cone", "paraboloid", "power_law")
 
 @dataclass(frozen=True)
 class Sweep:
-    """A sweep: fixed values, the swept number with its range, and the result."""
+    """A sweep: the scene, the swept number with its range, and the result."""
 
-    values: dict
+    state: State
     swept: str
     present: float
     low: float
@@ -70,23 +67,26 @@ class Sweep:
 
     @property
     def viscous(self):
-        return self.values["damping"] != "none" and "speed" in self.solver
+        return self.state.damping != "none" and "speed" in self.solver
 
     @property
     def numbers(self):
         space = np.geomspace if self.low > 0 else np.linspace
         return space(self.low, self.high, VISCOUS if self.viscous else POINTS)
 
+    def at(self, numbers):
+        """The scene with values of the swept number."""
+        if self.swept == "energy":
+            return self.state.replace(speed=(2 * numbers / self.state.mass) ** 0.5)
+        return self.state.replace(**{self.swept: numbers})
+
     def solve(self, numbers):
         """Results of the core for values of the swept number."""
-        values = self.values | {self.swept: numbers}
-        if self.swept == "energy":
-            values["speed"] = (2 * numbers / values["mass"]) ** 0.5
+        state = self.at(numbers)
         solver, *names = self.solver
-        given = {name.replace("max_", ""): values[name] for name in names}
+        given = {name.replace("max_", ""): state[name] for name in names}
         if solver == "impact":
-            given["plastic_depth"] = values["plastic_depth"]
-        state = SimpleNamespace(**values)
+            given["plastic_depth"] = state.plastic_depth
         return getattr(mdr, solver)(profile(state), medium(state), **given)
 
     def column(self, numbers, quantity):
@@ -106,25 +106,24 @@ class Sweep:
 
     @property
     def dry(self):
-        return not self.viscous and self.values["adhesion"] == "none"
+        return not self.viscous and self.state.adhesion == "none"
 
     def fast(self, numbers):
         """The fast limit, of dry impacts on a virgin medium of class (b), and nothing elsewhere."""
-        virgin = "speed" in self.solver and self.dry and not self.values["plastic_depth"]
-        if virgin and self.against in _LIMITS and self.values["plasticity"] in ("q_c", "hardness"):
+        virgin = "speed" in self.solver and self.dry and not self.state.plastic_depth
+        if virgin and self.against in _LIMITS and self.state.plasticity in ("q_c", "hardness"):
             return {FAST: self.column(numbers, _LIMITS[self.against])}
         return {}
 
     def classes(self):
         """Sweeps of the other classes of hardness, through the present value, by their rows."""
-        of_class = USED["plasticity"]
-        others = {row: pair for row, pair in CLASSES.items() if self.swept not in of_class[pair[0]]}
-        own = "q_c" if self.values["plasticity"] == "hardness" else self.values["plasticity"]
-        constant = len(others) < len(CLASSES) or self.swept in of_class["hardness"]
+        own = yield_constant(self.state)
+        others = {row: pair for row, pair in CLASSES.items() if pair[1] not in own}
+        constant = self.swept in used_by(self.state, "plasticity")
         # Under a given force each constant is a search of its own.
         if constant or not self.dry or not self.yields or "max_force" in self.solver:
             return {}
-        found = {row: self._through(*pair) for row, pair in others.items() if pair[0] != own}
+        found = {row: self._through(*pair) for row, pair in others.items()}
         return {row: each for row, each in found.items() if each}
 
     def _through(self, option, constant):
@@ -135,9 +134,8 @@ class Sweep:
         """
         at = np.array([self.present])
         wanted, a = (float(self.column(at, quantity)[0]) for quantity in (self.against, "contact_radius"))
-        made = medium(SimpleNamespace(**self.values | {self.swept: self.present}))
-        same = float(made.hardness_at(a)) * a ** (CONSTANTS.index(constant))
-        other = replace(self, values=self.values | {"plasticity": option}, swept=constant)
+        same = float(medium(self.at(self.present)).hardness_at(a)) * a ** (CONSTANTS.index(constant))
+        other = replace(self, state=self.state.replace(plasticity=option), swept=constant)
         low, high = same / 40, same * 30
         for _ in range(2):
             constants = np.geomspace(low, high, POINTS)
@@ -147,8 +145,8 @@ class Sweep:
                 return None
             low, high = constants[crossed[0] : crossed[0] + 2]
         share = over[crossed[0]] / (over[crossed[0]] - over[crossed[0] + 1])
-        values = other.values | {constant: shown(low + share * (high - low))}
-        return replace(other, values=values, swept=self.swept)
+        state = other.state.replace(**{constant: shown(low + share * (high - low))})
+        return replace(other, state=state, swept=self.swept)
 
 
 def known(name: str):
@@ -156,40 +154,43 @@ def known(name: str):
     return _ENERGY if name == "energy" else QUANTITIES[name]
 
 
-CHOICES["sweep.swept"].update(
-    {name: lowered(f"{known(name).symbol}, {known(name).label}") for name in ("energy", *QUANTITIES)}
-)
+for _name in ("energy", *QUANTITIES):
+    _label = lowered(f"{known(_name).symbol}, {known(_name).label}")
+    CHOICES["sweep.swept"].options[_name] = Option(_label)
 
 
 def swept(state: State) -> list[str]:
     """What can be swept, the first one if nothing is chosen."""
     if state.drive not in SOLVERS:
-        return list(CHOICES["sweep.swept"])
+        return list(CHOICES["sweep.swept"].options)
     solver, impact = SOLVERS[state.drive], state.drive == "impact"
-    idle = "density" if impact else "eta"
-    works = [each for each in used(state) if each != idle and QUANTITIES[each].span >= 0]
+    idle = ("density",) if impact else ("density", "eta")
+    works = [each for each in used(state) if each not in idle and QUANTITIES[each].span >= 0]
     return ["energy"] * impact + sorted(works, key=lambda each: each not in solver)
 
 
 def against(state: State) -> list[str]:
     """Results that can be drawn."""
-    return _RESULTS.get(state.drive) or list(CHOICES["sweep.against"])
+    return _RESULTS.get(state.drive) or list(CHOICES["sweep.against"].options)
+
+
+def _value(state: State, name: str) -> float:
+    return state.mass * state.speed**2 / 2 if name == "energy" else state[name]
 
 
 def asked(state: State) -> Sweep:
     """The sweep of a state, over the range of a slider about the value of the preset."""
     name = option(state, "sweep.swept")
-    states = state, state.replace(**PRESETS[state.preset].values)
-    values, preset = ({**each.scene_values, "energy": each.mass * each.speed**2 / 2} for each in states)
-    scale = Scale.about(known(name), preset[name], values[name])
+    value, middle = (_value(each, name) for each in (state, state.replace(**PRESETS[state.preset].values)))
+    scale = Scale.about(known(name), middle, value)
     chosen = option(state, "sweep.against"), state["sweep.scale"] == "log", SOLVERS.get(state.drive, ())
-    return Sweep(state.scene_values, name, values[name], scale.low, scale.high, *chosen)
+    return Sweep(state.scene_values, name, value, scale.low, scale.high, *chosen)
 
 
 def quick(sweep: Sweep) -> bool:
     """Whether the sweep is fast enough for every move: shapes with closed forms."""
     one_by_one = sweep.solver[:1] == ("indent_to_force",) and sweep.swept != "max_force"
-    return not (one_by_one or sweep.viscous) and sweep.values["shape"] in _SHAPES
+    return not (one_by_one or sweep.viscous) and sweep.state.shape in _SHAPES
 
 
 def found(course, sweep: Sweep):
@@ -219,7 +220,7 @@ def _axes(sweep, values, present):
     x = replace(x, start=sweep.low if log else min(sweep.low, 0.0), end=sweep.high, log=log)
     sizes = np.append(values, present)
     sizes = sizes[np.isfinite(sizes)]
-    title = CHOICES["sweep.against"][sweep.against]
+    title = CHOICES["sweep.against"].options[sweep.against].label
     y = axis("against", title, KINDS[result.unit], max(sizes, default=1.0))
     if not (log and (sizes > 0).any() and (result.unit or (sizes > 0).all())):
         return x, y
@@ -242,7 +243,7 @@ def _power(sweep):
 def _told(row, sweep):
     """Class, constant and law of a sweep of another class."""
     constant = QUANTITIES[CLASSES[row][1]]
-    value = in_full(sweep.values[constant.name], constant.kind)
+    value = in_full(sweep.state[constant.name], constant.kind)
     told = [marked(f"{row.split()[0]} {constant.symbol} = {value}"), sweep.low > 0 and _power(sweep)]
     return ", ".join(part for part in told if part)
 

@@ -2,7 +2,7 @@
 
 from mdr_core.results.units import in_full
 
-from ..quantities import CHOICES, OF_DRIVE, QUANTITIES, SHAPES
+from ..quantities import QUANTITIES
 from ..state import State, regions, used_by
 
 
@@ -13,9 +13,8 @@ def with_symbol(name: str, value: float) -> str:
 
 def summary(state: State) -> str:
     """Shape, medium and drive of a scene in one line."""
-    parts, choices = regions(state), OF_DRIVE[state.drive]["form"]
+    parts = regions(state)
     names = [*parts["shape"], *parts["medium"], *parts["drive"], *used_by(state, "damping", "adhesion")]
     numbers = [with_symbol(name, state[name]) for name in names if state[name]]
-    return ", ".join(
-        [SHAPES[state.shape].label, *numbers, *(CHOICES[name][state[name]] for name in choices)]
-    )
+    chosen = [state.chosen(name).label for name in state.chosen("drive").form]
+    return ", ".join([state.chosen("shape").label, *numbers, *chosen])

@@ -44,17 +44,17 @@ def test_every_drive_gives_the_same_interface(drive, damping):
     for field in (state.pressure, state.line_load, state.surface, state.imprint):
         assert np.shape(field(r)) == (3,)
     assert 6 <= len(readouts.line(course)) <= 8
-    assert set(DRIVES) == set(CHOICES["drive"])
+    assert set(DRIVES) == set(CHOICES["drive"].options)
 
 
-@pytest.mark.parametrize("pattern", CHOICES["path.pattern"])
+@pytest.mark.parametrize("pattern", CHOICES["path.pattern"].options)
 def test_a_pattern_goes_as_deep_as_what_was_there_before_and_is_in_link_and_csv(pattern):
     state = path(pattern)
     course = solved(state)
     # A force that is found has the five digits that its field shows.
     assert float(course.turning_point.depth) == pytest.approx(preset_state().max_depth, rel=5e-5)
     assert scene_of(linked_state(state)) == course.scene
-    assert CHOICES["path.pattern"][pattern] in summary(state)
+    assert CHOICES["path.pattern"].options[pattern].label in summary(state)
     lines = share.csv(View(state, course)).splitlines()
     assert sum(line[0] != "#" for line in lines) == 1 + len(course)
 

@@ -46,8 +46,9 @@ def words(name):
     found += [label for label, _, _ in extra.files]
     found += [row.name for overlay in extra.overlays for row in overlay.rows if row.legend]
     found += [number["label"] for number in data.get("numbers", ())]
-    found += [drive["label"] for drive in data.get("drives", {}).values()]
-    found += [choice["label"] for choice in data.get("choices", {}).values()]
+    choices = data.get("choices", {})
+    found += [choice["label"] for name, choice in choices.items() if "." in name]
+    found += [drive["label"] for drive in choices.get("drive", {}).get("options", {}).values()]
     page = opened()
     buttons = extra.on_plots(page, PLOTS["force"], page.shown), extra.header(page, page.shown)
     found += [each.look["label"] for each in buttons if each is not None]

@@ -10,7 +10,7 @@ from app import changes, link
 from app.extras import fit as fitting
 from app.extras.fit.measured import CONSTANTS, agrees, read_curve
 from app.page import Page
-from app.state import YIELD_CONSTANT, medium, preset_state, profile
+from app.state import medium, preset_state, profile, yield_constant
 
 from .states import linked_state, part, side, table
 
@@ -29,7 +29,7 @@ def curve_of(start, timed=False):
 def test_the_class_of_a_made_curve_is_told_and_its_constant_is_found(option, letter):
     """A curve without noise is fitted by its own class alone, with the constant it was made with."""
     start = changes.choose(preset_state(SILICA), "plasticity", option)
-    (name,) = YIELD_CONSTANT[option]
+    (name,) = yield_constant(start)
     state = fitting.take(start, curve_of(start))
     # A new curve is fitted with the hardness of the page.
     assert CONSTANTS[option] == state["fit.hardness"]

@@ -166,7 +166,7 @@ def test_what_is_of_class_b_alone_is_refused_in_words():
         assert page.state == before
     adhesive, oblique = state_with(GOLD, adhesion="work"), state_with(GOLD, "oblique")
     with pytest.raises(ValueError, match="adhesion is modelled for"):
-        changes.choose(adhesive, "plasticity", "constant")
+        follow(changes.choose(adhesive, "plasticity", "constant"))
     with pytest.raises(ValueError, match="friction is modelled"):
         follow(changes.choose(oblique, "plasticity", "constant"))
     viscous = state_with(SILICA, "path", pattern="creep", damping="none")

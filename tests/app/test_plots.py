@@ -23,7 +23,7 @@ from app.extras.surface import surface
 from app.page import Page
 from app.plot import Plot, View, rows_of
 from app.plots import NAMED, PLOTS, D, F, P, R, X, force_still, pressure
-from app.quantities import SHAPES, lowered
+from app.quantities import CHOICES, lowered
 from app.shared.logarithmic import ticks
 from app.state import medium, preset_state, profile
 from mdr_core.results.figures import SPRINGS, line, mark, radii
@@ -35,7 +35,7 @@ from .test_drawn import amounts
 from .test_drives import oblique_state
 
 PDMS = "microsphere-pdms"
-SHAPED = [shape for shape in SHAPES if shape != "sampled"]
+SHAPED = [shape for shape in CHOICES["shape"].options if shape != "sampled"]
 
 
 @pytest.mark.parametrize("shape", SHAPED)

@@ -40,7 +40,7 @@ def test_it_says_what_the_page_says():
     # Of equations the text alone: the links of the page lead to its server.
     assert "?theory=" not in html
     for each in readouts.line(course):
-        assert each.known.long_name in said
+        assert each.long_name in said
     # What the preset says has its source; what was typed says so.
     assert PRESETS[DROP].sources["q_c"] in said
     assert "2.0000 m/s set on the page" in said

@@ -14,9 +14,9 @@ from app.extras.scene_file import scene_file
 from app.page import Page
 from app.plot import rows_of
 from app.plots import PLOTS, D, F, P, X, force, springs, visible
-from app.quantities import DATA, LABELS, QUANTITIES
+from app.quantities import CHOICES, QUANTITIES
 from app.shared.summary import summary
-from app.state import preset_state, with_derived
+from app.state import preset_state
 from mdr_core.results.figures import SPRINGS
 
 from .conftest import DROP
@@ -124,7 +124,7 @@ def test_10_held_scenes_are_named_by_what_differs():
     for state, name in (
         (drop, "Round striker 16 mm on glass-fibre epoxy, drop weight"),
         (drop.replace(speed=2.0), "v_0 = 2 m/s"),
-        (with_derived(drop.replace(q_c=2e5)), "q_c = 200 kN/m"),
+        (drop.replace(q_c=2e5), "q_c = 200 kN/m"),
         (state_with(DROP, shape="cone").replace(cone_slope=0.2), "Cone, s = 0.2"),
     ):
         assert held.difference(state) == name
@@ -163,8 +163,8 @@ def test_13_springs_are_elastic_or_yielded_also_in_an_oblique_impact():
         for name, radius in (("yielded", now.plastic_radius), ("elastic", now.contact_radius)):
             assert np.nanmax(np.abs(rows[name][0][::vertices])) == pytest.approx(radius, abs=spacing)
     assert "speed" not in PLOTS
-    assert "Speed" not in LABELS.values()
-    assert DATA["choices"]["drive"]["options"]["depth"]["label"] == "depth"
+    assert "Speed" not in [choice.label for choice in CHOICES.values()]
+    assert CHOICES["drive"].options["depth"].label == "depth"
 
 
 def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept_and_a_preset_stands_deepest():

@@ -96,9 +96,9 @@ def test_other_classes_of_hardness_are_solved_through_the_present_point():
             assert [row[:3] for row in curves] == [each for each in ("(a)", "(b)", "(c)") if each != own]
             (result,) = asked.column(np.array([asked.present]), against)
             for row, other in curves.items():
-                value = other.values[sweep.CLASSES[row][1]]
+                constant = sweep.CLASSES[row][1]
                 given = state.replace(
-                    plasticity=other.values["plasticity"], **{sweep.CLASSES[row][1]: value}
+                    plasticity=other.state.plasticity, **{constant: other.state[constant]}
                 )
                 assert one(given, "speed", 30.0, against) == pytest.approx(result, rel=1e-4)
                 energy = 1e6 * asked.present * np.array([1.0, 1.1])
@@ -114,9 +114,7 @@ def test_the_note_has_the_constants_and_powers_of_all_classes():
     assert own == pytest.approx(-1 / 4, abs=2e-3)
     assert a == 0
     assert c < -3 / 4
-    H, f_c = (
-        asked.classes()[row].values[name] for row, (_, name) in sweep.CLASSES.items() if name != "q_c"
-    )
+    H, f_c = (asked.classes()[row].state[name] for row, (_, name) in sweep.CLASSES.items() if name != "q_c")
     assert in_full(H, "pressure") in note
     assert in_full(f_c, "force") in note
 

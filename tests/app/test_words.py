@@ -12,7 +12,7 @@ from app.extras import theory
 from app.extras.guide import TOURS
 from app.page import Page
 from app.plots import PLOTS
-from app.quantities import ABOUT, CHOICES, QUANTITIES, SHAPES, USED, in_words
+from app.quantities import CHOICES, QUANTITIES, in_words
 from app.readouts import READOUTS, heads, line
 from app.shared.rest import Searched
 from app.state import PRESETS, preset_state
@@ -36,10 +36,11 @@ def test_every_number_says_what_it_is():
         assert 6 <= len(set(ids)) == len(ids) == html.count("popovertarget=") <= 8
     assert all(each.help.endswith(".") for each in (*READOUTS, *QUANTITIES.values()))
     assert all(". " in quantity.help and quantity.equation for quantity in QUANTITIES.values())
-    named = {name for uses in USED.values() for names in uses.values() for name in names}
-    assert named <= QUANTITIES.keys()
+    options = [option for choice in CHOICES.values() for option in choice.options.values()]
+    assert {name for option in options for name in option.uses} <= QUANTITIES.keys()
+    assert {name for option in options for name in option.form} <= CHOICES.keys()
     assert len({each.name for each in READOUTS}) == len(READOUTS)
-    assert ABOUT.keys() == CHOICES.keys()
+    assert all(choice.label and choice.help for choice in CHOICES.values())
 
 
 def test_every_equation_leads_to_the_theory():
@@ -52,7 +53,7 @@ def test_every_equation_leads_to_the_theory():
     formulas = [
         plot.formula_of(view.course) for plot in PLOTS.values() for view in views if plot.applies(view)
     ]
-    texts = formulas + list(ABOUT.values())
+    texts = formulas + [choice.help for choice in CHOICES.values()]
     texts += [part for q in (*QUANTITIES.values(), *READOUTS) for part in (q.help, q.equation)]
     led = {place for text in texts for place in places(linked(text))}
     assert len(led) > 20
@@ -154,13 +155,14 @@ def test_a_guided_scene_is_stepped_through_and_undone():
 
 
 def test_python_and_raw_indices_are_not_on_the_page():
-    shown = [text for texts in CHOICES.values() for text in texts.values()] + [ABOUT["shape"]]
+    shown = [option.label for choice in CHOICES.values() for option in choice.options.values()]
+    shown.append(CHOICES["shape"].help)
     shown += [quantity.label for quantity in QUANTITIES.values()]
     view = view_of(preset_state())
     plots = [plot for plot in PLOTS.values() if plot.applies(view) and not isinstance(plot, Searched)]
     shown += [axis.label for plot in plots for axis in plot.axes_of(view)]
     assert [text for text in shown if "_" in text] == []
-    for shape in SHAPES.values():
+    for shape in CHOICES["shape"].options.values():
         assert "_" not in marked(shape.height + shape.reduced)
     with pytest.raises(ValueError, match=r"E₁ = 1\.000 mPa is out of bounds"):
         changes.put(preset_state(), "E_1", 1e-3)

@@ -10,7 +10,7 @@ from mdr_core.fit.indentation import IndentationFit
 from mdr_core.results.units import written
 
 from ...quantities import ASSETS, QUANTITIES, Quantity, in_words
-from ...state import State, checked, medium, profile, with_derived
+from ...state import State, checked, medium, profile
 from .measured import (
     CONSTANTS,
     FITTED,
@@ -92,7 +92,7 @@ def fit(state: State) -> State:
     curve = state["fit.curve"]
     curve = Measured(curve.name, curve.curve, found, subtracted, curve.range(state))
     fitted = {"fit.curve": curve, "fit.note": _note(curve)}
-    return with_derived(state.replace(progress=1.0, **fitted, **choices, **numbers))
+    return state.replace(progress=1.0, **fitted, **choices, **numbers)
 
 
 def _found(state: State, asked: dict[str, Any]) -> IndentationFit:

@@ -15,10 +15,9 @@ from mdr_core.results.units import written
 from ...fields import take_tip, title
 from ...parts import Parts, button, text, upload
 from ...plot import View
-from ...quantities import shape_quantities
 from ...shared import widgets
 from ...shared.widgets import field, tools
-from ...state import profile
+from ...state import profile, used_by
 from ...ui import WIDE, html, show
 from .changes import choose_part, choose_samples, fit, quantity_of, silica, take
 from .files import as_csv, as_json
@@ -240,7 +239,7 @@ class Fitting:
         about = f"<b>{escape(curve.name)}</b>: {escape(curve.note)}. A link does not contain the curve."
         show(self.about, object=about)
         page = self._page
-        numbers = [page.number(name) for name, _ in shape_quantities(state.shape)]
+        numbers = [page.number(name) for name in used_by(state, "shape")]
         self._indenter.show([title("Indenter"), page.choice("shape"), *numbers, take_tip(page)])
         self._show_samples(state)
         for each in (*self.files, self.copy):
