@@ -14,8 +14,9 @@ from mdr_core.results.units import KINDS, digits, in_full
 
 from ..changes import option, shown
 from ..extra import Extra
+from ..fields import slider_range
 from ..plot import axis
-from ..quantities import CHOICES, QUANTITIES, USED, Scale, in_words, lowered, quantity, read_data
+from ..quantities import CHOICES, QUANTITIES, USED, in_words, lowered, quantity, read_data
 from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
 from ..state import PRESETS, State, medium, profile, used
@@ -181,9 +182,9 @@ def asked(state: State) -> Sweep:
     name = option(state, "sweep.swept")
     states = state, state.replace(**PRESETS[state.preset].values)
     values, preset = ({**each.scene_values, "energy": each.mass * each.speed**2 / 2} for each in states)
-    scale = Scale.about(known(name), preset[name], values[name])
+    low, _, high = slider_range(known(name), preset[name], values[name])
     chosen = option(state, "sweep.against"), state["sweep.scale"] == "log", SOLVERS.get(state.drive, ())
-    return Sweep(state.scene_values, name, values[name], scale.low, scale.high, *chosen)
+    return Sweep(state.scene_values, name, values[name], low, high, *chosen)
 
 
 def quick(sweep: Sweep) -> bool:
