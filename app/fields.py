@@ -64,18 +64,18 @@ class Field:
 
     def _take(self, message: Any) -> None:
         """Take a number that is typed, or sent by the slider as if it was; a refusal is shown beside it."""
-        unit, self.refused = self._unit, ""
+        self.refused = ""
+        unit = self._unit
         try:
             match message:
                 case {"text": str(entered)}:
-                    value, entered_unit = read(entered, self._known.kind, unit)
+                    value, unit = read(entered, self._known.kind, unit)
                     mark = self._name if "dragged" in message else None
                     self._page.apply_or_raise(lambda state: changes.put(state, self._name, value), mark)
-                    unit = entered_unit
+            # Not the one that fits the number, in which it was shown meanwhile.
+            self._unit = unit
         except ValueError as error:
             self.refused = str(error)
-        # Not the one in which the number was shown meanwhile.
-        self._unit = unit
         self._page.refresh()
 
 
@@ -131,6 +131,7 @@ class Form:
         # What differs from the preset is not folded.
         in_use = not {*MEDIUM_CHOICES, *regions(state)["more"]}.isdisjoint(altered(state))
         opened = self._open or in_use
+        more = [*map(page.choice, MEDIUM_CHOICES), *numbers["more"], note["more"]]
         parts = [
             text("first", f"{_FIRST} {self._notes.get('first', '')}"),
             page.choice("drive"), *numbers["drive"], note["drive"],
@@ -138,10 +139,10 @@ class Form:
             title("Indenter"), page.choice("shape"), note["shape"], *numbers["shape"],
             title("Medium"), *numbers["medium"], note["medium"],
             button("More about the medium", self._fold, pressed=opened, disabled=in_use),
+            *(more if opened else []),
+            title("Tip and sources"), take_tip(page), note["sources"],
         ]  # fmt: skip
-        if opened:
-            parts += [*map(page.choice, MEDIUM_CHOICES), *numbers["more"], note["more"]]
-        self.view.show([*parts, title("Tip and sources"), take_tip(page), note["sources"]])
+        self.view.show(parts)
 
     def _hit_again(self) -> None:
         hit = self._page.shown.course.hit

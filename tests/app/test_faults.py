@@ -153,7 +153,7 @@ def test_a_link_that_cannot_be_opened_is_a_notice(monkeypatch):
     notices = []
     monkeypatch.setattr(Page, "notify", lambda page, text: notices.append(text))
     page = Page("preset=none")
-    assert notices == ["The link was not opened: this link names no preset that is known"]
+    assert notices == ["The link was not opened: preset = “none” in this link is not known"]
     assert page.state == preset_state()
 
 
