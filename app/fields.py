@@ -1,6 +1,5 @@
 """The form: number fields and choices, each with symbol, name, unit and explanation."""
 
-from functools import cache
 from typing import Any
 
 from mdr_core.profiles.samples import decoded
@@ -9,7 +8,7 @@ from mdr_core.results.units import UNITS, entry, fitting, read, written
 from . import changes
 from .parts import Part, Parts, button, text, upload
 from .plot import View
-from .quantities import QUANTITIES, Scale
+from .quantities import QUANTITIES, Quantity
 from .state import MEDIUM_CHOICES, PRESETS, State, altered, regions
 from .tip import read_tip
 from .ui import LAYOUT, linked, marked, symbol
@@ -19,13 +18,26 @@ _FIRST = "Move a slider: orange springs have yielded."
 _PLACES = ("drive", "shape", "medium", "more", "sources")
 
 
+def slider_range(known: Quantity, middle: float, value: float) -> tuple[float, float, float]:
+    """Lowest, middle and highest value (SI) of the slider of a number.
+
+    It covers the span of the number each way about a middle value, or about the present value if that is
+    out of its reach; for span 0 all that is within bounds.
+    """
+    if known.span <= 0:
+        return known.bounds[0], middle, known.bounds[1]
+    low, high = (known.bounded(changes.shown(end)) for end in (middle / known.span, middle * known.span))
+    return (low, middle, high) if low <= value <= high else slider_range(known, value, value)
+
+
 class Field:
     """What a number field remembers: its unit, the middle of its slider, and what was refused in it."""
 
     def __init__(self, name: str, page: Any):
         self._name, self._page, self._known = name, page, QUANTITIES[name]
-        # The number and its preset as they were shown, and whether the next one was typed or dragged here.
-        self._value, self._preset, self._asked = self._known.default, "", False
+        self._told = _told(self._known)
+        # The number and its preset as they were shown.
+        self._value, self._preset = self._known.default, ""
         self.refused = ""
 
     def part(self, state: State, like: float = 0.0) -> Part:
@@ -34,57 +46,47 @@ class Field:
         The unit is that of the preset's number until another one is typed. What others change is shown in
         it, too, unless that takes a power of ten. A refusal stays until the number changes.
         """
-        value, loaded = state[self._name], self._preset != state.preset
-        changed = value != self._value
-        if loaded or (changed and not self._asked and not self._unit.fits(value)):
+        value = state[self._name]
+        loaded = state.preset != self._preset
+        changed = loaded or value != self._value
+        if loaded:
+            self._middle = PRESETS[state.preset].values.get(self._name, value)
+        if loaded or (changed and not self._unit.fits(value)):
             self._unit = fitting(value, self._known.kind, like)
-        if loaded or changed:
+        if changed:
             self.refused = ""
-        # The middle of the slider stays while it moves.
-        middle = PRESETS[state.preset].values.get(self._name, value) if loaded else self._scale.middle
-        self._scale = Scale.about(self._known, middle, value)
         self._value, self._preset = value, state.preset
-        look = _words(self._name) | {
-            "text": entry(value, self._unit),
-            "refused": self.refused,
-            "position": self._scale.position(value),
-        }
-        return Part("number", self._name, look, self._take)
+        # The middle of the slider stays while it moves.
+        low, self._middle, high = slider_range(self._known, self._middle, value)
+        look = {"text": entry(value, self._unit), "refused": self.refused, "value": value}
+        look |= {"low": low, "middle": self._middle, "high": high}
+        return Part("number", self._name, self._told | look, self._take)
 
-    def _take(self, message: dict[str, Any]) -> None:
-        """Take a number that is typed or dragged; a refusal is shown beside it."""
-        unit, self.refused, self._asked = self._unit, "", "reset" not in message
+    def _take(self, message: Any) -> None:
+        """Take a number that is typed, or sent by the slider as if it was; a refusal is shown beside it."""
+        self.refused = ""
+        match message:
+            case {"text": str(entered)}:
+                self._put(entered, self._name if "dragged" in message else None)
+        self._page.refresh()
+
+    def _put(self, entered: str, mark: str | None) -> None:
         try:
-            self._change(message)
+            value, unit = read(entered, self._known.kind, self._unit)
         except ValueError as error:
             self._refuse(str(error))
-        self._asked = False
-        if self.refused:
-            self._unit = unit
-        if self.refused or "position" not in message:
-            # A number in another unit may be the present one, so that nothing else shows the unit.
-            self._page.refresh()
-
-    def _change(self, message):
-        if isinstance(message.get("text"), str):
-            value, self._unit = read(message["text"], self._known.kind, self._unit)
-            self._put(value)
-        elif isinstance(message.get("position"), int | float):
-            self._put(self._scale.value(message["position"]), mark=self._name)
-        elif "reset" in message:
-            self._put(self._scale.middle)
-
-    def _put(self, value, mark=None):
+            return
         self._page.apply(lambda state: changes.put(state, self._name, value), self._refuse, mark)
+        if not self.refused:
+            # Not the one that fits the number, in which it was shown meanwhile.
+            self._unit = unit
 
     def _refuse(self, text: str) -> None:
         self.refused = text
 
 
-@cache
-def _words(name: str) -> dict[str, Any]:
+def _told(known: Quantity) -> dict[str, Any]:
     """What is said of a number."""
-    known = QUANTITIES[name]
     low, high = (written(bound, known.kind, 2) for bound in known.bounds)
     units = ", ".join(unit.name for unit in UNITS[known.kind] if unit.name)
     rows = [linked(known.help), f"<em>{linked(known.equation)}</em>" if known.equation else ""]
@@ -94,7 +96,8 @@ def _words(name: str) -> dict[str, Any]:
         "label": f"{symbol(known.symbol)} {marked(known.label)}",
         "spoken": f"{known.symbol}, {known.label}",
         "about": "".join(f"<p>{row}</p>" for row in rows if row),
-        "steps": Scale.STEPS * (known.span >= 0),
+        "slider": known.span >= 0,
+        "logarithmic": known.span > 0,
     }
 
 
@@ -115,7 +118,7 @@ class Form:
     """The form: drive, shape, E* and q_c; the rest of the medium folds."""
 
     def __init__(self, page: Any):
-        self._page, self._open, self._in_use, self._notes = page, False, False, {}
+        self._page, self._open, self._notes = page, False, {}
         self.view = Parts("form", stylesheets=LAYOUT)
 
     def rest(self, notes: dict[str, str]) -> None:
@@ -124,28 +127,28 @@ class Form:
 
     def show(self, view: View) -> None:
         state, page = view.state, self._page
-        # What differs from the preset is unfolded, once.
-        in_use = not {*MEDIUM_CHOICES, *regions(state)["more"]}.isdisjoint(altered(state))
-        self._open |= in_use and not self._in_use
-        self._in_use = in_use
-        likes = {"plastic_depth": float(view.course.turning_point.depth)}
+        # An imprint that is not there has the unit of the present depth.
+        depth = float(view.course.turning_point.depth)
         numbers = {
-            region: [page.number(name, likes.get(name, 0.0)) for name in names]
-            for region, names in regions(state).items()
+            region: [page.number(name, depth) for name in names] for region, names in regions(state).items()
         }
         note = {place: text(f"note {place}", self._notes.get(place, "")) for place in _PLACES}
         again = button("Hit again", self._hit_again)
+        # What differs from the preset is not folded.
+        in_use = not {*MEDIUM_CHOICES, *regions(state)["more"]}.isdisjoint(altered(state))
+        opened = self._open or in_use
+        more = [*map(page.choice, MEDIUM_CHOICES), *numbers["more"], note["more"]]
         parts = [
             text("first", f"{_FIRST} {self._notes.get('first', '')}"),
             page.choice("drive"), *numbers["drive"], note["drive"],
             *map(page.choice, state.chosen("drive").form), *[again] * (state.drive == "impact"),
             title("Indenter"), page.choice("shape"), note["shape"], *numbers["shape"],
             title("Medium"), *numbers["medium"], note["medium"],
-            button("More about the medium", self._fold, pressed=self._open),
+            button("More about the medium", self._fold, pressed=opened, disabled=in_use),
+            *(more if opened else []),
+            title("Tip and sources"), take_tip(page), note["sources"],
         ]  # fmt: skip
-        if self._open:
-            parts += [*map(page.choice, MEDIUM_CHOICES), *numbers["more"], note["more"]]
-        self.view.show([*parts, title("Tip and sources"), take_tip(page), note["sources"]])
+        self.view.show(parts)
 
     def _hit_again(self) -> None:
         hit = self._page.shown.course.hit

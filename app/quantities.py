@@ -3,9 +3,8 @@
 import json
 import re
 from dataclasses import dataclass, field
-from math import log
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 from mdr_core._errors import InvalidArgument
 from mdr_core.results.quantities import QUANTITIES as RESULTS
@@ -143,34 +142,3 @@ def in_words(error: ValueError) -> str:
     value = written(float(error.value), KINDS.get(error.unit, "number"))
     remedy = f"; {error.remedy}" if error.remedy and "SI units" not in error.remedy else ""
     return f"{name} = {value} {error.bound}{remedy}"
-
-
-@dataclass(frozen=True)
-class Scale:
-    """Steps of a slider and their values, logarithmic about a middle value where possible."""
-
-    low: float
-    high: float
-    middle: float
-    logarithmic: bool
-    STEPS: ClassVar[int] = 400
-
-    @classmethod
-    def about(cls, quantity: Quantity, middle: float, value: float) -> "Scale":
-        """Scale about a middle value, or about another value that it does not reach."""
-        low, high = quantity.bounds
-        if quantity.span <= 0 or middle <= 0:
-            return cls(low, high, middle, False)
-        low, high = max(low, middle / quantity.span), min(high, middle * quantity.span)
-        reached = low <= value <= high
-        return cls(low, high, middle, True) if reached else cls.about(quantity, value, value)
-
-    def position(self, value: float) -> int:
-        scaled = log if self.logarithmic else float
-        low, high, at = map(scaled, (self.low, self.high, min(max(value, self.low), self.high)))
-        return round(self.STEPS * (at - low) / (high - low))
-
-    def value(self, position: float) -> float:
-        share, low, high = min(max(position, 0), self.STEPS) / self.STEPS, self.low, self.high
-        value = low * (high / low) ** share if self.logarithmic else low + (high - low) * share
-        return min(max(float(f"{value:.3g}"), low), high)

@@ -1,7 +1,5 @@
 """Readouts: numbers of a course, with their units and explanations."""
 
-from collections.abc import Container
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -13,16 +11,15 @@ from .quantities import CHOICES, READOUTS, Readout
 from .ui import linked, symbol
 
 
-def readings(course: Course, names: Container[str] | None = None) -> dict[Readout, Any]:
-    """Values of the readouts that a course has, of all or of those with some names."""
-    asked = (readout for readout in READOUTS if names is None or readout.name in names)
-    numbers = ((readout, readout.values(course)) for readout in asked)
-    return {readout: values for readout, values in numbers if values is not None}
+def readings(course: Course, asked: list[Readout] = READOUTS) -> dict[Readout, Any]:
+    """Values of the readouts that a course has."""
+    return {each: values for each in asked if (values := each.values(course)) is not None}
 
 
 def line(course: Course) -> dict[Readout, Any]:
     """Values of the readouts above the plots."""
-    return readings(course, CHOICES["drive"].options[course.drive].line)
+    names = CHOICES["drive"].options[course.drive].line
+    return readings(course, [each for each in READOUTS if each.name in names])
 
 
 def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
@@ -45,7 +42,6 @@ def heads(numbers: dict[Readout, Any]) -> str:
     return f'<div class="strip">{"".join(map(head, numbers))}</div>'
 
 
-@cache
 def head(readout: Readout) -> str:
     """Head of a readout with its explanation, as HTML."""
     key, name = f"about-{readout.name}", f"{symbol(readout.symbol)} {readout.long_name}"

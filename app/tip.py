@@ -43,7 +43,7 @@ def read_tip(text: str, name: str = "the file") -> tuple[tuple[Any, Any], str]:
     try:
         tip, scatter = tip_through(r, z, MAX_SAMPLES, FITTED)
     except ValueError as error:
-        raise ValueError(f"{name}: {str(error).removeprefix('Sampled.fit: ')}") from None
+        raise ValueError(f"{name}: {error}") from None
     note = f"{len(tip.r)} samples, as in the file"
     if scatter is not None:
         by = written(scatter, "length", 2)

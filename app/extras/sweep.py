@@ -13,8 +13,9 @@ from mdr_core.results.units import KINDS, digits, in_full
 
 from ..changes import CONSTANTS, option, shown
 from ..extra import Extra
+from ..fields import slider_range
 from ..plot import axis
-from ..quantities import CHOICES, QUANTITIES, Option, Scale, in_words, lowered, quantity, read_data
+from ..quantities import CHOICES, QUANTITIES, Option, in_words, lowered, quantity, read_data
 from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
 from ..state import PRESETS, State, medium, profile, used, used_by, yield_constant
@@ -182,9 +183,9 @@ def asked(state: State) -> Sweep:
     """The sweep of a state, over the range of a slider about the value of the preset."""
     name = option(state, "sweep.swept")
     value, middle = (_value(each, name) for each in (state, state.replace(**PRESETS[state.preset].values)))
-    scale = Scale.about(known(name), middle, value)
+    low, _, high = slider_range(known(name), middle, value)
     chosen = option(state, "sweep.against"), state["sweep.scale"] == "log", SOLVERS.get(state.drive, ())
-    return Sweep(state.scene_values, name, value, scale.low, scale.high, *chosen)
+    return Sweep(state.scene_values, name, value, low, high, *chosen)
 
 
 def quick(sweep: Sweep) -> bool:

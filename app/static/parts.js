@@ -57,18 +57,27 @@ const KINDS = {
   },
   // Typed with its unit, or dragged. What is typed is sent at once; of a drag one value is under way, and what is dragged
   // meanwhile replaces what waits.
-  number({ label, spoken, about, steps, id }, send) {
+  number({ label, spoken, about, slider, logarithmic, id }, send) {
     const el = made("div", "number", `<div class="row"><label for="text-${id}">${label}</label>
       <button class="help" aria-expanded="false" aria-label="What is ${spoken}?">?</button>
       <input id="text-${id}" type="text" spellcheck="false" autocomplete="off" aria-describedby="said-${id}" aria-label="${spoken}"></div>
-      <input type="range" max="${steps}" title="Arrow keys step, double-click resets" aria-label="${spoken}, slider">
+      <input type="range" max="400" title="Arrow keys step, double-click resets" aria-label="${spoken}, slider">
       <p class="said" id="said-${id}" aria-live="polite"></p><div class="about" hidden>${about}</div>`)
     const [text, range] = el.querySelectorAll("input")
     const [said, about_it, help] = [".said", ".about", ".help"].map((name) => el.querySelector(name))
     let [now, answered, asked, wish, typing] = [null, 0, 0, null, false]
-    range.hidden = !steps
+    range.hidden = !slider
     const busy = () => answered < asked
     const ask = (what) => { [asked, wish, typing] = [send(what), null, false] }
+    // The value of each step has three digits, but at the ends.
+    const [scaled, back] = logarithmic ? [Math.log, Math.exp] : [Number, Number]
+    const step = ({ value, low, high }) => range.max * (scaled(value) - scaled(low)) / (scaled(high) - scaled(low))
+    const dragged = ({ low, high }) => {
+      const share = range.value / range.max
+      if (share === 0 || share === 1) return share ? high : low
+      const value = back(scaled(low) + share * (scaled(high) - scaled(low)))
+      return Math.min(Math.max(Number(value.toPrecision(3)), low), high)
+    }
     const show = () => {
       // An answer to an earlier value, or another change of the page, does not touch what is being typed.
       if (busy() || typing) return
@@ -79,25 +88,25 @@ const KINDS = {
       }
       text.setAttribute("aria-invalid", String(now.refused !== ""))
       said.textContent = now.refused
-      if (wish === null) range.value = now.position
+      if (wish === null) range.value = step(now)
       range.style.setProperty("--share", range.value / range.max)
       range.setAttribute("aria-valuetext", now.text)
     }
     range.addEventListener("input", () => {
       range.style.setProperty("--share", range.value / range.max)
-      const what = { position: range.valueAsNumber }
+      const what = { text: dragged(now).toExponential(), dragged: true }
       if (busy()) wish = what
       else ask(what)
     })
     // What waits when the slider is let go is sent at once: an answer may have been lost.
     range.addEventListener("change", () => wish !== null && ask(wish))
-    range.addEventListener("dblclick", () => ask({ reset: true }))
+    range.addEventListener("dblclick", () => ask({ text: now.middle.toExponential() }))
     text.addEventListener("input", () => { typing = true })
     text.addEventListener("change", () => ask({ text: text.value }))
     text.addEventListener("focus", () => text.select())
     // Typed and left as it was.
     text.addEventListener("blur", () => { typing = false; show() })
-    text.addEventListener("keydown", ({ key }) => (key === "Escape" ? ask({ restore: true }) : key === "Enter" && text.select()))
+    text.addEventListener("keydown", ({ key }) => (key === "Escape" ? ask({}) : key === "Enter" && text.select()))
     help.addEventListener("click", () => { help.ariaExpanded = String(!(about_it.hidden = !about_it.hidden)) })
     return [el, (look, count) => {
       [now, answered] = [look, count]

@@ -115,7 +115,7 @@ class Sampled(Profile):
         """
         r, z = _lists("Sampled.fit", r, z)
         if np.unique(np.abs(r)).size < 3:
-            raise ValueError("Sampled.fit needs three radii or more that differ")
+            raise ValueError("a fit needs three radii or more that differ")
         return cls(*convex_fit(r, z))
 
     @classmethod

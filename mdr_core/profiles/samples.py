@@ -223,9 +223,7 @@ def _nearest_convex(r, z):
     _, _, *bends = scipy.optimize.nnls(columns, (z - z.mean()) / size)[0]
     bends = np.array(bends) * size / radii[-1]
     if not np.any(bends > 0):
-        raise ValueError(
-            "Sampled.fit z does not rise from the axis outward: use FlatPunch, or turn its sign"
-        )
+        raise ValueError("z does not rise from the axis outward: use FlatPunch, or turn its sign")
     used = (bends > 0) | (kinks == 0)
     kinks, bends = kinks[used], bends[used]
     vertices = np.append(kinks, radii[-1])
@@ -248,7 +246,7 @@ def _refuse_misfit(r, residual, height):
         miss = engineering(float(f"{miss:.2g}"), "m")
         worst = engineering(float(f"{r[order][np.argmax(np.abs(residual))]:.2g}"), "m")
         raise ValueError(
-            f"Sampled.fit: the nearest convex profile misses the samples by {miss} (rms, most at r = "
+            f"the nearest convex profile misses the samples by {miss} (rms, most at r = "
             f"{worst}), which is not noise: the tip is wavy or concave, so that the contact would "
             "not be compact; smooth the samples, or leave out those outside the convex part"
         )

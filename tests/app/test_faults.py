@@ -92,8 +92,8 @@ def test_a_refused_number_is_forgotten_where_all_is_set_anew(page, act):
 
 def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
     start = page.state.max_depth
-    for position in (210, 220, 230):
-        part(page, "max_depth").act({"position": position})
+    for text in ("1.05e-8", "1.25e-8", "1.48e-8"):
+        part(page, "max_depth").act({"text": text, "dragged": True})
     assert page.state.max_depth > start
     page.apply(lambda state: state.replace(progress=0.5))
     page.undo()
@@ -153,7 +153,7 @@ def test_a_link_that_cannot_be_opened_is_a_notice(monkeypatch):
     notices = []
     monkeypatch.setattr(Page, "notify", lambda page, text: notices.append(text))
     page = Page("preset=none")
-    assert notices == ["The link was not opened: this link names no preset that is known"]
+    assert notices == ["The link was not opened: preset = “none” in this link is not known"]
     assert page.state == preset_state()
 
 
@@ -251,7 +251,7 @@ def test_a_tip_limits_the_depth_of_every_drive_that_has_one():
 def test_a_message_that_names_no_part_is_answered_and_changes_nothing(page):
     before, form = page.state, page.frame.form.view
     for name in ("nothing", ["max_depth"], 3, None):
-        form._on_message(SimpleNamespace(data=(name, {"position": 1})))
+        form._on_message(SimpleNamespace(data=(name, {"text": "5 nm"})))
     assert page.state == before
     # Four answers; the fifth is that of a number.
     form._on_message(SimpleNamespace(data=("max_depth", {"text": "5 nm"})))

@@ -126,14 +126,18 @@ def test_a_hostile_link_is_refused(query):
 @pytest.mark.parametrize(
     ("query", "says"),
     [
-        ("max_depth=1e400", "max_depth = 1e400 in this link is too large"),
-        ("max_depth=-1e400", "max_depth = -1e400 in this link is too large"),
-        ("max_depth=deep", "max_depth = deep in this link is not a number"),
-        ("max_depth=nan", "max_depth = nan in this link is not a number"),
-        ("max_depth", "max_depth in this link has no value"),
-        ("max_depth=+", "max_depth in this link has no value"),
-        ("shape=", "shape in this link has no value"),
-        ("at=", "at in this link has no value"),
+        ("max_depth=1e400", "max_depth = “1e400” in this link is not a finite number"),
+        ("max_depth=-1e400", "max_depth = “-1e400” in this link is not a finite number"),
+        ("max_depth=deep", "max_depth = “deep” in this link is not a finite number"),
+        ("max_depth=nan", "max_depth = “nan” in this link is not a finite number"),
+        ("max_depth", "max_depth = “” in this link is not a finite number"),
+        ("max_depth=+", "max_depth = “ ” in this link is not a finite number"),
+        ("shape=", "shape = “” in this link is not known"),
+        ("at=", "at = “” in this link is not a finite number"),
+        ("at=7", "at = “7” in this link is not in 0 to 2.2"),
+        ("preset=none", "preset = “none” in this link is not known"),
+        ("shape=sampled", "this link has a shape without its numbers"),
+        ("shape=sphere", "this link has a shape without its numbers"),
     ],
 )
 def test_a_link_is_refused_for_what_is_wrong(query, says):

@@ -4,6 +4,7 @@ import pytest
 
 from app import changes
 from app.page import Page
+from app.quantities import QUANTITIES
 from app.state import preset_state
 from mdr_core.results.units import UNITS, read
 
@@ -93,6 +94,35 @@ def test_a_bare_number_has_the_unit_that_was_last_seen_and_only_typing_changes_i
     assert drop.link("speed=1.5")["mass"] == "0.7"
 
 
+def test_a_slider_reaches_both_ends_and_returns_to_its_middle(server, context):
+    """Steps have three digits; the ends are a thirtieth and 30 times the speed of the preset, or bounds."""
+    explorer = Explorer(context.new_page(), f"{server.url}?preset={DROP}")
+    slider, press = explorer.slider("v_0"), explorer.page.keyboard.press
+    assert slider.input_value() == "200"
+    slider.focus()
+    for key, text in (("End", "30 m/s"), ("ArrowLeft", "29.5 m/s"), ("Home", "0.033333 m/s")):
+        explorer.change(press, key)
+        shows(explorer, "v_0", text)
+    assert slider.input_value() == "0"
+    explorer.change(slider.dblclick, position={"x": 3, "y": 2})
+    shows(explorer, "v_0", "1 m/s")
+    assert slider.input_value() == "200"
+    # The drag is one step, and what resets it another.
+    explorer.change(explorer.press, "Undo")
+    explorer.change(explorer.press, "Undo")
+    shows(explorer, "v_0", "1 m/s")
+    assert explorer.page.get_by_role("button", name="Undo", exact=True).is_disabled()
+    explorer.pick("oblique impact")
+    for key, bound in zip(("Home", "End"), QUANTITIES["oblique.attack"].bounds, strict=True):
+        explorer.slider("α").focus()
+        explorer.change(press, key)
+        # As it is typed: fifteen digits.
+        assert float(explorer.link("attack=")["oblique.attack"]) == pytest.approx(bound, rel=1e-14)
+    shows(explorer, "α", "90 °")
+    assert explorer.problems == []
+    explorer.page.close()
+
+
 def seen(page, name):
     """What a field shows: its text and refusal. Without a browser."""
     look = part(page, name).look
@@ -148,3 +178,22 @@ def test_an_angstrom_is_shown_as_such_in_any_field(shown):
     assert page.state.max_depth == 9e-10
     assert sent(page, "max_depth", "12") == ("12 Å", "")
     assert read("3 um", "length", shown)[1].name == "µm"
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        None, 3, "5 nm", ["5 nm"], {}, {"text": None}, {"text": 5e-9}, {"text": ["5 nm"]}, {"value": "NaN"},
+        {"text": "NaN", "dragged": True}, {"text": "1e999", "dragged": True}, {"text": "9" * 9999},
+        {"text": "1e9 m", "dragged": True},
+    ],
+)  # fmt: skip
+def test_whatever_a_field_is_sent_is_refused_or_ignored(message):
+    page = Page()
+    field = part(page, "max_depth")
+    field.act(message)
+    refused = isinstance(message, dict) and isinstance(message.get("text"), str)
+    assert (seen(page, "max_depth")[1] != "") == refused
+    assert part(page, "max_depth").look["text"] == field.look["text"]
+    assert page.state == preset_state()
+    assert page.history.at == 0

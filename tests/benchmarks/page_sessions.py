@@ -114,7 +114,7 @@ class Client(Visitor):
     async def move(self, n):
         """Move a slider; seconds until the server has answered with a new picture."""
         self.count += 1
-        data = {"position": 150 + n % 100}
+        data = {"text": f"{5 + 0.1 * (n % 100):.3g}e-9", "dragged": True}
         message = [self.control, {"type": "map", "entries": [list(item) for item in data.items()]}]
         values = [["model", {"id": self.form}], ["data", message]]
         event = {"type": "event", "name": "data_event", "values": {"type": "map", "entries": values}}
