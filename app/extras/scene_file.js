@@ -51,7 +51,7 @@ touched(figures.filter(({ name }) => name !== "pressure"))
 const bytes = Uint8Array.from(atob(packed), (letter) => letter.charCodeAt(0))
 const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))
 new Response(stream).text().then((sent) => {
-  messages.frames = [sources, sent]
+  messages.frames = [sources, ...JSON.parse(sent)]
   slider.disabled = button.disabled = false
   slider.style.setProperty("--share", slider.value / slider.max)
 })

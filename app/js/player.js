@@ -1,13 +1,9 @@
 // Moves through the states of a scene: frames are what `source.data` becomes in each of them, sent once.
-const sent = () => {
-  // A gap in a line is null in a text, which would be drawn as zero.
-  const parsed = () => JSON.parse(messages.frames[1], (_, value) => value ?? NaN)
-  if (messages.read !== messages.frames) [messages.read, messages.sent] = [messages.frames, parsed()]
-  return messages.sent
-}
+// A gap in a line is null in a text, which would be drawn as zero.
+const read = (text) => JSON.parse(text, (_, value) => value ?? NaN)
 const stand = (k) => {
-  const { pictures, words } = sent()
-  messages.frames[0].forEach((source, n) => { source.data = { ...source.data, ...pictures[k][n] } })
+  const [sources, places, words] = messages.frames
+  sources.forEach((source, n) => { source.data = { ...source.data, ...read(places[n][k]) } })
   messages.setv({ words: words[k] }, { sync: false })
   // By itself Bokeh paints at most every second frame.
   setTimeout(() => figures.forEach((figure) => Bokeh.index.find_one(figure).repaint()))
@@ -20,7 +16,7 @@ const step = (now) => {
   if (!play.active) return
   requestAnimationFrame(step)
   if (!messages.frames.length) return
-  const { times } = sent()
+  const times = messages.frames[3]
   begin ??= now - 3000 * (state.value >= times.length - 1 ? 0 : times[state.value])
   const clock = ((now - begin) / 3000) % 1.12
   const next = times.findIndex((time) => time >= clock)

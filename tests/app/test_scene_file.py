@@ -108,7 +108,7 @@ def test_every_row_is_drawn_as_on_the_page(saved):
         said = {each.name: readouts.text(each, values, number) for each, values in numbers.items()}
         assert {name: saved.readout(name) for name in said} == said
         for name in NAMED:
-            for layer, columns in Picture(PLOTS[name]).columns(view, number, False).items():
+            for layer, columns in Picture(PLOTS[name]).columns(view, number).items():
                 for k, row in enumerate(columns["row"] if "xs" in columns else ()):
                     places = np.array([columns["xs"][k], columns["ys"][k]], float)
                     np.testing.assert_array_equal(
