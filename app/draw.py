@@ -38,11 +38,12 @@ class Layer:
     def __init__(self, plot: Plot, group: str, figure: Any):
         self.rows = [row for row in rows_of(plot) if row.group == group]
         self.name, self.kind, self.axis = group, self.rows[0].kind, self.rows[0].axis
-        self.source = bk.ColumnDataSource(name=f"{plot.name} {group}")
+        glyph, places = _GLYPHS[self.kind]
+        names = (*places, *self.rows[0].look)
+        self.source = bk.ColumnDataSource({name: [] for name in names}, name=f"{plot.name} {group}")
         # Columns come from the server, or from the frames it has sent: never the other way.
         self.source.syncable = False
-        glyph, places = _GLYPHS[self.kind]
-        made = glyph(**{name: field(name) for name in (*places, *self.rows[0].look)})
+        made = glyph(**{name: field(name) for name in names})
         only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
         only["y_range_name"] = "right" if self.axis == 2 else "default"
         self.renderer = figure.add_glyph(self.source, made, name=group, **only)

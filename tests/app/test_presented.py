@@ -17,7 +17,8 @@ LETTERS = """(name) => {
   const { below, renderers } = explorer.model(name)
   const text = renderers.find(({ glyph }) => glyph.type === "Text")
   const sizes = [below[0].axis_label_text_font_size, below[0].major_label_text_font_size]
-  return [...sizes, text.glyph.text_font_size.value].map(parseFloat)
+  const { value, field } = text.glyph.text_font_size
+  return [...sizes, value ?? text.data_source.data[field][0]].map(parseFloat)
 }"""
 #: How far the titles of the axes reach beyond their plots, below.
 BELOW = """() => Math.max(...["springs", "pressure", "force"].map((name) => {

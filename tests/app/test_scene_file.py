@@ -140,7 +140,7 @@ def test_it_plays_is_dragged_and_turns_dark(saved):
     )
     colour = """() => {
         const { background_fill_color, renderers } = explorer.model("springs")
-        const drawn = renderers.map(({ data_source: { data } }) => data.color[0])
+        const drawn = renderers.map(({ data_source: { data } }) => (data.line_color ?? data.text_color)[0])
         return [getComputedStyle(document.body).backgroundColor, background_fill_color, ...drawn]
     }"""
     light = page.evaluate(colour)
