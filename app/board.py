@@ -29,11 +29,9 @@ class Card:
 
     def show(self, columns: dict, view: View) -> None:
         """Draw columns made for a view."""
-        plot, course = self.plot, view.course
-        self.picture.show(columns, view, view.state.dark)
-        rows = drawn(view, plot, {course.now, course.peak})
+        self.picture.show(columns, view)
         # What is cut off by axes that stay leaves no gap: the plot would move while it is dragged.
-        self._legend = (self._legend if "axes" in view.computed else {}) | rows
+        self._legend = (self._legend if "axes" in view.computed else {}) | drawn(view, self.plot)
 
     def show_parts(self, view: View) -> None:
         """Show the texts and buttons around the plot."""
@@ -71,8 +69,7 @@ class Board:
         for name in names:
             if name not in self.cards:
                 self._make(name)
-        now, dark = view.course.now, view.state.dark
-        return {name: self.cards[name].picture.columns(view, now, dark) for name in names}
+        return {name: self.cards[name].picture.columns(view, view.course.now) for name in names}
 
     def show(self, columns: dict[str, dict], view: View) -> None:
         """Draw columns made for a view, on the plots that they are of."""

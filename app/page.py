@@ -239,7 +239,7 @@ class Page:
 
     def _send_frames(self):
         """Send all states of the course while the player moves, else drop those of another."""
-        self.messages.frames = [*frames(self.shown, self.board.pictures())] if self._moving else []
+        self.messages.frames = frames(self.shown, self.board.pictures()) if self._moving else []
 
     def move(self, message: int | None) -> None:
         """Send frames when the player begins to move (None); accept the state in which it ends."""

@@ -5,22 +5,23 @@ from collections.abc import Callable
 from typing import Any
 
 from . import readouts
-from .draw import Picture
+from .draw import PLACES, Picture
 from .parts import Part
 from .plot import View
 
 
-def frames(view: View, pictures: list[Picture]) -> tuple[list[Any], str]:
-    """Sources that move, and what they are in each state with readouts and times, as one text."""
-    course, numbers = view.course, readouts.line(view.course)
-    states = range(len(course))
-    found = [[picture.frame(view, i) for picture in pictures] for i in states]
-    sent = {
-        "pictures": [[columns for frame in each for columns in frame.values()] for each in found],
-        "words": [readouts.values(numbers, i) for i in states],
-        "times": course.times.tolist(),
-    }
-    return [source for frame in found[0] for source in frame], json.dumps(sent).replace("NaN", "null")
+def frames(view: View, pictures: list[Picture]) -> list[Any]:
+    """Sources that move, the places of their rows in each state as texts, readouts, and times."""
+    numbers, states = readouts.line(view.course), range(len(view.course))
+    found: dict[Any, list[str]] = {}
+    for i in states:
+        for picture in pictures:
+            for source, columns in picture.columns(view, i).items():
+                places = json.dumps({name: columns[name] for name in PLACES if name in columns})
+                found.setdefault(source, []).append(places.replace("NaN", "null"))
+    moving = {source: texts for source, texts in found.items() if len(set(texts)) > 1}
+    words = [readouts.values(numbers, i) for i in states]
+    return [[*moving], [*moving.values()], words, view.course.times.tolist()]
 
 
 def player(view: View, move: Callable[[Any], None]) -> Part:

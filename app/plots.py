@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from mdr_core.results import figures
-from mdr_core.results.figures import REST, label, line, mark, split
+from mdr_core.results.figures import label, line, mark, split
 from mdr_core.results.quantities import QUANTITIES
 
 from .courses import Course
@@ -23,40 +23,40 @@ def deepest(course: Course) -> float:
     return float(np.max(np.abs(course.states.depth)))
 
 
-def _most(name: str) -> Callable[[Course], float]:
-    """Largest value of a quantity, also at an onset of yield slightly ahead, which stays visible."""
+def across(course: Course) -> tuple[float, float]:
+    """Coordinates beside the contact."""
+    half = 1.25 * largest_radius(course)
+    return -half, half
 
-    def size(course):
-        states, onset = course.states, course.onset
-        values, depth = getattr(states, name), np.max(states.depth)
-        # With adhesion there may be tension alone.
-        most = max(np.max(values), -0.25 * np.min(values))
+
+def _of_states(name: str) -> Callable[[Course], tuple[float, float]]:
+    """Values of a quantity, also at an onset of yield slightly ahead, which stays visible."""
+
+    def span(course):
+        onset, depth = course.onset, np.max(course.states.depth)
+        values = getattr(course.states, name)
+        # Adhesion reaches below zero; there may be tension alone.
+        largest, lowest = np.max(values), np.min(values)
+        largest = max(largest, -0.25 * lowest)
         if onset is not None and depth < onset.depth <= 2.5 * depth:
-            most = max(most, getattr(onset, name))
-        return 1.02 * float(most)
+            largest = max(largest, getattr(onset, name))
+        return float(lowest) if course.adhesive else 0.0, 1.02 * float(largest)
 
-    return size
-
-
-def _pressure_size(course: Course) -> float:
-    return 1.05 * figures.ceiling(course.turning_point, radius_size(course))
+    return span
 
 
-def _least(name: str) -> Callable[[Course], float]:
-    """Least value of a quantity: adhesion reaches below zero."""
-    return lambda course: float(np.min(getattr(course.states, name))) if course.adhesive else 0.0
+def _pressures(course: Course) -> tuple[float, float]:
+    """Pressures, and tensions of adhesion."""
+    most = 1.05 * figures.ceiling(course.turning_point, across(course)[1])
+    return -most if course.adhesive else 0.0, most
 
 
-def radius_size(course: Course) -> float:
-    return 1.25 * largest_radius(course)
-
-
-X = Along("x, coordinate of the springs", "length", radius_size, lambda course: 1.0)
-R = Along("r, radius", "length", radius_size, lambda course: 1.0)
-Z = Along("z, height", "length", deepest, lambda course: REST)
-D = Along(QUANTITIES["depth"].title, "length", _most("depth"), least=_least("depth"))
-F = Along(QUANTITIES["force"].title, "force", _most("force"), least=_least("force"))
-P = Along("−σzz, pressure", "pressure", _pressure_size, lambda course: float(course.adhesive))
+X = Along("x, coordinate of the springs", "length", across)
+R = Along("r, radius", "length", across)
+Z = Along("z, height", "length", lambda course: (-figures.REST * deepest(course), deepest(course)))
+D = Along(QUANTITIES["depth"].title, "length", _of_states("depth"))
+F = Along(QUANTITIES["force"].title, "force", _of_states("force"))
+P = Along("−σzz, pressure", "pressure", _pressures)
 
 
 # Springs.
@@ -64,8 +64,8 @@ P = Along("−σzz, pressure", "pressure", _pressure_size, lambda course: float(
 
 def springs(view: View, i: int) -> dict:
     """Springs by their state."""
-    course, state = view.course, view.course.states[i]
-    return figures.springs(state, view.end(X), view.end(Z), lambda g: course.relaxing(i, g))
+    course, z = view.course, view.axis(Z)
+    return figures.springs(course.states[i], view.end(X), z.start, z.end, lambda g: course.relaxing(i, g))
 
 
 def _spring_formula(course: Course) -> str:
@@ -79,7 +79,7 @@ def _spring_formula(course: Course) -> str:
 
 SPRINGS = Plot(
     "springs", "1D foundation", _spring_formula, (X, Z),
-    figures.SPRING_ROWS, moving=springs,
+    figures.SPRING_ROWS, springs,
 )  # fmt: skip
 
 
@@ -94,37 +94,26 @@ def pressure(view: View, i: int) -> dict:
 
 PRESSURE = Plot(
     "pressure", "Contact pressure", "(10)  σ_zz(r) = (1/π) ∫ q′(x) dx/√(x² − r²)", (R, P),
-    figures.PRESSURE_ROWS, moving=pressure,
+    figures.PRESSURE_ROWS, pressure,
 )  # fmt: skip
 
 
 # Force over depth.
 
 
-def _curve(course: Course, until=None) -> dict:
-    """Parts of the force–depth curve, optionally up to a state."""
-    depth, past = course.states.depth, slice(until)
-    return split(
-        depth[past], course.states.force[past], depth[past], course.states.live_interval.lower[past]
-    )
-
-
-def force_still(view: View) -> dict:
-    course, onset = view.course, view.course.onset
-    rows = {"path ahead": (course.states.depth, course.states.force)} if course.turns else _curve(course)
+def force(view: View, i: int) -> dict:
+    """The curve, of several loadings that up to state i, this state, and what is lost and stored in it."""
+    course, states, onset = view.course, view.course.states, view.course.onset
+    past, right = slice(i + 1 if course.turns else None), 0.02 * view.end(D)
+    depth = states.depth[past]
+    rows = split(depth, states.force[past], depth, states.live_interval.lower[past])
+    rows["now"] = states.depth[[i]], states.force[[i]]
+    if course.turns:
+        rows["path ahead"] = states.depth, states.force
     if onset is not None and not course.dashpots:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
-    return rows
-
-
-def force(view: View, i: int) -> dict:
-    """The present state, the path so far, and the areas of lost and stored energy."""
-    course, right = view.course, 0.02 * view.end(D)
-    states = course.states
-    rows = {"now": (states.depth[[i]], states.force[[i]]), "dₚ": (np.nan, np.nan, "")}
     if (lower := float(states.plastic_depth[i])) > 0:
         rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end(F), "dₚ"
-    rows |= _curve(course, i + 1) if course.turns else {}
     if course.chained or course.adhesive:
         # No live interval tells what is stored in elements that have each a memory of their own, and with
         # adhesion the area below the curve is not what is stored.
@@ -148,7 +137,7 @@ FORCE = Plot(
         mark("now", size=13),
         label("dₚ"),
     ),
-    force_still, force,
+    force,
 )  # fmt: skip
 
 

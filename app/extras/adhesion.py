@@ -27,10 +27,16 @@ ROWS = (
 )
 
 
-def still(view: View) -> dict:
-    """Where contact begins, and the largest tension of unloading, with its value."""
+def places(view: View, i: int) -> dict:
+    """Contact and pull-off, and for one loading what is lost and given back in state i."""
     if not view.course.adhesive:
         return {}
+    # Loops of several loadings overlap.
+    return _ends(view) | ({} if view.course.turns else _energies(view, i))
+
+
+def _ends(view: View) -> dict:
+    """Where contact begins, and the largest tension of unloading, with its value."""
     depth, force = view.course.states.depth, view.course.states.force
     last = view.course.peak + int(np.argmin(force[view.course.peak :]))
     text = f"Fₐ = {written(view.course.states.pull_off_force[last], 'force', 3)}"
@@ -55,16 +61,13 @@ def _loop(course: Course, turn: int) -> AdhesiveLoop:
     return adhesive_loop(course.states[: turn + 1], _under_force(course))
 
 
-def moving(view: View, i: int) -> dict:
+def _energies(view: View, i: int) -> dict:
     """Areas of a loading and unloading with adhesion, with their energies as text.
 
     The stored energy is no area below the curve, because surfaces are separated, too: drawn is what comes
     back before the force is tension.
     """
     course = view.course
-    if not course.adhesive or course.turns:
-        # Loops of several loadings overlap.
-        return {}
     loop = _loop(course, min(i, course.peak))
     returned = _before_tension(*unloading_curve(course.states[i], _under_force(course)))
     around = np.append(loop.depth, loop.depth[::-1])
@@ -99,4 +102,4 @@ def _before_tension(d, force) -> tuple:
     return np.concatenate([d[:1], d[:count], [zero]]), np.concatenate([[0.0], force[:count], [0.0]])
 
 
-EXTRA = Extra("adhesion", overlays=(Overlay("force", ROWS, still, moving),))
+EXTRA = Extra("adhesion", overlays=(Overlay("force", ROWS, places),))

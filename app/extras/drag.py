@@ -70,7 +70,7 @@ def handle(view: View, i: int) -> dict:
 
 EXTRA = Extra(
     "drag",
-    overlays=(Overlay("springs", (mark("handle", legend=False),), moving=handle),),
+    overlays=(Overlay("springs", (mark("handle", legend=False),), handle),),
     notes=lambda view: {"first": "Or drag the indenter by ●."},
     service=Dragging,
 )

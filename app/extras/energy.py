@@ -22,11 +22,16 @@ def energies(course: Course) -> dict:
     }
 
 
-E = Along("E, energy", "energy", lambda course: float(np.max(sum(energies(course).values()))))
+def _total(course: Course) -> tuple[float, float]:
+    return 0.0, float(np.max(sum(energies(course).values())))
 
 
-def still(view: View) -> dict:
-    time, rows = view.course.motion.time, {}
+E = Along("E, energy", "energy", _total)
+
+
+def places(view: View, i: int) -> dict:
+    """What is stored, kinetic and lost on top of each other, and the present time."""
+    time, rows = view.course.motion.time, {"time": line_at_time(view, i, E)}
     lower = np.zeros_like(time)
     for name, energy in energies(view.course).items():
         upper = lower + energy
@@ -56,7 +61,7 @@ ENERGY = Plot(
         area("kinetic", "speed", 0.3),
         line("time", "ink", 1.0, "dashed", legend=False),
     ),
-    still, lambda view, i: {"time": line_at_time(view, i, E)},
+    places,
     applies=lambda view: view.course.motion is not None, tab="Energy", order=40,
 )  # fmt: skip
 

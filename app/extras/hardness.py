@@ -35,8 +35,8 @@ def found(course: Course, asked: tuple[bool]) -> Found:
         rows["hardness"] = r, made.hardness_at(r)
     most = 1.3 * max(min(float(np.nanmax(p)), _MOST * abs(largest)), hardness)
     x, y = (
-        axis("a", "a, contact radius", "length", 1.2 * widest),
-        axis("p", "pₘ, pressure", "pressure", most),
+        axis("a, contact radius", "length", 1.2 * widest),
+        axis("pₘ, pressure", "pressure", most),
     )
     if log:
         x = replace(x, start=10.0**-_RADII * x.end, log=True)
@@ -69,7 +69,7 @@ def asked(state: State) -> tuple[bool]:
 HARDNESS = Searched(
     "hardness", "Mean pressure and hardness", "(11)  p_m = F/(π a²),  σ_c = H + q_c/a + f_c/a²  § 20", (),
     (line("hardness", "ink", 1.4, "dotted", "σ"), *parts("pₘ"), mark("now", size=13)),
-    moving=now, find=found, asks=asked, quick=lambda asked: True, tab="Hardness", order=15,
+    places=now, find=found, asks=asked, quick=lambda asked: True, tab="Hardness", order=15,
     picture=Logarithmic,
 )  # fmt: skip
 

@@ -20,6 +20,7 @@ from ..plots import PLOTS, P, R
 from ..readouts import line as readout_line
 from ..readouts import text
 from ..shared import widgets
+from ..shared.once import once
 from ..shared.summary import with_symbol
 from ..state import MEDIUM_CHOICES, PRESETS, State, altered, used
 from ..ui import WIDE, html, marked, show, symbol
@@ -117,7 +118,7 @@ def _pressure(view: View, course: Course) -> dict:
 
 
 def _radii(view: View, course: Course) -> dict:
-    rows = PLOTS["radii"].still(View(view.state, course))
+    rows = PLOTS["radii"].places(View(view.state, course), course.peak)
     whole = tuple(map(np.append, rows["contact radius a"], rows["unloading"]))
     return {" a": whole, " c": rows["plastic zone c"]}
 
@@ -127,7 +128,7 @@ def _over_time(plot: str, row: str) -> Callable[[View, Course], dict]:
 
     def columns(view, course):
         other = View(view.state, course)
-        return {"": PLOTS[plot].still(other)[row] if PLOTS[plot].applies(other) else NOTHING}
+        return {"": PLOTS[plot].places(other, 0)[row] if PLOTS[plot].applies(other) else NOTHING}
 
     return columns
 
@@ -151,7 +152,8 @@ def _beyond(view: View, axes: list[Along], rows: list[tuple]) -> str:
 
 
 def _overlay(plot: str, rows: list, columns: Callable[[View, Course], dict]) -> Overlay:
-    def still(view: View) -> dict:
+    @once
+    def places(view: View) -> dict:
         axes = [PLOTS[plot].axes[k] for k in (0, rows[0].axis)]
         found = {}
         for k, held in enumerate(scenes(view), 1):
@@ -160,7 +162,7 @@ def _overlay(plot: str, rows: list, columns: Callable[[View, Course], dict]) -> 
             found |= {f"held {k}{what}": (*part, name) for what, part in parts.items()}
         return found
 
-    return Overlay(plot, tuple(rows), still)
+    return Overlay(plot, tuple(rows), places)
 
 
 # The panel and the button.

@@ -40,7 +40,7 @@ class Switched(Logarithmic):
         axes = super().axes_of(view)
         if self.plot.name not in view.state["log.plots"]:
             return axes
-        curves = [row for row in view.still(self.plot).values() if len(row) == 2]
+        curves = [row for row in view.places(self.plot, view.course.peak).values() if len(row) == 2]
         return [logarithmic(axis, [row[k] for row in curves]) for k, axis in enumerate(axes)]
 
 
@@ -66,6 +66,6 @@ EXTRA = Extra(
     order=31,
     values={"log.plots": ()},
     of_view=("log.plots",),
-    overlays=(Overlay("force", (), moving=hidden, picture=Switched),),
+    overlays=(Overlay("force", (), hidden, picture=Switched),),
     on_plots=switch,
 )

@@ -8,16 +8,13 @@ from ..plots import D, F
 from ..shared.time import T, line_at_time
 
 
-def still(view: View) -> dict:
+def places(view: View, i: int) -> dict:
     time, states = view.course.motion.time, view.course.states
-    return {"depth d": (time, states.depth), "force F": (time, states.force)}
-
-
-def moving(view: View, i: int) -> dict:
-    time, states = view.course.motion.time[[i]], view.course.states
     return {
-        "now": (time, states.depth[[i]]),
-        "F now": (time, states.force[[i]]),
+        "depth d": (time, states.depth),
+        "force F": (time, states.force),
+        "now": (time[[i]], states.depth[[i]]),
+        "F now": (time[[i]], states.force[[i]]),
         "time": line_at_time(view, i, D),
     }
 
@@ -33,7 +30,7 @@ MOTION = Plot(
         mark("now"),
         mark("F now", marker="diamond", size=11, axis=2, legend=False),
     ),
-    still, moving, applies=lambda view: view.course.motion is not None, tab="In time", order=30,
+    places, applies=lambda view: view.course.motion is not None, tab="In time", order=30,
 )  # fmt: skip
 
 

@@ -114,7 +114,7 @@ def leaning(course: ObliqueCourse, i: int, r):
     return load / (medium.tangential_ratio * medium.E_star), sticks > 0.5
 
 
-def _feet(state, rows: dict, half: float, height: float) -> dict:
+def _feet(state, rows: dict, half: float, base: float) -> dict:
     """Leaning springs, and lines below those that stick or slip."""
     found, width = {}, 0.8 * half / figures.SPRINGS
     paths = [np.reshape(part, (-1, 9)) for part in (np.hstack([rows["sticks"], rows["slips"]]))]
@@ -125,7 +125,7 @@ def _feet(state, rows: dict, half: float, height: float) -> dict:
     for name in ("sticks", "slips"):
         foot = rows[name][0].reshape(-1, 9)[:, 0]
         ends = foot[:, None] + np.array([-width, width, np.nan])
-        found[name] = ends.ravel(), np.full(ends.size, -0.97 * figures.REST * height)
+        found[name] = ends.ravel(), np.full(ends.size, 0.97 * base)
     return found
 
 
@@ -137,20 +137,21 @@ def springs(view: View, i: int) -> dict:
     course = view.course
     if not isinstance(course, ObliqueCourse):
         return {}
-    state, half, height = course.states[i], view.end(X), view.end(Z)
+    state, half, z = course.states[i], view.end(X), view.axis(Z)
     rows = figures.springs(
-        state, half, height, lambda g: course.relaxing(i, g), lambda r: leaning(course, i, r)
+        state, half, z.start, z.end, lambda g: course.relaxing(i, g), lambda r: leaning(course, i, r)
     )
-    return {name: rows[name] for name in ("elastic", "yielded")} | _feet(state, rows, half, height)
+    return {name: rows[name] for name in ("elastic", "yielded")} | _feet(state, rows, half, z.start)
 
 
-def _most(course):
-    """Largest force (N) along one of the directions."""
+def _forces(course):
+    """Forces (N) along both directions."""
     forces = course.states.force, np.abs(course.motion.tangential_force)
-    return float(max(np.max(force) for force in forces))
+    most = float(max(np.max(force) for force in forces))
+    return -min(course.scene.drive.friction, 1.0) * most, most
 
 
-FORCE = Along("F, Fₓ, force", "force", _most, below=lambda course: min(course.scene.drive.friction, 1.0))
+FORCE = Along("F, Fₓ, force", "force", _forces)
 
 
 def _regime(course) -> str:
@@ -168,7 +169,7 @@ def _regime(course) -> str:
     return f"{first} to {ends}, then slips" if sticking[-1] < len(motion.time) - 2 else first
 
 
-def forces_still(view: View) -> dict:
+def forces(view: View, i: int) -> dict:
     course = view.course
     time, force = course.motion.time, course.states.force
     most = course.scene.drive.friction * force
@@ -177,15 +178,8 @@ def forces_still(view: View) -> dict:
         "tangential force Fₓ": (time, course.motion.tangential_force),
         "regime": (0.02 * view.end(T), 0.98 * view.end(FORCE), _regime(course)),
         "largest friction ±μF": (np.append(time, [np.nan, *time]), np.append(most, [np.nan, *-most])),
-    }
-
-
-def forces_moving(view: View, i: int) -> dict:
-    course = view.course
-    time = course.motion.time[[i]]
-    return {
-        "now": (time, course.motion.tangential_force[[i]]),
-        "F now": (time, course.states.force[[i]]),
+        "now": (time[[i]], course.motion.tangential_force[[i]]),
+        "F now": (time[[i]], force[[i]]),
         "time": line_at_time(view, i, FORCE),
     }
 
@@ -201,7 +195,7 @@ FORCES = Plot(
         mark("F now", marker="diamond", legend=False),
         label("regime"),
     ),
-    forces_still, forces_moving, applies=lambda view: isinstance(view.course, ObliqueCourse),
+    forces, applies=lambda view: isinstance(view.course, ObliqueCourse),
     tab="Friction", order=50,
 )  # fmt: skip
 
@@ -211,5 +205,5 @@ EXTRA = Extra(
     drives={"oblique": Oblique()},
     service=Resting,
     plots=(FORCES,),
-    overlays=(Overlay("springs", FEET, moving=springs),),
+    overlays=(Overlay("springs", FEET, springs),),
 )

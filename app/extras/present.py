@@ -1,5 +1,6 @@
 """Plots for a lecture, with large letters: *Large*, one over all others, and *Present*, over the page."""
 
+import re
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -43,7 +44,7 @@ class Letters(Service):
 
     def __init__(self, page: Any):
         super().__init__(page)
-        # Of each plot what was set: the scale, and whether titles of axes are short.
+        # Of each plot what was set: the scale, and whether titles of axes are symbols alone.
         self._set: dict[str, tuple[float, bool]] = {}
 
     def show(self, view: View) -> None:
@@ -59,19 +60,21 @@ class Letters(Service):
             look = (_SCALE if on or is_large else 1.0, on and not is_large)
             if look != self._set.get(name, (1.0, False)):
                 self._set[name] = look
-                set_letters(card.picture, *look)
+                set_letters(card.picture, look[0])
+                card.picture.set_axes(*card.picture.axes)
+            if on and not is_large:
+                for axis in card.picture.figure.axis:
+                    axis.axis_label = re.sub(",.* ", " ", axis.axis_label)
 
 
-def set_letters(picture: Picture, scale: float, short: bool) -> None:
-    """Make the letters of a plot so many times as large as on the page, titles of axes symbols alone."""
+def set_letters(picture: Picture, scale: float) -> None:
+    """Make the letters of a plot so many times as large as on the page."""
     title, tick = f"{12 * scale:g}px", f"{11 * scale:g}px"
-    picture.short = short
     picture.figure.min_border_left = round(48 * scale) + 16
     for axis in picture.figure.axis:
         axis.update(axis_label_text_font_size=title, major_label_text_font_size=tick)
     for text in picture.figure.select(Text):
         text.text_font_size = title
-    picture.set_axes(*picture.axes)
 
 
 EXTRA = Extra(

@@ -9,7 +9,7 @@ from ..extra import Extra
 from ..plot import Along, Plot, View
 from ..plots import D, largest_radius
 
-A = Along("a, c, radius", "length", lambda course: 1.14 * largest_radius(course))
+A = Along("a, c, radius", "length", lambda course: (0.0, 1.14 * largest_radius(course)))
 
 
 def _loading(course: Course):
@@ -38,21 +38,18 @@ def zone(course: Course):
     return _loading(course), (back, falling), (depth[past], c[past])
 
 
-def still(view: View) -> dict:
+def places(view: View, i: int) -> dict:
+    states = view.course.states
+    depth, a, now_c = states.depth[[i]], states.contact_radius[[i]], states.plastic_radius[[i]]
+    rows = {"now": (depth, a), "c now": (depth, np.where(now_c > 0, now_c, np.nan))}
     loading, back, (d, c) = zone(view.course)
     # From the last state on that has not yielded.
     yielded_states = np.flatnonzero(c > c[0])
     subset = slice(max(int(yielded_states[0]) - 1, 0), None) if yielded_states.size else slice(0, 0)
     d, c = d[subset], c[subset]
-    rows = {"contact radius a": loading, "unloading": back, "plastic zone c": (d, c)}
+    rows |= {"contact radius a": loading, "unloading": back, "plastic zone c": (d, c)}
     rows["zone"] = np.append(d, [*d[-1:], *d[:1]]), np.append(c, [0, 0][: 2 * len(d)])
     return rows
-
-
-def moving(view: View, i: int) -> dict:
-    states = view.course.states
-    depth, a, c = states.depth[[i]], states.contact_radius[[i]], states.plastic_radius[[i]]
-    return {"now": (depth, a), "c now": (depth, np.where(c > 0, c, np.nan))}
 
 
 def _formula(course: Course) -> str:
@@ -71,7 +68,7 @@ RADII = Plot(
         mark("now"),
         mark("c now", legend=False),
     ),
-    still, moving, tab="Radii", order=10,
+    places, tab="Radii", order=10,
 )  # fmt: skip
 
 

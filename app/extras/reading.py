@@ -36,7 +36,7 @@ def words(view: View, i: int) -> dict:
     return {"reading": (-0.97 * view.end(X), 0.72 * view.end(Z), sentence(view.course, i))}
 
 
-def zone(view: View) -> dict:
+def zone(view: View, i: int) -> dict:
     """Depths beyond the onset of yield, at which loading has a plastic zone."""
     course, top = view.course, view.end(F)
     known = course.onset is not None and not (course.dashpots or course.initial_plastic_depth)
@@ -50,7 +50,7 @@ def zone(view: View) -> dict:
 EXTRA = Extra(
     "reading",
     overlays=(
-        Overlay("springs", (label("reading"),), moving=words),
+        Overlay("springs", (label("reading"),), words),
         Overlay("force", (area("plastic zone, on loading", "yielded", 0.07),), zone),
     ),
 )

@@ -21,14 +21,14 @@ _MOST = 4
 def plane(course: Course, asked) -> Found:
     """Pressure on a square about the contact, with its rim and the plastic zone."""
     state, half = course.state, 1.25 * float(course.turning_point.contact_radius)
-    x = axis("x", "x, coordinate", "length", half, below=1.0)
-    y = replace(x, name="y", title="y, coordinate")
+    x = axis("x, coordinate", "length", half, -half)
+    y = replace(x, title="y, coordinate")
     middle = (np.arange(_PIXELS) + 0.5) / _PIXELS
     place = x.start + (x.end - x.start) * middle
     image = state.pressure(np.hypot(place, place[:, None]))
     finite = float(np.max(image[np.isfinite(image)], initial=0.0))
     most = min(finite, _MOST * float(state.mean_pressure)) or 1.0
-    colours = replace(axis("p", "−σzz, pressure", "pressure", most), end=most)
+    colours = replace(axis("−σzz, pressure", "pressure", most), end=most)
     angle = np.linspace(0, 2 * np.pi, 181)
     around = np.cos(angle), np.sin(angle)
     radii = {"contact radius a": state.contact_radius, "plastic zone c": state.plastic_radius}

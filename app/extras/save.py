@@ -28,10 +28,9 @@ class Legends(Service):
         return {"save": self._legends}
 
     def rest(self, view: View) -> None:
-        states = {view.course.now, view.course.peak}
         self._legends["scene"] = summary(view.state)
         for plot in (PLOTS[name] for name in (*NAMED, *view.state.tiles)):
-            called = drawn(view, plot, states)
+            called = drawn(view, plot)
             rows = [called.get(row.name, row.name) for row in rows_of(plot) if row.legend]
             self._legends[plot.name] = {"rows": rows, "title": plot.title}
 

@@ -80,14 +80,14 @@ def beyond(view: View, plot: str, i: int) -> str:
 
 
 def _overlay(plot: str) -> Overlay:
-    def moving(view: View, i: int) -> dict:
+    def places(view: View, i: int) -> dict:
         if "axes" not in view.computed:
             return {}
         x, y = (view.axis(along) for along in PLOTS[plot].axes)
         left = x.start + 0.015 * (x.end - x.start)
         return {"cut off": (left, _PLOTS[plot][-1] * y.end, beyond(view, plot, i))}
 
-    return Overlay(plot, (label("cut off"),), moving=moving)
+    return Overlay(plot, (label("cut off"),), places)
 
 
 EXTRA = Extra(

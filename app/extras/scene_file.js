@@ -22,6 +22,6 @@ theme.onclick = () => shade(theme.ariaPressed !== "true")
 const bytes = Uint8Array.from(atob(packed), (letter) => letter.charCodeAt(0))
 const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))
 new Response(stream).text().then((sent) => {
-  player.take([sources, sent])
+  player.take([sources, ...JSON.parse(sent)])
   document.getElementById("player").append(player.el)
 })

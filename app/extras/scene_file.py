@@ -1,5 +1,6 @@
 """A scene as a file: one HTML that plays in a browser without a server and without a network."""
 
+import json
 import re
 from base64 import b64encode
 from collections.abc import Iterator
@@ -21,7 +22,7 @@ from mdr_core.results.figures import ROLES
 from mdr_core.results.units import written
 
 from .. import link, readouts
-from ..draw import Picture, drawn, legend, picture_of
+from ..draw import PLACES, Picture, drawn, legend, picture_of
 from ..extra import EXTRAS, Extra
 from ..player import frames
 from ..plot import Plot, View
@@ -39,8 +40,6 @@ _PLAYER = (HERE / "static" / "player.js").read_text(encoding="utf-8").replace("e
 _CODE = f"""{_PLAYER}
 const touched = (figures, dragging) => {{\n{TOUCH}\n}}
 {_HERE.with_suffix(".js").read_text(encoding="utf-8")}"""
-#: Columns of a source that are of another colour in the dark.
-_COLOURS = ("color", "edge", "ground")
 _PAPER = "V. L. Popov, Facta Universitatis, Series: Mechanical Engineering 13(1), 2015, 39–46"
 
 
@@ -63,7 +62,7 @@ def scene_file(view: View) -> str:
     pictures = [picture_of(PLOTS[name]) for name in NAMED]
     document = Document()
     for picture in pictures:
-        picture.show(picture.columns(view, course.now, state.dark), view, state.dark)
+        picture.show(picture.columns(view, course.now), view)
         document.add_root(picture.figure)
     _connect(document, view, pictures)
     words = {
@@ -86,17 +85,18 @@ def scene_file(view: View) -> str:
 
 def _card(view: View, plot: Plot) -> tuple[str, ...]:
     """Name of a plot, and title, formula and legend as HTML."""
-    key = legend(plot, drawn(view, plot, {view.course.now, view.course.peak}))
+    key = legend(plot, drawn(view, plot))
     return plot.name, plot.title, marked(plot.formula_of(view.course)), key
 
 
 def _connect(document: Document, view: View, pictures: list[Picture]) -> None:
     """Let the browser play, drag, and turn dark."""
-    sources, sent = frames(view, pictures)
-    now, looks = view.course.now, []
+    sources, *sent = frames(view, pictures)
+    course, looks = view.course, []
     for dark in (False, True):
-        columns = [each for picture in pictures for each in picture.columns(view, now, dark).items()]
-        looks.append([{name: data[name] for name in _COLOURS if name in data} for _, data in columns])
+        shaded = View(view.state.replace(dark=dark), course, view.computed)
+        columns = [each for picture in pictures for each in picture.columns(shaded, course.now).items()]
+        looks.append([{name: data[name] for name in data if name not in PLACES} for _, data in columns])
     told = {
         "figures": [picture.figure for picture in pictures],
         "sources": sources,
@@ -104,9 +104,9 @@ def _connect(document: Document, view: View, pictures: list[Picture]) -> None:
         "looks": looks,
         "papers": [ROLES["paper"][dark] for dark in (False, True)],
         "dragging": {"path": path(view) | {"pressing": False}},
-        "look": {"last": len(view.course) - 1, "now": now},
+        "look": {"last": len(view.course) - 1, "now": view.course.now},
         # A tenth of its size.
-        "packed": b64encode(compress(sent.encode(), 9)).decode(),
+        "packed": b64encode(compress(json.dumps(sent).encode(), 9)).decode(),
     }
     document.js_on_event(DocumentReady, CustomJS(args=told, code=_CODE))
     for picture in pictures:

@@ -26,14 +26,14 @@ _DRAWN = {
 def section(course: Course, asked):
     """Map of a stress over r and z, with a, c and the place of the maximum."""
     (quantity,), state, reach = asked, course.state, 1.6 * float(course.turning_point.contact_radius)
-    r = axis("r", "r, radius", "length", reach)
-    z = replace(axis("depth", "z, height", "length", reach, below=1.0), end=0.0)
+    r = axis("r, radius", "length", reach)
+    z = replace(axis("z, height", "length", reach, -reach), end=0.0)
     title, of_stress = _DRAWN[quantity]
     reason = "No contact, and so no stress." if state.contact_radius == 0 else ""
     if course.chained:
         reason = "Stresses below the surface are not computed along a viscous path."
     if reason:
-        return Found({}, [r, z, axis("stress", title, "pressure", 1.0)], reason)
+        return Found({}, [r, z, axis(title, "pressure", 1.0)], reason)
     down, along = ((np.arange(count) + 0.5) / count for count in _PIXELS)
     across, deep = r.end * along, -z.start * (1 - down)
     image = of_stress(state.stress(across, deep[:, None]))
@@ -47,7 +47,7 @@ def section(course: Course, asked):
         at = (written(float(x) if x > 1e-4 * reach else 0.0, "length", 3) for x in (peak.r, peak.z))
         bound = written(float(peak.value), "pressure", 3) if np.isfinite(peak.value) else "infinite"
         note = "{} is largest at r = {}, {} below the surface: {}.".format(title.split(",")[0], *at, bound)
-    colours, ends = axis("stress", title, "pressure", most), np.array([z.start, z.end])
+    colours, ends = axis(title, "pressure", most), np.array([z.start, z.end])
     rows = {
         "image": (np.array([r.start, r.end]), ends, np.minimum(image, colours.end)),
         "contact radius a": (np.full(2, state.contact_radius), ends),

@@ -4,12 +4,19 @@ import numpy as np
 
 from mdr_core.results.figures import NOTHING, RADII, area, at_radii, both, line
 
+from ..courses import Course
 from ..extra import Extra
 from ..plot import Along, Plot, View
 from ..plots import deepest, largest_radius
 
-R = Along("r, radius", "length", lambda course: 2.1875 * largest_radius(course), lambda course: 1.0)
-Z = Along("z, height", "length", deepest, lambda course: 1.2)
+
+def _around(course: Course) -> tuple[float, float]:
+    half = 2.1875 * largest_radius(course)
+    return -half, half
+
+
+R = Along("r, radius", "length", _around)
+Z = Along("z, height", "length", lambda course: (-1.2 * deepest(course), deepest(course)))
 #: Where points lie between edges, at which the surface is steep.
 _DENSE = (1 - np.cos(np.linspace(0, np.pi, 20))) / 2
 
@@ -53,7 +60,7 @@ SURFACE = Plot(
         line("residual imprint", "yielded", 2.0, "dotted", symbol="z"),
         *RADII,
     ),
-    moving=surface, tab="Surface", order=70,
+    places=surface, tab="Surface", order=70,
 )  # fmt: skip
 
 

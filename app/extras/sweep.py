@@ -216,13 +216,13 @@ def found(course, sweep: Sweep):
 def _axes(sweep, values, present):
     """Both logarithmic, to show powers, or linear; a ratio that is 0 somewhere has a linear one."""
     quantity, result = known(sweep.swept), RESULTS[sweep.against]
-    x = axis("swept", lowered(f"{quantity.symbol}, {quantity.label}"), quantity.kind, sweep.high)
+    x = axis(lowered(f"{quantity.symbol}, {quantity.label}"), quantity.kind, sweep.high)
     log = sweep.logarithmic and sweep.low > 0
     x = replace(x, start=sweep.low if log else min(sweep.low, 0.0), end=sweep.high, log=log)
     sizes = np.append(values, present)
     sizes = sizes[np.isfinite(sizes)]
     title = CHOICES["sweep.against"].options[sweep.against].label
-    y = axis("against", title, KINDS[result.unit], max(sizes, default=1.0))
+    y = axis(title, KINDS[result.unit], max(sizes, default=1.0))
     if not (log and (sizes > 0).any() and (result.unit or (sizes > 0).all())):
         return x, y
     # At most six decades, between powers of ten.

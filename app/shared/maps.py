@@ -25,10 +25,10 @@ class Map(Picture):
         self.bar.update(background_fill_color=None, bar_line_color=None)
         self.figure.add_layout(self.bar, "right")
 
-    def columns(self, view: View, i: int, dark: bool) -> dict[Any, dict[str, list]]:
-        found = super().columns(view, i, dark)
+    def columns(self, view: View, i: int) -> dict[Any, dict[str, list]]:
+        found = super().columns(view, i)
         if found:
-            axes, (across, up, values) = self.axes_of(view), view.rows(self.plot, i)["image"]
+            axes, (across, up, values) = self.axes_of(view), view.places(self.plot, i)["image"]
             (left, right), (low, high) = across / axes[0].factor, up / axes[1].factor
             corner = {"x": [left], "y": [low], "dw": [right - left], "dh": [high - low]}
             found[self.source] = corner | {"image": [np.float32(values / axes[2].factor)]}

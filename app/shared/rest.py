@@ -68,11 +68,11 @@ class Searched(Plot):
     def axes_of(self, view: View) -> list[Axis]:
         return self.found(view).axes
 
-    def still_of(self, view: View) -> dict[str, Any]:
-        empty = {}
-        if self.image:
-            empty["image"] = *[np.array([0.0, 1.0])] * 2, np.full(self.image, np.nan)
-        return super().still_of(view) | empty | self.found(view).rows
+    def places_of(self, view: View, i: int) -> dict[str, Any]:
+        found = super().places_of(view, i) | self.found(view).rows
+        if self.image and "image" not in found:
+            found["image"] = *[np.array([0.0, 1.0])] * 2, np.full(self.image, np.nan)
+        return found
 
     def note_of(self, view: View) -> str:
         return self.found(view).note

@@ -6,7 +6,7 @@ from mdr_core.results.quantities import QUANTITIES
 
 from ..plot import Along, View
 
-T = Along(QUANTITIES["time"].title, "time", lambda course: float(course.motion.time[-1]))
+T = Along(QUANTITIES["time"].title, "time", lambda course: (0.0, float(course.motion.time[-1])))
 
 
 def line_at_time(view: View, i: int, up: Along) -> tuple:

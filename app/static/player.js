@@ -1,17 +1,20 @@
 // The player: a button and a slider that move through the states of a scene, on the page and in a saved scene. Frames are
-// sources and, as one text, what they have in each state. `ask` is called with null when a move begins, and with the state
+// sources, as texts what changes of each in each state, readouts, and times. `ask` is called with null when a move begins, and with the state
 // in which it ends; `say` shows readouts. Other scripts find it as `player`.
 export function make_player({ figures, say, ask }) {
   const el = Object.assign(document.createElement("div"), { className: "player" })
   el.innerHTML = `<button class="act"></button><input type="range" aria-label="State along the path">`
   const [button, range] = el.children
-  let [value, moving, sources, sent, wait] = [0, false, [], null, null]
+  let [value, moving, wait] = [0, false, null]
+  let [sources, places, words, times] = []
+  // A gap in a line is null in a text, which would be drawn as zero.
+  const read = (text) => JSON.parse(text, (_, part) => part ?? NaN)
   const stand = (k) => {
     range.value = value = Math.min(k, range.max)
     range.style.setProperty("--share", value / range.max)
-    if (!sent) return
-    sources.forEach((source, n) => { source.data = { ...source.data, ...sent.pictures[value][n] } })
-    say(sent.words[value])
+    if (!times) return
+    sources.forEach((source, n) => { source.data = { ...source.data, ...read(places[n][value]) } })
+    say(words[value])
     // By itself Bokeh paints at most every second frame.
     setTimeout(() => figures.forEach((figure) => Bokeh.index.find_one(figure).repaint()))
   }
@@ -26,8 +29,8 @@ export function make_player({ figures, say, ask }) {
     const step = (now) => {
       if (!player.playing) return
       requestAnimationFrame(step)
-      if (!sent) return
-      const { times } = sent, last = times.length - 1
+      if (!times) return
+      const last = times.length - 1
       begin ??= now - 3000 * (value >= last ? 0 : times[value])
       const clock = ((now - begin) / 3000) % 1.12, next = times.findIndex((time) => time >= clock)
       move(next < 0 ? last : next)
@@ -54,11 +57,9 @@ export function make_player({ figures, say, ask }) {
       range.max = last
       stand(moving ? value : now)
     },
-    take([those, text]) {
-      sources = those
-      // A gap in a line is null in a text, which would be drawn as zero.
-      sent = text && JSON.parse(text, (_, part) => part ?? NaN)
-      if (sent) player.show({ last: sent.times.length - 1, now: value })
+    take(frames) {
+      [sources, places, words, times] = frames
+      if (times) player.show({ last: times.length - 1, now: value })
     },
     // Readouts (HTML) in words: of the slider at once, of the plots once they rest.
     tell(words) {

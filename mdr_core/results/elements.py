@@ -4,21 +4,9 @@ import numpy as np
 
 from ..contact.indentation import Indentation
 from . import figures
-from .figures import DASHES, FORCE_ROWS, NOTHING, PRESSURE_ROWS, REST, ROLES, SPRING_ROWS, Axis, line, parts
+from .figures import FORCE_ROWS, NOTHING, PRESSURE_ROWS, REST, SPRING_ROWS, Axis, line, parts
 from .quantities import QUANTITIES
 from .report import imported
-
-
-def _styled(row):
-    """Style of a row in options of Bokeh."""
-    colour = ROLES[row.role][0]
-    if row.kind == "lines":
-        return {"color": colour, "line_width": row.look["width"], "line_dash": DASHES[row.look["dash"]]}
-    if row.kind == "areas":
-        return {"fill_color": colour, "fill_alpha": row.look["alpha"], "line_alpha": 0}
-    if row.kind == "marks":
-        return {"color": colour, "size": row.look["size"], "line_alpha": 0}
-    return {"text_color": colour, "text_font_style": "italic", "text_font_size": "12px"}
 
 
 def overlay(title, rows, columns, axes):
@@ -42,7 +30,9 @@ def overlay(title, rows, columns, axes):
             element = hv.Polygons([{dims[0].name: x, dims[1].name: y}], dims, **named)
         else:
             element = hv.Labels(([x], [y], text), dims, "text")
-        made.append(element.opts(backend="bokeh", **_styled(row)) if bokeh else element)
+        # HoloViews knows no hatches.
+        look = {name: value for name, value in row.look_in(False).items() if "hatch" not in name}
+        made.append(element.opts(backend="bokeh", **look) if bokeh else element)
     look = {"title": title, "width": 600, "height": 400, "show_grid": True, "legend_position": "right"}
     look |= {"xlim": axes[0].ends, "ylim": axes[1].ends}
     return hv.Overlay(made).opts(backend="bokeh", **look) if bokeh else hv.Overlay(made)
@@ -94,11 +84,12 @@ def plot_springs(state):
     """Springs of the 1D foundation in one state: `Indentation.plot_springs`."""
     half = _drawn_radius(state, "plot_springs")
     height = max(float(state.depth), float(state.live_interval.upper))
+    base = -REST * height
     axes = [
         Axis.fitting("x", "x, coordinate of the springs", "m", half, start=-half, end=half),
-        Axis.fitting("z", "z, height", "m", height, start=-REST * height, end=height),
+        Axis.fitting("z", "z, height", "m", height, start=base, end=height),
     ]
-    return overlay("1D foundation", SPRING_ROWS, figures.springs(state, half, height), axes)
+    return overlay("1D foundation", SPRING_ROWS, figures.springs(state, half, base, height), axes)
 
 
 def _drawn_radius(state, what):

@@ -29,6 +29,8 @@ ROLES = {
     "paper": ("#ffffff", "#181b20"),
     "chalk": ("#fefefe", "#fefefe"),
 }
+#: Dashes of lines by their names.
+DASHES = {"solid": "solid", "dashed": "6 4", "dotted": "2 3", "dotdash": "6 3 2 3"}
 NOTHING = np.array([np.nan]), np.array([np.nan])
 #: Number of springs; heights of the vertices of one from base (0) to top (1), and their offsets; a gap.
 SPRINGS = 60
@@ -40,9 +42,10 @@ REST = 1.5
 
 @dataclass(frozen=True)
 class Row:
-    """One area, line, mark or label of a plot; `look` is its style, `legend` whether the legend names it.
+    """One area, line, mark or label of a plot; `legend` says whether the legend names it.
 
-    A line with a `symbol` has a tooltip with its values on the axis `axis` (0 x, 1 y, 2 right).
+    `look` are properties of Bokeh's glyph for it, with roles as colours and names as dashes. A line with a
+    `symbol` has a tooltip with its values on the axis `axis` (0 x, 1 y, 2 right).
     """
 
     kind: str
@@ -62,21 +65,38 @@ class Row:
         """Name in legends and tooltips: its own, or that of a line in the third of its columns."""
         return (self.kind == "lines" and "".join(columns[2:])) or self.name
 
+    def look_in(self, dark):
+        """Properties of its glyph on a light or on a dark background."""
+        found = {name: ROLES[value][dark] for name, value in self.look.items() if name.endswith("color")}
+        if self.kind == "lines":
+            found["line_dash"] = DASHES[self.look["line_dash"]]
+        elif self.kind == "areas" and dark:
+            # What is pale on white would be nearly black.
+            found["fill_alpha"] = min(1.6 * self.look["fill_alpha"], 1.0)
+        return self.look | found
+
 
 def area(name, role, alpha, hatch=" ", legend=True):
-    return Row("areas", name, role, legend, look={"alpha": alpha, "hatch": hatch})
+    # An edge in full colour: on its ground a pale area alone is hard to see.
+    look = {"fill_color": role, "fill_alpha": alpha, "line_color": role}
+    look |= {"hatch_pattern": hatch, "hatch_color": role, "hatch_alpha": 0.35}
+    return Row("areas", name, role, legend, look=look)
 
 
 def line(name, role, width=2.0, dash="solid", symbol="", axis=1, legend=True):
-    return Row("lines", name, role, legend, symbol, axis, {"width": width, "dash": dash})
+    look = {"line_color": role, "line_width": width, "line_dash": dash}
+    return Row("lines", name, role, legend, symbol, axis, look)
 
 
 def mark(name, role="ink", edge="paper", marker="circle", size=10, axis=1, legend=True):
-    return Row("marks", name, role, legend, axis=axis, look={"edge": edge, "marker": marker, "size": size})
+    look = {"fill_color": role, "line_color": edge, "line_width": 1.6, "marker": marker, "size": size}
+    return Row("marks", name, role, legend, axis=axis, look=look)
 
 
 def label(name):
-    return Row("labels", name, legend=False)
+    look = {"text_color": "ink", "text_font_size": "12px", "text_font_style": "italic"}
+    look |= {"text_baseline": "top", "background_fill_color": "paper", "background_fill_alpha": 0.8}
+    return Row("labels", name, legend=False, look=look)
 
 
 @dataclass(frozen=True)
@@ -204,14 +224,14 @@ def _places(half, state):
     return x
 
 
-def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
-    """Springs for |x| < `half` (m) below an indenter that is drawn up to a height (m).
+def springs(state, half, base, height, relaxing=lambda g: 0.0, along=None):
+    """Springs for |x| < `half` (m) from their base (m) up, below an indenter that is drawn up to a height.
 
     `relaxing` gives the elastic compression (m) of released elements at reduced heights. With friction,
     `along` gives the tangential displacement (m) of elements at radii, and whether they stick; it is drawn
     with half the scale of depths.
     """
-    profile, interval, far, base_height = state.profile, state.live_interval, 3 * height, -REST * height
+    profile, interval, far = state.profile, state.live_interval, 3 * height
     x = _places(half, state)
     g = reduced(profile, np.abs(x))
     left = np.fmax(interval.lower - g, 0.0)
@@ -219,7 +239,7 @@ def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
     top = np.where(contact, g - state.depth, -left - np.where(contact, 0.0, relaxing(g)))
     lean, stick = (0.0 * x, None) if along is None else along(np.abs(x))
     lean = np.where(contact, lean, 0.0)[:, None] * (half / 2 / height) * _ALONG
-    path = x[:, None] + _BEND * half / SPRINGS + lean, base_height + (top[:, None] - base_height) * _ALONG
+    path = x[:, None] + _BEND * half / SPRINGS + lean, base + (top[:, None] - base) * _ALONG
     # Springs carry tension with adhesion only.
     adhesive = state.medium.work_of_adhesion > 0
     stretched = contact & adhesive & (np.maximum(g, interval.lower) > state.depth)
@@ -243,9 +263,7 @@ def springs(state, half, height, relaxing=lambda g: 0.0, along=None):
     rows["edge"] = rows["profile g(x)"]
     if interval.lower > 0:
         rows["residual imprint"] = shape_x, 0.0 - np.maximum(interval.lower - shape_g, 0)
-    return rows | at_radii(
-        float(state.contact_radius), float(state.plastic_radius), half, base_height, height
-    )
+    return rows | at_radii(float(state.contact_radius), float(state.plastic_radius), half, base, height)
 
 
 def radii(state, half):
@@ -322,6 +340,3 @@ def work(path, i):
         "dissipated" if viscous else "plastic work Wₚ": loop if loses else NOTHING,
         "stored": (np.append(back[:1], back), np.append(0.0, back_force)),
     }
-
-
-DASHES = {"solid": "solid", "dashed": "6 4", "dotted": "2 3", "dotdash": "6 3 2 3"}

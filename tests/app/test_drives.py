@@ -9,7 +9,7 @@ from app import changes, readouts
 from app.drives import DRIVES, follow, scene_of
 from app.extras import notes, share
 from app.plot import View
-from app.plots import force, force_still
+from app.plots import force
 from app.quantities import CHOICES
 from app.shared.summary import summary
 from app.state import PRESETS, medium, preset_state, profile
@@ -64,7 +64,7 @@ def test_hysteresis_yields_once_a_cycle_and_reloads_elastically():
     # The first cycle ends where yield begins.
     depth = 5 * medium(state).critical_depth
     view = view_of(state.replace(max_depth=depth))
-    assert len(force_still(view)["path ahead"][0]) == len(view.course)
+    assert len(force(view, 0)["path ahead"][0]) == len(view.course)
     rows = force(view, len(view.course) - 1)
     yielding, elastic = rows["yielding"][0], rows["elastic"][0]
     peaks = depth * np.arange(1, 6) / 5

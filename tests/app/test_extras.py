@@ -194,6 +194,6 @@ def test_a_new_extra_is_a_file_of_its_own(folder):
     plot = page.board.cards["area"].plot
     for option, radius in (("plastic", states.plastic_radius), ("contact", states.contact_radius)):
         page.choose("area.of", option)
-        _, area = page.shown.rows(plot, 0)["area"]
+        _, area = page.shown.places(plot, 0)["area"]
         np.testing.assert_allclose(area, np.pi * radius**2, rtol=1e-12)
         assert ("area.of=plastic" in page.query()[0]) == (option == "plastic")

@@ -47,7 +47,7 @@ def test_only_the_chosen_samples_are_fitted_and_the_others_are_faint():
     assert page.state.q_c == pytest.approx(start.q_c, rel=1e-4)
     assert agrees(page.state)
     assert "film.csv, samples 1 to 150: " in page.state["fit.note"]
-    rows = page.shown.rows(PLOTS["force"], 0)
+    rows = page.shown.places(PLOTS["force"], 0)
     z, _ = page.state["fit.curve"].data
     d = z - page.state["fit.contact_point"]
     np.testing.assert_allclose(rows["measured"][0], d[:150])

@@ -45,7 +45,7 @@ def test_each_class_draws_its_law_with_its_numbers(option):
     state = state_with(GOLD) if option == "q_c" else state_with(GOLD, plasticity=option)
     hardness, a, force = cone_force(state)
     view = view_of(state)
-    drawn = view.rows(PLOTS["force"], view.course.peak)["now"][1]
+    drawn = view.places(PLOTS["force"], view.course.peak)["now"][1]
     np.testing.assert_allclose(drawn, force, rtol=1e-9)
     page = Page(link.write(state))
     said = re.sub("<[^>]+>", "", part(page, "note medium").look["object"])
@@ -248,7 +248,7 @@ def test_every_plot_and_export_has_the_class(key, choices):
     view = view_of(state, 0.9)
     for plot in (plot for plot in PLOTS.values() if plot.applies(view)):
         if not isinstance(plot, Searched):
-            assert view.rows(plot, view.course.now), plot.name
+            assert view.places(plot, view.course.now), plot.name
             continue
         found = plot.find(view.course, plot.asked(state))
         assert plot.name != "sweep" or sweep.FAST not in found.rows

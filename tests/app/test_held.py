@@ -68,15 +68,15 @@ def test_each_has_its_own_row_in_every_plot():
     view = view_of(states[0], 1.0, *states)
     for along in (X, Z, D, F, P):
         assert view.axis(along) == view_of(states[0]).axis(along)
-    rows = view.rows(PLOTS["force"], 0)
+    rows = view.places(PLOTS["force"], 0)
     for k, held in enumerate(view.computed["held"], 1):
         np.testing.assert_array_equal(rows[f"held {k}"][1], held.course.states.force)
         for name in ("pressure", "radii"):
             row = f"held {k} a" if name == "radii" else f"held {k}"
-            assert np.isfinite(view.rows(PLOTS[name], view.course.now)[row][1]).any()
-    looks = {row.look["dash"] for row in rows_of(PLOTS["force"]) if row.role == "held"}
+            assert np.isfinite(view.places(PLOTS[name], view.course.now)[row][1]).any()
+    looks = {row.look["line_dash"] for row in rows_of(PLOTS["force"]) if row.role == "held"}
     assert len(looks) == len(states)
-    names = drawn(view, PLOTS["force"], {view.course.now})
+    names = drawn(view, PLOTS["force"])
     text = legend(PLOTS["force"], names).replace("<i>d</i><sub>max</sub>", "d_max")
     shown = re.findall(r">([^<]+)</span>", text)
     # The first one is the present scene, which has no difference from itself.
@@ -110,7 +110,7 @@ def test_a_scene_of_another_scale_leaves_the_axes():
     for now, other, fits in ((drop, gold, True), (gold, drop, False)):
         view = view_of(now, 1.0, other)
         for name in ("force", "pressure", "radii"):
-            text = view.rows(PLOTS[name], view.course.now)["held 1 a" if name == "radii" else "held 1"][2]
+            text = view.places(PLOTS[name], view.course.now)["held 1 a" if name == "radii" else "held 1"][2]
             # The pressure of gold, 5.6 GPa in the mean, is beyond that of a laminate in any case.
             small = fits and name != "pressure"
             assert text.endswith("(too small to be seen)" if small else "(partly beyond the axes)"), name

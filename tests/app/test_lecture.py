@@ -135,7 +135,7 @@ def test_the_state_is_read_in_words():
     text = f"yielded inside c = {c * 1e9:.1f} nm; elastic ring {ring * 1e9:.2f} nm wide"
     assert reading.sentence(course, course.now) == text
     view = view_of(state)
-    assert view.rows(PLOTS["springs"], course.now)["reading"][2] == text
+    assert view.places(PLOTS["springs"], course.now)["reading"][2] == text
     onset = float(made.critical_depth)
     early = f"elastic; the axis yields first, at d = {onset * 1e9:.2f} nm"
     assert {reading.sentence(course, i) for i in np.flatnonzero(course.states.depth[1:20] < onset) + 1} == {
@@ -156,18 +156,18 @@ def test_the_state_is_read_in_words():
 
 def test_depths_with_a_plastic_zone_are_marked():
     view = view_of(preset_state())
-    d, _ = view.rows(PLOTS["force"], view.course.now)["plastic zone, on loading"]
+    d, _ = view.places(PLOTS["force"], view.course.now)["plastic zone, on loading"]
     assert (d.min(), d.max()) == (float(view.course.onset.depth), view.end(D))
     course = follow(preset_state())
     yielded = course.states.plastic_radius[: course.peak + 1] > 0
     np.testing.assert_array_equal(yielded, course.states.depth[: course.peak + 1] > d.min())
     # An onset that is just ahead is on the axis.
     view = view_of(preset_state(ELASTIC))
-    d, _ = view.rows(PLOTS["force"], view.course.now)["plastic zone, on loading"]
+    d, _ = view.places(PLOTS["force"], view.course.now)["plastic zone, on loading"]
     assert d.min() > np.max(view.course.states.depth)
     for state in (state_with(DROP, damping="eta"), preset_state(DROP).replace(plastic_depth=1e-4)):
         view = view_of(state)
-        assert np.isnan(view.rows(PLOTS["force"], view.course.now)["plastic zone, on loading"]).all()
+        assert np.isnan(view.places(PLOTS["force"], view.course.now)["plastic zone, on loading"]).all()
 
 
 @pytest.mark.parametrize("share", [10, 30, 100, 1000])
@@ -177,7 +177,7 @@ def test_the_elastic_ring_has_a_spring_on_each_side(share, shape):
     state = state_with(DROP, "depth", shape=shape)
     state = state.replace(max_depth=share * float(medium(state).critical_depth))
     view = view_of(state)
-    x = view.rows(PLOTS["springs"], view.course.now)["elastic"][0].reshape(-1, 9)[:, 0]
+    x = view.places(PLOTS["springs"], view.course.now)["elastic"][0].reshape(-1, 9)[:, 0]
     now = view.course.state
     inside = (np.abs(x) > now.plastic_radius) & (np.abs(x) < now.contact_radius)
     assert inside.all()
@@ -196,7 +196,7 @@ def test_an_oblique_impact_says_whether_it_sticks(angle, body, says):
     )
     course = solved(state)
     assert bool(course.motion.impact.slips_throughout) is (says == "slips throughout")
-    text = oblique.forces_still(view_of(state))["regime"][2]
+    text = oblique.forces(view_of(state), 0)["regime"][2]
     assert text.startswith(says)
     if "then slips" in text:
         end = float(course.motion.time[np.flatnonzero(course.motion.stick_radius > 0)[-1]])

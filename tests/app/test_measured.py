@@ -262,12 +262,12 @@ def test_the_curve_lies_where_it_is_set_to_and_its_residual_is_of_what_is_set():
     )
     expected = F - 1e-8 - mdr.indent(profile(state), medium(state), d).force
     np.testing.assert_allclose(residual_of(view), expected, rtol=1e-9, atol=1e-15)
-    assert np.isnan(view.rows(PLOTS["residual"], 0)["± noise"][0]).all()
+    assert np.isnan(view.places(PLOTS["residual"], 0)["± noise"][0]).all()
     assert view.end(RESIDUAL_FORCE) >= np.abs(expected).max()
     # A tip that ends above the measured depth says so.
     r = np.linspace(0, 5e-9, 20)
     state = changes.take_tip(state, (r, 0.1 * r), "")
-    assert view_of(state).rows(PLOTS["residual"], 0)["missing"][2] == "no model at these depths"
+    assert view_of(state).places(PLOTS["residual"], 0)["missing"][2] == "no model at these depths"
 
 
 def test_refusals_say_why_and_what_stays_and_a_preset_leaves_the_curve(explorer, tmp_path):

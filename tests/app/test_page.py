@@ -36,7 +36,7 @@ def assert_draws(explorer, state: State):
     shown = view.course.state
     np.testing.assert_allclose(now(explorer), (shown.depth, shown.force), rtol=1e-3, atol=1e-30)
     for figure, name in (("springs", "yielded"), ("springs", "profile g(x)"), ("pressure", "−σzz(r)")):
-        columns = Picture(PLOTS[figure]).columns(view, view.course.now, False)
+        columns = Picture(PLOTS[figure]).columns(view, view.course.now)
         data = next(data for data in columns.values() if name in data["row"])
         k = data["row"].index(name)
         places = np.array([data["xs"][k], data["ys"][k]], float)

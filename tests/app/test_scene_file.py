@@ -108,7 +108,7 @@ def test_every_row_is_drawn_as_on_the_page(saved):
         said = {each.name: readouts.text(each, values, number) for each, values in numbers.items()}
         assert {name: saved.readout(name) for name in said} == said
         for name in NAMED:
-            for layer, columns in Picture(PLOTS[name]).columns(view, number, False).items():
+            for layer, columns in Picture(PLOTS[name]).columns(view, number).items():
                 for k, row in enumerate(columns["row"] if "xs" in columns else ()):
                     places = np.array([columns["xs"][k], columns["ys"][k]], float)
                     np.testing.assert_array_equal(
@@ -140,7 +140,7 @@ def test_it_plays_is_dragged_and_turns_dark(saved):
     )
     colour = """() => {
         const { background_fill_color, renderers } = explorer.model("springs")
-        const drawn = renderers.map(({ data_source: { data } }) => data.color[0])
+        const drawn = renderers.map(({ data_source: { data } }) => (data.line_color ?? data.text_color)[0])
         return [getComputedStyle(document.body).backgroundColor, background_fill_color, ...drawn]
     }"""
     light = page.evaluate(colour)

@@ -81,7 +81,7 @@ def test_4_saved_scene_and_link_of_a_fit_have_the_fit():
 def test_5_the_noise_around_a_residual_has_that_of_the_depth():
     state = fitted(depth_noise=5e-11)
     found, view = state["fit.curve"].fit, view_of(state)
-    size = residual(view)["± noise"][1][: found.residuals.size]
+    size = residual(view, 0)["± noise"][1][: found.residuals.size]
     expected = np.hypot(found.force_noise, found.path.stiffness * 5e-11)
     np.testing.assert_allclose(size, expected, rtol=1e-9)
     # A good fit looks good: two thirds of the samples are within.
@@ -141,7 +141,7 @@ def test_11_small_things_are_said_right():
 
 def test_12_curves_with_a_vertical_start_are_no_chords():
     view = view_of(preset_state(DROP))
-    d, a = view.rows(PLOTS["radii"], 0)["contact radius a"]
+    d, a = view.places(PLOTS["radii"], 0)["contact radius a"]
     depths = np.array([1e-6, 5e-6, 5e-5])
     exact = view.course.scene.profile.contact_radius(depths)
     np.testing.assert_allclose(np.interp(depths, d[1:], a[1:]), exact, rtol=0.03)
@@ -158,7 +158,7 @@ def test_13_springs_are_elastic_or_yielded_also_in_an_oblique_impact():
     """Yielded ones reach to c, elastic ones to a, within the distance of two."""
     for state, vertices in ((preset_state(), 1), (state_with(DROP, "oblique"), 9)):
         view = view_of(state)
-        rows, now = view.rows(PLOTS["springs"], view.course.now), view.course.state
+        rows, now = view.places(PLOTS["springs"], view.course.now), view.course.state
         spacing = 2 * view.end(X) / SPRINGS
         for name, radius in (("yielded", now.plastic_radius), ("elastic", now.contact_radius)):
             assert np.nanmax(np.abs(rows[name][0][::vertices])) == pytest.approx(radius, abs=spacing)
@@ -197,7 +197,7 @@ def test_adhesion_is_drawn_below_zero_to_the_pull_off(drive, share):
     course, axis = view.course, view.axis(F)
     pull_off = 1.5 * np.pi * 0.05 * state.paraboloid_radius
     np.testing.assert_allclose(numbers(course)["pull_off_force"], pull_off, rtol=1e-12)
-    assert view.rows(PLOTS["force"], course.now)["Fₐ"][2] == "Fₐ = 11.8 µN"
+    assert view.places(PLOTS["force"], course.now)["Fₐ"][2] == "Fₐ = 11.8 µN"
     # The largest tension is between two states; it is flat there.
     assert -np.min(course.states.force) == pytest.approx(pull_off, rel=1e-2)
     assert axis.start <= -pull_off
@@ -218,9 +218,9 @@ def test_after_yield_the_whole_imprint_is_pulled_off():
     places = np.abs(x[:, 0])
     left = course.states.plastic_depth[-1] - course.scene.profile.reduced(places)
     np.testing.assert_allclose(z[places < c, 7] + left, stretch, rtol=1e-9)
-    _, p = view.rows(PLOTS["pressure"], course.now)["−σzz(r)"]
+    _, p = view.places(PLOTS["pressure"], course.now)["−σzz(r)"]
     assert np.min(p) == view.axis(P).start == -view.axis(P).end
-    assert "−∞ at the rim" in view.rows(PLOTS["pressure"], course.now)["exceeds"][2]
+    assert "−∞ at the rim" in view.places(PLOTS["pressure"], course.now)["exceeds"][2]
 
 
 def test_adhesion_has_a_link_and_is_refused_where_it_is_not_computed():

@@ -6,6 +6,7 @@ from mdr_core.results.figures import label, line, mark
 
 from ...plot import Along, Plot, View
 from ...plots import D, F
+from ...shared.once import once
 from .measured import Curve
 
 #: Most samples of a measured curve that are drawn.
@@ -28,6 +29,7 @@ MEASURED = (
 )
 
 
+@once
 def measured(view: View) -> dict:
     curve = placed(view)
     if curve is None:
@@ -42,7 +44,8 @@ def reach(view: View, along: Along) -> tuple[float, float]:
     if curve is None:
         return 0.0, 0.0
     if along is RESIDUAL_FORCE:
-        return 0.0, float(np.nan_to_num(np.abs(curve.residual(view.course.scene))).max())
+        largest = float(np.nan_to_num(np.abs(curve.residual(view.course.scene))).max())
+        return -largest, largest
     if along is D:
         return float(np.min(curve.depth)), 1.02 * float(curve.depth.max())
     if along is F:
@@ -50,9 +53,10 @@ def reach(view: View, along: Along) -> tuple[float, float]:
     return 0.0, 0.0
 
 
-RESIDUAL_FORCE = Along("ΔF, residual force", "force", lambda course: 0.0, lambda course: 1.0)
+RESIDUAL_FORCE = Along("ΔF, residual force", "force", lambda course: (0.0, 0.0))
 
 
+@once
 def residual(view: View) -> dict:
     """Residual and its standard deviation."""
     curve, ends = placed(view), np.array([view.axis(D).start, view.end(D)])
