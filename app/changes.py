@@ -9,19 +9,18 @@ from .drives import DRIVES, follow, turning_point
 from .quantities import CHOICES, QUANTITIES
 from .state import PRESETS, State, checked, medium, preset_state, yield_constant
 
-#: Options of a choice that apply to a state, the default first, where these are not all; extras add theirs.
-OFFERED: dict[str, Callable[[State], list[str]]] = {
-    "shape": lambda state: [
-        each for each in CHOICES["shape"].options if each != "sampled" or state.samples
-    ],
-}
+#: Options of choices of extras that apply to a state, the default first, where these are not all.
+OFFERED: dict[str, Callable[[State], list[str]]] = {}
 #: Constants of the hardness, by the power of the contact radius in them.
 CONSTANTS = ("volume_hardness", "q_c", "f_c")
 
 
 def options(state: State, name: str) -> list[str]:
     """Applicable options of a choice, the default first."""
-    return OFFERED[name](state) if name in OFFERED else list(CHOICES[name].options)
+    if name in OFFERED:
+        return OFFERED[name](state)
+    # A measured tip has to be loaded first.
+    return [each for each in CHOICES[name].options if each != "sampled" or state.samples]
 
 
 def option(state: State, name: str) -> str:
@@ -65,11 +64,10 @@ def _moduli(state: State, E_star: float) -> dict[str, float]:
 
 
 def take_tip(state: State, samples: tuple[Any, Any], note: str) -> State:
-    """Use samples of a measured tip as the indenter; the depth is limited to their range."""
-    tip, more = mdr.Sampled(*samples), {}
-    if state.max_depth > tip.known_depth:
-        more["max_depth"] = float(f"{tip.known_depth / 2:.3g}")
-    return state.replace(samples=(tip.r, tip.z), tip_note=note, shape="sampled", **more)
+    """Use samples of a measured tip as the indenter; the depth is at most half their range."""
+    tip = mdr.Sampled(*samples)
+    depth = min(state.max_depth, float(f"{tip.known_depth / 2:.3g}"))
+    return state.replace(samples=(tip.r, tip.z), tip_note=note, shape="sampled", max_depth=depth)
 
 
 def hit_again(state: State, hit: mdr.Impact) -> State:
@@ -94,15 +92,13 @@ def equivalent(state: State, drive: str) -> dict[str, float]:
 
 
 def _shape(state: State, shape: str) -> dict[str, float]:
-    """Initial numbers of a shape: those of the present one, or multiples of the contact radius."""
-    names = CHOICES["shape"].options[shape].uses
-    if None not in [state[name] for name in names]:
-        return {}
-    numbers, radius = {}, float(turning_point(state).contact_radius)
-    for name in names:
+    """Numbers that a shape has not yet: those of the present one, or multiples of the contact radius."""
+    numbers = {}
+    radius = float(turning_point(state).contact_radius)
+    for name in (each for each in CHOICES["shape"].options[shape].uses if state[each] is None):
         known = QUANTITIES[name]
         size = known.default * radius if known.kind == "length" else known.default
-        present = getattr(state, f"{state.shape}{name.removeprefix(shape)}", None)
+        present = getattr(state, state.shape + name.removeprefix(shape), None)
         numbers[name] = present or known.bounded(float(f"{size:.2g}"))
     return numbers
 

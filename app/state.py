@@ -138,17 +138,16 @@ def preset_state(key: str = OPENING, **view: Any) -> State:
 
 
 def altered(state: State) -> list[str]:
-    """Names of choices and numbers that differ from the preset."""
-    return [
-        name
-        for name, value in PRESETS[state.preset].values.items()
-        if state[name] != value and (name in CHOICES or not isclose(state[name], value, rel_tol=1e-9))
-    ]
+    """Names of choices and numbers that differ from the preset, by more than rounding."""
+    values = PRESETS[state.preset].values
+    changed = [name for name in values if state[name] != values[name]]
+    return [each for each in changed if each in CHOICES or not isclose(state[each], values[each])]
 
 
 def used_by(state: State, *choices: str) -> list[str]:
-    """Names of the numbers that the chosen options of some choices use."""
-    return [name for choice in choices for name in state.chosen(choice).uses]
+    """Names of the numbers that the chosen options of some choices use, with choices of their own."""
+    chosen = map(state.chosen, choices)
+    return [name for option in chosen for name in (*option.uses, *used_by(state, *option.form))]
 
 
 def yield_constant(state: State) -> list[str]:
@@ -161,7 +160,7 @@ def regions(state: State) -> dict[str, list[str]]:
     main = ["E_star", *yield_constant(state)]
     return {
         "shape": used_by(state, "shape"),
-        "drive": used_by(state, "drive", *state.chosen("drive").form),
+        "drive": used_by(state, "drive"),
         "medium": main,
         "more": [name for name in used_by(state, *MEDIUM_CHOICES) if name not in main],
     }
@@ -169,7 +168,7 @@ def regions(state: State) -> dict[str, list[str]]:
 
 def used(state: State) -> list[str]:
     """Names of the numbers in use."""
-    return used_by(state, "shape", *MEDIUM_CHOICES, "drive", *state.chosen("drive").form)
+    return used_by(state, "shape", *MEDIUM_CHOICES, "drive")
 
 
 def checked(name: str, value: float) -> float:
@@ -184,8 +183,6 @@ def checked(name: str, value: float) -> float:
 def profile(state: State) -> mdr.Profile:
     """Shape of the indenter."""
     if state.shape == "sampled":
-        if not state.samples:
-            raise ValueError("load a tip first: a CSV file with radii r and heights z")
         return mdr.Sampled(*state.samples)
     if state.shape == "power_law":
         coefficient = state.power_law_height / state.power_law_width**state.power_law_exponent
@@ -204,12 +201,8 @@ def medium(state: State) -> mdr.Medium:
     """Medium under the indenter."""
     if state.adhesion == "work":
         refuse_other_classes(state, "adhesion", "yield none")
+    names = [*yield_constant(state), *used_by(state, "damping", "adhesion")]
     # The core calls the constant hardness `hardness`, which is another number of the page.
-    constants = {name.removeprefix("volume_"): state[name] for name in yield_constant(state)}
-    return mdr.Medium(
-        state.E_star,
-        poisson=state.nu_1 if state.elasticity == "bodies" else 0.5,
-        eta=state.eta if state.damping == "eta" else 0.0,
-        work_of_adhesion=state.work_of_adhesion if state.adhesion == "work" else 0.0,
-        **constants,
-    )
+    given = {name.removeprefix("volume_"): state[name] for name in names}
+    poisson = state.nu_1 if state.elasticity == "bodies" else 0.5
+    return mdr.Medium(state.E_star, poisson=poisson, **given)

@@ -272,7 +272,7 @@ def test_sentences_are_true(server, page):
     assert "which of them are illustrative" in text
     page.goto(f"{server.url}?damping=eta&eta=1e6")
     text = said(page)
-    assert " act in an impact, or the drive path and one of its patterns in time." in text
+    assert " act in one of the patterns in time of the drive path, or an impact." in text
     assert "They also act in the two patterns of a path in time." in text
     # A fast impact: the contact area of the limit over the present one; W = π q_c ∫ √(R s) ds.
     page.goto(f"{server.url}?preset={DROP}")
