@@ -96,8 +96,7 @@ def _told(known: Quantity) -> dict[str, Any]:
         "label": f"{symbol(known.symbol)} {marked(known.label)}",
         "spoken": f"{known.symbol}, {known.label}",
         "about": "".join(f"<p>{row}</p>" for row in rows if row),
-        "slider": known.span >= 0,
-        "logarithmic": known.span > 0,
+        "span": known.span,
     }
 
 

@@ -78,7 +78,8 @@ def read(query: str) -> State:
 
 def _wrong(state: State) -> str:
     needed = [state[name] for name in used(state)] + [state.samples] * (state.shape == "sampled")
-    return "this link has a shape without its numbers" if None in needed or () in needed else ""
+    missing = any(value in (None, ()) for value in needed)
+    return "this link has a shape without its numbers" * missing
 
 
 def _value(name: str, text: str) -> Any:

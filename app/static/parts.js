@@ -57,7 +57,7 @@ const KINDS = {
   },
   // Typed with its unit, or dragged. What is typed is sent at once; of a drag one value is under way, and what is dragged
   // meanwhile replaces what waits.
-  number({ label, spoken, about, slider, logarithmic, id }, send) {
+  number({ label, spoken, about, span, id }, send) {
     const el = made("div", "number", `<div class="row"><label for="text-${id}">${label}</label>
       <button class="help" aria-expanded="false" aria-label="What is ${spoken}?">?</button>
       <input id="text-${id}" type="text" spellcheck="false" autocomplete="off" aria-describedby="said-${id}" aria-label="${spoken}"></div>
@@ -66,11 +66,11 @@ const KINDS = {
     const [text, range] = el.querySelectorAll("input")
     const [said, about_it, help] = [".said", ".about", ".help"].map((name) => el.querySelector(name))
     let [now, answered, asked, wish, typing] = [null, 0, 0, null, false]
-    range.hidden = !slider
+    range.hidden = span < 0
     const busy = () => answered < asked
     const ask = (what) => { [asked, wish, typing] = [send(what), null, false] }
     // The value of each step has three digits, but at the ends.
-    const [scaled, back] = logarithmic ? [Math.log, Math.exp] : [Number, Number]
+    const [scaled, back] = span > 0 ? [Math.log, Math.exp] : [Number, Number]
     const step = ({ value, low, high }) => range.max * (scaled(value) - scaled(low)) / (scaled(high) - scaled(low))
     const dragged = ({ low, high }) => {
       const share = range.value / range.max
