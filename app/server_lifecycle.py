@@ -1,9 +1,13 @@
 """Hooks of the server, run once before it starts."""
 
+import asyncio
 import gc
+from contextlib import suppress
 
 from bokeh.server.urls import per_app_patterns
+from panel.io.document import dispatch_tornado
 from panel.io.server import WSHandler
+from tornado.websocket import WebSocketClosedError
 
 # Here, so that the first visitor does not wait for it.
 from . import page as page
@@ -20,6 +24,17 @@ class PromptHandler(WSHandler):
     def open(self, *args, **kwargs):
         self.set_nodelay(True)
         return super().open(*args, **kwargs)
+
+    async def send_message(self, message):
+        """Send a message without Bokeh's lock of the websocket.
+
+        While that is taken, Panel puts off what is changed, and where two such messages overlap (Panel 1.9,
+        `_dispatch_msgs`) the second one stays behind until something else is changed: an answer is lost.
+        All parts are written before anything else can run, so that messages stay apart as well.
+        """
+        # As in Bokeh, a browser may have gone.
+        with suppress(WebSocketClosedError):
+            await asyncio.gather(*dispatch_tornado(self.connection, msg=message))
 
 
 # The first pattern that matches is used.

@@ -1,10 +1,23 @@
 """The page as it is served to others: another's markup, a fault of the solver, a server that goes away."""
 
+import asyncio
+import json
 import re
+from types import SimpleNamespace
 
+import panel as pn
 import pytest
+from bokeh.document import Document
+from bokeh.protocol import Protocol
+from bokeh.server.connection import ServerConnection
+from bokeh.server.session import ServerSession
+from panel.io.document import init_doc
+from panel.io.state import set_curdoc
+from tornado.locks import Lock
 
 import mdr_core as mdr
+from app.parts import Parts
+from app.server_lifecycle import PromptHandler
 from app.state import preset_state
 
 from .conftest import ROOT, Explorer, Server, deployed, free_port
@@ -89,3 +102,35 @@ def test_the_page_is_embedded_as_documented(server, context):
     page.set_content(frame.replace("http://localhost:5006/app", server.url))
     page.frame_locator("iframe").locator("canvas").first.wait_for()
     page.close()
+
+
+def test_an_answer_does_not_wait_until_another_message_is_written():
+    """Panel would put it off, and could forget it: both messages are on their way, whole and in order."""
+    sent = []
+
+    def write_message(part, binary=False):
+        sent.append(json.loads(part))
+        # The browser takes nothing yet.
+        return asyncio.get_running_loop().create_future()
+
+    async def answer():
+        document, parts = Document(), Parts()
+        document.add_root(parts.get_root(document))
+        session = ServerSession("session", document)
+        context = SimpleNamespace(id="session", session=session)
+        document._session_context = lambda: context
+        handler = PromptHandler.__new__(PromptHandler)
+        handler.write_lock = Lock()
+        handler.ws_connection = SimpleNamespace(is_closing=lambda: False, write_message=write_message)
+        handler.connection = ServerConnection(Protocol(), handler, None, session)
+        with set_curdoc(document):
+            init_doc(document)
+            pn.state._on_load(document)
+            waiting = asyncio.ensure_future(handler.send_message(Protocol().create("OK", "earlier")))
+            await asyncio.sleep(0)
+            parts._on_message(SimpleNamespace(data=("none", 0)))
+        waiting.cancel()
+
+    asyncio.run(answer())
+    assert [part["msgtype"] for part in sent[::3]] == ["OK", "PATCH-DOC"]
+    assert [change["new"] for change in sent[5]["events"]] == ["[1, []]"]
