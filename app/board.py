@@ -5,15 +5,12 @@ from typing import Any
 
 import panel as pn
 
-from .draw import Picture, drawn, legend, picture_of
+from .draw import drawn, legend, picture_of
 from .extra import EXTRAS
 from .parts import Parts, button, text
 from .plot import Plot, View
 from .plots import NAMED, PLOTS, visible
 from .ui import FULL, html, linked, reveal, show
-
-#: Plots that share the axis x of another one.
-_SAME_X = {"pressure": "springs"}
 
 
 class Card:
@@ -58,9 +55,6 @@ class Board:
 
     def _make(self, name):
         card = self.cards[name] = Card(PLOTS[name], self._page)
-        figure = card.picture.figure
-        if name in _SAME_X:
-            figure.x_range = self.cards[_SAME_X[name]].picture.figure.x_range
         self.grid.append(card.view)
 
     def columns(self, view: View) -> dict[str, dict]:
@@ -104,7 +98,3 @@ class Board:
     def seen(self) -> list[Card]:
         """The cards that are seen."""
         return [card for card in self.cards.values() if card.view.visible]
-
-    def pictures(self) -> list[Picture]:
-        """The pictures that are seen."""
-        return [card.picture for card in self.seen()]

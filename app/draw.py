@@ -46,7 +46,12 @@ class Layer:
         made = glyph(**{name: field(name) for name in names})
         only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
         only["y_range_name"] = "right" if self.axis == 2 else "default"
-        self.renderer = figure.add_glyph(self.source, made, name=group, **only)
+        renderer = figure.add_glyph(self.source, made, name=group, **only)
+        # Values are told of lines that have a symbol.
+        told = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
+        self.hover = bk.HoverTool(renderers=[renderer], line_policy="nearest", visible=False, **told)
+        if any(row.symbol for row in self.rows):
+            figure.add_tools(self.hover)
 
     def columns(self, places: dict, axes: list[Axis], dark: bool) -> dict[str, list]:
         """Columns of the source: look, and places in the units of the axes."""
@@ -87,15 +92,6 @@ class Picture:
             self.figure.extra_y_ranges = {"right": bk.Range1d(0, 1)}
             self.figure.add_layout(bk.LinearAxis(y_range_name="right"), "right")
         self.layers = [Layer(plot, group, self.figure) for group in _GROUPS if group in groups]
-        self.hovers: list[tuple[Any, int]] = []
-        for layer in self.layers:
-            if layer.kind == "lines" and any(row.symbol for row in layer.rows):
-                told = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
-                hover = bk.HoverTool(
-                    renderers=[layer.renderer], line_policy="nearest", visible=False, **told
-                )
-                self.figure.add_tools(hover)
-                self.hovers.append((hover, layer.axis))
         self._dress()
 
     def _dress(self):
@@ -145,9 +141,9 @@ class Picture:
             start, end = axis.ends
             bounds.update(start=start, end=end)
             side.axis_label = axis.label
-        for hover, number in self.hovers:
-            symbol = axes[0].title.split(",")[0]
-            hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=axes[number])
+        symbol = axes[0].title.split(",")[0]
+        for layer in self.layers:
+            layer.hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=axes[layer.axis])
 
 
 def picture_of(plot: Plot) -> Picture:

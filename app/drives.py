@@ -59,9 +59,7 @@ def slow(scene: mdr.Scene, progress: float, turning_point: mdr.Indentation) -> C
     loading = np.concatenate([elastic * _SPREAD, elastic + (1 - elastic) * _SPREAD])
     # With adhesion the force jumps to zero at the pull-off.
     lifted = 2 + 0.2 * np.append(5e-5, np.linspace(0, 1, 9))
-    # Rounded as in links, so that the present place is one of them, and no new one.
-    every = np.concatenate([loading, 1 + _SPREAD, lifted, [progress]])
-    places = np.unique([float(f"{place:.6g}") for place in every])
+    places = np.unique(np.concatenate([loading, 1 + _SPREAD, lifted, [progress]]))
     path = mdr.indent(scene.profile, scene.medium, np.minimum(places, 1.0) * depth)
     share = np.where(places > 2, 5 * (2 - places), np.minimum(2 - places, 1.0))
     states = unloading(path, share, isinstance(scene.drive, mdr.ForcePath))
@@ -130,8 +128,8 @@ def scene_of(state: State) -> mdr.Scene:
 def follow(state: State) -> Course:
     """Course of a state."""
     scene = scene_of(state)
-    course = EXACT.get(scene) or DRIVES[state.drive].follow(scene, state.progress)
-    return replace(course, now=nearest(course.progress, state.progress), drive=state.drive)
+    course = EXACT.get(scene) or DRIVES[state.drive].follow(scene, state.at)
+    return replace(course, now=nearest(course.progress, state.at), drive=state.drive)
 
 
 def turning_point(state: State) -> mdr.Indentation:

@@ -96,6 +96,11 @@ class Extra:
     #: A page of its own at the address `?NAME=place`.
     served: Callable[[str], Any] | None = None
 
+    @property
+    def zone(self) -> str:
+        """Where its part is shown: in the "side", "above" it, or "over" the plots."""
+        return self.place if self.place in ("side", "above") else "over"
+
 
 #: All extras by name, in their order.
 EXTRAS: dict[str, Extra] = {}

@@ -67,10 +67,10 @@ class Field:
         self.refused = ""
         match message:
             case {"text": str(entered)}:
-                self._put(entered, self._name if "dragged" in message else None)
+                self._put(entered, self._name if "dragged" in message else "")
         self._page.refresh()
 
-    def _put(self, entered: str, mark: str | None) -> None:
+    def _put(self, entered: str, mark: str) -> None:
         try:
             value, unit = read(entered, self._known.kind, self._unit)
         except ValueError as error:

@@ -25,9 +25,9 @@ class Frame:
         self._page, self.form = page, Form(page)
         explore = Extra("explore", tab="Explore", side=lambda page: self.form)
         self._offers = {each.name: each for each in (explore, *EXTRAS.values())}
-        #: Parts that have been made, and names of those that are open.
+        #: Parts that have been made, and names of those that are open, one in each zone.
         self.parts: dict[str, Side] = {"explore": self.form}
-        self.opened = {"explore"}
+        self.opened = {"side": "explore"}
         self.header = Parts("header", "bar", stylesheets=LAYOUT)
         self.tabs = Parts("bar", "sides", stylesheets=LAYOUT)
         self.line = Parts("top", stylesheets=LAYOUT)
@@ -42,26 +42,25 @@ class Frame:
         self.view = pn.Column(self.header, columns, css_classes=["page"], **FULL)
 
     def open(self, name: str) -> None:
-        """Open a part: in the side in the place of the present one, above it, or over the plots."""
+        """Open a part in the place of the one that is there; one in the side uncovers the plots."""
         if name not in self.parts:
             self.parts[name] = self._offers[name].side(self._page)
-        place = self._offers[name].place
-        if place != "above":
-            kept = ("above",) if place == "side" else ("above", "side")
-            self.opened = {each for each in self.opened if self._offers[each].place in kept}
-        self.opened.add(name)
+        zone = self._offers[name].zone
+        if zone == "side":
+            self.opened.pop("over", None)
+        self.opened[zone] = name
         self._page.refresh()
 
     def close(self, name: str) -> None:
         """Close a part."""
-        self.opened.remove(name)
+        del self.opened[self._offers[name].zone]
         self._page.refresh()
 
     def show(self, view: View) -> None:
         """Show a view in all parts that are open."""
-        self.opened = {name for name in self.opened if self._offers[name].offered(view)}
-        if not any(self._offers[name].place == "side" for name in self.opened):
-            self.opened.add("explore")
+        opened = self.opened.items()
+        self.opened = {zone: name for zone, name in opened if self._offers[name].offered(view)}
+        self.opened.setdefault("side", "explore")
         page = self._page
         undo = button("Undo", page.undo, disabled=page.history.at == 0, key="z")
         redo = button("Redo", page.redo, disabled=page.history.at == page.history.last)
@@ -74,10 +73,10 @@ class Frame:
         self.line.show([heads, _WORDS, *self._buttons(view, "line")])
         self.player.show([player(view, page.move)])
         for name, part in self.parts.items():
-            place = self._offers[name].place
-            column = self._side if place in ("side", "above") else self.view
-            reveal(column, part.view, name in self.opened, 1 if place == "above" else None)
-            if name in self.opened:
+            zone = self._offers[name].zone
+            column = self.view if zone == "over" else self._side
+            reveal(column, part.view, self.opened.get(zone) == name, 1 if zone == "above" else None)
+            if part.view.visible:
                 part.show(view)
 
     def _buttons(self, view: View, *places: str) -> Iterator[Part]:
@@ -86,7 +85,7 @@ class Frame:
             if "header" in places and (part := each.header(self._page, view)):
                 yield part
             if each.side and each.place in places and each.offered(view):
-                opened = name in self.opened
+                opened = name in self.opened.values()
                 act = partial(self.close if opened else self.open, name)
                 yield button(each.tab, act, opened, key="" if each.place == "side" else "escape")
 

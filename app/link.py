@@ -21,10 +21,8 @@ MAX_LENGTH, _MAX_TEXT, _MAX_NAMES = 8000, 300, 12
 def write(state: State) -> str:
     """State as a query. Raises ValueError if it is too long."""
     start = preset_state(state.preset).replace(preset=OPENING)
-    names = dict.fromkeys(["preset", *CHOICES, *used(state), *OF_EXTRAS, "tiles", "dark"])
+    names = dict.fromkeys(["preset", *CHOICES, *used(state), *OF_EXTRAS, "tiles", "dark", "at"])
     pairs = {name: _text(state[name]) for name in names if _known(name) and state[name] != start[name]}
-    if state.progress != start.progress:
-        pairs["at"] = f"{state.progress:.6g}"
     if state.shape == "sampled":
         pairs["samples"] = " ".join(f"{r},{z}" for r, z in zip(*state.samples, strict=True))
     query = urlencode(pairs, safe=",*")
@@ -68,7 +66,6 @@ def read(query: str) -> State:
     if len(texts) < len(known):
         raise ValueError("this link sets a value twice")
     values = {name: _value(name, text) for name, text in texts.items()}
-    values["progress"] = values.pop("at", 1.0)
     state = preset_state(values.pop("preset", OPENING)).replace(**values)
     for reason in (_wrong(state), *(extra.check(state) for extra in EXTRAS.values())):
         if reason:
@@ -88,7 +85,7 @@ def _value(name: str, text: str) -> Any:
         raise ValueError(f"{name} = “{text:.40}” in this link is not known")
     if name == "samples":
         return _samples(text)
-    default = State()["progress" if name == "at" else name]
+    default = State()[name]
     if isinstance(default, str):
         return text[:_MAX_TEXT]
     if isinstance(default, bool):

@@ -27,6 +27,8 @@ from .state import VIEW, State, preset_state
 from .ui import JS, Messages, is_served
 
 _LOG = logging.getLogger(__name__)
+Change = Callable[[State], State]
+Tell = Callable[[str], None]
 #: Milliseconds of rest before slow updates.
 SETTLED = 300
 _FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
@@ -47,18 +49,18 @@ class History:
 
     states: tuple[State, ...]
     at: int = 0
-    mark: str | None = None
+    mark: str = ""
 
     @property
     def last(self) -> int:
         return len(self.states) - 1
 
-    def after(self, state: State, mark: str | None) -> "History":
+    def after(self, state: State, mark: str) -> "History":
         """The history with a state that has been changed; changes with the same mark are one step."""
         if state.scene_values == self.states[self.at].scene_values:
             return self
-        same = mark is not None and mark == self.mark
-        kept = self.states[: self.at + (not same)][-_UNDO_STEPS:]
+        first = not mark or mark != self.mark
+        kept = self.states[: self.at + first][-_UNDO_STEPS:]
         return History((*kept, state), len(kept), mark)
 
 
@@ -68,6 +70,7 @@ class Page:
     def __init__(self, query: str = ""):
         self.document = pn.state.curdoc or Document()
         self.state = preset_state()
+        self.history = History((self.state,))
         self.shown: View | None = None
         self._waiting = None
         # Whether the player moves, which needs frames of each scene that is shown.
@@ -82,28 +85,24 @@ class Page:
         self.services = [make(self) for make in makers]
         self.view = self.frame.view
         self._watch()
-        self.history = History((self.state,))
         self._open(query)
+        self.history = History((self.state,))
 
-    def _open(self, query):
+    def _open(self, query: str) -> None:
         """Show the state of a link; if it is refused, say so and show the opening one."""
         try:
-            state = link.read(query)
-            self.history = History((state,))
-            self.draw(state)
+            self.draw(link.read(query))
             if names := link.unknown(query):
                 self.notify(f"Unknown names in this link are ignored: {', '.join(names):.200}")
         except Exception as error:
-            self.history = History((self.state,))
             self.draw(self.state)
             self._refused = True
             self.notify(f"The link was not opened: {self.refusal(error)}")
 
     def _watch(self):
-        self.messages.on_change("dark", self._theme_chosen)
-        told = CustomJS(code=JS["tell"])
-        self.messages.js_on_change("address", told)
-        self.messages.js_on_change("dark", told)
+        self.messages.on_change(
+            "dark", lambda attr, old, new: self.apply(lambda state: state.replace(dark=new))
+        )
         self.document.add_root(self.messages)
         self.document.on_event(DocumentReady, lambda event: self._input_rests())
         ready = CustomJS(args={"messages": self.messages}, code=JS["ready"])
@@ -111,7 +110,7 @@ class Page:
         # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
 
-    def _theme_chosen(self, attr, old, new):
+    def _theme_found(self, attr, old, new):
         """Take the theme of the system."""
         self.apply(lambda state: state.replace(dark=new))
 
@@ -141,30 +140,18 @@ class Page:
     # Changes and refusals.
 
     @pn.io.hold()
-    def apply(
-        self,
-        change: Callable[[State], State],
-        refused: Callable[[str], None] | None = None,
-        mark: str | None = None,
-        history: History | None = None,
-    ) -> None:
+    def apply(self, change: Change, refused: Tell | None = None, mark: str = "", at: int = -1) -> None:
         """Apply a change and show it; what fails leaves the page as it was.
 
         The message is a notice, or given to `refused`. Changes with the same mark, as of one drag, are one
-        step of undo. `history` is the history after the change, if the change does not add to it.
+        step of undo. One that goes to a state of the history has its index, `at`.
         """
-        if refused is None:
-            # The scene is changed elsewhere than in the field in which something was refused.
-            for each in self._fields.values():
-                each.refused = ""
-        before, old = self.state, self.history
-        after = before
+        before, after, old = self.state, self.state, self.history
         try:
             after = change(before)
-            self.history = history or old.after(after, mark)
-            if after == before and self.history is old:
-                return
-            self.draw(after)
+            self.history = old.after(after, mark) if at < 0 else replace(old, at=at, mark="")
+            if after != before or self.history is not old:
+                self.draw(after)
         except Exception as error:
             message = self.refusal(error, after)
             self.history = old
@@ -172,21 +159,19 @@ class Page:
                 self.draw(before)
             (refused or self.notify)(message)
             self.refresh()
-        else:
-            self._refused = self._refused and self.history is old
+        self._refused = self._refused and self.history is old
 
     def undo(self) -> None:
-        self._go(-1)
+        self._go(self.history.at - 1)
 
     def redo(self) -> None:
-        self._go(1)
+        self._go(self.history.at + 1)
 
-    def _go(self, steps: int) -> None:
+    def _go(self, at: int) -> None:
         """Go to another state of the history; the view stays."""
-        at = min(max(self.history.at + steps, 0), self.history.last)
-        state = self.history.states[at]
-        view = {name: self.state[name] for name in VIEW}
-        self.apply(lambda now: state.replace(**view), history=History(self.history.states, at))
+        if 0 <= at <= self.history.last:
+            view = {name: self.state[name] for name in VIEW}
+            self.apply(lambda now: self.history.states[at].replace(**view), at=at)
 
     def notify(self, text: str) -> None:
         """Show a notice, once the browser is ready; its text may contain user input."""
@@ -239,7 +224,8 @@ class Page:
 
     def _send_frames(self):
         """Send all states of the course while the player moves, else drop those of another."""
-        self.messages.frames = frames(self.shown, self.board.pictures()) if self._moving else []
+        pictures = [card.picture for card in self.board.seen()]
+        self.messages.frames = frames(self.shown, pictures) if self._moving else []
 
     def move(self, message: int | None) -> None:
         """Send frames when the player begins to move (None); accept the state in which it ends."""
@@ -248,7 +234,7 @@ class Page:
         if self._moving and not self.messages.frames:
             self._send_frames()
         elif isinstance(message, int) and message in range(len(course)) and message != course.now:
-            self.draw(self.state.replace(progress=float(course.progress[message])), message)
+            self.draw(self.state.replace(at=float(course.progress[message])), message)
 
     # Updates when the input rests.
 

@@ -66,9 +66,8 @@ def choice(name: str, state: State, choose: Callable[[str], None]) -> Part:
     if name == "preset" and altered(state):
         chosen = _ALTERED
         pairs.append([_ALTERED, f"altered, from: {PRESETS[state.preset].label}"])
-    offered = [each for each, _ in pairs if each != chosen]
     look = _about(name) | {"options": pairs, "value": chosen}
-    return Part("choice", name, look, lambda message: choose(message) if message in offered else None)
+    return Part("choice", name, look, choose)
 
 
 @cache

@@ -77,10 +77,7 @@ def _spring_formula(course: Course) -> str:
     return f"{law},  u ≤ {cap}{course.more_law}"
 
 
-SPRINGS = Plot(
-    "springs", "1D foundation", _spring_formula, (X, Z),
-    figures.SPRING_ROWS, springs,
-)  # fmt: skip
+SPRINGS = Plot("springs", "1D foundation", _spring_formula, (X, Z), figures.SPRING_ROWS, springs)
 
 
 # Pressure.

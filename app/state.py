@@ -15,7 +15,7 @@ OPENING = next(iter(_PRESETS["scenes"]))
 #: Choices about the medium.
 MEDIUM_CHOICES = ("elasticity", "plasticity", "damping", "adhesion")
 #: What the view is like rather than the scene, with defaults: undo leaves it alone. Extras add theirs.
-VIEW: dict[str, Any] = {"progress": 1.0, "tiles": (), "dark": False}
+VIEW: dict[str, Any] = {"at": 1.0, "tiles": (), "dark": False}
 #: Values of extras by their names, as in "sweep.swept", with their defaults.
 OF_EXTRAS: dict[str, Any] = {}
 
@@ -25,13 +25,13 @@ class State:
     """Everything set on the page; `replace` returns a copy with other values.
 
     E* of two bodies, and q_c of a hardness at a radius, follow from these. A number of a shape that has not
-    been looked at is None: it is sized when it is. `samples` has radii and heights of a measured tip,
-    `tiles` the optional plots that are shown, `extras` the values of extras that are not at their defaults:
-    `state["sweep.swept"]` is one of them.
+    been looked at is None: it is sized when it is. `at` is the progress of the state that is seen, `tiles`
+    the optional plots that are shown, `samples` radii and heights of a measured tip, `extras` the values of
+    extras that are not at their defaults: `state["sweep.swept"]` is one of them.
     """
 
     preset: str = OPENING
-    progress: float = 1.0
+    at: float = 1.0
     tiles: tuple[str, ...] = ()
     dark: bool = False
     shape: str = "cone"

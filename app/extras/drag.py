@@ -57,7 +57,7 @@ def press_to(state: State, depth: float) -> State:
     pressed = mdr.indent(scene_of(state).profile, medium(state), depth)
     numbers = DRIVES[state.drive].equivalent(state, pressed)
     numbers = {name: checked(name, shown(value)) for name, value in numbers.items()}
-    return state.replace(progress=1.0, **numbers)
+    return state.replace(at=1.0, **numbers)
 
 
 def handle(view: View, i: int) -> dict:

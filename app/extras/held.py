@@ -66,7 +66,7 @@ def toggle_hold(state: State) -> State:
         return state.replace(**{"held.scenes": others})
     if len(others) == len(DASHES):
         raise ValueError(f"{len(DASHES)} scenes are held: remove one of them first")
-    scene = state.scene_values.replace(progress=state.progress)
+    scene = state.scene_values.replace(at=state.at)
     return state.replace(**{"held.scenes": (*others, link.write(scene))})
 
 

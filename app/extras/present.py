@@ -8,7 +8,7 @@ from typing import Any
 from bokeh.models import Text
 
 from ..draw import Picture
-from ..extra import EXTRAS, Extra, Service
+from ..extra import Extra, Service
 from ..parts import Part, button
 from ..plot import Plot, View
 from ..state import State
@@ -50,7 +50,7 @@ class Letters(Service):
     def show(self, view: View) -> None:
         on, name_of_large = bool(view.state["present.on"]), view.state["present.large"]
         frame = self.page.frame
-        with_side = any(EXTRAS[name].place == "above" for name in frame.opened & EXTRAS.keys())
+        with_side = "above" in frame.opened
         sheets = [_SHEET, *[_WITH_SIDE] * with_side] if on else []
         show(frame.view, stylesheets=[*LAYOUT, *sheets])
         for name, card in self.page.board.cards.items():

@@ -2,7 +2,17 @@
 const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
 const hosts = (name) => all(document).filter((each) => each.shadowRoot && each.classList.contains(name))
 document.documentElement.lang = "en"
-document.documentElement.classList.toggle("dark", messages.dark)
+// What the page is coloured by, and what it is of the system if nobody has chosen.
+const system = matchMedia("(prefers-color-scheme: dark)").matches
+const shade = () => document.documentElement.classList.toggle("dark", messages.dark)
+messages.properties.dark.change.connect(shade)
+shade()
+if (system && !location.search.includes("dark=")) messages.dark = true
+// The address says what is shown, without a step in the history.
+messages.properties.address.change.connect(() => {
+  const light = system && !messages.dark ? "&dark=0" : ""
+  if (messages.address) history.replaceState(null, "", messages.address + light)
+})
 document.addEventListener("keydown", (event) => {
   const on = event.composedPath()[0]
   if (event.ctrlKey || event.altKey || event.metaKey || on.matches?.("input[type=text], textarea, select")) return
@@ -15,7 +25,6 @@ document.addEventListener("keydown", (event) => {
   event.preventDefault()
   all(document).find((each) => each.matches("button[data-key=z]"))?.click()
 })
-if (matchMedia("(prefers-color-scheme: dark)").matches && !location.search.includes("dark=")) messages.dark = true
 // Bokeh does not see that a plot has become a few pixels less high, as by a note that is opened.
 let before = null
 new ResizeObserver(([{ contentRect: { height } }]) => {

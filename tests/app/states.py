@@ -30,7 +30,7 @@ def state_with(key=GOLD, drive=None, **choices) -> State:
 
 def view_of(state: State, progress=1.0, *held: State) -> View:
     """A view as the page makes it, with other scenes held."""
-    state = state.replace(progress=progress)
+    state = state.replace(at=progress)
     if held:
         state = state.replace(**{"held.scenes": tuple(link.write(each) for each in held)})
     computed = {name: each.compute(state, None) for name, each in EXTRAS.items()}

@@ -38,7 +38,7 @@ def test_one_gesture_holds_a_scene_and_lets_it_go():
         6e-9,
         9e-9,
     ]
-    assert is_held(state.replace(progress=0.4))
+    assert is_held(state.replace(at=0.4))
     assert all(len(query) < 100 for query in state["held.scenes"])
     state = toggle_hold(state)
     assert depths(state) == [6e-9]
@@ -55,7 +55,7 @@ def test_a_fifth_is_refused():
 
 
 def test_the_numbers_are_those_of_the_deepest_state_and_of_the_impact():
-    course = follow(preset(DROP).replace(progress=0.3))
+    course = follow(preset(DROP).replace(at=0.3))
     found = numbers(course)
     assert found["e"] == written(float(course.hit.restitution), "number", 3)
     assert found["d"] == written(float(course.hit.max_depth), "length", 3)

@@ -32,7 +32,7 @@ def now(explorer):
 
 def assert_draws(explorer, state: State):
     """All that the page draws of the present state is what the plots have of `state`."""
-    view = view_of(state, state.progress)
+    view = view_of(state, state.at)
     shown = view.course.state
     np.testing.assert_allclose(now(explorer), (shown.depth, shown.force), rtol=1e-3, atol=1e-30)
     for figure, name in (("springs", "yielded"), ("springs", "profile g(x)"), ("pressure", "−σzz(r)")):

@@ -64,7 +64,7 @@ def test_the_link_of_a_preset_is_its_name():
 @pytest.mark.parametrize("drive", DRIVES)
 def test_a_link_holds_the_whole_page(drive):
     state = state_with(DROP, drive, damping="eta", shape="sphere")
-    state = state.replace(progress=0.75, tiles=("sweep", "section"), dark=True, **{"log.plots": ("force",)})
+    state = state.replace(at=0.75, tiles=("sweep", "section"), dark=True, **{"log.plots": ("force",)})
     others = {"held.scenes": (link.write(state),), "fit.note": "a < b", "section.stress": "zz"}
     state = state.replace(**others)
     again = linked_state(state)
@@ -78,7 +78,7 @@ def test_a_link_holds_the_whole_page(drive):
 #: Links that version 0.6 wrote, and what they say.
 LINKS = {
     f"preset={DROP}&speed=2.0&at=1.5&tiles=sweep&swept=mass&against=restitution": {
-        "speed": 2.0, "progress": 1.5, "tiles": ("sweep",), "sweep.swept": "mass",
+        "speed": 2.0, "at": 1.5, "tiles": ("sweep",), "sweep.swept": "mass",
         "sweep.against": "restitution",
     },
     "drive=path&pattern=hold&ramp_time=0.5&damping=eta&eta=3.0": {
@@ -155,7 +155,7 @@ def test_what_others_append_to_a_link_is_left_out_and_other_names_are_told():
     assert link.read(appended) == preset_state()
     # Names that only begin like these, or like a number of the page, are told.
     assert link.unknown("size=1&refer=2&MAX_DEPTH=3") == ["size", "refer", "MAX_DEPTH"]
-    state = preset_state(DROP).replace(progress=0.5, tiles=("sweep",), dark=True)
+    state = preset_state(DROP).replace(at=0.5, tiles=("sweep",), dark=True)
     state = state.replace(**{"held.scenes": ("at=1",)})
     assert link.unknown(link.write(state)) == []
 

@@ -111,7 +111,7 @@ def test_8_formulas_are_those_of_the_drive():
 
 @pytest.mark.parametrize("progress", [0.7, 1.0, 1.5])
 def test_9_the_numbers_of_a_state_sum_up(progress):
-    course = follow(viscous().replace(progress=progress))
+    course = follow(viscous().replace(at=progress))
     parts = ("stored_energy", "plastic_work", "viscous_work", "kinetic_energy")
     assert sum(numbers(course)[name][course.now] for name in parts) == pytest.approx(2.75, rel=1e-6)
     helps = {each.name: each.help for each in readouts.READOUTS}
@@ -177,9 +177,9 @@ def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept_and_a_preset_s
     assert "forces" not in link.write(page.state)
     # A measured tip can be chosen where there is one only.
     assert "sampled" not in dict(page.choice("shape").look["options"])
-    page.apply(lambda state: state.replace(progress=0.0))
+    page.apply(lambda state: state.replace(at=0.0))
     page.choose("preset", page.state.preset)
-    assert page.state.progress == 1.0
+    assert page.state.at == 1.0
     assert step_text(TOURS["First yield"][0], page.shown.course)
 
 

@@ -129,7 +129,7 @@ def test_a_guided_scene_is_stepped_through_and_undone():
     for at, step in enumerate(TOURS["First yield"]):
         side(page, "guide").next.clicks += 1
         assert page.state.max_depth == step["set"]["max_depth"]
-        assert page.state.progress == step["set"].get("at", 1.0)
+        assert page.state.at == step["set"].get("at", 1.0)
         assert f"{at + 1} of 4" in side(page, "guide").words.object
         assert "{" not in side(page, "guide").words.object
     assert side(page, "guide").next.disabled

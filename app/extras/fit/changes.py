@@ -56,7 +56,7 @@ def silica(state: State) -> State:
     state = state.replace(shape="cone", cone_slope=mdr.Cone.from_half_angle(70.3).slope)
     curve = read_curve(SILICA.read_bytes(), "Fused silica, Berkovich tip.csv")
     depth, state = float(curve.data[0].max()), take(state, curve)
-    pressed = {"drive": "depth", "max_depth": checked("max_depth", depth), "progress": 1.0}
+    pressed = {"drive": "depth", "max_depth": checked("max_depth", depth), "at": 1.0}
     return state.replace(**pressed, **{"fit.fixed": fixed, "fit.hardness": "hardness"})
 
 
@@ -92,7 +92,7 @@ def fit(state: State) -> State:
     curve = state["fit.curve"]
     curve = Measured(curve.name, curve.curve, found, subtracted, curve.range(state))
     fitted = {"fit.curve": curve, "fit.note": _note(curve)}
-    return state.replace(progress=1.0, **fitted, **choices, **numbers)
+    return state.replace(at=1.0, **fitted, **choices, **numbers)
 
 
 def _found(state: State, asked: dict[str, Any]) -> IndentationFit:

@@ -127,7 +127,7 @@ class Fitting:
         self._folded = not self._folded
         self._page.refresh()
 
-    def _choose(self, change, *values, mark=None):
+    def _choose(self, change, *values, mark=""):
         """Choose samples; the slider is set to those of the state, which is no choice."""
         if self._curve is not None and values != self._curve.range(self._page.state):
             self._forget()
