@@ -126,7 +126,6 @@ class Page:
 
     # Changes and refusals.
 
-    @pn.io.hold()
     def apply_or_raise(self, change: Any, mark: str | None = None) -> None:
         """Apply a change and show it; on failure restore the page and raise ValueError with a message.
 
@@ -240,7 +239,6 @@ class Page:
     def _send(self):
         self.board.player.send(self.shown, self.board.pictures())
 
-    @pn.io.hold()
     def _state_chosen(self, attr, old, new):
         """Accept the state chosen with the player; frames that the browser has stay."""
         course = self.shown.course
