@@ -100,9 +100,7 @@ class Page:
             self.notify(f"The link was not opened: {self.refusal(error)}")
 
     def _watch(self):
-        self.messages.on_change(
-            "dark", lambda attr, old, new: self.apply(lambda state: state.replace(dark=new))
-        )
+        self.messages.on_change("dark", self._theme_found)
         self.document.add_root(self.messages)
         self.document.on_event(DocumentReady, lambda event: self._input_rests())
         ready = CustomJS(args={"messages": self.messages}, code=JS["ready"])
@@ -139,14 +137,14 @@ class Page:
 
     # Changes and refusals.
 
-    @pn.io.hold()
     def apply(self, change: Change, refused: Tell | None = None, mark: str = "", at: int = -1) -> None:
         """Apply a change and show it; what fails leaves the page as it was.
 
         The message is a notice, or given to `refused`. Changes with the same mark, as of one drag, are one
         step of undo. One that goes to a state of the history has its index, `at`.
         """
-        before, after, old = self.state, self.state, self.history
+        before = after = self.state
+        old = self.history
         try:
             after = change(before)
             self.history = old.after(after, mark) if at < 0 else replace(old, at=at, mark="")
