@@ -91,7 +91,8 @@ def _value(name: str, text: str) -> Any:
     if isinstance(default, bool):
         return text == "1"
     if isinstance(default, tuple):
-        return tuple(text.split()[:_MAX_NAMES])
+        names = text.split()[:_MAX_NAMES]
+        return tuple(each for each in names if name != "tiles" or each in PLOTS)
     value = _number(name, text)
     if name == "at" and not 0 <= value <= LAST_PROGRESS:
         raise ValueError(f"at = “{text:.40}” in this link is not in 0 to {LAST_PROGRESS}")
