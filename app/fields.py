@@ -1,5 +1,6 @@
 """The form: number fields and choices, each with symbol, name, unit and explanation."""
 
+from functools import partial
 from typing import Any
 
 from mdr_core.profiles.samples import decoded
@@ -65,21 +66,19 @@ class Field:
     def _take(self, message: Any) -> None:
         """Take a number that is typed, or sent by the slider as if it was; a refusal is shown beside it."""
         self.refused = ""
+        self._typed = self._unit
         match message:
             case {"text": str(entered)}:
-                self._put(entered, self._name if "dragged" in message else "")
-        self._page.refresh()
-
-    def _put(self, entered: str, mark: str) -> None:
-        try:
-            value, unit = read(entered, self._known.kind, self._unit)
-        except ValueError as error:
-            self._refuse(str(error))
-            return
-        self._page.apply(lambda state: changes.put(state, self._name, value), self._refuse, mark)
+                mark = self._name if "dragged" in message else ""
+                self._page.apply(partial(self._put, entered), self._refuse, mark)
         if not self.refused:
             # Not the one that fits the number, in which it was shown meanwhile.
-            self._unit = unit
+            self._unit = self._typed
+        self._page.refresh()
+
+    def _put(self, entered: str, state: State) -> State:
+        value, self._typed = read(entered, self._known.kind, self._unit)
+        return changes.put(state, self._name, value)
 
     def _refuse(self, text: str) -> None:
         self.refused = text

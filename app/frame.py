@@ -63,7 +63,7 @@ class Frame:
         self.opened.setdefault("side", "explore")
         page = self._page
         undo = button("Undo", page.undo, disabled=page.history.at == 0, key="z")
-        redo = button("Redo", page.redo, disabled=page.history.at == page.history.last)
+        redo = button("Redo", page.redo, disabled=page.history.at + 1 == len(page.history.states))
         buttons = self._buttons(view, "header", "above")
         self.header.show([_TITLE, page.choice("preset"), undo, redo, *buttons])
         self.tabs.show([*self._buttons(view, "side")])

@@ -24,7 +24,7 @@ from .plot import View
 from .plots import visible
 from .quantities import in_words
 from .state import VIEW, State, preset_state
-from .ui import JS, Messages, is_served
+from .ui import JS, Messages
 
 _LOG = logging.getLogger(__name__)
 Change = Callable[[State], State]
@@ -50,10 +50,6 @@ class History:
     states: tuple[State, ...]
     at: int = 0
     mark: str = ""
-
-    @property
-    def last(self) -> int:
-        return len(self.states) - 1
 
     def after(self, state: State, mark: str) -> "History":
         """The history with a state that has been changed; changes with the same mark are one step."""
@@ -167,7 +163,7 @@ class Page:
 
     def _go(self, at: int) -> None:
         """Go to another state of the history; the view stays."""
-        if 0 <= at <= self.history.last:
+        if 0 <= at < len(self.history.states):
             view = {name: self.state[name] for name in VIEW}
             self.apply(lambda now: self.history.states[at].replace(**view), at=at)
 
@@ -238,7 +234,7 @@ class Page:
 
     def _schedule(self):
         """Schedule the slow updates; before a browser shows the page, notes need not wait."""
-        if not (is_served(self.document) and pn.state.loaded):
+        if self.document.session_context is None or not pn.state.loaded:
             self.frame.rest(self.shown)
             return
         if self._waiting is not None:

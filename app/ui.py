@@ -71,8 +71,3 @@ def show(part, **values):
     news = {name: value for name, value in values.items() if getattr(part, name) != value}
     if news:
         part.param.update(**news)
-
-
-def is_served(document):
-    """Whether a document is that of a session of the server."""
-    return document.session_context is not None

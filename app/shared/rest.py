@@ -17,7 +17,6 @@ from ..extra import EXTRAS, Service
 from ..plot import Plot, View
 from ..plots import PLOTS, visible
 from ..state import State
-from ..ui import is_served
 
 _LOG = logging.getLogger(__name__)
 #: Threads for the searches of all sessions.
@@ -124,7 +123,7 @@ class Resting(Service):
             done = partial(self._done, name, key, result)
             document.add_next_tick_callback(done) if served else done()
 
-        served = is_served(document)
+        served = document.session_context is not None
         _THREADS.submit(run) if served else run()
 
     def _done(self, name, key, result):
