@@ -18,7 +18,6 @@ from bokeh.models import CustomJS
 from bokeh.resources import Resources
 
 import mdr_core as mdr
-from mdr_core.results.figures import ROLES
 from mdr_core.results.units import written
 
 from .. import link, readouts
@@ -104,7 +103,6 @@ def _connect(document: Document, view: View, pictures: list[Picture]) -> None:
         "sources": sources,
         "layers": [source for source, _ in columns],
         "looks": looks,
-        "papers": [ROLES["paper"][dark] for dark in (False, True)],
         "path": path(view) | {"pressing": False},
         # A tenth of its size.
         "packed": b64encode(compress(json.dumps(sent).encode(), 9)).decode(),
