@@ -14,30 +14,29 @@ from .ui import FULL, html, linked, reveal, show
 
 
 class Card:
-    """A plot in its frame: title, formula, legend, what extras have above it, and a note below."""
+    """A plot in its frame: title, formula, what extras have above it, legend, choices, and a note below."""
 
     def __init__(self, plot: Plot, page: Any):
         self.plot, self.picture, self._page, self._legend = plot, picture_of(plot), page, {}
-        self.head, self.controls = Parts("heading"), Parts("above")
-        self.note = html("", "note", "found")
-        parts = [self.head, *[self.controls] * bool(plot.controls)]
-        parts.append(pn.pane.Bokeh(self.picture.figure, **FULL))
-        self.view = pn.Column(*parts, css_classes=["card", plot.name], **FULL)
+        self.head, self.note = Parts("heading"), html("", "note", "found")
+        figure = pn.pane.Bokeh(self.picture.figure, **FULL)
+        self.view = pn.Column(self.head, figure, css_classes=["card", plot.name], **FULL)
 
     def show(self, columns: dict, view: View) -> None:
         """Draw columns made for a view."""
         self.picture.show(columns, view)
         # What is cut off by axes that stay leaves no gap: the plot would move while it is dragged.
-        self._legend = (self._legend if "axes" in view.computed else {}) | drawn(view, self.plot)
+        kept = self._legend if "axes" in view.computed else {}
+        self._legend = kept | drawn(view, self.plot)
 
     def show_parts(self, view: View) -> None:
         """Show the texts and buttons around the plot."""
         plot, page = self.plot, self._page
         formula = f"<h3>{plot.title}</h3>{linked(plot.formula_of(view.course))}"
-        above = [each.on_plots(page, plot, view) for each in EXTRAS.values()]
+        buttons = (each.on_plots(page, plot, view) for each in EXTRAS.values())
         key = text("key", legend(plot, self._legend), "key")
-        self.head.show([text("formula", formula, "formula"), *filter(None, above), key])
-        self.controls.show([page.choice(name) for name in plot.controls])
+        choices = map(page.choice, plot.controls)
+        self.head.show([text("formula", formula, "formula"), *filter(None, buttons), key, *choices])
         note = plot.note_of(view)
         show(self.note, object=note)
         reveal(self.view, self.note, bool(note))
@@ -51,26 +50,27 @@ class Board:
         self.tabs = Parts("bar", "tabs")
         self.grid = pn.Column(css_classes=["plots"], **FULL)
         for name in NAMED:
-            self._make(name)
+            self._make(PLOTS[name])
 
-    def _make(self, name):
-        card = self.cards[name] = Card(PLOTS[name], self._page)
-        self.grid.append(card.view)
+    def _make(self, plot: Plot) -> None:
+        self.cards[plot.name] = Card(plot, self._page)
+        self.grid.append(self.cards[plot.name].view)
 
     def columns(self, view: View) -> dict[str, dict]:
         """Columns of all plots that are seen, by their names; nothing on the page is changed."""
-        names = [plot.name for plot in visible(view)]
-        for name in names:
-            if name not in self.cards:
-                self._make(name)
-        return {name: self.cards[name].picture.columns(view, view.course.now) for name in names}
+        found = {}
+        for plot in visible(view):
+            if plot.name not in self.cards:
+                self._make(plot)
+            found[plot.name] = self.cards[plot.name].picture.columns(view, view.course.now)
+        return found
 
     def show(self, columns: dict[str, dict], view: View) -> None:
         """Draw columns made for a view, on the plots that they are of."""
-        for name, data in columns.items():
-            self.cards[name].show(data, view)
         for name, card in self.cards.items():
             show(card.view, visible=name in columns)
+            if name in columns:
+                card.show(columns[name], view)
         count = len(columns) - len(NAMED)
         show(self.grid, css_classes=["plots", f"with-{min(count, 2)}"])
 
@@ -78,22 +78,17 @@ class Board:
         """Show the texts and buttons around the plots that are seen, and the tabs that apply."""
         for card in self.seen():
             card.show_parts(view)
-        tabs = (plot for plot in PLOTS.values() if plot.tab and plot.applies(view))
-        self.tabs.show(
-            [
-                button(plot.tab, partial(self._asked, plot.name), pressed=plot.name in view.state.tiles)
-                for plot in tabs
-            ]
-        )
+        tabs = [plot for plot in PLOTS.values() if plot.tab and plot.applies(view)]
+        self.tabs.show([self._tab(plot, plot.name in view.state.tiles) for plot in tabs])
 
-    def _asked(self, name: str) -> None:
-        """Show an optional plot alone, or no longer."""
+    def _tab(self, plot: Plot, shown: bool) -> Any:
+        """The button that shows an optional plot alone, or no longer."""
 
         def change(state):
-            others = tuple(tile for tile in state.tiles if tile != name)
-            return state.replace(tiles=others if name in state.tiles else (name,))
+            others = tuple(tile for tile in state.tiles if tile != plot.name)
+            return state.replace(tiles=others if plot.name in state.tiles else (plot.name,))
 
-        self._page.apply(change)
+        return button(plot.tab, partial(self._page.apply, change), pressed=shown)
 
     def seen(self) -> list[Card]:
         """The cards that are seen."""

@@ -9,24 +9,23 @@ import numpy as np
 from bokeh.core.properties import field
 from bokeh.plotting import figure
 
-from mdr_core.results.figures import ROLES, Axis
+from mdr_core.results.figures import Axis
 
 from .plot import Plot, View, overlays, rows_of
 from .quantities import lowered
-from .ui import JS, marked
+from .ui import marked
 
-FONT = "Helvetica Neue, Helvetica, Arial, sans-serif"
 #: The outline of a canvas, which no linked sheet reaches.
 _FOCUS = [".bk-Canvas { --highlight-color: var(--elastic); --outline-width: 2px; }"]
-#: Rows that are drawn together, from the back to the front.
+#: Rows that are drawn together, from the back to the front, and the glyph of each kind.
 _GROUPS = ("areas", "lines", "lines right", "marks", "marks right", "labels")
-#: Glyph of each kind of row, and the columns of its places; all others are of its look.
-_GLYPHS: dict[str, tuple[Any, tuple[str, ...]]] = {
-    "areas": (bk.Patches, ("xs", "ys")),
-    "lines": (bk.MultiLine, ("xs", "ys")),
-    "marks": (bk.Scatter, ("x", "y")),
-    "labels": (bk.Text, ("x", "y", "text")),
+_GLYPHS: dict[str, Any] = {
+    "areas": bk.Patches,
+    "lines": bk.MultiLine,
+    "marks": bk.Scatter,
+    "labels": bk.Text,
 }
+#: Columns of a source that tell where its rows are; all others are of their look.
 PLACES = ("xs", "ys", "x", "y", "text")
 #: What the pointer is told: the point of the curve that is nearest.
 _TIP = "<b>@row</b><br>@symbol = $snap_y{{%.4g}} {y.unit}<br>{symbol} = $snap_x{{%.4g}} {x.unit}"
@@ -38,19 +37,18 @@ class Layer:
     def __init__(self, plot: Plot, group: str, figure: Any):
         self.rows = [row for row in rows_of(plot) if row.group == group]
         self.name, self.kind, self.axis = group, self.rows[0].kind, self.rows[0].axis
-        glyph, places = _GLYPHS[self.kind]
-        names = (*places, *self.rows[0].look)
+        glyph = _GLYPHS[self.kind]
+        names = [*(name for name in PLACES if name in glyph.properties()), *self.rows[0].look]
         self.source = bk.ColumnDataSource({name: [] for name in names}, name=f"{plot.name} {group}")
         # Columns come from the server, or from the frames it has sent: never the other way.
         self.source.syncable = False
-        made = glyph(**{name: field(name) for name in names})
-        only = dict.fromkeys(("selection_glyph", "nonselection_glyph", "muted_glyph", "hover_glyph"))
-        only["y_range_name"] = "right" if self.axis == 2 else "default"
-        renderer = figure.add_glyph(self.source, made, name=group, **only)
-        # Values are told of lines that have a symbol.
-        told = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
-        self.hover = bk.HoverTool(renderers=[renderer], line_policy="nearest", visible=False, **told)
+        drawn = glyph(**{name: field(name) for name in names})
+        side = "right" if self.axis == 2 else "default"
+        renderer = figure.add_glyph(self.source, drawn, name=group, y_range_name=side)
+        self.hover = None
         if any(row.symbol for row in self.rows):
+            told = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
+            self.hover = bk.HoverTool(renderers=[renderer], line_policy="nearest", visible=False, **told)
             figure.add_tools(self.hover)
 
     def columns(self, places: dict, axes: list[Axis], dark: bool) -> dict[str, list]:
@@ -72,12 +70,10 @@ class Layer:
 
 
 def _short(values: Any, axis: Axis) -> list[float]:
-    """Values in the unit of an axis, as list, on a linear one to a fraction of a pixel."""
+    """Values in the unit of an axis, as list, to a fraction of a pixel."""
+    size = axis.start if axis.log else axis.end - axis.start
     values = np.atleast_1d(np.asarray(values, float)) / axis.factor
-    if axis.log:
-        return values.tolist()
-    size = max(abs(axis.start), abs(axis.end)) / axis.factor or 1.0
-    return np.round(values, 4 - floor(log10(size))).tolist()
+    return np.round(values, 4 - floor(log10(size / axis.factor))).tolist()
 
 
 class Picture:
@@ -85,29 +81,22 @@ class Picture:
 
     def __init__(self, plot: Plot):
         self.plot, self.axes = plot, None
-        ranges = {"x_range": bk.Range1d(0.1, 1), "y_range": bk.Range1d(0.1, 1)}
-        self.figure = figure(name=plot.name, tools="", toolbar_location=None, stylesheets=_FOCUS, **ranges)
+        f = self.figure = figure(
+            name=plot.name, tools="", x_range=(0, 1), y_range=(0, 1), stylesheets=_FOCUS
+        )
+        f.update(title=None, toolbar_location=None, sizing_mode="stretch_both", min_height=100)
+        f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None)
+        f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
+        # What is enlarged is drawn anew, not its pixels.
+        f.styles = {"zoom": "calc(1 / var(--zoom, 1))"}
         groups = {row.group for row in rows_of(plot)}
         if any(group.endswith("right") for group in groups):
-            self.figure.extra_y_ranges = {"right": bk.Range1d(0, 1)}
-            self.figure.add_layout(bk.LinearAxis(y_range_name="right"), "right")
-        self.layers = [Layer(plot, group, self.figure) for group in _GROUPS if group in groups]
-        self._dress()
-
-    def _dress(self):
-        f = self.figure
-        f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None, title=None)
-        # The outermost pixels of a canvas keep a trace of the colour before the last one. What is enlarged
-        # is drawn anew, not its pixels.
-        f.styles = {"clip-path": "inset(1px)", "zoom": "calc(1 / var(--zoom, 1))"}
-        f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
-        f.update(sizing_mode="stretch_both", min_height=100)
-        painted = bk.CustomJS(args={"figure": f}, code=JS["label"])
+            f.extra_y_ranges = {"right": bk.Range1d()}
+            f.add_layout(bk.LinearAxis(y_range_name="right"), "right")
         for axis in f.axis:
-            axis.js_on_change("axis_label", painted)
-            axis.update(minor_tick_line_color=None, major_tick_in=0, axis_label_text_font_style="normal")
-            axis.update(axis_label_text_font=FONT, major_label_text_font=FONT)
-            axis.update(axis_label_text_font_size="12px", major_label_text_font_size="11px")
+            axis.update(minor_tick_line_color=None, major_tick_in=0)
+            axis.update(axis_label_text_font_style="normal", axis_label_text_font_size="12px")
+        self.layers = [Layer(plot, group, f) for group in _GROUPS if group in groups]
 
     def axes_of(self, view: View) -> list[Axis]:
         """Axes on which the plot is drawn."""
@@ -122,17 +111,15 @@ class Picture:
 
     def show(self, columns: dict, view: View) -> None:
         """Draw columns that were made for a view."""
-        axes = self.axes_of(view), view.state.dark
-        if axes[0] and axes != self.axes:
+        axes = self.axes_of(view)
+        if axes and axes != self.axes:
             self.axes = axes
-            self.set_axes(*axes)
+            self.set_axes(axes)
         for source, data in columns.items():
             source.data = data
 
-    def set_axes(self, axes: list[Axis], dark: bool):
-        f, ground = self.figure, ROLES["paper"][dark]
-        # Another ground paints the axes anew, too, which take their colours from the sheet.
-        f.update(background_fill_color=ground, border_fill_color=ground)
+    def set_axes(self, axes: list[Axis]) -> None:
+        f = self.figure
         about = f"{self.plot.title}: {axes[1].title}, over {axes[0].title}"
         f.html_attributes = {"role": "img", "aria-label": about}
         ranges = (f.x_range, f.y_range, *f.extra_y_ranges.values())
@@ -143,7 +130,8 @@ class Picture:
             side.axis_label = axis.label
         symbol = axes[0].title.split(",")[0]
         for layer in self.layers:
-            layer.hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=axes[layer.axis])
+            if layer.hover:
+                layer.hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=axes[layer.axis])
 
 
 def picture_of(plot: Plot) -> Picture:

@@ -84,9 +84,7 @@ SPRINGS = Plot("springs", "1D foundation", _spring_formula, (X, Z), figures.SPRI
 
 
 def pressure(view: View, i: int) -> dict:
-    half, top, state = view.end(R), view.end(P), view.course.states[i]
-    r = figures.radii(state, half)
-    return figures.pressure(state, r, state.pressure(r), half, top)
+    return figures.pressure(view.course.states[i], view.end(R), view.end(P))
 
 
 PRESSURE = Plot(
@@ -146,5 +144,5 @@ NAMED = tuple(PLOTS)
 
 def visible(view: View) -> list[Plot]:
     """Plots that a view shows, in their order."""
-    shown = (*NAMED, *view.state.tiles)
-    return [plot for name, plot in PLOTS.items() if name in shown and plot.applies(view)]
+    plots = (plot for plot in PLOTS.values() if not plot.tab or plot.name in view.state.tiles)
+    return [plot for plot in plots if plot.applies(view)]

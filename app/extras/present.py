@@ -61,7 +61,7 @@ class Letters(Service):
             if look != self._set.get(name, (1.0, False)):
                 self._set[name] = look
                 set_letters(card.picture, look[0])
-                card.picture.set_axes(*card.picture.axes)
+                card.picture.set_axes(card.picture.axes)
             if on and not is_large:
                 for axis in card.picture.figure.axis:
                     axis.axis_label = re.sub(",.* ", " ", axis.axis_label)

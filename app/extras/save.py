@@ -8,6 +8,7 @@ from ..extra import Extra, Service
 from ..parts import Part
 from ..plot import Plot, View, rows_of
 from ..plots import NAMED, PLOTS
+from ..quantities import lowered
 from ..shared.summary import summary
 from ..state import State
 
@@ -31,7 +32,7 @@ class Legends(Service):
         self._legends["scene"] = summary(view.state)
         for plot in (PLOTS[name] for name in (*NAMED, *view.state.tiles)):
             called = drawn(view, plot)
-            rows = [called.get(row.name, row.name) for row in rows_of(plot) if row.legend]
+            rows = [lowered(called.get(row.name, row.name)) for row in rows_of(plot) if row.legend]
             self._legends[plot.name] = {"rows": rows, "title": plot.title}
 
 

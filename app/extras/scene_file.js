@@ -12,8 +12,6 @@ const shade = (dark) => {
   document.documentElement.classList.toggle("dark", dark)
   theme.ariaPressed = String(dark)
   layers.forEach((source, n) => { source.data = { ...source.data, ...looks[Number(dark)][n] } })
-  const paper = papers[Number(dark)]
-  figures.forEach((figure) => figure.setv({ background_fill_color: paper, border_fill_color: paper }))
 }
 const system = matchMedia("(prefers-color-scheme: dark)")
 system.onchange = () => shade(system.matches)

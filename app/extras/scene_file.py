@@ -18,7 +18,6 @@ from bokeh.models import CustomJS
 from bokeh.resources import Resources
 
 import mdr_core as mdr
-from mdr_core.results.figures import ROLES
 from mdr_core.results.units import written
 
 from .. import link, readouts
@@ -102,7 +101,6 @@ def _connect(document: Document, view: View, pictures: list[Picture]) -> None:
         "sources": sources,
         "layers": [source for source, _ in columns],
         "looks": looks,
-        "papers": [ROLES["paper"][dark] for dark in (False, True)],
         "dragging": {"path": path(view) | {"pressing": False}},
         "look": {"last": len(view.course) - 1, "now": view.course.now},
         # A tenth of its size.

@@ -13,8 +13,8 @@ from ..draw import Picture
 class Logarithmic(Picture):
     """A plot whose axes may be logarithmic."""
 
-    def set_axes(self, axes: list[Axis], dark: bool) -> None:
-        super().set_axes(axes, dark)
+    def set_axes(self, axes: list[Axis]) -> None:
+        super().set_axes(axes)
         f = self.figure
         for name, side, axis in zip(("x_scale", "y_scale"), (f.below[0], f.left[0]), axes, strict=False):
             if isinstance(getattr(f, name), bk.LogScale) != axis.log:

@@ -34,9 +34,14 @@ class Map(Picture):
             found[self.source] = corner | {"image": [np.float32(values / axes[2].factor)]}
         return found
 
-    def set_axes(self, axes: list[Any], dark: bool) -> None:
-        super().set_axes(axes[:2], dark)
+    def show(self, columns: dict, view: View) -> None:
+        super().show(columns, view)
+        # The bar takes no colours from the sheet.
+        colour = ROLES["ink"][view.state.dark]
+        self.bar.update(title_text_color=colour, major_label_text_color=colour)
+
+    def set_axes(self, axes: list[Any]) -> None:
+        super().set_axes(axes[:2])
         low, high = axes[2].ends
         self.bar.color_mapper.update(low=low, high=high)
-        colour, title = ROLES["ink"][dark], f"{axes[2].title.split(',')[0]} ({axes[2].unit})"
-        self.bar.update(title=title, title_text_color=colour, major_label_text_color=colour)
+        self.bar.title = f"{axes[2].title.split(',')[0]} ({axes[2].unit})"

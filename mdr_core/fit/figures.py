@@ -6,10 +6,10 @@ from ..results.elements import overlay
 from ..results.figures import Axis, area, line, mark
 from ..results.report import imported
 
-_CURVE_ROWS = mark("measured", "measured", size=4), line("fit", "elastic")
+_CURVE_ROWS = mark("measured", "measured", "measured", size=4), line("fit", "elastic")
 _RESIDUAL_ROWS = (
     area("± noise", "free", 0.3),
-    mark("measured − fit", "measured", size=4, legend=False),
+    mark("measured − fit", "measured", "measured", size=4, legend=False),
     line("zero", "ink", 1.0, "dashed", legend=False),
 )
 

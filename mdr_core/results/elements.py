@@ -70,14 +70,13 @@ def _axis_of(name, values):
 def plot_pressure(state):
     """Contact pressure of one state: `Indentation.plot_pressure`."""
     half = _drawn_radius(state, "plot_pressure")
-    top, r = 1.05 * figures.ceiling(state, half), figures.radii(state, half)
+    top = 1.05 * figures.ceiling(state, half)
     bottom = -top if state.medium.work_of_adhesion > 0 else 0.0
     axes = [
         Axis.fitting("r", "r, radius", "m", half, start=-half, end=half),
         Axis.fitting("pressure", "−σzz, contact pressure", "Pa", top, start=bottom, end=top),
     ]
-    columns = figures.pressure(state, r, state.pressure(r), half, top)
-    return overlay("Contact pressure", PRESSURE_ROWS, columns, axes)
+    return overlay("Contact pressure", PRESSURE_ROWS, figures.pressure(state, half, top), axes)
 
 
 def plot_springs(state):

@@ -294,8 +294,10 @@ def cut(p, top):
     return np.clip(p, -top, 1e3 * top)
 
 
-def pressure(state, r, p, half, top):
-    """Rows of the pressures p (Pa) at radii r (m), for axes that end at ±`half` and `top`."""
+def pressure(state, half, top):
+    """Rows of the pressures (Pa) over radii (m), for axes that end at ±`half` and `top`."""
+    r = radii(state, half)
+    p = state.pressure(r)
     a, c, mean = (float(v) for v in (state.contact_radius, state.plastic_radius, state.mean_pressure))
     curve = both(r, -1), both(cut(p, top))
     return at_radii(a, c, half, 0.0, top) | {

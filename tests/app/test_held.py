@@ -10,6 +10,7 @@ from app.draw import Picture, drawn, legend
 from app.drives import follow
 from app.extra import EXTRAS
 from app.extras.held import DASHES, difference, held_scene, is_held, numbers, toggle_hold
+from app.page import Page
 from app.plot import rows_of
 from app.plots import PLOTS, D, F, P, X, Z
 from app.state import preset_state as preset
@@ -115,3 +116,15 @@ def test_a_scene_of_another_scale_leaves_the_axes():
             small = fits and name != "pressure"
             assert text.endswith("(too small to be seen)" if small else "(partly beyond the axes)"), name
             assert PLOTS[name].axes_of(view) == PLOTS[name].axes_of(view_of(now))
+
+
+def test_the_legend_of_a_saved_picture_names_held_scenes_as_the_plot_does():
+    page = Page()
+    page.apply(toggle_hold)
+    page.apply(lambda state: state.replace(max_depth=2 * state.max_depth))
+    for service in page.services:
+        service.rest(page.shown)
+    drawn_as = page.board.cards["force"].picture.columns(page.shown, page.shown.course.now)
+    names = {name for columns in drawn_as.values() for name in columns["row"]}
+    legends = page.shown.computed["save"]
+    assert {"dₘₐₓ = 8.978 nm", "yielding"} <= names & set(legends["force"]["rows"])

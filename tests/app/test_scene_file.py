@@ -139,9 +139,10 @@ def test_it_plays_is_dragged_and_turns_dark(saved):
         float(saved.readout("depth").split()[0]), abs=1e-3
     )
     colour = """() => {
-        const { background_fill_color, renderers } = explorer.model("springs")
+        const { renderers } = explorer.model("springs")
         const drawn = renderers.map(({ data_source: { data } }) => (data.line_color ?? data.text_color)[0])
-        return [getComputedStyle(document.body).backgroundColor, background_fill_color, ...drawn]
+        const grounds = [document.body, document.querySelector(".card")]
+        return [...grounds.map((each) => getComputedStyle(each).backgroundColor), ...drawn]
     }"""
     light = page.evaluate(colour)
     saved.press("Dark")
