@@ -10,17 +10,17 @@ from .extra import EXTRAS
 from .parts import Parts, button, text
 from .plot import Plot, View
 from .plots import NAMED, PLOTS, visible
-from .ui import FULL, html, linked, reveal, show
+from .ui import FULL, linked, show
 
 
 class Card:
-    """A plot in its frame: title, formula, what extras have above it, legend, choices, and a note below."""
+    """A plot in its frame: title, formula, buttons of extras, legend, choices, and a note."""
 
     def __init__(self, plot: Plot, page: Any):
         self.plot, self.picture, self._page, self._legend = plot, picture_of(plot), page, {}
-        self.head, self.note = Parts("heading"), html("", "note", "found")
-        figure = pn.pane.Bokeh(self.picture.figure, **FULL)
-        self.view = pn.Column(self.head, figure, css_classes=["card", plot.name], **FULL)
+        self.head, figure = Parts("heading"), pn.pane.Bokeh(self.picture.figure, **FULL)
+        # Not seen before it is drawn: that may fail.
+        self.view = pn.Column(self.head, figure, css_classes=["card", plot.name], visible=False, **FULL)
 
     def show(self, columns: dict, view: View) -> None:
         """Draw columns made for a view."""
@@ -35,11 +35,8 @@ class Card:
         formula = f"<h3>{plot.title}</h3>{linked(plot.formula_of(view.course))}"
         buttons = (each.on_plots(page, plot, view) for each in EXTRAS.values())
         key = text("key", legend(plot, self._legend), "key")
-        choices = map(page.choice, plot.controls)
-        self.head.show([text("formula", formula, "formula"), *filter(None, buttons), key, *choices])
-        note = plot.note_of(view)
-        show(self.note, object=note)
-        reveal(self.view, self.note, bool(note))
+        choices, note = map(page.choice, plot.controls), text("note", plot.note_of(view), "note found")
+        self.head.show([text("formula", formula, "formula"), *filter(None, buttons), key, *choices, note])
 
 
 class Board:

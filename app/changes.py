@@ -70,11 +70,12 @@ def take_tip(state: State, samples: tuple[Any, Any], note: str) -> State:
     return state.replace(samples=(tip.r, tip.z), tip_note=note, shape="sampled", max_depth=depth)
 
 
-def hit_again(state: State, hit: mdr.Impact) -> State:
+def hit_again(state: State) -> State:
     """Let the body hit its own imprint."""
+    hit = follow(state).hit
     if not hit.plastic_depth_increase > 0:
         raise ValueError("nothing has yielded further: the next impact is the same as this one")
-    return state.replace(plastic_depth=checked("plastic_depth", float(hit.plastic_depth)))
+    return put(state, "plastic_depth", float(hit.plastic_depth))
 
 
 # Numbers that keep their meaning under another option of a choice.

@@ -19,12 +19,7 @@ from .ui import marked
 _FOCUS = [".bk-Canvas { --highlight-color: var(--elastic); --outline-width: 2px; }"]
 #: Rows that are drawn together, from the back to the front, and the glyph of each kind.
 _GROUPS = ("areas", "lines", "lines right", "marks", "marks right", "labels")
-_GLYPHS: dict[str, Any] = {
-    "areas": bk.Patches,
-    "lines": bk.MultiLine,
-    "marks": bk.Scatter,
-    "labels": bk.Text,
-}
+_GLYPHS = {"areas": bk.Patches, "lines": bk.MultiLine, "marks": bk.Scatter, "labels": bk.Text}
 #: Columns of a source that tell where its rows are; all others are of their look.
 PLACES = ("xs", "ys", "x", "y", "text")
 #: What the pointer is told: the point of the curve that is nearest.

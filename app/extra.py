@@ -64,9 +64,9 @@ class Extra:
     drives: dict[str, Drive] = field(default_factory=dict)
     plots: tuple[Plot, ...] = ()
     overlays: tuple[Overlay, ...] = ()
-    #: Label of the button that opens its part of the page; where that is: in the "side", "above" the form
-    #: with a button in the header, or over the plots with a button in the "header" or in the "line" of
-    #: readouts; whether the button is there; and the part, made of a page when it is first opened.
+    #: Label of the button that opens its part of the page; where the part is: in the "side", or with a
+    #: button in the header "above" the side or "over" the plots; whether the button is there; and the part,
+    #: made of a page when it is first opened.
     tab: str = ""
     place: str = "side"
     offered: Callable[[View], bool] = lambda view: True
@@ -88,18 +88,14 @@ class Extra:
     linked: Callable[[str], str] = lambda html: html
     #: Files to download, each with its label, its name, and its text of a view.
     files: tuple[tuple[str, str, Callable[[View], str]], ...] = ()
-    #: Notes (HTML) by their places, found when the input rests: in the form the "first" line, "drive",
-    #: "shape", "medium", the "more" of it and "sources"; and "below" the player.
+    #: Notes (HTML) in the form by their places: the "first" line, "drive", "shape", "medium", the "more" of
+    #: it and "sources"; and a note below the player, found when the input rests.
     notes: Callable[[View], dict[str, str]] = lambda view: {}
+    below: Callable[[View], str] = lambda view: ""
     #: Titles and texts (HTML) that a saved scene has of it.
     told: Callable[[View], list[tuple[str, str]]] = lambda view: []
     #: A page of its own at the address `?NAME=place`.
     served: Callable[[str], Any] | None = None
-
-    @property
-    def zone(self) -> str:
-        """Where its part is shown: in the "side", "above" it, or "over" the plots."""
-        return self.place if self.place in ("side", "above") else "over"
 
 
 #: All extras by name, in their order.

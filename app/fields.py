@@ -7,6 +7,7 @@ from mdr_core.profiles.samples import decoded
 from mdr_core.results.units import UNITS, entry, fitting, read, written
 
 from . import changes
+from .extra import EXTRAS
 from .parts import Part, Parts, button, text, upload
 from .plot import View
 from .quantities import QUANTITIES, Quantity
@@ -14,9 +15,7 @@ from .state import MEDIUM_CHOICES, PRESETS, State, altered, regions
 from .tip import read_tip
 from .ui import LAYOUT, linked, marked, symbol
 
-_FIRST = "Move a slider: orange springs have yielded."
-#: Places of the form that have notes of extras.
-_PLACES = ("drive", "shape", "medium", "more", "sources")
+_FIRST = "Move a slider: orange springs have yielded. "
 
 
 def slider_range(known: Quantity, middle: float, value: float) -> tuple[float, float, float]:
@@ -116,12 +115,8 @@ class Form:
     """The form: drive, shape, E* and q_c; the rest of the medium folds."""
 
     def __init__(self, page: Any):
-        self._page, self._open, self._notes = page, False, {}
+        self._page, self._open = page, False
         self.view = Parts("form", stylesheets=LAYOUT)
-
-    def rest(self, notes: dict[str, str]) -> None:
-        """Take notes (HTML) on regions of the form."""
-        self._notes = notes
 
     def show(self, view: View) -> None:
         state, page = view.state, self._page
@@ -130,27 +125,27 @@ class Form:
         numbers = {
             region: [page.number(name, depth) for name in names] for region, names in regions(state).items()
         }
-        note = {place: text(f"note {place}", self._notes.get(place, "")) for place in _PLACES}
-        again = button("Hit again", self._hit_again)
+        notes = [extra.notes(view) for extra in EXTRAS.values()]
+
+        def note(place: str, before: str = "") -> Part:
+            return text(f"note {place}", before + "".join(each.get(place, "") for each in notes))
+
+        again = button("Hit again", partial(page.apply, changes.hit_again))
         # What differs from the preset is not folded.
         in_use = not {*MEDIUM_CHOICES, *regions(state)["more"]}.isdisjoint(altered(state))
         opened = self._open or in_use
-        more = [*map(page.choice, MEDIUM_CHOICES), *numbers["more"], note["more"]]
+        more = [*map(page.choice, MEDIUM_CHOICES), *numbers["more"], note("more")]
         parts = [
-            text("first", f"{_FIRST} {self._notes.get('first', '')}"),
-            page.choice("drive"), *numbers["drive"], note["drive"],
+            note("first", _FIRST),
+            page.choice("drive"), *numbers["drive"], note("drive"),
             *map(page.choice, state.chosen("drive").form), *[again] * (state.drive == "impact"),
-            title("Indenter"), page.choice("shape"), note["shape"], *numbers["shape"],
-            title("Medium"), *numbers["medium"], note["medium"],
+            title("Indenter"), page.choice("shape"), note("shape"), *numbers["shape"],
+            title("Medium"), *numbers["medium"], note("medium"),
             button("More about the medium", self._fold, pressed=opened, disabled=in_use),
             *(more if opened else []),
-            title("Tip and sources"), take_tip(page), note["sources"],
+            title("Tip and sources"), take_tip(page), note("sources"),
         ]  # fmt: skip
         self.view.show(parts)
-
-    def _hit_again(self) -> None:
-        hit = self._page.shown.course.hit
-        self._page.apply(lambda state: changes.hit_again(state, hit))
 
     def _fold(self) -> None:
         """Open or close the rest of the medium."""

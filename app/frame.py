@@ -12,7 +12,7 @@ from .fields import Form
 from .parts import Part, Parts, button, text
 from .player import player
 from .plot import View
-from .ui import FULL, LAYOUT, html, reveal, show
+from .ui import FULL, LAYOUT, html, show
 
 _TITLE = text("name", "<h1>Indentation explorer</h1>", "name")
 _WORDS = Part("words", "words", {})
@@ -25,7 +25,7 @@ class Frame:
         self._page, self.form = page, Form(page)
         explore = Extra("explore", tab="Explore", side=lambda page: self.form)
         self._offers = {each.name: each for each in (explore, *EXTRAS.values())}
-        #: Parts that have been made, and names of those that are open, one in each zone.
+        #: Parts that have been made, and names of those that are open, one in each place.
         self.parts: dict[str, Side] = {"explore": self.form}
         self.opened = {"side": "explore"}
         self.header = Parts("header", "bar", stylesheets=LAYOUT)
@@ -41,59 +41,49 @@ class Frame:
         columns = pn.Row(self._side, results, css_classes=["columns"], **FULL)
         self.view = pn.Column(self.header, columns, css_classes=["page"], **FULL)
 
-    def open(self, name: str) -> None:
-        """Open a part in the place of the one that is there; one in the side uncovers the plots."""
+    def toggle(self, name: str) -> None:
+        """Open a part in the place of another one, or close it; one in the side uncovers the plots."""
+        place = self._offers[name].place
         if name not in self.parts:
-            self.parts[name] = self._offers[name].side(self._page)
-        zone = self._offers[name].zone
-        if zone == "side":
+            part = self.parts[name] = self._offers[name].side(self._page)
+            column = self.view if place == "over" else self._side
+            column.insert(1 if place == "above" else len(column), part.view)
+        if self.opened.pop(place, None) != name:
+            self.opened[place] = name
+        if place == "side":
             self.opened.pop("over", None)
-        self.opened[zone] = name
-        self._page.refresh()
-
-    def close(self, name: str) -> None:
-        """Close a part."""
-        del self.opened[self._offers[name].zone]
         self._page.refresh()
 
     def show(self, view: View) -> None:
         """Show a view in all parts that are open."""
         opened = self.opened.items()
-        self.opened = {zone: name for zone, name in opened if self._offers[name].offered(view)}
+        self.opened = {place: name for place, name in opened if self._offers[name].offered(view)}
         self.opened.setdefault("side", "explore")
         page = self._page
         undo = button("Undo", page.undo, disabled=page.history.at == 0, key="z")
         redo = button("Redo", page.redo, disabled=page.history.at + 1 == len(page.history.states))
-        buttons = self._buttons(view, "header", "above")
+        buttons = self._buttons(view, "above", "over")
         self.header.show([_TITLE, page.choice("preset"), undo, redo, *buttons])
         self.tabs.show([*self._buttons(view, "side")])
         numbers = readouts.line(view.course)
         heads = text("heads", readouts.heads(numbers), "heads")
         page.messages.words = readouts.values(numbers, view.course.now)
-        self.line.show([heads, _WORDS, *self._buttons(view, "line")])
+        self.line.show([heads, _WORDS])
         self.player.show([player(view, page.move)])
         for name, part in self.parts.items():
-            zone = self._offers[name].zone
-            column = self.view if zone == "over" else self._side
-            reveal(column, part.view, self.opened.get(zone) == name, 1 if zone == "above" else None)
+            show(part.view, visible=name in self.opened.values())
             if part.view.visible:
                 part.show(view)
 
     def _buttons(self, view: View, *places: str) -> Iterator[Part]:
         """Buttons that open parts, and what else extras have in the header."""
         for name, each in self._offers.items():
-            if "header" in places and (part := each.header(self._page, view)):
+            if "over" in places and (part := each.header(self._page, view)):
                 yield part
             if each.side and each.place in places and each.offered(view):
-                opened = name in self.opened.values()
-                act = partial(self.close if opened else self.open, name)
-                yield button(each.tab, act, opened, key="" if each.place == "side" else "escape")
+                key, pressed = "" if each.place == "side" else "escape", name in self.opened.values()
+                yield button(each.tab, partial(self.toggle, name), pressed, key=key)
 
     def rest(self, view: View) -> None:
         """Show texts that wait while a slider moves, because a changed one causes a new layout."""
-        notes: dict[str, str] = {}
-        for extra in EXTRAS.values():
-            for place, html_ in extra.notes(view).items():
-                notes[place] = f"{notes.get(place, '')} {html_}".strip()
-        show(self.below, object=notes.get("below", ""))
-        self.form.rest(notes)
+        show(self.below, object="".join(extra.below(view) for extra in EXTRAS.values()))

@@ -21,7 +21,6 @@ from .frame import Frame
 from .parts import Part, choice
 from .player import frames
 from .plot import View
-from .plots import visible
 from .quantities import in_words
 from .state import VIEW, State, preset_state
 from .ui import JS, Messages
@@ -194,9 +193,6 @@ class Page:
         for service in self.services:
             computed |= service.compute(state, course)
         view = View(state, course, computed)
-        # Plots that this course has not are no longer asked for.
-        shown = [plot.name for plot in visible(view) if plot.tab]
-        view.state = state = state.replace(tiles=tuple(shown))
         columns = self.board.columns(view)
         self.state, self.shown = state, view
         self.board.show(columns, view)

@@ -29,5 +29,4 @@ def player(view: View, move: Callable[[Any], None]) -> Part:
 
     `move` is called with None when one of them begins to, and with the index of the state in which it ends.
     """
-    look = {"last": len(view.course) - 1, "now": view.course.now}
-    return Part("player", "player", look, act=move)
+    return Part("player", "player", {"last": len(view.course) - 1, "now": view.course.now}, move)

@@ -65,7 +65,7 @@ class Plot:
         return self.places(view, i)
 
     def note_of(self, view: "View") -> str:
-        """A note below the plot."""
+        """A note above the plot."""
         return ""
 
 

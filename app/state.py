@@ -174,7 +174,7 @@ def used(state: State) -> list[str]:
 def checked(name: str, value: float) -> float:
     """Value (SI) of a number if it is within bounds; else ValueError."""
     known = QUANTITIES[name]
-    if abs(known.bounded(value) - value) > 1e-12 * abs(value):
+    if not isclose(known.bounded(value), value, rel_tol=1e-12):
         shown, low, high = (written(v, known.kind) for v in (value, *known.bounds))
         raise ValueError(f"{lowered(known.symbol)} = {shown} is out of bounds: {low} to {high}")
     return float(known.bounded(value))

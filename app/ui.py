@@ -59,13 +59,6 @@ def html(text="", *classes, **options):
     return pn.pane.HTML(text, css_classes=[*(classes or ["note"])], **WIDE | options)
 
 
-def reveal(column, part, visible, place=None):
-    """Show or hide a part of a column; the browser gets it when it is shown for the first time."""
-    show(part, visible=visible)
-    if visible and part not in column.objects:
-        column.insert(len(column) if place is None else place, part)
-
-
 def show(part, **values):
     """Set parameters of a widget that have changed: setting is slow."""
     news = {name: value for name, value in values.items() if getattr(part, name) != value}

@@ -31,4 +31,4 @@ class Menu:
         self._buttons.show([dark])
 
 
-EXTRA = Extra("menu", order=100, tab="Menu", place="header", side=Menu)
+EXTRA = Extra("menu", order=100, tab="Menu", place="over", side=Menu)

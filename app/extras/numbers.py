@@ -28,4 +28,4 @@ def table(course: Course) -> str:
     return f"<table>{''.join(rows)}</table>"
 
 
-EXTRA = Extra("numbers", order=101, tab="All numbers", place="line", side=Numbers)
+EXTRA = Extra("numbers", order=99, tab="All numbers", place="over", side=Numbers)

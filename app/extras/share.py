@@ -81,6 +81,6 @@ class Share:
 
 
 EXTRA = Extra(
-    "share", order=20, tab="Share", place="header", side=Share,
+    "share", order=20, tab="Share", place="over", side=Share,
     files=(("Curves (CSV)", "curves.csv", csv), ("Pressure (CSV)", "pressure.csv", pressure_csv)),
 )  # fmt: skip

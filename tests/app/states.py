@@ -55,7 +55,7 @@ def solved(state: State):
 
 def side(page, name: str):
     """A part of the side, opened."""
-    page.frame.open(name)
+    page.frame.toggle(name)
     return page.frame.parts[name]
 
 

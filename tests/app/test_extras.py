@@ -52,9 +52,8 @@ def words(name):
     page = opened()
     buttons = extra.on_plots(page, PLOTS["force"], page.shown), extra.header(page, page.shown)
     found += [each.look["label"] for each in buttons if each is not None]
-    notes = extra.notes(page.shown)
-    found += re.findall("<summary>(.*?)</summary>", notes.get("below", ""))
-    found += [note for place, note in notes.items() if place != "below"]
+    found += re.findall("<summary>(.*?)</summary>", extra.below(page.shown))
+    found += extra.notes(page.shown).values()
     return {each for each in found if each}
 
 
@@ -80,9 +79,9 @@ def texts(page):
 
     for name, extra in sys.modules[type(page).__module__].EXTRAS.items():
         if extra.side:
-            page.frame.open(name)
+            page.frame.toggle(name)
             look()
-    page.frame.open("explore")
+    page.frame.toggle("explore")
     for drive in dict(page.choice("drive").look["options"]):
         page.choose("drive", drive)
         for tab in list(page.board.tabs.parts):

@@ -227,7 +227,7 @@ def test_a_number_that_a_change_leads_to_is_refused_beyond_its_bounds(monkeypatc
 
 
 def test_an_impact_after_pressing_is_as_deep_and_on_a_virgin_surface():
-    state = changes.hit_again(preset_state("ball-steel"), follow(preset_state("ball-steel")).hit)
+    state = changes.hit_again(preset_state("ball-steel"))
     pressed = changes.choose(state, "drive", "depth")
     hit = changes.choose(pressed, "drive", "impact")
     assert hit.plastic_depth == 0

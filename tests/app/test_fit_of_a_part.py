@@ -103,12 +103,12 @@ def test_the_shape_is_chosen_in_the_part_of_the_fit_and_in_the_form():
     of_fit.parts["shape"].act("paraboloid")
     assert page.state.shape == of_fit.parts["shape"].look["value"] == "paraboloid"
     assert fields_of(of_fit) == ["paraboloid_radius"]
-    page.frame.open("explore")
+    page.frame.toggle("explore")
     form = page.frame.form.view
     assert form.parts["shape"].look["value"] == "paraboloid"
     form.parts["shape"].act("cone")
     page.apply(lambda state: changes.put(state, "cone_slope", 0.4))
-    page.frame.open("fit")
+    page.frame.toggle("fit")
     assert of_fit.parts["shape"].look["value"] == "cone"
     assert of_fit.parts["cone_slope"].look["text"] == "0.4"
 

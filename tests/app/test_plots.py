@@ -96,7 +96,7 @@ def test_a_peak_that_the_axis_does_not_reach_is_named():
 
 def test_after_another_hit_depth_and_force_of_yield_belong_together():
     hit = scene_of(preset_state(DROP)).solve()
-    state = changes.hit_again(preset_state(DROP), hit)
+    state = changes.hit_again(preset_state(DROP))
     course = follow(state)
     again = float(hit.plastic_depth) + medium(state).critical_depth
     assert numbers(course)["critical_force"] == pytest.approx(float(course.onset.force))

@@ -167,14 +167,17 @@ def test_13_springs_are_elastic_or_yielded_also_in_an_oblique_impact():
     assert CHOICES["drive"].options["depth"].label == "depth"
 
 
-def test_14_a_tile_that_a_drive_has_not_is_neither_drawn_nor_kept_and_a_preset_stands_deepest():
+def test_14_a_tile_is_drawn_where_a_drive_has_it_and_a_preset_stands_deepest():
     page = Page()
     page.apply(lambda state: state.replace(tiles=("forces",)))
     assert visible(page.shown) == [PLOTS[name] for name in ("springs", "pressure", "force")]
     assert "Friction" not in page.board.tabs.parts
     page.apply(lambda state: changes.put(state, "max_depth", 5e-9))
     assert page.state.max_depth == 5e-9
-    assert "forces" not in link.write(page.state)
+    page.choose("drive", "oblique")
+    assert "forces" in [plot.name for plot in visible(page.shown)]
+    page.choose("drive", "depth")
+    assert "forces" not in [plot.name for plot in visible(page.shown)]
     # A measured tip can be chosen where there is one only.
     assert "sampled" not in dict(page.choice("shape").look["options"])
     page.apply(lambda state: state.replace(at=0.0))
