@@ -15,7 +15,6 @@ from .plot import View
 from .ui import FULL, LAYOUT, html, show
 
 _TITLE = text("name", "<h1>Indentation explorer</h1>", "name")
-_WORDS = Part("words", "words", {})
 
 
 class Frame:
@@ -68,7 +67,7 @@ class Frame:
         numbers = readouts.line(view.course)
         heads = text("heads", readouts.heads(numbers), "heads")
         page.messages.words = readouts.values(numbers, view.course.now)
-        self.line.show([heads, _WORDS])
+        self.line.show([heads, Part("words", "words", {})])
         self.player.show([player(view, page.move)])
         for name, part in self.parts.items():
             show(part.view, visible=name in self.opened.values())

@@ -46,7 +46,6 @@ def read_tip(text: str, name: str = "the file") -> tuple[tuple[Any, Any], str]:
         raise ValueError(f"{name}: {error}") from None
     note = f"{len(tip.r)} samples, as in the file"
     if scatter is not None:
-        note = (
-            f"{len(r)} rows reduced to {len(tip.r)} samples; rms deviation {written(scatter, 'length', 2)}"
-        )
+        by = written(scatter, "length", 2)
+        note = f"{len(r)} rows reduced to {len(tip.r)} samples; rms deviation {by}"
     return (tip.r, tip.z), note

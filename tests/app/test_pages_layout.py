@@ -43,12 +43,12 @@ def code(path):
 
 
 def test_the_page_stays_small():
-    assert sum(map(code, SMALL)) <= 1814
+    assert sum(map(code, SMALL)) <= 1500
     assert max(lines(SMALL)) <= 350
     assert max(lines(EXTRAS)) <= 350
     assert max(sum(lines((APP / "extras").glob(f"{path.stem}.*"))) for path in EXTRAS) <= 350
-    assert sum(lines(SCRIPTS)) <= 383
-    assert sum(lines((APP / "static").glob("*.css"))) <= 217
+    assert sum(lines(SCRIPTS)) <= 404
+    assert sum(lines((APP / "static").glob("*.css"))) <= 206
 
 
 def test_nothing_private_of_the_toolkit_is_used():
@@ -61,9 +61,11 @@ def test_nothing_private_of_the_toolkit_is_used():
 
 @cache
 def imports(path):
-    """Modules of the app that one of them imports."""
+    """Modules of the app that one of them imports when it runs; the seam names others in annotations."""
     found, package = set(), path.parent
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    tree.body = [node for node in tree.body if not isinstance(node, ast.If)]
+    for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom) and node.level:
             base = package if node.level == 1 else package.parents[node.level - 2]
             base = base / (node.module or "").replace(".", "/")
