@@ -67,13 +67,13 @@ class Row:
 
     def look_in(self, dark):
         """Properties of its glyph on a light or on a dark background."""
-        found = {name: ROLES[value][dark] for name, value in self.look.items() if name.endswith("color")}
+        given = {name: ROLES[value][dark] for name, value in self.look.items() if name.endswith("color")}
         if self.kind == "lines":
-            found["line_dash"] = DASHES[self.look["line_dash"]]
+            given["line_dash"] = DASHES[self.look["line_dash"]]
         elif self.kind == "areas" and dark:
-            # What is pale on white would be nearly black.
-            found["fill_alpha"] = min(1.6 * self.look["fill_alpha"], 1.0)
-        return self.look | found
+            # A pale area would be nearly black.
+            given["fill_alpha"] = min(1.6 * self.look["fill_alpha"], 1.0)
+        return self.look | given
 
 
 def area(name, role, alpha, hatch=" ", legend=True):
