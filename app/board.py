@@ -22,16 +22,12 @@ class Card:
         # Not seen before it is drawn: that may fail.
         self.view = pn.Column(self.head, figure, css_classes=["card", plot.name], visible=False, **FULL)
 
-    def show(self, columns: dict, view: View) -> None:
-        """Draw columns made for a view."""
-        self.picture.show(columns, view)
-        # What is cut off by axes that stay leaves no gap: the plot would move while it is dragged.
-        kept = self._legend if "axes" in view.computed else {}
-        self._legend = kept | drawn(view, self.plot)
-
     def show_parts(self, view: View) -> None:
         """Show the texts and buttons around the plot."""
         plot, page = self.plot, self._page
+        # What is cut off by axes that stay leaves no gap: the plot would move while it is dragged.
+        kept = self._legend if "axes" in view.computed else {}
+        self._legend = kept | drawn(view, plot)
         formula = f"<h3>{plot.title}</h3>{linked(plot.formula_of(view.course))}"
         buttons = (each.on_plots(page, plot, view) for each in EXTRAS.values())
         key = text("key", legend(plot, self._legend), "key")
@@ -67,7 +63,7 @@ class Board:
         for name, card in self.cards.items():
             show(card.view, visible=name in columns)
             if name in columns:
-                card.show(columns[name], view)
+                card.picture.show(columns[name], view)
         count = len(columns) - len(NAMED)
         show(self.grid, css_classes=["plots", f"with-{min(count, 2)}"])
 
