@@ -233,6 +233,7 @@ class Page:
 
     def _send_frames(self):
         """Send all states of the course while the player moves, else drop those of another."""
+        # Numbers as one text: Bokeh would look at each.
         self.messages.frames = [*frames(self.shown, self.board.pictures())] if self._moving else []
 
     def move(self, message: Any) -> None:
