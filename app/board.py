@@ -1,4 +1,4 @@
-"""The board on the right: plots in frames with title, formula and legend; and their tabs."""
+"""The board on the right: plots in frames with title, formula and legend, and their tabs."""
 
 from functools import partial
 from typing import Any

@@ -1,12 +1,8 @@
 // A saved scene: the page's own scripts move and drag it.
 const [numbers, theme] = ["readout", "dark"].map((id) => document.getElementById(id))
-const say = (words) => {
-  numbers.innerHTML = words
-  player.tell(words)
-}
-const player = make_player({ figures, say, ask: () => {} })
-player.show(look)
-player.tell(numbers.innerHTML)
+const { el, show } = make_player({ messages, figures, ask: () => {} })
+show(look)
+messages.properties.words.change.connect(() => { numbers.innerHTML = messages.words })
 touched(figures.filter(({ name }) => name !== "pressure"), dragging)
 const shade = (dark) => {
   document.documentElement.classList.toggle("dark", dark)
@@ -20,6 +16,6 @@ theme.onclick = () => shade(theme.ariaPressed !== "true")
 const bytes = Uint8Array.from(atob(packed), (letter) => letter.charCodeAt(0))
 const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))
 new Response(stream).text().then((sent) => {
-  player.take([sources, ...JSON.parse(sent)])
-  document.getElementById("player").append(player.el)
+  messages.frames = [sources, ...JSON.parse(sent)]
+  document.getElementById("player").append(el)
 })

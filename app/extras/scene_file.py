@@ -30,7 +30,7 @@ from ..quantities import CHOICES, QUANTITIES
 from ..shared.dragging import DRAGGED, TOUCH, let_drag, path
 from ..shared.summary import summary
 from ..state import MEDIUM_CHOICES, PRESETS, State, altered, used, yield_constant
-from ..ui import CSS, HERE, marked, symbol
+from ..ui import CSS, HERE, Messages, marked, symbol
 
 _HERE = Path(__file__)
 _TEMPLATE = _HERE.with_suffix(".html").read_text(encoding="utf-8")
@@ -63,7 +63,8 @@ def scene_file(view: View) -> str:
     for picture in pictures:
         picture.show(picture.columns(view, course.now), view)
         document.add_root(picture.figure)
-    _connect(document, view, pictures)
+    readout = readouts.values(numbers, course.now)
+    _connect(document, view, pictures, Messages(words=readout))
     words = {
         "style": CSS,
         # Of Bokeh alone what draws; file_html adds a script of Panel's server.
@@ -73,7 +74,7 @@ def scene_file(view: View) -> str:
         "scene": marked(summary(state)),
         # Links of explanations lead to pages of the server.
         "heads": re.sub(r"</?a\b[^>]*>", "", readouts.heads(numbers)),
-        "readout": readouts.values(numbers, course.now),
+        "readout": readout,
         "plots": [_card(view, picture.plot) for picture in pictures],
         "folded": list(_folded(view)),
         "link": escape(address(state)),
@@ -88,7 +89,7 @@ def _card(view: View, plot: Plot) -> tuple[str, ...]:
     return plot.name, plot.title, marked(plot.formula_of(view.course)), key
 
 
-def _connect(document: Document, view: View, pictures: list[Picture]) -> None:
+def _connect(document: Document, view: View, pictures: list[Picture], messages: Messages) -> None:
     """Let the browser play, drag, and turn dark."""
     sources, *sent = frames(view, pictures)
     course, looks = view.course, []
@@ -97,6 +98,7 @@ def _connect(document: Document, view: View, pictures: list[Picture]) -> None:
         columns = [each for picture in pictures for each in picture.columns(shaded, course.now).items()]
         looks.append([{name: data[name] for name in data if name not in PLACES} for _, data in columns])
     told = {
+        "messages": messages,
         "figures": [picture.figure for picture in pictures],
         "sources": sources,
         "layers": [source for source, _ in columns],

@@ -1,6 +1,5 @@
 // Once the page is there: the keys Z and Escape, and the theme of the system.
 const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
-const hosts = (name) => all(document).filter((each) => each.shadowRoot && each.classList.contains(name))
 document.documentElement.lang = "en"
 // What the page is coloured by, and what it is of the system if nobody has chosen.
 const system = matchMedia("(prefers-color-scheme: dark)").matches
@@ -21,9 +20,7 @@ document.addEventListener("keydown", (event) => {
     // The browser closes popovers.
     return void (open.some(({ popover }) => popover) || open.at(-1)?.click())
   }
-  if (event.key.toLowerCase() !== "z") return
-  event.preventDefault()
-  all(document).find((each) => each.matches("button[data-key=z]"))?.click()
+  if (event.key.toLowerCase() === "z") all(document).find((each) => each.matches("button[data-key=z]"))?.click()
 })
 // Bokeh does not see that a plot has become a few pixels less high, as by a note that is opened.
 let before = null
@@ -31,4 +28,4 @@ new ResizeObserver(([{ contentRect: { height } }]) => {
   const figures = [...messages.document.all_models].filter(({ type }) => type === "Figure")
   if (before !== null) for (const figure of figures) Bokeh.index.find_one(figure)?.invalidate_layout()
   before = height
-}).observe(hosts("plots")[0])
+}).observe(all(document).find((each) => each.shadowRoot && each.classList.contains("plots")))

@@ -115,18 +115,11 @@ const KINDS = {
     }]
   },
   player(_, send, named) {
-    const messages = named("messages"), { frames, words } = messages.properties
     let asked = 0
-    const player = make_player({
-      figures: ["springs", "pressure", "force"].map(named),
-      say: (said) => messages.setv({ words: said }, { sync: false }),
-      ask: (what) => { asked = send(what) },
-    })
-    frames.change.connect(() => player.take(messages.frames))
-    words.change.connect(() => player.tell(messages.words))
-    player.tell(messages.words)
+    const figures = ["springs", "pressure", "force"].map(named), ask = (what) => { asked = send(what) }
+    const { el, show } = make_player({ messages: named("messages"), figures, ask })
     // An answer to an earlier move, or another change of the page, does not undo the last one.
-    return [player.el, (look, answered) => { if (answered >= asked) player.show(look) }]
+    return [el, (look, answered) => { if (answered >= asked) show(look) }]
   },
   // A file, chosen or dropped. Its size is looked at first: a message that is too large ends the session.
   file({ label, accept, most, id }, send) {

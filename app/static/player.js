@@ -1,7 +1,6 @@
-// The player: a button and a slider that move through the states of a scene, on the page and in a saved scene. Frames are
-// sources, as texts what changes of each in each state, readouts, and times. `ask` is called with null when a move begins, and with the state
-// in which it ends; `say` shows readouts. Other scripts find it as `player`.
-export function make_player({ figures, say, ask }) {
+// The player: a button and a slider that move through the states of a scene, on the page and in a saved scene. It asks null
+// when a move begins, and the state in which it ends. Other scripts find it as `player`.
+export function make_player({ messages, figures, ask }) {
   const el = Object.assign(document.createElement("div"), { className: "player" })
   el.innerHTML = `<button class="act"></button><input type="range" aria-label="State along the path">`
   const [button, range] = el.children
@@ -14,7 +13,7 @@ export function make_player({ figures, say, ask }) {
     range.style.setProperty("--share", value / range.max)
     if (!times) return
     sources.forEach((source, n) => { source.data = { ...source.data, ...read(places[n][value]) } })
-    say(words[value])
+    messages.setv({ words: words[value] }, { sync: false })
     // By itself Bokeh paints at most every second frame.
     setTimeout(() => figures.forEach((figure) => Bokeh.index.find_one(figure).repaint()))
   }
@@ -24,64 +23,60 @@ export function make_player({ figures, say, ask }) {
     if (k !== value) stand(k)
   }
   const turn = (on) => Object.assign(button, { ariaPressed: on, textContent: on ? "❚❚ Pause" : "▶ Play" })
-  const play = () => {
+  const playing = () => button.ariaPressed === "true"
+  const go = (k) => {
+    turn(false)
+    move(k)
+  }
+  const rest = () => {
+    if (!moving || playing()) return
+    moving = false
+    ask(value)
+  }
+  // The number of the last state, and that of the state which the server has drawn.
+  const show = ({ last, now }) => {
+    range.max = last
+    stand(moving ? value : now)
+  }
+  messages.properties.frames.change.connect(() => {
+    [sources, places, words, times] = messages.frames
+    if (times) show({ last: times.length - 1, now: value })
+  })
+  // What is seen is told in words: the state at once, the plots once they rest.
+  const tell = () => {
+    const numbers = messages.words.matchAll(/data-name="(\w+)">([^<]*)/g)
+    const told = Array.from(numbers, ([, name, number]) => `${name.replaceAll("_", " ")} ${number}`)
+    range.ariaValueText = told.slice(0, 2).join(", ")
+    clearTimeout(wait)
+    wait = setTimeout(() => figures.forEach((figure) => { Bokeh.index.find_one(figure).el.ariaDescription = told.join(", ") }), 300)
+  }
+  button.onclick = () => {
     let begin = null
     const step = (now) => {
-      if (!player.playing) return
+      if (!playing()) return
       requestAnimationFrame(step)
       if (!times) return
-      const last = times.length - 1
-      begin ??= now - 3000 * (value >= last ? 0 : times[value])
-      const clock = ((now - begin) / 3000) % 1.12, next = times.findIndex((time) => time >= clock)
-      move(next < 0 ? last : next)
+      begin ??= now - 3000 * (value < range.max ? times[value] : 0)
+      // Longer than a run, which rests in its last state.
+      const clock = ((now - begin) / 3000) % 1.12
+      move(times.findLastIndex((time) => time <= clock))
     }
-    turn(true)
+    turn(!playing())
     move(value)
+    rest()
     requestAnimationFrame(step)
   }
-  const player = {
-    el,
-    get value() { return value },
-    get playing() { return button.ariaPressed === "true" },
-    go(k) {
-      turn(false)
-      move(k)
-    },
-    rest() {
-      if (!moving || player.playing) return
-      moving = false
-      ask(value)
-    },
-    // The course of the scene, and the state that the server has drawn.
-    show({ last, now }) {
-      range.max = last
-      stand(moving ? value : now)
-    },
-    take(frames) {
-      [sources, places, words, times] = frames
-      if (times) player.show({ last: times.length - 1, now: value })
-    },
-    // Readouts (HTML) in words: of the slider at once, of the plots once they rest.
-    tell(words) {
-      const told = Array.from(words.matchAll(/data-name="(\w+)">([^<]*)/g), ([, name, text]) => `${name.replaceAll("_", " ")} ${text}`)
-      range.ariaValueText = told.slice(0, 2).join(", ")
-      clearTimeout(wait)
-      wait = setTimeout(() => figures.forEach((figure) => { Bokeh.index.find_one(figure).el.ariaDescription = told.join(", ") }), 300)
-    },
-  }
-  turn(false)
-  range.oninput = () => player.go(range.valueAsNumber)
-  range.onchange = player.rest
-  button.onclick = () => {
-    if (!player.playing) return play()
-    player.go(value)
-    player.rest()
-  }
+  range.oninput = () => go(range.valueAsNumber)
+  range.onchange = rest
   document.addEventListener("keydown", (event) => {
     if (event.key !== " " || event.ctrlKey || event.altKey || event.metaKey) return
     if (event.composedPath()[0].matches?.("button, summary, select, textarea, input:not([type=range])")) return
     event.preventDefault()
     button.click()
   })
-  return window.player = player
+  messages.properties.words.change.connect(tell)
+  turn(false)
+  tell()
+  window.player = { get value() { return value }, go, rest }
+  return { el, show }
 }
