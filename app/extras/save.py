@@ -7,7 +7,7 @@ from ..draw import drawn
 from ..extra import Extra, Service
 from ..parts import Part
 from ..plot import Plot, View, rows_of
-from ..plots import NAMED, PLOTS
+from ..plots import NAMED, visible
 from ..quantities import lowered
 from ..shared.summary import summary
 from ..state import State
@@ -30,7 +30,7 @@ class Legends(Service):
 
     def rest(self, view: View) -> None:
         self._legends["scene"] = summary(view.state)
-        for plot in (PLOTS[name] for name in (*NAMED, *view.state.tiles)):
+        for plot in visible(view):
             called = drawn(view, plot)
             rows = [lowered(called.get(row.name, row.name)) for row in rows_of(plot) if row.legend]
             self._legends[plot.name] = {"rows": rows, "title": plot.title}
