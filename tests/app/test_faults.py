@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from app import changes
+from app.draw import Picture
 from app.drives import follow
 from app.extras.drag import Dragging
 from app.page import Page
@@ -63,6 +64,21 @@ def test_a_plot_or_a_held_scene_that_fails(page, monkeypatch):
     press(page, "Hold")
     assert (page.state["held.scenes"], page.shown.computed["held"]) == ((), [])
     assert_in_use(page)
+
+
+def test_a_plot_that_cannot_be_drawn_for_the_first_time_leaves_no_empty_frame(page, monkeypatch):
+    columns = Picture.columns
+
+    def unless_surface(picture, view, i):
+        return failing() if picture.plot.name == "surface" else columns(picture, view, i)
+
+    with monkeypatch.context() as failure:
+        failure.setattr(Picture, "columns", unless_surface)
+        press(page, "Surface")
+    assert [card.plot.name for card in page.board.seen()] == ["springs", "pressure", "force"]
+    assert_in_use(page)
+    press(page, "Surface")
+    assert page.board.seen()[-1].plot.name == "surface"
 
 
 def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):

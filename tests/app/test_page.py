@@ -316,6 +316,24 @@ def test_scenes_are_held_and_come_back_from_the_address_in_the_dark(explorer):
     assert page.get_by_role("button", name="Undo").is_disabled()
 
 
+def test_light_on_a_dark_system_is_kept_by_the_address(server, browser):
+    with browser.new_context(viewport={"width": 1280, "height": 720}, color_scheme="dark") as context:
+        explorer = Explorer(context.new_page(), server.url)
+        page, dark = explorer.page, "document.documentElement.classList.contains('dark')"
+        explorer.wait(dark)
+        explorer.press("Menu")
+        explorer.press("Dark")
+        explorer.wait(f"!{dark}")
+        assert explorer.link("dark=0") == {"dark": "0"}
+        page.reload()
+        explorer.wait("window.explorer?.idle()")
+        assert not page.evaluate(dark)
+        explorer.press("Menu")
+        explorer.press("Dark")
+        explorer.wait(f"{dark} && !location.search.includes('dark=0')")
+        assert explorer.problems == []
+
+
 def test_what_is_shared_comes_back(explorer, tmp_path):
     """A picture with title and legend; link and Python; a measured tip."""
     with explorer.page.expect_download() as download:
