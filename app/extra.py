@@ -46,8 +46,8 @@ class Service:
 class Extra:
     """Something that plugs into the page: `EXTRA` of a file in `app/extras`, and what it brings.
 
-    Its numbers, choices, drives and readouts are in a JSON file of its name beside it; their names begin
-    with its own, as "sweep.swept". They are values of the state, in links and undone like all others.
+    Its numbers, choices, drives and readouts are in a JSON file of its name beside it; names of numbers and
+    choices begin with its own, as "sweep.swept". These are values of the state, in links and undone.
     """
 
     name: str

@@ -9,7 +9,8 @@ from panel.io.document import dispatch_tornado
 from panel.io.server import WSHandler
 from tornado.websocket import WebSocketClosedError
 
-# Here, so that the first visitor does not wait for it.
+# Here, so that the first visitor does not wait for it, and that the server does not start if it fails.
+from . import extras as extras
 from . import page as page
 
 

@@ -5,9 +5,12 @@ from pathlib import Path
 from pkgutil import iter_modules
 from typing import Any
 
+from mdr_core.results.units import UNITS
+
 from ..changes import CONVERT, OFFERED
 from ..drives import DRIVES
 from ..extra import EXTRAS, Extra
+from ..plot import rows_of
 from ..plots import PLOTS
 from ..quantities import CHOICES, QUANTITIES, include, read_data
 from ..state import OF_EXTRAS, VIEW
@@ -18,14 +21,44 @@ _HERE = Path(__file__).parent
 def _load() -> None:
     names = [module.name for module in iter_modules(__path__)]
     paths = {name: _HERE / f"{name}.json" for name in names}
-    data = {name: read_data(path) for name, path in paths.items() if path.exists()}
+    data = {name: _read(path) for name, path in paths.items() if path.exists()}
     for each in data.values():
         include(each)
     extras: dict[str, Extra] = {name: import_module(f".{name}", __name__).EXTRA for name in names}
+    for name, extra in extras.items():
+        _check(name, extra, data.get(name, {}))
     for name, extra in sorted(extras.items(), key=lambda each: each[1].order):
         _register(extra, data.get(name, {}))
     for name in sorted(PLOTS, key=lambda name: PLOTS[name].order):
         PLOTS[name] = PLOTS.pop(name)
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        return read_data(path)
+    except ValueError as error:
+        raise ValueError(f"{path.name} is not JSON: {error}") from None
+
+
+def _check(name: str, extra: Extra, data: dict[str, Any]) -> None:
+    """Refuse what would fail on the page without a word."""
+
+    def require(true: bool, message: str) -> None:
+        if not true:
+            raise ValueError(f"extra {name}: {message}")
+
+    require(extra.name == name, f"it is called {extra.name!r}; give it the name of its file")
+    for choice, told in data.get("choices", {}).items():
+        known = "." in choice or "label" not in told
+        require(known, f"choice {choice!r} is not one of the page; call it {name + '.' + choice!r}")
+    for plot in extra.plots:
+        called = [row.name for row in rows_of(plot)]
+        require(len({*called}) == len(called), f"two rows of plot {plot.name!r} have the same name")
+        for along in plot.axes:
+            kinds = ", ".join(UNITS)
+            require(along.kind in UNITS, f"no unit of kind {along.kind!r} is known; known are {kinds}")
+        for choice in plot.controls:
+            require(choice in CHOICES, f"no choice {choice!r} is known; add it to {name}.json")
 
 
 def _register(extra: Extra, data: dict[str, Any]) -> None:

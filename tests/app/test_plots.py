@@ -52,22 +52,35 @@ def test_loading_curve_and_pressure_are_those_of_the_core(shape):
     np.testing.assert_allclose(p, np.minimum(view.course.state.pressure(r), 1e3 * view.end(P)), rtol=1e-9)
 
 
+def drawn_with_every_option(view):
+    """Plots that apply to a view, each with the view and with every other option of its choices."""
+    for plot in (plot for plot in PLOTS.values() if plot.applies(view)):
+        yield plot, view
+        for name in plot.controls:
+            for option in CHOICES[name].options:
+                yield plot, View(view.state.replace(**{name: option}), view.course, view.computed)
+
+
 @pytest.mark.parametrize("damping", ["none", "eta"])
 def test_every_plot_of_every_state_can_be_drawn(damping):
-    """Every plot that has its axes has all its rows in every state, and the same length in every column."""
+    """Every plot that has its axes has all its rows in every state, and the same length in every column.
+
+    With every option of its choices, and in an impact with adhesion, which has no motion.
+    """
     r = np.linspace(0, 100e-9, 30)
     tip = changes.take_tip(preset_state(), (r, r**2 / 200e-9), "")
     oblique = state_with(DROP, "oblique", damping=damping)
-    views = [view_of(state) for state in (preset_state(), tip, state_with(DROP, damping=damping))]
+    sticky = state_with(PDMS, "impact")
+    views = [view_of(state) for state in (preset_state(), tip, sticky, state_with(DROP, damping=damping))]
     # An oblique impact beside a held one.
     for view in (*views, view_of(oblique, 1.0, oblique)):
-        for plot in (plot for plot in PLOTS.values() if plot.applies(view)):
+        for plot, chosen in drawn_with_every_option(view):
             picture, names = picture_of(plot), {row.name for row in rows_of(plot)}
-            for i in range(0, len(view.course), 9):
-                rows = view.places(plot, i)
+            for i in range(0, len(chosen.course), 9):
+                rows = chosen.places(plot, i)
                 assert all(np.size(x) == np.size(y) for x, y, *_ in rows.values())
                 assert rows.keys() == names | ({"image"} if getattr(plot, "image", None) else set())
-                for data in picture.columns(view, i).values():
+                for data in picture.columns(chosen, i).values():
                     assert len({len(column) for column in data.values()}) == 1
 
 
