@@ -104,10 +104,10 @@ class Client(Visitor):
         await super().open(url)
         # The control of the largest depth, by what it is called.
         for each in objects(self.document):
-            told = json.loads(dig(each, "attributes", "data", "attributes", "told") or "{}")
-            for part, known in told.items():
+            shown = json.loads(dig(each, "attributes", "data", "attributes", "shown") or "[0, []]")
+            for known in shown[1]:
                 if known.get("spoken") == "d_max, largest depth":
-                    self.form, self.control = each["id"], part
+                    self.form, self.control = each["id"], known["name"]
         self.count = 0
         return self
 
