@@ -73,7 +73,7 @@ def take_tip(state: State, samples: tuple[Any, Any], note: str) -> State:
 def hit_again(state: State) -> State:
     """Let the body hit its own imprint."""
     hit = follow(state).hit
-    if not hit.plastic_depth_increase > 0:
+    if hit is None or not hit.plastic_depth_increase > 0:
         raise ValueError("nothing has yielded further: the next impact is the same as this one")
     return put(state, "plastic_depth", float(hit.plastic_depth))
 

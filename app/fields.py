@@ -11,7 +11,7 @@ from .extra import EXTRAS
 from .parts import Part, Parts, button, text, upload
 from .plot import View
 from .quantities import QUANTITIES, Quantity
-from .state import MEDIUM_CHOICES, PRESETS, State, altered, regions
+from .state import MEDIUM_CHOICES, PRESETS, State, altered, checked, regions
 from .tip import read_tip
 from .ui import LAYOUT, linked, marked, symbol
 
@@ -26,6 +26,7 @@ def slider_range(known: Quantity, middle: float, value: float) -> tuple[float, f
     """
     if known.span <= 0:
         return known.bounds[0], middle, known.bounds[1]
+    value = known.bounded(value)
     low, high = (known.bounded(changes.shown(end)) for end in (middle / known.span, middle * known.span))
     return (low, middle, high) if low <= value <= high else slider_range(known, value, value)
 
@@ -46,7 +47,7 @@ class Field:
         The unit is that of the preset's number until another one is typed. What others change is shown in
         it, too, unless that takes a power of ten. A refusal stays until the number changes.
         """
-        value = state[self._name]
+        value = checked(self._name, state[self._name])
         loaded = state.preset != self._preset
         changed = loaded or value != self._value
         if loaded:

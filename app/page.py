@@ -90,7 +90,7 @@ class Page:
             if names := link.unknown(query):
                 self.notify(f"Unknown names in this link are ignored: {', '.join(names):.200}")
         except Exception as error:
-            self.draw(self.state)
+            self.draw(preset_state())
             self._refused = True
             self.notify(f"The link was not opened: {self.refusal(error)}")
 
@@ -240,9 +240,9 @@ class Page:
     def _input_rests(self):
         self._waiting = None
         self.frame.rest(self.shown)
-        query, _ = self.query()
-        # The empty address leaves the present one, of a link that was not opened.
-        self.messages.address = "" if self._refused else f"?{query}"
+        query, why = self.query()
+        # The empty address leaves the present one: a link was not opened, or there is none.
+        self.messages.address = "" if self._refused or why else f"?{query}"
         view = self.shown
         for each in self.services:
             each.rest(view)

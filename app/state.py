@@ -1,7 +1,6 @@
 """The state of the page: a frozen set of numbers (SI) and choices, and its presets."""
 
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 from math import isclose
 from typing import Any
 
@@ -19,8 +18,6 @@ MEDIUM_CHOICES = ("elasticity", "plasticity", "damping", "adhesion")
 VIEW: dict[str, Any] = {"at": 1.0, "tiles": (), "dark": False}
 #: Values of extras by their names, as in "sweep.swept", with their defaults.
 OF_EXTRAS: dict[str, Any] = {}
-# A move makes some six states of the same bodies, each of which would take 0.35 ms.
-_of_bodies = lru_cache(256)(mdr.Medium.from_bodies)
 
 
 @dataclass(frozen=True)
@@ -86,7 +83,8 @@ class State:
 
     def __post_init__(self) -> None:
         if self.elasticity == "bodies":
-            object.__setattr__(self, "E_star", _of_bodies(self.E_1, self.nu_1, self.E_2, self.nu_2).E_star)
+            bodies = mdr.Medium.from_bodies(self.E_1, self.nu_1, self.E_2, self.nu_2)
+            object.__setattr__(self, "E_star", bodies.E_star)
         if self.plasticity == "hardness":
             object.__setattr__(self, "q_c", self.hardness * self.hardness_radius)
 

@@ -22,7 +22,7 @@ from ..readouts import text
 from ..shared import widgets
 from ..shared.once import once
 from ..shared.summary import with_symbol
-from ..state import MEDIUM_CHOICES, PRESETS, State, altered, used
+from ..state import MEDIUM_CHOICES, OPENING, PRESETS, State, altered, used
 from ..ui import WIDE, html, marked, show, symbol
 
 #: Scenes that are held have each its own dashes.
@@ -67,7 +67,7 @@ def toggle_hold(state: State) -> State:
     if len(others) == len(DASHES):
         raise ValueError(f"{len(DASHES)} scenes are held: remove one of them first")
     scene = state.scene_values.replace(at=state.at)
-    return state.replace(**{"held.scenes": (*others, link.write(scene))})
+    return state.replace(**{"held.scenes": (*others, link.write(scene) or f"preset={OPENING}")})
 
 
 def _without(state: State, k: int) -> State:

@@ -53,7 +53,8 @@ class Letters(Service):
         with_side = "above" in frame.opened
         sheets = [_SHEET, *[_WITH_SIDE] * with_side] if on else []
         show(frame.view, stylesheets=[*LAYOUT, *sheets])
-        for name, card in self.page.board.cards.items():
+        drawn = {name: card for name, card in self.page.board.cards.items() if card.picture.axes}
+        for name, card in drawn.items():
             is_large = name == name_of_large
             show(card.view, css_classes=["card", name, *["large"] * is_large])
             # On a small plot large titles of axes have no room.

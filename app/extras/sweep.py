@@ -163,7 +163,8 @@ for _name in ("energy", *QUANTITIES):
 def swept(state: State) -> list[str]:
     """What can be swept, the first one if nothing is chosen."""
     if state.drive not in SOLVERS:
-        return list(CHOICES["sweep.swept"].options)
+        names = CHOICES["sweep.swept"].options
+        return [each for each in names if each == "energy" or state[each] is not None]
     solver, impact = SOLVERS[state.drive], state.drive == "impact"
     idle = ("density",) if impact else ("density", "eta")
     works = [each for each in used(state) if each not in idle and QUANTITIES[each].span >= 0]

@@ -115,6 +115,8 @@ class Resting(Service):
         self._keys[name], document = key, self.page.document
 
         def run():
+            if self._keys.get(name) != key:
+                return
             try:
                 result = search(*arguments)
             except Exception:
@@ -128,7 +130,7 @@ class Resting(Service):
 
     def _done(self, name, key, result):
         """Draw a result if it is that of the last search; on failure go on without it."""
-        if self._keys[name] != key:
+        if self._keys.get(name) != key:
             return
         page = self.page
         self._results[name] = key, result
@@ -138,10 +140,14 @@ class Resting(Service):
                 return
             if isinstance(result, Course):
                 _keep(result)
+                # Searched anew once others have taken its place.
+                del self._keys[name]
             page.draw(page.state)
         except Exception as error:
             if isinstance(result, Course):
                 EXACT.pop(result.scene, None)
+            # Not searched again: it would fail as often.
+            self._keys[name] = key
             self._results[name] = key, FAULT
             page.notify(page.refusal(error))
             page.draw(page.state)

@@ -9,11 +9,12 @@ import pytest
 
 from app import changes
 from app.draw import Picture
-from app.drives import follow
+from app.drives import EXACT, follow
 from app.extras.drag import Dragging
 from app.page import Page
 from app.shared.rest import COMPUTING, FAULT
 from app.state import PRESETS, preset_state
+from app.tip import read_tip
 
 from .conftest import DROP, GOLD
 from .states import part, press
@@ -272,3 +273,89 @@ def test_a_message_that_names_no_part_is_answered_and_changes_nothing(page):
     form._on_message(SimpleNamespace(data=("max_depth", {"text": "5 nm"})))
     assert page.state.max_depth == 5e-9
     assert json.loads(form.shown)[0] == 5
+
+
+@pytest.mark.parametrize(
+    "query",
+    [
+        "E_1=1&E_2=1&nu_1=0&nu_2=0",
+        "elasticity=bodies&E_1=1e14&E_2=1e14&nu_1=-0.99&nu_2=-0.99&tiles=sweep",
+        "plasticity=hardness&hardness=1e14&hardness_radius=100",
+    ],
+)
+def test_a_link_whose_bodies_or_hardness_lead_beyond_the_bounds_is_refused(monkeypatch, query):
+    notices = []
+    monkeypatch.setattr(Page, "notify", lambda page, text: notices.append(text))
+    page = Page(query)
+    assert page.state.preset == GOLD
+    assert page.shown is not None
+    assert "is out of bounds" in notices[0]
+
+
+def test_hit_again_pressed_while_the_drive_changes_is_refused(page):
+    page.choose("preset", DROP)
+    again = part(page, "Hit again")
+    page.choose("drive", "depth")
+    again.act(None)
+    assert "nothing has yielded further" in page.notices[0]
+
+
+@pytest.mark.parametrize("drive", ["path", "oblique"])
+def test_a_sweep_of_a_drive_that_has_none_offers_numbers_with_a_value(page, drive):
+    page.choose("drive", drive)
+    press(page, "Sweep")
+    for name in page.choice("sweep.swept").look["options"]:
+        page.choose("sweep.swept", name[0])
+    assert page.notices == []
+
+
+@pytest.mark.parametrize("name", ["E_1", "nu_1", "E_2", "nu_2"])
+def test_numbers_of_two_bodies_are_swept_on_the_page(page, name):
+    page.choose("preset", DROP)
+    page.choose("elasticity", "bodies")
+    press(page, "Sweep")
+    page.choose("sweep.swept", name)
+    rested(page)
+    assert (page.notices, page.shown.computed["sweep"] is FAULT) == ([], False)
+
+
+def test_plots_that_have_never_been_drawn_are_presented(page):
+    page.choose("drive", "path")
+    press(page, "Sweep")
+    press(page, "Sweep")
+    press(page, "Present")
+    press(page, "Section")
+    assert page.state["present.on"]
+    assert page.notices == []
+
+
+def test_the_opening_scene_is_held_by_its_link(page):
+    press(page, "Hold")
+    query, _ = page.query()
+    assert len(Page(query).state["held.scenes"]) == 1
+
+
+def test_a_scene_without_a_link_leaves_the_address(page):
+    r = np.linspace(0, 500, 60)
+    rows = "\n".join(f"{each:.6f},{each**2 / 1234.567:.6f}" for each in r)
+    page.apply(lambda state: changes.take_tip(state, *read_tip(f"r (nm), z (nm)\n{rows}", "tip.csv")))
+    for _ in range(3):
+        press(page, "Hold")
+        put(page, "max_depth", 0.9 * page.state.max_depth)
+        page._input_rests()
+    query, why = page.query()
+    assert query == ""
+    assert "No link" in why
+    assert page.messages.address == ""
+
+
+def test_an_exact_course_is_found_again_once_others_have_taken_its_place(page):
+    page.choose("preset", "ball-glass_epoxy")
+    page.choose("drive", "oblique")
+    page._input_rests()
+    assert not page.shown.course.pending
+    EXACT.clear()
+    page.apply(lambda state: state.replace(dark=True))
+    assert page.shown.course.pending
+    page._input_rests()
+    assert not page.shown.course.pending
