@@ -70,7 +70,9 @@ def test_every_plot_of_every_state_can_be_drawn(damping):
     r = np.linspace(0, 100e-9, 30)
     tip = changes.take_tip(preset_state(), (r, r**2 / 200e-9), "")
     oblique = state_with(DROP, "oblique", damping=damping)
-    sticky = state_with(PDMS, "impact")
+    sticky = state_with(PDMS, "impact", adhesion="work")
+    assert follow(sticky).hit is not None
+    assert follow(sticky).motion is None
     views = [view_of(state) for state in (preset_state(), tip, sticky, state_with(DROP, damping=damping))]
     # An oblique impact beside a held one.
     for view in (*views, view_of(oblique, 1.0, oblique)):
