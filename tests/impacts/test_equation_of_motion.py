@@ -47,9 +47,13 @@ def by_steps(phi, radius, tau, d_c):
     first = solve_ivp(
         loading(False), (0, 1), (0, SPEED), events=(turn, yields), first_step=1e-12, **options
     )
+    # The polynomials between steps, on which events are found, are less accurate than steps: where
+    # viscosity stops the body, the speed passes through zero within one step unless steps are bounded.
+    fine = options | {"max_step": 0.02 * first.t[-1]}
+    first = solve_ivp(loading(False), (0, 1), (0, SPEED), events=(turn, yields), first_step=1e-12, **fine)
     time, state = first.t[-1], first.y[:, -1]
     if first.t_events[1].size:
-        second = solve_ivp(loading(True), (time, 1), state, events=turn, **options)
+        second = solve_ivp(loading(True), (time, 1), state, events=turn, **fine)
         time, state = second.t[-1], second.y[:, -1]
     deepest = state[0]
     p = max(deepest - d_c, 0.0)
