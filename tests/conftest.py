@@ -1,8 +1,14 @@
-"""What all tests share: comparisons are relative."""
+"""What all tests share: comparisons are relative, and which cases of a parametrisation are run."""
+
+import zlib
 
 import pytest
 
+import mdr_core as mdr
+
 _with_absolute_tolerance = pytest.approx
+#: Cases of one test over shapes that are run without --full.
+CASES = 3
 
 
 def relative_approx(expected, rel=None, abs=None, nan_ok=False):
@@ -16,3 +22,63 @@ def relative_approx(expected, rel=None, abs=None, nan_ok=False):
 
 
 pytest.approx = relative_approx
+
+
+def pytest_addoption(parser):
+    group = parser.getgroup(
+        "extent", "how much is run (without a choice: three cases of each test over shapes)"
+    )
+    group.addoption("--full", action="store_true", help="all cases, before a release")
+    group.addoption("--quick", action="store_true", help="one case of each parametrisation, nothing slow")
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "slow: takes more than two seconds; left out by --quick")
+    config.addinivalue_line(
+        "markers", "full: is run with --full alone, because others notice nearly all it notices"
+    )
+
+
+def pytest_collection_modifyitems(config, items):
+    if config.option.full:
+        return
+    most = 2 if config.option.quick else CASES
+    tests = {}
+    for item in items:
+        tests.setdefault(item.nodeid.partition("[")[0], []).append(item)
+    kept = set()
+    for name, cases in tests.items():
+        cases = [case for case in cases if not _left_out(case, config.option.quick)]
+        thinned = config.option.quick or any(map(_is_over_shapes, cases))
+        kept.update(_spread(name, cases, most) if thinned and len(cases) > most else cases)
+    config.hook.pytest_deselected(items=[item for item in items if item not in kept])
+    items[:] = [item for item in items if item in kept]
+
+
+def _left_out(item, quick):
+    return item.get_closest_marker("full") or (quick and item.get_closest_marker("slow"))
+
+
+def _parameters(item):
+    return item.callspec.params if hasattr(item, "callspec") else {}
+
+
+def _is_over_shapes(item):
+    names = {value for value in dir(mdr) if isinstance(getattr(mdr, value), type)}
+    return any(
+        isinstance(value, mdr.Profile) or getattr(value, "__name__", None) in names or key == "shape"
+        for key, value in _parameters(item).items()
+    )
+
+
+def _spread(name, cases, most):
+    """So many cases that share as few parameters as possible, others for each test."""
+    # A hash that is the same in each process and version.
+    first = zlib.crc32(name.encode()) % len(cases)
+    left = cases[first:] + cases[:first]
+    chosen = [left.pop(0)]
+    while len(chosen) < most:
+        used = [set(case.callspec._idlist) for case in chosen]
+        left.sort(key=lambda case: sum(len(ids & set(case.callspec._idlist)) for ids in used))
+        chosen.append(left.pop(0))
+    return chosen

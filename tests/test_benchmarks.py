@@ -26,6 +26,7 @@ def results():
     return collect(quick=True)
 
 
+@pytest.mark.slow
 def test_every_method_is_as_exact_as_its_family(results):
     for record in results["records"]:
         # What others are set to, by coarse grids and loose tolerances.
@@ -55,12 +56,14 @@ def test_report_is_written_from_what_was_measured(results):
     assert all(record["family"] in text for record in results["records"])
 
 
+@pytest.mark.slow
 def test_dry_impacts_keep_what_is_promised():
     for _, depth, restitution, time in accuracy.dry_impacts((1 + 1e-5, 2e8)):
         assert max(float(depth), float(restitution)) <= 1e-10
         assert float(time) <= 1e-9
 
 
+@pytest.mark.slow
 def test_viscous_impacts_keep_what_is_promised():
     for row in accuracy.punch_impacts():
         # 10⁻⁸ at the ends of the range of relaxation times.
@@ -69,12 +72,14 @@ def test_viscous_impacts_keep_what_is_promised():
         assert max(map(float, row[1:])) <= 1e-9, row
 
 
+@pytest.mark.slow
 def test_the_chain_covers_its_errors():
     for row in accuracy.chain_impacts((0.0, 1.0, 1e3), tolerance=1e-4):
         said, missed = map(float, row[1:])
         assert missed <= said <= 1e-4, row
 
 
+@pytest.mark.slow
 def test_oblique_impacts_keep_what_is_promised():
     """Within the tolerance, and errors never ten times too small, in one impact of each shape."""
     cases = oblique.random_impacts(12)

@@ -118,6 +118,7 @@ class Links(HTMLParser):
             self.loaded.append(address)
 
 
+@pytest.mark.slow
 def test_the_site_is_built_without_warnings_and_its_links_lead_somewhere(tmp_path):
     """Built without the pictures of the gallery. Nothing is loaded from other servers."""
     for package in ("sphinx", "numpydoc", "myst_parser", "pydata_sphinx_theme", "sphinx_gallery", "panel"):

@@ -19,6 +19,7 @@ ROOT = Path(mdr.__file__).parents[1]
 SCRIPT = ROOT / "assets" / "erosion.py"
 
 
+@pytest.mark.slow
 def test_the_example_prints_and_paints(tmp_path):
     environment = os.environ | {"MPLBACKEND": "Agg", "PYTHONPATH": str(ROOT)}
     command = [sys.executable, str(SCRIPT), "--particles", "4000", "--chunk", "1000"]

@@ -47,6 +47,25 @@ def test_the_sdist_has_what_the_page_and_the_tests_need(built):
     assert not any(name.startswith(("assets/docs/gallery/", "site/")) for name in names)
 
 
+def test_the_sdist_has_nothing_of_environments_beside_the_tree(tmp_path):
+    """The README makes `.venv-test` and `.venv-docs` in the tree; they have packages of the same names."""
+    pytest.importorskip("hatchling")
+    for name in ("pyproject.toml", ".gitignore", "README.md", "LICENSE"):
+        (tmp_path / name).write_bytes((ROOT / name).read_bytes())
+    others = [
+        f"{place}/lib/{name}/a.py" for place in (".venv-test", "env") for name in ("mdr_core", "tests")
+    ]
+    for name in ("mdr_core/a.py", "tests/a.py", *others):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    code = (
+        "from hatchling.builders.sdist import SdistBuilder; "
+        "print(*(file.relative_path for file in SdistBuilder('.').recurse_included_files()))"
+    )
+    files = call("-c", code, cwd=tmp_path).split()
+    assert {name for name in files if name.endswith("a.py")} == {"mdr_core/a.py", "tests/a.py"}
+
+
 def test_the_wheel_is_installed_and_imported_apart_from_the_tree(built, tmp_path):
     target = tmp_path / "installed"
     call("-m", "pip", "install", "-q", "--no-deps", "--no-index", "--target", target, built[0])

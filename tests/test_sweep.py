@@ -323,6 +323,7 @@ class TestLazily:
             assert fill(4000) == 2
             xr.testing.assert_allclose(xr.open_zarr(store).load(), stream.compute(), rtol=1e-13)
 
+    @pytest.mark.full
     def test_a_lost_worker_changes_nothing(self):
         """One of two workers is killed in the middle: its chunks are solved again by the other."""
         distributed = pytest.importorskip("distributed")
@@ -348,6 +349,7 @@ class TestLazily:
             restitution, sweep.impacts(mdr.Sphere, **given, speed=speed).restitution, rtol=1e-9
         )
 
+    @pytest.mark.full
     def test_on_two_processes(self):
         distributed = pytest.importorskip("distributed")
         with warnings.catch_warnings():

@@ -12,6 +12,7 @@ import mdr_core as mdr
 ROOT = Path(mdr.__file__).parents[1]
 
 
+@pytest.mark.slow
 def test_the_tutorial_saves_a_labelled_curve(tmp_path):
     xarray = pytest.importorskip("xarray")
     for package in ("pandas", "matplotlib"):

@@ -19,13 +19,15 @@ def run(*arguments):
     )
 
 
+@pytest.mark.slow
 def test_a_client_script_passes_a_strict_type_checker():
     pytest.importorskip("mypy")
-    strict = ("--strict", "--follow-imports=silent", "--cache-dir", "/dev/null")
+    strict = ("--strict", "--follow-imports=silent")
     result = run("-m", "mypy", *strict, str(CLIENT))
     assert result.returncode == 0, result.stdout + result.stderr
 
 
+@pytest.mark.slow
 def test_the_client_script_runs():
     assert len(CLIENT.read_text(encoding="utf-8").splitlines()) >= 40
     result = run("-m", "tests.client")

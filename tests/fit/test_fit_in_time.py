@@ -237,6 +237,7 @@ class TestSamples:
         assert data.E_star_error.attrs["units"] == "Pa"
         assert data.attrs["remarks"].splitlines() == list(fits.remarks)
 
+    @pytest.mark.slow
     def test_plot(self):
         """Points are what was measured; the band is the standard deviation of both noises."""
         hv = pytest.importorskip("holoviews")

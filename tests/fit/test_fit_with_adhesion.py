@@ -74,6 +74,7 @@ def test_derivatives_are_those_of_the_force(profile):
     assert np.sort(error)[-2] < 1e-5 * np.abs(state.slope).max()
 
 
+@pytest.mark.slow
 def test_errors_are_those_of_repeated_measurements():
     """The standard deviation of the pulls of 50 curves is known to 10 %: four of these around 1."""
     fit = fitted(mdr.Paraboloid(1e-6), depth=OUT[::2], noise=0.01, rows=50, baseline=None)

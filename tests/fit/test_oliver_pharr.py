@@ -68,6 +68,7 @@ def test_a_yielded_cone_has_the_stiffness_of_the_model_at_another_radius():
     assert result.hardness == pytest.approx(4 / np.pi**2 * state[50].mean_pressure, rel=4e-3)
 
 
+@pytest.mark.slow
 def test_errors_are_those_of_repeated_measurements():
     """The standard deviation of 100 pulls is known to 7 %: four of these around 1."""
     profile, random = mdr.Cone(0.3), np.random.default_rng(1)
@@ -124,6 +125,7 @@ def test_a_report_leaves_it_out_of_media_whose_unloading_is_no_power_law(paramet
     assert "Oliver" not in repr(fit)
 
 
+@pytest.mark.slow
 def test_its_error_in_a_report_is_also_that_of_the_contact_point():
     """Of 60 unloadings, the standard deviation of whose pulls is known to 9 %: four of these around 1.
 
@@ -245,6 +247,7 @@ class TestCycles:
         assert "unloading 3              dF/dd 258.9" in repr(result)
         assert repr(result[2]).splitlines()[2:] == repr(result[-1]).splitlines()[2:]
 
+    @pytest.mark.slow
     def test_errors_in_noise_are_those_of_repeated_measurements(self):
         """Of 60 seeds the standard deviation of the pulls is known to 9 %: four of these above 1.
 

@@ -69,6 +69,7 @@ def test_states_of_creep_agree_in_themselves():
         assert 2 * trapezoid(path[i].line_load(x), x) == pytest.approx(path.force[i], rel=1e-5)
 
 
+@pytest.mark.slow
 def test_the_path_that_elements_follow_carries_the_force():
     """It is a path of depth in time; other elements carry on it what is prescribed."""
     cone, soft = mdr.Cone(0.3), mdr.Medium(1e6, 1.0, eta=2.5e5)

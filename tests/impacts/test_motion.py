@@ -111,6 +111,7 @@ def test_the_turning_point_is_among_the_instants(shape, eta, n):
     assert (motion.time.size, motion.velocity[0]) == (n, SPEED)
 
 
+@pytest.mark.slow
 def test_a_flat_punch_is_a_damped_oscillator():
     """m v̇ = −k (d + τ v) with the stiffness k = 2E*a, until d + τ v = 0, where ωt = π − 2 arcsin ζ.
 

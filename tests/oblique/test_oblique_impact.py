@@ -235,6 +235,7 @@ def test_errors_cover_the_errors(medium):
 
 @pytest.mark.parametrize("q_c", [np.inf, 30.0, 5.0])
 @pytest.mark.parametrize("psi", [0.5, 1.3])
+@pytest.mark.slow
 def test_limit_of_vanishing_viscosity(psi, q_c):
     """Viscous impacts are solved by other equations; what they tend to is linear in the viscosity."""
     dry, *viscous = (
@@ -262,6 +263,7 @@ def random_impacts(count):
     return arguments, {"tangential_mass": 2 * mass / 7}
 
 
+@pytest.mark.slow
 def test_ensembles():
     """Many at a time: within 10⁻³ of what finer steps give at all, 99 % within the errors or nearly so."""
     arguments, mass = random_impacts(200)
@@ -277,6 +279,7 @@ def test_ensembles():
     assert np.quantile(miss / errors, 0.99) < 4
 
 
+@pytest.mark.slow
 def test_errors_of_ensembles():
     """Estimates cover what finer steps change in nine of ten impacts, and a fifth of it in all."""
     arguments, mass = random_impacts(80)

@@ -210,6 +210,7 @@ class Polygon(mdr.Profile):
         return (angle + np.where(angle > 0, 1 / tangent, 0.0)) @ change
 
 
+@pytest.mark.slow
 def test_a_polygon_has_a_contact_radius_at_any_depth():
     """The slope of g is infinite at each of 59 kinks, between which a root must not be lost."""
     r = np.linspace(0.0, 2e-3, 61)

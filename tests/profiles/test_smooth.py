@@ -114,6 +114,7 @@ class TestImpact:
                 quantity
             )
 
+    @pytest.mark.slow
     def test_neighbours_do_not_matter(self):
         """Depths from nm to mm at once: every contact radius and force has the digits it has alone."""
         shape, depth = self.smooth(), np.geomspace(1e-9, 1e-3, 13)
