@@ -25,11 +25,9 @@ pytest.approx = relative_approx
 
 
 def pytest_addoption(parser):
-    group = parser.getgroup(
-        "extent", "how much is run (without a choice: three cases of each test over shapes)"
-    )
-    group.addoption("--full", action="store_true", help="all cases, before a release")
-    group.addoption("--quick", action="store_true", help="one case of each parametrisation, nothing slow")
+    group = parser.getgroup("extent", "how much is run (otherwise three cases of each test over shapes)")
+    group.addoption("--full", action="store_true", help="all cases, as before a release")
+    group.addoption("--quick", action="store_true", help="two cases of each parametrisation, nothing slow")
 
 
 def pytest_configure(config):
