@@ -155,7 +155,7 @@ def _growing_branches(rule):
     """
     end, onset = rule.profile.known_depth, float(rule.onset())
     branches = [(0.0, end, 0.0)]
-    if not rule.falls or not onset < end:
+    if not onset < end or not rule.may_fall(end):
         return branches
 
     @np.errstate(all="ignore")

@@ -1,0 +1,310 @@
+"""Laws of hardness: the mean pressure σ_c(a) under a contact of radius a that has yielded throughout."""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, fields
+from typing import Any, Self
+
+import numpy as np
+
+from . import _check
+from ._check import Array, Parameter, shown
+
+_TINY = np.finfo(float).tiny
+#: Radii (m) between which a law is asked, whatever a search tries.
+_NARROWEST, _WIDEST = 1e-30, 1e30
+
+
+@dataclass(frozen=True, eq=False)
+class HardnessLaw(_check.Parameters, ABC):
+    """Base class of laws of hardness σ_c(a), for `Medium(E_star, hardness=law)`.
+
+    A law is a frozen dataclass with two functions of arrays of contact radii a > 0 (m), smooth in a:
+    `at(a)`, the hardness σ_c (Pa), and `rate(a)`, its derivative dσ_c/da (Pa/m). The base class makes the
+    other three of them; a law may override these where its limits for a → 0 and a → ∞ need it.
+
+    Under an indenter with the reduced profile g the elements are compressed elastically by at most
+    u_c = π a σ_c(a)/(2E*), Popov (2015), Eqs. (11), (12). A law is valid while σ_c is finite and above 0
+    and a σ_c/g(a) does not grow with a: otherwise elements that have yielded would become elastic again on
+    loading. Every calculation checks this at 200 radii, from 10⁻⁶ of its largest contact radius up to it,
+    and that `rate` is the derivative of `at`.
+
+    Parameters may be arrays, which broadcast as those of a `Medium`; a table is a tuple. Laws are asked at
+    radii from 10⁻³⁰ m on.
+
+    Examples
+    --------
+    Indentation size effect of metals, σ_c = H₀ √(1 + a*/a) (Nix and Gao 1998):
+
+    >>> from mdr_core import Cone, Medium, indent
+    >>> @dataclass(frozen=True)
+    ... class NixGao(HardnessLaw):
+    ...     H0: float
+    ...     a_star: float
+    ...
+    ...     def at(self, a):
+    ...         return self.H0 * np.sqrt(1 + self.a_star / a)
+    ...
+    ...     def rate(self, a):
+    ...         return -(self.H0**2) * self.a_star / (2 * a**2 * self.at(a))
+    >>> copper = Medium(E_star=130e9, hardness=NixGao(H0=0.581e9, a_star=4.47e-6))
+    >>> print(round(copper.hardness_at(1.49e-6) / 1e9, 9))  # a = a*/3: 2 H₀, in GPa
+    1.162
+    >>> state = indent(Cone.berkovich(), copper, [100e-9, 1e-6])
+    >>> (state.mean_pressure / 1e9).round(4)
+    array([1.9764, 0.8987])
+    """
+
+    @abstractmethod
+    def at(self, a: Any) -> Any:
+        """Hardness σ_c (Pa) at contact radii a (m)."""
+
+    @abstractmethod
+    def rate(self, a: Any) -> Any:
+        """dσ_c/da (Pa/m) at contact radii a (m)."""
+
+    def line_load(self, a: Any) -> Any:
+        """a σ_c (N/m): 2/π times the largest line load of an element, Popov (2015), Eq. (12)."""
+        return a * self.at(a)
+
+    def line_load_rate(self, a: Any) -> Any:
+        """d(a σ_c)/da (Pa)."""
+        return self.at(a) + a * self.rate(a)
+
+    def wall_load(self, a: Any) -> Any:
+        """a² σ_c (N): 1/π of the force of a contact that has yielded throughout, as behind a wall."""
+        return a * self.line_load(a)
+
+    def scaled(self, factor: Parameter, length: Parameter) -> "ScaledLaw":
+        """The law of radii in units of a `length` (m), with line loads times a `factor`."""
+        return ScaledLaw(self, factor, length)
+
+    def stored(self) -> "HardnessLaw":
+        """The law as a medium keeps it: with copies of its arrays. Refused if it may change."""
+        name, arrays = type(self).__name__, {}
+        if "__dataclass_fields__" not in vars(type(self)) and vars(self):
+            raise TypeError(f"{name} must not change once it is made: declare it with @dataclass(frozen=True)")
+        for each in fields(self):
+            if hasattr(HardnessLaw, each.name):
+                raise TypeError(f"{name}: a parameter of a law cannot be named {each.name}")
+            value = getattr(self, each.name)
+            if isinstance(value, list | np.ndarray):
+                arrays[each.name] = _check.frozen(_check.finite_array(f"{name} {each.name}", value))
+        _check.common_shape(name, **arrays)
+        return self._with(self.__getstate__() | arrays) if arrays else self
+
+    def _with(self, values):
+        # Not by the constructor: values that it derives from others are among these.
+        new = object.__new__(type(self))
+        _check.store(new, **values)
+        return new
+
+
+@dataclass(frozen=True, eq=False)
+class SumOfClasses(HardnessLaw):
+    """σ_c = H + q_c/a + f_c/a², the sum of the classes (a), (b), (c) of Popov (2015), section 1.
+
+    Constants (Pa, N/m, N) are not negative; an infinite q_c means that nothing yields.
+    """
+
+    hardness: Parameter
+    q_c: Parameter
+    f_c: Parameter
+
+    def at(self, a):
+        return self.hardness + np.asarray(self.q_c) / a + np.asarray(self.f_c) / a / a
+
+    def rate(self, a):
+        return -(self.q_c + 2 * np.asarray(self.f_c) / a) / a / a
+
+    def line_load(self, a):
+        return self.hardness * a + self.q_c + self.f_c / np.maximum(a, _TINY)
+
+    def line_load_rate(self, a):
+        return self.hardness - self.f_c / a / a
+
+    def wall_load(self, a):
+        # The limit for a → ∞ is f_c without the two others.
+        parts = (self.hardness * a if np.any(self.hardness) else 0.0) + self.q_c
+        return (parts * a if np.any(parts) else 0.0) + self.f_c
+
+    def scaled(self, factor, length):
+        return SumOfClasses(self.hardness * (factor * length), self.q_c * factor, self.f_c * (factor / length))
+
+
+@dataclass(frozen=True, eq=False)
+class ScaledLaw(_check.Parameters):
+    """A law of radii in units of a length (m), with line loads times a factor; a NaN of it is refused."""
+
+    law: HardnessLaw
+    factor: Parameter
+    length: Parameter
+
+    def line_load(self, a: Array) -> Array:
+        """`HardnessLaw.line_load` in these units."""
+        return self.factor * self._asked("line_load", a)
+
+    def line_load_rate(self, a: Array) -> Array:
+        """`HardnessLaw.line_load_rate` in these units."""
+        return self.factor * self.length * self._asked("line_load_rate", a)
+
+    def wall_load(self, a: Array) -> Array:
+        """`HardnessLaw.wall_load` in these units."""
+        return self.factor / self.length * self._asked("wall_load", a)
+
+    def scaled(self, factor: Parameter, length: Parameter) -> Self:
+        """`HardnessLaw.scaled` on top of these units."""
+        return type(self)(self.law, self.factor * factor, self.length * length)
+
+    def _asked(self, name, a):
+        """The law's function of a name at radii, with an error where it gives no number."""
+        radius = np.minimum(np.maximum(self.length * a, _NARROWEST), _WIDEST)
+        value = getattr(self.law, name)(radius)
+        # Solvers ignore invalid operations, of their searches, and would go on with a NaN.
+        bad = np.isnan(value) & ~np.isnan(radius)
+        if name != "line_load_rate":
+            bad = bad | (np.asarray(value) < 0)
+        if np.any(bad):
+            value, radius, bad = np.broadcast_arrays(value, radius, bad)
+            where = f"{name}(a) is {value[bad][0]:g} at a = {radius[bad][0]:g} m"
+            raise refused_law(self.law, where, "it must be a number, not negative, at every radius a > 0")
+        return value
+
+
+def refused_law(law, what, remedy):
+    """The error of a law of hardness: what is wrong with it, and what to do."""
+    text = f"{what}; {remedy}"
+    return _check.InvalidArgument(f"hardness {shown(law)}: {text}", "hardness", law, what, "", remedy)
+
+
+
+#: Radii at which a law is checked, over so many decades; relative step of its differences.
+_RADII, _DECADES, _STEP = 200, 6, 2e-6
+#: Indenters of an ensemble that are checked at a time.
+_ROWS = 512
+#: Largest number of pairs of radii between which a jump is looked for.
+_WORST = 500
+
+
+def check_law(law, profile, depth):
+    """Refuses a law of hardness that is none at the contact radii (m) of depths (m) up to the largest ones.
+
+    Below them it is checked from 10⁻⁶ of the radius on; depths that are infinite or not positive are left
+    out.
+    """
+    if isinstance(law, SumOfClasses):
+        return
+    depth = np.asarray(depth, dtype=float)
+    shape = np.broadcast_shapes(depth.shape, law.shape, profile.shape)
+    depth = np.minimum(np.broadcast_to(depth, shape), profile.known_depth).ravel()
+    rows = np.flatnonzero((depth > 0) & (depth < np.inf))
+    if not rows.size:
+        return
+    if not law.shape and not profile.shape:
+        ends = profile.contact_radius(np.array([[np.min(depth[rows])], [np.max(depth[rows])]]))
+        _check_rows(law, profile, _radii_below(*ends, profile.face_radius))
+        return
+    for start in range(0, rows.size, _ROWS):
+        some = rows[start : start + _ROWS]
+        own = profile.flat_entries(some, shape)
+        radius = np.broadcast_to(own.contact_radius(depth[some]), some.shape)
+        radii = _radii_below(radius, radius, np.broadcast_to(own.face_radius, some.shape))
+        column = (slice(None), None), some.shape
+        _check_rows(law.flat_entries(some, shape).entries(*column), own.entries(*column), radii)
+
+
+def _radii_below(least, largest, face):
+    """Radii (m), one row each, from 10⁻⁶ of the least contact radius, or a flat face, to the largest."""
+    low = np.maximum(10.0**-_DECADES * least, face)
+    share = np.max(np.log10(largest / low)) / _DECADES
+    radii = np.geomspace(low, largest, int(np.ceil(_RADII * max(share, 1.0))), axis=-1)
+    return np.minimum(radii, largest[:, None])
+
+
+def _check_rows(law, profile, radii):
+    """Refuses a law that is none at radii (m) in ascending order along the last axis."""
+    a, hardness = radii, _values(law, "at", radii)
+    _refuse_radii(
+        law, a, ~((hardness > 0) & (hardness < np.inf)),
+        lambda i: f"σ_c = {hardness[i]:g} Pa at a = {a[i]:g} m is not finite and above 0",
+        "a contact of this calculation has that radius: mend its at(a)",
+    )  # fmt: skip
+    # The difference of a step back from each radius, over the step, and the derivative in its middle.
+    change = (hardness - _values(law, "at", a * (1 - _STEP))) / _STEP
+    rate = a * _values(law, "rate", a * (1 - _STEP / 2))
+    _refuse_radii(
+        law, a, ~(np.abs(change - rate) <= 1e-3 * np.abs(rate) + 1e-5 * hardness),
+        lambda i: f"rate(a) = {rate[i] / a[i]:g} Pa/m at a = {a[i]:g} m, but at(a) changes by "
+        f"{change[i] / a[i]:g} Pa/m there",
+        "rate is the derivative of at, which has no jumps",
+    )  # fmt: skip
+    _refuse_jumps(law, a, hardness)
+    for name in ("line_load", "line_load_rate", "wall_load"):
+        if getattr(type(law), name) is not getattr(HardnessLaw, name):
+            own, made = _values(law, name, a), getattr(HardnessLaw, name)(law, a)
+            scale = a * hardness if name == "line_load" else np.maximum(hardness, a * a * hardness)
+            _refuse_radii(
+                law, a, ~(np.abs(own - made) <= 1e-6 * scale),
+                lambda i, name=name, own=own, made=made: f"{name}(a) = {own[i]:g} at a = {a[i]:g} m, "
+                f"but by at(a) and rate(a) it is {made[i]:g}",
+                "leave it out, or mend it",
+            )  # fmt: skip
+    # Depth over the elastic limit, which must not fall.
+    depth = profile.reduced(a) / (a * hardness)
+    falls = np.zeros(a.shape, bool)
+    falls[:, 1:] = depth[:, 1:] < depth[:, :-1] * (1 - 1e-9)
+    _refuse_radii(
+        law, a, falls,
+        lambda i: f"a σ_c/g(a) grows with the contact radius at a = {a[i]:g} m under {shown(profile)}",
+        "elements that have yielded would become elastic again on loading: take a law that grows less, or "
+        "a sharper indenter",
+    )  # fmt: skip
+
+
+def _values(law, name, a):
+    """Values of a law's function of a name at an array of radii (m), refused unless one for each radius."""
+    try:
+        with np.errstate(all="ignore"):
+            value = getattr(law, name)(a)
+    except (TypeError, ValueError, ArithmeticError) as error:
+        what = f"{name}(a) fails for an array of radii ({type(error).__name__}: {error})"
+        raise refused_law(law, what, "write it for arrays, with NumPy's functions") from error
+    kind = np.asarray(value).dtype.kind
+    if hasattr(value, "units") or hasattr(value, "unit") or kind not in "iuf":
+        raise refused_law(law, f"{name}(a) gives {shown(value)}", "give plain numbers in SI units")
+    try:
+        return np.broadcast_to(value, a.shape)
+    except ValueError:
+        what = f"{name}(a) has the shape {np.shape(value)} for radii of shape {a.shape}"
+        raise refused_law(law, what, "give one value for each radius") from None
+
+
+def _refuse_radii(law, a, bad, what, remedy):
+    """Refuses a law at the first of the radii (m) that are `bad`; `what` says so for its index."""
+    if np.any(bad):
+        index = np.unravel_index(np.argmax(bad), bad.shape)
+        one = law.entries(index, a.shape) if law.shape else law
+        raise refused_law(one, what(index), remedy)
+
+
+def _refuse_jumps(law, a, hardness):
+    """Refuses a law that jumps between neighbouring radii (m), however near these are."""
+    row = np.repeat(np.arange(len(a)), a.shape[1] - 1)
+    low, high, below, above = (
+        part.ravel() for part in (a[:, :-1], a[:, 1:], hardness[:, :-1], hardness[:, 1:])
+    )
+    for _ in range(40):
+        own = law.flat_entries(row, (len(a), 1))
+        slope = (low * _values(own, "rate", low) + high * _values(own, "rate", high)) / 2
+        miss = np.abs(above - below - slope * np.log(high / low)) / np.maximum(above, below)
+        # The worst ones are halved until the rates at both ends tell the change between them.
+        worst = np.argsort(-miss)[:_WORST]
+        worst = worst[miss[worst] > 1e-7]
+        if not worst.size:
+            return
+        row, low, high, below, above = (part[worst] for part in (row, low, high, below, above))
+        middle, own = np.sqrt(low) * np.sqrt(high), law.flat_entries(row, (len(a), 1))
+        between = _values(own, "at", middle)
+        row, low, high = np.append(row, row), np.append(low, middle), np.append(middle, high)
+        below, above = np.append(below, between), np.append(between, above)
+    what = f"σ_c jumps from {below[0]:g} to {above[0]:g} Pa at a = {low[0]:g} m"
+    raise refused_law(law, what, "a law is smooth in a: join its parts over a range of radii")
