@@ -156,18 +156,41 @@ class ScaledLaw(_check.Parameters):
         return type(self)(self.law, self.factor * factor, self.length * length)
 
     def _asked(self, name, a):
-        """The law's function of a name at radii, with an error where it gives no number."""
+        """The law's function of a name at radii; beyond the radii where it is a law, a σ_c is constant."""
         radius = np.minimum(np.maximum(self.length * a, _NARROWEST), _WIDEST)
-        value = getattr(self.law, name)(radius)
-        # Solvers ignore invalid operations, of their searches, and would go on with a NaN.
-        bad = np.isnan(value) & ~np.isnan(radius)
-        if name != "line_load_rate":
-            bad = bad | (np.asarray(value) < 0)
+        value = np.asarray(getattr(self.law, name)(radius))
+        if not np.any(_is_none(name, value)):
+            return value
+        # A search went there: `check_law` refuses the law if its result is there.
+        low, high = _range_of(self.law) if not self.law.shape else (_NARROWEST, _WIDEST)
+        inside = np.clip(radius, low, high)
+        value = np.where(np.isnan(radius), np.nan, getattr(self.law, name)(inside))
+        if name == "line_load_rate":
+            value = np.where(inside == radius, value, 0.0)
+        bad = _is_none(name, value) & ~np.isnan(radius)
         if np.any(bad):
             value, radius, bad = np.broadcast_arrays(value, radius, bad)
-            where = f"{name}(a) is {value[bad][0]:g} at a = {radius[bad][0]:g} m"
-            raise refused_law(self.law, where, "it must be a number, not negative, at every radius a > 0")
+            what = f"{name}(a) is {value[bad][0]:g} at a = {radius[bad][0]:g} m"
+            raise refused_law(self.law, what, "it must be a number, not negative, at every radius a > 0")
         return value
+
+
+def _is_none(name, value):
+    """Where values of a law's function of a name are no numbers, or negative ones of a hardness."""
+    return np.isnan(value) if name == "line_load_rate" else ~(value >= 0)
+
+
+def _range_of(law):
+    """Radii (m) between which a law is finite and above 0: the longest range, in steps of 7 %."""
+    radius = np.geomspace(_NARROWEST, _WIDEST, 2043)
+    with np.errstate(all="ignore"):
+        hardness, rate = _values(law, "at", radius), _values(law, "rate", radius)
+    good = (hardness > 0) & (hardness < np.inf) & np.isfinite(rate)
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(int)))
+    if not edges.size:
+        return _NARROWEST, _WIDEST
+    first, last = max(edges.reshape(-1, 2).tolist(), key=lambda ends: ends[1] - ends[0])
+    return radius[first], radius[last - 1]
 
 
 def refused_law(law, what, remedy):
@@ -214,7 +237,7 @@ def check_law(law, profile, depth):
 
 def _radii_below(least, largest, face):
     """Radii (m), one row each, from 10⁻⁶ of the least contact radius, or a flat face, to the largest."""
-    low = np.maximum(10.0**-_DECADES * least, face)
+    low = np.maximum(np.maximum(10.0**-_DECADES * least, face), _NARROWEST)
     share = np.max(np.log10(largest / low)) / _DECADES
     radii = np.geomspace(low, largest, int(np.ceil(_RADII * max(share, 1.0))), axis=-1)
     return np.minimum(radii, largest[:, None])
@@ -306,5 +329,6 @@ def _refuse_jumps(law, a, hardness):
         between = _values(own, "at", middle)
         row, low, high = np.append(row, row), np.append(low, middle), np.append(middle, high)
         below, above = np.append(below, between), np.append(between, above)
-    what = f"σ_c jumps from {below[0]:g} to {above[0]:g} Pa at a = {low[0]:g} m"
+    i = np.argmax(np.abs(above - below) / np.maximum(above, below))
+    what = f"σ_c jumps from {below[i]:g} to {above[i]:g} Pa at a = {low[i]:g} m"
     raise refused_law(law, what, "a law is smooth in a: join its parts over a range of radii")

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from .. import _check
+from ..hardness import check_law
 from ..medium import Medium, check_pair, refuse_adhesion
 from ..profiles.profile import Profile
 from ..results.quantities import described, engineering
@@ -151,7 +152,8 @@ class Foundation:
         Raises
         ------
         ValueError
-            If the contact radius exceeds half_width, or the depth the known depth.
+            If the contact radius exceeds half_width, or the depth the known depth; or if a law of hardness
+            is none up to that radius.
 
         Examples
         --------
@@ -166,6 +168,8 @@ class Foundation:
         depth = _check.number("depth", depth, "m")
         depth = float(_check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
         dt = _check.positive_number("dt", dt, unit="s", infinite=True)
+        if depth > self._current.largest:
+            check_law(self.medium.law, self.profile, depth)
         moved, travel = self, depth - self.depth
         for end in self._ends(depth):
             share = (end - moved.depth) / travel if travel else 1.0

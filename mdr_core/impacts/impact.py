@@ -8,10 +8,12 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
+from ..contact.yielding import ConstantCap
+from ..hardness import check_law
 from ..medium import Medium, check_pair, refuse_adhesion, shape_with
 from ..profiles.profile import Profile
 from .adhesive import adhesive_impact
-from .energy_balance import dry_impact
+from .energy_balance import dry_impact, turning_interval
 from .result import Impact
 from .viscous import viscous_impact
 
@@ -50,7 +52,8 @@ def impact(
     Raises
     ------
     ValueError
-        If an argument is out of its range, or the indenter would go deeper than its profile is known.
+        If an argument is out of its range, or the indenter would go deeper than its profile is known, or if
+        a law of hardness is none up to the largest contact radius (`HardnessLaw`).
 
     Examples
     --------
@@ -78,13 +81,35 @@ def solve_impact(profile, medium, mass, speed, plastic_depth, *, in_time=False):
     too_deep = profile._too_deep()
     outside = imprint_depth > profile.known_depth
     _check.refuse("plastic_depth", imprint_depth, outside, f"is {too_deep}", unit="m")
-    # The search may start far from the root, where powers leave double precision.
-    with np.errstate(all="ignore"):
-        hit = _solved(profile, medium, mass, speed, imprint_depth, in_time)
+    hit = _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time)
     known = np.minimum(profile.known_depth, _check.LONGEST)
     unknown = ~(hit.turning_point.live_interval.upper <= known)
     bound = f"presses {too_deep}"
     _check.refuse("speed", speed, unknown, bound, unit="m/s", remedy="hit less hard")
+    return hit
+
+
+def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):
+    """The `Impact`, refused if a law of hardness is none up to its largest contact radius."""
+
+    def check_elastic():
+        # No less deep than this, if there is no viscosity: where the solver fails the law is looked at here.
+        if medium.has_own_law:
+            energy = mass * speed**2 / (4 * medium.E_star)
+            interval, _ = turning_interval(ConstantCap(profile, np.inf), energy, imprint_depth)
+            check_law(medium.law, profile, interval.upper)
+
+    # The search may start far from the root, where powers leave double precision.
+    with np.errstate(all="ignore"):
+        try:
+            hit = _solved(profile, medium, mass, speed, imprint_depth, in_time)
+        except ValueError:
+            check_elastic()
+            raise
+        largest = hit.turning_point.live_interval.upper
+        if not np.all(largest < np.inf):
+            check_elastic()
+        check_law(medium.law, profile, largest)
     return hit
 
 
