@@ -2,6 +2,7 @@
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, fields
+from functools import lru_cache
 from typing import Any, Self
 
 import numpy as np
@@ -11,7 +12,7 @@ from ._check import Array, Parameter, shown
 
 _TINY = np.finfo(float).tiny
 #: Radii (m) between which a law is asked, whatever a search tries.
-_NARROWEST, _WIDEST = 1e-30, 1e30
+_NARROWEST, _WIDEST = 1e-30, 1e60
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +83,9 @@ class HardnessLaw(_check.Parameters, ABC):
         """The law as a medium keeps it: with copies of its arrays. Refused if it may change."""
         name, arrays = type(self).__name__, {}
         if "__dataclass_fields__" not in vars(type(self)) and vars(self):
-            raise TypeError(f"{name} must not change once it is made: declare it with @dataclass(frozen=True)")
+            raise TypeError(
+                f"{name} must not change once it is made: declare it with @dataclass(frozen=True)"
+            )
         for each in fields(self):
             if hasattr(HardnessLaw, each.name):
                 raise TypeError(f"{name}: a parameter of a law cannot be named {each.name}")
@@ -128,7 +131,9 @@ class SumOfClasses(HardnessLaw):
         return (parts * a if np.any(parts) else 0.0) + self.f_c
 
     def scaled(self, factor, length):
-        return SumOfClasses(self.hardness * (factor * length), self.q_c * factor, self.f_c * (factor / length))
+        return SumOfClasses(
+            self.hardness * (factor * length), self.q_c * factor, self.f_c * (factor / length)
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,6 +155,12 @@ class ScaledLaw(_check.Parameters):
     def wall_load(self, a: Array) -> Array:
         """`HardnessLaw.wall_load` in these units."""
         return self.factor / self.length * self._asked("wall_load", a)
+
+    @property
+    def sharp(self) -> np.ndarray:
+        """Radii along the last axis where the law changes fast; none are known of an ensemble of laws."""
+        radii = np.empty(0) if self.law.shape else _sharp_radii(self.law)
+        return radii / self.length
 
     def scaled(self, factor: Parameter, length: Parameter) -> Self:
         """`HardnessLaw.scaled` on top of these units."""
@@ -182,7 +193,7 @@ def _is_none(name, value):
 
 def _range_of(law):
     """Radii (m) between which a law is finite and above 0: the longest range, in steps of 7 %."""
-    radius = np.geomspace(_NARROWEST, _WIDEST, 2043)
+    radius = np.geomspace(_NARROWEST, _WIDEST, 3064)
     with np.errstate(all="ignore"):
         hardness, rate = _values(law, "at", radius), _values(law, "rate", radius)
     good = (hardness > 0) & (hardness < np.inf) & np.isfinite(rate)
@@ -199,7 +210,6 @@ def refused_law(law, what, remedy):
     return _check.InvalidArgument(f"hardness {shown(law)}: {text}", "hardness", law, what, "", remedy)
 
 
-
 #: Radii at which a law is checked, over so many decades; relative step of its differences.
 _RADII, _DECADES, _STEP = 200, 6, 2e-6
 #: Indenters of an ensemble that are checked at a time.
@@ -214,8 +224,6 @@ def check_law(law, profile, depth):
     Below them it is checked from 10⁻⁶ of the radius on; depths that are infinite or not positive are left
     out.
     """
-    if isinstance(law, SumOfClasses):
-        return
     depth = np.asarray(depth, dtype=float)
     shape = np.broadcast_shapes(depth.shape, law.shape, profile.shape)
     depth = np.minimum(np.broadcast_to(depth, shape), profile.known_depth).ravel()
@@ -311,24 +319,46 @@ def _refuse_radii(law, a, bad, what, remedy):
 
 def _refuse_jumps(law, a, hardness):
     """Refuses a law that jumps between neighbouring radii (m), however near these are."""
+    *_, (below, above, low) = _steep_places(law, a, hardness, 1e-7)
+    if low.size:
+        i = np.argmax(np.abs(above - below) / np.maximum(above, below))
+        what = f"σ_c jumps from {below[i]:g} to {above[i]:g} Pa at a = {low[i]:g} m"
+        raise refused_law(law, what, "a law is smooth in a: join its parts over a range of radii")
+
+
+@lru_cache(maxsize=256)
+def _sharp_radii(law):
+    """Radii (m), ascending, between which a law changes so little that its rates at both ends tell it."""
+    low, high = _range_of(law)
+    radii = np.geomspace(max(low, 1e-18), min(high, 1e6), 817)[None]
+    with np.errstate(all="ignore"):
+        places, _ = _steep_places(law, radii, _values(law, "at", radii), 1e-3)
+    return np.unique(places)
+
+
+def _steep_places(law, a, hardness, tolerance):
+    """Radii (m) at which pairs of neighbouring radii were halved because the law changes fast between them.
+
+    That is where the change of σ_c, over itself, is not that of the rates at both ends to a tolerance. And
+    the hardness (Pa) at the ends of the pairs that are left after 40 halvings, with their lower ends (m).
+    """
     row = np.repeat(np.arange(len(a)), a.shape[1] - 1)
     low, high, below, above = (
         part.ravel() for part in (a[:, :-1], a[:, 1:], hardness[:, :-1], hardness[:, 1:])
     )
+    places = [low[:0]]
     for _ in range(40):
         own = law.flat_entries(row, (len(a), 1))
         slope = (low * _values(own, "rate", low) + high * _values(own, "rate", high)) / 2
         miss = np.abs(above - below - slope * np.log(high / low)) / np.maximum(above, below)
-        # The worst ones are halved until the rates at both ends tell the change between them.
         worst = np.argsort(-miss)[:_WORST]
-        worst = worst[miss[worst] > 1e-7]
-        if not worst.size:
-            return
+        worst = worst[miss[worst] > tolerance]
         row, low, high, below, above = (part[worst] for part in (row, low, high, below, above))
+        if not worst.size:
+            break
         middle, own = np.sqrt(low) * np.sqrt(high), law.flat_entries(row, (len(a), 1))
         between = _values(own, "at", middle)
+        places += [low, middle, high]
         row, low, high = np.append(row, row), np.append(low, middle), np.append(middle, high)
         below, above = np.append(below, between), np.append(between, above)
-    i = np.argmax(np.abs(above - below) / np.maximum(above, below))
-    what = f"σ_c jumps from {below[i]:g} to {above[i]:g} Pa at a = {low[i]:g} m"
-    raise refused_law(law, what, "a law is smooth in a: join its parts over a range of radii")
+    return np.concatenate(places), (below, above, low)

@@ -6,7 +6,7 @@ import numpy as np
 
 from . import _check
 from ._check import Array, ArrayLike, Parameter, shown
-from .hardness import HardnessLaw, SumOfClasses
+from .hardness import HardnessLaw, SumOfClasses, check_law
 from .profiles.profile import Profile
 
 
@@ -40,10 +40,16 @@ def refuse_other_classes(medium, what, instead):
 
 
 def refuse_own_law(medium, what, instead):
-    """Refuses a medium with a law of hardness of its own for a calculation `what` that has none."""
+    """Refuses a medium with a law of hardness of its own for something, `what`, that cannot have one."""
     if medium.has_own_law:
         law = shown(medium.hardness)
-        raise ValueError(f"{what} is of a hardness H + q_c/a + f_c/a², not of the law {law}; {instead}")
+        raise ValueError(f"{what} cannot have the law of hardness {law}; {instead}")
+
+
+def check_hardness(profile, medium, depth):
+    """Refuses a medium whose law of hardness is none at the contact radii of depths (m)."""
+    if medium.has_own_law:
+        check_law(medium.hardness, profile, depth)
 
 
 def paths_on(profile, medium, depth):

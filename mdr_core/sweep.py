@@ -37,10 +37,10 @@ from . import _check
 from .contact.adhesion import first_contacts
 from .contact.indentation import Indentation
 from .contact.yielding import yield_rule
-from .hardness import HardnessLaw, check_law
+from .hardness import HardnessLaw
 from .impacts.impact import impact
 from .impacts.result import Impact
-from .medium import Medium
+from .medium import Medium, check_hardness
 from .oblique.oblique_impact import ObliqueImpact, oblique_impact
 from .profiles.profile import Profile
 from .profiles.sampled import Sampled
@@ -230,7 +230,9 @@ def _sweep(kind, solve, law, shape, parameters, shape_parameters, quantities, in
 
     def block(*values):
         values, places = dict(zip(given, values, strict=False)), values[len(given) :]
-        return _in_blocks(partial(solve, **law), shape, values, shape_parameters, names, partial(refused.add, places))
+        return _in_blocks(
+            partial(solve, **law), shape, values, shape_parameters, names, partial(refused.add, places)
+        )
 
     lazily = {"dask": "parallelized", "output_dtypes": [float] * len(names)}
     dims, arrays = [[] for _ in names], (*given.values(), *indices(xarray, given))
@@ -326,7 +328,7 @@ def _press(profile, E_star, work_of_adhesion, depth, **hardness):
     depth = profile._known(np.broadcast_to(depth, shape))
     if np.any(np.asarray(work_of_adhesion) > 0):
         return Indentation(profile, medium, depth, *first_contacts(profile, medium, depth))
-    check_law(medium.law, profile, depth)
+    check_hardness(profile, medium, depth)
     interval, _ = yield_rule(profile, medium).loading(np.maximum(depth, 0.0))
     return Indentation(profile, medium, depth, interval)
 

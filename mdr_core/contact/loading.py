@@ -6,8 +6,7 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..hardness import check_law
-from ..medium import Medium, check_pair, paths_on
+from ..medium import Medium, check_hardness, check_pair, paths_on
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from . import adhesion
@@ -63,7 +62,7 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     depth = profile._known(paths_on(profile, medium, depth))
     if np.any(medium.work_of_adhesion):
         return Indentation(profile, medium, depth, *adhesion.depth_path(profile, medium, depth))
-    check_law(medium.law, profile, depth)
+    check_hardness(profile, medium, depth)
     return Indentation(profile, medium, depth, yield_rule(profile, medium).path(depth))
 
 
@@ -119,7 +118,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     integral = force / (2 * medium.E_star)
     largest = np.maximum.accumulate(integral, axis=-1) if integral.ndim else integral
     elastic = _elastic_depth(profile, largest) if medium.has_own_law else None
-    check_law(medium.law, profile, elastic)
+    check_hardness(profile, medium, elastic)
     branches = _growing_branches(rule, elastic)
     largest_depth = _loading_depth(rule, branches, largest)
     known = largest_depth <= min(profile.known_depth, _check.LONGEST)
@@ -128,7 +127,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
         carried = _carried(rule, branches[-1][1])
         bound = f"is more than the {2 * medium.E_star * carried:g} N that the contact carries on loading"
     _check.refuse("force", force, ~known, bound, unit="N", remedy="press less")
-    check_law(medium.law, profile, largest_depth)
+    check_hardness(profile, medium, largest_depth)
     loaded, _ = rule.loading(largest_depth)
     length = np.where(integral == largest, loaded.length, _live_length(profile, loaded, integral))
     depth = np.where(integral == largest, largest_depth, loaded.lower + length)

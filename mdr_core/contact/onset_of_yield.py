@@ -4,8 +4,7 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
-from ..hardness import check_law
-from ..medium import Medium, check_pair, shape_with
+from ..medium import Medium, check_hardness, check_pair, shape_with
 from ..profiles.profile import Profile
 from .integrals import integrals
 from .live_interval import LiveInterval
@@ -141,5 +140,5 @@ def _onset(what, profile, medium, **values):
     bound = f"is {profile._too_deep()}"
     _check.refuse("yield depth", onset, unknown, bound, unit="m")
     # A law under which a sharp tip yields from first touch on is looked at next to its tip.
-    check_law(medium.law, profile, np.where(onset > 0, onset, 1e-20))
+    check_hardness(profile, medium, np.where(onset > 0, onset, 1e-20))
     return onset

@@ -32,6 +32,8 @@ from .live_interval import LiveInterval
 
 #: Gauss nodes of the plastic work in each piece.
 _NODES = 24
+#: Halvings of a piece for a law of one's own: through a step of σ_c that is as narrow as 10⁻⁹ of its radius.
+_HALVINGS = 30
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +114,13 @@ class YieldRule(_check.Parameters, ABC):
         """a − c dp/ds (m) on loading at the cap: the stiffness over 2E*."""
         c = self.profile._radius(interval.lower)
         return integrals(self.profile).radius_drop(interval) + c * (1 - self.rate(interval.upper))
+
+    def breaks(self, imprint, increase, onset):
+        """Depths (m) past the penetration `onset` (m) between which a loading is smooth, one a row of (N, 1).
+
+        The loading increases the plastic depth of an imprint by `increase` (m).
+        """
+        return self.scales * onset
 
     def wall_integral(self):
         """∫ a ds (m²) of a contact that has yielded throughout behind a wall, infinite without a wall."""
@@ -260,23 +269,30 @@ class RadiusCap(YieldRule):
     @np.errstate(all="ignore")
     def _plastic_sums(self, imprint, increase):
         """∫ u_c a(p) dp of loadings, one a row of (N, 1), from kink to kink of a(s) and a(p)."""
+        cuts, total = self._cuts(imprint, increase), np.zeros(len(imprint))
+        for start, stop in zip(cuts.T[:, :, None], cuts.T[1:, :, None], strict=False):
+            if np.any(stop > start):
+                total += self._piece(start, stop, imprint, increase)
+        return total
+
+    def _cuts(self, imprint, increase):
+        """Penetrations (m), ascending in each row, between which the plastic work is smooth."""
         first, last = self._penetration(imprint, 0 * increase), self._penetration(imprint, increase)
         last = np.minimum(last, self.profile.known_depth - imprint)
         rises = [kink - imprint for kink in self.profile.kinks]
         passed = [self._penetration(imprint, rise) for rise in rises]
         cuts = np.hstack([first, *rises, *passed, first * (1 + self.scales), last])
-        cuts = np.sort(np.clip(cuts, first, last), axis=1)
+        return np.sort(np.clip(cuts, first, last), axis=1)
+
+    def _piece(self, start, stop, imprint, increase):
+        """∫ u_c a(p) dp between two penetrations (m), one piece a row of (N, 1); 0 where stop is start."""
         node, weight = gauss_legendre(_NODES)
-        total = np.zeros(len(imprint))
-        for start, stop in zip(cuts.T[:, :, None], cuts.T[1:, :, None], strict=False):
-            if np.any(stop > start):
-                # Past a kink and past the onset a(p) is a power of the distance, of a fourth at least.
-                y = start + (stop - start) * node**4
-                p = imprint + np.minimum(self.increase(y, imprint), increase)
-                work = self.cap(imprint + y) * self.profile._radius(p) * self.rate(imprint + y)
-                work = np.where(stop > start, work * (stop - start), 0.0)
-                total += (work * (4 * node**3 * weight)).sum(axis=1)
-        return total
+        # Past a kink and past the onset a(p) is a power of the distance, of a fourth at least.
+        y = start + (stop - start) * node**4
+        p = imprint + np.minimum(self.increase(y, imprint), increase)
+        work = self.cap(imprint + y) * self.profile._radius(p) * self.rate(imprint + y)
+        work = np.where(stop > start, work * (stop - start), 0.0)
+        return (work * (4 * node**3 * weight)).sum(axis=1)
 
     def in_units_of(self, unit, length, depth):
         return type(self)(unit, self.law.scaled(1 / depth, length))
@@ -285,9 +301,6 @@ class RadiusCap(YieldRule):
 @dataclass(frozen=True, eq=False)
 class OwnCap(RadiusCap):
     """`RadiusCap` of a law of hardness of one's own, of which nothing is known beforehand."""
-
-    #: The law may change within a factor 2 of the depth.
-    scales = 0.5 * 2.0 ** np.arange(40)
 
     def may_fall(self, depth):
         # Falling caps are looked for from 10⁻⁶ of the depths on, in steps of 7 %.
@@ -298,7 +311,9 @@ class OwnCap(RadiusCap):
             depth = np.array([np.min(depth, initial=np.inf), np.max(depth, initial=0.0)])
             steps = np.log(depth[1] / depth[0]) / np.log(1.07) + 200 if depth[1] > 0 else 1
             return self._falls(np.geomspace(1e-6 * depth[0], depth[1], int(steps)) if steps > 1 else depth)
-        shape, (depth,) = broadcast_flat(np.broadcast_to(depth, np.broadcast_shapes(depth.shape, self.shape)))
+        shape, (depth,) = broadcast_flat(
+            np.broadcast_to(depth, np.broadcast_shapes(depth.shape, self.shape))
+        )
         return any(
             self.flat_entries(rows, shape)
             .entries((slice(None), None), depth[rows].shape)
@@ -309,6 +324,61 @@ class OwnCap(RadiusCap):
     @np.errstate(all="ignore")
     def _falls(self, depth):
         return bool(np.any(self.cap_rate_at(self.profile._radius(depth)) < 0))
+
+    def _cuts(self, imprint, increase):
+        cuts = super()._cuts(imprint, increase)
+        sharp = np.minimum(self.law.sharp, self.profile.known_radius)
+        depth = self.profile._reduced(sharp) - imprint
+        return np.sort(np.hstack([cuts, np.clip(depth, cuts[:, :1], cuts[:, -1:])]), axis=1)
+
+    def _plastic_sums(self, imprint, increase):
+        return self._refined(imprint, increase)[0]
+
+    def breaks(self, imprint, increase, onset):
+        cuts, (_, rows, middles) = self._cuts(imprint, increase), self._refined(imprint, increase)
+        order = np.argsort(rows, kind="stable")
+        rows, middles = rows[order], middles[order]
+        place = np.arange(rows.size) - np.searchsorted(rows, rows)
+        padded = np.zeros((len(cuts), np.max(place, initial=-1) + 1))
+        padded[rows, place] = middles
+        return np.hstack([cuts, padded]) - onset
+
+    @np.errstate(all="ignore")
+    def _refined(self, imprint, increase):
+        """`RadiusCap._plastic_sums` in pieces that are halved until the sum is that of the halves.
+
+        Also the middles (m) of pieces that were halved, and their rows.
+        """
+        imprint, increase = np.broadcast_arrays(imprint, increase)
+        cuts, total = self._cuts(imprint, increase), np.zeros(len(imprint))
+        cuts = np.broadcast_to(cuts, (len(imprint), cuts.shape[1]))
+        rows, k = np.nonzero(np.diff(cuts) > 0)
+        start, stop = cuts[rows, k, None], cuts[rows, k + 1, None]
+        halved, middles = [rows[:0]], [start[:0, 0]]
+        whole = self._pieces(rows, start, stop, imprint, increase)
+        for _ in range(_HALVINGS):
+            middle = (start + stop) / 2
+            halves = (np.append(rows, rows), np.append(start, middle, 0), np.append(middle, stop, 0))
+            parts = self._pieces(*halves, imprint, increase)
+            both = parts[: rows.size] + parts[rows.size :]
+            scale = total + np.bincount(rows, np.abs(both), len(total))
+            # To the rounding of the sum.
+            rough = np.abs(both - whole) > 1e-14 * scale[rows]
+            total += np.bincount(rows[~rough], both[~rough], len(total))
+            halved.append(rows[rough])
+            middles.append(middle[rough, 0])
+            again = np.append(rough, rough)
+            rows, start, stop = (part[again] for part in halves)
+            whole = parts[again]
+            if not rows.size:
+                break
+        total += np.bincount(rows, whole, len(total))
+        return total, np.concatenate(halved), np.concatenate(middles)
+
+    def _pieces(self, rows, start, stop, imprint, increase):
+        """`_piece` of rows of the ensemble."""
+        own = self.entries(rows) if self.shape else self
+        return own._piece(start, stop, imprint[rows], increase[rows])
 
     def wall_integral(self):
         # Without a wall its limit for a → ∞ is not known: a force that is too large has no depth.

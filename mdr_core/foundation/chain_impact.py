@@ -10,8 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import _check
-from ..hardness import check_law
-from ..medium import Medium, check_pair, refuse_adhesion
+from ..medium import Medium, check_hardness, check_pair, refuse_adhesion
 from ..profiles.profile import Profile
 from ..results.base import CHAIN, ImpactResult, Motion, instants
 from ..results.limits import Limit, contact_limits
@@ -88,7 +87,7 @@ def chain_impact(
     if medium.has_own_law and medium.eta == 0:
         # Without dashpots the body goes at least as deep as on an elastic medium, whose bound has 5 % more.
         elastic = impact_depth_bound(profile, Medium(medium.E_star), mass, speed, history) / 1.1
-        check_law(medium.law, profile, elastic)
+        check_hardness(profile, medium, elastic)
     bound = impact_depth_bound(profile, medium, mass, speed, history)
 
     def solve(elements, depth, steps):
@@ -107,7 +106,7 @@ def chain_impact(
     floor = np.array([1.0 if name == "restitution" else 0.0 for name in _TRUST])
     limit, errors = refine(run, tolerance, _RUNS, 2, orders=(2,), runs=3, trust=trust, floor=floor)
     quantities = dict(zip(_TRUST, limit.tolist(), strict=True))
-    check_law(medium.law, profile, quantities["max_depth"])
+    check_hardness(profile, medium, quantities["max_depth"])
     errors = dict(zip(_TRUST, errors.tolist(), strict=True))
     error = max(errors["restitution"], errors["max_depth"])
     # Close to zero, the limit may be negative within its error.

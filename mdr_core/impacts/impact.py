@@ -9,8 +9,7 @@ import numpy as np
 from .. import _check
 from .._check import ArrayLike
 from ..contact.yielding import ConstantCap
-from ..hardness import check_law
-from ..medium import Medium, check_pair, refuse_adhesion, shape_with
+from ..medium import Medium, check_hardness, check_pair, refuse_adhesion, shape_with
 from ..profiles.profile import Profile
 from .adhesive import adhesive_impact
 from .energy_balance import dry_impact, turning_interval
@@ -97,7 +96,7 @@ def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):
         if medium.has_own_law:
             energy = mass * speed**2 / (4 * medium.E_star)
             interval, _ = turning_interval(ConstantCap(profile, np.inf), energy, imprint_depth)
-            check_law(medium.law, profile, interval.upper)
+            check_hardness(profile, medium, interval.upper)
 
     # The search may start far from the root, where powers leave double precision.
     with np.errstate(all="ignore"):
@@ -109,7 +108,7 @@ def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):
         largest = hit.turning_point.live_interval.upper
         if not np.all(largest < np.inf):
             check_elastic()
-        check_law(medium.law, profile, largest)
+        check_hardness(profile, medium, largest)
     return hit
 
 
