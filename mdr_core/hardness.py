@@ -12,7 +12,7 @@ from ._check import Array, Parameter, shown
 
 _TINY = np.finfo(float).tiny
 #: Radii (m) between which a law is asked, whatever a search tries.
-_NARROWEST, _WIDEST = 1e-30, 1e60
+_NARROWEST, _WIDEST = 1e-30, _check.FARTHEST
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,7 +169,9 @@ class ScaledLaw(_check.Parameters):
     def _asked(self, name, a):
         """The law's function of a name at radii; beyond the radii where it is a law, a σ_c is constant."""
         radius = np.minimum(np.maximum(self.length * a, _NARROWEST), _WIDEST)
-        value = np.asarray(getattr(self.law, name)(radius))
+        # What a law gives is looked at here: a search may ask it where its powers leave double precision.
+        with np.errstate(all="ignore"):
+            value = np.asarray(getattr(self.law, name)(radius))
         if not np.any(_is_none(name, value)):
             return value
         # A search went there: `check_law` refuses the law if its result is there.
@@ -193,7 +195,7 @@ def _is_none(name, value):
 
 def _range_of(law):
     """Radii (m) between which a law is finite and above 0: the longest range, in steps of 7 %."""
-    radius = np.geomspace(_NARROWEST, _WIDEST, 3064)
+    radius = np.geomspace(_NARROWEST, _WIDEST, 5786)
     with np.errstate(all="ignore"):
         hardness, rate = _values(law, "at", radius), _values(law, "rate", radius)
     good = (hardness > 0) & (hardness < np.inf) & np.isfinite(rate)

@@ -190,9 +190,9 @@ class Medium(_check.Parameters):
     ------
     ValueError
         If a parameter is not a number or out of its range, arrays do not broadcast, the hardness is 0,
-        `q_c` is infinite beside a `hardness` or `f_c`, `q_c` or `f_c` stands beside a law, both `eta` and `work_of_adhesion` are positive, or
-        `work_of_adhesion` and one of `hardness` and `f_c`. A law that is none at the contact radii of a
-        calculation is refused by that.
+        `q_c` is infinite beside a `hardness` or `f_c`, `q_c` or `f_c` stands beside a law, both `eta` and
+        `work_of_adhesion` are positive, or `work_of_adhesion` and one of `hardness` and `f_c`. A law that
+        is none at the contact radii of a calculation is refused by that.
 
     Examples
     --------
@@ -375,7 +375,8 @@ class Medium(_check.Parameters):
     def hardness_at(self, radius: ArrayLike) -> Array:
         """Hardness σ_c = H + q_c/a + f_c/a² (Pa) of a contact of radius a (m), Popov (2015), section 1.
 
-        With a law of hardness, its value. The mean pressure under a contact that has yielded throughout; infinite where nothing yields.
+        With a law of hardness it is its value. The mean pressure under a contact that has yielded
+        throughout; infinite where nothing yields.
 
         Examples
         --------

@@ -79,9 +79,9 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     force : float or array_like
         Normal force (N); one number or a path along the last axis. At 0 the indenter rests on the bottom
         of the imprint. With f_c above 0, or a law of hardness, the force on loading may fall after the
-        onset of yield: the depth is the first one that carries it, and the path jumps there, which is said in `limits`. Negative
-        only with adhesion: under more than the pull-off force the contact is lost, the force is 0 and the
-        depth that of the imprint, until a force ≥ 0 closes it again.
+        onset of yield: the depth is the first one that carries it, and the path jumps there, which is said
+        in `limits`. Negative only with adhesion: under more than the pull-off force the contact is lost,
+        the force is 0 and the depth that of the imprint, until a force ≥ 0 closes it again.
 
     Returns
     -------
@@ -169,8 +169,8 @@ def _carried(rule, depth):
 def _growing_branches(rule, elastic=None):
     """Depths (m) between which the force of a first loading grows, and ∫ a ds (m²) at the first of them.
 
-    With f_c above 0, or a law of hardness, the force may fall after the onset of yield. For a law, `elastic`
-    are the depths (m) that elastic loadings reach.
+    With f_c above 0, or a law of hardness, the force may fall after the onset of yield. For a law,
+    `elastic` are the depths (m) that elastic loadings reach.
     """
     end, onset = rule.profile.known_depth, float(rule.onset())
     branches = [(0.0, end, 0.0)]

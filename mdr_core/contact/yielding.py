@@ -32,7 +32,7 @@ from .live_interval import LiveInterval
 
 #: Gauss nodes of the plastic work in each piece.
 _NODES = 24
-#: Halvings of a piece for a law of one's own: through a step of σ_c that is as narrow as 10⁻⁹ of its radius.
+#: Halvings of a piece for a law of one's own: to 10⁻⁹ of its length, as at a kink.
 _HALVINGS = 30
 
 
@@ -116,7 +116,7 @@ class YieldRule(_check.Parameters, ABC):
         return integrals(self.profile).radius_drop(interval) + c * (1 - self.rate(interval.upper))
 
     def breaks(self, imprint, increase, onset):
-        """Depths (m) past the penetration `onset` (m) between which a loading is smooth, one a row of (N, 1).
+        """Depths (m), one row each, past the penetration `onset` (m) between which a loading is smooth.
 
         The loading increases the plastic depth of an imprint by `increase` (m).
         """

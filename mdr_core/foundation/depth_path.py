@@ -111,7 +111,7 @@ def follow(foundation, depth, time):
     for new_depth, dt in zip(depth, np.append(np.inf, np.diff(time)), strict=True):
         foundation = foundation.advance(new_depth, dt)
         force, radius = force_and_radius(foundation)
-        works = foundation.stored_energy, foundation.plastic_work, foundation.viscous_work
+        works = foundation.energy_of_elements, foundation.plastic_work, foundation.viscous_work
         record.append((force, *works, radius))
     return np.array(record)
 

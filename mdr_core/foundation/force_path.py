@@ -145,7 +145,7 @@ def _creep_run(profile, medium, bound, n, force, time, steps, precision):
 
 
 def _recorded(foundation):
-    return foundation.depth, foundation.stored_energy, foundation.plastic_work, foundation.viscous_work
+    return foundation.depth, foundation.energy_of_elements, foundation.plastic_work, foundation.viscous_work
 
 
 def _step(foundation, dt, force, guess, bound, close):

@@ -92,7 +92,7 @@ def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):
     """The `Impact`, refused if a law of hardness is none up to its largest contact radius."""
 
     def check_elastic():
-        # No less deep than this, if there is no viscosity: where the solver fails the law is looked at here.
+        # Without viscosity the body goes at least so deep: where the solver fails, the law is checked here.
         if medium.has_own_law:
             energy = mass * speed**2 / (4 * medium.E_star)
             interval, _ = turning_interval(ConstantCap(profile, np.inf), energy, imprint_depth)

@@ -137,7 +137,7 @@ def _modulus_limit(medium):
 
 
 def _flow_limit(medium):
-    """Contact area of a contact that flows over that of this model, if there is a constant hardness or a law of hardness."""
+    """Contact area of a contact that flows over that of this model, if there is a hardness H or a law."""
     if medium.has_own_law or np.any(np.asarray(medium.hardness) > 0):
         text = (
             "On loading the contact radius is the elastic one, for a ball a² = R d; a contact that flows "
