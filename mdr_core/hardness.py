@@ -82,10 +82,8 @@ class HardnessLaw(_check.Parameters, ABC):
     def stored(self) -> "HardnessLaw":
         """The law as a medium keeps it: with copies of its arrays. Refused if it may change."""
         name, arrays = type(self).__name__, {}
-        if "__dataclass_fields__" not in vars(type(self)) and vars(self):
-            raise TypeError(
-                f"{name} must not change once it is made: declare it with @dataclass(frozen=True)"
-            )
+        if vars(self).keys() - {each.name for each in fields(self)} - vars(HardnessLaw).keys() - {"shape"}:
+            raise TypeError(f"{name} must not change: declare it with @dataclass(frozen=True)")
         for each in fields(self):
             if hasattr(HardnessLaw, each.name):
                 raise TypeError(f"{name}: a parameter of a law cannot be named {each.name}")
@@ -177,7 +175,8 @@ class ScaledLaw(_check.Parameters):
         # A search went there: `check_law` refuses the law if its result is there.
         low, high = _range_of(self.law) if not self.law.shape else (_NARROWEST, _WIDEST)
         inside = np.clip(radius, low, high)
-        value = np.where(np.isnan(radius), np.nan, getattr(self.law, name)(inside))
+        with np.errstate(all="ignore"):
+            value = np.where(np.isnan(radius), np.nan, getattr(self.law, name)(inside))
         if name == "line_load_rate":
             value = np.where(inside == radius, value, 0.0)
         bad = _is_none(name, value) & ~np.isnan(radius)
@@ -189,8 +188,8 @@ class ScaledLaw(_check.Parameters):
 
 
 def _is_none(name, value):
-    """Where values of a law's function of a name are no numbers, or negative ones of a hardness."""
-    return np.isnan(value) if name == "line_load_rate" else ~(value >= 0)
+    """Where values of a law's function of a name are not finite, or negative ones of a hardness."""
+    return ~np.isfinite(value) if name == "line_load_rate" else ~((value >= 0) & (value < np.inf))
 
 
 def _range_of(law):

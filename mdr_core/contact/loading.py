@@ -123,8 +123,8 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     largest_depth = _loading_depth(rule, branches, largest)
     known = largest_depth <= min(profile.known_depth, _check.LONGEST)
     bound = f"presses {profile._too_deep()}"
-    if not np.all(known) and branches[-1][1] < profile.known_depth:
-        carried = _carried(rule, branches[-1][1])
+    if medium.has_own_law and profile.known_depth == np.inf and not np.all(known):
+        carried = max(_carried(rule, min(high, _check.LONGEST)) for _, high, _ in branches)
         bound = f"is more than the {2 * medium.E_star * carried:g} N that the contact carries on loading"
     _check.refuse("force", force, ~known, bound, unit="N", remedy="press less")
     check_hardness(profile, medium, largest_depth)

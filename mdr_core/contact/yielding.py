@@ -113,7 +113,9 @@ class YieldRule(_check.Parameters, ABC):
     def yielding_width(self, interval):
         """a − c dp/ds (m) on loading at the cap: the stiffness over 2E*."""
         c = self.profile._radius(interval.lower)
-        return integrals(self.profile).radius_drop(interval) + c * (1 - self.rate(interval.upper))
+        # At first touch the rate may be infinite, where c is 0.
+        slower = np.where(c > 0, 1 - self.rate(interval.upper), 0.0)
+        return integrals(self.profile).radius_drop(interval) + c * slower
 
     def breaks(self, imprint, increase, onset):
         """Depths (m), one row each, past the penetration `onset` (m) between which a loading is smooth.
@@ -383,7 +385,8 @@ class OwnCap(RadiusCap):
     def wall_integral(self):
         # Without a wall its limit for a → ∞ is not known: a force that is too large has no depth.
         wall = np.asarray(self.profile.wall)
-        return np.where(wall < np.inf, self.law.wall_load(wall), np.inf)[()]
+        load = self.law.wall_load(np.where(wall < np.inf, wall, 1.0))
+        return np.where(wall < np.inf, load, np.inf)[()]
 
 
 def yield_rule(profile: Profile, medium: Medium) -> YieldRule:

@@ -32,13 +32,14 @@ def onset_depth(profile, medium):
 
     def ratio(depth):
         """Depth over elastic limit, which grows with depth, and about its derivative."""
+        depth = np.minimum(depth, _check.LONGEST)
         value = depth / elastic_limit(profile, medium, depth)
         before = depth * (1 - 1e-6)
         return value, (value - before / elastic_limit(profile, medium, before)) / (1e-6 * depth)
 
     if ratio(_check.SHORTEST)[0] > 1:
         return 0.0
-    return float(increasing_root(ratio, 1.0, 1.0, profile.known_depth))
+    return float(increasing_root(ratio, 1.0, 1.0, profile.known_depth, largest=_check.LONGEST))
 
 
 def flat_face_load(medium, radius):

@@ -8,11 +8,10 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..contact.yielding import ConstantCap
 from ..medium import Medium, check_hardness, check_pair, refuse_adhesion, shape_with
 from ..profiles.profile import Profile
 from .adhesive import adhesive_impact
-from .energy_balance import dry_impact, turning_interval
+from .energy_balance import dry_impact
 from .result import Impact
 from .viscous import viscous_impact
 
@@ -90,25 +89,16 @@ def solve_impact(profile, medium, mass, speed, plastic_depth, *, in_time=False):
 
 def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):
     """The `Impact`, refused if a law of hardness is none up to its largest contact radius."""
-
-    def check_elastic():
-        # Without viscosity the body goes at least so deep: where the solver fails, the law is checked here.
-        if medium.has_own_law:
-            energy = mass * speed**2 / (4 * medium.E_star)
-            interval, _ = turning_interval(ConstantCap(profile, np.inf), energy, imprint_depth)
-            check_hardness(profile, medium, interval.upper)
-
     # The search may start far from the root, where powers leave double precision.
     with np.errstate(all="ignore"):
-        try:
-            hit = _solved(profile, medium, mass, speed, imprint_depth, in_time)
-        except ValueError:
-            check_elastic()
-            raise
-        largest = hit.turning_point.live_interval.upper
-        if not np.all(largest < np.inf):
-            check_elastic()
-        check_hardness(profile, medium, largest)
+        if medium.has_own_law:
+            # An elastic medium is pressed less deep: a law that is none there is not given to a solver.
+            elastic = _solved(
+                profile, Medium(medium.E_star, eta=medium.eta), mass, speed, imprint_depth, False
+            )
+            check_hardness(profile, medium, elastic.turning_point.live_interval.upper)
+        hit = _solved(profile, medium, mass, speed, imprint_depth, in_time)
+        check_hardness(profile, medium, hit.turning_point.live_interval.upper)
     return hit
 
 
