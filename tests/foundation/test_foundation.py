@@ -112,7 +112,7 @@ def test_elements_outside_a_wall_stay_free(shape):
 @pytest.mark.parametrize("given", [{}, {"q_c": 0.5}, {"hardness": 0.1e9}], ids=["elastic", "q", "H"])
 @pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.Sphere(1e-8), mdr.PowerLaw(1e16, 3.0)], ids=name)
 def test_a_contact_narrower_than_an_element(shape, given, history):
-    """Of elements of 10 nm none has its middle in the contact: force and energy are those of the profile."""
+    """No element of 10 nm has its middle in it: force and energy are those of the profile."""
     medium, row = mdr.Medium(1e9, **given), None
     row = mdr.Foundation(shape, medium, 20, half_width=100e-9)
     for depth in history:
