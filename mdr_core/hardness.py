@@ -52,7 +52,7 @@ class HardnessLaw(_check.Parameters, ABC):
     1.162
     >>> state = indent(Cone.berkovich(), copper, [100e-9, 1e-6])
     >>> (state.mean_pressure / 1e9).round(4)
-    array([1.9764, 0.8987])
+    array([2.8761, 1.0765])
     """
 
     @abstractmethod
@@ -167,7 +167,7 @@ class ScaledLaw(_check.Parameters):
     def _asked(self, name, a):
         """The law's function of a name at radii; beyond the radii where it is a law, a σ_c is constant."""
         radius = np.minimum(np.maximum(self.length * a, _NARROWEST), _WIDEST)
-        # What a law gives is looked at here: a search may ask it where its powers leave double precision.
+        # Values are looked at here: a search may ask a law where its powers leave double precision.
         with np.errstate(all="ignore"):
             value = np.asarray(getattr(self.law, name)(radius))
         if not np.any(_is_none(name, value)):

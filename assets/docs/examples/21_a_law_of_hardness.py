@@ -3,8 +3,7 @@ A law of hardness of one's own
 ==============================
 
 Nix and Gao's size effect, :math:`H_0\sqrt{1 + h^*/h}`, under a cone of slope s, with the depth h = s a of
-the contact; copper: H₀ = 0.581 GPa, h* = 1.6 µm. A tip is pressed in and dropped. The dots are made, with
-noise of 0.5 %, and ``scipy.optimize.curve_fit`` finds the law in them.
+the contact; copper: 0.581 GPa and 1.6 µm. ``curve_fit`` finds them in a curve that is made, with noise.
 """
 
 from dataclasses import dataclass
@@ -37,5 +36,5 @@ made = force(d, 130, 0.581, 1.6) * (1 + 0.005 * np.random.default_rng(1).standar
 found, errors = curve_fit(force, d, made, (100, 1, 1), bounds=(0.01, 1e3), x_scale=(100, 1, 1))
 print("E* (GPa), H₀ (GPa), h* (µm):", found.round(3), "±", np.sqrt(np.diag(errors)).round(3))
 print(mdr.impact(tip, mdr.Medium(130e9, hardness=NixGao(0.581e9, 1.6e-6 / tip.slope)), 1e-9, [0.1, 1, 10]))
+plt.axes(xlabel="depth (µm)", ylabel="force (mN)")
 plt.plot(d * 1e6, made * 1e3, "k.", d * 1e6, force(d, *found) * 1e3, "r")
-plt.gca().set(xlabel="depth (µm)", ylabel="force (mN)")
