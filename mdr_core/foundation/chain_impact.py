@@ -85,7 +85,7 @@ def chain_impact(
     tolerance = _check.positive_number("tolerance", tolerance)
     count, history = None if n is None else element_count(n), _history(profile, medium, start)
     if medium.has_own_law and medium.eta == 0:
-        # Without dashpots the body is pressed no less deep than on an elastic medium, whose bound has 5 % more.
+        # Without dashpots the body goes no less deep than on an elastic medium, whose bound has 5 % more.
         elastic = impact_depth_bound(profile, Medium(medium.E_star), mass, speed, history) / 1.1
         check_hardness(profile, medium, elastic)
     bound = impact_depth_bound(profile, medium, mass, speed, history)
