@@ -215,6 +215,8 @@ def refused_law(law, what, remedy):
 _RADII, _DECADES, _STEP = 200, 6, 2e-6
 #: Indenters of an ensemble that are checked at a time.
 _ROWS = 512
+#: Radii at which each indenter of an ensemble is looked at, under one law for all.
+_FEWER = 24
 #: Largest number of pairs of radii between which a jump is looked for.
 _WORST = 500
 
@@ -228,33 +230,45 @@ def check_law(law, profile, depth):
     depth = np.asarray(depth, dtype=float)
     shape = np.broadcast_shapes(depth.shape, law.shape, profile.shape)
     depth = np.minimum(np.broadcast_to(depth, shape), profile.known_depth).ravel()
-    rows = np.flatnonzero((depth > 0) & (depth < np.inf))
+    rows = np.flatnonzero((depth > 0) & (depth <= _check.LONGEST))
     if not rows.size:
         return
-    if not law.shape and not profile.shape:
-        ends = profile.contact_radius(np.array([[np.min(depth[rows])], [np.max(depth[rows])]]))
-        _check_rows(law, profile, _radii_below(*ends, profile.face_radius))
-        return
+    if not law.shape:
+        # One law for all: its values are looked at once, over all radii.
+        if profile.shape:
+            radius = profile.flat_entries(rows, shape).contact_radius(depth[rows])
+        else:
+            radius = profile.contact_radius([np.min(depth[rows]), np.max(depth[rows])])
+        ends = np.array([[np.min(radius)], [np.max(radius)]])
+        radii = _radii_below(*ends, np.min(profile.face_radius))
+        _check_values(law, radii)
+        if not profile.shape:
+            _refuse_growth(law, profile, radii)
+            return
     for start in range(0, rows.size, _ROWS):
         some = rows[start : start + _ROWS]
         own = profile.flat_entries(some, shape)
         radius = np.broadcast_to(own.contact_radius(depth[some]), some.shape)
-        radii = _radii_below(radius, radius, np.broadcast_to(own.face_radius, some.shape))
+        face = np.broadcast_to(own.face_radius, some.shape)
+        radii = _radii_below(radius, radius, face, _RADII if law.shape else _FEWER)
         column = (slice(None), None), some.shape
-        _check_rows(law.flat_entries(some, shape).entries(*column), own.entries(*column), radii)
+        each = law.flat_entries(some, shape).entries(*column)
+        if law.shape:
+            _check_values(each, radii)
+        _refuse_growth(each, own.entries(*column), radii)
 
 
-def _radii_below(least, largest, face):
+def _radii_below(least, largest, face, count=_RADII):
     """Radii (m), one row each, from 10⁻⁶ of the least contact radius, or a flat face, to the largest."""
     low = np.maximum(np.maximum(10.0**-_DECADES * least, face), _NARROWEST)
     share = np.max(np.log10(largest / low)) / _DECADES
-    radii = np.geomspace(low, largest, int(np.ceil(_RADII * max(share, 1.0))), axis=-1)
+    radii = np.geomspace(low, largest, int(np.ceil(count * max(share, 1.0))), axis=-1)
     return np.minimum(radii, largest[:, None])
 
 
-def _check_rows(law, profile, radii):
-    """Refuses a law that is none at radii (m) in ascending order along the last axis."""
-    a, hardness = radii, _values(law, "at", radii)
+def _check_values(law, a):
+    """Refuses a law whose functions are none at radii (m) in ascending order along the last axis."""
+    hardness = _values(law, "at", a)
     _refuse_radii(
         law, a, ~((hardness > 0) & (hardness < np.inf)),
         lambda i: f"σ_c = {hardness[i]:g} Pa at a = {a[i]:g} m is not finite and above 0",
@@ -280,8 +294,12 @@ def _check_rows(law, profile, radii):
                 f"but by at(a) and rate(a) it is {made[i]:g}",
                 "leave it out, or mend it",
             )  # fmt: skip
+
+
+def _refuse_growth(law, profile, a):
+    """Refuses a law of which a σ_c/g(a) grows between radii (m) in ascending order along the last axis."""
     # Depth over the elastic limit, which must not fall.
-    depth = profile.reduced(a) / (a * hardness)
+    depth = profile.reduced(a) / (a * _values(law, "at", a))
     falls = np.zeros(a.shape, bool)
     falls[:, 1:] = depth[:, 1:] < depth[:, :-1] * (1 - 1e-9)
     _refuse_radii(

@@ -15,6 +15,9 @@ from .energy_balance import dry_impact
 from .result import Impact
 from .viscous import viscous_impact
 
+#: Impacts of an ensemble on an elastic medium, by which a law of hardness is checked before it is solved.
+_SOME = 100
+
 
 @_check.keywords_explained
 def impact(
@@ -92,14 +95,22 @@ def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):
     # The search may start far from the root, where powers leave double precision.
     with np.errstate(all="ignore"):
         if medium.has_own_law:
-            # An elastic medium is pressed less deep: a law that is none there is not given to a solver.
-            elastic = _solved(
-                profile, Medium(medium.E_star, eta=medium.eta), mass, speed, imprint_depth, False
-            )
-            check_hardness(profile, medium, elastic.turning_point.live_interval.upper)
+            _check_elastic(profile, medium, mass, speed, imprint_depth)
         hit = _solved(profile, medium, mass, speed, imprint_depth, in_time)
         check_hardness(profile, medium, hit.turning_point.live_interval.upper)
     return hit
+
+
+def _check_elastic(profile, medium, mass, speed, imprint_depth):
+    """Refuses a law of hardness that is none up to the depths of impacts on an elastic medium, or of some.
+
+    These are less deep: such a law is not given to a solver.
+    """
+    rows = np.unique(np.linspace(0, mass.size - 1, min(mass.size, _SOME)).astype(int))
+    some = (values.ravel()[rows] for values in (mass, speed, imprint_depth))
+    own, medium = (each.flat_entries(rows, mass.shape) for each in (profile, medium))
+    elastic = _solved(own, Medium(medium.E_star, eta=medium.eta), *some, False)
+    check_hardness(own, medium, elastic.turning_point.live_interval.upper)
 
 
 def _solved(profile, medium, mass, speed, imprint_depth, in_time):
