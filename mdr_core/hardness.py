@@ -12,7 +12,9 @@ from ._check import Array, Parameter, shown
 
 _TINY = np.finfo(float).tiny
 #: Radii (m) between which a law is asked, whatever a search tries.
-_NARROWEST, _WIDEST = 1e-30, _check.FARTHEST
+NARROWEST, _WIDEST = 1e-30, _check.FARTHEST
+#: Largest number of pairs of radii between which a jump is looked for.
+_WORST = 500
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,8 +83,10 @@ class HardnessLaw(_check.Parameters, ABC):
 
     def stored(self) -> "HardnessLaw":
         """The law as a medium keeps it: with copies of its arrays. Refused if it may change."""
-        name, arrays = type(self).__name__, {}
-        if vars(self).keys() - {each.name for each in fields(self)} - vars(HardnessLaw).keys() - {"shape"}:
+        kind, arrays = type(self), {}
+        name, own = kind.__name__, {each.name for each in fields(self)}
+        # Values that are computed once, by functools.cached_property, belong to the class.
+        if any(key not in own and not hasattr(kind, key) for key in vars(self)):
             raise TypeError(f"{name} must not change: declare it with @dataclass(frozen=True)")
         for each in fields(self):
             if hasattr(HardnessLaw, each.name):
@@ -166,14 +170,14 @@ class ScaledLaw(_check.Parameters):
 
     def _asked(self, name, a):
         """The law's function of a name at radii; beyond the radii where it is a law, a σ_c is constant."""
-        radius = np.minimum(np.maximum(self.length * a, _NARROWEST), _WIDEST)
+        radius = np.minimum(np.maximum(self.length * a, NARROWEST), _WIDEST)
         # Values are looked at here: a search may ask a law where its powers leave double precision.
         with np.errstate(all="ignore"):
             value = np.asarray(getattr(self.law, name)(radius))
         if not np.any(_is_none(name, value)):
             return value
         # A search went there: `check_law` refuses the law if its result is there.
-        low, high = _range_of(self.law) if not self.law.shape else (_NARROWEST, _WIDEST)
+        low, high = _range_of(self.law) if not self.law.shape else (NARROWEST, _WIDEST)
         inside = np.clip(radius, low, high)
         with np.errstate(all="ignore"):
             value = np.where(np.isnan(radius), np.nan, getattr(self.law, name)(inside))
@@ -194,13 +198,13 @@ def _is_none(name, value):
 
 def _range_of(law):
     """Radii (m) between which a law is finite and above 0: the longest range, in steps of 7 %."""
-    radius = np.geomspace(_NARROWEST, _WIDEST, 5786)
+    radius = np.geomspace(NARROWEST, _WIDEST, 5786)
     with np.errstate(all="ignore"):
-        hardness, rate = _values(law, "at", radius), _values(law, "rate", radius)
+        hardness, rate = law_values(law, "at", radius), law_values(law, "rate", radius)
     good = (hardness > 0) & (hardness < np.inf) & np.isfinite(rate)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(int)))
     if not edges.size:
-        return _NARROWEST, _WIDEST
+        return NARROWEST, _WIDEST
     first, last = max(edges.reshape(-1, 2).tolist(), key=lambda ends: ends[1] - ends[0])
     return radius[first], radius[last - 1]
 
@@ -211,106 +215,7 @@ def refused_law(law, what, remedy):
     return _check.InvalidArgument(f"hardness {shown(law)}: {text}", "hardness", law, what, "", remedy)
 
 
-#: Radii at which a law is checked, over so many decades; relative step of its differences.
-_RADII, _DECADES, _STEP = 200, 6, 2e-6
-#: Indenters of an ensemble that are checked at a time.
-_ROWS = 512
-#: Radii at which each indenter of an ensemble is looked at, under one law for all.
-_FEWER = 24
-#: Largest number of pairs of radii between which a jump is looked for.
-_WORST = 500
-
-
-def check_law(law, profile, depth):
-    """Refuses a law of hardness that is none at the contact radii (m) of depths (m) up to the largest ones.
-
-    Below them it is checked from 10⁻⁶ of the radius on; depths that are infinite or not positive are left
-    out.
-    """
-    depth = np.asarray(depth, dtype=float)
-    shape = np.broadcast_shapes(depth.shape, law.shape, profile.shape)
-    depth = np.minimum(np.broadcast_to(depth, shape), profile.known_depth).ravel()
-    rows = np.flatnonzero((depth > 0) & (depth <= _check.LONGEST))
-    if not rows.size:
-        return
-    if not law.shape:
-        # One law for all: its values are looked at once, over all radii.
-        if profile.shape:
-            radius = profile.flat_entries(rows, shape).contact_radius(depth[rows])
-        else:
-            radius = profile.contact_radius([np.min(depth[rows]), np.max(depth[rows])])
-        ends = np.array([[np.min(radius)], [np.max(radius)]])
-        radii = _radii_below(*ends, np.min(profile.face_radius))
-        _check_values(law, radii)
-        if not profile.shape:
-            _refuse_growth(law, profile, radii)
-            return
-    for start in range(0, rows.size, _ROWS):
-        some = rows[start : start + _ROWS]
-        own = profile.flat_entries(some, shape)
-        radius = np.broadcast_to(own.contact_radius(depth[some]), some.shape)
-        face = np.broadcast_to(own.face_radius, some.shape)
-        radii = _radii_below(radius, radius, face, _RADII if law.shape else _FEWER)
-        column = (slice(None), None), some.shape
-        each = law.flat_entries(some, shape).entries(*column)
-        if law.shape:
-            _check_values(each, radii)
-        _refuse_growth(each, own.entries(*column), radii)
-
-
-def _radii_below(least, largest, face, count=_RADII):
-    """Radii (m), one row each, from 10⁻⁶ of the least contact radius, or a flat face, to the largest."""
-    low = np.maximum(np.maximum(10.0**-_DECADES * least, face), _NARROWEST)
-    share = np.max(np.log10(largest / low)) / _DECADES
-    radii = np.geomspace(low, largest, int(np.ceil(count * max(share, 1.0))), axis=-1)
-    return np.minimum(radii, largest[:, None])
-
-
-def _check_values(law, a):
-    """Refuses a law whose functions are none at radii (m) in ascending order along the last axis."""
-    hardness = _values(law, "at", a)
-    _refuse_radii(
-        law, a, ~((hardness > 0) & (hardness < np.inf)),
-        lambda i: f"σ_c = {hardness[i]:g} Pa at a = {a[i]:g} m is not finite and above 0",
-        "a contact of this calculation has that radius: mend its at(a)",
-    )  # fmt: skip
-    # The difference of a step back from each radius, over the step, and the derivative in its middle.
-    change = (hardness - _values(law, "at", a * (1 - _STEP))) / _STEP
-    rate = a * _values(law, "rate", a * (1 - _STEP / 2))
-    _refuse_radii(
-        law, a, ~(np.abs(change - rate) <= 1e-3 * np.abs(rate) + 1e-5 * hardness),
-        lambda i: f"rate(a) = {rate[i] / a[i]:g} Pa/m at a = {a[i]:g} m, but at(a) changes by "
-        f"{change[i] / a[i]:g} Pa/m there",
-        "rate is the derivative of at, which has no jumps",
-    )  # fmt: skip
-    _refuse_jumps(law, a, hardness)
-    for name in ("line_load", "line_load_rate", "wall_load"):
-        if getattr(type(law), name) is not getattr(HardnessLaw, name):
-            own, made = _values(law, name, a), getattr(HardnessLaw, name)(law, a)
-            scale = a * hardness if name == "line_load" else np.maximum(hardness, a * a * hardness)
-            _refuse_radii(
-                law, a, ~(np.abs(own - made) <= 1e-6 * scale),
-                lambda i, name=name, own=own, made=made: f"{name}(a) = {own[i]:g} at a = {a[i]:g} m, "
-                f"but by at(a) and rate(a) it is {made[i]:g}",
-                "leave it out, or mend it",
-            )  # fmt: skip
-
-
-def _refuse_growth(law, profile, a):
-    """Refuses a law of which a σ_c/g(a) grows between radii (m) in ascending order along the last axis."""
-    # Depth over the elastic limit, which must not fall.
-    depth = profile.reduced(a) / (a * _values(law, "at", a))
-    falls = np.zeros(a.shape, bool)
-    falls[:, 1:] = depth[:, 1:] < depth[:, :-1] * (1 - 1e-9)
-    _refuse_radii(
-        law, a, falls,
-        lambda i: f"a σ_c/g(a) grows with the contact radius at a = {a[i]:g} m under {shown(profile)}",
-        "elements that have yielded would become elastic again on loading: take a law that grows less, or "
-        "a sharper indenter",
-    )  # fmt: skip
-
-
-def _values(law, name, a):
+def law_values(law, name, a):
     """Values of a law's function of a name at an array of radii (m), refused unless one for each radius."""
     try:
         with np.errstate(all="ignore"):
@@ -328,34 +233,17 @@ def _values(law, name, a):
         raise refused_law(law, what, "give one value for each radius") from None
 
 
-def _refuse_radii(law, a, bad, what, remedy):
-    """Refuses a law at the first of the radii (m) that are `bad`; `what` says so for its index."""
-    if np.any(bad):
-        index = np.unravel_index(np.argmax(bad), bad.shape)
-        one = law.entries(index, a.shape) if law.shape else law
-        raise refused_law(one, what(index), remedy)
-
-
-def _refuse_jumps(law, a, hardness):
-    """Refuses a law that jumps between neighbouring radii (m), however near these are."""
-    *_, (below, above, low) = _steep_places(law, a, hardness, 1e-7)
-    if low.size:
-        i = np.argmax(np.abs(above - below) / np.maximum(above, below))
-        what = f"σ_c jumps from {below[i]:g} to {above[i]:g} Pa at a = {low[i]:g} m"
-        raise refused_law(law, what, "a law is smooth in a: join its parts over a range of radii")
-
-
 @lru_cache(maxsize=256)
 def _sharp_radii(law):
     """Radii (m), ascending, between which a law changes so little that its rates at both ends tell it."""
     low, high = _range_of(law)
     radii = np.geomspace(max(low, 1e-18), min(high, 1e6), 817)[None]
     with np.errstate(all="ignore"):
-        places, _ = _steep_places(law, radii, _values(law, "at", radii), 1e-3)
+        places, _ = steep_places(law, radii, law_values(law, "at", radii), 1e-3)
     return np.unique(places)
 
 
-def _steep_places(law, a, hardness, tolerance):
+def steep_places(law, a, hardness, tolerance):
     """Radii (m) at which pairs of neighbouring radii were halved because the law changes fast between them.
 
     That is where the change of σ_c, over itself, is not that of the rates at both ends to a tolerance. And
@@ -368,7 +256,7 @@ def _steep_places(law, a, hardness, tolerance):
     places = [low[:0]]
     for _ in range(40):
         own = law.flat_entries(row, (len(a), 1))
-        slope = (low * _values(own, "rate", low) + high * _values(own, "rate", high)) / 2
+        slope = (low * law_values(own, "rate", low) + high * law_values(own, "rate", high)) / 2
         miss = np.abs(above - below - slope * np.log(high / low)) / np.maximum(above, below)
         worst = np.argsort(-miss)[:_WORST]
         worst = worst[miss[worst] > tolerance]
@@ -376,7 +264,7 @@ def _steep_places(law, a, hardness, tolerance):
         if not worst.size:
             break
         middle, own = np.sqrt(low) * np.sqrt(high), law.flat_entries(row, (len(a), 1))
-        between = _values(own, "at", middle)
+        between = law_values(own, "at", middle)
         places += [low, middle, high]
         row, low, high = np.append(row, row), np.append(low, middle), np.append(middle, high)
         below, above = np.append(below, between), np.append(between, above)

@@ -6,7 +6,8 @@ import numpy as np
 
 from . import _check
 from ._check import Array, ArrayLike, Parameter, shown
-from .hardness import HardnessLaw, SumOfClasses, check_law
+from .hardness import HardnessLaw, SumOfClasses
+from .hardness_check import check_law
 from .profiles.profile import Profile
 
 
