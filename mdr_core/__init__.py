@@ -19,6 +19,7 @@ from .foundation.chain_impact import chain_impact
 from .foundation.depth_path import TimedIndentation, indent_in_time
 from .foundation.force_path import creep
 from .foundation.foundation import Foundation
+from .hardness import HardnessLaw
 from .impacts.adhesive import capture_speeds
 from .impacts.impact import impact
 from .impacts.result import Impact
@@ -45,6 +46,7 @@ __all__ = [
     "Foundation",
     "FreeImpact",
     "FreeObliqueImpact",
+    "HardnessLaw",
     "Hyperboloid",
     "Impact",
     "Indentation",

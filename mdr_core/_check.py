@@ -309,6 +309,10 @@ class Parameters:
                 values[name] = np.broadcast_to(value, shape)[index]
             elif isinstance(value, Parameters):
                 values[name] = value.entries(index, shape)
+        return self._with(values)
+
+    def _with(self, values):
+        """The same with other values of the parameters."""
         return type(self)(**values)
 
     def flat_entries(self, rows: Any, shape: tuple[int, ...]) -> Self:
@@ -323,9 +327,22 @@ class Parameters:
         if type(other) is not type(self):
             return NotImplemented
         own, others = self.__getstate__(), other.__getstate__()
-        return all(np.array_equal(own[name], others[name]) for name in own)
+        return all(_equal(own[name], others[name]) for name in own)
 
     def __hash__(self):
-        values = self.__getstate__().values()
-        parts = ((v.shape, *v.ravel().tolist()) if isinstance(v, np.ndarray) else v for v in values)
-        return hash((type(self), *parts))
+        return hash((type(self), *map(_hashable, self.__getstate__().values())))
+
+
+def _equal(one, other):
+    """Whether two parameters are equal, which may have parameters, or be arrays."""
+    # A dataclass has its own comparison, by default, which fails for arrays.
+    if isinstance(one, Parameters):
+        return Parameters.__eq__(one, other) is True
+    return np.array_equal(one, other)
+
+
+def _hashable(value):
+    """A parameter as something that can be hashed."""
+    if isinstance(value, Parameters):
+        return Parameters.__hash__(value)
+    return (value.shape, *value.ravel().tolist()) if isinstance(value, np.ndarray) else value

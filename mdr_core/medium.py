@@ -6,6 +6,8 @@ import numpy as np
 
 from . import _check
 from ._check import Array, ArrayLike, Parameter, shown
+from .hardness import HardnessLaw, SumOfClasses
+from .hardness_check import check_law
 from .profiles.profile import Profile
 
 
@@ -34,7 +36,21 @@ def refuse_adhesion(medium, what):
 def refuse_other_classes(medium, what, instead):
     """Refuses a medium of another hardness than q_c/a for a quantity `what` of class (b)."""
     if not medium.inverse_to_radius:
-        raise ValueError(f"{what} is of the hardness q_c/a alone, class (b); {instead}")
+        law = f", not of the law {shown(medium.hardness)}" if medium.has_own_law else ""
+        raise ValueError(f"{what} is of the hardness q_c/a alone, class (b){law}; {instead}")
+
+
+def refuse_own_law(medium, what, instead):
+    """Refuses a medium with a law of hardness of its own for something, `what`, that cannot have one."""
+    if medium.has_own_law:
+        law = shown(medium.hardness)
+        raise ValueError(f"{what} cannot have the law of hardness {law}; {instead}")
+
+
+def check_hardness(profile, medium, depth):
+    """Refuses a medium whose law of hardness is none at the contact radii of depths (m)."""
+    if medium.has_own_law:
+        check_law(medium.hardness, profile, depth)
 
 
 def paths_on(profile, medium, depth):
@@ -73,6 +89,13 @@ def _poisson(quantity, ratio):
 
 def _hardness_constants(q_c, hardness, f_c):
     """The three constants of the hardness, those that are not given by the rules of `Medium`."""
+    if isinstance(hardness, HardnessLaw):
+        return _law_alone(q_c, hardness, f_c)
+    if callable(hardness):
+        wanted = "must be a number (Pa) or a HardnessLaw with its parameters"
+        raise _check.InvalidArgument(
+            f"hardness {wanted}, got {shown(hardness)}", "hardness", hardness, wanted, "Pa"
+        )
     elastic = hardness is None and f_c is None
     given = {
         "q_c": (np.inf if elastic else 0.0) if q_c is None else q_c,
@@ -88,8 +111,28 @@ def _hardness_constants(q_c, hardness, f_c):
     }
 
 
+def _law_alone(q_c, law, f_c):
+    """The constants beside a law of hardness: none, where an infinite q_c means that none is given."""
+    law = law.stored()
+    for name, value, unit, term in (("q_c", q_c, "N/m", "q_c/a"), ("f_c", f_c, "N", "f_c/a²")):
+        quantity, value = f"yield constant {name}", 0.0 if value is None else value
+        value = _check.positive(quantity, value, unit=unit, zero=True, infinite=name == "q_c")
+        beside = (np.asarray(value) > 0) & (np.asarray(value) < np.inf)
+        bound = f"stands beside the law of hardness {shown(law)}, which stands alone"
+        remedy = f"write {term} into its at(a), or take hardness = 0 beside {name}"
+        _check.refuse(quantity, np.asarray(value), beside, bound, unit=unit, remedy=remedy)
+    return {"q_c": 0.0, "hardness": law, "f_c": 0.0}
+
+
 def _refuse_sum(medium):
     """Refuses a hardness that is 0, and an infinite q_c beside another class."""
+    if medium.has_own_law:
+        if np.any(np.asarray(medium.work_of_adhesion) > 0):
+            raise ValueError(
+                "adhesion is modelled for the hardness q_c/a only, not for the law "
+                f"{shown(medium.hardness)}; set the work of adhesion work_of_adhesion to 0, or give q_c"
+            )
+        return
     others = np.asarray(medium.hardness) + np.asarray(medium.f_c)
     q_c = np.broadcast_to(medium.q_c, np.broadcast_shapes(np.shape(medium.q_c), others.shape))
     for bad, bound, remedy in (
@@ -136,8 +179,9 @@ class Medium(_check.Parameters):
     work_of_adhesion : float, optional
         Work of adhesion w (J/m²), not negative: the energy that separates a unit area of the surfaces.
         0 (the default) means no adhesion. It excludes viscosity, and yield of another class than (b).
-    hardness : float, optional
-        Constant hardness H of class (a) (Pa), finite and not negative: glass, metals, ceramics.
+    hardness : float or HardnessLaw, optional
+        Constant hardness H of class (a) (Pa), finite and not negative: glass, metals, ceramics. Or a law
+        σ_c(a) of your own, a `HardnessLaw`, which stands alone: without `q_c`, `f_c` and adhesion.
     f_c : float, optional
         Yield constant of class (c) (N = J/m), finite and not negative.
 
@@ -147,8 +191,9 @@ class Medium(_check.Parameters):
     ------
     ValueError
         If a parameter is not a number or out of its range, arrays do not broadcast, the hardness is 0,
-        `q_c` is infinite beside a `hardness` or `f_c`, both `eta` and `work_of_adhesion` are positive, or
-        `work_of_adhesion` and one of `hardness` and `f_c`.
+        `q_c` is infinite beside a `hardness` or `f_c`, `q_c` or `f_c` stands beside a law, both `eta` and
+        `work_of_adhesion` are positive, or `work_of_adhesion` and one of `hardness` and `f_c`. A law that
+        is none at the contact radii of a calculation is refused by that.
 
     Examples
     --------
@@ -181,7 +226,10 @@ class Medium(_check.Parameters):
                 "work of adhesion work_of_adhesion", self.work_of_adhesion, unit="J/m²", zero=True
             ),
         )
-        _check.common_shape("medium", **self.__getstate__())
+        parameters = self.__getstate__()
+        if self.has_own_law:
+            parameters |= {"hardness": np.empty(self.hardness.shape)}
+        _check.common_shape("medium", **parameters)
         _refuse_sum(self)
         if np.any((np.asarray(self.eta) > 0) & (np.asarray(self.work_of_adhesion) > 0)):
             raise ValueError(
@@ -261,7 +309,7 @@ class Medium(_check.Parameters):
         eta: ArrayLike = 0.0,
         work_of_adhesion: ArrayLike = 0.0,
         *,
-        hardness: ArrayLike | None = None,
+        hardness: "ArrayLike | HardnessLaw | None" = None,
         f_c: ArrayLike | None = None,
     ) -> "Medium":
         """The medium equivalent to two elastic bodies in contact.
@@ -295,7 +343,17 @@ class Medium(_check.Parameters):
     @property
     def inverse_to_radius(self) -> bool:
         """Whether the hardness is q_c/a alone, class (b) of the paper, or nothing yields."""
-        return not (np.any(self.hardness) or np.any(self.f_c))
+        return not (self.has_own_law or np.any(self.hardness) or np.any(self.f_c))
+
+    @property
+    def has_own_law(self) -> bool:
+        """Whether `hardness` is a `HardnessLaw`, and no constant."""
+        return isinstance(self.hardness, HardnessLaw)
+
+    @property
+    def law(self) -> HardnessLaw:
+        """The law of hardness σ_c(a): the `hardness` where it is one, else the sum of the three classes."""
+        return self.hardness if self.has_own_law else SumOfClasses(self.hardness, self.q_c, self.f_c)
 
     @property
     def critical_depth(self) -> Array:
@@ -318,7 +376,8 @@ class Medium(_check.Parameters):
     def hardness_at(self, radius: ArrayLike) -> Array:
         """Hardness σ_c = H + q_c/a + f_c/a² (Pa) of a contact of radius a (m), Popov (2015), section 1.
 
-        The mean pressure under a contact that has yielded throughout; infinite where nothing yields.
+        With a law of hardness it is its value. The mean pressure under a contact that has yielded
+        throughout; infinite where nothing yields.
 
         Examples
         --------
@@ -327,7 +386,10 @@ class Medium(_check.Parameters):
         """
         a = _check.positive("radius", radius, unit="m")
         _check.common_shape("hardness_at", radius=a, medium=np.empty(self.shape))
-        return _check.frozen(self.hardness + np.asarray(self.q_c) / a + np.asarray(self.f_c) / a / a)
+        hardness = np.asarray(self.law.at(a))
+        bound = "is no hardness: it must be above 0"
+        _check.refuse("hardness", hardness, ~(hardness > 0), bound, unit="Pa", remedy="mend the law")
+        return _check.frozen(hardness + np.zeros(np.shape(a)))
 
     @property
     def relaxation_time(self) -> Array:

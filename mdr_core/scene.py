@@ -12,7 +12,7 @@ from .drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
 from .foundation.chain_impact import ChainImpact
 from .foundation.depth_path import TimedIndentation
 from .impacts.result import Impact
-from .medium import Medium, check_pair
+from .medium import Medium, check_pair, refuse_own_law
 from .oblique.oblique_impact import ObliqueImpact
 from .profiles import power, rounded, sampled, truncated
 from .profiles.profile import Profile
@@ -28,6 +28,8 @@ _DRIVES = (DepthPath, ForcePath, FreeImpact, FreeObliqueImpact)
 #: Values of entries that are optional in a file.
 _OPTIONAL = {"time": None, "poisson": 0.5, "work_of_adhesion": 0.0, "plastic_depth": 0.0}
 _OPTIONAL |= {"hardness": None, "f_c": None}
+#: Remedy for a law of hardness, whose class is not in a file.
+_NOT_KEPT = "keep the script that makes the law, or pickle the scene where its class can be imported"
 _FORMAT, _VERSION = "mdr-scene", 1
 
 
@@ -86,7 +88,11 @@ class Scene:
         return self.drive.solve(self.profile, self.medium, model)
 
     def to_json(self) -> str:
-        """The scene as JSON text with exact numbers; an infinite yield constant is null."""
+        """The scene as JSON text with exact numbers; an infinite yield constant is null.
+
+        A law of hardness is refused: its class is not in the file.
+        """
+        refuse_own_law(self.medium, "a scene as JSON", _NOT_KEPT)
         return json.dumps(
             {
                 "format": _FORMAT,
@@ -102,6 +108,8 @@ class Scene:
     def to_python(self) -> str:
         """Python that makes and solves the scene; arguments at their defaults are left out.
 
+        A law of hardness is refused: its class is not in the text.
+
         Examples
         --------
         >>> from mdr_core import Cone, Medium
@@ -116,6 +124,7 @@ class Scene:
         result = scene.solve()
         <BLANKLINE>
         """
+        refuse_own_law(self.medium, "a scene as Python", _NOT_KEPT)
         parts = "".join(f"    {_constructed(getattr(self, each.name))},\n" for each in fields(self))
         return f"import mdr_core as mdr\n\nscene = mdr.Scene(\n{parts})\nresult = scene.solve()\n"
 

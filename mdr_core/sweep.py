@@ -37,9 +37,10 @@ from . import _check
 from .contact.adhesion import first_contacts
 from .contact.indentation import Indentation
 from .contact.yielding import yield_rule
+from .hardness import HardnessLaw
 from .impacts.impact import impact
 from .impacts.result import Impact
-from .medium import Medium
+from .medium import Medium, check_hardness
 from .oblique.oblique_impact import ObliqueImpact, oblique_impact
 from .profiles.profile import Profile
 from .profiles.sampled import Sampled
@@ -71,7 +72,7 @@ def impacts(
     *,
     E_star: "Given",
     q_c: "Given | None" = None,
-    hardness: "Given | None" = None,
+    hardness: "Given | HardnessLaw | None" = None,
     f_c: "Given | None" = None,
     eta: "Given" = 0.0,
     work_of_adhesion: "Given" = 0.0,
@@ -90,7 +91,7 @@ def impacts(
         Class of the indenters, whose parameters follow by name, or a single indenter.
     E_star, q_c, hardness, f_c, eta, work_of_adhesion : float or DataArray
         Effective modulus (Pa), the constants of the hardness (N/m, Pa, N), viscosity (Pa·s) and work of
-        adhesion (J/m²) of the `Medium`, with its defaults.
+        adhesion (J/m²) of the `Medium`, with its defaults. `hardness` may be one `HardnessLaw` for all.
     mass, speed : float or DataArray
         Mass (kg) and speed (m/s) at first contact.
     plastic_depth : float or DataArray
@@ -129,9 +130,9 @@ def impacts(
     ({'radius': 2, 'speed': 3}, [1.0, 0.5426, 0.1184])
     """
     parameters = {"E_star": E_star, "eta": eta, "work_of_adhesion": work_of_adhesion}
-    parameters |= _hardness(q_c, hardness, f_c)
-    parameters |= {"mass": mass, "speed": speed, "plastic_depth": plastic_depth}
-    return _sweep(Impact, _hit, shape, parameters, shape_parameters, quantities, invalid)
+    constants, law = _hardness(q_c, hardness, f_c)
+    parameters |= constants | {"mass": mass, "speed": speed, "plastic_depth": plastic_depth}
+    return _sweep(Impact, _hit, law, shape, parameters, shape_parameters, quantities, invalid)
 
 
 def oblique_impacts(
@@ -139,7 +140,7 @@ def oblique_impacts(
     *,
     E_star: "Given",
     q_c: "Given | None" = None,
-    hardness: "Given | None" = None,
+    hardness: "Given | HardnessLaw | None" = None,
     f_c: "Given | None" = None,
     eta: "Given" = 0.0,
     poisson: "Given" = 0.5,
@@ -170,11 +171,11 @@ def oblique_impacts(
     array([8.16, 7.16, 0.  ])
     """
     parameters = {"E_star": E_star, "eta": eta, "poisson": poisson, "mass": mass}
-    parameters |= _hardness(q_c, hardness, f_c)
-    parameters |= {"speed": speed, "tangential_speed": tangential_speed, "friction": friction}
+    constants, law = _hardness(q_c, hardness, f_c)
+    parameters |= constants | {"speed": speed, "tangential_speed": tangential_speed, "friction": friction}
     parameters["tangential_mass"] = mass if tangential_mass is None else tangential_mass
     hit = partial(_hit_at_angle, tolerance=tolerance)
-    return _sweep(ObliqueImpact, hit, shape, parameters, shape_parameters, quantities, invalid)
+    return _sweep(ObliqueImpact, hit, law, shape, parameters, shape_parameters, quantities, invalid)
 
 
 def indentations(
@@ -182,7 +183,7 @@ def indentations(
     *,
     E_star: "Given",
     q_c: "Given | None" = None,
-    hardness: "Given | None" = None,
+    hardness: "Given | HardnessLaw | None" = None,
     f_c: "Given | None" = None,
     work_of_adhesion: "Given" = 0.0,
     depth: "Given",
@@ -204,12 +205,16 @@ def indentations(
     [0.006366 0.003183]
     """
     parameters = {"E_star": E_star, "work_of_adhesion": work_of_adhesion, "depth": depth}
-    parameters |= _hardness(q_c, hardness, f_c)
-    return _sweep(Indentation, _press, shape, parameters, shape_parameters, quantities, invalid)
+    constants, law = _hardness(q_c, hardness, f_c)
+    parameters |= constants
+    return _sweep(Indentation, _press, law, shape, parameters, shape_parameters, quantities, invalid)
 
 
-def _sweep(kind, solve, shape, parameters, shape_parameters, quantities, invalid):
-    """Dataset of quantities of a class of results, which `solve` returns for arrays of parameters."""
+def _sweep(kind, solve, law, shape, parameters, shape_parameters, quantities, invalid):
+    """Dataset of quantities of a class of results, which `solve` returns for arrays of parameters.
+
+    `law` is {"hardness": law}, which is the same for all, or empty.
+    """
     xarray = imported("xarray", "mdr_core.sweep")
     names = [quantities] if isinstance(quantities, str) else list(quantities)
     # The plastic depth is one before the impact as a parameter, one after it as a quantity.
@@ -225,13 +230,16 @@ def _sweep(kind, solve, shape, parameters, shape_parameters, quantities, invalid
 
     def block(*values):
         values, places = dict(zip(given, values, strict=False)), values[len(given) :]
-        return _in_blocks(solve, shape, values, shape_parameters, names, partial(refused.add, places))
+        return _in_blocks(
+            partial(solve, **law), shape, values, shape_parameters, names, partial(refused.add, places)
+        )
 
     lazily = {"dask": "parallelized", "output_dtypes": [float] * len(names)}
     dims, arrays = [[] for _ in names], (*given.values(), *indices(xarray, given))
     results = xarray.apply_ufunc(block, *arrays, output_core_dims=dims, keep_attrs=False, **lazily)
     results = results if len(names) > 1 else [results]
-    dataset = xarray.Dataset(dict(zip(names, results, strict=True)), attrs=_attributes(kind, shape, given))
+    attributes = _attributes(kind, shape, given) | {name: described(each) for name, each in law.items()}
+    dataset = xarray.Dataset(dict(zip(names, results, strict=True)), attrs=attributes)
     if invalid == "nan" and not dataset.chunks:
         dataset.attrs |= {"invalid_count": refused.count, "invalid": refused.listed}
     for name in names:
@@ -288,10 +296,19 @@ def _in_blocks(solve, shape, values, own, names, refused):
 
 
 def _hardness(q_c, hardness, f_c):
-    """The constants of the hardness that are given; q_c = ∞ without any."""
+    """The constants of the hardness that are given, q_c = ∞ without any; and a law, which does not vary."""
+    if isinstance(hardness, HardnessLaw):
+        if hardness.shape:
+            name, size = _check.shown(hardness), hardness.shape
+            raise ValueError(
+                f"hardness {name} has arrays of shape {size}, without names of dimensions: the law of a "
+                "sweep is one for all; give one of single numbers"
+            )
+        constants, law = {"q_c": q_c, "f_c": f_c}, {"hardness": hardness}
+        return {name: value for name, value in constants.items() if value is not None}, law
     constants = {"q_c": q_c, "hardness": hardness, "f_c": f_c}
     given = {name: value for name, value in constants.items() if value is not None}
-    return given or {"q_c": np.inf}
+    return given or {"q_c": np.inf}, {}
 
 
 def _hit(profile, E_star, eta, work_of_adhesion, mass, speed, plastic_depth, **hardness):
@@ -311,6 +328,7 @@ def _press(profile, E_star, work_of_adhesion, depth, **hardness):
     depth = profile._known(np.broadcast_to(depth, shape))
     if np.any(np.asarray(work_of_adhesion) > 0):
         return Indentation(profile, medium, depth, *first_contacts(profile, medium, depth))
+    check_hardness(profile, medium, depth)
     interval, _ = yield_rule(profile, medium).loading(np.maximum(depth, 0.0))
     return Indentation(profile, medium, depth, interval)
 

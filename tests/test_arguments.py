@@ -7,6 +7,8 @@ import pytest
 
 import mdr_core as mdr
 
+from .laws import NixGao
+
 CONE, MEDIUM = mdr.Cone(0.3), mdr.Medium(1e9, 10.0)
 VISCOUS, STICKY = mdr.Medium(1e9, 10.0, eta=1e3), mdr.Medium(1e9, 8.0, work_of_adhesion=2e-3)
 DEPTH = np.append(np.linspace(-5e-9, 60e-9, 100), np.linspace(60e-9, 30e-9, 50))
@@ -17,6 +19,12 @@ RADIUS = np.linspace(0.0, 1e-6, 30)
 STATE = mdr.indent(CONE, MEDIUM, 30e-9)
 NOISE = np.full(150, 1e-9)
 
+
+def law_of(**given):
+    """The law that a medium keeps."""
+    return mdr.Medium(1e9, hardness=NixGao(**given)).hardness
+
+
 #: A call of every public function and class that takes arrays.
 CALLS = {
     "Ball": (mdr.Ball, {"radius": 1e-6 * ONE, "mass": ONE}),
@@ -24,6 +32,7 @@ CALLS = {
     "DepthPath": (mdr.DepthPath, {"depth": DEPTH, "time": TIME}),
     "FlatPunch": (mdr.FlatPunch, {"radius": ONE}),
     "ForcePath": (mdr.ForcePath, {"force": np.abs(FORCE), "time": TIME}),
+    "HardnessLaw": (law_of, {"H0": 1e9 * ONE, "a_star": 1e-6 * ONE}),
     "Hyperboloid": (mdr.Hyperboloid, {"slope": TWO, "tip_radius": ONE}),
     "Medium": (mdr.Medium, {"E_star": 1e9 * ONE, "q_c": ONE, "eta": ONE, "poisson": TWO}),
     "Medium.from_bodies": (mdr.Medium.from_bodies, {"E1": 1e9 * ONE, "nu1": TWO, "q_c": ONE}),

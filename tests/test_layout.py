@@ -15,7 +15,7 @@ ORDER = (
     "_errors", "_check", "numerics.stable", "numerics.blocks", "numerics.gauss", "numerics.collocation",
     "numerics.roots", "abel", "results.units", "results.quantities", "profiles.samples", "profiles.profile",
     "profiles.power", "profiles.radius_table", "profiles.rounded", "profiles.truncated", "profiles.sampled",
-    "profiles.smooth", "medium", "results.limits", "results.report",
+    "profiles.smooth", "hardness", "hardness_check", "medium", "results.limits", "results.report",
     "results.base", "results.sweep_arguments", "results.progress", "measured_curve", "reading",
     "foundation.refinement",
     "foundation.cap", "foundation.element", "foundation.grid", "foundation.foundation",

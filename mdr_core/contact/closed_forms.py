@@ -16,6 +16,7 @@ mean.
 import numpy as np
 import scipy
 
+from ..hardness import SumOfClasses
 from ..numerics.blocks import chunks
 from ..numerics.stable import cube_rise, log1p_ratio, root
 from ..profiles.power import Cone, FlatPunch, Paraboloid, PowerLaw
@@ -206,12 +207,13 @@ class ConeOfHardness(RadiusCap):
 
     @property
     def _kappa(self):
-        return np.divide(self.volume, np.pi / 2 * self.profile.slope)
+        return np.divide(self.law.hardness, np.pi / 2 * self.profile.slope)
 
     @classmethod
     def at_ratio(cls, profile, ratio):
         kappa = 1 / (1 + ratio)
-        return cls(profile, np.pi / 2 * profile.slope * kappa, 0.0, 0.0), LiveInterval.above(ratio, 1.0)
+        law = SumOfClasses(np.pi / 2 * profile.slope * kappa, 0.0, 0.0)
+        return cls(profile, law), LiveInterval.above(ratio, 1.0)
 
     def _penetration(self, imprint, increase):
         kappa = self._kappa
@@ -241,12 +243,13 @@ class ParaboloidOfHardness(RadiusCap):
 
     @property
     def _onset(self):
-        return self.volume**2 * self.profile.radius
+        return self.law.hardness**2 * self.profile.radius
 
     @classmethod
     def at_ratio(cls, profile, ratio):
         r = 1 + ratio
-        return cls(profile, np.sqrt(1 / profile.radius), 0.0, 0.0), LiveInterval(r * ratio, r * r, r)
+        law = SumOfClasses(np.sqrt(1 / profile.radius), 0.0, 0.0)
+        return cls(profile, law), LiveInterval(r * ratio, r * r, r)
 
     def _penetration(self, imprint, increase):
         onset = self._onset

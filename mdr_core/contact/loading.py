@@ -6,14 +6,14 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..medium import Medium, check_pair, paths_on
+from ..medium import Medium, check_hardness, check_pair, paths_on
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from . import adhesion
 from .indentation import Indentation
 from .integrals import integrals
 from .live_interval import LiveInterval
-from .yielding import yield_rule
+from .yielding import ConstantCap, yield_rule
 
 
 @_check.keywords_explained
@@ -44,7 +44,8 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     Raises
     ------
     ValueError
-        If a depth is not finite, or larger than the known depth of the profile.
+        If a depth is not finite, or larger than the known depth of the profile, or if a law of hardness is
+        none up to the contact radius there (`HardnessLaw`).
 
     Examples
     --------
@@ -61,6 +62,7 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     depth = profile._known(paths_on(profile, medium, depth))
     if np.any(medium.work_of_adhesion):
         return Indentation(profile, medium, depth, *adhesion.depth_path(profile, medium, depth))
+    check_hardness(profile, medium, depth)
     return Indentation(profile, medium, depth, yield_rule(profile, medium).path(depth))
 
 
@@ -76,10 +78,10 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
         As for `indent`.
     force : float or array_like
         Normal force (N); one number or a path along the last axis. At 0 the indenter rests on the bottom
-        of the imprint. With f_c above 0 the force on loading may fall after the onset of yield: the depth
-        is the first one that carries it, and the path jumps there, which is said in `limits`. Negative
-        only with adhesion: under more than the pull-off force the contact is lost, the force is 0 and the
-        depth that of the imprint, until a force ≥ 0 closes it again.
+        of the imprint. With f_c above 0, or a law of hardness, the force on loading may fall after the
+        onset of yield: the depth is the first one that carries it, and the path jumps there, which is said
+        in `limits`. Negative only with adhesion: under more than the pull-off force the contact is lost,
+        the force is 0 and the depth that of the imprint, until a force ≥ 0 closes it again.
 
     Returns
     -------
@@ -91,7 +93,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     ValueError
         If a force is not finite, negative without adhesion, larger than a flat face carries before all of
         it yields (π b² σ_c(b), Popov 2015, Eq. (11)) or than f_c carries alone (π f_c), or presses deeper
-        than the known depth of the profile.
+        than the known depth of the profile; or if a law of hardness is none up to the contact radius there.
 
     Examples
     --------
@@ -115,11 +117,17 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
         return Indentation(profile, medium, *adhesion.force_path(profile, medium, force))
     integral = force / (2 * medium.E_star)
     largest = np.maximum.accumulate(integral, axis=-1) if integral.ndim else integral
-    branches = _growing_branches(rule)
+    elastic = _elastic_depth(profile, largest) if medium.has_own_law else None
+    check_hardness(profile, medium, elastic)
+    branches = _growing_branches(rule, elastic)
     largest_depth = _loading_depth(rule, branches, largest)
     known = largest_depth <= min(profile.known_depth, _check.LONGEST)
     bound = f"presses {profile._too_deep()}"
+    if medium.has_own_law and profile.known_depth == np.inf and not np.all(known):
+        carried = max(_carried(rule, min(high, _check.LONGEST)) for _, high, _ in branches)
+        bound = f"is more than the {2 * medium.E_star * carried:g} N that the contact carries on loading"
     _check.refuse("force", force, ~known, bound, unit="N", remedy="press less")
+    check_hardness(profile, medium, largest_depth)
     loaded, _ = rule.loading(largest_depth)
     length = np.where(integral == largest, loaded.length, _live_length(profile, loaded, integral))
     depth = np.where(integral == largest, largest_depth, loaded.lower + length)
@@ -148,14 +156,25 @@ def _loading_depth(rule, branches, area):
     return result
 
 
-def _growing_branches(rule):
+def _elastic_depth(profile, area):
+    """Depth (m) at which an elastic loading has ∫ a ds = `area` (m²): no more than that of any loading."""
+    return _loading_depth(ConstantCap(profile, np.inf), [(0.0, profile.known_depth, 0.0)], area)
+
+
+def _carried(rule, depth):
+    """∫ a ds (m²) of a first loading to a depth (m)."""
+    return float(integrals(rule.profile).radius_integral(rule.loading(np.asarray(depth))[0]))
+
+
+def _growing_branches(rule, elastic=None):
     """Depths (m) between which the force of a first loading grows, and ∫ a ds (m²) at the first of them.
 
-    With f_c above 0 the force may fall after the onset of yield.
+    With f_c above 0, or a law of hardness, the force may fall after the onset of yield. For a law,
+    `elastic` are the depths (m) that elastic loadings reach.
     """
     end, onset = rule.profile.known_depth, float(rule.onset())
     branches = [(0.0, end, 0.0)]
-    if not rule.falls or not onset < end:
+    if not onset < end or not rule.may_fall(end):
         return branches
 
     @np.errstate(all="ignore")
@@ -165,6 +184,10 @@ def _growing_branches(rule):
         return rule.yielding_width(interval) >= -1e-14 * rule.profile._radius(interval.upper)
 
     depth = onset * (1 + np.geomspace(1e-9, 1e9, 721))
+    if elastic is not None:
+        # A law may change at any depth, also under a sharp tip that yields from first touch on.
+        far = np.max(elastic, initial=0.0, where=elastic < np.inf) * np.geomspace(1e-6, 1e9, 1201)
+        depth = np.union1d(depth[depth > onset], far[far > onset])
     depth = np.append(onset, np.append(depth[depth < end], end if end < np.inf else []))
     grows = growing(depth)
     # The elastic branch ends at the onset.
@@ -176,8 +199,7 @@ def _growing_branches(rule):
         if grows[i]:
             branches[-1] = (branches[-1][0], low, branches[-1][2])
         else:
-            least = integrals(rule.profile).radius_integral(rule.loading(high)[0])
-            branches.append((high, end, float(least)))
+            branches.append((high, end, _carried(rule, high)))
     return branches
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
-from ..medium import Medium, check_pair, shape_with
+from ..medium import Medium, check_hardness, check_pair, shape_with
 from ..profiles.profile import Profile
 from .integrals import integrals
 from .live_interval import LiveInterval
@@ -32,7 +32,8 @@ def yield_depth(profile: Profile, medium: Medium) -> Array:
     Raises
     ------
     ValueError
-        If yield starts deeper than the profile is known.
+        If yield starts deeper than the profile is known, or if a law of hardness is none up to the contact
+        radius there.
 
     Examples
     --------
@@ -137,4 +138,7 @@ def _onset(what, profile, medium, **values):
     # Deeper than the profile is known an onset may be infinite, but the cap there is not.
     unknown = (onset > profile.known_depth) & (rule.cap(profile.known_depth) < np.inf)
     bound = f"is {profile._too_deep()}"
-    return _check.refuse("yield depth", onset, unknown, bound, unit="m")
+    _check.refuse("yield depth", onset, unknown, bound, unit="m")
+    # A law under which a sharp tip yields from first touch on is looked at next to its tip.
+    check_hardness(profile, medium, np.where(onset > 0, onset, 1e-20))
+    return onset

@@ -11,16 +11,17 @@ that has yielded throughout carries π a² σ_c(a), so that its elements are com
 
     u_c(a) = π a σ_c(a)/(2E*) = (π/2E*)(H a + q_c + f_c/a)
 
-at most, where a is the contact radius on loading: `RadiusCap`.
+at most, where a is the contact radius on loading: `RadiusCap`, and `OwnCap` for a law of one's own.
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import singledispatch
 
 import numpy as np
 
 from .. import _check
+from ..hardness import ScaledLaw, SumOfClasses
 from ..medium import Medium, critical_depth
 from ..numerics.blocks import broadcast_flat, chunks
 from ..numerics.gauss import gauss_legendre
@@ -31,7 +32,8 @@ from .live_interval import LiveInterval
 
 #: Gauss nodes of the plastic work in each piece.
 _NODES = 24
-_TINY = np.finfo(float).tiny
+#: Halvings of a piece for a law of one's own: to 10⁻⁹ of its length, as at a kink.
+_HALVINGS = 30
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +46,6 @@ class YieldRule(_check.Parameters, ABC):
 
     profile: Profile
 
-    #: Whether the cap may fall with the contact radius.
-    falls = False
     #: Distances past the onset of yield, over the penetration there, between which motions are smooth.
     scales = 5 * 25.0 ** np.arange(6)
     #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/ℓ for all, ℓ
@@ -92,6 +92,10 @@ class YieldRule(_check.Parameters, ABC):
         length = np.where(increase > 0, self.cap(upper), penetration)
         return LiveInterval(lower, upper, length), increase
 
+    def may_fall(self, depth):
+        """Whether the force on loading up to a depth (m) may fall after the onset of yield."""
+        return False
+
     def path(self, depth):
         """Live interval after each point of a path of depths (m) along the last axis."""
         largest = np.maximum.accumulate(depth, axis=-1) if depth.ndim else depth
@@ -109,7 +113,16 @@ class YieldRule(_check.Parameters, ABC):
     def yielding_width(self, interval):
         """a − c dp/ds (m) on loading at the cap: the stiffness over 2E*."""
         c = self.profile._radius(interval.lower)
-        return integrals(self.profile).radius_drop(interval) + c * (1 - self.rate(interval.upper))
+        # At first touch the rate may be infinite, where c is 0.
+        slower = np.where(c > 0, 1 - self.rate(interval.upper), 0.0)
+        return integrals(self.profile).radius_drop(interval) + c * slower
+
+    def breaks(self, imprint, increase, onset):
+        """Depths (m), one row each, past the penetration `onset` (m) between which a loading is smooth.
+
+        The loading increases the plastic depth of an imprint by `increase` (m).
+        """
+        return self.scales * onset
 
     def wall_integral(self):
         """∫ a ds (m²) of a contact that has yielded throughout behind a wall, infinite without a wall."""
@@ -179,39 +192,40 @@ class ConstantCap(YieldRule):
 
 @dataclass(frozen=True, eq=False)
 class RadiusCap(YieldRule):
-    """Hardness H + q_c/a + f_c/a²: the cap u_c = A a + B + C/a of the contact radius a on loading.
+    """Hardness H + q_c/a + f_c/a²: the cap u_c = π a σ_c/(2E*) of the contact radius a on loading.
 
-    A, B, C are `volume` π H/(2E*) (dimensionless), `surface` π q_c/(2E*) (m) and `line` π f_c/(2E*) (m²).
-    Where g(x)/x does not fall, nor for A = 0 anywhere, u_c/s falls with s: p = s − u_c grows once it is 0.
+    `law` is that of the cap: the hardness scaled so that u_c (m) is its line load a σ_c. Where g(x)/x does
+    not fall, nor for H = 0 anywhere, u_c/s falls with s: p = s − u_c grows once it is 0.
     """
 
-    volume: np.ndarray | float
-    surface: np.ndarray | float
-    line: np.ndarray | float
+    law: SumOfClasses | ScaledLaw
 
     @classmethod
     def of(cls, profile, medium):
         """The rule for a medium."""
-        share = np.pi / 2 / medium.E_star
-        return cls(profile, share * medium.hardness, share * medium.q_c, share * medium.f_c)
+        return cls(profile, medium.law.scaled(np.pi / 2 / medium.E_star, 1.0))
 
-    falls = property(lambda self: bool(np.any(self.line)))
     scales = 0.5 * 50.0 ** np.arange(6)
 
     @np.errstate(all="ignore")
     def cap(self, depth):
-        return self._cap(self.profile._radius(np.maximum(depth, 0.0)))
+        return self.cap_at(self.profile._radius(np.maximum(depth, 0.0)))
 
-    def _cap(self, a):
-        return self.volume * a + self.surface + self.line / np.maximum(a, _TINY)
+    def cap_at(self, a):
+        """The cap u_c (m) at contact radii (m)."""
+        return self.law.line_load(a)
+
+    def may_fall(self, depth):
+        # d(a σ_c)/da < 0 at small radii.
+        return bool(np.any(self.law.f_c))
 
     @np.errstate(all="ignore")
     def rate(self, depth):
-        return 1 - self._cap_rate(self.profile._radius(depth))
+        return 1 - self.cap_rate_at(self.profile._radius(depth))
 
-    def _cap_rate(self, a):
+    def cap_rate_at(self, a):
         """du_c/ds at contact radii (m)."""
-        rate = (self.volume - self.line / a / a) / self.profile._reduced_slope(a)
+        rate = self.law.line_load_rate(a) / self.profile._reduced_slope(a)
         return np.where(a < self.profile.wall, rate, 0.0)
 
     def penetration(self, plastic_depth, imprint):
@@ -226,8 +240,8 @@ class RadiusCap(YieldRule):
 
         def ratio(depth):
             a = self.profile._radius(depth)
-            total = plastic_depth + self._cap(a)
-            return depth / total, (total - depth * self._cap_rate(a)) / total / total
+            total = plastic_depth + self.cap_at(a)
+            return depth / total, (total - depth * self.cap_rate_at(a)) / total / total
 
         with np.errstate(all="ignore"):
             # Under a sharp tip that yields from first touch on the ratio is larger everywhere.
@@ -235,17 +249,15 @@ class RadiusCap(YieldRule):
             near = plastic_depth + self.cap(plastic_depth)
             start = np.where((plastic_depth > 0) & (near < np.inf), near, 1.0)
             depth = increasing_root(ratio, sought, start, self.profile.known_depth)
-            return np.where(depth < np.inf, increase + self.cap(depth), np.inf)
+            reached = np.where(depth > 0, increase + self.cap(depth), 0.0)
+            return np.where(depth < np.inf, reached, np.inf)
 
     def increase(self, penetration, imprint):
         # Without the rounding of the imprint's depth.
         return np.maximum(penetration - self.cap(imprint + penetration), 0.0)
 
     def wall_integral(self):
-        wall = np.asarray(self.profile.wall)
-        # a u_c at the wall; without one f_c alone carries a finite load.
-        parts = (self.volume * wall if np.any(self.volume) else 0.0) + self.surface
-        return (parts * wall if np.any(parts) else 0.0) + self.line
+        return self.law.wall_load(np.asarray(self.profile.wall))
 
     def plastic_integral(self, imprint, increase):
         shape, (imprint, increase) = broadcast_flat(imprint, increase)
@@ -259,32 +271,122 @@ class RadiusCap(YieldRule):
     @np.errstate(all="ignore")
     def _plastic_sums(self, imprint, increase):
         """∫ u_c a(p) dp of loadings, one a row of (N, 1), from kink to kink of a(s) and a(p)."""
+        cuts, total = self._cuts(imprint, increase), np.zeros(len(imprint))
+        for start, stop in zip(cuts.T[:, :, None], cuts.T[1:, :, None], strict=False):
+            if np.any(stop > start):
+                total += self._piece(start, stop, imprint, increase)
+        return total
+
+    def _cuts(self, imprint, increase):
+        """Penetrations (m), ascending in each row, between which the plastic work is smooth."""
         first, last = self._penetration(imprint, 0 * increase), self._penetration(imprint, increase)
         last = np.minimum(last, self.profile.known_depth - imprint)
         rises = [kink - imprint for kink in self.profile.kinks]
         passed = [self._penetration(imprint, rise) for rise in rises]
         cuts = np.hstack([first, *rises, *passed, first * (1 + self.scales), last])
-        cuts = np.sort(np.clip(cuts, first, last), axis=1)
+        return np.sort(np.clip(cuts, first, last), axis=1)
+
+    def _piece(self, start, stop, imprint, increase):
+        """∫ u_c a(p) dp between two penetrations (m), one piece a row of (N, 1); 0 where stop is start."""
         node, weight = gauss_legendre(_NODES)
-        total = np.zeros(len(imprint))
-        for start, stop in zip(cuts.T[:, :, None], cuts.T[1:, :, None], strict=False):
-            if np.any(stop > start):
-                # Past a kink and past the onset a(p) is a power of the distance, of a fourth at least.
-                y = start + (stop - start) * node**4
-                p = imprint + np.minimum(self.increase(y, imprint), increase)
-                work = self.cap(imprint + y) * self.profile._radius(p) * self.rate(imprint + y)
-                work = np.where(stop > start, work * (stop - start), 0.0)
-                total += (work * (4 * node**3 * weight)).sum(axis=1)
-        return total
+        # Past a kink and past the onset a(p) is a power of the distance, of a fourth at least.
+        y = start + (stop - start) * node**4
+        p = imprint + np.minimum(self.increase(y, imprint), increase)
+        work = self.cap(imprint + y) * self.profile._radius(p) * self.rate(imprint + y)
+        work = np.where(stop > start, work * (stop - start), 0.0)
+        return (work * (4 * node**3 * weight)).sum(axis=1)
 
     def in_units_of(self, unit, length, depth):
-        return replace(
-            self,
-            profile=unit,
-            volume=self.volume * (length / depth),
-            surface=self.surface / depth,
-            line=self.line / depth / length,
+        return type(self)(unit, self.law.scaled(1 / depth, length))
+
+
+@dataclass(frozen=True, eq=False)
+class OwnCap(RadiusCap):
+    """`RadiusCap` of a law of hardness of one's own, of which nothing is known beforehand."""
+
+    def may_fall(self, depth):
+        # Falling caps are looked for from 10⁻⁶ of the depths on, in steps of 7 %.
+        depth = np.asarray(depth, dtype=float)
+        if np.any(depth == np.inf):
+            return True
+        if not self.shape:
+            depth = np.array([np.min(depth, initial=np.inf), np.max(depth, initial=0.0)])
+            steps = np.log(depth[1] / depth[0]) / np.log(1.07) + 200 if depth[1] > 0 else 1
+            return self._falls(np.geomspace(1e-6 * depth[0], depth[1], int(steps)) if steps > 1 else depth)
+        shape, (depth,) = broadcast_flat(
+            np.broadcast_to(depth, np.broadcast_shapes(depth.shape, self.shape))
         )
+        return any(
+            self.flat_entries(rows, shape)
+            .entries((slice(None), None), depth[rows].shape)
+            ._falls(depth[rows][:, None] * np.geomspace(1e-6, 1.0, 200))
+            for rows in chunks(depth.size, 512)
+        )
+
+    @np.errstate(all="ignore")
+    def _falls(self, depth):
+        return bool(np.any(self.cap_rate_at(self.profile._radius(depth)) < 0))
+
+    def _cuts(self, imprint, increase):
+        cuts = super()._cuts(imprint, increase)
+        sharp = np.minimum(self.law.sharp, self.profile.known_radius)
+        depth = self.profile._reduced(sharp) - imprint
+        return np.sort(np.hstack([cuts, np.clip(depth, cuts[:, :1], cuts[:, -1:])]), axis=1)
+
+    def _plastic_sums(self, imprint, increase):
+        return self._refined(imprint, increase)[0]
+
+    def breaks(self, imprint, increase, onset):
+        cuts, (_, rows, middles) = self._cuts(imprint, increase), self._refined(imprint, increase)
+        order = np.argsort(rows, kind="stable")
+        rows, middles = rows[order], middles[order]
+        place = np.arange(rows.size) - np.searchsorted(rows, rows)
+        padded = np.zeros((len(cuts), np.max(place, initial=-1) + 1))
+        padded[rows, place] = middles
+        return np.hstack([cuts, padded]) - onset
+
+    @np.errstate(all="ignore")
+    def _refined(self, imprint, increase):
+        """`RadiusCap._plastic_sums` in pieces that are halved until the sum is that of the halves.
+
+        Also the middles (m) of pieces that were halved, and their rows.
+        """
+        imprint, increase = np.broadcast_arrays(imprint, increase)
+        cuts, total = self._cuts(imprint, increase), np.zeros(len(imprint))
+        cuts = np.broadcast_to(cuts, (len(imprint), cuts.shape[1]))
+        rows, k = np.nonzero(np.diff(cuts) > 0)
+        start, stop = cuts[rows, k, None], cuts[rows, k + 1, None]
+        halved, middles = [rows[:0]], [start[:0, 0]]
+        whole = self._pieces(rows, start, stop, imprint, increase)
+        for _ in range(_HALVINGS):
+            middle = (start + stop) / 2
+            halves = (np.append(rows, rows), np.append(start, middle, 0), np.append(middle, stop, 0))
+            parts = self._pieces(*halves, imprint, increase)
+            both = parts[: rows.size] + parts[rows.size :]
+            scale = total + np.bincount(rows, np.abs(both), len(total))
+            # To the rounding of the sum.
+            rough = np.abs(both - whole) > 1e-14 * scale[rows]
+            total += np.bincount(rows[~rough], both[~rough], len(total))
+            halved.append(rows[rough])
+            middles.append(middle[rough, 0])
+            again = np.append(rough, rough)
+            rows, start, stop = (part[again] for part in halves)
+            whole = parts[again]
+            if not rows.size:
+                break
+        total += np.bincount(rows, whole, len(total))
+        return total, np.concatenate(halved), np.concatenate(middles)
+
+    def _pieces(self, rows, start, stop, imprint, increase):
+        """`_piece` of rows of the ensemble."""
+        own = self.entries(rows) if self.shape else self
+        return own._piece(start, stop, imprint[rows], increase[rows])
+
+    def wall_integral(self):
+        # Without a wall its limit for a → ∞ is not known: a force that is too large has no depth.
+        wall = np.asarray(self.profile.wall)
+        load = self.law.wall_load(np.where(wall < np.inf, wall, 1.0))
+        return np.where(wall < np.inf, load, np.inf)[()]
 
 
 def yield_rule(profile: Profile, medium: Medium) -> YieldRule:
@@ -299,6 +401,8 @@ def yield_rule(profile: Profile, medium: Medium) -> YieldRule:
     """
     if medium.inverse_to_radius:
         return ConstantCap.of(profile, medium.E_star, medium.q_c)
+    if medium.has_own_law:
+        return OwnCap.of(profile, medium)
     if np.any(medium.hardness) and not integrals(profile).convex:
         raise ValueError(
             "a hardness above 0 is not computed under a shape that is not convex: where g(x)/x falls, a "

@@ -7,7 +7,8 @@ import numpy as np
 from .. import _check
 from .._check import ArrayLike
 from ..contact.yielding import yield_rule
-from ..medium import Medium, check_pair
+from ..hardness import HardnessLaw
+from ..medium import Medium, check_pair, refuse_own_law
 from ..profiles.profile import Profile
 from ..results.progress import progress
 from ..results.quantities import engineering
@@ -65,7 +66,8 @@ def fit_indentation(
         Constants of the hardness σ_c(a) = hardness + q_c/a + f_c/a² (N/m, Pa, N) as in `Medium`: those that
         are not given are 0, and if none is given q_c is free. So `hardness=None` alone is a glass or a
         metal, class (a), and `q_c=None, hardness=None` a hardness with a size effect. `q_c=inf` holds the
-        medium elastic. `hardness` and `f_c` are not fitted together with `eta` or `work_of_adhesion`.
+        medium elastic. `hardness` and `f_c` are not fitted together with `eta` or `work_of_adhesion`. For
+        a `HardnessLaw` take `scipy.optimize.curve_fit` over `indent`: the gallery has an example.
     eta : float, optional
         Viscosity η (Pa·s) of the medium, 0 by default; see Notes.
     contact_point : float, optional
@@ -96,7 +98,7 @@ def fit_indentation(
         If data are infinite, of different shapes, have no force above the baseline, or fewer samples than
         free parameters; if `eta` or `drag` are not 0 and `time` is missing or does not increase; if
         `hardness` or `f_c` is not 0 and `eta` or `work_of_adhesion` is not, or `hardness` is not 0 and the
-        shape is not convex.
+        shape is not convex, or is a law.
 
     Notes
     -----
@@ -190,6 +192,9 @@ def fit_indentation(
     """
     check_pair(profile, Medium(1.0), "a fit")
     _check.one_of("invalid", invalid, ("raise", "nan"))
+    if isinstance(hardness, HardnessLaw):
+        instead = "find its parameters by scipy.optimize.curve_fit over indent, as the gallery does"
+        refuse_own_law(Medium(1.0, hardness=hardness), "a fit", instead)
     hardnesses = hardness_by_default(hardness=hardness, q_c=q_c, f_c=f_c)
     given = {"E_star": E_star} | hardnesses | {"eta": eta, "work_of_adhesion": work_of_adhesion}
     given |= {"contact_point": contact_point, "baseline": baseline, "tilt": tilt, "drag": drag}

@@ -20,6 +20,7 @@ from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
 from ..contact.quadrature import radius_rate
 from ..contact.yielding import ConstantCap, RadiusCap, interval_at
+from ..hardness import SumOfClasses
 
 
 @dataclass(frozen=True)
@@ -88,6 +89,6 @@ def constant_cap(profile, values, largest):
 def radius_cap(profile, values, largest):
     """Cap u_c (m) at the largest depths (m), dp/ds, and ∂u_c by each constant over π/2E*, by name."""
     share = np.pi / 2 / values["E_star"]
-    rule = RadiusCap(profile, *(share * values[name] for name in ("hardness", "q_c", "f_c")))
-    a = profile._radius(np.maximum(largest, 0.0))
-    return rule._cap(a), 1 - rule._cap_rate(a), {"hardness": a, "q_c": 1.0, "f_c": 1 / a}
+    law = SumOfClasses(*(share * values[name] for name in ("hardness", "q_c", "f_c")))
+    rule, a = RadiusCap(profile, law), profile._radius(np.maximum(largest, 0.0))
+    return rule.cap_at(a), 1 - rule.cap_rate_at(a), {"hardness": a, "q_c": 1.0, "f_c": 1 / a}

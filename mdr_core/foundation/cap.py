@@ -1,7 +1,8 @@
 """The yield cap of the elements: how far their springs are compressed elastically.
 
 Popov (2015), Eqs. (12), (17)–(19), with the hardness σ_c(a) at the contact radius a of the largest depth.
-It is the chain's own, and shares no code with the rule of yield that the chain bears witness of.
+It asks the law of hardness, which defines the medium, and shares no code with the rule of yield that the
+chain bears witness of.
 """
 
 import numpy as np
@@ -14,10 +15,9 @@ def elastic_limit(profile, medium, largest):
     """Largest elastic compression u_c = π a σ_c(a)/(2E*) (m) of the elements after a largest depth (m)."""
     if medium.inverse_to_radius:
         return medium.critical_depth
-    with np.errstate(divide="ignore"):
-        a = profile.contact_radius(np.maximum(largest, 0.0))
-        line = np.divide(medium.f_c, a) if medium.f_c else 0.0
-        return np.pi / (2 * medium.E_star) * (medium.hardness * a + medium.q_c + line)
+    a = profile.contact_radius(np.maximum(largest, 0.0))
+    with np.errstate(over="ignore"):
+        return medium.law.scaled(np.pi / (2 * medium.E_star), 1.0).line_load(a)
 
 
 def plastic_depth(profile, medium, largest):
@@ -32,13 +32,14 @@ def onset_depth(profile, medium):
 
     def ratio(depth):
         """Depth over elastic limit, which grows with depth, and about its derivative."""
+        depth = np.minimum(depth, _check.LONGEST)
         value = depth / elastic_limit(profile, medium, depth)
         before = depth * (1 - 1e-6)
         return value, (value - before / elastic_limit(profile, medium, before)) / (1e-6 * depth)
 
     if ratio(_check.SHORTEST)[0] > 1:
         return 0.0
-    return float(increasing_root(ratio, 1.0, 1.0, profile.known_depth))
+    return float(increasing_root(ratio, 1.0, 1.0, profile.known_depth, largest=_check.LONGEST))
 
 
 def flat_face_load(medium, radius):

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import _check
-from ..medium import Medium, check_pair, refuse_adhesion
+from ..medium import Medium, check_hardness, check_pair, refuse_adhesion
 from ..profiles.profile import Profile
 from ..results.base import CHAIN, ImpactResult, Motion, instants
 from ..results.limits import Limit, contact_limits
@@ -65,8 +65,8 @@ def chain_impact(
     Raises
     ------
     ValueError
-        If mass or speed is not positive, `start` has another profile or medium, or the largest depth
-        exceeds the known depth of the profile.
+        If mass or speed is not positive, `start` has another profile or medium, the largest depth exceeds
+        the known depth of the profile, or a law of hardness is none up to the largest contact radius.
 
     Examples
     --------
@@ -84,6 +84,10 @@ def chain_impact(
     speed = _check.positive_number("speed", speed, unit="m/s")
     tolerance = _check.positive_number("tolerance", tolerance)
     count, history = None if n is None else element_count(n), _history(profile, medium, start)
+    if medium.has_own_law and medium.eta == 0:
+        # Without dashpots the body goes no less deep than on an elastic medium, whose bound has 5 % more.
+        elastic = impact_depth_bound(profile, Medium(medium.E_star), mass, speed, history) / 1.1
+        check_hardness(profile, medium, elastic)
     bound = impact_depth_bound(profile, medium, mass, speed, history)
 
     def solve(elements, depth, steps):
@@ -102,6 +106,7 @@ def chain_impact(
     floor = np.array([1.0 if name == "restitution" else 0.0 for name in _TRUST])
     limit, errors = refine(run, tolerance, _RUNS, 2, orders=(2,), runs=3, trust=trust, floor=floor)
     quantities = dict(zip(_TRUST, limit.tolist(), strict=True))
+    check_hardness(profile, medium, quantities["max_depth"])
     errors = dict(zip(_TRUST, errors.tolist(), strict=True))
     error = max(errors["restitution"], errors["max_depth"])
     # Close to zero, the limit may be negative within its error.

@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import _check, abel
 from .._check import Array, ArrayLike
-from ..medium import Medium, check_pair, refuse_adhesion
+from ..medium import Medium, check_hardness, check_pair, refuse_adhesion
 from ..profiles.profile import Profile
 from ..results.base import CHAIN, Result
 from ..results.limits import Limit, contact_limits
@@ -84,6 +84,7 @@ def indent_in_time(
     depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
     time = check_times(time, depth, "depth")
     tolerance = _check.positive_number("tolerance", tolerance)
+    check_hardness(profile, medium, np.max(depth))
     nodes = _node_radii(profile, medium, depth, time)
     # A path without contact has no width of its own.
     half_width = float(profile.contact_radius(max(np.max(depth), 0.0))) or min(1.0, profile.known_radius)
@@ -110,7 +111,7 @@ def follow(foundation, depth, time):
     for new_depth, dt in zip(depth, np.append(np.inf, np.diff(time)), strict=True):
         foundation = foundation.advance(new_depth, dt)
         force, radius = force_and_radius(foundation)
-        works = foundation.stored_energy, foundation.plastic_work, foundation.viscous_work
+        works = foundation.energy_of_elements, foundation.plastic_work, foundation.viscous_work
         record.append((force, *works, radius))
     return np.array(record)
 

@@ -8,7 +8,7 @@ import scipy
 
 from .. import _check
 from .._check import ArrayLike
-from ..medium import Medium, check_pair, refuse_adhesion, refuse_other_classes
+from ..medium import Medium, check_pair, refuse_adhesion, refuse_other_classes, refuse_own_law
 from ..numerics.roots import root_in_bracket
 from ..profiles.profile import Profile
 from .cap import flat_face_load, plastic_depth
@@ -70,6 +70,7 @@ def creep(
     """
     check_pair(profile, medium, "a path in time")
     refuse_adhesion(medium, "a path in time")
+    refuse_own_law(medium, "a path of force in time", "take indent_in_time, a path of depth in time")
     instead = "take indent_in_time, or set hardness = 0 and f_c = 0"
     refuse_other_classes(medium, "a path of force in time", instead)
     force = _check.force("force", force)
@@ -144,7 +145,7 @@ def _creep_run(profile, medium, bound, n, force, time, steps, precision):
 
 
 def _recorded(foundation):
-    return foundation.depth, foundation.stored_energy, foundation.plastic_work, foundation.viscous_work
+    return foundation.depth, foundation.energy_of_elements, foundation.plastic_work, foundation.viscous_work
 
 
 def _step(foundation, dt, force, guess, bound, close):

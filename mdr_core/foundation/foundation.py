@@ -8,7 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from .. import _check
-from ..medium import Medium, check_pair, refuse_adhesion
+from ..medium import Medium, check_hardness, check_pair, refuse_adhesion
+from ..numerics.gauss import gauss_legendre
 from ..profiles.profile import Profile
 from ..results.quantities import described, engineering
 from . import element
@@ -151,7 +152,8 @@ class Foundation:
         Raises
         ------
         ValueError
-            If the contact radius exceeds half_width, or the depth the known depth.
+            If the contact radius exceeds half_width, or the depth the known depth; or if a law of hardness
+            is none up to that radius.
 
         Examples
         --------
@@ -166,6 +168,8 @@ class Foundation:
         depth = _check.number("depth", depth, "m")
         depth = float(_check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
         dt = _check.positive_number("dt", dt, unit="s", infinite=True)
+        if depth > self._current.largest:
+            check_hardness(self.profile, self.medium, depth)
         moved, travel = self, depth - self.depth
         for end in self._ends(depth):
             share = (end - moved.depth) / travel if travel else 1.0
@@ -292,13 +296,48 @@ class Foundation:
 
     @property
     def force(self) -> float:
-        """Normal force F = Σ q Δx (N); Popov (2015), Eq. (9)."""
+        """Normal force F = Σ q Δx (N); Popov (2015), Eq. (9).
+
+        Of a contact that is narrower than one element it is ∫ q dx with the profile inside the element.
+        """
+        if (inside := self._inside_an_element()) is not None:
+            width, elastic = inside
+            return float(2 * self.medium.E_star * (width @ np.maximum(elastic + self._current.lag, 0.0)))
         return float(2 * (self._load @ self._elements.width))
 
     @property
     def stored_energy(self) -> float:
-        """Elastic energy U = Σ E* u_e² Δx/2 (J), including elements that relax out of contact."""
+        """Elastic energy U = Σ E* u_e² Δx/2 (J), including elements that relax out of contact.
+
+        Of a contact that is narrower than one element it is an integral, as the force is.
+        """
+        inside = self._inside_an_element()
+        if inside is not None and not np.any(self._elements.elastic[~self._elements.contact]):
+            width, elastic = inside
+            return float(self.medium.E_star * (width @ elastic**2))
+        return self.energy_of_elements
+
+    @property
+    def energy_of_elements(self) -> float:
+        """Σ E* u_e² Δx/2 (J), which the works along the ramps of the elements balance to rounding."""
         return self._total(self._elements.elastic**2 / 2)
+
+    def _inside_an_element(self):
+        """Widths (m) and elastic parts (m) on a side of a contact narrower than an element, else None."""
+        elements, lag = self._elements, self._current.lag
+        if not elements.contact[0] or elements.contact[2:].any():
+            return None
+        plastic, elastic = float(elements.plastic[0]), float(elements.elastic[0])
+        # Contact ends where springs and dashpots together carry nothing.
+        rim = plastic + elastic + min(lag, 0.0)
+        ends = self.profile.contact_radius(np.array([min(plastic, rim), rim])) * [plastic > 0, 1.0]
+        if rim <= 0 or ends[1] >= elements.width[1]:
+            return None
+        node, weight = gauss_legendre(24)
+        # From the axis and from the edge of the imprint on, g may be a root: even in t⁴.
+        x = np.append(ends[0] * node**4, ends[0] + (ends[1] - ends[0]) * node**4)
+        width = np.append(ends[0] * weight, (ends[1] - ends[0]) * weight) * np.tile(4 * node**3, 2)
+        return width, elastic - np.maximum(self.profile.reduced(x) - plastic, 0.0)
 
     @property
     def plastic_work(self) -> float:

@@ -190,7 +190,7 @@ class ImpactSolver:
             "time": self.time, "depth": foundation.depth, "velocity": v,
             "force": force, "contact_radius": radius,
             "live_depth": live_depth if foundation._elements.contact[0] else 0.0,
-            "kinetic_energy": self.mass * v**2 / 2, "stored_energy": foundation.stored_energy,
+            "kinetic_energy": self.mass * v**2 / 2, "stored_energy": foundation.energy_of_elements,
             "plastic_work": foundation.plastic_work, "viscous_work": foundation.viscous_work,
         })  # fmt: skip
 

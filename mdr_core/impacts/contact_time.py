@@ -127,7 +127,7 @@ def time_over_root(rule, interval, increase):
     # and at which the upper end is.
     passed = column.penetration(kinks, before) - onset if kinks.size else kinks - before
     both = np.hstack([passed, kinks - before - onset])
-    all_breaks = np.hstack([breaks - before, rule.scales * onset])
+    all_breaks = np.hstack([breaks - before, column.breaks(before, increase, onset)])
     first = kink_above(profile, before[:, 0])[:, None]
     start = column.penetration(first, before) - onset
     span = increase + (length - onset)

@@ -34,7 +34,7 @@ class DryImpact(Impact):
     def max_force(self):
         """Largest force (N): that at the turning point, or with f_c above 0 it may be an earlier one."""
         force, shape = self.turning_point.force, np.shape(self.mass)
-        if not self._rule.falls:
+        if not self._rule.may_fall(self.max_depth):
             return force
         increase, interval = self.plastic_depth_increase, self.turning_point.live_interval
         rule = self._rule.flat_entries(slice(None), shape).entries((slice(None), None), (np.size(force),))

@@ -8,12 +8,15 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..medium import Medium, check_pair, refuse_adhesion, shape_with
+from ..medium import Medium, check_hardness, check_pair, refuse_adhesion, shape_with
 from ..profiles.profile import Profile
 from .adhesive import adhesive_impact
 from .energy_balance import dry_impact
 from .result import Impact
 from .viscous import viscous_impact
+
+#: Impacts of an ensemble on an elastic medium, by which a law of hardness is checked before it is solved.
+_SOME = 100
 
 
 @_check.keywords_explained
@@ -50,7 +53,8 @@ def impact(
     Raises
     ------
     ValueError
-        If an argument is out of its range, or the indenter would go deeper than its profile is known.
+        If an argument is out of its range, or the indenter would go deeper than its profile is known, or if
+        a law of hardness is none up to the largest contact radius (`HardnessLaw`).
 
     Examples
     --------
@@ -78,14 +82,35 @@ def solve_impact(profile, medium, mass, speed, plastic_depth, *, in_time=False):
     too_deep = profile._too_deep()
     outside = imprint_depth > profile.known_depth
     _check.refuse("plastic_depth", imprint_depth, outside, f"is {too_deep}", unit="m")
-    # The search may start far from the root, where powers leave double precision.
-    with np.errstate(all="ignore"):
-        hit = _solved(profile, medium, mass, speed, imprint_depth, in_time)
+    hit = _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time)
     known = np.minimum(profile.known_depth, _check.LONGEST)
     unknown = ~(hit.turning_point.live_interval.upper <= known)
     bound = f"presses {too_deep}"
     _check.refuse("speed", speed, unknown, bound, unit="m/s", remedy="hit less hard")
     return hit
+
+
+def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):
+    """The `Impact`, refused if a law of hardness is none up to its largest contact radius."""
+    # The search may start far from the root, where powers leave double precision.
+    with np.errstate(all="ignore"):
+        if medium.has_own_law:
+            _check_elastic(profile, medium, mass, speed, imprint_depth)
+        hit = _solved(profile, medium, mass, speed, imprint_depth, in_time)
+        check_hardness(profile, medium, hit.turning_point.live_interval.upper)
+    return hit
+
+
+def _check_elastic(profile, medium, mass, speed, imprint_depth):
+    """Refuses a law of hardness that is none up to the depths of impacts on an elastic medium, or of some.
+
+    These are less deep: such a law is not given to a solver.
+    """
+    rows = np.unique(np.linspace(0, mass.size - 1, min(mass.size, _SOME)).astype(int))
+    some = (values.ravel()[rows] for values in (mass, speed, imprint_depth))
+    own, medium = (each.flat_entries(rows, mass.shape) for each in (profile, medium))
+    elastic = _solved(own, Medium(medium.E_star, eta=medium.eta), *some, False)
+    check_hardness(own, medium, elastic.turning_point.live_interval.upper)
 
 
 def _solved(profile, medium, mass, speed, imprint_depth, in_time):

@@ -137,8 +137,8 @@ def _modulus_limit(medium):
 
 
 def _flow_limit(medium):
-    """Contact area of a contact that flows over that of this model, if there is a constant hardness."""
-    if np.any(np.asarray(medium.hardness) > 0):
+    """Contact area of a contact that flows over that of this model, if there is a hardness H or a law."""
+    if medium.has_own_law or np.any(np.asarray(medium.hardness) > 0):
         text = (
             "On loading the contact radius is the elastic one, for a ball a² = R d; a contact that flows "
             "goes to 2 R d. Under a ball yield starts at a mean pressure of 2H/3, and restitution is about "

@@ -139,6 +139,10 @@ def described(thing):
         known, value = QUANTITIES.get(name), getattr(thing, name)
         if np.ndim(value) == 0 and at_default(field, value):
             continue
+        if isinstance(value, _check.Parameters):
+            kind, *own = described(value).split(", ")
+            parts.append(f"σ_c by {kind}({', '.join(own)})")
+            continue
         try:
             text = engineering(value, known.unit if known else "")
             count = f" ({np.size(value)})" if np.ndim(value) else ""

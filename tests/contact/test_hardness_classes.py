@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 
 import mdr_core as mdr
 from mdr_core.contact.yielding import ConstantCap, RadiusCap
+from mdr_core.hardness import SumOfClasses
 
 from ..reference import Reference
 from ..shapes import SHAPES, name
@@ -222,7 +223,7 @@ class TestClosedLimits:
 
     @pytest.mark.parametrize("shape", SHAPES, ids=name)
     def test_a_cap_without_slope_is_that_of_class_b(self, shape):
-        general, constant = RadiusCap(shape, 0.0, 1e-9, 0.0), ConstantCap(shape, 1e-9)
+        general, constant = RadiusCap(shape, SumOfClasses(0.0, 1e-9, 0.0)), ConstantCap(shape, 1e-9)
         depth = np.array([0.5e-9, 1.0000001e-9, 1e-8, 1e-6])
         for one, other in zip(general.loading(depth), constant.loading(depth), strict=True):
             for end in ("lower", "upper", "length"):

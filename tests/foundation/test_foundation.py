@@ -108,6 +108,32 @@ def test_elements_outside_a_wall_stay_free(shape):
     assert np.isfinite(foundation.force)
 
 
+@pytest.mark.parametrize("history", [(0.1e-9,), (1e-9,), (3e-9,), (3e-9, 2.97e-9), (3e-9, 1e-9, 3.1e-9)])
+@pytest.mark.parametrize("given", [{}, {"q_c": 0.5}, {"hardness": 0.1e9}], ids=["elastic", "q", "H"])
+@pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.Sphere(1e-8), mdr.PowerLaw(1e16, 3.0)], ids=name)
+def test_a_contact_narrower_than_an_element(shape, given, history):
+    """No element of 10 nm has its middle in it: force and energy are those of the profile."""
+    medium, row = mdr.Medium(1e9, **given), None
+    row = mdr.Foundation(shape, medium, 20, half_width=100e-9)
+    for depth in history:
+        row = row.advance(depth)
+    state = mdr.indent(shape, medium, history)[-1]
+    assert 0 < state.contact_radius < row.width[0]
+    assert row.force == pytest.approx(float(state.force), rel=1e-13)
+    assert row.stored_energy == pytest.approx(float(state.stored_energy), rel=1e-12)
+
+
+def test_dashpots_of_a_contact_narrower_than_an_element():
+    """2.1 nN of springs and 8ηaḋ of dashpots; on the way out springs are ahead by τḋ."""
+    cone, medium = mdr.Cone(0.3), mdr.Medium(1e9, eta=0.25)
+    pressed = mdr.Foundation(cone, medium, 20, half_width=100e-9).advance(1e-9, dt=2e-9)
+    a = cone.contact_radius(1e-9)
+    assert pressed.force == pytest.approx(1e9 * a * 1e-9 + 8 * 0.25 * a * 0.5, rel=1e-13)
+    assert pressed.advance(1e-9, dt=1e-9).force == pytest.approx(1e9 * a * 1e-9, rel=1e-13)
+    a = cone.contact_radius(0.8e-9)
+    assert pressed.advance(0.9e-9, dt=1e-9).force == pytest.approx(1e9 * a * 0.8e-9, rel=1e-13)
+
+
 def test_a_foundation_does_not_change():
     foundation = mdr.Foundation(mdr.Cone(0.3), MEDIUM, 10, 1e-6)
     before = foundation.force, foundation.line_load.copy()
