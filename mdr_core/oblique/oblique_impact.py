@@ -11,7 +11,7 @@ from .._check import Array, ArrayLike
 from ..contact.yielding import yield_rule
 from ..impacts.impact import impact
 from ..impacts.result import Impact
-from ..medium import Medium, check_pair, refuse_adhesion, refuse_other_classes, shape_with
+from ..medium import Medium, check_pair, refuse_adhesion, shape_with
 from ..profiles.profile import Profile
 from ..results.base import Entries, Model, Result
 from ..results.limits import Limit, friction_limits, stick_limits
@@ -86,8 +86,6 @@ def oblique_impact(
     """
     check_pair(profile, medium)
     refuse_adhesion(medium, "an oblique impact")
-    instead = "set hardness = 0 and f_c = 0, or take impact() for the normal motion"
-    refuse_other_classes(medium, "an oblique impact", instead)
     mass = _check.positive("mass", mass, unit="kg")
     speed = _check.positive("speed", speed, unit="m/s")
     tangential_mass = mass if tangential_mass is None else tangential_mass
