@@ -41,7 +41,7 @@ def oblique_impact(
 
     Every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν) times as stiff and as
     viscous (Mindlin; outlook of Popov 2015). It sticks while its load is at most μ times the normal load of
-    spring and dashpot, and slips otherwise. Yield limits the normal springs only.
+    spring and dashpot, and slips otherwise. Yield, of any hardness, limits the normal springs only.
 
     Parameters
     ----------
@@ -217,8 +217,8 @@ class ObliqueImpact(Entries, Result):
         if not sticks.any():
             return ()
         error = np.maximum(surface.change_error, surface.force_error)
-        onset = yield_rule(self.profile, self.medium).onset()
-        values = error, surface.tolerance, self.max_depth / onset
+        cap = yield_rule(self.profile, self.medium).cap(self.max_depth)
+        values = error, surface.tolerance, self.max_depth / cap
         values = (*values, self.mass / self.tangential_mass)
         return stick_limits(*(float(np.max(np.broadcast_to(x, self.shape)[sticks])) for x in values))
 

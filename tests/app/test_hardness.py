@@ -156,24 +156,18 @@ def test_the_same_depth_by_force_is_within_what_class_c_and_a_flat_face_carry():
 
 def test_what_is_of_class_b_alone_is_refused_in_words():
     page = Page(f"preset={SILICA}")
-    for name, option, says in (
-        ("adhesion", "work", "adhesion is modelled for a hardness ∝ 1/a only"),
-        ("drive", "oblique", "friction is modelled for a hardness ∝ 1/a only"),
-    ):
-        before, said = page.state, []
-        page.apply(lambda state, name=name, option=option: changes.choose(state, name, option), said.append)
-        assert [says in each for each in said] == [True]
-        assert page.state == before
-    adhesive, oblique = state_with(GOLD, adhesion="work"), state_with(GOLD, "oblique")
+    before, said = page.state, []
+    page.apply(lambda state: changes.choose(state, "adhesion", "work"), said.append)
+    assert ["adhesion is modelled for a hardness ∝ 1/a only" in each for each in said] == [True]
+    assert page.state == before
+    adhesive = state_with(GOLD, adhesion="work")
     with pytest.raises(ValueError, match="adhesion is modelled for"):
         follow(changes.choose(adhesive, "plasticity", "constant"))
-    with pytest.raises(ValueError, match="friction is modelled"):
-        follow(changes.choose(oblique, "plasticity", "constant"))
     viscous = state_with(SILICA, "path", pattern="creep", damping="none")
     assert follow(viscous).turning_point.depth > 0
     with pytest.raises(ValueError, match=r"creep with viscosity is .* or ramp and hold"):
         follow(changes.choose(viscous, "damping", "eta"))
-    assert "friction is modelled" in _notice(f"preset={SILICA}&drive=oblique")
+    assert "adhesion is modelled" in _notice(f"preset={SILICA}&adhesion=work")
 
 
 def _notice(query):
