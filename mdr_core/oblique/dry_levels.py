@@ -110,8 +110,8 @@ class NormalMotions:
 
     def _moving(self, turn, depth, lower, length):
         """`DryLevels` from depths and live intervals (m) at all instants."""
-        # Kinetic energy over 2E* (m³) is what the force does up to the turning point, or from there on. As a
-        # sum of what it does in each step it keeps its digits beside the turning point.
+        # Kinetic energy over 2E* (m³) is what the force does up to the turning point, or from there on. The
+        # sum over steps keeps its digits beside the turning point.
         loading = self._works(depth[:turn], np.diff(depth[: turn + 1], axis=0), self._loaded)
         unloading = self._works(length[turn + 1 :], -np.diff(length[turn:], axis=0), self._unloaded)
         work = np.vstack(

@@ -42,8 +42,8 @@ class Limit:
         ratio", "viscosity", "speed", "fast limit", "Tabor's parameter", which must be larger than its
         bound, "facets" of samples with adhesion, for friction "coupling" and "slip direction", and where
         elements stick "tolerance", "depth" over the elastic compression at the turning point (d_c of a
-        hardness q_c/a) and "mass" over the tangential one; with a constant hardness "flow", the area of a contact that flows over that of the model; and the length (m) of a
-        "jump" of a path given by force.
+        hardness q_c/a) and "mass" over the tangential one; with a constant hardness "flow", the area of a
+        contact that flows over that of the model; and the length (m) of a "jump" of a path given by force.
     value, bound : float
         Its largest value over all states, and the largest one for which the assumption is good.
     exceeded : bool
@@ -246,11 +246,11 @@ def stick_limits(error, tolerance, depth, mass):
         text = f"The error of the tangential velocity and force, {error:.2g}, is within the tolerance."
     yield Limit("tolerance", error, tolerance, exceeded, text)
     measured = (
-        f"; errors of the tangential motion were compared with a chain up to {_DEEP:g} of it and for m_t "
+        f"; errors of the tangential motion were compared with a chain up to {_DEEP:g} times and for m_t "
         f"of {1 / _LIGHT:g} m and more."
     )
     for what, value, bound, text in (
-        ("depth", depth, _DEEP, f"The depth reaches {depth:.3g} of the elastic compression under it"),
+        ("depth", depth, _DEEP, f"The depth reaches {depth:.3g} times the elastic compression"),
         ("mass", mass, _LIGHT, f"The tangential mass is as small as {1 / mass:.3g} m"),
     ):
         over = value > bound * (1 + 1e-9)

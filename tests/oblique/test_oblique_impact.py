@@ -175,10 +175,12 @@ class TestFlatPunch:
 
         slip = brentq(room, 0.1 * np.pi / normal, np.pi / normal)
         force = 2 * KAPPA * modulus * b * start / along * np.sin(along * slip)
-        for tolerance in (1e-3, 1e-5):
+        # Both branches are smooth, so that parabolas through three instants meet within the third power of a
+        # step: the kink itself leaves nothing.
+        for tolerance, most in ((1e-3, 5e-6), (1e-5, 3e-7)):
             hit = hit_at(psi, mdr.FlatPunch(b), mass=mass, tolerance=tolerance)
             miss = abs(hit.max_tangential_force / force - 1)
-            assert miss <= min(3 * hit.errors.max_tangential_force, tolerance)
+            assert miss <= min(3 * hit.errors.max_tangential_force, most)
 
 
 def jaeger(psi, steps=1000):
