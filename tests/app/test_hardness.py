@@ -19,7 +19,7 @@ from app.state import PRESETS, altered, medium, preset_state, profile
 from mdr_core.results.units import written
 
 from .conftest import GOLD, PUNCH
-from .states import fields_of, linked_state, numbers, part, state_with, view_of
+from .states import fields_of, linked_state, numbers, part, solved, state_with, view_of
 from .test_scene_file import plain
 
 SILICA, STEEL = "berkovich-fused_silica", "ball-steel"
@@ -180,6 +180,19 @@ def _notice(query):
 
     Told(query)
     return " ".join(said)
+
+
+@pytest.mark.parametrize("option", ["constant", "line"])
+def test_an_oblique_impact_is_that_of_the_class(option):
+    """What the page says of slip throughout is ΔW = −μ (m/m_t)(1 + e) v; another class has another e."""
+    state = state_with(STEEL, "oblique", body="solid", plasticity=option)
+    state = state.replace(**{"oblique.attack": 0.6, "oblique.friction": 0.1})
+    course = solved(state)
+    drive = course.scene.drive
+    e = float(mdr.impact(profile(state), medium(state), drive.mass, drive.speed).restitution)
+    change = -0.1 * drive.mass / drive.tangential_mass * (1 + e) * drive.speed
+    assert e < 0.99
+    assert course.rebound.contact_velocity == pytest.approx(drive.tangential_speed + change, rel=1e-8)
 
 
 @pytest.mark.parametrize("option", ["constant", "line"])

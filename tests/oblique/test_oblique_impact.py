@@ -175,8 +175,8 @@ class TestFlatPunch:
 
         slip = brentq(room, 0.1 * np.pi / normal, np.pi / normal)
         force = 2 * KAPPA * modulus * b * start / along * np.sin(along * slip)
-        # Both branches are smooth, so that parabolas through three instants meet within the third power of a
-        # step: the kink itself leaves nothing.
+        # Both branches are smooth, so that parabolas through three instants meet within the third power of
+        # a step: the kink itself leaves nothing.
         for tolerance, most in ((1e-3, 5e-6), (1e-5, 3e-7)):
             hit = hit_at(psi, mdr.FlatPunch(b), mass=mass, tolerance=tolerance)
             miss = abs(hit.max_tangential_force / force - 1)
@@ -565,6 +565,22 @@ class TestLimitsOfStick:
         assert limit_of("depth", hit).exceeded
         assert limit_of("depth", hit).value == hit.max_depth / hit.medium.critical_depth
         assert limit_of("mass", hit).holds
+
+    def test_depth_is_that_over_the_elastic_compression(self):
+        """Of f_c/a² under a cone that is (d/d_y)², so that 50 d_y are deep; H alone has no d_y there."""
+        cone = mdr.Cone(0.3)
+        onset = 2e-9
+        radius = float(cone.contact_radius(onset))
+        line = mdr.Medium(1e9, f_c=2e9 / np.pi * onset * radius)
+        assert float(mdr.yield_depth(cone, line)) == pytest.approx(onset)
+        hit = hit_at(0.5, cone, line, tolerance=1e-3)
+        depth = hit.max_depth / onset
+        assert depth > 32
+        assert limit_of("depth", hit).value == pytest.approx(depth**2, rel=1e-9)
+        assert limit_of("depth", hit).exceeded
+        hit = hit_at(0.5, cone, mdr.Medium(1e9, hardness=0.1 * 0.3e9), tolerance=1e-3)
+        assert limit_of("depth", hit).value == pytest.approx(10.0, rel=1e-9)
+        assert limit_of("depth", hit).holds
 
     def test_of_many_the_worst_that_sticks(self):
         """Closed forms have no such limits."""
