@@ -80,9 +80,10 @@ def test_the_chain_covers_its_errors():
 
 
 @pytest.mark.slow
-def test_oblique_impacts_keep_what_is_promised():
+@pytest.mark.parametrize("hardness", oblique.CLASSES)
+def test_oblique_impacts_keep_what_is_promised(hardness):
     """Within the tolerance, and errors never ten times too small, in one impact of each shape."""
-    cases = oblique.random_impacts(12)
+    cases = oblique.random_impacts(12, oblique.CLASSES[hardness])
     references = [oblique.limits(case, 1000) for case in cases]
     found = list(oblique.misses(cases, 1e-4, references))
     assert len(found) >= 6

@@ -376,7 +376,13 @@ def test_sweeps_over_a_hardness():
         assert table.restitution.values[i] == pytest.approx(hit.restitution, rel=1e-13)
         state = mdr.indent(mdr.Sphere(1e-5), mdr.Medium(70e9, hardness=value, f_c=1e-3), 1e-6)
         assert pressed.force.values[i] == pytest.approx(state.force, rel=1e-13)
-    with pytest.raises(ValueError, match="an oblique impact is of the hardness q_c/a"):
-        sweep.oblique_impacts(
-            mdr.Sphere, mass=1e-12, speed=10.0, tangential_speed=1.0, friction=0.1, **given
-        )
+    slides = {"mass": 1e-12, "speed": 10.0, "tangential_speed": 1.0, "friction": 0.1}
+    names = ["tangential_velocity", "friction_work"]
+    oblique = sweep.oblique_impacts(mdr.Sphere, f_c=1e-3, quantities=names, **slides, **given)
+    for i, value in enumerate(hardness.values):
+        sum_of_both = mdr.Medium(70e9, hardness=value, f_c=1e-3)
+        hit = mdr.oblique_impact(mdr.Sphere(1e-5), sum_of_both, *slides.values(), tolerance=5e-4)
+        assert not hit.slips_throughout
+        # The same steps, among others.
+        for name in names:
+            assert oblique[name].values[i] == pytest.approx(getattr(hit, name), rel=1e-8)

@@ -24,7 +24,6 @@ from ..plots import X, Z
 from ..quantities import QUANTITIES
 from ..shared.rest import Resting
 from ..shared.time import T, line_at_time
-from ..state import refuse_other_classes
 
 #: Largest number of drawn elements, and halvings of their steps (errors about 10⁻⁵).
 _ELEMENTS, _HALVINGS = 300, 2
@@ -62,7 +61,6 @@ class Oblique(Impact):
     """A free body hits with a speed along the surface."""
 
     def make(self, state):
-        refuse_other_classes(state, "friction", "the drive impact")
         speeds = map(float, mdr.at_angle(state["oblique.incoming_speed"], pi / 2 - state["oblique.attack"]))
         ball = mdr.Ball(state.mass, 1.0, state["oblique.body"] == "hollow")
         felt = state.mass if state["oblique.body"] == "block" else float(ball.tangential_mass)

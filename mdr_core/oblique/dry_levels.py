@@ -11,6 +11,10 @@ import numpy as np
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
 from ..contact.yielding import YieldRule, yield_rule
+from ..numerics.gauss import gauss_legendre
+
+#: Gauss nodes of the work in each step.
+_NODES = 3
 
 
 class DryLevels(NamedTuple):
@@ -29,18 +33,20 @@ class DryLevels(NamedTuple):
     middle_plastic_depth: np.ndarray
 
     @classmethod
-    def of(cls, turn, depth, plastic_depth, velocity, acceleration):
-        """Levels with steps of fourth order, Δd = h (v₀ + v₁)/2 + h² (a₀ − a₁)/12."""
+    def of(cls, turn, depth, plastic_depth, velocity, acceleration, plastic_depth_at):
+        """Levels with steps of fourth order, Δd = h (v₀ + v₁)/2 + h² (a₀ − a₁)/12.
+
+        `plastic_depth_at` gives the plastic depths that loading to depths in the middle of steps leaves.
+        """
         rise, mean = np.diff(depth, axis=0), (velocity[1:] + velocity[:-1]) / 2
         bend = -np.diff(acceleration, axis=0) / 12
         root = np.copysign(np.sqrt(np.maximum(mean**2 + 4 * bend * rise, 0.0)), mean)
         with np.errstate(divide="ignore", invalid="ignore"):
             step = np.where(rise == 0, 0.0, 2 * rise / (mean + root))
         middle = (depth[1:] + depth[:-1]) / 2 - step * np.diff(velocity, axis=0) / 8
-        # The onset of yield is a level: over a step either nothing yields, or both depths rise alike.
         before, after = plastic_depth[:-1], plastic_depth[1:]
-        middle_plastic_depth = np.clip(after - (depth[1:] - middle), before, after)
-        return cls(turn, depth, plastic_depth, velocity, step, middle, middle_plastic_depth)
+        loaded = np.vstack([plastic_depth_at(middle[:turn]), after[turn:]])
+        return cls(turn, depth, plastic_depth, velocity, step, middle, np.clip(loaded, before, after))
 
     @property
     def time(self):
@@ -80,16 +86,6 @@ class NormalMotions:
         values = (value[rows] for name, value in vars(self).items() if name != "rule")
         return NormalMotions(self.rule.flat_entries(rows, self.speed.shape), *values)
 
-    def at_levels(self, function, *levels):
-        """A function of arrays of levels, which is called level by level where profiles differ."""
-        if not self.profile.shape:
-            return function(*levels)
-        return np.array([function(*row) for row in zip(*levels, strict=True)])
-
-    def radii(self, depth):
-        """Contact radii (m) at levels of depth (m)."""
-        return self.at_levels(self.profile._radius, depth)
-
     def levels(self, below, above, depths=()):
         """The `DryLevels` with so many steps of loading below the imprint, and so many above it.
 
@@ -107,30 +103,36 @@ class NormalMotions:
         above = np.vstack([size * np.sin(np.pi / 2 * above[1:]) ** 2, extra])
         below, above = np.sort(below, axis=0), np.sort(above, axis=0)
         depth = np.vstack([below, end + above])
-        loaded, _ = self.rule.loading(depth)
+        loaded = self._loaded(depth)
         lower = np.vstack([loaded.lower, np.broadcast_to(end, above.shape)])
         length = np.vstack([loaded.length, above[-2::-1], 0 * size])
         return self._moving(len(depth) - 1, np.vstack([depth, end + length[len(depth) :]]), lower, length)
 
     def _moving(self, turn, depth, lower, length):
         """`DryLevels` from depths and live intervals (m) at all instants."""
-        area = self.at_levels(self._area, lower, length)
-        # Kinetic energy over 2E* (m³): what the springs hold more at the turning point, and what yields
-        # until then.
-        stored = self._energy(self.plastic_depth, self.live_depth)
-        work = stored - self.at_levels(self._energy, lower, length)
-        ahead = np.maximum(self.plastic_depth - lower, 0.0)
-        if np.any(ahead > 0):
-            work += self.at_levels(self.rule.plastic_integral, lower, ahead)
-        # Beside the turning point the work is rounding, and steps would have any length. It is at least
-        # that of the force at the level.
-        speed = np.sqrt(2 * self.rate * np.maximum(work, (depth[turn] - depth) * area))
-        speed[0], speed[turn] = self.speed, 0.0
+        # Kinetic energy over 2E* (m³) is what the force does up to the turning point, or from there on. The
+        # sum over steps keeps its digits beside the turning point.
+        loading = self._works(depth[:turn], np.diff(depth[: turn + 1], axis=0), self._loaded)
+        unloading = self._works(length[turn + 1 :], -np.diff(length[turn:], axis=0), self._unloaded)
+        work = np.vstack(
+            [np.cumsum(loading[::-1], axis=0)[::-1], 0 * unloading[:1], np.cumsum(unloading, axis=0)]
+        )
+        speed = np.sqrt(2 * self.rate * work)
+        speed[0] = self.speed
         velocity = np.vstack([speed[:turn], -speed[turn:]])
-        return DryLevels.of(turn, depth, lower, velocity, -self.rate * area)
+        acceleration = -self.rate * self._areas(LiveInterval.above(lower, length))
+        return DryLevels.of(turn, depth, lower, velocity, acceleration, self.rule.plastic_depth)
 
-    def _energy(self, lower, length):
-        return integrals(self.profile).energy_integral(LiveInterval.above(lower, length))
+    def _works(self, start, rise, interval_at):
+        """Work over 2E* (m³) of the force in each step, by Gauss's rule."""
+        parts = zip(*gauss_legendre(_NODES), strict=True)
+        return rise * sum(weight * self._areas(interval_at(start + node * rise)) for node, weight in parts)
 
-    def _area(self, lower, length):
-        return integrals(self.profile).radius_integral(LiveInterval.above(lower, length))
+    def _loaded(self, depth):
+        return self.rule.loading(depth)[0]
+
+    def _unloaded(self, length):
+        return LiveInterval.above(self.plastic_depth, length)
+
+    def _areas(self, interval):
+        return integrals(self.profile).radius_integral(interval)

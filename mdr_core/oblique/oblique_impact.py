@@ -11,7 +11,7 @@ from .._check import Array, ArrayLike
 from ..contact.yielding import yield_rule
 from ..impacts.impact import impact
 from ..impacts.result import Impact
-from ..medium import Medium, check_pair, refuse_adhesion, refuse_other_classes, shape_with
+from ..medium import Medium, check_pair, refuse_adhesion, shape_with
 from ..profiles.profile import Profile
 from ..results.base import Entries, Model, Result
 from ..results.limits import Limit, friction_limits, stick_limits
@@ -41,7 +41,7 @@ def oblique_impact(
 
     Every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν) times as stiff and as
     viscous (Mindlin; outlook of Popov 2015). It sticks while its load is at most μ times the normal load of
-    spring and dashpot, and slips otherwise. Yield limits the normal springs only.
+    spring and dashpot, and slips otherwise. Yield, of any hardness, limits the normal springs only.
 
     Parameters
     ----------
@@ -86,8 +86,6 @@ def oblique_impact(
     """
     check_pair(profile, medium)
     refuse_adhesion(medium, "an oblique impact")
-    instead = "set hardness = 0 and f_c = 0, or take impact() for the normal motion"
-    refuse_other_classes(medium, "an oblique impact", instead)
     mass = _check.positive("mass", mass, unit="kg")
     speed = _check.positive("speed", speed, unit="m/s")
     tangential_mass = mass if tangential_mass is None else tangential_mass
@@ -219,8 +217,8 @@ class ObliqueImpact(Entries, Result):
         if not sticks.any():
             return ()
         error = np.maximum(surface.change_error, surface.force_error)
-        onset = yield_rule(self.profile, self.medium).onset()
-        values = error, surface.tolerance, self.max_depth / onset
+        cap = yield_rule(self.profile, self.medium).cap(self.max_depth)
+        values = error, surface.tolerance, self.max_depth / cap
         values = (*values, self.mass / self.tangential_mass)
         return stick_limits(*(float(np.max(np.broadcast_to(x, self.shape)[sticks])) for x in values))
 

@@ -96,7 +96,8 @@ def largest_force(time, force):
             return np.minimum(_parabola(t[:3], f[:3], place), _parabola(t[3:], f[3:], place))
 
         with np.errstate(divide="ignore", invalid="ignore"):
-            top = largest_value(between, t[2], t[3])
+            # At a kink the last parabola exceeds it by an eighth of what the force gains in its step.
+            top = largest_value(between, t[2], t[3], grids=5)
         # Parabolas through uneven steps mean nothing.
         even = steps.min(axis=0) > 0.1 * steps.max(axis=0)
         largest = np.where(even, np.maximum(largest, top), largest)

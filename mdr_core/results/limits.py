@@ -22,7 +22,8 @@ _TABOR = 5.0
 _RANGE = 0.3e-9
 #: Relative error of a pull-off from facets.
 _FACETS = 0.02
-#: Depth over d_c, and mass over the tangential one, up to which errors of stick were measured.
+#: Depth over the largest elastic compression of an element there, and mass over the tangential one, up to
+#: which errors of stick were measured (tests/benchmarks/oblique.py).
 _DEEP = 1e3
 _LIGHT = 10.0
 #: Range of the effective moduli (Pa) of the media that there are.
@@ -40,9 +41,9 @@ class Limit:
         Quantity that is bounded: "slope", "contact radius", "modulus" below 1 kPa or above 10 TPa, "Poisson
         ratio", "viscosity", "speed", "fast limit", "Tabor's parameter", which must be larger than its
         bound, "facets" of samples with adhesion, for friction "coupling" and "slip direction", and where
-        elements stick "tolerance", "depth" over d_c and "mass" over the tangential one; with a constant
-        hardness "flow", the area of a contact that flows over that of the model; and the length (m) of a
-        "jump" of a path given by force.
+        elements stick "tolerance", "depth" over the elastic compression at the turning point (d_c of a
+        hardness q_c/a) and "mass" over the tangential one; with a constant hardness "flow", the area of a
+        contact that flows over that of the model; and the length (m) of a "jump" of a path given by force.
     value, bound : float
         Its largest value over all states, and the largest one for which the assumption is good.
     exceeded : bool
@@ -237,7 +238,7 @@ def friction_limits(medium):
 
 
 def stick_limits(error, tolerance, depth, mass):
-    """Limits of impacts in which elements stick: largest error, allowed one, depth over d_c, m over m_t."""
+    """Limits of impacts in which elements stick: largest error, allowed one, d_max/u_c, m over m_t."""
     exceeded = error > tolerance
     text = f"The tangential velocity or force has an error of {error:.2g}, {tolerance:.2g} was asked for"
     text += ": even the smallest steps are too long for how often elements that stick oscillate."
@@ -245,11 +246,11 @@ def stick_limits(error, tolerance, depth, mass):
         text = f"The error of the tangential velocity and force, {error:.2g}, is within the tolerance."
     yield Limit("tolerance", error, tolerance, exceeded, text)
     measured = (
-        f"; errors of the tangential motion were compared with a chain up to {_DEEP:g} d_c and for m_t of "
-        f"{1 / _LIGHT:g} m and more."
+        f"; errors of the tangential motion were compared with a chain up to {_DEEP:g} times and for m_t "
+        f"of {1 / _LIGHT:g} m and more."
     )
     for what, value, bound, text in (
-        ("depth", depth, _DEEP, f"The depth reaches {depth:.3g} d_c"),
+        ("depth", depth, _DEEP, f"The depth reaches {depth:.3g} times the elastic compression"),
         ("mass", mass, _LIGHT, f"The tangential mass is as small as {1 / mass:.3g} m"),
     ):
         over = value > bound * (1 + 1e-9)

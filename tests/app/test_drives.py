@@ -120,7 +120,7 @@ def oblique_state(key=ELASTIC, **numbers):
     return state_with(key, "oblique", body="solid").replace(**numbers)
 
 
-@pytest.mark.parametrize("key", [ELASTIC, DROP])
+@pytest.mark.parametrize("key", [ELASTIC, DROP, "berkovich-fused_silica", "ball-steel"])
 def test_a_move_is_right_to_three_digits(key):
     state = oblique_state(key)
     rough, full = follow(state), solved(state)

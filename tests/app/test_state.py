@@ -241,8 +241,6 @@ def test_every_drive_can_be_chosen_and_its_python_makes_the_scene_and_solves_it(
     made, values = medium(state), PRESETS[key].values
     assert (made.q_c, made.hardness) == (values.get("q_c", 0.0), values.get("volume_hardness", 0.0))
     for drive in DRIVES:
-        if drive == "oblique" and not made.inverse_to_radius:
-            continue
         state = changes.choose(state, "drive", drive)
         scene, values = scene_of(state), {}
         code = scene.to_python()

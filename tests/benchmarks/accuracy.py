@@ -143,10 +143,11 @@ def main():
         "The chain at its tolerance of 10⁻⁶, worst of cone, paraboloid and flat punch:",
         "",
         *_table(("relaxation over contact time", "its estimate", "its error"), chain_impacts()),
-        "Oblique impacts without viscosity, against a chain of 2000 cells: 300 random ones of all the "
-        "tests' shapes, d/d_c from 0.1 to 10³, μ from 0.01 to 3, m_t/m from 0.1 to 10, ψ from 0.03 to 8, ν "
-        "from 0 to ½, of which those count in which elements stick. Errors of the velocity are relative to "
-        "W₀, those of the largest force to itself:",
+        "Oblique impacts without viscosity, against a chain of 2000 cells: 60 random ones of each class of "
+        "hardness and of sums, of all the tests' shapes that it is for, depth over that of the onset from "
+        "0.1 to 10³, over the elastic compression u_c at it up to 10³, μ from 0.01 to 3, m_t/m from 0.1 to "
+        "10, ψ from 0.03 to 8, ν from 0 to ½. Those count in which elements stick. Errors of the velocity "
+        "are relative to W₀, those of the largest force to itself:",
         "",
         *_table(oblique.HEAD, oblique.table()),
         f"Made by `python -m tests.benchmarks.accuracy` with numpy {np.__version__}.",

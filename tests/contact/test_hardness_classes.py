@@ -354,10 +354,6 @@ def test_onset_deeper_than_the_known_shape_is_refused():
             lambda cone, glass: mdr.impact(cone, glass, 1e-9, 1.0).fast_limit,
             "the fast limit is of the hardness",
         ),
-        (
-            lambda cone, glass: mdr.oblique_impact(cone, glass, 1e-9, 1.0, 1.0, 0.1),
-            "an oblique impact is of",
-        ),
         (lambda cone, glass: mdr.Medium(E, hardness=1e9, work_of_adhesion=0.1), "adhesion is modelled for"),
     ],
 )

@@ -1,5 +1,7 @@
 """Oblique impact against Maw, Barber & Fawcett, closed forms, Jäger's superposition, and small steps."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -10,12 +12,19 @@ from mdr_core.oblique.dry_friction import DryRun
 from mdr_core.oblique.dry_levels import NormalMotions
 from mdr_core.oblique.viscous_friction import slide
 
-from ..benchmarks.oblique import Case, limits
+from ..benchmarks.oblique import Case, compression, limits
 from ..shapes import SHAPES, name
 
 MASS, SPEED, MU = 1e-9, 0.1, 0.3
 BALL = 2 * MASS / 7
 ELASTIC, DRY, VISCOUS = mdr.Medium(1e9), mdr.Medium(1e9, 10.0), mdr.Medium(1e9, 10.0, 20.0)
+#: Constant hardness, one as 1/a², and the sum of all; the same with viscosity.
+GLASS, LINE = mdr.Medium(1e9, hardness=2e7), mdr.Medium(1e9, f_c=1e-5)
+SUM = mdr.Medium(1e9, 4.0, hardness=5e6, f_c=2e-6)
+MEDIA = {"elastic": ELASTIC, "(b)": DRY, "(a)": GLASS, "(c)": LINE, "sum": SUM}
+MEDIA |= {"viscous, " + name: replace(medium, eta=20.0) for name, medium in list(MEDIA.items())[1:]}
+OF_ALL = pytest.mark.parametrize("medium", MEDIA.values(), ids=MEDIA)
+OF_DRY = pytest.mark.parametrize("medium", list(MEDIA.values())[:5], ids=list(MEDIA)[:5])
 PARABOLOID = mdr.Paraboloid(1e-5)
 #: κ for ν = 1/2, and χ = κm/(2m_t) of a solid ball.
 KAPPA, CHI = 2 / 3, 7 / 6
@@ -34,15 +43,19 @@ def hit_at(psi, shape=PARABOLOID, medium=ELASTIC, mass=BALL, mu=MU, tolerance=1e
 
 def small_steps(shape, medium, speed, mu, tangential_mass, n=400, steps=4000):
     """Elements in small explicit steps (leapfrog): W′/W₀, largest force, friction work."""
-    modulus, tau, limit = medium.E_star, medium.relaxation_time, medium.critical_depth
+    modulus, tau = medium.E_star, medium.relaxation_time
     scale = mdr.impact(shape, medium, MASS, SPEED)
     dx = 1.0005 * scale.contact_radius / n
-    g, dt = shape.reduced(dx * (np.arange(n) + 0.5)), scale.contact_time / steps
+    x = dx * (np.arange(n) + 0.5)
+    g, dt = shape.reduced(x), scale.contact_time / steps
     plastic, s, left = np.zeros(n), np.zeros(n), np.zeros(n, bool)
     d, v, w, largest, friction = 0.0, SPEED, speed, 0.0, 0.0
     while v > 0 or d + tau * v > plastic[0]:
         d += v * dt / 2
-        plastic = np.where(left, plastic, np.maximum(plastic, d - g - limit))
+        if v > 0:
+            # A contact of this radius that has yielded throughout carries π a² σ_c(a).
+            limit = compression(medium, np.interp(d, g, x))
+            plastic = np.maximum(plastic, d - g - limit)
         q = np.where((d > g) & ~left, d - g - plastic + tau * v, 0.0)
         left |= (q < 0) & (v < 0)
         bound = mu / KAPPA * np.maximum(q, 0.0)
@@ -57,7 +70,7 @@ def small_steps(shape, medium, speed, mu, tangential_mass, n=400, steps=4000):
     return w / speed, largest, friction
 
 
-@pytest.mark.parametrize("medium", [ELASTIC, DRY, VISCOUS], ids=["elastic", "yielding", "viscous"])
+@OF_ALL
 @pytest.mark.parametrize("shape", [PARABOLOID, mdr.Cone(0.3), mdr.PowerLaw(1e11, 3.0)], ids=name)
 def test_against_small_steps(shape, medium):
     """What two references, of first order in their steps, tend to."""
@@ -73,7 +86,7 @@ def test_against_small_steps(shape, medium):
 
 
 class TestMaw:
-    @pytest.mark.parametrize("medium", [ELASTIC, DRY, VISCOUS], ids=["elastic", "yielding", "viscous"])
+    @OF_ALL
     def test_slip_throughout(self, medium):
         """ΔW = −μ (m/m_t)(1 + e) v, whatever the shape: ψ₂ = ψ₁ − 4χ where e = 1."""
         for shape in (PARABOLOID, mdr.Cone(0.3), mdr.FlatPunch(1e-6)):
@@ -162,10 +175,12 @@ class TestFlatPunch:
 
         slip = brentq(room, 0.1 * np.pi / normal, np.pi / normal)
         force = 2 * KAPPA * modulus * b * start / along * np.sin(along * slip)
-        for tolerance in (1e-3, 1e-5):
+        # Both branches are smooth, so that parabolas through three instants meet within the third power of
+        # a step: the kink itself leaves nothing.
+        for tolerance, most in ((1e-3, 5e-6), (1e-5, 3e-7)):
             hit = hit_at(psi, mdr.FlatPunch(b), mass=mass, tolerance=tolerance)
             miss = abs(hit.max_tangential_force / force - 1)
-            assert miss <= min(3 * hit.errors.max_tangential_force, tolerance)
+            assert miss <= min(3 * hit.errors.max_tangential_force, most)
 
 
 def jaeger(psi, steps=1000):
@@ -233,13 +248,13 @@ def test_errors_cover_the_errors(medium):
         assert miss <= getattr(rough.errors, quantity) <= 1e-3, quantity
 
 
-@pytest.mark.parametrize("q_c", [np.inf, 30.0, 5.0])
+@pytest.mark.parametrize("medium", [ELASTIC, mdr.Medium(1e9, 30.0), mdr.Medium(1e9, 5.0), GLASS, LINE, SUM])
 @pytest.mark.parametrize("psi", [0.5, 1.3])
 @pytest.mark.slow
-def test_limit_of_vanishing_viscosity(psi, q_c):
+def test_limit_of_vanishing_viscosity(psi, medium):
     """Viscous impacts are solved by other equations; what they tend to is linear in the viscosity."""
     dry, *viscous = (
-        hit_at(psi, medium=mdr.Medium(1e9, q_c, eta), tolerance=1e-6) for eta in (0.0, 2e-4, 4e-4)
+        hit_at(psi, medium=replace(medium, eta=eta), tolerance=1e-6) for eta in (0.0, 2e-4, 4e-4)
     )
     # Velocities are relative to W₀, of which the finest steps leave more than 10⁻⁶.
     scales = {"tangential_velocity": dry.tangential_speed}
@@ -299,7 +314,7 @@ def test_coarse_runs_that_agree_by_chance():
     shape, medium = mdr.Cone(0.84645), mdr.Medium(2.697e8, 1398.4, poisson=0.0267)
     given = 8.307e-9, 2.528e-8, 3939.0, 1886.0, 1.251
     depth = float(mdr.impact(shape, medium, given[0], given[2]).max_depth)
-    case = Case(shape, 2.697e8, float(medium.critical_depth), 0.0267, *given, depth)
+    case = Case(shape, medium, *given, depth)
     (ratio, _), _ = limits(case, 2000)
     for tolerance in (1e-3, 1e-4, 1e-5):
         hit = case.solve(tolerance=tolerance)
@@ -310,10 +325,9 @@ def test_coarse_runs_that_agree_by_chance():
 
 def test_largest_force_beside_the_turning_point():
     """A kink in the step after the turning point, which is a level in every run."""
-    case = Case(
-        mdr.TruncatedCone(1e-6, 0.3), 1e9, 1.828e-7, 0.3005, 1e-9, 1.403e-9, 0.56716, 0.0075407, 0.019545,
-        4.6029e-7,
-    )  # fmt: skip
+    medium = mdr.Medium.from_critical_depth(1e9, 1.828e-7, poisson=0.3005)
+    given = 1e-9, 1.403e-9, 0.56716, 0.0075407, 0.019545
+    case = Case(mdr.TruncatedCone(1e-6, 0.3), medium, *given, 4.6029e-7)
     (_, force), (_, unsure) = limits(case, 2000)
     assert unsure < 1e-6 * force
     for tolerance in (1e-3, 1e-4):
@@ -323,10 +337,9 @@ def test_largest_force_beside_the_turning_point():
 
 def test_largest_force_at_a_bent_kink():
     """The force bends before a flat face begins to slip: straight lines met 12 times the error away."""
-    case = Case(
-        mdr.TruncatedCone(1e-6, 0.3), 1e9, 8.7500807e-7, 0.39949586, 1e-9, 1.64091981e-9, 0.476678959,
-        0.0228282743, 0.05493976, 3.24228446e-7,
-    )  # fmt: skip
+    medium = mdr.Medium.from_critical_depth(1e9, 8.7500807e-7, poisson=0.39949586)
+    given = 1e-9, 1.64091981e-9, 0.476678959, 0.0228282743, 0.05493976
+    case = Case(mdr.TruncatedCone(1e-6, 0.3), medium, *given, 3.24228446e-7)
     (_, force), (_, unsure) = limits(case, 2000)
     assert unsure < 1e-6 * force
     hit = case.solve(tolerance=5e-4)
@@ -335,13 +348,12 @@ def test_largest_force_at_a_bent_kink():
 
 def test_a_ring_that_slips_ahead_of_the_edge():
     """At small tangential speeds it is narrower than the cells of three runs, which then err alike."""
-    profile, poisson, mu, psi = mdr.Paraboloid(2e-5), 0.5, 0.33, 0.0075
+    profile, mu, psi = mdr.Paraboloid(2e-5), 0.33, 0.0075
     speed, mass = 20.0, 9e-11
     medium = mdr.Medium(4e9, 3000.0)
     depth = float(mdr.impact(profile, medium, mass, speed).max_depth)
     along = psi * mu * speed / KAPPA
-    critical = float(medium.critical_depth)
-    case = Case(profile, 4e9, critical, poisson, mass, 2 * mass / 7, speed, along, mu, depth)
+    case = Case(profile, medium, mass, 2 * mass / 7, speed, along, mu, depth)
     (ratio, _), _ = limits(case, 2000)
     hit = case.solve(tolerance=5e-4)
     assert abs(-hit.tangential_restitution - ratio) <= 3 * hit.errors.tangential_velocity
@@ -370,10 +382,17 @@ def test_errors_of_a_family_of_impacts_are_relative():
     assert large.errors == pytest.approx(small.errors, rel=1e-6)
 
 
-@pytest.mark.parametrize("medium", [ELASTIC, DRY], ids=["elastic", "yielding"])
+def solvable(shape, medium):
+    """`impact` refuses a constant hardness under the power law of exponent 1/2, which is not convex."""
+    if np.any(medium.hardness) and getattr(shape, "exponent", 1.0) < 1:
+        pytest.skip("not convex")
+
+
+@OF_DRY
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_levels_beside_the_turning_point(shape, medium):
     """Stick may begin one unit of rounding before it; the steps still sum to the contact time."""
+    solvable(shape, medium)
     hit = mdr.impact(shape, medium, MASS, SPEED)
     motions = NormalMotions.of(hit, np.array([0]))
     for units in (1, 2, 8, 1e4):
@@ -397,16 +416,18 @@ def test_just_past_a_flat_face(shape, speed):
     assert hit.max_tangential_force == pytest.approx(punch.max_tangential_force, rel=1e-8)
 
 
+@OF_ALL
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
-def test_every_shape(shape):
+def test_every_shape(shape, medium):
     """The ledger, Coulomb's bound, and the imprint of the normal motion; face, walls and edges included."""
-    hit = mdr.oblique_impact(shape, VISCOUS, MASS, SPEED, 0.06, MU, tangential_mass=BALL, tolerance=1e-3)
+    solvable(shape, medium)
+    hit = mdr.oblique_impact(shape, medium, MASS, SPEED, 0.06, MU, tangential_mass=BALL, tolerance=1e-3)
     motion = hit.motion(40)
     energy = sum(getattr(motion, name) for name in motion._quantities if name.endswith(("energy", "work")))
     np.testing.assert_allclose(energy, energy[0], rtol=1e-5)
     assert (np.abs(motion.tangential_force) <= MU * motion.force).all()
     assert motion.tangential_force[-1] == 0
-    np.testing.assert_array_equal(motion.depth, mdr.impact(shape, VISCOUS, MASS, SPEED).motion(40).depth)
+    np.testing.assert_array_equal(motion.depth, mdr.impact(shape, medium, MASS, SPEED).motion(40).depth)
     assert np.all(motion.slip_radius <= motion.stick_radius)
     assert np.all(motion.stick_radius <= motion.contact_radius * (1 + 1e-6))
     lost = MASS * SPEED**2 * (1 - hit.restitution**2) + BALL * (0.06**2 - hit.tangential_velocity**2)
@@ -544,6 +565,22 @@ class TestLimitsOfStick:
         assert limit_of("depth", hit).exceeded
         assert limit_of("depth", hit).value == hit.max_depth / hit.medium.critical_depth
         assert limit_of("mass", hit).holds
+
+    def test_depth_is_that_over_the_elastic_compression(self):
+        """Of f_c/a² under a cone that is (d/d_y)², so that 50 d_y are deep; H alone has no d_y there."""
+        cone = mdr.Cone(0.3)
+        onset = 2e-9
+        radius = float(cone.contact_radius(onset))
+        line = mdr.Medium(1e9, f_c=2e9 / np.pi * onset * radius)
+        assert float(mdr.yield_depth(cone, line)) == pytest.approx(onset)
+        hit = hit_at(0.5, cone, line, tolerance=1e-3)
+        depth = hit.max_depth / onset
+        assert depth > 32
+        assert limit_of("depth", hit).value == pytest.approx(depth**2, rel=1e-9)
+        assert limit_of("depth", hit).exceeded
+        hit = hit_at(0.5, cone, mdr.Medium(1e9, hardness=0.1 * 0.3e9), tolerance=1e-3)
+        assert limit_of("depth", hit).value == pytest.approx(10.0, rel=1e-9)
+        assert limit_of("depth", hit).holds
 
     def test_of_many_the_worst_that_sticks(self):
         """Closed forms have no such limits."""
