@@ -23,7 +23,7 @@ ORDER = (
     "foundation.chain_impact", "contact.live_interval", "contact.quadrature", "contact.integrals",
     "contact.yielding", "contact.closed_forms", "contact.adhesion", "contact.onset_of_yield",
     "contact.pressure", "contact.stress", "contact.indentation", "contact.loading",
-    "contact.unloading", "impacts.contact_time", "impacts.scaling", "impacts.equation_of_motion",
+    "contact.unloading", "contact.creep_law", "contact.creep", "impacts.contact_time", "impacts.scaling", "impacts.equation_of_motion",
     "impacts.collocation_steps", "impacts.motion_solver", "impacts.dense_motion", "impacts.motion",
     "impacts.result", "impacts.energy_balance", "impacts.adhesive", "impacts.viscous", "impacts.impact",
     "oblique.depth_levels", "oblique.viscous_friction", "oblique.dry_levels", "oblique.dry_friction",
@@ -38,7 +38,7 @@ ORDER = (
 CHECKED = {
     "contact.live_interval", "contact.quadrature", "contact.integrals", "contact.yielding",
     "contact.closed_forms", "contact.adhesion", "contact.pressure", "contact.indentation",
-    "contact.loading", "contact.unloading", "impacts.impact", "impacts.energy_balance", "impacts.adhesive",
+    "contact.loading", "contact.unloading", "contact.creep_law", "contact.creep", "impacts.impact", "impacts.energy_balance", "impacts.adhesive",
     "impacts.contact_time", "impacts.result", "impacts.viscous", "impacts.equation_of_motion",
     "impacts.collocation_steps", "impacts.motion_solver", "impacts.dense_motion", "impacts.motion",
     "impacts.scaling", "profiles.radius_table", "contact.stress",

@@ -121,7 +121,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     bound = f"presses {profile._too_deep()}"
     _check.refuse("force", force, ~known, bound, unit="N", remedy="press less")
     loaded, _ = rule.loading(largest_depth)
-    length = np.where(integral == largest, loaded.length, _live_length(profile, loaded, integral))
+    length = np.where(integral == largest, loaded.length, live_length(profile, loaded, integral))
     depth = np.where(integral == largest, largest_depth, loaded.lower + length)
     end = np.max(largest_depth, initial=0.0)
     jumps = tuple((one[1], other[0]) for one, other in pairwise(branches) if other[0] < end)
@@ -181,7 +181,7 @@ def _growing_branches(rule):
     return branches
 
 
-def _live_length(profile, largest, area):
+def live_length(profile, largest, area):
     """Live depth (m) at which unloading from the live interval `largest` has ∫ a ds = `area` (m²)."""
 
     def unloading(length):
