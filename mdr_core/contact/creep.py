@@ -27,6 +27,7 @@ from .yielding import YieldRule, yield_rule
 _RUNS, _PRECISION = 4, 1e-1
 #: Smallest error that is said: that of the rounding of radii and integrals.
 _ROUNDING = 1e-12
+_ENDS = ("lower", "upper", "length")
 
 
 @_check.keywords_explained
@@ -216,22 +217,29 @@ def _without_viscosity(profile, medium, force, time):
 def _by_scalar_laws(profile, medium, force, time, tolerance):
     """The `ScalarPath` of the times that the scalar laws cover, their number, and the error of the depth."""
     rule, area = yield_rule(profile, medium), force / (2 * medium.E_star)
-    ds = np.diff(time) / medium.relaxation_time
+    onset, ds = float(rule.onset()), np.diff(time) / medium.relaxation_time
     first, bound = _first_and_bound(profile, medium, rule, force, ds)
     rule = replace(rule, profile=tabulated(profile, bound))
-    paths, error = [], np.inf
+    depth, error = None, np.inf
     for level in range(_RUNS):
         precision = max(_PRECISION * min(tolerance, 1e-2) / 100**level, _ROUNDING)
-        law = Loading(rule, area, ds, bound, precision)
-        paths.append(_path(profile, medium, law, first, force, 12 * (1 + level)))
+        law = Loading(rule, area, ds, bound, onset, precision)
+        pressed = law.solve(first)
+        _refuse_unknown(profile, pressed, force)
+        retreat = _retreat(law, pressed, 12 * (1 + level)) if pressed.turned else None
+        coarse, depth = depth, pressed.depth
+        if retreat is not None:
+            depth = np.append(depth, retreat.depth[1:])
         if level:
-            new, old = (path.depth for path in paths[-2:])
-            count = min(new.size, old.size)
-            change = np.abs(new[:count] - old[:count]).max()
-            error = max(change / np.max(new, initial=1e-300), _ROUNDING)
+            count = min(depth.size, coarse.size)
+            change = np.abs(depth[:count] - coarse[:count]).max()
+            error = max(change / max(np.max(depth), _check.SHORTEST), _ROUNDING)
         if error <= tolerance:
             break
-    return paths[-1], len(paths[-1].lead), float(error)
+    path = _pressed_states(profile, medium, law, pressed)
+    if retreat is not None:
+        path = _retreating(path, law, pressed, retreat)
+    return path, len(path.lead), float(error)
 
 
 def _first_and_bound(profile, medium, rule, force, ds):
@@ -245,7 +253,8 @@ def _first_and_bound(profile, medium, rule, force, ds):
     by_springs = np.inf
     if largest < modulus * rule.wall_integral() and largest <= _force_at(profile, rule) * modulus:
         by_springs = float(indent_to_force(profile, slow, largest).depth)
-    law = Loading(rule, force, ds, max(first, min(by_springs, profile.known_depth, 1.0)), 1.0)
+    guess = max(first, min(by_springs, profile.known_depth, 1.0))
+    law = Loading(rule, force, ds, guess, onset=0.0, precision=1.0)
     y = law.elastic(first)[0] + scipy.integrate.trapezoid(force, np.append(0.0, np.cumsum(ds))) / modulus
     by_dashpots = float(law.depth_of(y))
     bound = min(by_springs, by_dashpots, profile.known_depth, _check.LONGEST)
@@ -260,75 +269,75 @@ def _force_at(profile, rule):
     return float(integrals(profile).radius_integral(interval))
 
 
-def _path(profile, medium, law, first, force, count):
-    """`ScalarPath` under the laws from the first depth (m) on, with `count` nodes for the retreat."""
-    pressed = law.solve(first)
-    stop = len(pressed.depth)
+def _refuse_unknown(profile, pressed, force):
+    """Refuses forces that press deeper than the profile is known."""
     known = pressed.depth <= min(profile.known_depth, _check.LONGEST)
-    turned = pressed.age < np.inf
-    if turned and not pressed.turning_depth <= profile.known_depth:
-        known[-1] = False
+    known[-1] &= not pressed.turned or pressed.turning_depth <= profile.known_depth
     bound = f"presses {profile._too_deep()}"
-    _check.refuse("force", force[:stop], ~known, bound, unit="N", remedy="press less")
-    before = _pressed_states(profile, medium, law, pressed, force[:stop])
-    if not turned:
-        return before
-    return _retreating(profile, medium, law, pressed, before, count)
+    _check.refuse("force", force[: known.size], ~known, bound, unit="N", remedy="press less")
 
 
-def _pressed_states(profile, medium, law, pressed, force):
+def _pressed_states(profile, medium, law, pressed):
     """`ScalarPath` of a growing depth."""
-    rule, modulus = law.rule, 2 * medium.E_star
+    rule, modulus, f = law.rule, 2 * medium.E_star, law.area[: pressed.depth.size]
     interval, _ = rule.loading(pressed.depth)
     area, radius = law.pressed(pressed.depth)
     with np.errstate(all="ignore"):
-        lag = np.where(radius > 0, np.maximum(force / modulus - area, 0.0) / radius, 0.0)
+        lag = np.where(radius > 0, np.maximum(f - area, 0.0) / radius, 0.0)
     stored = integrals(rule.profile).energy_integral(interval)
     plastic = rule.plastic_integral(np.zeros_like(interval.lower), interval.lower)
-    viscous = _lost(pressed.depth, force / modulus, pressed.moment, pressed.depth[0], stored + plastic)
+    viscous = _lost(pressed.depth, f, pressed.moment, stored + plastic)
     return ScalarPath(
         profile, medium, interval, np.zeros_like(lag), lag,
         modulus * stored, modulus * plastic, modulus * viscous,
     )  # fmt: skip
 
 
-def _lost(depth, area, moment, first, energy):
+def _lost(depth, area, moment, energy):
     """Work of the dashpots over 2E* (m³): that of the force, less the `energy` stored and taken by yielding.
 
     ∫ f dd is f d − ∫ d df; the first state is reached infinitely slowly.
     """
-    work = area * depth - area[0] * first - moment
+    work = area * depth - area[0] * depth[0] - moment
     return np.maximum.accumulate(np.maximum(work - (energy - energy[0]), 0.0))
 
 
-def _retreating(profile, medium, law, pressed, before, count):
-    """`ScalarPath` that goes on from a turning point up to the time from which on the force rises."""
-    rule, modulus, turn = law.rule, 2 * medium.E_star, len(pressed.depth) - 1
-    interval, _ = rule.loading(np.asarray(pressed.turning_depth))
-    largest = integrals(rule.profile).radius_integral(interval)
-    rises = np.flatnonzero(np.diff(law.area[turn + 1 :]) > 0)
-    stop = turn + 2 + (rises[0] if rises.size else len(law.area) - turn - 2)
-    area = np.append(largest, np.minimum(law.area[turn + 1 : stop], largest))
-    ds = np.append(max(law.ds[turn] - pressed.age, 1e-12 * law.ds[turn]), law.ds[turn + 1 : stop - 1])
-    retreat = Retreat(rule, interval, area, ds, count)
+def _retreat(law, pressed, count):
+    """The `Retreat` from a turning point up to the time from which on the force rises."""
+    interval, _ = law.rule.loading(np.asarray(pressed.turning_depth))
+    largest = integrals(law.rule.profile).radius_integral(interval)
+    # The first time after the turning point; the force falls up to there.
+    first = len(pressed.depth)
+    rises = np.flatnonzero(np.diff(law.area[first:]) > 0)
+    stop = first + 1 + int(rises[0]) if rises.size else len(law.area)
+    area = np.append(largest, np.minimum(law.area[first:stop], largest))
+    whole = law.ds[first - 1]
+    ds = np.append(max(whole - pressed.age, 1e-12 * whole), law.ds[first : stop - 1])
+    return Retreat(law.rule, interval, area, ds, count)
+
+
+def _retreating(before, law, pressed, retreat):
+    """`ScalarPath` that goes on from the states `before` a turning point."""
+    rule, modulus, interval = law.rule, 2 * before.medium.E_star, retreat.interval
     lead, rest, work = retreat.states[:, 1:]
     held = LiveInterval.above(interval.lower, retreat.length[1:])
-    stored = integrals(rule.profile).energy_integral(held) + lead * area[1:] + rest / 2
-    taken = rule.plastic_integral(np.zeros_like(interval.lower), interval.lower)
-    energy = integrals(rule.profile).energy_integral(interval) + taken
-    ends = (np.append(before.depth, pressed.turning_depth), np.append(law.area[: turn + 1], largest))
-    moment = np.append(pressed.moment, pressed.turning_moment)
-    energies = np.append((before.stored_energy + before.plastic_work) / modulus, energy)
-    lost = _lost(*ends, moment, before.depth[0], energies)[-1]
-    return ScalarPath(
-        profile, medium,
-        LiveInterval(*(
-            np.append(getattr(before.interval, end), getattr(held, end)) for end in ("lower", "upper", "length")
-        )),
-        np.append(before.lead, lead),
-        np.append(before.lag, -lead),
-        np.append(before.stored_energy, modulus * stored),
-        np.append(before.plastic_work, np.full(len(lead), modulus * taken)),
-        np.append(before.viscous_work, modulus * (lost + work)),
-        retreat,
-    )  # fmt: skip
+    stored = integrals(rule.profile).energy_integral(held) + lead * retreat.area[1:] + rest / 2
+    taken = float(rule.plastic_integral(np.zeros_like(interval.lower), interval.lower))
+    energy = float(integrals(rule.profile).energy_integral(interval)) + taken
+    at_turn = _lost(
+        np.append(before.depth, pressed.turning_depth),
+        np.append(law.area[: pressed.depth.size], retreat.area[0]),
+        np.append(pressed.moment, pressed.turning_moment),
+        np.append((before.stored_energy + before.plastic_work) / modulus, energy),
+    )[-1]
+    ends = (np.append(getattr(before.interval, end), getattr(held, end)) for end in _ENDS)
+    return replace(
+        before,
+        interval=LiveInterval(*ends),
+        lead=np.append(before.lead, lead),
+        lag=np.append(before.lag, -lead),
+        stored_energy=np.append(before.stored_energy, modulus * stored),
+        plastic_work=np.append(before.plastic_work, np.full(len(lead), modulus * taken)),
+        viscous_work=np.append(before.viscous_work, modulus * (at_turn + work)),
+        retreat=retreat,
+    )

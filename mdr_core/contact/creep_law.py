@@ -13,6 +13,7 @@ The first law holds until f has fallen to A, the second one from there until the
 units of τ, and f is linear between the given times.
 """
 
+import warnings
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -39,13 +40,15 @@ _NODES = 12
 class Loading:
     """The law of a growing depth under f (m²), linear over intervals `ds` (τ) of time.
 
-    `bound` is a depth (m) that is not exceeded, `precision` the relative one of the integrator.
+    `bound` is a depth (m) that is not exceeded, `onset` (m) that of yield, `precision` the relative one of
+    the integrator.
     """
 
     rule: YieldRule
     area: np.ndarray
     ds: np.ndarray
     bound: float
+    onset: float
     precision: float
 
     def pressed(self, depth):
@@ -65,7 +68,7 @@ class Loading:
     @cached_property
     def linear_part(self):
         """Depth (m) up to which the law is linear in y, the value of y (m²) there, and A/y."""
-        depth = float(self.rule.onset())
+        depth = self.onset
         if depth >= self.rule.profile.known_depth:
             return np.inf, np.inf, 1.0
         if depth > 0:
@@ -89,7 +92,11 @@ class Loading:
                 place, turning_depth, turning_moment = turn
                 age = place - np.append(0.0, stretch.places)[last - start]
                 return Pressed(
-                    depth[: last + 1], moment[: last + 1], turning_depth, moment[start] + turning_moment, age
+                    depth[: last + 1],
+                    moment[: last + 1],
+                    turning_depth,
+                    moment[start] + turning_moment,
+                    age,
                 )
             if depth[stop] == np.inf:
                 break
@@ -110,6 +117,11 @@ class Pressed:
     turning_depth: float = np.inf
     turning_moment: float = 0.0
     age: float = np.inf
+
+    @property
+    def turned(self):
+        """Whether there is a turning point."""
+        return self.age < np.inf
 
 
 def _stretches(area, ds):
@@ -213,10 +225,13 @@ class _Stretch:
         span, precision = (begin, self.places[-1]), law.precision
         moment = max(unit, 1e-300) * self.slope
         for method in ("LSODA", "Radau"):
-            solution = scipy.integrate.solve_ivp(
-                rates, span, start, method, t_eval=places, events=events, rtol=precision,
-                atol=[1e-2 * precision, 1e-2 * precision * max(span[1] - begin, 1e-300)],
-            )  # fmt: skip
+            with warnings.catch_warnings():
+                # LSODA gives up in a warning where f and A agree to rounding, and Radau goes on.
+                warnings.simplefilter("ignore", UserWarning)
+                solution = scipy.integrate.solve_ivp(
+                    rates, span, start, method, t_eval=places, events=events, rtol=precision,
+                    atol=[1e-2 * precision, 1e-2 * precision * max(span[1] - begin, 1e-300)],
+                )  # fmt: skip
             if solution.status >= 0:
                 break
         else:
@@ -262,6 +277,11 @@ class Retreat:
         """D − d_p (m) of the states."""
         return self._lengths(self.area)
 
+    @property
+    def depth(self):
+        """Depths d (m) of the states."""
+        return self.interval.lower + (self.length + self.states[0])
+
     def _lengths(self, area):
         return live_length(self.rule.profile, self.interval, area)
 
@@ -274,28 +294,32 @@ class Retreat:
     def _edges(self):
         """D − d_p (m) at the `_AGES` before each state but the first."""
         ages = np.minimum(_AGES, self.ds[:, None])
-        edges = self._lengths(np.minimum(self.area[1:, None] + self.fall[:, None] * ages, self.area[:-1, None]))
+        edges = self._lengths(
+            np.minimum(self.area[1:, None] + self.fall[:, None] * ages, self.area[:-1, None])
+        )
         edges = np.where(ages < self.ds[:, None], edges, self.length[:-1, None])
         edges[:, 0] = self.length[1:]
         return np.maximum.accumulate(edges, axis=1)
 
     def _memory(self, k, low):
-        """∫ e⁻ᵛ dD and ∫ e⁻ᵛ (1 − e⁻ᵛ) dD (m) of what retreated before state k + 1, v (τ) ago.
+        """∫ e⁻ᵛ dD, ∫ e⁻ᵛ (1 − e⁻ᵛ) dD and ∫ (1 − e⁻ᵛ) dD (m), shape (3, M), of the way to state k + 1.
 
-        From D − d_p = `low` (m), an array, upward; D was there v = (A(D) − f)/(−df/ds) before.
+        From D − d_p = `low` (m), shape (M,), upward; D was there v = (A(D) − f)/(−df/ds) before.
         """
         start = np.maximum(self._edges[k, :-1], low[:, None])
         stop = np.broadcast_to(self._edges[k, 1:], start.shape)
         row, piece = np.nonzero(stop > start)
-        result = np.zeros((2, low.size))
+        result = np.zeros((3, low.size))
+        # What is older than the last of the ages.
+        result[2] = self.length[k] - np.maximum(self._edges[k, -1], low)
         if not row.size:
             return result
         start, stop, lower = start[row, piece], stop[row, piece], self.interval.lower
         length, weight = nodes(start, stop, lower + start, gauss_legendre(self.count))
         area = integrals(self.rule.profile).radius_integral(LiveInterval.above(lower, length))
         age = np.maximum(area - self.area[k + 1], 0.0) / self.fall[k]
-        share = weight * np.exp(-age)
-        for sums, values in zip(result, (share, share * -np.expm1(-age)), strict=True):
+        share, gone = weight * np.exp(-age), -np.expm1(-age)
+        for sums, values in zip(result, (share, share * gone, weight * gone), strict=True):
             sums += np.bincount(row, values.sum(axis=1), minlength=low.size)
         return result
 
@@ -309,12 +333,13 @@ class Retreat:
         states = np.zeros((3, len(self.area)))
         for k, (ds, fall) in enumerate(zip(self.ds, self.fall, strict=True)):
             lead, rest, work = states[:, k]
-            decay = np.exp(-ds)
-            memory, released = self._memory(k, self.length[k + 1 : k + 2])[:, 0]
-            new = lead * decay + memory
-            later = rest * decay**2 + 2 * fall * (lead * decay * -np.expm1(-ds) + released)
-            travel = (self.length[k] - self.length[k + 1]) + (lead - new)
-            states[:, k + 1] = new, later, work + (rest - later) / 2 + fall * travel
+            decay, passed = np.exp(-ds), -np.expm1(-ds)
+            memory, released, followed = self._memory(k, self.length[k + 1 : k + 2])[:, 0]
+            later = rest * decay**2 + 2 * fall * (lead * decay * passed + released)
+            # ∫ e ds, by which the indenter goes back.
+            travel = lead * passed + followed
+            taken = np.maximum((rest - later) / 2 + fall * travel, 0.0)
+            states[:, k + 1] = lead * decay + memory, later, work + taken
         return states
 
     def released(self, height):

@@ -261,8 +261,10 @@ class RadiusCap(YieldRule):
         """∫ u_c a(p) dp of loadings, one a row of (N, 1), from kink to kink of a(s) and a(p)."""
         first, last = self._penetration(imprint, 0 * increase), self._penetration(imprint, increase)
         last = np.minimum(last, self.profile.known_depth - imprint)
-        rises = [kink - imprint for kink in self.profile.kinks]
-        passed = [self._penetration(imprint, rise) for rise in rises]
+        # Those that neither end of the live interval reaches would cut nothing.
+        kinks = [kink for kink in self.profile.kinks if np.any(kink < imprint + last)]
+        rises = [kink - imprint for kink in kinks]
+        passed = [self._penetration(imprint, rise) for rise in rises if np.any(rise < increase)]
         cuts = np.hstack([first, *rises, *passed, first * (1 + self.scales), last])
         cuts = np.sort(np.clip(cuts, first, last), axis=1)
         node, weight = gauss_legendre(_NODES)
