@@ -177,8 +177,10 @@ def _growing_branches(rule):
     turns = np.flatnonzero(grows[1:] != grows[:-1])
     # All turns at once: on samples there is one at every vertex, and a call costs as much as many depths.
     low, high, before = depth[turns], depth[turns + 1], grows[turns]
-    for _ in range(60):
+    while np.any(high - low > 4e-16 * high):
         middle = (low + high) / 2
+        if np.all((middle == low) | (middle == high)):
+            break
         same = growing(middle) == before
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     low, high = np.append(0.0, high[~before]), np.append(low[before], end)[: 1 + np.count_nonzero(~before)]
