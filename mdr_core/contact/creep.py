@@ -21,7 +21,7 @@ from .creep_law import Loading, Retreat
 from .integrals import integrals, tabulated
 from .live_interval import LiveInterval
 from .loading import indent_to_force
-from .yielding import YieldRule, yield_rule
+from .yielding import yield_rule
 
 #: Number of runs of the scalar laws, each a hundred times as precise as the one before, and the first.
 _RUNS, _PRECISION = 4, 1e-1
@@ -215,7 +215,7 @@ def _without_viscosity(profile, medium, force, time):
 
 
 def _by_scalar_laws(profile, medium, force, time, tolerance):
-    """The `ScalarPath` of the times that the scalar laws cover, their number, and the error of the depth."""
+    """The `ScalarPath` of the times that the scalar laws cover, their number, the error of the depth."""
     rule, area = yield_rule(profile, medium), force / (2 * medium.E_star)
     onset, ds = float(rule.onset()), np.diff(time) / medium.relaxation_time
     first, bound = _first_and_bound(profile, medium, rule, force, ds)
@@ -294,7 +294,7 @@ def _pressed_states(profile, medium, law, pressed):
 
 
 def _lost(depth, area, moment, energy):
-    """Work of the dashpots over 2E* (m³): that of the force, less the `energy` stored and taken by yielding.
+    """Work of the dashpots over 2E* (m³): that of the force less the `energy` stored and taken by yielding.
 
     ∫ f dd is f d − ∫ d df; the first state is reached infinitely slowly.
     """

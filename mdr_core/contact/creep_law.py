@@ -205,7 +205,7 @@ class _Stretch:
         return self.slope * np.cumsum(np.sum(weight * self.law.depth_of(self._y(s, start, rate)), axis=1))
 
     def _integrated(self, begin, depth, places):
-        """Depths and moments at places (τ) by an integrator of SciPy, from a place on; the turning point."""
+        """Depths and moments at places (τ) by an integrator of SciPy, from one on; the turning point."""
         law, unit = self.law, self.law.bound
         known = law.rule.profile.known_depth
 

@@ -227,8 +227,8 @@ def _differences(table, lower, upper, length, moments):
 def tabulated_for(profile, count, deepest):
     """The profile for searches of `count` depths, if they are many with a table to its known depth.
 
-    `deepest()` is about the largest of the depths (m). A table ends there if the radius is not bounded, as of
-    a `Smooth` profile without a radius: panels are halved from the end of a table towards the tip.
+    `deepest()` is about the largest of the depths (m). A table ends there if the radius is not bounded, as
+    of a `Smooth` profile without a radius: panels are halved from the end of a table towards the tip.
     """
     slow = not profile.shape and isinstance(integrals(profile), QuadratureIntegrals)
     if count <= _FEW or not slow or profile.known_depth == np.inf:

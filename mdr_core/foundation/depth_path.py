@@ -138,7 +138,7 @@ class History(Protocol):
     model: Model
 
     def elements(self, x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-        """Line load (N/m) and elastic compression (m) at x ≥ 0 (m) in the first states, shape (count, M)."""
+        """Line load (N/m) and elastic compression (m) at x ≥ 0 (m) in the first states: (count, M)."""
         ...
 
 

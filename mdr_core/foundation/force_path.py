@@ -33,8 +33,8 @@ def check_creep(profile, medium, force, time, tolerance):
     refuse_adhesion(medium, "a path in time")
     if medium.f_c > 0:
         raise ValueError(
-            "a path of force in time is not computed with f_c above 0: the force that a contact carries may "
-            "then fall by itself, and the indenter jumps; take indent_in_time, or set f_c = 0"
+            "a path of force in time is not computed with f_c above 0: the force that a contact carries "
+            "may then fall by itself, and the indenter jumps; take indent_in_time, or set f_c = 0"
         )
     force = _check.force("force", force)
     time = check_times(time, force, "force")

@@ -84,7 +84,7 @@ def turning_interval(rule, target, before):
     given = rule
 
     def deepest():
-        """Depth (m) of the impact of the largest energy; one that is deeper is beyond the table, and slower."""
+        """Depth (m) of the impact of the largest energy; a deeper one is beyond the table, and slower."""
         row = np.unravel_index(np.argmax(target), shape)
         imprint = np.broadcast_to(before, shape)[row]
         energy = np.array([target[row]])
