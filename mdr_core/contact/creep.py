@@ -1,7 +1,7 @@
 """Viscous indentation under a prescribed force in time: creep.
 
 Three solvers answer. Without viscosity the path is that of `indent_to_force`. With it the scalar laws of
-`creep_law` hold up to the first time at which the force rises after the indenter has been let go; from
+`creep_law` hold up to the first time at which the force rises after the indenter has receded; from
 there on `chain_creep` follows every element, from the state that the scalar laws have reached.
 """
 
@@ -36,7 +36,7 @@ def creep(
 ) -> TimedIndentation:
     """Press an indenter into a viscous medium along a path of force in time, under which it creeps.
 
-    While the indenter goes deeper, and while it is let go afterwards, its depth obeys a scalar law: closed
+    While the indenter goes deeper, and while it recedes afterwards, its depth obeys a scalar law: closed
     as long as nothing yields, else solved by an integrator of SciPy. This covers a force that is ramped,
     held and taken away, in milliseconds. Where the force rises again before, released elements may come
     into contact while they relax: from there on the chain goes on, in seconds. `result.model` is "scalar
@@ -319,9 +319,9 @@ def _retreat(law, pressed, count):
 def _retreating(before, law, pressed, retreat):
     """`ScalarPath` that goes on from the states `before` a turning point."""
     rule, modulus, interval = law.rule, 2 * before.medium.E_star, retreat.interval
-    lead, rest, work = retreat.states[:, 1:]
+    lead, remainder, work = retreat.states[:, 1:]
     held = LiveInterval.above(interval.lower, retreat.length[1:])
-    stored = integrals(rule.profile).energy_integral(held) + lead * retreat.area[1:] + rest / 2
+    stored = integrals(rule.profile).energy_integral(held) + lead * retreat.area[1:] + remainder / 2
     taken = float(rule.plastic_integral(np.zeros_like(interval.lower), interval.lower))
     energy = float(integrals(rule.profile).energy_integral(interval)) + taken
     at_turn = _lost(

@@ -1,4 +1,4 @@
-"""Two scalar laws of creep: of an indenter that goes deeper, and of one that is let go.
+"""Two scalar laws of creep: of an indenter that goes deeper, and of one that recedes.
 
 With the contact radius a(s), f = F/(2E*), A = ∫ a ds over the live interval [d_p, D], and τ = 4η/E*:
 
@@ -6,8 +6,8 @@ With the contact radius a(s), f = F/(2E*), A = ∫ a ds over the live interval [
                  τ ẏ = f − A, which is linear as long as nothing yields.
     d falls      A = f, with D = d + τḋ, the height g at which elements are released, from the rim inward.
                  The edge of the contact follows the force at once, and the lead e = d − D of the indenter
-                 over it obeys τ ė = −e − τ Ḋ. What was released relaxes from the e of its release on, and
-                 is not met again while the force does not rise.
+                 over it obeys τ ė = −e − τ Ḋ. Released elements relax from the e of their release on, and
+                 are not met again while the force does not rise.
 
 The first law holds until f has fallen to A, the second one from there until the force rises. Times are in
 units of τ, and f is linear between the given times.
@@ -16,6 +16,7 @@ units of τ, and f is linear between the given times.
 import warnings
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 import scipy
@@ -84,10 +85,10 @@ class Loading:
         depth[0] = first
         for start, stop in _stretches(self.area, self.ds):
             stretch = _Stretch(self, self.area[start], np.cumsum(self.ds[start:stop]), self.area[stop])
-            found, turn = stretch.solve(depth[start])
-            last = start + found.shape[1]
-            depth[start + 1 : last + 1] = found[0]
-            moment[start + 1 : last + 1] = moment[start] + found[1]
+            values, turn = stretch.solve(depth[start])
+            last = start + values.shape[1]
+            depth[start + 1 : last + 1] = values[0]
+            moment[start + 1 : last + 1] = moment[start] + values[1]
             if turn is not None:
                 place, turning_depth, turning_moment = turn
                 age = place - np.append(0.0, stretch.places)[last - start]
@@ -129,7 +130,7 @@ def _stretches(area, ds):
     slope = np.diff(area) / ds
     bend = np.abs(np.diff(slope)) * np.minimum(ds[1:], ds[:-1])
     ends = [0, *(1 + np.flatnonzero(bend > 1e-13 * np.max(area))).tolist(), len(ds)]
-    return list(zip(ends[:-1], ends[1:], strict=True))
+    return list(pairwise(ends))
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,16 +155,17 @@ class _Stretch:
         Of a turning point, at which the places end, also its place (τ).
         """
         limit, *_ = self.law.linear_part
-        found, begin, turn = np.empty((2, 0)), 0.0, None
+        values, begin, turn = np.empty((2, 0)), 0.0, None
         moment = 0.0
         if depth < limit:
-            found, turn, begin, moment = self._linear(depth)
+            values, turn, begin, moment = self._linear(depth)
             depth = limit
-        if turn is None and found.shape[1] < len(self.places) and not np.isinf(found).any():
-            later, turn = self._integrated(begin, depth, self.places[found.shape[1] :])
-            found = np.hstack([found, later + [[0.0], [moment]]])
+        if turn is None and values.shape[1] < len(self.places) and not np.isinf(values).any():
+            later, turn = self._integrated(begin, depth, self.places[values.shape[1] :])
+            later[1] += moment
+            values = np.hstack([values, later])
             turn = turn and (*turn[:2], turn[2] + moment)
-        return found, turn
+        return values, turn
 
     def _linear(self, depth):
         """Depths and moments while the law is linear; the turning point; where the law ends, and there."""
@@ -182,11 +184,11 @@ class _Stretch:
         asked = np.append(places, end)
         depths = self.law.depth_of(self._y(asked, start, rate))
         moments = self._moments(asked, start, rate)
-        found = np.array([depths[:-1], moments[:-1]])
+        values = np.array([depths[:-1], moments[:-1]])
         if yielding <= end:
-            return found, None, yielding, moments[-1]
+            return values, None, yielding, moments[-1]
         turned = turn < self.places[-1]
-        return found, (turn, depths[-1], moments[-1]) if turned else None, end, moments[-1]
+        return values, (turn, depths[-1], moments[-1]) if turned else None, end, moments[-1]
 
     def _y(self, s, start, rate):
         """y (m²) at times s (τ) from its value at the start, with dy/ds = f − rate y."""
@@ -236,12 +238,12 @@ class _Stretch:
                 break
         else:
             raise ValueError(f"creep was not integrated: {solution.message}; check the units of the times")
-        found = np.reshape(solution.y, (2, -1)) * [[unit], [moment]]
-        found[0] = np.where(found[0] > known * (1 + 1e-9), np.inf, found[0])
+        values = np.reshape(solution.y, (2, -1)) * [[unit], [moment]]
+        values[0] = np.where(values[0] > known * (1 + 1e-9), np.inf, values[0])
         if solution.status == 0:
-            return found, None
+            return values, None
         place, (share, integral) = solution.t_events[0][0], solution.y_events[0][0]
-        return found[:, np.asarray(solution.t) < place], (place, share * unit, integral * moment)
+        return values[:, np.asarray(solution.t) < place], (place, share * unit, integral * moment)
 
 
 def _relaxed(x):
@@ -302,7 +304,7 @@ class Retreat:
         return np.maximum.accumulate(edges, axis=1)
 
     def _memory(self, k, low):
-        """∫ e⁻ᵛ dD, ∫ e⁻ᵛ (1 − e⁻ᵛ) dD and ∫ (1 − e⁻ᵛ) dD (m), shape (3, M), of the way to state k + 1.
+        """∫ e⁻ᵛ dD, ∫ e⁻ᵛ (1 − e⁻ᵛ) dD and ∫ (1 − e⁻ᵛ) dD (m), shape (3, M), up to state k + 1.
 
         From D − d_p = `low` (m), shape (M,), upward; D was there v = (A(D) − f)/(−df/ds) before.
         """
@@ -310,7 +312,7 @@ class Retreat:
         stop = np.broadcast_to(self._edges[k, 1:], start.shape)
         row, piece = np.nonzero(stop > start)
         result = np.zeros((3, low.size))
-        # What is older than the last of the ages.
+        # Older than the last of the ages.
         result[2] = self.length[k] - np.maximum(self._edges[k, -1], low)
         if not row.size:
             return result
@@ -318,8 +320,8 @@ class Retreat:
         length, weight = nodes(start, stop, lower + start, gauss_legendre(self.count))
         area = integrals(self.rule.profile).radius_integral(LiveInterval.above(lower, length))
         age = np.maximum(area - self.area[k + 1], 0.0) / self.fall[k]
-        share, gone = weight * np.exp(-age), -np.expm1(-age)
-        for sums, values in zip(result, (share, share * gone, weight * gone), strict=True):
+        share, faded = weight * np.exp(-age), -np.expm1(-age)
+        for sums, values in zip(result, (share, share * faded, weight * faded), strict=True):
             sums += np.bincount(row, values.sum(axis=1), minlength=low.size)
         return result
 
@@ -332,13 +334,13 @@ class Retreat:
         """
         states = np.zeros((3, len(self.area)))
         for k, (ds, fall) in enumerate(zip(self.ds, self.fall, strict=True)):
-            lead, rest, work = states[:, k]
+            lead, remainder, work = states[:, k]
             decay, passed = np.exp(-ds), -np.expm1(-ds)
             memory, released, followed = self._memory(k, self.length[k + 1 : k + 2])[:, 0]
-            later = rest * decay**2 + 2 * fall * (lead * decay * passed + released)
+            later = remainder * decay**2 + 2 * fall * (lead * decay * passed + released)
             # ∫ e ds, by which the indenter goes back.
             travel = lead * passed + followed
-            taken = np.maximum((rest - later) / 2 + fall * travel, 0.0)
+            taken = np.maximum((remainder - later) / 2 + fall * travel, 0.0)
             states[:, k + 1] = lead * decay + memory, later, work + taken
         return states
 
@@ -347,10 +349,10 @@ class Retreat:
         place, result = height - self.interval.lower, np.zeros((len(self.area), height.size))
         for k, ds in enumerate(self.ds):
             decay, lead = np.exp(-ds), self.states[0, k]
-            gone = place >= self.length[k]
-            result[k + 1, gone] = result[k, gone] * decay
+            free = place >= self.length[k]
+            result[k + 1, free] = result[k, free] * decay
             # Less those that had never been in contact.
-            now = np.flatnonzero(~gone & (place >= self.length[k + 1]))
+            now = np.flatnonzero(~free & (place >= self.length[k + 1]))
             if now.size:
                 result[k + 1, now] = lead * decay + self._memory(k, place[now])[0]
         return result

@@ -224,16 +224,16 @@ def _differences(table, lower, upper, length, moments):
     return result
 
 
-def tabulated_for(profile, count, deepest):
+def tabulated_for(profile, count, largest_depth):
     """The profile for searches of `count` depths, if they are many with a table to its known depth.
 
-    `deepest()` is about the largest of the depths (m). A table ends there if the radius is not bounded, as
-    of a `Smooth` profile without a radius: panels are halved from the end of a table towards the tip.
+    `largest_depth()` is about the largest of the depths (m). A table ends there if the radius is not
+    bounded, as of a `Smooth` profile without a radius: panels are halved from its end towards the tip.
     """
     slow = not profile.shape and isinstance(integrals(profile), QuadratureIntegrals)
     if count <= _FEW or not slow or profile.known_depth == np.inf:
         return profile
-    return tabulated(profile, deepest() if profile.known_radius == np.inf else profile.known_depth)
+    return tabulated(profile, largest_depth() if profile.known_radius == np.inf else profile.known_depth)
 
 
 def tabulated(profile, known_depth):

@@ -83,14 +83,14 @@ def turning_interval(rule, target, before):
     shape = target.shape
     given = rule
 
-    def deepest():
+    def largest_depth():
         """Depth (m) of the impact of the largest energy; a deeper one is beyond the table, and slower."""
         row = np.unravel_index(np.argmax(target), shape)
         imprint = np.broadcast_to(before, shape)[row]
         energy = np.array([target[row]])
         return imprint + _penetration(given.entries(row, shape), energy, np.array([imprint]))[0]
 
-    rule = replace(rule, profile=tabulated_for(rule.profile, target.size, deepest))
+    rule = replace(rule, profile=tabulated_for(rule.profile, target.size, largest_depth))
     unit, *scales = integrals(rule.profile).unit
     rule = rule.flat_entries(slice(None), shape)
     # Apart from the results, arrays are no longer than a block.

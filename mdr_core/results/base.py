@@ -42,7 +42,7 @@ SCALAR_ODE = Model(
 )
 CREEP_LAW = Model(
     "scalar ODE",
-    "while an indenter goes deeper, and while it is let go afterwards, its depth under a force obeys one "
+    "while an indenter goes deeper, and while it recedes afterwards, its depth under a force obeys one "
     "scalar equation, because no element that was released comes into contact again",
 )
 CHAIN = Model(

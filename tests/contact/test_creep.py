@@ -64,7 +64,7 @@ class Reference:
         return max(0.0, d - self.share * (self.hardness * self.radius(d) + self.q_c))
 
     def path(self, area, time):
-        """Depths at times in units of τ, of which the first area is 0: a step of each law after the other."""
+        """Depths at times in units of τ, the first one under no force: one law after the other."""
 
         def f(t):
             return np.interp(t, time, area)
@@ -94,9 +94,10 @@ class Reference:
                     turned, edge = self.plastic(state), state
             if turned is not None and t < stop:
                 # The edge D of the contact follows the force; the indenter follows the edge.
+                fall = (f(stop) - f(t)) / (stop - t)
                 run = solve_ivp(
-                    lambda t, y: [y[1] - y[0], (f(stop) - f(start)) / (stop - start) / self.radius(y[1])],
-                    ((start := t), stop), [state, edge], "Radau", rtol=1e-11, atol=1e-22,
+                    lambda t, y, fall=fall: [y[1] - y[0], fall / self.radius(y[1])],
+                    (t, stop), [state, edge], "Radau", rtol=1e-11, atol=1e-22,
                 )  # fmt: skip
                 state, edge, t = float(run.y[0, -1]), float(run.y[1, -1]), stop
             depths.append(state)
