@@ -8,6 +8,7 @@ Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 from . import abel, sweep
 from ._check import no_attribute
 from .contact import closed_forms as closed_forms  # registers the closed forms of the shapes
+from .contact.creep import creep
 from .contact.indentation import Indentation
 from .contact.loading import indent, indent_to_force
 from .contact.onset_of_yield import critical_force, yield_depth, yield_speed
@@ -17,7 +18,6 @@ from .fit.indentation import fit_indentation
 from .fit.oliver_pharr import oliver_pharr
 from .foundation.chain_impact import chain_impact
 from .foundation.depth_path import TimedIndentation, indent_in_time
-from .foundation.force_path import creep
 from .foundation.foundation import Foundation
 from .hardness import HardnessLaw
 from .impacts.adhesive import capture_speeds

@@ -6,26 +6,29 @@ import numpy as np
 
 from . import _check
 from ._check import ArrayLike, Parameter
+from .contact.creep import creep
 from .contact.loading import indent, indent_to_force
 from .foundation.chain_impact import chain_impact
 from .foundation.depth_path import check_times, indent_in_time
-from .foundation.force_path import creep
+from .foundation.force_path import chain_creep
 from .impacts.impact import solve_impact
 from .medium import Medium
 from .oblique.oblique_impact import FRICTION, oblique_impact
-from .results.base import CHAIN, CLOSED_FORM, SCALAR_ODE, Model
+from .results.base import CHAIN, CLOSED_FORM, CREEP_LAW, SCALAR_ODE, Model
 
 
 class _Path:
     """Base class of paths: in time, or infinitely slow where `time` is None."""
 
     time: ArrayLike | None
+    #: Models in time on a viscous medium, the cheapest exact one first.
+    _viscous: tuple[Model, ...] = (CHAIN,)
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
         """Names of the models for this drive, the cheapest exact one first."""
         if medium.work_of_adhesion > 0:
             return (CLOSED_FORM,)
-        return (CHAIN,) if self.time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
+        return self._viscous if self.time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
 
 
 @dataclass(frozen=True)
@@ -70,16 +73,21 @@ class ForcePath(_Path):
     force: Parameter
     time: ArrayLike | None = None
 
+    #: Where the scalar law of creep ends the chain goes on by itself.
+    _viscous = (CREEP_LAW, CHAIN)
+
     def __post_init__(self):
         force = _path("ForcePath force", self.force, "N")
         time = _times(self.time, force, "force")
         _check.store(self, force=_plain(force), time=time)
 
     def solve(self, profile, medium, model):
-        """The `Indentation` along this path, or on the chain the `TimedIndentation`."""
+        """The `Indentation` along this path, or in time and on the chain the `TimedIndentation`."""
         if model == CLOSED_FORM:
             return indent_to_force(profile, medium, self.force)
-        return _on_chain(creep, profile, medium, self.force, self.time)
+        if model == CREEP_LAW:
+            return creep(profile, medium, self.force, self.time)
+        return _on_chain(chain_creep, profile, medium, self.force, self.time)
 
 
 def _path(quantity, values, unit):
@@ -101,7 +109,7 @@ def _plain(array):
 
 
 def _on_chain(solve, profile, medium, path, time):
-    """The `TimedIndentation` of a path by `indent_in_time` or `creep`."""
+    """The `TimedIndentation` of a path by `indent_in_time` or `chain_creep`."""
     values = np.atleast_1d(path)
     if time is None:
         # An infinitely slow path is a path without viscosity at any times.

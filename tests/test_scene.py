@@ -131,7 +131,7 @@ class TestModel:
             (VISCOUS, mdr.DepthPath(PATH), "closed form", mdr.Indentation),
             (DRY, mdr.DepthPath(PATH, TIME), "closed form", mdr.Indentation),
             (VISCOUS, mdr.DepthPath(PATH, TIME), "chain", mdr.TimedIndentation),
-            (VISCOUS, mdr.ForcePath((0.0, 1e-6, 1e-6), TIME[:3]), "chain", mdr.TimedIndentation),
+            (VISCOUS, mdr.ForcePath((0.0, 1e-6, 1e-6), TIME[:3]), "scalar ODE", mdr.TimedIndentation),
             (DRY, HIT, "closed form", mdr.Impact),
             (VISCOUS, HIT, "scalar ODE", mdr.Impact),
         ],

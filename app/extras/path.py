@@ -17,12 +17,11 @@ from ..changes import equivalent
 from ..courses import Course, onset_depth, path_progress
 from ..drives import Drive, limited_force
 from ..extra import Extra
-from ..shared.rest import Resting
-from ..state import medium, profile, refuse_other_classes
+from ..state import medium, profile
 
-#: Steps of a piece of a path; of creep, each of which takes eight steps of the chain and more.
-_STEPS, _CREEP_STEPS = 24, 12
-#: Tolerance of the chain, below the resolution of plots.
+#: Steps of a piece of a path.
+_STEPS = 24
+#: Tolerance of the chain and of creep, below the resolution of plots.
 _TOLERANCE = 3e-3
 
 
@@ -52,7 +51,7 @@ def _refined(scene, chain):
     by_force, largest = _by_force(scene.drive), onset_depth(scene)
     places = [along]
     for (begin, first), (end, last) in pairwise(zip(along, values, strict=True)):
-        share = _shares(_CREEP_STEPS if chain and by_force else _STEPS, chain, first == last)
+        share = _shares(_STEPS, chain, first == last)
         if last > largest and not by_force:
             # Just before yield.
             share = np.append(share, (largest * (1 - 1e-12) - first) / (last - first))
@@ -72,7 +71,7 @@ def _shares(steps, chain, held):
 
 
 @lru_cache(maxsize=8)
-def _solved(scene, chain, pending):
+def _solved(scene, chain):
     values, along = _refined(scene, chain)
     by_force, bodies = _by_force(scene.drive), (scene.profile, scene.medium)
     if chain:
@@ -88,7 +87,6 @@ def _solved(scene, chain, pending):
         motion=_motion(states, along) if in_time else None,
         turns=True,
         chained=chain,
-        pending=pending,
         notes=(_IDLE,) * (in_time and scene.medium.eta == 0),
     )
 
@@ -179,8 +177,11 @@ class Path(Drive):
             refuse_adhesion(made, "a path in time")
             times = (0.0, state["path.ramp_time"], 5 * state["path.ramp_time"])
             if state["path.pattern"] == "creep":
-                if made.eta > 0:
-                    refuse_other_classes(state, "creep with viscosity", "ramp and hold")
+                if made.eta > 0 and made.f_c > 0:
+                    raise ValueError(
+                        "creep with viscosity is not computed for a hardness ∝ 1/a², with which the "
+                        "force may fall by itself: choose another one or ramp and hold first"
+                    )
                 return mdr.ForcePath((0.0, state.max_force, state.max_force), times)
             return mdr.DepthPath((0.0, state.max_depth, state.max_depth), times)
         tenths = (2, 4, 6, 8, 10) if state["path.pattern"] == "cycles" else (7, 10)
@@ -190,17 +191,8 @@ class Path(Drive):
         return mdr.DepthPath([depth for pair in zip(peaks, unloaded, strict=True) for depth in pair])
 
     def follow(self, scene, progress):
-        """States; creep of a viscous medium without dashpots until the exact ones are found."""
-        viscous = scene.drive.time is not None and scene.medium.eta > 0
-        pending = viscous and _by_force(scene.drive)
-        return _solved(
-            scene,
-            viscous and not pending,
-            "Computing with viscosity; drawn so far without dashpots." * pending,
-        )
-
-    def in_time(self, scene):
-        return _solved(scene, True, "")
+        """States along the path."""
+        return _solved(scene, scene.drive.time is not None and scene.medium.eta > 0)
 
     def equivalent(self, state, turning_point):
         """Pattern of the present depth, and a ramp of one relaxation time unless there is one already."""
@@ -213,5 +205,4 @@ EXTRA = Extra(
     "path",
     converts={"path.pattern": lambda state, wanted: equivalent(state, "path")},
     drives={"path": Path()},
-    service=Resting,
 )

@@ -14,11 +14,15 @@ from ..profiles.profile import Profile
 from ..results.base import CLOSED_FORM, Result
 from ..results.limits import Limit, contact_limits, jump_limits
 from . import adhesion, stress
-from .integrals import integrals
+from .integrals import integrals, tabulated
 from .live_interval import LiveInterval
 from .pressure import displacement_integral, pressure_integral
 from .stress import Stress, StressPeak
 from .yielding import yield_rule
+
+#: Number of states from which on a table pays. Making one takes as long as the integrals of 5,000 states on
+#: 200 samples, of 11,000 on 30 and of 14,000 on 1,000; then a state is 100 times quicker.
+_MANY = 15_000
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -70,7 +74,14 @@ class Indentation(Result):
 
     @property
     def _rule(self):
-        return yield_rule(self.profile, self.medium)
+        return yield_rule(self._quick, self.medium)
+
+    @cached_property
+    def _quick(self):
+        """The profile, of very many states with a table of its contact radius."""
+        if np.size(self.depth) < _MANY or self.profile.shape or not 0 < np.max(self.depth) < np.inf:
+            return self.profile
+        return tabulated(self.profile, np.max(self.depth))
 
     @property
     def _adhesive(self):
@@ -89,20 +100,20 @@ class Indentation(Result):
     @_check.frozen_property
     def force(self):
         """Normal force F = 2E* ∫ a(s) ds (N) and of the uniform load; Popov (2015), Eqs. (20), (22)."""
-        force = 2 * self.medium.E_star * integrals(self.profile).radius_integral(self.live_interval)
+        force = 2 * self.medium.E_star * integrals(self._quick).radius_integral(self.live_interval)
         return force + 2 * self.uniform_load * self.contact_radius if np.any(self.uniform_load) else force
 
     @_check.frozen_property
     def contact_radius(self):
         """Contact radius a (m), Popov (2015), Eq. (16); 0 without contact."""
         touching = (self.live_interval.length > 0) | (self.uniform_load != 0)
-        return np.where(touching, self.profile._radius(np.asarray(self.live_interval.upper)), 0.0)
+        return np.where(touching, self._quick._radius(np.asarray(self.live_interval.upper)), 0.0)
 
     @_check.frozen_property
     def plastic_radius(self):
         """Radius c (m) of the plastic zone, Popov (2015), Eq. (21); 0 if nothing has yielded."""
         depth = np.asarray(self.plastic_depth)
-        return np.where(depth > 0, self.profile._radius(depth), 0.0)
+        return np.where(depth > 0, self._quick._radius(depth), 0.0)
 
     @_check.frozen_property
     def contact_area(self):
@@ -127,9 +138,9 @@ class Indentation(Result):
     @_check.frozen_property
     def stored_energy(self):
         """Elastic energy of the springs in contact, U = 2E* ∫ (d − s) a(s) ds (J)."""
-        energy, ahead = integrals(self.profile).energy_integral(self.live_interval), self._ahead
+        energy, ahead = integrals(self._quick).energy_integral(self.live_interval), self._ahead
         if np.any(ahead != 0):
-            area = integrals(self.profile).radius_integral(self.live_interval)
+            area = integrals(self._quick).radius_integral(self.live_interval)
             energy = energy + ahead * (area + ahead / 2 * self.contact_radius)
         return 2 * self.medium.E_star * energy
 

@@ -26,6 +26,8 @@ from .quadrature import integrate, kink_above, radius, radius_rate
 #: Live intervals longer than this share of the depth are integrated as a difference of two integrals from
 #: the tip; the energy loses up to two digits by it.
 _LONG = 0.15
+#: Number of depths up to which a table is not worth its making.
+_FEW = 16
 #: Numbers of Gauss nodes for shorter ones, by their length over the distance from the last kink.
 _SHORT = ((0.03, 4), (0.15, 6), (0.5, 10))
 
@@ -220,6 +222,18 @@ def _differences(table, lower, upper, length, moments):
             result[1] -= table.volume(lower)
             result[1] -= length * area
     return result
+
+
+def tabulated_for(profile, count, largest_depth):
+    """The profile for searches of `count` depths, if they are many with a table to its known depth.
+
+    `largest_depth()` is about the largest of the depths (m). A table ends there if the radius is not
+    bounded, as of a `Smooth` profile without a radius: panels are halved from its end towards the tip.
+    """
+    slow = not profile.shape and isinstance(integrals(profile), QuadratureIntegrals)
+    if count <= _FEW or not slow or profile.known_depth == np.inf:
+        return profile
+    return tabulated(profile, largest_depth() if profile.known_radius == np.inf else profile.known_depth)
 
 
 def tabulated(profile, known_depth):

@@ -1,6 +1,6 @@
 """Indentation along a prescribed path of depth or force, infinitely slowly."""
 
-from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -124,58 +124,71 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     known = largest_depth <= min(profile.known_depth, _check.LONGEST)
     bound = f"presses {profile._too_deep()}"
     if medium.has_own_law and profile.known_depth == np.inf and not np.all(known):
-        carried = max(_carried(rule, min(high, _check.LONGEST)) for _, high, _ in branches)
+        carried = np.max(_carried(rule, np.minimum(branches.high, _check.LONGEST)))
         bound = f"is more than the {2 * medium.E_star * carried:g} N that the contact carries on loading"
     _check.refuse("force", force, ~known, bound, unit="N", remedy="press less")
     check_hardness(profile, medium, largest_depth)
     loaded, _ = rule.loading(largest_depth)
-    length = np.where(integral == largest, loaded.length, _live_length(profile, loaded, integral))
+    length = np.where(integral == largest, loaded.length, live_length(profile, loaded, integral))
     depth = np.where(integral == largest, largest_depth, loaded.lower + length)
     end = np.max(largest_depth, initial=0.0)
-    jumps = tuple((one[1], other[0]) for one, other in pairwise(branches) if other[0] < end)
+    jumps = zip(branches.high[:-1].tolist(), branches.low[1:].tolist(), strict=True)
+    jumps = tuple(jump for jump in jumps if jump[1] < end)
     return Indentation(profile, medium, depth, LiveInterval(loaded.lower, depth, length), jumps=jumps)
+
+
+class _Branches(NamedTuple):
+    """Depths (m) between which the force of a first loading grows, ascending; ∫ a ds (m²) at their ends."""
+
+    low: np.ndarray
+    high: np.ndarray
+    least: np.ndarray
+    most: np.ndarray
 
 
 def _loading_depth(rule, branches, area):
     """The first depth (m) at which a first loading has ∫ a ds = `area` (m²), elementwise."""
-    onset, result = rule.onset(), np.full(area.shape, np.inf)
-    for low, high, least in branches:
+    # It lies on the first branch that reaches so far: between branches the force falls.
+    number = np.searchsorted(np.maximum.accumulate(branches.most), area)
+    low, high, least, _ = (values[np.minimum(number, values.size - 1)] for values in branches)
+    onset, rate = rule.onset(), least / np.maximum(low, 1e-300)
 
-        def loading(depth, low=low, least=least):
-            interval, _ = rule.loading(depth)
-            width = rule.yielding_width(interval)
-            slope = np.where(interval.lower > 0, width, rule.profile._radius(depth))
-            value = integrals(rule.profile).radius_integral(interval)
-            # Shallower than the branch a straight line, which stays below what was not reached before.
-            rate = least / max(low, 1e-300)
-            return np.where(depth < low, rate * depth, value), np.where(depth < low, rate, slope)
+    def loading(depth):
+        interval, _ = rule.loading(depth)
+        width = rule.yielding_width(interval)
+        slope = np.where(interval.lower > 0, width, rule.profile._radius(depth))
+        value = integrals(rule.profile).radius_integral(interval)
+        # Shallower than the branch a straight line, which stays below what was not reached before.
+        return np.where(depth < low, rate * depth, value), np.where(depth < low, rate, slope)
 
-        start = np.clip(onset if 0 < onset < np.inf else 1.0, low, high)
-        depth = increasing_root(loading, area, start, high)
-        result = np.minimum(result, depth)
-    return result
+    start = np.clip(onset if 0 < onset < np.inf else 1.0, low, high)
+    return increasing_root(loading, area, start, high)
 
 
 def _elastic_depth(profile, area):
     """Depth (m) at which an elastic loading has ∫ a ds = `area` (m²): no more than that of any loading."""
-    return _loading_depth(ConstantCap(profile, np.inf), [(0.0, profile.known_depth, 0.0)], area)
+    return _loading_depth(ConstantCap(profile, np.inf), _one_branch(profile.known_depth), area)
 
 
 def _carried(rule, depth):
-    """∫ a ds (m²) of a first loading to a depth (m)."""
-    return float(integrals(rule.profile).radius_integral(rule.loading(np.asarray(depth))[0]))
+    """∫ a ds (m²) of first loadings to depths (m)."""
+    return integrals(rule.profile).radius_integral(rule.loading(np.asarray(depth))[0])
+
+
+def _one_branch(end):
+    """The `_Branches` of a force that grows up to the depth (m) at which the profile ends."""
+    return _Branches(*np.array([[0.0], [end], [0.0], [np.inf]]))
 
 
 def _growing_branches(rule, elastic=None):
-    """Depths (m) between which the force of a first loading grows, and ∫ a ds (m²) at the first of them.
+    """The `_Branches` of a first loading.
 
     With f_c above 0, or a law of hardness, the force may fall after the onset of yield. For a law,
     `elastic` are the depths (m) that elastic loadings reach.
     """
     end, onset = rule.profile.known_depth, float(rule.onset())
-    branches = [(0.0, end, 0.0)]
     if not onset < end or not rule.may_fall(end):
-        return branches
+        return _one_branch(end)
 
     @np.errstate(all="ignore")
     def growing(depth):
@@ -192,18 +205,23 @@ def _growing_branches(rule, elastic=None):
     grows = growing(depth)
     # The elastic branch ends at the onset.
     grows[0] = True
-    for i in np.flatnonzero(grows[1:] != grows[:-1]):
-        low, high = depth[i], depth[i + 1]
-        while high - low > 4e-16 * high and low < (middle := (low + high) / 2) < high:
-            low, high = (middle, high) if growing(middle) == grows[i] else (low, middle)
-        if grows[i]:
-            branches[-1] = (branches[-1][0], low, branches[-1][2])
-        else:
-            branches.append((high, end, _carried(rule, high)))
-    return branches
+    turns = np.flatnonzero(grows[1:] != grows[:-1])
+    # All turns at once: on samples there is one at every vertex, and a call costs as much as many depths.
+    low, high, before = depth[turns], depth[turns + 1], grows[turns]
+    while np.any(high - low > 4e-16 * high):
+        middle = (low + high) / 2
+        if np.all((middle == low) | (middle == high)):
+            break
+        same = growing(middle) == before
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    low, high = np.append(0.0, high[~before]), np.append(low[before], end)[: 1 + np.count_nonzero(~before)]
+    finite = np.minimum(high, np.finfo(float).max ** 0.25)
+    least = np.where(low > 0, _carried(rule, low), 0.0)
+    most = np.where(high < np.inf, _carried(rule, finite), np.inf)
+    return _Branches(low, high, least, most)
 
 
-def _live_length(profile, largest, area):
+def live_length(profile, largest, area):
     """Live depth (m) at which unloading from the live interval `largest` has ∫ a ds = `area` (m²)."""
 
     def unloading(length):

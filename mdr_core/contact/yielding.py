@@ -281,8 +281,10 @@ class RadiusCap(YieldRule):
         """Penetrations (m), ascending in each row, between which the plastic work is smooth."""
         first, last = self._penetration(imprint, 0 * increase), self._penetration(imprint, increase)
         last = np.minimum(last, self.profile.known_depth - imprint)
-        rises = [kink - imprint for kink in self.profile.kinks]
-        passed = [self._penetration(imprint, rise) for rise in rises]
+        # Those that neither end of the live interval reaches would cut nothing.
+        kinks = [kink for kink in self.profile.kinks if np.any(kink < imprint + last)]
+        rises = [kink - imprint for kink in kinks]
+        passed = [self._penetration(imprint, rise) for rise in rises if np.any(rise < increase)]
         cuts = np.hstack([first, *rises, *passed, first * (1 + self.scales), last])
         return np.sort(np.clip(cuts, first, last), axis=1)
 

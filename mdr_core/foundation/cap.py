@@ -43,5 +43,8 @@ def onset_depth(profile, medium):
 
 
 def flat_face_load(medium, radius):
-    """Force π q_c b (N) of a flat face of a radius (m) that has yielded throughout."""
-    return np.pi * medium.q_c * radius
+    """Force π (H b² + q_c b) (N) of a flat face of a radius b (m) that has yielded throughout.
+
+    Infinite without a wall.
+    """
+    return np.pi * (medium.hardness * radius + medium.q_c) * radius if radius < np.inf else np.inf

@@ -1,8 +1,9 @@
 """Viscous indentation along a path of depth in time: the chain, refined to a tolerance of the force."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from .. import _check, abel
 from .._check import Array, ArrayLike
 from ..medium import Medium, check_hardness, check_pair, refuse_adhesion
 from ..profiles.profile import Profile
-from ..results.base import CHAIN, Result
+from ..results.base import CHAIN, Model, Result
 from ..results.limits import Limit, contact_limits
 from . import element
 from .cap import elastic_limit, plastic_depth
@@ -100,16 +101,19 @@ def indent_in_time(
         profile, medium, time, depth,
         plastic_depth=plastic_depth(profile, medium, np.maximum.accumulate(depth)),
         error=float(errors[:4].max()),
-        _index=np.arange(depth.size), _path_time=np.array(time), _path_depth=np.array(depth),
+        _index=np.arange(depth.size), _history=Ramps(profile, medium, np.array(time), np.array(depth)),
         **dict(zip(_RECORD, record.T, strict=True)),
     )  # fmt: skip
 
 
-def follow(foundation, depth, time):
-    """The `_RECORD` of a foundation at each time of a path, shape (N, 5)."""
+def follow(foundation, depth, time, advance=Foundation.advance, first=np.inf):
+    """The `_RECORD` of a foundation at each time of a path, shape (N, 5).
+
+    `first` is the time (s) in which the first depth is reached.
+    """
     record = []
-    for new_depth, dt in zip(depth, np.append(np.inf, np.diff(time)), strict=True):
-        foundation = foundation.advance(new_depth, dt)
+    for new_depth, dt in zip(depth, np.append(first, np.diff(time)), strict=True):
+        foundation = advance(foundation, new_depth, dt)
         force, radius = force_and_radius(foundation)
         works = foundation.energy_of_elements, foundation.plastic_work, foundation.viscous_work
         record.append((force, *works, radius))
@@ -129,9 +133,58 @@ def _node_radii(profile, medium, depth, time):
     return profile.contact_radius(level) if level.size else np.empty(0)
 
 
+class History(Protocol):
+    """A path along which the state of any element is known."""
+
+    model: Model
+
+    def elements(self, x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+        """Line load (N/m) and elastic compression (m) at x ≥ 0 (m) in the first states: (count, M)."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Ramps:
+    """A path of straight ramps of depth (m) over time (s), the first of them infinitely slow.
+
+    `start` gives the elements at coordinates x (m) before the first ramp; by default they are undeformed.
+    With it the first depth is where they are, and `largest` (m) the largest depth before it.
+    """
+
+    profile: Profile
+    medium: Medium
+    time: np.ndarray
+    depth: np.ndarray
+    start: Callable | None = None
+    largest: float = 0.0
+
+    model = CHAIN
+
+    def elements(self, x, count):
+        """Line load (N/m) and elastic compression (m) at x (m) after each of the first depths."""
+        medium = self.medium
+        virgin = Elements.virgin(self.profile, x, np.zeros(x.size))
+        elements = virgin if self.start is None else self.start(virgin)
+        travel = np.diff(self.depth, prepend=0.0 if self.start is None else self.depth[0])
+        duration = np.append(np.inf, np.diff(self.time))
+        largest = np.maximum.accumulate(np.maximum(self.depth, self.largest))
+        limits = elastic_limit(self.profile, medium, largest) + 0 * largest
+        ramps = zip(self.depth[:count], travel, duration, limits, strict=False)
+        load, elastic = np.empty((2, count, x.size))
+        for i, (depth, *piece, limit) in enumerate(ramps):
+            ramp = Ramp(depth, *piece, medium.relaxation_time, limit)
+            if i or self.start is None:
+                elements, _ = element.advance(elements, ramp)
+            elastic[i] = elements.elastic
+            load[i] = np.where(elements.contact, medium.E_star * (elastic[i] + ramp.lag), 0.0)
+        return load, elastic
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class TimedIndentation(Result):
     """States of a viscous indentation at the times of its path; made by `indent_in_time` or `creep`.
+
+    `model` says what solved it: the chain, or a scalar law of creep.
 
     Every quantity has the shape of `time`; `result[i]` is one state. Where the rate changes, force and
     fields are those at the end of the earlier piece.
@@ -154,12 +207,10 @@ class TimedIndentation(Result):
     plastic_depth: Array
     #: Estimated error of force and energies (`indent_in_time`) or depth (`creep`), relative to the largest.
     error: float
-    #: Index of each state on the path that the elements follow, and times (s) and depths (m) of that path.
+    #: Index of each state on the path that the elements follow, and that path.
     _index: Array
-    _path_time: np.ndarray
-    _path_depth: np.ndarray
+    _history: "History"
 
-    model = CHAIN
     _shown = ("time", "depth", "force", "contact_radius", "plastic_radius", "plastic_depth")
     _quantities = (*_shown, "stored_energy", "plastic_work", "viscous_work")
     _dimensions = ("time",)
@@ -169,6 +220,11 @@ class TimedIndentation(Result):
     def __post_init__(self):
         copies = {name: np.array(getattr(self, name)) for name in self._state_fields}
         _check.store(self, **{name: _check.frozen(values) for name, values in copies.items()})
+
+    @property
+    def model(self) -> Model:
+        """Name of the model, with the reason for its choice."""
+        return self._history.model
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
@@ -196,20 +252,8 @@ class TimedIndentation(Result):
         part that has not relaxed yet. Exact along the path of depth.
         """
         x = np.abs(_check.finite_array("coordinate x", x, unit="m"))
-        index, medium = np.asarray(self._index, int), self.medium
-        elements = Elements.virgin(self.profile, x.ravel(), np.zeros(x.size))
-        count = int(np.max(index)) + 1
-        travel = np.diff(self._path_depth, prepend=0.0)
-        duration = np.append(np.inf, np.diff(self._path_time))
-        largest = np.maximum.accumulate(np.maximum(self._path_depth, 0.0))
-        limits = elastic_limit(self.profile, medium, largest) + 0 * largest
-        ramps = zip(self._path_depth[:count], travel, duration, limits, strict=False)
-        load, elastic = np.empty((2, count, x.size))
-        for i, (depth, *piece, limit) in enumerate(ramps):
-            ramp = Ramp(depth, *piece, medium.relaxation_time, limit)
-            elements, _ = element.advance(elements, ramp)
-            elastic[i] = elements.elastic
-            load[i] = np.where(elements.contact, medium.E_star * (elastic[i] + ramp.lag), 0.0)
+        index = np.asarray(self._index, int)
+        load, elastic = self._history.elements(x.ravel(), int(np.max(index)) + 1)
         shape = (*index.shape, *x.shape)
         return load[index].reshape(shape)[()], elastic[index].reshape(shape)[()]
 

@@ -1,5 +1,10 @@
-"""Viscous indentation under a prescribed force in time: creep, by the chain."""
+"""Viscous indentation under a prescribed force in time, by the chain: steps that end at the force.
 
+The chain is the witness of the scalar laws of `creep`, and goes on where these end.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -7,12 +12,10 @@ import numpy as np
 import scipy
 
 from .. import _check
-from .._check import ArrayLike
-from ..medium import Medium, check_pair, refuse_adhesion, refuse_other_classes, refuse_own_law
+from ..medium import check_pair, refuse_adhesion, refuse_own_law
 from ..numerics.roots import root_in_bracket
-from ..profiles.profile import Profile
 from .cap import flat_face_load, plastic_depth
-from .depth_path import TimedIndentation, check_times, follow
+from .depth_path import Ramps, TimedIndentation, check_times, follow
 from .foundation import Foundation
 from .fronts import force_and_radius
 from .grid import depth_bound
@@ -24,55 +27,16 @@ _STEPS, _ELEMENTS, _RUNS, _ORDERS = 8, 200, 6, (1, 2)
 _END_FRACTION = 1 / 16
 
 
-@_check.keywords_explained
-def creep(
-    profile: Profile, medium: Medium, force: ArrayLike, time: ArrayLike, *, tolerance: float = 1e-4
-) -> TimedIndentation:
-    """Press an indenter into a viscous medium along a path of force in time, under which it creeps.
-
-    Solved by the chain in steps of constant ḋ, each of which ends at the prescribed force; errors of first
-    and second order are extrapolated away.
-
-    Parameters
-    ----------
-    profile, medium
-        The indenter and the medium.
-    force : array_like, shape (N,)
-        Forces (N), not negative, linear in between; the first one is applied infinitely slowly.
-    time : array_like, shape (N,)
-        Increasing times (s).
-    tolerance : float, optional
-        Largest error of the depth, relative to the largest depth.
-
-    Returns
-    -------
-    TimedIndentation
-        Quantities of the shape of `time`, with the estimated `error`. Contact radius and fields are those
-        of a foundation that follows the extrapolated depths and carries the force.
-
-    Raises
-    ------
-    ValueError
-        If a force is negative or not finite, or needs more than the known depth of the profile; if the
-        first one, or without viscosity any, is as large as the π q_c b at which a whole flat face yields
-        (Popov 2015, Eq. (11)); or if times do not increase.
-
-    Examples
-    --------
-    A flat punch under a force that increases for a time τ and is then constant for as long,
-    d = F/(2E*b) (1 − (e − 1)/e²):
-
-    >>> from mdr_core import FlatPunch, Medium
-    >>> medium = Medium(E_star=1.0, eta=0.25)
-    >>> state = creep(FlatPunch(1.0), medium, [0.0, 2.0, 2.0], [0.0, 1.0, 2.0], tolerance=1e-5)
-    >>> print(round(float(state.depth[-1]), 4))
-    0.7675
-    """
+def check_creep(profile, medium, force, time, tolerance):
+    """Checked arrays of forces (N) and times (s) of a path of force in time, and its tolerance."""
     check_pair(profile, medium, "a path in time")
     refuse_adhesion(medium, "a path in time")
     refuse_own_law(medium, "a path of force in time", "take indent_in_time, a path of depth in time")
-    instead = "take indent_in_time, or set hardness = 0 and f_c = 0"
-    refuse_other_classes(medium, "a path of force in time", instead)
+    if medium.f_c > 0:
+        raise ValueError(
+            "a path of force in time is not computed with f_c above 0: the force that a contact carries "
+            "may then fall by itself, and the indenter jumps; take indent_in_time, or set f_c = 0"
+        )
     force = _check.force("force", force)
     time = check_times(time, force, "force")
     tolerance = _check.positive_number("tolerance", tolerance)
@@ -80,29 +44,89 @@ def creep(
     static = (np.arange(force.size) == 0) | (medium.eta == 0)
     bound = f"must be less than the {capacity:g} N at which the whole flat face yields"
     _check.refuse("force", force, (force >= capacity) & static, bound, unit="N", remedy="begin with less")
+    return force, time, tolerance
+
+
+@dataclass(frozen=True)
+class Start:
+    """A state from which the row of elements goes on: contact inside the edge, which has retreated.
+
+    `depth`, `largest`, `plastic_depth` and `edge`, the reduced height at the edge of the contact (m);
+    `elastic` the compression (m) of elements at coordinates x (m); works (J) so far.
+    """
+
+    depth: float
+    largest: float
+    plastic_depth: float
+    edge: float
+    elastic: Callable
+    plastic_work: float
+    viscous_work: float
+
+    def elements(self, virgin):
+        """`Elements` in this state, from undeformed ones at the same coordinates."""
+        elastic, contact = self.elastic(virgin.x), virgin.reduced < self.edge
+        plastic = np.maximum(self.plastic_depth - virgin.reduced, 0.0)
+        # In contact the penetration is the elastic part, without a difference of depths.
+        penetration = np.where(contact, elastic, self.depth - virgin.reduced - plastic)
+        return replace(virgin, penetration=penetration, elastic=elastic, plastic=plastic, contact=contact)
+
+    def put_on(self, foundation):
+        """A new foundation in this state."""
+        current = foundation._current
+        state = replace(
+            current,
+            elements=self.elements(current.elements),
+            depth=self.depth,
+            largest=self.largest,
+            # d + τḋ is the edge.
+            lag=self.edge - self.depth,
+            plastic_work=self.plastic_work,
+            viscous_work=self.viscous_work,
+        )
+        return replace(foundation, _current=state)
+
+
+def chain_creep(profile, medium, force, time, *, tolerance=1e-4, start=None):
+    """`creep` by the chain alone, in steps of constant ḋ each of which ends at the prescribed force.
+
+    Errors of first and second order are extrapolated away. With a `Start` the first of the forces is the
+    one that it carries.
+    """
+    force, time, tolerance = check_creep(profile, medium, force, time, tolerance)
     # Bounds by the springs alone, and by the dashpots alone after the first force.
-    first = depth_bound(profile, medium, "force", force[0])
+    before = start.largest if start else 0.0
+    first = max(before, depth_bound(profile, medium, "force", force[0]))
     impulse = scipy.integrate.trapezoid(force, time)
     bound = min(
         depth_bound(profile, medium, "force", np.max(force)),
         depth_bound(profile, medium, "momentum", impulse, first),
     )
+    bound = max(bound, before)
     runs = []
 
     def run(level):
-        steps, depth = _STEPS * 2**level, 1.1 * runs[-1].depth.max() if runs else bound
+        steps, depth = _STEPS * 2**level, bound
+        if runs:
+            depth = max(1.1 * runs[-1].depth.max(), before)
         precision = 1e-2 * tolerance / (steps * len(time))
-        runs.append(_creep_run(profile, medium, depth, _ELEMENTS * 2**level, force, time, steps, precision))
+        n = _ELEMENTS * 2**level
+        runs.append(_creep_run(profile, medium, depth, n, force, time, steps, precision, start))
         return runs[-1].record
 
-    record, errors = refine(run, tolerance, _RUNS, 1, orders=_ORDERS)
+    record, errors = refine(run, tolerance, _RUNS, 1, orders=_ORDERS, floor=(before, 0.0, 0.0, 0.0))
     depth, energies = record[:, 0], np.maximum(record[:, 1:], 0.0).T
-    path_time, path_depth, index, radius = _consistent_path(runs, force)
+    path_time, path_depth, index, radius = _consistent_path(runs, force, start)
+    # The largest depth may lie between the times.
+    largest = np.maximum(np.maximum.accumulate(path_depth)[index], depth)
+    largest = np.maximum.accumulate(np.maximum(largest, before))
+    elements = start and start.elements
     return TimedIndentation(
         profile, medium, time, depth, force, radius,
         **dict(zip(("stored_energy", "plastic_work", "viscous_work"), energies, strict=True)),
-        plastic_depth=plastic_depth(profile, medium, np.maximum.accumulate(depth)),
-        error=float(errors[0]), _index=index, _path_time=path_time, _path_depth=path_depth,
+        plastic_depth=plastic_depth(profile, medium, largest),
+        error=float(errors[0]), _index=index,
+        _history=Ramps(profile, medium, path_time, path_depth, elements, before),
     )  # fmt: skip
 
 
@@ -119,7 +143,7 @@ class CreepRun(NamedTuple):
     record: np.ndarray
 
 
-def _creep_run(profile, medium, bound, n, force, time, steps, precision):
+def _creep_run(profile, medium, bound, n, force, time, steps, precision, start):
     """`CreepRun` up to a depth bound (m), with `steps` per piece, to a relative precision of the depth."""
     bound = min(bound, profile.known_depth)
     # A path without contact has no width of its own.
@@ -129,7 +153,10 @@ def _creep_run(profile, medium, bound, n, force, time, steps, precision):
     close, smallest, rate = precision * bound, 1e-10 * np.max(force), 0.0
     # Times after the start of a piece increase as the cube of the step.
     fraction = (np.arange(steps + 1) / steps) ** 3
-    if force[0] > 0:
+    if start is not None:
+        foundation = start.put_on(foundation)
+        rate = foundation._current.lag / medium.relaxation_time
+    elif force[0] > 0:
         foundation = _step(foundation, np.inf, force[0], 0.0, bound, close)
     path_time, path_depth, record = [time[0]], [foundation.depth], [_recorded(foundation)]
     for (start, first), (stop, last) in pairwise(zip(time, force, strict=True)):
@@ -153,7 +180,7 @@ def _step(foundation, dt, force, guess, bound, close):
     medium, room = foundation.medium, bound - foundation.depth
 
     def excess(travel):
-        moved = foundation.advance(foundation.depth + travel, dt)
+        moved = foundation.ramp_to(foundation.depth + travel, dt)
         elements, lag = moved._elements, moved._current.lag
         spring = (elements.elastic < moved._limit) + medium.relaxation_time / dt
         total, radius = force_and_radius(moved)
@@ -167,7 +194,7 @@ def _step(foundation, dt, force, guess, bound, close):
     return root_in_bracket(excess, min(guess, room), -foundation.depth, room, close)
 
 
-def _consistent_path(runs, force):
+def _consistent_path(runs, force, start):
     """Times (s) and depths (m) of a path that carries the force; index of the given times, radii (m) there.
 
     It is the extrapolated path, or that of the finest run where unloading is so steep that the extrapolated
@@ -177,7 +204,8 @@ def _consistent_path(runs, force):
     profile, medium = finest.profile, finest.medium
     for depth in (_extrapolated_depth(runs), runs[-1].depth):
         half_width = max(finest.half_width, float(profile.contact_radius(max(np.max(depth), 0.0))))
-        record = follow(Foundation(profile, medium, finest.n, half_width), depth, time)[index]
+        foundation = Foundation(profile, medium, finest.n, half_width)
+        record = _followed(foundation, depth, time, start)[index]
         carried, radius = record[:, 0], record[:, -1]
         if np.all(np.abs(carried - force) <= np.max(force) / 16):
             break
@@ -188,6 +216,16 @@ def _consistent_path(runs, force):
     time = np.insert(time, end, time[end] - _END_FRACTION * step)
     depth = np.insert(depth, end, depth[end] - _END_FRACTION * step * rate)
     return time, depth, index + np.arange(len(index)), radius
+
+
+def _followed(foundation, depth, time, start):
+    """`follow` in one ramp for each depth; with a `Start` the first depth is where it is."""
+    if start is None:
+        return follow(foundation, depth, time, Foundation.ramp_to)
+    first = start.put_on(foundation)
+    later = follow(first, depth[1:], time[1:], Foundation.ramp_to, time[1] - time[0])
+    force, radius = force_and_radius(first)
+    return np.vstack([(force, 0.0, 0.0, 0.0, radius), later])
 
 
 def _extrapolated_depth(runs):

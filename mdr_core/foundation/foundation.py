@@ -178,6 +178,14 @@ class Foundation:
         current = replace(moved._current, history=(*self.history, (depth, dt)))
         return replace(moved, _current=current)
 
+    def ramp_to(self, depth, dt):
+        """`advance` in one ramp also where the elastic limit changes along it: for short ramps.
+
+        Then the plastic work has an error of second order in the length of the ramp, and nothing else has.
+        """
+        ramp = self._ramp(depth - self.depth, dt, depth)
+        return self._after(ramp, *element.advance(self._elements, ramp))
+
     def _ends(self, depth):
         """Depths (m) of ramps to a depth: one, or where the elastic limit changes many past the onset."""
         start = max(self._current.largest, self._current.onset)

@@ -64,8 +64,9 @@ def depth_bound(profile, medium, quantity, amount, start=0.0):
     limit = elastic_limit(profile, medium, start)
 
     def taken_up(depth):
-        """The quantity at a depth, and its derivative."""
+        """The quantity at a depth, and about its derivative."""
         radius = profile.contact_radius(depth)
+        limit = elastic_limit(profile, medium, max(depth, start))
         width = radius / 64
         u = np.maximum(depth - profile.reduced((np.arange(64) + 0.5) * width), 0.0)
         if quantity == "momentum":
@@ -81,7 +82,9 @@ def depth_bound(profile, medium, quantity, amount, start=0.0):
         return profile.known_depth
     known = min(profile.known_depth, _check.LONGEST)
     target = amount + (taken_up(start)[0] if start > 0 else 0.0)
-    depth = increasing_root(taken_up, target, max(min(limit, known, 1.0), start), known)
+    # The elastic limit of a sharp tip on a medium of constant hardness starts from 0.
+    guess = min(limit if limit > 0 else 1.0, known, 1.0)
+    depth = increasing_root(taken_up, target, max(guess, start), known)
     return min(1.05 * float(depth), profile.known_depth)
 
 

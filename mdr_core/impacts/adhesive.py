@@ -24,6 +24,7 @@ from ..contact.adhesion import (
     tension_and_energy,
 )
 from ..contact.indentation import Indentation
+from ..contact.integrals import tabulated_for
 from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
 from ..medium import Medium, check_pair
@@ -32,7 +33,7 @@ from ..numerics.gauss import gauss_legendre
 from ..numerics.roots import crossing
 from ..profiles.profile import Profile
 from .energy_balance import turning_interval
-from .result import Impact, tabulated_for
+from .result import Impact
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -121,7 +122,8 @@ def adhesive_turning_interval(profile, medium, target, before):
 
     The interval is infinite where the turning point is deeper than the known depth.
     """
-    shape, profile = target.shape, tabulated_for(profile, target.size)
+    shape = target.shape
+    profile = tabulated_for(profile, target.size, lambda: profile.known_depth)
     start, energy = touching(profile, medium, before)
     # The springs at the rim take some more than the jump into contact gives: four steps instead of ten.
     guess, _ = turning_interval(yield_rule(profile, medium), target - 3 * energy, before)

@@ -10,13 +10,13 @@ import numpy as np
 
 from .. import _check
 from ..contact.indentation import Indentation
-from ..contact.integrals import integrals
+from ..contact.integrals import integrals, tabulated_for
 from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
 from ..numerics.blocks import LONG, broadcast_flat, chunks
 from ..numerics.roots import increasing_root, largest_value
 from .contact_time import contact_time
-from .result import Impact, tabulated_for
+from .result import Impact
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -81,7 +81,16 @@ def turning_interval(rule, target, before):
     if interval is not None:
         return interval, interval.lower
     shape = target.shape
-    rule = replace(rule, profile=tabulated_for(rule.profile, target.size))
+    given = rule
+
+    def largest_depth():
+        """Depth (m) of the impact of the largest energy; a deeper one is beyond the table, and slower."""
+        row = np.unravel_index(np.argmax(target), shape)
+        imprint = np.broadcast_to(before, shape)[row]
+        energy = np.array([target[row]])
+        return imprint + _penetration(given.entries(row, shape), energy, np.array([imprint]))[0]
+
+    rule = replace(rule, profile=tabulated_for(rule.profile, target.size, largest_depth))
     unit, *scales = integrals(rule.profile).unit
     rule = rule.flat_entries(slice(None), shape)
     # Apart from the results, arrays are no longer than a block.

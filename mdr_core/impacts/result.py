@@ -9,7 +9,7 @@ import numpy as np
 from .. import _check
 from .._check import Array
 from ..contact.indentation import Indentation
-from ..contact.integrals import tabulated
+from ..contact.integrals import tabulated_for
 from ..contact.yielding import yield_rule
 from ..medium import Medium
 from ..profiles.profile import Profile
@@ -103,7 +103,8 @@ class Impact(Entries, ImpactResult):
     @cached_property
     def _rule(self):
         """The rule of yield."""
-        profile = tabulated_for(self.profile, np.size(self.plastic_depth_increase))
+        count = np.size(self.plastic_depth_increase)
+        profile = tabulated_for(self.profile, count, lambda: np.max(self.turning_point.depth))
         return yield_rule(profile, self.medium)
 
     @property
@@ -129,9 +130,3 @@ class Impact(Entries, ImpactResult):
         2.943275
         """
         return motion(self, n)
-
-
-def tabulated_for(profile, count):
-    """The profile to solve `count` impacts with: a table if they are many and the known depth is finite."""
-    many = count > 16 and np.all(profile.known_depth < np.inf)
-    return tabulated(profile, profile.known_depth) if many else profile

@@ -40,6 +40,11 @@ SCALAR_ODE = Model(
     "a single viscous impact obeys one scalar equation of motion, because elements are released from the "
     "outside inward and do not come into contact again",
 )
+CREEP_LAW = Model(
+    "scalar ODE",
+    "while an indenter goes deeper, and while it recedes afterwards, its depth under a force obeys one "
+    "scalar equation, because no element that was released comes into contact again",
+)
 CHAIN = Model(
     "chain",
     "on a viscous path released elements may come into contact again while they relax, so that each "

@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import trapezoid
 
 import mdr_core as mdr
+from mdr_core.foundation.force_path import chain_creep
 
 MEDIUM = mdr.Medium(E_star=1e9, q_c=1.0, eta=0.25)
 DRY = mdr.Medium(E_star=1e9, q_c=1.0)
@@ -73,8 +74,8 @@ def test_states_of_creep_agree_in_themselves():
 def test_the_path_that_elements_follow_carries_the_force():
     """It is a path of depth in time; other elements carry on it what is prescribed."""
     cone, soft = mdr.Cone(0.3), mdr.Medium(1e6, 1.0, eta=2.5e5)
-    path = mdr.creep(cone, soft, [0.0, 0.1, 0.1, 0.01, 0.01], [0.0, 0.1, 5.0, 5.5, 9.0])
-    again = mdr.indent_in_time(cone, soft, path._path_depth, path._path_time, tolerance=1e-5)
+    path = chain_creep(cone, soft, [0.0, 0.1, 0.1, 0.01, 0.01], [0.0, 0.1, 5.0, 5.5, 9.0])
+    again = mdr.indent_in_time(cone, soft, path._history.depth, path._history.time, tolerance=1e-5)
     # Both are chains of a finite number of elements: their errors in force are some 10⁻³.
     np.testing.assert_allclose(again.force[path._index], path.force, rtol=0, atol=2e-3 * 0.1)
 

@@ -51,9 +51,3 @@ def test_an_impact_of_the_chain(shape, given, eta):
     energy = motion.kinetic_energy + motion.stored_energy + motion.plastic_work + motion.viscous_work
     # To the tolerance of Newton's method in each step.
     np.testing.assert_allclose(energy, energy[0], rtol=1e-9)
-
-
-def test_a_force_in_time_is_refused():
-    medium = mdr.Medium(E, hardness=H)
-    with pytest.raises(ValueError, match="a path of force in time is of the hardness q_c/a alone"):
-        mdr.creep(mdr.Cone(0.3), medium, [0.0, 1.0], [0.0, 1.0])
