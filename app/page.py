@@ -195,9 +195,11 @@ class Page:
         view = View(state, course, computed)
         columns = self.board.columns(view)
         self.state, self.shown = state, view
-        self.board.show(columns, view)
         if now is None:
-            self._send_frames()
+            # Those of the course before, ahead of what is drawn. New ones wait until the input rests: they
+            # are megabytes, and half a second of the process that serves everybody.
+            self.messages.frames = []
+        self.board.show(columns, view)
         self.messages.dark = state.dark
         self._schedule()
         self.refresh()
@@ -213,15 +215,19 @@ class Page:
     # The player.
 
     def _send_frames(self):
-        """Send all states of the course while the player moves, else drop those of another."""
-        pictures = [card.picture for card in self.board.seen()]
-        self.messages.frames = frames(self.shown, pictures) if self._moving else []
+        """Send all states of the course if the player moves and has none."""
+        if self._moving and not self.messages.frames:
+            pictures = [card.picture for card in self.board.seen()]
+            self.messages.frames = frames(self.shown, pictures)
 
     def move(self, message: int | None) -> None:
-        """Send frames when the player begins to move (None); accept the state in which it ends."""
+        """Send frames when the player begins to move (None); accept the state in which it ends.
+
+        While other input arrives they are sent once that rests.
+        """
         course = self.shown.course
         self._moving = message is None
-        if self._moving and not self.messages.frames:
+        if self._moving and self._waiting is None:
             self._send_frames()
         elif isinstance(message, int) and message in range(len(course)) and message != course.now:
             self.draw(self.state.replace(at=float(course.progress[message])), message)
@@ -247,3 +253,4 @@ class Page:
         for each in self.services:
             each.rest(view)
         self.refresh()
+        self._send_frames()

@@ -118,8 +118,7 @@ const KINDS = {
     let asked = 0
     const figures = ["springs", "pressure", "force"].map(named), ask = (what) => { asked = send(what) }
     const { el, show } = make_player({ messages: named("messages"), figures, ask })
-    // An answer to an earlier move, or another change of the page, does not undo the last one.
-    return [el, (look, answered) => { if (answered >= asked) show(look) }]
+    return [el, (look, answered) => show(look, answered < asked)]
   },
   // A file, chosen or dropped. Its size is looked at first: a message that is too large ends the session.
   file({ label, accept, most, id }, send) {

@@ -352,3 +352,36 @@ def test_what_is_shared_comes_back(explorer, tmp_path):
     explorer.change(page.get_by_label("CSV file of a measured tip: r, z").set_input_files, path)
     assert explorer.chosen("Shape") == "Measured tip"
     assert page.get_by_text("40 samples, as in the file").count() == 1
+
+
+def test_a_slider_that_is_moved_while_the_player_runs_is_as_quick_as_at_rest(explorer):
+    """No frames arrive between its moves, the readouts are those of the scene, and then it plays on."""
+    page = explorer.page
+    explorer.press("▶ Play")
+    explorer.wait("explorer.played() && player.value !== 0")
+    page.evaluate("""() => {
+      const messages = explorer.model("messages")
+      window.heard = []
+      messages.properties.frames.change.connect(() => heard.push(["frames", messages.frames.length]))
+      messages.properties.words.change.connect(() => {
+        if (!messages.frames.length) heard.push(["depth", messages.words.match(/"depth">([^<]*)/)[1]])
+      })
+    }""")
+    before = float(preset_state().max_depth)
+    explorer.slider("d_max").focus()
+    for _ in range(4):
+        page.keyboard.press("PageUp")
+    explorer.wait("explorer.played() && heard.length > 2")
+    heard = page.evaluate("heard")
+    frames = [count for kind, count in heard if kind == "frames"]
+    # Taken back once, and sent once.
+    assert frames == [0, 4]
+    explorer.link("max_depth=")
+    depth = float(explorer.link("max_depth=")["max_depth"])
+    assert depth > before
+    # What is told before the new frames is of the scenes that are set, at their largest depth.
+    told = [text for kind, text in heard if kind == "depth"]
+    assert told[-1] == written(depth, "length")
+    value = page.evaluate("player.value")
+    explorer.wait("(old) => player.value !== old", value)
+    explorer.press("❚❚ Pause")
