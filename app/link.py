@@ -5,15 +5,13 @@ from math import isfinite
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
+from .courses import LAST_PROGRESS
 from .extra import EXTRAS, Pairs
 from .plots import PLOTS
 from .quantities import CHOICES, QUANTITIES
-from .state import OF_EXTRAS, OPENING, State, checked, preset_state, used
+from .state import OF_EXTRAS, OPENING, State, as_shown, checked, preset_state, used
 from .tip import MAX_SAMPLES
 
-#: Progress at the end: 0 first contact, 1 largest depth, 2 loss of contact, 2.2 indenter at the
-#: height of the undeformed surface.
-LAST_PROGRESS = 2.2
 #: Most characters of a link and of a text in it, and most names in a list.
 MAX_LENGTH, _MAX_TEXT, _MAX_NAMES = 8000, 300, 12
 
@@ -96,7 +94,7 @@ def _value(name: str, text: str) -> Any:
     value = _number(name, text)
     if name == "at" and not 0 <= value <= LAST_PROGRESS:
         raise ValueError(f"at = “{text:.40}” in this link is not in 0 to {LAST_PROGRESS}")
-    return value if name == "at" else checked(name, value)
+    return value if name == "at" else as_shown(name, checked(name, value))
 
 
 def _samples(text: str) -> tuple[tuple[float, ...], ...]:

@@ -5,7 +5,7 @@ from math import isclose
 from typing import Any
 
 import mdr_core as mdr
-from mdr_core.results.units import written
+from mdr_core.results.units import entry, fitting, read, written
 
 from .quantities import ASSETS, CHOICES, QUANTITIES, Option, lowered, read_data
 
@@ -178,6 +178,14 @@ def checked(name: str, value: float) -> float:
         shown, low, high = (written(v, known.kind) for v in (value, *known.bounds))
         raise ValueError(f"{lowered(known.symbol)} = {shown} is out of bounds: {low} to {high}")
     return float(known.bounded(value))
+
+
+def as_shown(name: str, value: float) -> float:
+    """A number (SI) with the digits that its field shows, which are those that are used and in links."""
+    kind = QUANTITIES[name].kind
+    unit = fitting(value, kind)
+    found, _ = read(entry(value, unit), kind, unit)
+    return value if isclose(found, value, rel_tol=1e-13) else found
 
 
 def profile(state: State) -> mdr.Profile:

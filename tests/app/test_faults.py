@@ -194,7 +194,7 @@ def test_frames_stay_right_where_the_player_leaves_a_state_that_another_depth_ha
 
 
 def test_no_frames_leave_while_moves_arrive(page):
-    """Those of another course are taken back at once; at rest one set is sent, of the course that is shown."""
+    """Those of another course are taken back at once; at rest one set is sent, of the present course."""
 
     def states():
         _, places, words, times = page.messages.frames
