@@ -70,6 +70,8 @@ class Page:
         self._waiting = None
         # Whether the player moves, which needs frames of each scene that is shown.
         self._moving = False
+        # Whether the link asks for dark (True) or light, None if it does not.
+        self._asked_dark: bool | None = None
         # Whether the address holds a link that was not opened.
         self._refused = False
         self._fields: dict[str, Field] = {}
@@ -87,6 +89,7 @@ class Page:
         """Show the state of a link; if it is refused, say so and show the opening one."""
         try:
             self.draw(link.read(query))
+            self._asked_dark = self.state.dark if link.asks_for_theme(query) else None
             if names := link.unknown(query):
                 self.notify(f"Unknown names in this link are ignored: {', '.join(names):.200}")
         except Exception as error:
@@ -104,13 +107,15 @@ class Page:
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
 
     def _theme_found(self, attr, old, new):
-        """Take the theme of the system."""
+        """Take the theme that the browser has kept, or that of the system."""
         self.apply(lambda state: state.replace(dark=new))
 
     def query(self) -> tuple[str, str]:
         """The page as a query, or why it has none."""
         try:
-            return link.write(self.shown.state), ""
+            query, dark = link.write(self.shown.state), self.shown.state.dark
+            theme = [f"dark={int(dark)}"] * (dark == self._asked_dark)
+            return "&".join(filter(None, [query, *theme])), ""
         except ValueError as error:
             return "", f"No link: {error}."
 
