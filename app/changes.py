@@ -7,7 +7,7 @@ import mdr_core as mdr
 
 from .drives import DRIVES, follow, turning_point
 from .quantities import CHOICES, QUANTITIES
-from .state import PRESETS, State, as_shown, checked, medium, preset_state, yield_constant
+from .state import PRESETS, State, checked, medium, preset_state, yield_constant
 
 #: Options of choices of extras that apply to a state, the default first, where these are not all.
 OFFERED: dict[str, Callable[[State], list[str]]] = {}
@@ -47,12 +47,11 @@ def choose(state: State, name: str, wanted: str) -> State:
 
 def put(state: State, name: str, value: float) -> State:
     """Set a number; E* of two bodies through their moduli, q_c of a hardness through the hardness."""
-    value = as_shown(name, checked(name, value))
-    given = {name: value}
+    given = {name: checked(name, value)}
     if name == "E_star" and state.elasticity == "bodies":
         given = _moduli(state, value)
     elif name == "q_c" and state.plasticity == "hardness":
-        given = {"hardness": _in_full(value / state.hardness_radius)}
+        given = {"hardness": value / state.hardness_radius}
     return state.replace(**{each: checked(each, number) for each, number in given.items()})
 
 
@@ -60,14 +59,8 @@ def _moduli(state: State, E_star: float) -> dict[str, float]:
     """Moduli of two bodies with an effective modulus, Popov (2015), Eq. (2)."""
     compliance = 1 / E_star - (1 - state.nu_2**2) / state.E_2
     if compliance > 0.01 / E_star:
-        return {"E_1": _in_full((1 - state.nu_1**2) / compliance)}
-    moduli = {"E_1": 2 * E_star * (1 - state.nu_1**2), "E_2": 2 * E_star * (1 - state.nu_2**2)}
-    return {name: _in_full(value) for name, value in moduli.items()}
-
-
-def _in_full(value: float) -> float:
-    """A number that leads to one that was typed, with the most digits that a field shows."""
-    return float(f"{value:.9g}")
+        return {"E_1": (1 - state.nu_1**2) / compliance}
+    return {"E_1": 2 * E_star * (1 - state.nu_1**2), "E_2": 2 * E_star * (1 - state.nu_2**2)}
 
 
 def take_tip(state: State, samples: tuple[Any, Any], note: str) -> State:

@@ -9,7 +9,7 @@ from .courses import LAST_PROGRESS
 from .extra import EXTRAS, Pairs
 from .plots import PLOTS
 from .quantities import CHOICES, QUANTITIES
-from .state import OF_EXTRAS, OPENING, State, as_shown, checked, preset_state, used
+from .state import OF_EXTRAS, OPENING, State, checked, preset_state, used
 from .tip import MAX_SAMPLES
 
 #: Most characters of a link and of a text in it, and most names in a list.
@@ -99,7 +99,7 @@ def _value(name: str, text: str) -> Any:
     value = _number(name, text)
     if name == "at" and not 0 <= value <= LAST_PROGRESS:
         raise ValueError(f"at = “{text:.40}” in this link is not in 0 to {LAST_PROGRESS}")
-    return value if name == "at" else as_shown(name, checked(name, value))
+    return value if name == "at" else checked(name, value)
 
 
 def _samples(text: str) -> tuple[tuple[float, ...], ...]:

@@ -22,7 +22,7 @@ from .parts import Part, choice
 from .player import frames
 from .plot import View
 from .quantities import in_words
-from .state import VIEW, State, preset_state
+from .state import VIEW, State, as_shown, preset_state
 from .ui import JS, Messages
 
 _LOG = logging.getLogger(__name__)
@@ -113,7 +113,7 @@ class Page:
     def query(self) -> tuple[str, str]:
         """The page as a query, or why it has none."""
         try:
-            query, dark = link.write(self.shown.state), self.shown.state.dark
+            query, dark = link.write(as_shown(self.shown.state)), self.shown.state.dark
             theme = [f"dark={int(dark)}"] * (dark == self._asked_dark)
             return "&".join(filter(None, [query, *theme])), ""
         except ValueError as error:

@@ -180,9 +180,15 @@ def checked(name: str, value: float) -> float:
     return float(known.bounded(value))
 
 
-def as_shown(name: str, value: float) -> float:
-    """A number (SI) with the digits that its field shows, which are those that are used and in links."""
-    kind = QUANTITIES[name].kind
+def as_shown(state: State) -> State:
+    """The state with the digits that its fields show; not of angles, which have others in SI."""
+    preset = PRESETS[state.preset].values
+    changed = [name for name in used(state) if state[name] is not None and state[name] != preset.get(name)]
+    digits = {name: state[name] for name in changed if QUANTITIES[name].kind != "angle"}
+    return state.replace(**{name: _shown(QUANTITIES[name].kind, value) for name, value in digits.items()})
+
+
+def _shown(kind: str, value: float) -> float:
     unit = fitting(value, kind)
     found, _ = read(entry(value, unit), kind, unit)
     return value if isclose(found, value, rel_tol=1e-13) else found

@@ -57,7 +57,8 @@ def translated(pairs: Pairs) -> Pairs:
             found.append((name, value))
             continue
         scenes = value.split()
-        wrong = [each for each in scenes if link.unknown(each) or "=" not in each]
+        # More of them than can be held are refused with the link.
+        wrong = [each for each in scenes if "=" not in each] if len(scenes) <= len(DASHES) else []
         found += [(f"{name}={each}", "") for each in wrong]
         if right := [each for each in scenes if each not in wrong]:
             found.append((name, " ".join(right)))

@@ -279,7 +279,7 @@ def test_the_constant_of_a_class_is_swept():
 
 
 def test_the_peak_of_the_mean_pressure_is_on_its_axis_or_is_told():
-    """Of a round nose on class (c) it is eight times that of the largest depth; dashpots make it infinite."""
+    """Of a round nose on class (c) it is many times that of the largest depth; with dashpots infinite."""
     *_, last = stepped("Which kind of medium is it?")
     p = np.where(last.states.contact_radius > 0, last.states.mean_pressure, 0.0)
     for log in (False, True):

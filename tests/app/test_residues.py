@@ -8,15 +8,16 @@ import pytest
 
 from app import changes, link, readouts
 from app.drives import follow
+from app.extras.held import is_held, toggle_hold
 from app.extras.share import csv
 from app.fields import Field
 from app.page import Page
-from app.state import PRESETS, as_shown, preset_state
+from app.state import PRESETS, preset_state
 from app.tip import read_tip
 from mdr_core.results.units import UNITS
 
 from .conftest import DROP, GOLD
-from .states import linked_state, state_with, table, view_of
+from .states import state_with, table, view_of
 
 #: A power of ten in a readout: no preset has a result below a thousandth of the smallest unit.
 TINY = re.compile(r"× 10⁻")
@@ -89,26 +90,35 @@ def shown_in_field(state, name):
 
 
 @pytest.mark.parametrize(
-    ("state", "name"),
+    ("query", "change", "name"),
     [
-        (link.read("elasticity=modulus&E_star=86806041176.72249"), "E_star"),
-        (link.read("q_c=98.76543210123"), "q_c"),
-        (changes.choose(preset_state(), "elasticity", "modulus"), "E_star"),
-        (changes.put(preset_state(), "E_star", 80e9), "E_1"),
-        (changes.put(preset_state(), "cone_slope", 1 / np.tan(np.radians(68))), "cone_slope"),
-        (changes.hit_again(state_with(DROP)), "plastic_depth"),
-        (state_with(GOLD, plasticity="constant"), "volume_hardness"),
+        ("elasticity=modulus&E_star=86806041176.72249", lambda state: state, "E_star"),
+        ("q_c=98.76543210123", lambda state: state, "q_c"),
+        ("", lambda state: changes.put(state, "E_star", 80e9), "E_1"),
+        ("", lambda state: changes.put(state, "cone_slope", 1 / np.tan(np.radians(68))), "cone_slope"),
+        (f"preset={DROP}", changes.hit_again, "plastic_depth"),
+        ("", lambda state: changes.choose(state, "plasticity", "constant"), "volume_hardness"),
+        ("max_depth=1.23456789e-9", lambda state: state, "max_depth"),
     ],
 )
-def test_the_address_has_the_digits_of_the_field(state, name):
-    """And the number that is used is the one that is shown: a link loses nothing."""
-    written = dict(parse_qsl(link.write(state)))[name]
-    assert float(written) == state[name] == pytest.approx(shown_in_field(state, name), rel=1e-13)
-    assert len(written.replace(".", "").lstrip("0").rstrip("0").partition("e")[0]) <= 9
-    assert linked_state(state)[name] == state[name]
-    assert as_shown(name, state[name]) == state[name]
+def test_the_address_has_the_digits_of_the_field(query, change, name):
+    page = Page(query)
+    page.apply(change)
+    written = dict(parse_qsl(page.query()[0]))[name]
+    assert float(written) == pytest.approx(shown_in_field(page.state, name), rel=1e-13)
+    digits = f"{float(written):.15e}".partition("e")[0].replace(".", "").rstrip("0")
+    assert len(digits) <= 9
+    # What is opened from it shows the same, and has the same address.
+    again = Page(page.query()[0])
+    assert shown_in_field(again.state, name) == pytest.approx(shown_in_field(page.state, name), rel=1e-13)
+    assert again.query() == page.query()
 
 
-def test_the_address_of_the_page_has_the_digits_of_the_field():
-    page = Page("elasticity=modulus&E_star=86806041176.72249")
-    assert dict(parse_qsl(page.query()[0]))["E_star"] == "86806000000.0"
+@pytest.mark.parametrize("key", PRESETS)
+def test_the_address_of_a_preset_is_its_name(key):
+    assert Page(f"preset={key}").query() == ("" if key == GOLD else f"preset={key}", "")
+
+
+def test_a_held_scene_is_the_one_that_is_shown_whatever_its_digits():
+    state = toggle_hold(link.read("q_c=98.76543210123"))
+    assert is_held(state)
