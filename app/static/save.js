@@ -44,6 +44,9 @@ const DRAWN = {
     context.stroke()
   },
 }
+// Whether two colours, #rrggbb, are as good as the same.
+const parts = (colour) => [1, 3, 5].map((k) => parseInt(colour.slice(k, k + 2), 16))
+const alike = (one, other) => parts(one).every((part, k) => Math.abs(part - parts(other)[k]) < 16)
 // What the legend names of a plot: the rows that are seen, each with its kind and its look.
 function items_of({ renderers }, rows) {
   const some = (part) => (typeof part === "number" ? isFinite(part) : Array.from(part ?? []).some(some))
@@ -67,7 +70,7 @@ function laid(context, items, width) {
   })
   return [places, items.length ? y + LINE / 2 : HEAD]
 }
-async function drawn(context, figure, { rows, title }, [left, top, width, height], ink) {
+async function drawn(context, figure, { rows, title }, [left, top, width, height], paper, ink) {
   context.save()
   context.translate(left, top)
   Object.assign(context, { fillStyle: ink, textBaseline: "middle", font: `14px ${FONT}` })
@@ -77,7 +80,8 @@ async function drawn(context, figure, { rows, title }, [left, top, width, height
   for (const { label, kind, look, x, y, word } of places) {
     context.fillText(label, word, y, width - word)
     context.save()
-    context.strokeStyle = look.line_color
+    // A white line on an image has the colour of the paper.
+    context.strokeStyle = kind === "MultiLine" && alike(look.line_color, paper) ? ink : look.line_color
     context.beginPath()
     DRAWN[kind](context, look, x, y)
     context.restore()
@@ -101,7 +105,9 @@ export async function save(name, scene, plots, [width, height]) {
   context.scale(2, 2)
   context.fillStyle = paper
   context.fillRect(0, 0, width, height)
-  for (const { figure, look, place } of plots) await drawn(context, figure, look, place, ink)
+  // With all six digits, as a canvas tells it.
+  const full = context.fillStyle
+  for (const { figure, look, place } of plots) await drawn(context, figure, look, place, full, ink)
   Object.assign(context, { fillStyle: ink, font: `11px ${FONT}` })
   context.fillText(scene, 12, height - 8, width - 24)
   const blob = await new Promise((done) => canvas.toBlob(done))
