@@ -300,7 +300,8 @@ def test_scenes_are_held_and_come_back_from_the_address_in_the_dark(explorer):
         assert box["x"] + box["width"] <= 312
     explorer.change(explorer.press, "Remove 2")
     explorer.press("Menu")
-    explorer.change(explorer.press, "Dark")
+    explorer.press("Dark")
+    explorer.wait("document.documentElement.classList.contains('dark')")
     explorer.press("Explore")
     explorer.change(explorer.type, "q_c", "90 N/m")
     explorer.link("q_c=90")
@@ -413,8 +414,8 @@ def test_a_slider_that_is_moved_while_the_player_runs_is_as_quick_as_at_rest(exp
     explorer.wait("explorer.played() && heard.length > 2")
     heard = page.evaluate("heard")
     frames = [count for kind, count in heard if kind == "frames"]
-    # Taken back once, and sent once.
-    assert frames == [0, 4]
+    # Taken back at a move, and sent at rest: once, unless this machine is so slow that it rests between keys.
+    assert frames == len(frames) // 2 * [0, 4]
     explorer.link("max_depth=")
     depth = float(explorer.link("max_depth=")["max_depth"])
     assert depth > before
