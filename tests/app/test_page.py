@@ -414,7 +414,7 @@ def test_a_slider_that_is_moved_while_the_player_runs_is_as_quick_as_at_rest(exp
     explorer.wait("explorer.played() && heard.length > 2")
     heard = page.evaluate("heard")
     frames = [count for kind, count in heard if kind == "frames"]
-    # Taken back at a move, and sent at rest: once, unless this machine is so slow that it rests between keys.
+    # Taken back at a move, and sent at rest: once, unless the input rests between keys on a slow machine.
     assert frames == len(frames) // 2 * [0, 4]
     explorer.link("max_depth=")
     depth = float(explorer.link("max_depth=")["max_depth"])
