@@ -10,10 +10,17 @@ import mdr_core as mdr
 from mdr_core.contact.yielding import yield_rule
 from mdr_core.impacts.motion import released_compression
 
+#: Progress at the end of slow unloading, with the indenter at the height of the undeformed surface.
+LAST_PROGRESS = 2.2
+
 
 def onset_depth(scene: mdr.Scene, imprint: float = 0.0) -> float:
     """Depth (m) at which yield begins over an imprint of some plastic depth; infinite if nothing yields."""
     return float(yield_rule(scene.profile, scene.medium).onset(imprint))
+
+
+#: Terms of the balance of energy.
+_ENERGIES = ("stored_energy", "plastic_work", "viscous_work", "kinetic_energy", "friction_work")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -21,8 +28,8 @@ class Course:
     """States of a scene along its path; every array has one value (SI) for each state.
 
     `states` are an `mdr.Indentation`, or have the same quantities; `states[i]` is one state. `progress` is
-    0 at first contact, 1 at the largest depth, 2 at loss of contact and 2.2 with the indenter at the
-    undeformed surface. `motion` has times and energies where the
+    0 at first contact, 1 at the largest depth, 2 at loss of contact and `LAST_PROGRESS` with the indenter
+    at the undeformed surface. `motion` has times and energies where the
     path is one in time, and `hit` is the impact; else they are None. `turns` says whether the path may
     reverse several times, `chained` whether elements have separate memories, which one live interval does
     not describe. `pending` describes the approximation used until the exact solution, `notes` are other
@@ -106,6 +113,25 @@ class Course:
         return mdr.indent(profile, medium, depth) if depth <= min(profile.known_depth, 1e300) else None
 
     # Numbers that are read.
+
+    @property
+    def largest_terms(self) -> dict[str, Any]:
+        """Of readouts that are sums, by name: the largest term of the sum, in every state."""
+        states, ledger = self.states, self.ledger
+        length = np.fmax(np.fmax(states.live_interval.upper, states.plastic_depth), np.abs(states.depth))
+        a, modulus = np.asarray(states.contact_radius), 2 * self.scene.medium.E_star
+        found = dict.fromkeys(("depth", "plastic_depth"), length)
+        found |= dict.fromkeys(("force", "tangential_force"), modulus * a * length)
+        found["mean_pressure"] = modulus * length / np.where(a > 0, np.pi * a, np.inf)
+        energies = {name: getattr(ledger, name) for name in _ENERGIES if hasattr(ledger, name)}
+        found |= dict.fromkeys(energies, sum(map(np.abs, energies.values())))
+        for name, values in (
+            ("relative_depth", self.relative_depth),
+            ("velocity", getattr(self.motion, "velocity", None)),
+        ):
+            if values is not None:
+                found[name] = np.max(np.abs(values))
+        return found
 
     @property
     def relative_depth(self) -> Any:

@@ -11,7 +11,7 @@ from mdr_core.contact.unloading import unloading
 from mdr_core.contact.yielding import yield_rule
 from mdr_core.impacts.motion import motion as motion_of
 
-from .courses import Course, nearest, onset_depth, path_progress
+from .courses import LAST_PROGRESS, Course, nearest, onset_depth, path_progress
 from .quantities import QUANTITIES
 from .state import State, medium, profile
 
@@ -54,14 +54,20 @@ def limited_force(turning_point):
 
 def slow(scene: mdr.Scene, progress: float, turning_point: mdr.Indentation) -> Course:
     """Loading to a state, unloading to the loss of contact, and lifting to the undeformed surface."""
-    depth = float(turning_point.depth)
-    elastic = min(onset_depth(scene) / depth, 1.0) if depth > 0 else 1.0
+    depth, onset = float(turning_point.depth), onset_depth(scene)
+    elastic = min(onset / depth, 1.0) if depth > 0 else 1.0
     loading = np.concatenate([elastic * _SPREAD, elastic + (1 - elastic) * _SPREAD])
     # With adhesion the force jumps to zero at the pull-off.
-    lifted = 2 + 0.2 * np.append(5e-5, np.linspace(0, 1, 9))
+    lifted = np.append(2 + 1e-5, np.linspace(2, LAST_PROGRESS, 9))
     places = np.unique(np.concatenate([loading, 1 + _SPREAD, lifted, [progress]]))
-    path = mdr.indent(scene.profile, scene.medium, np.minimum(places, 1.0) * depth)
-    share = np.where(places > 2, 5 * (2 - places), np.minimum(2 - places, 1.0))
+    depths = np.minimum(places, 1.0) * depth
+    # The product may be a rounding error beyond the onset.
+    depths = np.where(places <= elastic, np.minimum(depths, onset), depths)
+    path = mdr.indent(scene.profile, scene.medium, depths)
+    # From 2 to the last place the share falls to −1, and at that place is −1.
+    share = np.where(
+        places > 2, np.interp(places, [2, LAST_PROGRESS], [0, -1]), np.minimum(2 - places, 1.0)
+    )
     states = unloading(path, share, isinstance(scene.drive, mdr.ForcePath))
     return Course(scene=scene, progress=places, states=states)
 

@@ -4,7 +4,7 @@ from functools import partial
 from typing import Any
 
 from mdr_core.profiles.samples import decoded
-from mdr_core.results.units import UNITS, entry, fitting, read, written
+from mdr_core.results.units import UNITS, Unit, entry, fitting, read, written
 
 from . import changes
 from .extra import EXTRAS
@@ -12,7 +12,7 @@ from .parts import Part, Parts, button, text, upload
 from .plot import View
 from .quantities import QUANTITIES, Quantity
 from .state import MEDIUM_CHOICES, PRESETS, State, altered, checked, regions
-from .tip import read_tip
+from .tip import Uploaded, read_tip
 from .ui import LAYOUT, linked, marked, symbol
 
 _FIRST = "Move a slider: orange springs have yielded. "
@@ -44,15 +44,16 @@ class Field:
     def part(self, state: State, like: float = 0.0) -> Part:
         """The field with the number of a state; zero in the unit that fits the value `like`.
 
-        The unit is that of the preset's number until another one is typed. What others change is shown in
-        it, too, unless that takes a power of ten. A refusal stays until the number changes.
+        The unit is that of the preset's number until another one is typed. What others change or what is
+        dragged is shown in it, too, unless it is easier to read in another one: 2 m/s, not 2000 mm/s. A
+        refusal stays until the number changes.
         """
         value = checked(self._name, state[self._name])
         loaded = state.preset != self._preset
         changed = loaded or value != self._value
         if loaded:
             self._middle = PRESETS[state.preset].values.get(self._name, value)
-        if loaded or (changed and not self._unit.fits(value)):
+        if loaded or (changed and not _reads_well(value, self._unit)):
             self._unit = fitting(value, self._known.kind, like)
         if changed:
             self.refused = ""
@@ -65,13 +66,13 @@ class Field:
 
     def _take(self, message: Any) -> None:
         """Take a number that is typed, or sent by the slider as if it was; a refusal is shown beside it."""
-        self.refused = ""
+        self.refused, dragged = "", False
         self._typed = self._unit
         match message:
             case {"text": str(entered)}:
-                mark = self._name if "dragged" in message else ""
-                self._page.apply(partial(self._put, entered), self._refuse, mark)
-        if not self.refused:
+                dragged = "dragged" in message
+                self._page.apply(partial(self._put, entered), self._refuse, self._name * dragged)
+        if not (self.refused or dragged):
             # Not the one that fits the number, in which it was shown meanwhile.
             self._unit = self._typed
         self._page.refresh()
@@ -82,6 +83,11 @@ class Field:
 
     def _refuse(self, text: str) -> None:
         self.refused = text
+
+
+def _reads_well(value: float, unit: Unit) -> bool:
+    """Whether a value (SI) has in a unit at most three digits before the point and two zeros after it."""
+    return value == 0 or 1e-3 <= abs(value) / unit.factor < 1e3 * (1 - 1e-9)
 
 
 def _told(known: Quantity) -> dict[str, Any]:
@@ -100,12 +106,8 @@ def _told(known: Quantity) -> dict[str, Any]:
 
 
 def take_tip(page: Any) -> Part:
-    """The field for the file of a measured tip."""
-
-    def take(file):
-        page.apply(lambda state: changes.take_tip(state, *read_tip(decoded(file.read()), file.name)))
-
-    return upload("CSV file of a measured tip: r, z", ".csv,.txt,text/csv", take)
+    """The field for the file of a measured tip, as in the form."""
+    return page.frame.form.tip()
 
 
 def title(text_: str) -> Part:
@@ -117,6 +119,8 @@ class Form:
 
     def __init__(self, page: Any):
         self._page, self._open = page, False
+        # Why the last file of a tip was refused.
+        self._tip_refused = ""
         self.view = Parts("form", stylesheets=LAYOUT)
 
     def show(self, view: View) -> None:
@@ -144,9 +148,26 @@ class Form:
             title("Medium"), *numbers["medium"], note("medium"),
             button("More about the medium", self._fold, pressed=opened, disabled=in_use),
             *(more if opened else []),
-            title("Tip and sources"), take_tip(page), note("sources"),
+            title("Tip and sources"), self.tip(), note("sources"),
         ]  # fmt: skip
         self.view.show(parts)
+
+    def tip(self) -> Part:
+        """The field for the file of a measured tip, with what was refused in the last one."""
+        label = "CSV file of a measured tip: r, z"
+        return upload(label, ".csv,.txt,text/csv", self._take_tip, self._tip_refused)
+
+    def _take_tip(self, file: Uploaded) -> None:
+        self._tip_refused = ""
+
+        def take(state):
+            return changes.take_tip(state, *read_tip(decoded(file.read()), file.name))
+
+        self._page.apply(take, self._refuse_tip)
+        self._page.refresh()
+
+    def _refuse_tip(self, text: str) -> None:
+        self._tip_refused = text
 
     def _fold(self) -> None:
         """Open or close the rest of the medium."""

@@ -5,23 +5,21 @@ from math import isfinite
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
+from .courses import LAST_PROGRESS
 from .extra import EXTRAS, Pairs
 from .plots import PLOTS
 from .quantities import CHOICES, QUANTITIES
 from .state import OF_EXTRAS, OPENING, State, checked, preset_state, used
 from .tip import MAX_SAMPLES
 
-#: Progress at the end: 0 first contact, 1 largest depth, 2 loss of contact, 2.2 indenter at the
-#: height of the undeformed surface.
-LAST_PROGRESS = 2.2
 #: Most characters of a link and of a text in it, and most names in a list.
 MAX_LENGTH, _MAX_TEXT, _MAX_NAMES = 8000, 300, 12
 
 
 def write(state: State) -> str:
-    """State as a query. Raises ValueError if it is too long."""
+    """State as a query, without the theme, which is of a browser. Raises ValueError if it is too long."""
     start = preset_state(state.preset).replace(preset=OPENING)
-    names = dict.fromkeys(["preset", *CHOICES, *used(state), *OF_EXTRAS, "tiles", "dark", "at"])
+    names = dict.fromkeys(["preset", *CHOICES, *used(state), *OF_EXTRAS, "tiles", "at"])
     pairs = {name: _text(state[name]) for name in names if _known(name) and state[name] != start[name]}
     if state.shape == "sampled":
         pairs["samples"] = " ".join(f"{r},{z}" for r, z in zip(*state.samples, strict=True))
@@ -55,6 +53,11 @@ def unknown(query: str) -> list[str]:
     pairs = dict(translated(query))
     tiles = pairs.get("tiles", "").split()
     return [name for name in pairs if not _known(name)] + [tile for tile in tiles if tile not in PLOTS]
+
+
+def asks_for_theme(query: str) -> bool:
+    """Whether a link says that the page is dark or light."""
+    return "dark" in dict(translated(query))
 
 
 def read(query: str) -> State:

@@ -22,7 +22,7 @@ from .parts import Part, choice
 from .player import frames
 from .plot import View
 from .quantities import in_words
-from .state import VIEW, State, preset_state
+from .state import VIEW, State, as_shown, preset_state
 from .ui import JS, Messages
 
 _LOG = logging.getLogger(__name__)
@@ -70,6 +70,8 @@ class Page:
         self._waiting = None
         # Whether the player moves, which needs frames of each scene that is shown.
         self._moving = False
+        # Whether the link asks for dark (True) or light, None if it does not.
+        self._asked_dark: bool | None = None
         # Whether the address holds a link that was not opened.
         self._refused = False
         self._fields: dict[str, Field] = {}
@@ -87,6 +89,7 @@ class Page:
         """Show the state of a link; if it is refused, say so and show the opening one."""
         try:
             self.draw(link.read(query))
+            self._asked_dark = self.state.dark if link.asks_for_theme(query) else None
             if names := link.unknown(query):
                 self.notify(f"Unknown names in this link are ignored: {', '.join(names):.200}")
         except Exception as error:
@@ -104,13 +107,15 @@ class Page:
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
 
     def _theme_found(self, attr, old, new):
-        """Take the theme of the system."""
+        """Take the theme that the browser has kept, or that of the system."""
         self.apply(lambda state: state.replace(dark=new))
 
     def query(self) -> tuple[str, str]:
         """The page as a query, or why it has none."""
         try:
-            return link.write(self.shown.state), ""
+            query, dark = link.write(as_shown(self.shown.state)), self.shown.state.dark
+            theme = [f"dark={int(dark)}"] * (dark == self._asked_dark)
+            return "&".join(filter(None, [query, *theme])), ""
         except ValueError as error:
             return "", f"No link: {error}."
 
@@ -195,9 +200,11 @@ class Page:
         view = View(state, course, computed)
         columns = self.board.columns(view)
         self.state, self.shown = state, view
-        self.board.show(columns, view)
         if now is None:
-            self._send_frames()
+            # Those of the course before, ahead of what is drawn. New ones wait until the input rests: they
+            # are megabytes, and half a second of the process that serves everybody.
+            self.messages.frames = []
+        self.board.show(columns, view)
         self.messages.dark = state.dark
         self._schedule()
         self.refresh()
@@ -213,15 +220,19 @@ class Page:
     # The player.
 
     def _send_frames(self):
-        """Send all states of the course while the player moves, else drop those of another."""
-        pictures = [card.picture for card in self.board.seen()]
-        self.messages.frames = frames(self.shown, pictures) if self._moving else []
+        """Send all states of the course if the player moves and has none."""
+        if self._moving and not self.messages.frames:
+            pictures = [card.picture for card in self.board.seen()]
+            self.messages.frames = frames(self.shown, pictures)
 
     def move(self, message: int | None) -> None:
-        """Send frames when the player begins to move (None); accept the state in which it ends."""
+        """Send frames when the player begins to move (None); accept the state in which it ends.
+
+        While other input arrives they are sent once that rests.
+        """
         course = self.shown.course
         self._moving = message is None
-        if self._moving and not self.messages.frames:
+        if self._moving and self._waiting is None:
             self._send_frames()
         elif isinstance(message, int) and message in range(len(course)) and message != course.now:
             self.draw(self.state.replace(at=float(course.progress[message])), message)
@@ -247,3 +258,4 @@ class Page:
         for each in self.services:
             each.rest(view)
         self.refresh()
+        self._send_frames()

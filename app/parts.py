@@ -50,9 +50,9 @@ def button(
     return Part("button", label, look, lambda message: None if disabled else act())
 
 
-def upload(label: str, accept: str, take: Callable[[Uploaded], None]) -> Part:
-    """A field for a file."""
-    look = {"label": label, "accept": accept, "most": MAX_BYTES}
+def upload(label: str, accept: str, take: Callable[[Uploaded], None], refused: str = "") -> Part:
+    """A field for a file, with why the last one was refused."""
+    look = {"label": label, "accept": accept, "most": MAX_BYTES, "refused": refused}
     return Part("file", label, look, lambda message: take(Uploaded(**message)))
 
 
@@ -65,7 +65,7 @@ def choice(name: str, state: State, choose: Callable[[str], None]) -> Part:
     pairs = [[each, CHOICES[name].options[each].label] for each in options(state, name)]
     if name == "preset" and altered(state):
         chosen = _ALTERED
-        pairs.append([_ALTERED, f"altered, from: {PRESETS[state.preset].label}"])
+        pairs.append([_ALTERED, f"{PRESETS[state.preset].label}, altered"])
     look = _about(name) | {"options": pairs, "value": chosen}
     return Part("choice", name, look, choose)
 

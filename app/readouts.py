@@ -10,10 +10,22 @@ from .courses import Course
 from .quantities import CHOICES, READOUTS, Readout
 from .ui import linked, symbol
 
+#: Relative to the largest term of a sum: what is left of it by rounding, some units in the last place.
+_RESIDUE = 16 * np.finfo(float).eps
+
 
 def readings(course: Course, asked: list[Readout] = READOUTS) -> dict[Readout, Any]:
-    """Values of the readouts that a course has."""
-    return {each: values for each in asked if (values := each.values(course)) is not None}
+    """Values of the readouts that a course has; a sum of which rounding alone is left is 0.
+
+    All numbers that are shown, told or exported are read here.
+    """
+    terms = course.largest_terms
+    found = {each: values for each in asked if (values := each.values(course)) is not None}
+    return {each: _without_residue(values, terms.get(each.name)) for each, values in found.items()}
+
+
+def _without_residue(values: Any, term: Any) -> Any:
+    return values if term is None else np.where(np.abs(values) <= _RESIDUE * term, 0.0, values)
 
 
 def line(course: Course) -> dict[Readout, Any]:

@@ -5,7 +5,7 @@ from math import isclose
 from typing import Any
 
 import mdr_core as mdr
-from mdr_core.results.units import written
+from mdr_core.results.units import entry, fitting, read, written
 
 from .quantities import ASSETS, CHOICES, QUANTITIES, Option, lowered, read_data
 
@@ -178,6 +178,20 @@ def checked(name: str, value: float) -> float:
         shown, low, high = (written(v, known.kind) for v in (value, *known.bounds))
         raise ValueError(f"{lowered(known.symbol)} = {shown} is out of bounds: {low} to {high}")
     return float(known.bounded(value))
+
+
+def as_shown(state: State) -> State:
+    """The state with the digits that its fields show; not of angles, which have others in SI."""
+    preset = PRESETS[state.preset].values
+    changed = [name for name in used(state) if state[name] is not None and state[name] != preset.get(name)]
+    digits = {name: state[name] for name in changed if QUANTITIES[name].kind != "angle"}
+    return state.replace(**{name: _shown(QUANTITIES[name].kind, value) for name, value in digits.items()})
+
+
+def _shown(kind: str, value: float) -> float:
+    unit = fitting(value, kind)
+    found, _ = read(entry(value, unit), kind, unit)
+    return value if isclose(found, value, rel_tol=1e-13) else found
 
 
 def profile(state: State) -> mdr.Profile:

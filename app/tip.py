@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from mdr_core.profiles.sampled import tip_through
 from mdr_core.profiles.samples import samples_of
 from mdr_core.results.units import written
@@ -10,6 +12,8 @@ from mdr_core.results.units import written
 #: Most samples that are pressed without keeping everybody waiting, most that a tip is fitted to or that are
 #: taken of a curve, most rows of a tip and most bytes of a file.
 MAX_SAMPLES, FITTED, _MAX_ROWS, MAX_BYTES = 60, 2000, 20_000, 5_000_000
+#: Share of the height of a tip below which a deviation from its samples is one of rounding.
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -44,8 +48,11 @@ def read_tip(text: str, name: str = "the file") -> tuple[tuple[Any, Any], str]:
         tip, scatter = tip_through(r, z, MAX_SAMPLES, FITTED)
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from None
-    note = f"{len(tip.r)} samples, as in the file"
-    if scatter is not None:
-        by = written(scatter, "length", 2)
-        note = f"{len(r)} rows reduced to {len(tip.r)} samples; rms deviation {by}"
+    count = len(tip.r)
+    note = f"{len(r)} rows reduced to {count} samples" if len(r) > count else f"{count} samples"
+    # The fit is a sum of terms as large as the heights, of which rounding alone may be left.
+    if scatter is not None and scatter > _ROUNDING * float(np.ptp(z)):
+        note += f"; rms deviation {written(scatter, 'length', 2)}"
+    elif len(r) == count:
+        note += ", as in the file"
     return (tip.r, tip.z), note

@@ -17,7 +17,8 @@ from ..ui import marked
 
 #: Decades of logarithmic axes of radii and of pressures.
 _RADII, _PRESSURES = 2, 3
-#: A pressure above this many times that of the largest depth is beyond the axis: dashpots make it infinite.
+#: A pressure above this many times that of the largest depth is beyond the axis where it has no bound
+#: towards first contact: with dashpots, or under a tip sharper than a cone.
 _MOST = 4
 
 
@@ -33,7 +34,9 @@ def found(course: Course, asked: tuple[bool]) -> Found:
     if yields:
         r = widest * np.geomspace(10.0**-_RADII, 2, 161)
         rows["hardness"] = r, made.hardness_at(r)
-    most = 1.3 * max(min(float(np.nanmax(p)), _MOST * abs(largest)), hardness)
+    highest = float(np.nanmax(p))
+    seen = min(highest, _MOST * abs(largest)) if _unbounded(course, p) else highest
+    most = 1.3 * max(seen, hardness)
     x, y = (
         axis("a, contact radius", "length", 1.2 * widest),
         axis("pₘ, pressure", "pressure", most),
@@ -44,7 +47,14 @@ def found(course: Course, asked: tuple[bool]) -> Found:
         y = replace(y, start=10.0**-_PRESSURES * end, end=end, log=True)
     elif course.adhesive:
         y = replace(y, start=max(1.1 * float(np.nanmin(p)), -y.end))
-    return Found(rows, [x, y], _note(course, largest, yields))
+    beyond = f" Beyond the axis: p_m = {written(highest, 'pressure')}." * (highest > most)
+    return Found(rows, [x, y], _note(course, largest, yields) + marked(beyond))
+
+
+def _unbounded(course: Course, p: np.ndarray) -> bool:
+    """Whether mean pressures (Pa) along a path grow without bound towards first contact."""
+    first = p[np.isfinite(p)][:2]
+    return course.dashpots or bool(first[0] > 1.01 * first[-1])
 
 
 def _note(course: Course, mean: float, yields: bool) -> str:

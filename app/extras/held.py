@@ -13,7 +13,7 @@ from mdr_core.results.figures import NOTHING, both, line
 from .. import link
 from ..courses import Course
 from ..drives import follow, scene_of
-from ..extra import Extra
+from ..extra import Extra, Pairs
 from ..parts import Part, button
 from ..plot import Along, Overlay, View
 from ..plots import PLOTS, P, R
@@ -47,6 +47,22 @@ def held_scene(query: str) -> Held:
     """A held scene from its link; ValueError if that is invalid."""
     state = link.read(query)
     return Held(difference(state), follow(state), state)
+
+
+def translated(pairs: Pairs) -> Pairs:
+    """A link of which what is no scene is among its unknown names."""
+    found = []
+    for name, value in pairs:
+        if name not in ("held.scenes", "hold"):
+            found.append((name, value))
+            continue
+        scenes = value.split()
+        # More of them than can be held are refused with the link.
+        wrong = [each for each in scenes if "=" not in each] if len(scenes) <= len(DASHES) else []
+        found += [(f"{name}={each}", "") for each in wrong]
+        if right := [each for each in scenes if each not in wrong]:
+            found.append((name, " ".join(right)))
+    return found
 
 
 def _others(state: State) -> tuple[str, ...]:
@@ -232,6 +248,7 @@ EXTRA = Extra(
         _overlay("motion", _rows("F", axis=2), _over_time("motion", "force F")),
         _overlay("forces", _rows("F"), _over_time("forces", "tangential force Fₓ")),
     ),
+    translated=translated,
     check=check,
     compute=compute,
     courses=lambda view: [each.course for each in scenes(view)],

@@ -39,6 +39,12 @@ class ObliqueCourse(Course):
     def limits(self):
         return [*super().limits, *friction_limits(self.scene.medium)]
 
+    @property
+    def largest_terms(self):
+        drive = self.scene.drive
+        speeds = dict.fromkeys(("tangential_velocity", "body_speed", "spin_speed"), drive.tangential_speed)
+        return super().largest_terms | speeds | {"tangential_restitution": 1.0}
+
     @cached_property
     def rebound(self) -> SimpleNamespace:
         """Results (SI) of an oblique impact, of the contact point and of the body."""

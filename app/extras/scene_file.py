@@ -29,7 +29,7 @@ from ..plots import NAMED, PLOTS
 from ..quantities import CHOICES, QUANTITIES
 from ..shared.dragging import DRAGGED, TOUCH, let_drag, path
 from ..shared.summary import summary
-from ..state import MEDIUM_CHOICES, PRESETS, State, altered, used, yield_constant
+from ..state import MEDIUM_CHOICES, PRESETS, State, altered, as_shown, used, yield_constant
 from ..ui import CSS, HERE, Messages, marked, symbol
 
 _HERE = Path(__file__)
@@ -47,7 +47,7 @@ def address(state: State) -> str:
     if pn.state.location is None:
         return ""
     try:
-        query = link.write(state)
+        query = link.write(as_shown(state))
     except ValueError:
         return ""
     return pn.state.location.href.split("?")[0] + f"?{query}" * bool(query)

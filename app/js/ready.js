@@ -1,16 +1,20 @@
 // Once the page is there: the keys Z and Escape, and the theme of the system.
 const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
 document.documentElement.lang = "en"
-// What the page is coloured by, and what it is of the system if nobody has chosen.
-const system = matchMedia("(prefers-color-scheme: dark)").matches
+// Dark or light: as a link asks, else as was chosen in this browser, else as the system is. A browser may refuse to keep it.
+const kept = (act) => { try { return act() } catch { return null } }
 const shade = () => document.documentElement.classList.toggle("dark", messages.dark)
-messages.properties.dark.change.connect(shade)
 shade()
-if (system && !location.search.includes("dark=")) messages.dark = true
+const chosen = kept(() => localStorage.getItem("dark")), system = matchMedia("(prefers-color-scheme: dark)").matches
+if (!new URLSearchParams(location.search).has("dark")) messages.dark = chosen === null ? system : chosen === "1"
+shade()
+messages.properties.dark.change.connect(() => {
+  shade()
+  kept(() => localStorage.setItem("dark", messages.dark ? "1" : "0"))
+})
 // The address says what is shown, without a step in the history.
 messages.properties.address.change.connect(() => {
-  const light = system && !messages.dark ? "&dark=0" : ""
-  if (messages.address) history.replaceState(null, "", messages.address + light)
+  if (messages.address) history.replaceState(null, "", messages.address)
 })
 document.addEventListener("keydown", (event) => {
   const on = event.composedPath()[0]

@@ -118,13 +118,13 @@ const KINDS = {
     let asked = 0
     const figures = ["springs", "pressure", "force"].map(named), ask = (what) => { asked = send(what) }
     const { el, show } = make_player({ messages: named("messages"), figures, ask })
-    // An answer to an earlier move, or another change of the page, does not undo the last one.
-    return [el, (look, answered) => { if (answered >= asked) show(look) }]
+    return [el, (look, answered) => show(look, answered < asked)]
   },
   // A file, chosen or dropped. Its size is looked at first: a message that is too large ends the session.
   file({ label, accept, most, id }, send) {
-    const el = made("div", "file", `<label for="file-${id}">${label}</label><input id="file-${id}" type="file" accept="${accept}">`)
-    const input = el.querySelector("input")
+    const el = made("div", "file", `<label for="file-${id}">${label}</label><input id="file-${id}" type="file" accept="${accept}" aria-describedby="said-${id}">
+      <p class="said" id="said-${id}" aria-live="polite"></p>`)
+    const input = el.querySelector("input"), said = el.querySelector(".said")
     input.addEventListener("change", async () => {
       const [file] = input.files
       if (!file) return
@@ -133,7 +133,10 @@ const KINDS = {
       // Else a file of the same name is not read again.
       input.value = ""
     })
-    return [el, () => {}]
+    return [el, ({ refused }) => {
+      if (said.textContent !== refused) said.textContent = refused
+      input.setAttribute("aria-invalid", String(refused !== ""))
+    }]
   },
 }
 export function render({ model, el, view }) {

@@ -4,7 +4,8 @@ export function make_player({ messages, figures, ask }) {
   const el = Object.assign(document.createElement("div"), { className: "player" })
   el.innerHTML = `<button class="act"></button><input type="range" aria-label="State along the path">`
   const [button, range] = el.children
-  let [value, moving, wait] = [0, false, null]
+  // The state that is seen, and the one that the server has drawn last.
+  let [value, drawn, moving, wait] = [0, 0, false, null]
   let [sources, places, words, times] = []
   // A gap in a line is null in a text, which would be drawn as zero.
   const read = (text) => JSON.parse(text, (_, part) => part ?? NaN)
@@ -33,14 +34,21 @@ export function make_player({ messages, figures, ask }) {
     moving = false
     ask(value)
   }
-  // The number of the last state, and that of the state which the server has drawn.
-  const show = ({ last, now }) => {
+  // The number of the last state, and that of the state which the server has drawn: it is seen unless the player moves,
+  // which it does not while a playing one waits for frames. An answer to an `earlier` move does not undo the last one.
+  const show = ({ last, now }, earlier = false) => {
+    drawn = now
+    if (earlier) return
     range.max = last
-    stand(moving ? value : now)
+    stand(moving && (times || !playing()) ? value : now)
   }
   messages.properties.frames.change.connect(() => {
+    // Frames are taken back before another course is drawn. The server does not send again what is as it has drawn it.
+    if (times && value !== drawn) stand(drawn);
     [sources, places, words, times] = messages.frames
-    if (times) show({ last: times.length - 1, now: value })
+    if (!times) return
+    range.max = times.length - 1
+    if (value !== drawn) stand(value)
   })
   // What is seen is told in words: the state at once, the plots once they rest.
   const tell = () => {

@@ -1,40 +1,115 @@
 // Plots as one picture of two pixels a point, each in its place with its title and its legend, and the scene below.
+// Bokeh draws the plot alone: it measures its legend at one pixel a point, and draws it elsewhere at two.
 const settled = () => new Promise((done) => setTimeout(done, 250))
-async function drawn(figure, { rows, title }, width, height) {
-  const { above, renderers, sizing_mode, width: before, height: high } = figure
-  const { Legend, LegendItem, Title } = Bokeh.Models
+const FONT = "Helvetica, Arial, sans-serif"
+// Points from the left to titles and legends; widths of a swatch and of a mark, from there to the word, and to the next
+// item; heights of a line and of a title.
+const [LEFT, SWATCH, MARK, BESIDE, BETWEEN, LINE, HEAD] = [64, 28, 14, 8, 18, 18, 32]
+const SHAPES = {
+  circle: (context, x, y, r) => context.arc(x, y, r, 0, 2 * Math.PI),
+  square: (context, x, y, r) => context.rect(x - r, y - r, 2 * r, 2 * r),
+  diamond: (context, x, y, r) => {
+    for (const [u, v] of [[0, -1], [0.67, 0], [0, 1], [-0.67, 0]]) context.lineTo(x + u * r, y + v * r)
+    context.closePath()
+  },
+}
+const DRAWN = {
+  Patches(context, { fill_color, fill_alpha, hatch_pattern, hatch_alpha }, x, y) {
+    context.rect(x, y - 5, SWATCH, 10)
+    Object.assign(context, { fillStyle: fill_color, globalAlpha: fill_alpha, lineWidth: 1 })
+    context.fill()
+    context.globalAlpha = 1
+    context.stroke()
+    if (hatch_pattern !== "/") return
+    context.clip()
+    context.beginPath()
+    for (let k = -10; k < SWATCH; k += 5) {
+      context.moveTo(x + k, y + 5)
+      context.lineTo(x + k + 10, y - 5)
+    }
+    context.globalAlpha = 2 * hatch_alpha
+    context.stroke()
+  },
+  MultiLine(context, { line_width, line_dash }, x, y) {
+    context.lineWidth = line_width
+    context.setLineDash(line_dash === "solid" ? [] : line_dash.split(" ").map(Number))
+    context.moveTo(x, y)
+    context.lineTo(x + SWATCH, y)
+    context.stroke()
+  },
+  Scatter(context, { fill_color, line_width, marker, size }, x, y) {
+    SHAPES[marker](context, x + MARK / 2, y, size / 2)
+    Object.assign(context, { fillStyle: fill_color, lineWidth: line_width })
+    context.fill()
+    context.stroke()
+  },
+}
+// Whether two colours, #rrggbb, are as good as the same.
+const parts = (colour) => [1, 3, 5].map((k) => parseInt(colour.slice(k, k + 2), 16))
+const alike = (one, other) => parts(one).every((part, k) => Math.abs(part - parts(other)[k]) < 16)
+// What the legend names of a plot: the rows that are seen, each with its kind and its look.
+function items_of({ renderers }, rows) {
   const some = (part) => (typeof part === "number" ? isFinite(part) : Array.from(part ?? []).some(some))
-  const items = renderers.flatMap((renderer) => {
-    const { row = [], ys, y } = renderer.data_source.data
+  return renderers.flatMap(({ glyph, data_source: { data } }) => {
+    const { row = [], ys, y } = data
     const named = (label, k) => rows.includes(label) && row.indexOf(label) === k && some((ys ?? y)[k])
-    return row.flatMap((label, index) => (named(label, index) ? [new LegendItem({ label, renderers: [renderer], index })] : []))
+    const look = (k) => Object.fromEntries(Object.entries(data).map(([name, column]) => [name, column[k]]))
+    return row.flatMap((label, k) => (named(label, k) ? [{ label, kind: glyph.type, look: look(k) }] : []))
   })
-  const color = getComputedStyle(document.documentElement).getPropertyValue("--ink"), ncols = Math.floor(width / 165)
-  const legend = new Legend({ items, label_text_color: color, orientation: "horizontal", ncols, location: "left", border_line_color: null, background_fill_color: null })
-  const head = new Title({ text: title, text_font_size: "14px", text_font_style: "normal", text_color: color })
-  figure.setv({ above: [...above, legend, head] }, { sync: false })
-  await settled()
-  figure.setv({ sizing_mode: "fixed", width, height }, { sync: false })
+}
+// Items with their places, in lines of a width, and the height of all that is above a plot.
+function laid(context, items, width) {
+  let [x, y] = [LEFT, HEAD + LINE / 2]
+  const places = items.map((item) => {
+    const word = (item.kind === "Scatter" ? MARK : SWATCH) + BESIDE
+    const end = word + context.measureText(item.label).width
+    if (x > LEFT && x + end > width) [x, y] = [LEFT, y + LINE]
+    const place = { ...item, x, y, word: x + word }
+    x += end + BETWEEN
+    return place
+  })
+  return [places, items.length ? y + LINE / 2 : HEAD]
+}
+async function drawn(context, figure, { rows, title }, [left, top, width, height], paper, ink) {
+  context.save()
+  context.translate(left, top)
+  Object.assign(context, { fillStyle: ink, textBaseline: "middle", font: `14px ${FONT}` })
+  context.fillText(title, LEFT, HEAD / 2, width - LEFT)
+  context.font = `12px ${FONT}`
+  const [places, head] = laid(context, items_of(figure, rows), width)
+  for (const { label, kind, look, x, y, word } of places) {
+    context.fillText(label, word, y, width - word)
+    context.save()
+    // A white line on an image has the colour of the paper.
+    context.strokeStyle = kind === "MultiLine" && alike(look.line_color, paper) ? ink : look.line_color
+    context.beginPath()
+    DRAWN[kind](context, look, x, y)
+    context.restore()
+  }
+  const { sizing_mode, width: before, height: high } = figure
+  figure.setv({ sizing_mode: "fixed", width, height: height - head }, { sync: false })
   await settled()
   const ratio = Object.getOwnPropertyDescriptor(window, "devicePixelRatio")
   window.devicePixelRatio = 2
   const { canvas } = Bokeh.index.find_one(figure).export("png", true)
   Object.defineProperty(window, "devicePixelRatio", ratio)
-  figure.setv({ sizing_mode, width: before, height: high, above }, { sync: false })
-  return canvas
+  figure.setv({ sizing_mode, width: before, height: high }, { sync: false })
+  context.drawImage(canvas, 0, head, width, height - head)
+  context.restore()
 }
 export async function save(name, scene, plots, [width, height]) {
   const style = getComputedStyle(document.documentElement)
-  const pictures = await Promise.all(plots.map(({ figure, look, place: [, , ...size] }) => drawn(figure, look, ...size)))
-  // A canvas of Bokeh, empty once it has another size.
-  const { canvas, ctx: context } = Bokeh.index.find_one(plots[0].figure).export("png", true)
-  Object.assign(canvas, { width: 2 * width, height: 2 * height })
-  context.fillStyle = style.getPropertyValue("--paper")
-  context.fillRect(0, 0, canvas.width, canvas.height)
-  pictures.forEach((picture, k) => context.drawImage(picture, 2 * plots[k].place[0], 2 * plots[k].place[1]))
-  context.fillStyle = style.getPropertyValue("--ink")
-  context.font = "22px Helvetica, Arial, sans-serif"
-  context.fillText(scene, 24, canvas.height - 16, canvas.width - 48)
+  const [paper, ink] = ["--paper", "--ink"].map((each) => style.getPropertyValue(each))
+  const canvas = Object.assign(document.createElement("canvas"), { width: 2 * width, height: 2 * height })
+  const context = canvas.getContext("2d")
+  context.scale(2, 2)
+  context.fillStyle = paper
+  context.fillRect(0, 0, width, height)
+  // With all six digits, as a canvas tells it.
+  const full = context.fillStyle
+  for (const { figure, look, place } of plots) await drawn(context, figure, look, place, full, ink)
+  Object.assign(context, { fillStyle: ink, font: `11px ${FONT}` })
+  context.fillText(scene, 12, height - 8, width - 24)
   const blob = await new Promise((done) => canvas.toBlob(done))
   Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: `${name}.png` }).click()
 }

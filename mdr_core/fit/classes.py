@@ -91,7 +91,7 @@ def verdict(fits, free, depth, force, depth_noise):
     independent = depth.size / fits[best].block_length
     close = [letter for letter, fit in fits.items() if independent * 2 * np.log(fit.misfit / least) < _TOLD]
     misfits = ", ".join(f"({letter}) {100 * fit.misfit:.3g} %" for letter, fit in fits.items())
-    answer = f"({best})" if len(close) == 1 else f"not told, ({') or ('.join(close)})"
+    answer = f"({best})" if len(close) == 1 else f"cannot be told, ({') or ('.join(close)})"
     if fits[best].misfit > _NONE and fits[best].block_length > 1:
         answer += f", none within {100 * _NONE:g} %"
     whole = "range of the force" if set(BACKGROUND) & set(free) else "largest force"

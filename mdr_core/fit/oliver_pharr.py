@@ -122,7 +122,7 @@ def oliver_pharr(
     if len(parts) > 1 and not cycles:
         number = sum(part.start <= _deepest(depth) for part in parts)
         taken = f"unloading {number} of {len(parts)} was taken, the one after the largest depth"
-        remarks.append(f"{taken}: cycles=True takes each")
+        remarks.append(f"{taken}; each of them can be evaluated")
     columns = np.array(results) if cycles else np.array(results[0])
     values, errors = (
         dict(zip(OliverPharr._quantities, map(_check.frozen, each.T), strict=True))

@@ -83,7 +83,8 @@ class Sampled(Profile):
         ValueError
             If a row is not two numbers, or no unit is given, or two that differ.
         """
-        return cls(*samples_of(decoded(Path(path).read_bytes()), str(path), unit, _MOST_SAMPLES))
+        text, remedy = decoded(Path(path).read_bytes()), "; or give unit='nm'"
+        return cls(*samples_of(text, str(path), unit, _MOST_SAMPLES, remedy))
 
     @classmethod
     def fit(cls, r: ArrayLike, z: ArrayLike) -> "Sampled":

@@ -23,7 +23,10 @@ UNITS = {
 _KNOWN = set().union(*UNITS.values())
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
 # An opening bracket ends the one before it: a line of brackets would take quadratic time otherwise.
-_BRACKETS = re.compile(r"[(\[]\s*([^(\[)\]\s]+)\s*[)\]]")
+_BRACKETS = re.compile(r"[(\[]\s*(?:in\s+)?([^(\[)\]\s]+)\s*[)\]]")
+#: Metres that are spelled, and their prefixes.
+_PREFIXES = {"": "", "milli": "m", "micro": "µ", "nano": "n", "pico": "p"}
+_SPELLED = re.compile(rf"({'|'.join(_PREFIXES)})met(?:re|er)s?", re.IGNORECASE)
 #: Misfit of a convex profile, over the noise and over the height, above which samples have another shape.
 #: Noise that is averaged over five neighbours looks 2.9 times smaller.
 _MISFIT, _SHARE = 4.0, 0.005
@@ -129,6 +132,8 @@ def _number(cell):
 def unit_named(text):
     """Name of a known unit as in `UNITS`, or None."""
     text = re.sub(r"^[uμ](?=[mNs]$)", "µ", text)
+    if spelled := _SPELLED.fullmatch(text):
+        text = _PREFIXES[spelled[1].lower()] + "m"
     return text if text in _KNOWN else None
 
 
@@ -155,8 +160,11 @@ def _heads(header, width, place):
     return [" ".join(words).strip() for words in zip(*rows[-last:], strict=True)]
 
 
-def samples_of(text, name, unit, limit):
-    """Radii and heights (m) in a text, at most `limit` of them; `unit` if its header names none."""
+def samples_of(text, name, unit, limit, remedy=""):
+    """Radii and heights (m) in a text, at most `limit` of them; `unit` if its header names none.
+
+    `remedy` is what else the caller can do where no unit is named.
+    """
     if unit is not None:
         _check.one_of("unit", unit, (*UNITS["length"], "um"))
     table = read_table(text, name, limit)
@@ -171,7 +179,7 @@ def samples_of(text, name, unit, limit):
     if unit is None and None in named:
         raise ValueError(
             f"{name}: the header must name the units of r and z, as in 'r (nm), z (nm)', out of "
-            f"{', '.join(UNITS['length'])}; or give unit='nm'"
+            f"{', '.join(UNITS['length'])}{remedy}"
         )
     units = named if unit is None else [unit_named(unit)] * 2
     if any(named) and named != units:

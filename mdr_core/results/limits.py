@@ -210,7 +210,7 @@ def _viscosity_limit(medium):
     value = float(np.max(medium.relaxation_time))
     text = (
         "A path without times is followed infinitely slowly, so that the viscosity carries nothing; τ = "
-        f"{engineering(value, 's')}. Use indent_in_time or creep for a path in time."
+        f"{engineering(value, 's')}. To include it, prescribe the path in time."
     )
     return Limit("viscosity", value, 0.0, True, text, severe=False)
 

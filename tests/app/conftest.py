@@ -296,5 +296,7 @@ def explorer(server, context):
     explorer = Explorer(context.new_page(), server.url)
     yield explorer
     assert explorer.problems == []
+    # All pages share what the browser keeps, as the theme.
+    explorer.page.evaluate("localStorage.clear()")
     explorer.page.close()
     assert server.faults == ""

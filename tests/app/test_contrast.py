@@ -94,7 +94,7 @@ def test_every_text_of_the_page_is_read_in_the_dark(explorer):
     page = explorer.page
     explorer.press("Menu")
     explorer.press("Dark")
-    explorer.link("dark=1")
+    explorer.wait("document.documentElement.classList.contains('dark')")
     for row, up in (("now", -100), ("onset of yield", 100)):
         x, y = explorer.place("force", row, 0)
         clip = {"x": x - 3, "y": y - up, "width": 6, "height": 1}

@@ -193,8 +193,8 @@ def test_frames_stay_right_where_the_player_leaves_a_state_that_another_depth_ha
     assert page.state.at == page.shown.course.progress[60]
 
 
-def test_frames_are_those_of_the_scene_while_the_player_moves(page):
-    """One for each state, also where the course becomes another; at rest frames of others are dropped."""
+def test_no_frames_leave_while_moves_arrive(page):
+    """Those of another course are taken back at once; at rest one set is sent, of the present course."""
 
     def states():
         _, places, words, times = page.messages.frames
@@ -207,11 +207,21 @@ def test_frames_are_those_of_the_scene_while_the_player_moves(page):
     assert page.shown.course.now == 5
     page.move(None)
     assert page.messages.frames is sent
+    changes_of_frames = []
+    page.messages.on_change("frames", lambda attr, old, new: changes_of_frames.append(new))
+    for depth in (7e-9, 7.5e-9, 8e-9):
+        put(page, "max_depth", depth)
+        assert page.messages.frames == []
     page.apply(lambda state: changes.choose(state, "drive", "impact"))
-    assert page.messages.frames != sent
+    assert changes_of_frames == [[]]
+    rested(page)
+    rested(page)
+    assert len(changes_of_frames) == 2
     assert states() == {len(page.shown.course)}
+    # The player rests, too.
     page.move(5)
     put(page, "mass", 2.0)
+    rested(page)
     assert page.messages.frames == []
 
 

@@ -11,6 +11,7 @@ from app import changes, link
 from app.drives import follow
 from app.extras import fit as fitting
 from app.extras import share, sweep
+from app.extras.hardness import found
 from app.extras.scene_file import scene_file
 from app.page import Page
 from app.plots import PLOTS
@@ -18,8 +19,8 @@ from app.shared.rest import Searched
 from app.state import PRESETS, altered, medium, preset_state, profile
 from mdr_core.results.units import written
 
-from .conftest import GOLD, PUNCH
-from .states import fields_of, linked_state, numbers, part, solved, state_with, view_of
+from .conftest import DROP, GOLD, PUNCH
+from .states import fields_of, linked_state, numbers, part, solved, state_with, stepped, view_of
 from .test_scene_file import plain
 
 SILICA, STEEL = "berkovich-fused_silica", "ball-steel"
@@ -283,3 +284,17 @@ def test_the_constant_of_a_class_is_swept():
     assert 10 < np.count_nonzero(yielding) < len(kappa)
     expected = hardness * (1 - kappa / 2) * pi * a**2
     np.testing.assert_allclose(force[yielding], expected[yielding], rtol=1e-9)
+
+
+def test_the_peak_of_the_mean_pressure_is_on_its_axis_or_is_told():
+    """Of a round nose on class (c) it is many times that of the largest depth; with dashpots infinite."""
+    *_, last = stepped("Which kind of medium is it?")
+    p = np.where(last.states.contact_radius > 0, last.states.mean_pressure, 0.0)
+    for log in (False, True):
+        drawn = found(last, (log,))
+        assert drawn.axes[1].end > p.max() > 4 * last.turning_point.mean_pressure
+        assert "Beyond the axis" not in drawn.note
+    viscous = follow(state_with(DROP, damping="eta"))
+    drawn = found(viscous, (False,))
+    p = viscous.states.mean_pressure[viscous.states.contact_radius > 0]
+    assert ("Beyond the axis" in drawn.note) == bool(p.max() > drawn.axes[1].end)

@@ -44,9 +44,7 @@ def test_long_files_are_thinned_and_refused_in_words_of_the_page():
 
 
 def test_a_refused_tip_is_named_with_its_misfit():
-    page, notices = Page(), []
-    page.notify = notices.append
-    r = np.linspace(0, 400, 200)
+    page, r = Page(), np.linspace(0, 400, 200)
     wavy = table({"r (nm)": r, "z (nm)": r**2 / 2000 + 50 * np.sin(r / 30)})
     for text, why in (
         (wavy, r"the nearest convex profile misses the samples by (\d\d) nm \(rms, most at r = \d+ nm\), "),
@@ -56,8 +54,9 @@ def test_a_refused_tip_is_named_with_its_misfit():
     ):
         file = {"name": "my  tip.csv", "size": len(text), "data": text.encode()}
         part(page, "CSV file of a measured tip: r, z").act(file)
-        found = re.match(rf"my tip\.csv(?:, line \d)?: {why}", notices[-1])
-        assert found, notices[-1]
+        said = part(page, "CSV file of a measured tip: r, z").look["refused"]
+        found = re.match(rf"my tip\.csv(?:, line \d)?: {why}", said)
+        assert found, said
         if text is wavy:
             # An rms of at most 50/√2 nm.
             assert 10 < float(found[1]) < 36

@@ -300,7 +300,8 @@ def test_scenes_are_held_and_come_back_from_the_address_in_the_dark(explorer):
         assert box["x"] + box["width"] <= 312
     explorer.change(explorer.press, "Remove 2")
     explorer.press("Menu")
-    explorer.change(explorer.press, "Dark")
+    explorer.press("Dark")
+    explorer.wait("document.documentElement.classList.contains('dark')")
     explorer.press("Explore")
     explorer.change(explorer.type, "q_c", "90 N/m")
     explorer.link("q_c=90")
@@ -316,22 +317,61 @@ def test_scenes_are_held_and_come_back_from_the_address_in_the_dark(explorer):
     assert page.get_by_role("button", name="Undo").is_disabled()
 
 
-def test_light_on_a_dark_system_is_kept_by_the_address(server, browser):
-    with browser.new_context(viewport={"width": 1280, "height": 720}, color_scheme="dark") as context:
+@pytest.mark.parametrize("system", ["light", "dark"])
+def test_the_theme_is_of_the_browser_and_in_a_link_if_it_was_asked_for(server, browser, system):
+    """As the system is, until another one is chosen, which this browser keeps; links do not have it."""
+    other = {"light": "dark", "dark": "light"}[system]
+    with browser.new_context(viewport={"width": 1280, "height": 720}, color_scheme=system) as context:
         explorer = Explorer(context.new_page(), server.url)
-        page, dark = explorer.page, "document.documentElement.classList.contains('dark')"
-        explorer.wait(dark)
+        page, is_dark = explorer.page, "document.documentElement.classList.contains('dark')"
+        seen = {"dark": is_dark, "light": f"!{is_dark}"}
+        explorer.wait(seen[system])
+        explorer.change(explorer.type, "q_c", "90")
+        assert explorer.link("q_c") == {"q_c": "90.0"}
         explorer.press("Menu")
         explorer.press("Dark")
-        explorer.wait(f"!{dark}")
-        assert explorer.link("dark=0") == {"dark": "0"}
+        explorer.wait(seen[other])
+        explorer.change(explorer.type, "q_c", "80")
+        assert explorer.link("q_c=80") == {"q_c": "80.0"}
         page.reload()
-        explorer.wait("window.explorer?.idle()")
-        assert not page.evaluate(dark)
-        explorer.press("Menu")
-        explorer.press("Dark")
-        explorer.wait(f"{dark} && !location.search.includes('dark=0')")
+        explorer.wait(f"window.explorer?.idle() && {seen[other]}")
+        # A link that asks for it is followed, and stays as it is; the browser keeps its own.
+        asked = {"dark": "1", "light": "0"}[system]
+        explorer.goto(f"{server.url}?dark={asked}")
+        explorer.wait(seen[system])
+        explorer.change(explorer.type, "q_c", "70")
+        assert explorer.link("q_c=70") == {"q_c": "70.0", "dark": asked}
+        explorer.goto(server.url)
+        explorer.wait(seen[other])
         assert explorer.problems == []
+
+
+def test_an_error_of_a_tip_stands_beside_its_field_until_a_good_file(explorer, tmp_path):
+    """No notice covers a plot."""
+    page, path, r = explorer.page, tmp_path / "tip.csv", np.linspace(0, 60, 40)
+    tip, said = page.get_by_label("CSV file of a measured tip: r, z"), page.locator(".file .said:visible")
+    path.write_text(table({"r": r, "z": r**2 / 100}), encoding="utf-8")
+    tip.set_input_files(path)
+    said.wait_for()
+    assert said.inner_text().startswith("tip.csv: the header must name the units of r and z")
+    assert "unit=" not in said.inner_text()
+    assert page.locator(".notyf__toast").count() == 0
+    path.write_text(table({"r (metres)": 1e-3 * r, "z (metres)": 1e-5 * r**2}), encoding="utf-8")
+    explorer.change(tip.set_input_files, path)
+    assert explorer.chosen("Shape") == "Measured tip"
+    assert said.count() == 0
+
+
+def test_a_held_scene_that_is_none_is_told_and_leaves_the_address(server, context):
+    explorer = Explorer(context.new_page(), f"{server.url}?held.scenes=garbage&q_c=50")
+    explorer.page.get_by_text(
+        "Unknown names in this link are ignored: held.scenes=garbage"
+    ).first.wait_for()
+    assert explorer.field("q_c").input_value() == "50 N/m"
+    explorer.wait("!location.search.includes('garbage')")
+    assert explorer.link("q_c") == {"q_c": "50.0"}
+    explorer.page.close()
+    assert explorer.problems == []
 
 
 def test_what_is_shared_comes_back(explorer, tmp_path):
@@ -352,3 +392,36 @@ def test_what_is_shared_comes_back(explorer, tmp_path):
     explorer.change(page.get_by_label("CSV file of a measured tip: r, z").set_input_files, path)
     assert explorer.chosen("Shape") == "Measured tip"
     assert page.get_by_text("40 samples, as in the file").count() == 1
+
+
+def test_a_slider_that_is_moved_while_the_player_runs_is_as_quick_as_at_rest(explorer):
+    """No frames arrive between its moves, the readouts are those of the scene, and then it plays on."""
+    page = explorer.page
+    explorer.press("▶ Play")
+    explorer.wait("explorer.played() && player.value !== 0")
+    page.evaluate("""() => {
+      const messages = explorer.model("messages")
+      window.heard = []
+      messages.properties.frames.change.connect(() => heard.push(["frames", messages.frames.length]))
+      messages.properties.words.change.connect(() => {
+        if (!messages.frames.length) heard.push(["depth", messages.words.match(/"depth">([^<]*)/)[1]])
+      })
+    }""")
+    before = float(preset_state().max_depth)
+    explorer.slider("d_max").focus()
+    for _ in range(4):
+        page.keyboard.press("PageUp")
+    explorer.wait("explorer.played() && heard.length > 2")
+    heard = page.evaluate("heard")
+    frames = [count for kind, count in heard if kind == "frames"]
+    # Taken back at a move, and sent at rest: once, unless the input rests between keys on a slow machine.
+    assert frames == len(frames) // 2 * [0, 4]
+    explorer.link("max_depth=")
+    depth = float(explorer.link("max_depth=")["max_depth"])
+    assert depth > before
+    # What is told before the new frames is of the scenes that are set, at their largest depth.
+    told = [text for kind, text in heard if kind == "depth"]
+    assert told[-1] == written(depth, "length")
+    value = page.evaluate("player.value")
+    explorer.wait("(old) => player.value !== old", value)
+    explorer.press("❚❚ Pause")

@@ -64,7 +64,7 @@ def test_the_link_of_a_preset_is_its_name():
 @pytest.mark.parametrize("drive", DRIVES)
 def test_a_link_holds_the_whole_page(drive):
     state = state_with(DROP, drive, damping="eta", shape="sphere")
-    state = state.replace(at=0.75, tiles=("sweep", "section"), dark=True, **{"log.plots": ("force",)})
+    state = state.replace(at=0.75, tiles=("sweep", "section"), **{"log.plots": ("force",)})
     others = {"held.scenes": (link.write(state),), "fit.note": "a < b", "section.stress": "zz"}
     state = state.replace(**others)
     again = linked_state(state)

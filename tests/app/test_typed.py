@@ -3,12 +3,13 @@
 import pytest
 
 from app import changes
+from app.fields import Field
 from app.page import Page
 from app.quantities import QUANTITIES
 from app.state import preset_state
 from mdr_core.results.units import UNITS, read
 
-from .conftest import DROP, Explorer
+from .conftest import DROP, GOLD, Explorer
 from .states import part
 
 # Answers of the server can be held up on their way, as when it is still solving.
@@ -197,3 +198,11 @@ def test_whatever_a_field_is_sent_is_refused_or_ignored(message):
     assert part(page, "max_depth").look["text"] == field.look["text"]
     assert page.state == preset_state()
     assert page.history.at == 0
+
+
+def test_a_number_that_others_change_is_in_the_unit_that_reads_best():
+    """2 m/s, not 2000 mm/s, after a guided scene of centimetres a second; a typed unit stays."""
+    field, state = Field("speed", None), preset_state(DROP)
+    assert field.part(state.replace(speed=0.02, preset=GOLD)).look["text"] == "20 mm/s"
+    assert field.part(state.replace(speed=2.0, preset=GOLD)).look["text"] == "2 m/s"
+    assert field.part(state.replace(speed=0.2, preset=GOLD)).look["text"] == "0.2 m/s"

@@ -1,4 +1,4 @@
-"""Many people at the served page at once: opening, server time of a move, memory, what stays behind.
+"""Many people at the served page at once: opening, drags, server time of a move, memory, what stays behind.
 
 Opening is page, websocket and document, beside a plain page of Panel's that is served by the same process.
 
@@ -23,6 +23,8 @@ from tests.app.conftest import Server
 PATIENCE = 180.0
 #: People at once, moves of each a second, for so long (s); the p95 (ms) beyond which no more are tried.
 SESSIONS, RATE, SECONDS, ENOUGH = (8, 16, 24, 32, 40, 48), 2.0, 10.0, 200.0
+#: Most moves a second of a drag, and how long it lasts and then rests (s), again and again.
+DRAG, STROKE, REST = 25.0, 2.0, 0.6
 #: Sessions opened and closed before memory is looked at.
 OPENED = (15, 100)
 #: How long a session without its page is kept, as the explorer's page says.
@@ -108,18 +110,28 @@ class Client(Visitor):
             for known in shown[1]:
                 if known.get("spoken") == "d_max, largest depth":
                     self.form, self.control = each["id"], known["name"]
+                if known["kind"] == "player":
+                    self.player = each["id"]
         self.count = 0
         return self
+
+    async def _tell(self, name, component, part, message):
+        """What a person does with a part of a component."""
+        values = [["model", {"id": component}], ["data", [part, message]]]
+        event = {"type": "event", "name": "data_event", "values": {"type": "map", "entries": values}}
+        await self._event(name, event)
+
+    async def play(self):
+        """Let the player move."""
+        await self._tell("play", self.player, "player", None)
 
     async def move(self, n):
         """Move a slider; seconds until the server has answered with a new picture."""
         self.count += 1
         data = {"text": f"{5 + 0.1 * (n % 100):.3g}e-9", "dragged": True}
-        message = [self.control, {"type": "map", "entries": [list(item) for item in data.items()]}]
-        values = [["model", {"id": self.form}], ["data", message]]
-        event = {"type": "event", "name": "data_event", "values": {"type": "map", "entries": values}}
+        message = {"type": "map", "entries": [list(item) for item in data.items()]}
         begin = time.perf_counter()
-        await self._event(n, event)
+        await self._tell(n, self.form, self.control, message)
         while True:
             _, content = await self._message()
             if f'"[{self.count},[' in content.replace(" ", ""):
@@ -132,6 +144,17 @@ class Client(Visitor):
         for n in range(1, int(RATE * SECONDS) + 1):
             times.append(await self.move(n))
             await asyncio.sleep(max(begin + n / RATE - time.perf_counter(), 0))
+        return times
+
+    async def drag(self):
+        """Drag a slider, one value under way at a time, with rests; the seconds that each answer took."""
+        times, begin = [], time.perf_counter()
+        while time.perf_counter() < begin + SECONDS:
+            stroke = time.perf_counter()
+            while time.perf_counter() < stroke + STROKE:
+                times.append(await self.move(len(times) + 1))
+                await asyncio.sleep(max(1 / DRAG - times[-1], 0))
+            await asyncio.sleep(REST)
         return times
 
 
@@ -175,6 +198,37 @@ async def many(url, pid, count):
     for client in clients:
         client.socket.close()
     return p95
+
+
+async def beside(url, play):
+    """One person drags, with the player on or off, and a second one moves now and then; what both wait."""
+    dragging, other = await Client().open(url), await Client().open(url)
+    if play:
+        await dragging.play()
+        await asyncio.sleep(1)
+    found = await asyncio.gather(dragging.drag(), other.work(0.1))
+    for client in (dragging, other):
+        client.socket.close()
+    said = []
+    for who, times in zip(("dragged", "a second visitor"), found, strict=True):
+        times = sorted(1000 * t for t in times)
+        p95 = times[int(0.95 * len(times))]
+        said.append(
+            f"{who}: {len(times)} values, median {statistics.median(times):.0f}, p95 {p95:.0f}, "
+            f"longest {times[-1]:.0f} ms"
+        )
+    print(f"{'player on' if play else 'player off'}; {'; '.join(said)}", flush=True)
+
+
+def drags():
+    """A drag with and without the player, beside a second visitor."""
+    server = Server()
+    try:
+        asyncio.run(asyncio.wait_for(come_and_go(server.url, 2), 300))
+        for play in (False, True):
+            asyncio.run(asyncio.wait_for(beside(server.url, play), 300))
+    finally:
+        server.stop()
 
 
 def at_once(count):
@@ -272,6 +326,7 @@ def main():
     # All of a class are on their way at the same time.
     AsyncHTTPClient.configure(None, max_clients=CLASS)
     openings()
+    drags()
     # More and more, until they wait.
     next((count for count in SESSIONS if at_once(count) > ENOUGH), None)
     left_behind()

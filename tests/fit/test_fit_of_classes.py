@@ -303,7 +303,7 @@ class TestVerdict:
 
     def test_noise_that_hides_the_class(self):
         force = made(self.PROFILE, ALONE["a"], 1, seed=7, noise=0.5)[0]
-        assert "not told, (" in repr(mdr.fit_indentation(self.PROFILE, OUT, force, contact_point=0.0))
+        assert "cannot be told, (" in repr(mdr.fit_indentation(self.PROFILE, OUT, force, contact_point=0.0))
 
     def test_records_that_are_not_one_loading_and_one_unloading(self):
         twice = np.concatenate([OUT, 1.5 * OUT])
@@ -352,4 +352,4 @@ def test_measured_curves_of_class_a(file):
     misfits = {letter: each.misfit for letter, each in inverse.classes.items()}
     assert misfits["a"] == pytest.approx(misfit(constant), rel=1e-6)
     assert min(misfits, key=misfits.get) == "a"
-    assert ("not told, (a) or (b)" in repr(inverse)) == (file == "steel")
+    assert ("cannot be told, (a) or (b)" in repr(inverse)) == (file == "steel")

@@ -1,0 +1,100 @@
+"""Saved pictures, as they are painted: each word of a legend beside its own line, area or mark."""
+
+import io
+
+import numpy as np
+import pytest
+
+from app.draw import drawn, legend
+from app.plots import PLOTS
+from mdr_core.results.figures import ROLES
+
+from .conftest import DROP, Explorer
+from .states import state_with, view_of
+
+Image = pytest.importorskip("PIL.Image")
+
+#: Below the title; between a swatch and its word, and between two items, in pixels of a picture.
+TITLE, BESIDE, BETWEEN = 56, 13, 24
+
+
+def runs(there, gap):
+    """First and last index of each run of true values, where fewer than `gap` false ones are no end."""
+    at = np.flatnonzero(there)
+    ends = np.flatnonzero(np.diff(at) > gap)
+    return list(zip(at[[0, *(ends + 1)]], at[[*ends, -1]], strict=True)) if at.size else []
+
+
+def legend_of(picture):
+    """Swatches in the legend above a plot, as pixels, and how many words stand beside each."""
+    image = np.asarray(Image.open(io.BytesIO(picture)).convert("RGB"), int)
+    painted = np.abs(image - image[0, 0]).max(axis=2) > 12
+    # The plot begins with a line across.
+    top = TITLE + int(np.argmax(painted[TITLE:].mean(axis=1) > 0.5))
+    # Lines of the legend; what is left of the plot's edge are numbers of its axis.
+    left = 120
+    found = []
+    for first, last in runs(painted[TITLE : top - 6, left:].any(axis=1), 2):
+        line = slice(TITLE + first, TITLE + last + 1)
+        columns = painted[line, left:].any(axis=0)
+        for begin, end in runs(columns, BETWEEN):
+            parts = runs(columns[begin : end + 1], BESIDE)
+            swatch = image[line, left + begin : left + begin + parts[0][1] + 1]
+            found.append((swatch, len(parts) - 1))
+    return found
+
+
+def colour(role, dark):
+    return np.array([int(ROLES[role][dark][k : k + 2], 16) for k in (1, 3, 5)])
+
+
+def has(swatch, wanted):
+    return (np.abs(swatch - wanted).max(axis=2) < 8).any()
+
+
+@pytest.fixture(params=["light", "dark"])
+def saved(request, server, context):
+    """Pictures of an impact: of every plot that is seen, and whether they are dark."""
+    dark = request.param == "dark"
+    query = f"?preset={DROP}&tiles=sweep+relief&dark={int(dark)}"
+    explorer = Explorer(context.new_page(), server.url + query)
+    explorer.wait("explorer.row('sweep', 'this scene')?.[0].length > 1")
+    explorer.wait("explorer.row('relief', 'plastic zone c')?.[0].length > 1")
+    pictures = {}
+    for name in ("springs", "pressure", "force", "sweep", "relief"):
+        with explorer.page.expect_download() as download:
+            explorer.page.locator(f".card.{name}").get_by_role("button", name="Save").click()
+        pictures[name] = download.value.path().read_bytes()
+    yield pictures, dark
+    assert explorer.problems == []
+    explorer.page.close()
+
+
+def test_words_of_a_saved_legend_stand_beside_what_they_name(saved):
+    pictures, dark = saved
+    view = view_of(state_with(DROP).replace(tiles=("sweep",)))
+    for name in ("springs", "pressure", "force"):
+        items, plot = legend_of(pictures[name]), PLOTS[name]
+        assert [words for _, words in items] == len(items) * [1]
+        assert len(items) == legend(plot, drawn(view, plot)).count("<span")
+    # White lines on an image are seen beside it, too.
+    assert [words for _, words in legend_of(pictures["relief"])] == [1, 1]
+    # In the order of the words: an area, a line, a line of dashes and dots.
+    zone, pressure, mean = (swatch for swatch, _ in legend_of(pictures["pressure"]))
+    assert has(zone, colour("yielded", dark))
+    assert has(pressure, colour("elastic", dark))
+    assert has(mean, colour("ink", dark))
+    # All swatches of lines and areas are equally wide; a dash and a dot are told apart.
+    assert zone.shape[1] == pytest.approx(pressure.shape[1], abs=4)
+
+
+def test_dashes_of_a_saved_legend_are_those_of_the_lines(saved):
+    """Dashes 6 4, dots 2 3, and 6 3 2 3, at two pixels a point."""
+    pictures, _ = saved
+    swatches = [swatch for swatch, _ in legend_of(pictures["sweep"])]
+    for swatch, lengths in zip(swatches, ({12}, {4}, {12, 4}, {56}), strict=False):
+        line = np.abs(swatch - swatch[0, 0]).max(axis=2).max(axis=0) > 60
+        seen = [last - first + 1 for first, last in runs(line, 1)]
+        # A pixel is lost or won at each end.
+        assert all(any(abs(length - wanted) <= 2 for wanted in lengths) for length in seen)
+        assert all(any(abs(length - wanted) <= 2 for length in seen) for wanted in lengths)
