@@ -38,6 +38,12 @@ SIZES = {
     each: UNITS[kind] | {f"−{unit}": -size for unit, size in UNITS[kind].items()}
     for each, kind in {"depth": "length", "force": "force", "time": "time"}.items()
 }
+#: Sizes of units of a contact stiffness (N/m), and names of its column; of a frame or a spring it is none.
+_STIFFNESS = {"N/m": 1.0, "kN/m": 1e3, "MN/m": 1e6, "N/mm": 1e3, "N/µm": 1e6, "mN/µm": 1e3, "mN/nm": 1e6,
+              "µN/nm": 1e3, "nN/nm": 1.0, "pN/nm": 1e-3, "µN/µm": 1.0, "mN/m": 1e-3}  # fmt: skip
+_OF_CONTACT = re.compile(
+    r"(?!.*(frame|spring|machine|support|squared|correct))(.*contact.*stiff|.*\bstiffness\b|s\b)", re.I
+)
 #: What to do about errors of `afmformats`.
 _REMEDIES = {
     "MissingMetaDataError": " Give spring_constant= (N/m) and sensitivity= (m/V)",
@@ -164,7 +170,8 @@ def curve_of(table, name, columns=None, spring_constant=None, *, turn=True, segm
 
     Signs are found by the numbers unless `turn` is False.
     """
-    columns, remarks = _columns(table, name, columns or {})
+    given = {each: column for each, column in (columns or {}).items() if each != "stiffness"}
+    columns, remarks = _columns(table, name, given)
     values = {each: table.values[column[0]] for each, column in columns.items() if column}
     rows = np.flatnonzero(np.isfinite(list(values.values())).all(axis=0))
     labels, segment = named_segments(table.words) if segment is None else ("", segment)
@@ -191,7 +198,15 @@ def curve_of(table, name, columns=None, spring_constant=None, *, turn=True, segm
         remarks.append(f"{head!r} includes the deflection force/stiffness: give spring_constant= (N/m)")
     elif spring_constant is not None and "tip" not in head:
         remarks.append(f"{head!r} is taken as the depth of the tip: no deflection is subtracted")
-    arrays = {"time": None} | {each: _check.frozen(value) for each, value in values.items()}
+    arrays = {"time": None, "stiffness": None} | {
+        each: _check.frozen(value) for each, value in values.items()
+    }
+    measured = _stiffness(table)
+    if measured is not None:
+        column, unit = columns["stiffness"] = measured
+        measure = table.values[column][rows] * _STIFFNESS[unit]
+        # Instruments write 1.8e308 where there is none.
+        arrays["stiffness"] = _check.frozen(np.where(np.abs(measure) < 1e30, measure, np.nan))
     arrays["segment"] = segments_of(**values) if segment is None else _check.frozen(segment[rows])
     return MeasuredCurve(name, spring_constant, None, columns, tuple(remarks), table, **arrays)
 
@@ -220,6 +235,16 @@ def _columns(table, name, given):
         columns[each] = None if best is None else (best, table.unit(best))
         free.pop(best, None)
     return {each: columns[each] for each in _WORDS}, remarks
+
+
+def _stiffness(table):
+    """Number and unit of the column of a contact stiffness, or None; "Harmonic Contact" comes first."""
+    found = []
+    for column, head in table.heads.items():
+        unit = re.sub("[uμ]N", "µN", re.split(r"[\s(\[]+", head.strip(" )]"))[-1])
+        if unit in _STIFFNESS and _OF_CONTACT.match(head):
+            found.append((column, unit))
+    return max(found, key=lambda each: "contact" in table.heads[each[0]].lower(), default=None)
 
 
 def _rank(each, head):

@@ -285,3 +285,26 @@ def test_a_sensitivity_is_for_files_of_instruments(read, tmp_path):
     read(text((DEPTH, FORCE), ["h (nm), F (mN)"]))
     with pytest.raises(ValueError, match=r"run\.csv is a table, .* leave out sensitivity"):
         mdr.read_curve(tmp_path / "run.csv", sensitivity=6e-8)
+
+
+@pytest.mark.parametrize(
+    ("head", "size"),
+    [
+        ("Harmonic Contact Stiffness N/m", 1.0),
+        ("Stiffness (N/m)", 1.0),
+        ("S [mN/nm]", 1e6),
+        ("Contact stiffness (µN/nm)", 1e3),
+        ("Frame Stiffness (N/m)", None),
+        ("Support Spring Stiffness N/m", None),
+    ],
+)
+def test_a_measured_contact_stiffness_is_read(read, head, size):
+    """1 mN/nm is 10⁶ N/m; the stiffness of the instrument is not that of the contact."""
+    stiffness = [1.0, 2.0, 3.0, 4.0, 5.0]
+    curve = read(text((DEPTH, FORCE, stiffness), [f"Depth (nm);Load (mN);{head}"], ";"))
+    assert_same(curve)
+    if size is None:
+        assert curve.stiffness is None
+    else:
+        np.testing.assert_allclose(curve.stiffness, np.array(stiffness) * size)
+        np.testing.assert_allclose(curve.retract.stiffness, curve.stiffness[4:])
