@@ -10,7 +10,7 @@ import scipy
 from numpy.typing import NDArray
 
 from ._check import Array, frozen, number, positive_number
-from .profiles.samples import Table
+from .files.text import Table
 from .results.quantities import engineering
 from .results.report import Report
 

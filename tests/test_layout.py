@@ -13,10 +13,12 @@ PACKAGE = Path(mdr.__file__).parent
 # From the bottom up; a module may import what stands before it.
 ORDER = (
     "_errors", "_check", "numerics.stable", "numerics.blocks", "numerics.gauss", "numerics.collocation",
-    "numerics.roots", "abel", "results.units", "results.quantities", "profiles.samples", "profiles.profile",
+    "numerics.roots", "abel", "results.units", "results.quantities", "files.units",
+    "files.numbers", "files.words", "files.text", "profiles.samples", "profiles.profile",
     "profiles.power", "profiles.radius_table", "profiles.rounded", "profiles.truncated", "profiles.sampled",
     "profiles.smooth", "medium", "results.limits", "results.report",
-    "results.base", "results.sweep_arguments", "results.progress", "measured_curve", "reading",
+    "results.base", "results.sweep_arguments", "results.progress", "files.columns", "files.results",
+    "files.several", "measured_curve", "files.curve", "files.afm", "files.workbook", "reading",
     "foundation.refinement",
     "foundation.cap", "foundation.element", "foundation.grid", "foundation.foundation",
     "foundation.fronts", "foundation.depth_path", "foundation.force_path", "foundation.free_body",

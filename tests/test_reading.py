@@ -243,7 +243,9 @@ def test_the_deflection_is_subtracted_from_the_position_of_the_piezo(tmp_path):
     curve = mdr.read_curve(path)
     remarks = "\n".join(curve.remarks)
     assert "'Extend Z-Sense(nm)' includes the deflection force/stiffness: give spring_constant=" in remarks
-    assert "not from 'Retract Z-Sense(nm)'" in remarks
+    assert "the retract is that of the columns 'Retract Z-Sense(nm)' and 'Retract Force(nN)'" in remarks
+    assert curve.segment.tolist() == 5 * ["approach"] + 5 * ["retract"]
+    np.testing.assert_allclose(curve.approach.depth, np.array(DEPTH) * 1e-9)
     tip = mdr.read_curve(path, spring_constant=0.5)
     np.testing.assert_allclose(tip.depth, curve.depth - 2 * curve.force, rtol=1e-12)
     assert tip.spring_constant == 0.5

@@ -9,10 +9,11 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike, Parameter
+from ..files.text import decoded
 from ..numerics.blocks import chunks
 from ..numerics.stable import root
 from .profile import Profile
-from .samples import area_samples, axis_of_symmetry, convex_fit, decoded, samples_of
+from .samples import area_samples, axis_of_symmetry, convex_fit, samples_of
 
 #: Largest number of samples: time and memory grow with its square.
 _MOST_SAMPLES = 5000
