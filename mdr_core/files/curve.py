@@ -10,8 +10,8 @@ from .. import _check
 from ..measured_curve import MeasuredCurve, named_segments, segments_of
 from . import words
 from .columns import SIZES, UnknownColumns, columns_of, size_of, stiffness_of
-from .results import as_results
-from .several import below_each_other, retract_of, side_by_side
+from .results import as_results, of_tests
+from .several import below_each_other, jumps, retract_of, side_by_side
 from .text import Table
 from .units import UNITS, cleaned, unit_of
 
@@ -36,15 +36,17 @@ def curves_of(table, name, sheet="", *, columns=None, spring_constant=None, sens
     options = {"spring_constant": spring_constant, "sensitivity": sensitivity}
     cantilever, _ = _cantilever(table, options)
     given = _without_stiffness(columns)
-    found, _ = columns_of(table, name, given, cantilever)
+    try:
+        found, _ = columns_of(table, name, given, cantilever)
+    except UnknownColumns:
+        if not given and of_tests(table):
+            raise NoCurve(_no_curve(name, f"a row for each test: {', '.join(of_tests(table)[:4])}")) from None
+        raise
     if not given:
         numbers = {each: column and column[0] for each, column in found.items()}
         reason = as_results(table, numbers, sheet)
         if reason:
-            raise NoCurve(
-                f"{name} is a table of results, not a curve, as it has {reason}: read the file with depth and "
-                "force of a test, or give columns= if this is one"
-            )
+            raise NoCurve(_no_curve(name, reason))
     makers = []
     for label, part in below_each_other(table, found, name):
         groups = [found] if given else side_by_side(part, found)
@@ -54,12 +56,19 @@ def curves_of(table, name, sheet="", *, columns=None, spring_constant=None, sens
                 'columns={"depth": (0, "nm"), "force": (1, "mN")} for one curve',
                 table,
             )
-        for i, group in enumerate(groups):
+        for group in groups:
             several = len(groups) > 1
             labels = [name, *[label] * bool(label), *[f"columns {_numbers(group)}"] * several]
             rows, chosen = (_trimmed(part, group), group) if several else (part, columns)
             makers.append(partial(curve_of, rows, ", ".join(labels), chosen, **options))
     return makers
+
+
+def _no_curve(name, reason):
+    return (
+        f"{name} is a table of results, not a curve, as it has {reason}: read the file with depth and force of a "
+        "test, or give columns= if this is one"
+    )
 
 
 def _numbers(group):
@@ -101,7 +110,7 @@ def curve_of(table, name, columns=None, spring_constant=None, *, turn=True, segm
     remarks += _omissions(table, rows, name, labels)
     if rows.size < 2:
         raise ValueError(f"{name} has one row of numbers: give a curve, a sample a line")
-    rows = _in_time(values, rows, columns, remarks)
+    rows = _in_time(table, name, values, rows, columns, remarks)
     values = {each: value[rows] * size_of(each, columns[each][1]) for each, value in values.items()}
     _deflected(table, name, values, columns, known, sensitivity, remarks)
     for each in _turned(values["depth"], values["force"]) if turn else ():
@@ -117,12 +126,19 @@ def curve_of(table, name, columns=None, spring_constant=None, *, turn=True, segm
     return MeasuredCurve(name, stiffness, None, columns, (*remarks, *said), table, **arrays)
 
 
-def _in_time(values, rows, columns, remarks):
+def _in_time(table, name, values, rows, columns, remarks):
     """Rows in the order of time; without a time that does not ascend, with a remark."""
     steps = np.diff(values["time"][rows]) if "time" in values else np.ones(1)
     if np.all(steps <= 0) and np.any(steps):
         return rows[::-1]
-    if np.any(steps < 0) or not np.any(steps):
+    starts = np.flatnonzero(steps < 0) + 1
+    few = 0 < starts.size <= len(rows) // 4 and np.diff([0, *starts, len(rows)]).min() > 2
+    if few and jumps(values["depth"][rows], starts):
+        raise ValueError(
+            f"{name}: the time starts again at line {table.lines[rows[starts[0]]]}, where the depth jumps: for "
+            "several curves give each a file, a title like 'Test 2' above it, or a column 'test' with numbers"
+        )
+    if starts.size or not np.any(steps):
         remarks.append("the time does not ascend and is left out: samples are in the order of the file")
         columns["time"] = None
         del values["time"]
@@ -255,7 +271,7 @@ def _with_retract(table, name, known):
     joined = Table(
         heads, values, np.append(table.lines[first], table.lines[second]),
         {n: line for n, line in table.odd.items() if n not in set(table.lines.tolist())},
-        {"segment": ["approach"] * len(first) + ["retract"] * len(second)},
+        {f"{max(heads) + 2} segment": ["approach"] * len(first) + ["retract"] * len(second)},
         {k: unit for k, unit in table.units.items() if k in heads}, table.header,
     )  # fmt: skip
     retract = " and ".join(repr(table.heads[others[each][0]]) for each in ("depth", "force"))

@@ -36,7 +36,7 @@ def as_results(table, columns, sheet=""):
     deviations = [head for head in means if words.named("force", head) or words.named("depth", head)]
     if deviations and not timed:
         return f"a column of means or deviations, {deviations[0]!r}"
-    if timed and path:
+    if path and (timed or _falls(force)):
         return ""
     signs = []
     if mechanical:
@@ -51,6 +51,25 @@ def as_results(table, columns, sheet=""):
         signs.append(f"the name {sheet!r}")
     smooth = path and len(depth) > _FEW
     return " and ".join(signs) if len(signs) > 1 and not smooth else ""
+
+
+def of_tests(table):
+    """Names of columns that only a table of tests has, as of moduli; empty where there are not two."""
+    heads = [*table.heads.values(), *(key.partition(" ")[2] for key in table.words)]
+    mechanical = [head for head in heads if words.mechanical(head)]
+    others = [
+        head for head in heads
+        if head not in mechanical and (words.of_means(head) or any(
+            words.named(each, head) and words.is_none(each, head) for each in ("force", "depth")))
+    ]  # fmt: skip
+    return mechanical + others if mechanical and (others or _numbered(table)) else []
+
+
+def _falls(force):
+    """Whether the force rises to a peak and falls again, some samples each."""
+    force = np.abs(force[np.isfinite(force)])
+    peak = int(np.argmax(force)) if force.size else 0
+    return 3 <= peak < force.size - 3 and max(force[0], force[-1]) < 0.8 * force[peak]
 
 
 def _numbered(table):

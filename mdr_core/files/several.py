@@ -7,6 +7,7 @@ import numpy as np
 
 from . import words
 from .columns import SIZES
+from .units import unit_named
 
 #: Names of the approach and the retract in the names of columns that stand side by side.
 _PAIRS = (
@@ -25,6 +26,8 @@ def below_each_other(table, columns, name):
     if found is None:
         return [("", table)]
     head, edges, labels = found
+    # These cells are in the names of the curves.
+    table = replace(table, words={key: cells for key, cells in table.words.items() if key.partition(" ")[2] != head})
     return [
         (f"{head} {label}".strip(), _rows(table, slice(start, stop)))
         for (start, stop), label in zip(edges, labels, strict=True)
@@ -46,7 +49,7 @@ def _blocks(table, columns, name):
     candidates = [(key.partition(" ")[2], cells) for key, cells in table.words.items()]
     for k, values in table.values.items():
         whole = k not in used and np.all(np.isfinite(values)) and np.all(values == np.round(values))
-        if (whole and table.unit_of(k) == type(table.unit_of(k))()) or (whole and not table.unit_of(k).kind):
+        if whole and not table.unit_of(k).kind:
             candidates.append((table.heads[k], [f"{value:.0f}" for value in values]))
     for head, cells in candidates:
         if len(cells) < 4 or not all(cell.strip() for cell in cells) or words.numbers_parts(head):
@@ -91,10 +94,13 @@ def _restarts(table, columns, edges):
             return False
         if all(time[start] < time[start - 1] for start, _ in edges[1:]):
             return True
-    steps = np.abs(np.diff(depth))
-    size = max(_EDGE * np.nanptp(depth) if hasattr(np, "nanptp") else _EDGE * (np.nanmax(depth) - np.nanmin(depth)),
-               _STEPS * np.nanmedian(steps))  # fmt: skip
-    return all(abs(depth[start] - depth[start - 1]) > size for start, _ in edges[1:])
+    return jumps(depth, [start for start, _ in edges[1:]])
+
+
+def jumps(depth, starts):
+    """Whether the depth jumps before each of some samples: by more than its steps, and a share of its range."""
+    size = max(_EDGE * np.nanmax(depth) - _EDGE * np.nanmin(depth), _STEPS * np.nanmedian(np.abs(np.diff(depth))))
+    return all(abs(depth[start] - depth[start - 1]) > size for start in starts)
 
 
 def _complete(table, columns, edges):
@@ -141,7 +147,8 @@ def side_by_side(table, columns):
 def _key(table, column):
     """Name of a column without its unit and a number at its end."""
     head = table.heads[column].removesuffix(table.units.get(column, ""))
-    name = words.normal(re.sub(r"[(\[{].*?[)\]}]|/.*$", " ", head))
+    head = re.sub(r"[(\[{]([^()\[\]{}]*)[)\]}]", lambda found: " " if unit_named(found[1]) else found[0], head)
+    name = words.normal(re.sub(r"/.*$", " ", head))
     name = re.sub(r"[\s.]*\d+$", "", name)
     unit = table.unit(column)
     return re.sub(rf"\s*\b{re.escape(words.normal(unit))}$", "", name) if unit else name

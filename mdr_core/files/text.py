@@ -26,7 +26,7 @@ _OTHER_UNITS = re.compile(
 )
 #: A title between rows, as "Test 2" or "# Messung Nr. 3".
 _TITLE = re.compile(
-    rf"[#*=\-\s]*(?:{words.SAMPLES})[\s_:.#=-]*(?:no|nr|number|n°|№)?[\s_:.#=-]*(\d+)\b.{{0,40}}", re.I
+    rf"[#*=\-\s]*(?:{words.SAMPLES})[\s_:.#=-]*(?:no|nr|number|n°|№)?[\s_:.#=-]*(\d+)\b[^\d;,\t]{{0,40}}", re.I
 )
 #: Lines of a header that name a segment, and its number.
 _SEGMENT = re.compile(r"#+\s*segment:\s*(\S+)", re.I)
@@ -75,9 +75,16 @@ class _Line:
     @property
     def width(self):
         """Number of cells of a row: half of those that are not empty are numbers; else 0."""
+        if not self.text[:1].isdigit() and is_title(self.text):
+            return 0
         filled = sum(map(bool, self.cells))
         count = sum(map(isfinite, self.values))
         return len(self.cells) if count and 2 * count >= filled else 0
+
+
+def is_title(line):
+    """Whether a line numbers a sample, as "Test 2"."""
+    return bool(_TITLE.fullmatch(line.strip()))
 
 
 def decoded(data):
@@ -214,6 +221,8 @@ def _heads(header, width, place):
     names, units, named_units = None, None, False
     best = (-1,)
     for line in header:
+        if is_title(line):
+            continue
         labelled = _LABELLED.match(line)
         cells = _header_cells(re.sub(r"^#+\s*", "", line[labelled.end() :] if labelled else line), width)
         if cells is None and labelled:
@@ -250,37 +259,23 @@ def _are_units(cells):
     kinds = [unit_of("", cell).kind for cell in cells if cell]
     known = sum(kind in ("length", "force", "time", "voltage") for kind in kinds)
     others = sum(bool(_OTHER_UNITS.fullmatch(cell)) for cell in cells if cell)
-    doubts = sum(bool(unit_of("", cell).doubt and re.fullmatch(r"[^%]{1,12}[^\W\d]", cell)) for cell in cells)
+    doubts = sum(bool(unit_of("", cell).doubt and re.fullmatch(r"[^%()]{1,12}[^\W\d]", cell) and not words.quantity_of(cell)) for cell in cells)
     return known + doubts > 0 and known + others + doubts >= len(kinds)
 
 
 def _parts(lines):
     """Titles of the tables of a text and their lines: where a header or a title stands between rows."""
-    parts, start, rows, title = [], 0, 0, ""
-    width = 0
+    parts, start, rows, last, title = [], 0, 0, 0, ""
     for i, line in enumerate(lines):
-        if line.width and (not width or line.width == width or rows < 2):
-            rows += 1
-            width = line.width
-            last = i
-            continue
-        if rows < 2 or (line.width and not _follows_header(lines, i, last)):
-            found = _TITLE.fullmatch(line.text.strip())
-            if rows < 2 and found:
-                title = line.text.strip(" #*=-")
-            continue
-        found = _TITLE.fullmatch(line.text.strip())
-        if not found and not _is_header(line.text):
-            continue
-        parts.append((title, lines[start : last + 1]))
-        start, rows, width = last + 1, 0, 0
-        title = line.text.strip(" #*=-") if found else ""
-    parts.append((title, lines[start:]))
-    return parts
-
-
-def _follows_header(lines, i, last):
-    return False
+        named = is_title(line.text)
+        if line.width:
+            rows, last = rows + 1, i
+        elif rows >= 2 and (named or _is_header(line.text)):
+            parts.append((title, lines[start : last + 1]))
+            start, rows, title = last + 1, 0, ""
+        if named:
+            title = line.text.strip(" #*=-")
+    return [*parts, (title, lines[start:])]
 
 
 def _is_header(line):
@@ -323,7 +318,8 @@ def _joined(before, table):
 def _with_segments(table):
     """A table with the segment that its header names at each row."""
     _, segment = _labels(table)
-    if segment is None or "segment" in table.words:
+    key = f"{max(table.heads) + 2} segment"
+    if segment is None or key in table.words:
         return table
-    labels = table.words | {"segment": [segment] * len(table.lines)}
+    labels = table.words | {key: [segment] * len(table.lines)}
     return Table(table.heads, table.values, table.lines, table.odd, labels, table.units, table.header)

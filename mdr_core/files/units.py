@@ -49,10 +49,15 @@ _BEFORE = re.compile(rf"(?:{_TIMES})?{_POWER}(?:{_TIMES}|\s*)(?=\S)")
 _AFTER = re.compile(rf"({_TIMES}|\s*/\s*|\s*){_POWER}")
 #: What may not stand beside a unit: numbers that scale, prefixes on their own, functions.
 _SCALING = re.compile(
-    r"(?:[*·/÷]|(?<![^\W_])[xX])\s*\d|\d[eE][-+]?\d|\d\s*\^|(?<![\d.])10\s?[-+]\s?\d|[eE][-+]\d"
-    r"|(?<![^\W_])(?:thousands?|millions?|billions?|trillions?|tausend|million(?:en)?|mill(?:i|e)|pico|piko|"
-    r"nano|micro|mikro|kilo|mega|giga|log(?:10|2|_?e)?|ln|sqrt|square[sd]?|inverse|reciprocal|"
-    r"normali[sz]ed|norm|dimensionless|relative|x\s?1[0 ]+)(?![^\W\d_])", re.I
+    r"(?:[*·/÷]|(?<![^\W_])[xX])\s*\d[\d.,]*|\d\s*[*·]|^\s*\d+[^\W\d_](?![^\W\d_])|\d[eE][-+]?\d+|\d+\s*\^"
+    r"|(?<![\d.])10\s?[-+]\s?\d|[eE][-+]\d|(?<![^\W_])(?:tens?|tenths?|hundreds?|hundredths?|thousands?|"
+    r"thousandths?|millions?|millionths?|billions?|trillions?|dozens?|half|halves|double|zehner|zehntel|hunderte?|"
+    r"hundertstel|tausende?|tausendstel|million(?:en)?|dizaines?|dixièmes?|centaines?|centièmes?|milliers?|"
+    r"millièmes?|decenas|décimas|cientos|centésimas|miles|milésimas|decine|decimi|centinaia|centesimi|migliaia|"
+    r"millesimi|atto|femto|pico|piko|nano|micro|mikro|milli|centi|zenti|deci|dezi|deca|deka|hecto|hekto|kilo|mega|"
+    r"giga|tera|log(?:10|2|_?e)?|ln|sqrt|square[sd]?|inverse|reciprocal|normali[sz]ed|norm|normiert|normalis[eé]e?s?|"
+    r"dimensionless|relative|x\s?1[0 ]+)(?![^\W\d_])",
+    re.I,
 )  # fmt: skip
 _BRACKETS = re.compile(r"[(\[{<]([^()\[\]{}<>]*)[)\]}>]")
 #: Smallest and largest sizes of units (SI) of a depth, force or time that anybody would write.

@@ -35,7 +35,7 @@ _NONE = {
     )),
     "depth": re.compile(_WORD % (
         rf"{_STATISTICS}|contact(?! point)|residual|plastic|final|permanent|area|radius|diameter|wavelength|roughness"
-        r"|lateral|drift(?! ?corr)|frame(?! ?corr)|offset|hc|hf|hr|hmax|hp|width|x|y|x ?pos\w*|y ?pos\w*|restl\w*|"
+        r"|lateral|drift(?! ?corr)|frame(?! ?corr)|offset|hc|hf|hr|hmax|hp|width|[xy](?!\w)|x ?pos\w*|y ?pos\w*|restl\w*|"
         r"kontakt\w*|接触\w*|残余\w*"
     )),
     "time": re.compile(_WORD % (rf"{_STATISTICS}|constant|period|dwell|hold|interval")),
