@@ -9,8 +9,8 @@ from typing import Any
 
 from . import _check
 from .files.afm import SUFFIXES, from_afm, is_afm_text, refuse_binary
-from .files.columns import SIZES, UnknownColumns
-from .files.curve import NoCurve, curve_of, curves_of
+from .files.columns import SIZES, NoCurve, UnknownColumns
+from .files.curve import curve_of, curves_of
 from .files.text import decoded, read_tables
 from .files.workbook import from_workbook
 from .measured_curve import MeasuredCurve, MeasuredCurves
@@ -139,12 +139,14 @@ def _of_text(text, name, options):
         try:
             curves += curves_of(table, which, **options)
         except NoCurve as error:
-            left.append(f"table {number}, from line {table.lines[0]} on, is left out, as one of results")
+            left.append(f"table {number}, from line {table.lines[0]} on, is left out, as it is no curve")
             refused = error
         except ValueError as error:
             curve = getattr(error, "named", len(table.lines) > 1)
             if not curve:
-                left.append(f"table {number}, from line {table.lines[0]} on, is left out: no depth and force")
+                left.append(
+                    f"table {number}, from line {table.lines[0]} on, is left out: no depth and force"
+                )
             else:
                 # It does not stop the others.
                 curves.append(partial(_refuse, error))

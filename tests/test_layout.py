@@ -30,7 +30,7 @@ ORDER = (
     "impacts.result", "impacts.energy_balance", "impacts.adhesive", "impacts.viscous", "impacts.impact",
     "oblique.depth_levels", "oblique.viscous_friction", "oblique.dry_levels", "oblique.dry_friction",
     "oblique.oblique_motion", "oblique.tangential_motion", "oblique.oblique_impact", "oblique.ball",
-    "sweep", "fit.parameters", "fit.least_squares", "fit.errors", "fit.report", "fit.oliver_pharr",
+    "sweep", "fit.parameters", "fit.least_squares", "fit.errors", "fit.report", "fit.materials", "fit.oliver_pharr",
     "fit.hardness", "fit.measurement", "fit.model", "fit.curves", "fit.adhesion", "fit.depth_noise",
     "fit.start", "fit.solution", "fit.classes",
     "fit.nested", "fit.noise", "fit.remarks", "fit.figures", "fit.result",

@@ -63,20 +63,17 @@ def export_of(suffix):
 
 
 def _is_binary(data):
-    """Whether the bytes are no text: control characters, which UTF-16 has only beside others."""
+    """Whether the bytes are no text: zeros, which only UTF-16 has, at every other byte, or other controls."""
     head = data[:4096]
-    if head.startswith((b"\xff\xfe", b"\xfe\xff")) or (
-        len(head) > 1
-        and b"\0" in head[:2]
-        and head[:1] * 1 != b"\0"
-        and head[1:2] == b"\0"
-        and head[3:4] == b"\0"
-    ):
-        return False
-    if len(head) > 3 and head[0:1] == b"\0" and head[2:3] == b"\0":
-        return False
+    utf16 = (
+        head.startswith((b"\xff\xfe", b"\xfe\xff"))
+        or b"\0" in head[:2]
+        and head[:200].count(b"\0") > 0.4 * len(head[:200])
+    )
+    if utf16:
+        return bool(re.search(rb"\0\0\0", head))
     controls = sum(byte < 9 or 13 < byte < 32 for byte in head)
-    return b"\0" in head or controls > 0.02 * len(head)
+    return b"\0" in data or controls > 0.02 * len(head)
 
 
 def is_afm_text(text):

@@ -20,6 +20,10 @@ _NO_CONTACT = re.compile(
 )
 
 
+class NoCurve(ValueError):
+    """A table that is none of a curve, but of results or settings."""
+
+
 class UnknownColumns(ValueError):
     """A table whose header does not tell the columns of depth and force, or their units."""
 
@@ -51,7 +55,7 @@ def columns_of(table, name, given, cantilever=None):
     """
     free, columns, remarks = dict(table.heads), {}, []
     if len(free) < 2:
-        raise ValueError(f"{name} has one column of numbers: give one of depth and one of force")
+        raise NoCurve(f"{name} has one column of numbers: give one of depth and one of force")
     for each in given:
         _check.one_of("a key of columns", each, tuple(SIZES))
         columns[each] = _given(table, each, given[each], free, cantilever)

@@ -9,7 +9,7 @@ import numpy as np
 from .. import _check
 from ..measured_curve import MeasuredCurve, named_segments, segments_of
 from . import words
-from .columns import SIZES, UnknownColumns, columns_of, size_of, stiffness_of
+from .columns import SIZES, NoCurve, UnknownColumns, columns_of, size_of, stiffness_of
 from .results import as_results, of_tests
 from .several import below_each_other, jumps, retract_of, side_by_side
 from .text import Table
@@ -27,10 +27,6 @@ _CONSTANTS = {
 }  # fmt: skip
 
 
-class NoCurve(ValueError):
-    """A table that is none of a curve, but of results."""
-
-
 def curves_of(table, name, sheet="", *, columns=None, spring_constant=None, sensitivity=None):
     """Functions that make the curves of a table: one, or several below each other or side by side."""
     options = {"spring_constant": spring_constant, "sensitivity": sensitivity}
@@ -40,7 +36,9 @@ def curves_of(table, name, sheet="", *, columns=None, spring_constant=None, sens
         found, _ = columns_of(table, name, given, cantilever)
     except UnknownColumns:
         if not given and of_tests(table):
-            raise NoCurve(_no_curve(name, f"a row for each test: {', '.join(of_tests(table)[:4])}")) from None
+            raise NoCurve(
+                _no_curve(name, f"a row for each test: {', '.join(of_tests(table)[:4])}")
+            ) from None
         raise
     if not given:
         numbers = {each: column and column[0] for each, column in found.items()}

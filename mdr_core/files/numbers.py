@@ -21,7 +21,9 @@ def numeric(cell):
 
 def with_comma(cell):
     """Whether a cell is a number with a comma: as decimal sign, or between thousands."""
-    return "," in cell and bool(_DECIMAL_COMMA.fullmatch(cell) or _COMMAS.fullmatch(cell) or _POINTS.fullmatch(cell))
+    return "," in cell and bool(
+        _DECIMAL_COMMA.fullmatch(cell) or _COMMAS.fullmatch(cell) or _POINTS.fullmatch(cell)
+    )
 
 
 def number_reader(cells, name):

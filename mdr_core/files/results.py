@@ -59,8 +59,7 @@ def of_tests(table):
     mechanical = [head for head in heads if words.mechanical(head)]
     others = [
         head for head in heads
-        if head not in mechanical and (words.of_means(head) or any(
-            words.named(each, head) and words.is_none(each, head) for each in ("force", "depth")))
+        if head not in mechanical and (words.of_means(head) or any(words.is_none(each, head) for each in ("force", "depth")))
     ]  # fmt: skip
     return mechanical + others if mechanical and (others or _numbered(table)) else []
 

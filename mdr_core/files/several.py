@@ -27,7 +27,9 @@ def below_each_other(table, columns, name):
         return [("", table)]
     head, edges, labels = found
     # These cells are in the names of the curves.
-    table = replace(table, words={key: cells for key, cells in table.words.items() if key.partition(" ")[2] != head})
+    table = replace(
+        table, words={key: cells for key, cells in table.words.items() if key.partition(" ")[2] != head}
+    )
     return [
         (f"{head} {label}".strip(), _rows(table, slice(start, stop)))
         for (start, stop), label in zip(edges, labels, strict=True)
@@ -99,7 +101,9 @@ def _restarts(table, columns, edges):
 
 def jumps(depth, starts):
     """Whether the depth jumps before each of some samples: by more than its steps, and a share of its range."""
-    size = max(_EDGE * np.nanmax(depth) - _EDGE * np.nanmin(depth), _STEPS * np.nanmedian(np.abs(np.diff(depth))))
+    size = max(
+        _EDGE * np.nanmax(depth) - _EDGE * np.nanmin(depth), _STEPS * np.nanmedian(np.abs(np.diff(depth)))
+    )
     return all(abs(depth[start] - depth[start - 1]) > size for start in starts)
 
 
@@ -147,7 +151,9 @@ def side_by_side(table, columns):
 def _key(table, column):
     """Name of a column without its unit and a number at its end."""
     head = table.heads[column].removesuffix(table.units.get(column, ""))
-    head = re.sub(r"[(\[{]([^()\[\]{}]*)[)\]}]", lambda found: " " if unit_named(found[1]) else found[0], head)
+    head = re.sub(
+        r"[(\[{]([^()\[\]{}]*)[)\]}]", lambda found: " " if unit_named(found[1]) else found[0], head
+    )
     name = words.normal(re.sub(r"/.*$", " ", head))
     name = re.sub(r"[\s.]*\d+$", "", name)
     unit = table.unit(column)

@@ -26,7 +26,8 @@ _OTHER_UNITS = re.compile(
 )
 #: A title between rows, as "Test 2" or "# Messung Nr. 3".
 _TITLE = re.compile(
-    rf"[#*=\-\s]*(?:{words.SAMPLES})[\s_:.#=-]*(?:no|nr|number|n°|№)?[\s_:.#=-]*(\d+)\b[^\d;,\t]{{0,40}}", re.I
+    rf"[#*=\-\s]*(?:{words.SAMPLES})[\s_:.#=-]*(?:no|nr|number|n°|№)?[\s_:.#=-]*(\d+)\b[^\d;,\t]{{0,40}}",
+    re.I,
 )
 #: Lines of a header that name a segment, and its number.
 _SEGMENT = re.compile(r"#+\s*segment:\s*(\S+)", re.I)
@@ -163,8 +164,12 @@ def _table(lines, name, limit, before=None):
     if not any(counts):
         raise ValueError(f"{name}: no samples; expected rows of numbers")
     width = Counter(filter(None, counts)).most_common(1)[0][0]
-    pairs = pairwise([i for i, line in enumerate(lines) if line.cells])
-    first = next((i for i, j in pairs if counts[i] == counts[j] == width), counts.index(width))
+    # Lines of a header, as "Depth limit, 200", have fewer numbers than rows.
+    finite = [sum(map(isfinite, line.values)) for line in lines]
+    usual = Counter(finite[i] for i, count in enumerate(counts) if count == width).most_common(1)[0][0]
+    pairs = list(pairwise([i for i, line in enumerate(lines) if line.cells]))
+    whole = (i for i, j in pairs if counts[i] == counts[j] == width and min(finite[i], finite[j]) >= usual)
+    first = next(whole, next((i for i, j in pairs if counts[i] == counts[j] == width), counts.index(width)))
     header = [line.text for line in lines[:first]]
     names, units = _heads(header, width, f"{name}, line {lines[first].number}")
     if not any(names) and before is not None and set(before.heads) <= set(range(width)):
@@ -187,7 +192,9 @@ def _table(lines, name, limit, before=None):
     good = {line.number for line, row in zip(whole, finite, strict=True) if row[numeric].all()}
     # A row of numbers before the rows, after which the header goes on.
     early = {
-        line.number: line.text for line in lines[:first] if line.width == width and all(map(isfinite, line.values))
+        line.number: line.text
+        for line in lines[:first]
+        if line.width == width and all(map(isfinite, line.values))
     }
     odd = {line.number: line.text for line in lines[first:] if line.cells and line.number not in good}
     return Table(
@@ -259,7 +266,14 @@ def _are_units(cells):
     kinds = [unit_of("", cell).kind for cell in cells if cell]
     known = sum(kind in ("length", "force", "time", "voltage") for kind in kinds)
     others = sum(bool(_OTHER_UNITS.fullmatch(cell)) for cell in cells if cell)
-    doubts = sum(bool(unit_of("", cell).doubt and re.fullmatch(r"[^%()]{1,12}[^\W\d]", cell) and not words.quantity_of(cell)) for cell in cells)
+    doubts = sum(
+        bool(
+            unit_of("", cell).doubt
+            and re.fullmatch(r"[^%()]{1,12}[^\W\d]", cell)
+            and not words.quantity_of(cell)
+        )
+        for cell in cells
+    )
     return known + doubts > 0 and known + others + doubts >= len(kinds)
 
 
@@ -268,7 +282,7 @@ def _parts(lines):
     parts, start, rows, last, title = [], 0, 0, 0, ""
     for i, line in enumerate(lines):
         named = is_title(line.text)
-        if line.width:
+        if line.width and (rows or sum(map(isfinite, line.values)) > 1):
             rows, last = rows + 1, i
         elif rows >= 2 and (named or _is_header(line.text)):
             parts.append((title, lines[start : last + 1]))

@@ -31,14 +31,14 @@ _STATISTICS = (
 _NONE = {
     "force": re.compile(_WORD % (
         rf"{_STATISTICS}|lat\w*|friction\w*|tangential\w*|horizontal\w*|h ?defl\w*|hdefl\w*|quer\w*|seiten\w*|reib\w*"
-        r"|frottement|roz\w*|attrito|fricci[oó]n|fx|fy|摩擦\w*|preload|adhesion|pull ?off"
+        r"|frottement|roz\w*|attrito|fricci[oó]n|fx|fy|[fpl] ?max|摩擦\w*|preload|adhesion|pull ?off"
     )),
     "depth": re.compile(_WORD % (
         rf"{_STATISTICS}|contact(?! point)|residual|plastic|final|permanent|area|radius|diameter|wavelength|roughness"
-        r"|lateral|drift(?! ?corr)|frame(?! ?corr)|offset|hc|hf|hr|hmax|hp|width|[xy](?!\w)|x ?pos\w*|y ?pos\w*|restl\w*|"
+        r"|lateral|drift(?! ?corr)|frame(?! ?corr)|offset|h ?(?:c|f|r|max|p|i)|width|[xy](?!\w)|x ?pos\w*|y ?pos\w*|restl\w*|"
         r"kontakt\w*|接触\w*|残余\w*"
     )),
-    "time": re.compile(_WORD % (rf"{_STATISTICS}|constant|period|dwell|hold|interval")),
+    "time": re.compile(_WORD % "std|sd|deviation|error|constant|period|dwell|hold|interval|step|rate"),
 }  # fmt: skip
 #: Names that say the depth of the tip, and others of the position of a piezo, with its deflection.
 _DEPTH = re.compile(
@@ -120,7 +120,7 @@ def numbers_parts(head):
 
 def mechanical(head):
     """Whether a name is that of a modulus or a hardness."""
-    return bool(_MECHANICAL.search(normal(head)))
+    return bool(_MECHANICAL.search(normal(head)) or re.search(r"(?<![^\W_])[kMG]Pa(?![^\W_])", head))
 
 
 def of_means(text):

@@ -4,8 +4,8 @@ from dataclasses import replace
 from functools import partial
 
 from ..results.report import imported
-from .columns import UnknownColumns
-from .curve import NoCurve, curves_of
+from .columns import NoCurve, UnknownColumns
+from .curve import curves_of
 from .text import read_tables
 
 
@@ -24,8 +24,9 @@ def from_workbook(path, options):
             text = frame.to_csv(sep="\t", header=False, index=False)
             for title, table in read_tables(text, name):
                 curves += curves_of(table, f"{name}, {title}" if title else name, sheet, **options)
-        except NoCurve:
-            left.append(f"sheet {sheet!r} is left out, a table of results")
+        except NoCurve as error:
+            if "results" in str(error):
+                left.append(f"sheet {sheet!r} is left out, a table of results")
         except UnknownColumns as error:
             if error.named:
                 left.append(f"sheet {sheet!r} is left out: {error}")

@@ -16,6 +16,8 @@ _MISFIT, _SHARE = 4.0, 0.005
 _WAVY, _ENOUGH_FOR_WAVES, _LAGS = 0.15, 50, range(6, 26)
 #: Fewest samples whose noise is known.
 _ENOUGH = 8
+#: Share of the height above which a change of an area function is no rounding.
+_REPAIRED = 1e-6
 #: Share of the height below which an area function need not grow, and largest radius of a tip over its
 #: height, and height over radius.
 _BLUNT, _WIDEST = 0.05, 100.0
@@ -125,7 +127,10 @@ def _correlation(residual):
 
 
 def area_samples(coefficients, height, samples, limit, unit):
-    """Radii and heights (m) of a profile with A(h) = Σ Cᵢ h^(2/2ⁱ), of A in unit² and h in a unit."""
+    """Radii and heights (m) of a profile with A(h) = Σ Cᵢ h^(2/2ⁱ), of A in unit² and h in a unit, and remarks.
+
+    The remarks say where the profile is another one than that of the area function.
+    """
     coefficients = _check.finite_array("area coefficients", coefficients).ravel()
     height = _check.positive_number("height", height, unit="m")
     samples = _check.positive_number("samples", samples)
@@ -157,4 +162,24 @@ def area_samples(coefficients, height, samples, limit, unit):
     bound = "is where the tip is concave by more than 3 %"
     remedy = "the contact would not be compact"
     _check.refuse("area function: height", h, far, bound, unit="m", remedy=remedy)
-    return r, z
+    remarks = [_repaired(z, h)] if np.any(np.abs(z - h) > _REPAIRED * h[-1]) else []
+    if first:
+        below = engineering(float(f"{h[1]:.2g}"), "m")
+        remarks.append(
+            f"the area function does not grow below a height of {below}: the tip is a cone there"
+        )
+    return r, z, tuple(remarks)
+
+
+def _repaired(z, h):
+    """By how much the heights of an area function were changed."""
+    change = np.abs(z - h)
+    share = change[1:] / h[1:]
+    most, place, worst = (
+        engineering(float(f"{x:.2g}"), "m")
+        for x in (change.max(), h[change.argmax()], h[1 + share.argmax()])
+    )
+    return (
+        f"the area function is concave in parts: heights were changed by up to {most} (at {place}), or "
+        f"{100 * share.max():.2g} % (at {worst}), to make the tip convex"
+    )
