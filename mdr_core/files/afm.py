@@ -28,20 +28,24 @@ _REMEDIES = {
 }
 #: What to export instead of files that are not read, by their suffixes.
 _EXPORTS = {
-    r"\.(spm|pfc|\d{3})": "NanoScope Analysis of Bruker: export the curve as ASCII text, with Ramp and Deflection "
-    "in nm and pN or nN",
+    r"\.(spm|pfc|\d{3})": "NanoScope Analysis of Bruker: export the curve as ASCII text, with Ramp and "
+    "Deflection in nm and pN or nN",
     r"\.(nid|nhf)": "Nanosurf's program: export depth or tip position and force as a text or CSV table",
-    r"\.tdms": "the program of the instrument, or Excel with the importer of NI: save depth, force and time as a "
-    "CSV table",
-    r"\.(h5|hdf5)": "the program that wrote it: save depth, force and time of a curve as a CSV table, with units in "
-    "its header",
+    r"\.tdms": "the program of the instrument, or Excel with the importer of NI: save depth, force and "
+    "time as a CSV table",
+    r"\.(h5|hdf5)": "the program that wrote it: save depth, force and time of a curve as a CSV table, with "
+    "units in its header",
     r"\.(mdt)": "NT-MDT's program: export the curve as ASCII text",
     r"\.(hap|fis)": "the program WIN-HCU of Fischer: export depth, force and time of a test as text",
-    r"\.(hys|tst|mss|nmd|msm)": "the instrument's program: export depth, force and time of a test as text or Excel",
-    r"\.(ods|parquet|mat|npy|npz|pkl|opj|opju)": "the program that wrote it: save it as a CSV table with names and "
-    "units in its header",
-}  # fmt: skip
-_EXPORT = "the program of the instrument: export depth, force and time as a text or CSV table with units in its header"
+    r"\.(hys|tst|mss|nmd|msm)": "the instrument's program: export depth, force and time of a test as text "
+    "or Excel",
+    r"\.(ods|parquet|mat|npy|npz|pkl|opj|opju)": "the program that wrote it: save it as a CSV table with "
+    "names and units in its header",
+}
+_EXPORT = (
+    "the program of the instrument: export depth, force and time as a text or CSV table with units in its "
+    "header"
+)
 
 
 def refuse_binary(path, data):
@@ -63,13 +67,10 @@ def export_of(suffix):
 
 
 def _is_binary(data):
-    """Whether the bytes are no text: zeros, which only UTF-16 has, at every other byte, or other controls."""
+    """Whether the bytes are no text: zeros, which only UTF-16 has, or other control characters."""
     head = data[:4096]
-    utf16 = (
-        head.startswith((b"\xff\xfe", b"\xfe\xff"))
-        or b"\0" in head[:2]
-        and head[:200].count(b"\0") > 0.4 * len(head[:200])
-    )
+    marked = head.startswith((b"\xff\xfe", b"\xfe\xff"))
+    utf16 = marked or (b"\0" in head[:2] and head[:200].count(b"\0") > 0.4 * len(head[:200]))
     if utf16:
         return bool(re.search(rb"\0\0\0", head))
     controls = sum(byte < 9 or 13 < byte < 32 for byte in head)

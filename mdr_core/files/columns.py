@@ -14,6 +14,8 @@ SIZES = {
 #: Units of a deflection, which times the stiffness of the cantilever is a force.
 _DEFLECTION = UNITS["length"] | UNITS["voltage"]
 _GIVE = 'give columns={"depth": (0, "nm"), "force": (1, "mN")}, numbers and units'
+#: Words of the time that are no symbols.
+_TIME = re.compile(r"\b(time|\w*zeit|temps|tiempo|tempo)\b|时间")
 #: Names of columns of a stiffness that is not that of the contact.
 _NO_CONTACT = re.compile(
     r"frame|spring|machine|support|squared|correct|system|cantilever|column|instrument|damping"
@@ -42,7 +44,7 @@ class UnknownColumns(ValueError):
 
 
 def size_of(each, unit):
-    """Size (SI) of a unit of a quantity, negative for "−nm"; of a deflection that of its length or voltage."""
+    """Size (SI) of a unit of a quantity, negative for "−nm"; of a deflection of its length or voltage."""
     if unit in SIZES[each]:
         return SIZES[each][unit]
     return -_DEFLECTION[unit[1:]] if unit.startswith("−") else _DEFLECTION[unit]
@@ -146,23 +148,18 @@ def _unknown(table, name, each, free):
     for column, head in free.items():
         unit = table.unit_of(column)
         if words.named(each, head) and unit.doubt:
-            example = (
-                '{"depth": (%d, "nm"), …}' % column
-                if each == "depth"
-                else '{"%s": (%d, "mN"), …}' % (each, column)
-            )
+            unit_given = "nm" if each == "depth" else "mN"
             return (
-                f"{name}: the unit of {each} in {head!r} is not understood: {unit.doubt!r} is no unit of this "
-                f"package, or scales one. Convert the numbers if need be, and give columns={example}, the number "
-                f"of the column and its unit, out of {_units(each)}"
+                f"{name}: the unit of {each} in {head!r} is not understood: {unit.doubt!r} is no unit "
+                "of this package, or scales one. Convert the numbers if need be, and give the number of the "
+                f'column and its unit, columns={{"{each}": ({column}, "{unit_given}"), …}}, out of {_units(each)}'
             )
-    fits = [
-        head for k, head in free.items() if table.unit_of(k).kind == {"depth": "length"}.get(each, each)
-    ]
+    kind = {"depth": "length"}.get(each, each)
+    fits = [head for k, head in free.items() if table.unit_of(k).kind == kind]
     several = f"; of {', '.join(map(repr, fits))} none says that it is the {each}" if fits else ""
     return (
-        f"{name} has no column of {each} with a unit in its header, {table.heads}{several}: {_GIVE}; a deflection "
-        "is no force. NT-MDT's files need spring_constant= (N/m) and sensitivity= (m/A)"
+        f"{name} has no column of {each} with a unit in its header, {table.heads}{several}: {_GIVE}; a "
+        "deflection is no force. NT-MDT's files need spring_constant= (N/m) and sensitivity= (m/A)"
     )
 
 
@@ -174,13 +171,11 @@ def _untimed(table, free):
     """A remark on a time whose unit is not understood."""
     for column, head in free.items():
         unit = table.unit_of(column)
-        if re.search(
-            r"(?i)\b(time|zeit|temps|tiempo|tempo)\b|时间", words.normal(head)
-        ) and not words.is_none("time", head):
-            if unit.doubt or not (unit.kind or _other_kind(unit, head)):
-                return [
-                    f'{head!r} has no unit of time and is left out: give columns={{"time": ({column}, "s")}}'
-                ]
+        unknown = unit.doubt or not (unit.kind or _other_kind(unit, head))
+        if unknown and _TIME.search(words.normal(head)) and not words.is_none("time", head):
+            return [
+                f'{head!r} has no unit of time and is left out: give columns={{"time": ({column}, "s")}}'
+            ]
     return []
 
 
@@ -218,7 +213,7 @@ def stiffness_of(table):
         unit, name = table.unit_of(column), words.normal(head)
         if unit.kind != "stiffness" or unit.doubt or _NO_CONTACT.search(name):
             continue
-        if re.search(r"stiffness|steifigkeit|raideur|rigid|rigidez|rigidezza|刚度|^s\b", name):
+        if re.search(r"stiffness|steifigkeit|raideur|rigid|刚度|^s\b|d[fpl] d[hdz]\b", name):
             found.append(("contact" in name or "kontakt" in name, -column, unit.size))
     if not found:
         return None

@@ -50,8 +50,8 @@ def curves_of(table, name, sheet="", *, columns=None, spring_constant=None, sens
         groups = [found] if given else side_by_side(part, found)
         if groups is None:
             raise UnknownColumns(
-                f"{name} has columns of one name, but not as many of depth as of force, {table.heads}: give "
-                'columns={"depth": (0, "nm"), "force": (1, "mN")} for one curve',
+                f"{name} has columns of one name, but not as many of depth as of force, {table.heads}: "
+                'give columns={"depth": (0, "nm"), "force": (1, "mN")} for one curve',
                 table,
             )
         for group in groups:
@@ -64,8 +64,8 @@ def curves_of(table, name, sheet="", *, columns=None, spring_constant=None, sens
 
 def _no_curve(name, reason):
     return (
-        f"{name} is a table of results, not a curve, as it has {reason}: read the file with depth and force of a "
-        "test, or give columns= if this is one"
+        f"{name} is a table of results, not a curve, as it has {reason}: read the file with depth and force "
+        "of a test, or give columns= if this is one"
     )
 
 
@@ -133,8 +133,9 @@ def _in_time(table, name, values, rows, columns, remarks):
     few = 0 < starts.size <= len(rows) // 4 and np.diff([0, *starts, len(rows)]).min() > 2
     if few and jumps(values["depth"][rows], starts):
         raise ValueError(
-            f"{name}: the time starts again at line {table.lines[rows[starts[0]]]}, where the depth jumps: for "
-            "several curves give each a file, a title like 'Test 2' above it, or a column 'test' with numbers"
+            f"{name}: the time starts again at line {table.lines[rows[starts[0]]]}, where the depth jumps: "
+            "for several curves give each a file, a title like 'Test 2' above it, or a column 'test' with "
+            "numbers"
         )
     if starts.size or not np.any(steps):
         remarks.append("the time does not ascend and is left out: samples are in the order of the file")
@@ -157,7 +158,7 @@ def _cantilever(table, options):
 
 
 def _constant(header, names, kind):
-    """Constant of the cantilever (SI) in a header, with its unit, or without one as JPK writes it; or None."""
+    """Constant of the cantilever (SI) in a header, with a unit or as JPK writes it without one, or None."""
     for line in header:
         line = cleaned(line)
         found = re.match(
@@ -212,8 +213,8 @@ def _of_tip(head, values, stiffness, own):
     if piezo:
         return depth, [f"{head!r} includes the deflection force/stiffness: give spring_constant= (N/m)"]
     if not says and np.abs(force).max() < _SMALL:
-        text = f"{head!r} does not say that it is a depth: if it is the position of a piezo, it includes the deflection"
-        return depth, [f"{text} force/stiffness: give spring_constant= (N/m)"]
+        text = f"{head!r} does not say that it is a depth: if it is the position of a piezo, it includes"
+        return depth, [f"{text} the deflection force/stiffness: give spring_constant= (N/m)"]
     return depth, []
 
 
@@ -226,8 +227,8 @@ def _contact_stiffness(table, contact, rows, columns):
         unit = unit_of("", size)
         if column not in table.values or unit.kind != "stiffness" or unit.doubt:
             raise ValueError(
-                f"columns: stiffness = {contact!r} must be the number of a column of {table.heads} and a unit of "
-                'stiffness, as in (4, "N/m")'
+                f"columns: stiffness = {contact!r} must be the number of a column of {table.heads} and a unit "
+                'of stiffness, as in (4, "N/m")'
             )
         size = unit.size
     unit = f"{size:g} N/m" if size != 1 else "N/m"
@@ -238,7 +239,7 @@ def _contact_stiffness(table, contact, rows, columns):
 
 
 def _with_retract(table, name, known):
-    """A table with approach and retract side by side as one with both in the order of time, and a remark."""
+    """A table with approach and retract below each other where they stand side by side, and a remark."""
     columns, _ = columns_of(table, name, {}, known)
     others = retract_of(table, columns)
     if others is None:

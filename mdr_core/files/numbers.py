@@ -52,8 +52,8 @@ def number_reader(cells, name):
         doubtful = [cell for cell in points if _POINTS.fullmatch(cell)]
         if doubtful and len(doubtful) == len(points):
             raise ValueError(
-                f"{name}: beside {min(decimal)!r} with a decimal comma, {doubtful[0]!r} may be a thousand times "
-                "larger: write numbers without separators of thousands"
+                f"{name}: beside {min(decimal)!r} with a decimal comma, {doubtful[0]!r} may be a thousand "
+                "times larger: write numbers without separators of thousands"
             )
         return lambda cell: _plain(cell.replace(",", "."))
     if thousands or points:
@@ -61,8 +61,8 @@ def number_reader(cells, name):
     # All have three digits after the comma: with a fixed number of decimals there are none without it.
     if any(re.fullmatch(r"[-+]?\d+", cell) and cell.strip("+-0") for cell in cells):
         raise ValueError(
-            f"{name}: the comma of {min(commas)!r} may be a decimal sign, or separate thousands: write numbers "
-            "without separators of thousands, and with decimal points"
+            f"{name}: the comma of {min(commas)!r} may be a decimal sign, or separate thousands: write "
+            "numbers without separators of thousands, and with decimal points"
         )
     return lambda cell: _plain(cell.replace(",", "."))
 

@@ -6,8 +6,8 @@ from . import words
 
 #: Names of sheets of results and settings.
 _SHEETS = (
-    "result", "summary", "statistic", "input", "analysis", "average", "ergebnis", "zusammenfassung", "auswertung",
-    "résultat", "resultad", "risultat", "resumen", "riassunto", "résumé", "结果", "汇总", "统计",
+    "result", "summary", "statistic", "input", "analysis", "average", "ergebnis", "zusammenfassung",
+    "auswertung", "résultat", "resultad", "risultat", "resumen", "riassunto", "résumé", "结果", "汇总", "统计",
 )  # fmt: skip
 #: Largest number of rows that a person would take for tests where the numbers go up and down smoothly.
 _FEW = 100
@@ -33,11 +33,11 @@ def as_results(table, columns, sheet=""):
     timed = columns["time"] is not None
     depth, force = (table.values[columns[each]] for each in ("depth", "force"))
     path = _is_path(depth, force)
+    if path and (timed or _falls(force)):
+        return ""
     deviations = [head for head in means if words.named("force", head) or words.named("depth", head)]
     if deviations and not timed:
         return f"a column of means or deviations, {deviations[0]!r}"
-    if path and (timed or _falls(force)):
-        return ""
     signs = []
     if mechanical:
         signs.append(f"a column of {mechanical[0]!r}")
@@ -57,11 +57,13 @@ def of_tests(table):
     """Names of columns that only a table of tests has, as of moduli; empty where there are not two."""
     heads = [*table.heads.values(), *(key.partition(" ")[2] for key in table.words)]
     mechanical = [head for head in heads if words.mechanical(head)]
-    others = [
-        head for head in heads
-        if head not in mechanical and (words.of_means(head) or any(words.is_none(each, head) for each in ("force", "depth")))
-    ]  # fmt: skip
+    others = [head for head in heads if head not in mechanical and _of_whole_test(head)]
     return mechanical + others if mechanical and (others or _numbered(table)) else []
+
+
+def _of_whole_test(head):
+    """Whether a name is that of a mean, a largest value or another number of a whole test."""
+    return words.of_means(head) or any(words.is_none(each, head) for each in ("force", "depth"))
 
 
 def _falls(force):

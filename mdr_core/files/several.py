@@ -11,12 +11,12 @@ from .units import unit_named
 
 #: Names of the approach and the retract in the names of columns that stand side by side.
 _PAIRS = (
-    ("ex", "rt"), ("ext", "ret"), ("extend", "retract"), ("extension", "retraction"), ("approach", "retract"),
-    ("approach", "withdraw"), ("trace", "retrace"), ("forward", "backward"), ("loading", "unloading"),
-    ("app", "ret"), ("hin", "rück"), ("aller", "retour"),
+    ("ex", "rt"), ("ext", "ret"), ("extend", "retract"), ("extension", "retraction"),
+    ("approach", "retract"), ("approach", "withdraw"), ("trace", "retrace"), ("forward", "backward"),
+    ("loading", "unloading"), ("app", "ret"), ("hin", "rück"), ("aller", "retour"),
 )  # fmt: skip
-#: Most curves that a column tells apart; and largest step at the edge of two parts of one curve, as a share of
-#: the range of the depth, and in median steps.
+#: Most curves that a column tells apart; and largest step at the edge of two parts of one curve, as a share
+#: of the range of the depth, and in median steps.
 _MOST, _EDGE, _STEPS = 10_000, 0.1, 5.0
 
 
@@ -73,7 +73,8 @@ def _blocks(table, columns, name):
         if restarts:
             raise ValueError(
                 f"{name}: depth and force start again where the column {head!r} changes, at line "
-                f"{table.lines[changes[0]]}: if these are several curves, name it 'test', or give each a file"
+                f"{table.lines[changes[0]]}: if these are several curves, name it 'test', or give "
+                "each a file"
             )
     return None
 
@@ -100,7 +101,7 @@ def _restarts(table, columns, edges):
 
 
 def jumps(depth, starts):
-    """Whether the depth jumps before each of some samples: by more than its steps, and a share of its range."""
+    """Whether the depth jumps before each of some samples, by more than its steps."""
     size = max(
         _EDGE * np.nanmax(depth) - _EDGE * np.nanmin(depth), _STEPS * np.nanmedian(np.abs(np.diff(depth)))
     )
@@ -108,7 +109,7 @@ def jumps(depth, starts):
 
 
 def _complete(table, columns, edges):
-    """Whether the force of each part rises from its smallest values and is its largest inside or at the end."""
+    """Whether the force of each part begins at less than half of its largest value."""
     force = np.abs(table.values[columns["force"][0]])
     for start, stop in edges:
         part = force[start:stop]
@@ -133,7 +134,9 @@ def side_by_side(table, columns):
     if count == len(same["force"]) == 1:
         return [columns]
     if count != len(same["force"]):
-        return None
+        # One quantity in several units is that of one curve.
+        units = [[table.unit(k) for k in each] for each in same.values()]
+        return [columns] if all(len(set(each)) == len(each) for each in units) else None
     time = columns["time"]
     times = [
         k

@@ -200,7 +200,7 @@ def _table(lines, name, limit, before=None):
     return Table(
         {k: heads[k] for k in numeric}, {k: values[:, k] for k in numeric},
         np.array([line.number for line in whole]), early | odd,
-        {f"{k + 1} {heads[k]}": [line.cells[k] for line in whole] for k in range(width) if k not in numeric},
+        {f"{k + 1} {heads[k]}": [row.cells[k] for row in whole] for k in range(width) if k not in numeric},
         {k: units[k] for k in numeric if units[k]}, tuple(header),
     )  # fmt: skip
 
@@ -252,8 +252,8 @@ def _heads(header, width, place):
         if len(found) not in (0, 1, width):
             count = "two" if len(found) == 2 else len(found)
             raise ValueError(
-                f"{place}: expected {count} numbers, as the header names {count} units, found {width}; where "
-                "commas are decimal ones, separate columns by semicolons"
+                f"{place}: expected {count} numbers, as the header names {count} units, found {width}; "
+                "where commas are decimal ones, separate columns by semicolons"
             )
         names = found if len(found) == width else None
     nothing = [""] * width
@@ -293,7 +293,7 @@ def _parts(lines):
 
 
 def _is_header(line):
-    """Whether a line between rows names columns of a quantity with units, or says that it is their names."""
+    """Whether a line between rows names columns of two quantities, or says that it has their names."""
     labelled = _LABELLED.match(line)
     if labelled and labelled[1].lower() in ("columns", "fancynames", "segmentindex"):
         return True

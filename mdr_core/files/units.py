@@ -35,7 +35,8 @@ _OTHERS = {
     "angstroms": ("length", 1e-10), "ångström": ("length", 1e-10), "ångstrom": ("length", 1e-10),
     "ångströms": ("length", 1e-10), "埃": ("length", 1e-10), "minute": ("time", 60.0),
     "minutes": ("time", 60.0), "minuten": ("time", 60.0), "minutos": ("time", 60.0),
-    "minuti": ("time", 60.0), "mins": ("time", 60.0), "hr": ("time", 3600.0), "hours": ("time", 3600.0), "msec": ("time", 1e-3), "µsec": ("time", 1e-6),
+    "minuti": ("time", 60.0), "mins": ("time", 60.0),
+    "hr": ("time", 3600.0), "hours": ("time", 3600.0), "msec": ("time", 1e-3), "µsec": ("time", 1e-6),
 }  # fmt: skip
 #: Units that are known and not read: their sizes are no powers of ten of SI units, or are several.
 _FOREIGN = re.compile(
@@ -47,19 +48,30 @@ _POWER = r"(?:10\s*(?:\^\s*\(?\s*([-+]?\d+)\s*\)?|([-+]\s?\d+))|1(?:[.,]0*)?[eE]
 _TIMES = r"\s*(?:[*·]|[xX](?=\s*1)|times)\s*"
 _BEFORE = re.compile(rf"(?:{_TIMES})?{_POWER}(?:{_TIMES}|\s*)(?=\S)")
 _AFTER = re.compile(rf"({_TIMES}|\s*/\s*|\s*){_POWER}")
+#: Words that scale a unit or a quantity, or stand for a function of it.
+_SCALES = (
+    "tens?|tenths?|hundreds?|hundredths?|thousands?|thousandths?|millions?|millionths?|billions?|trillions?|dozens?"
+    "|half|halves|double|zehner|zehntel|hunderte?|hundertstel|tausende?|tausendstel|million(?:en)?|dizaines?"
+    "|dixièmes?|centaines?|centièmes?|milliers?|millièmes?|decenas|décimas|cientos|centésimas|miles|milésimas"
+    "|decine|decimi|centinaia|centesimi|migliaia|millesimi"
+    "|atto|femto|pico|piko|nano|micro|mikro|milli|centi|zenti|deci|dezi|deca|deka|hecto|hekto|kilo|mega|giga|tera"
+    "|log(?:10|2|_?e)?|ln|sqrt|squared?|inverse|reciprocal|normali[sz]ed|norm|normiert|normalis[eé]e?s?"
+    "|dimensionless|relative|scaled?|skaliert|factor|faktor|facteur|multiplied|divided|x ?1[0 ]+"
+)
 #: What may not stand beside a unit: numbers that scale, prefixes on their own, functions.
 _SCALING = re.compile(
-    r"(?:[*·/÷]|(?<![^\W_])[xX])\s*\d[\d.,]*|\d\s*[*·]|^\s*\d+[^\W\d_](?![^\W\d_])|\d[eE][-+]?\d+|\d+\s*\^"
-    r"|(?<![\d.])10\s?[-+]\s?\d|[eE][-+]\d|(?<![^\W_])(?:tens?|tenths?|hundreds?|hundredths?|thousands?|"
-    r"thousandths?|millions?|millionths?|billions?|trillions?|dozens?|half|halves|double|zehner|zehntel|hunderte?|"
-    r"hundertstel|tausende?|tausendstel|million(?:en)?|dizaines?|dixièmes?|centaines?|centièmes?|milliers?|"
-    r"millièmes?|decenas|décimas|cientos|centésimas|miles|milésimas|decine|decimi|centinaia|centesimi|migliaia|"
-    r"millesimi|atto|femto|pico|piko|nano|micro|mikro|milli|centi|zenti|deci|dezi|deca|deka|hecto|hekto|kilo|mega|"
-    r"giga|tera|log(?:10|2|_?e)?|ln|sqrt|square[sd]?|inverse|reciprocal|normali[sz]ed|norm|normiert|normalis[eé]e?s?|"
-    r"dimensionless|relative|x\s?1[0 ]+)(?![^\W\d_])",
+    r"(?:[*·/÷]|(?<![^\W_])x)\s*\d[\d.,]*|\d+\s*[*·]|\d\s*x(?![^\W_])|^\s*10+\s|^\s*\d+[^\W\d_](?![^\W\d_])"
+    r"|\d+e[-+]?\d+|\d*\s*\^\S*|(?<![\d.])10\s?[-+]\s?\d+|e[-+]\d+"
+    rf"|(?<![^\W_])(?:{_SCALES})(?![^\W\d_])",
     re.I,
-)  # fmt: skip
+)
 _BRACKETS = re.compile(r"[(\[{<]([^()\[\]{}<>]*)[)\]}>]")
+#: What may stand behind the unit in a name, as in "Defl_pN_Rt".
+_LAST = re.compile(r"[\s_-]+(ex|rt|ext|ret|extend|retract|approach|withdraw|trace|retrace|raw|\d+)$", re.I)
+#: What stands before the slash of a compound unit, as of a rate.
+_A_UNIT = re.compile(r"[pnµumkMGcd]?[NmVgsJA]|[kMG]?Pa|1")
+#: A prefix that stands alone before a unit without one, or before a name: "Force m(N)", "kForce (N)".
+_LONE_PREFIX = re.compile(r"[^\W\d_][\s_]+[pnµumkM]\s*$|(?<![^\W\d_])[pnµumkM](?=[A-Z][a-z]{3})")
 #: Smallest and largest sizes of units (SI) of a depth, force or time that anybody would write.
 _USUAL = {"length": (1e-12, 1.0), "force": (1e-12, 1e3), "time": (1e-6, 60.0), "voltage": (1e-6, 1.0)}
 #: Longest header of a column that is read.
@@ -80,10 +92,15 @@ class Unit:
     doubt: str = ""
 
 
+#: Signs as they are after a wrong decoding, or in LaTeX and HTML.
+_MOJIBAKE = {
+    "Âµ": "µ", "Î¼": "µ", "Ã…": "Å", "Ã\x85": "Å", "Ã—": "*", "\\mu": "µ", "&micro;": "µ", "&#181;": "µ",
+}  # fmt: skip
+
+
 def cleaned(text):
     """Header with one character for each sign: µ, -, * and ^, no accents of a wrong encoding."""
-    for wrong, right in (("Âµ", "µ"), ("Î¼", "µ"), ("Ã…", "Å"), ("Ã\x85", "Å"), ("\\mu", "µ"), ("&micro;", "µ"),
-                         ("&#181;", "µ"), ("â»", "^-"), ("Ã—", "*")):  # fmt: skip
+    for wrong, right in _MOJIBAKE.items():
         text = text.replace(wrong, right)
     # Superscripts become digits: they are exponents.
     text = re.sub("([⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)", r"^\1", text)
@@ -119,7 +136,7 @@ def _with(unit, rest):
     """A unit with the doubt that is in the rest of the header."""
     if unit.doubt or unit.kind not in UNITS:
         return unit
-    beside = _SCALING.search(rest)
+    beside = _SCALING.search(rest) or (unit.size in (1.0, 60.0) and _LONE_PREFIX.search(rest))
     if beside:
         return Unit(unit.kind, unit.name, unit.size, beside[0].strip())
     for piece in _BRACKETS.findall(rest):
@@ -180,8 +197,8 @@ def _in_brackets(text):
                     unit = _scaled(unit, scale, inside=False)
             return unit, rest
         inner = _at_the_end(match[1])
-        if inner and re.search(r"\d", match[1]):
-            # As in (0.1 mN), (10e-3 N).
+        if inner and (re.search(r"\d", match[1]) or re.search(r"(?<!\w)\w{1,2}(?!\w)", inner[1])):
+            # As in (0.1 mN), (10e-3 N), (m N).
             return Unit(inner[0].kind, inner[0].name, inner[0].size, match[1].strip()), ""
         if match[1].strip() == "h":
             return Unit("time", "h", 3600.0), before
@@ -198,12 +215,7 @@ def _after_slash(text):
         return None
     before, after = before.strip(), after.strip()
     tail = re.split(r"[\s,_(\[]+", before)[-1]
-    if (
-        _parsed(tail)
-        or _parsed(f"{tail}/{after}")
-        or _doubt_of(tail)
-        or re.fullmatch(r"[µa-zA-Z]*[NmVg]|1", tail)
-    ):
+    if _parsed(tail) or _parsed(f"{tail}/{after}") or _doubt_of(tail) or _A_UNIT.fullmatch(tail):
         # "Load µN/s" is a rate, "Stiffness N/m" no length.
         compound = _parsed(f"{tail}/{after}")
         return (compound or Unit(), "")
@@ -214,9 +226,7 @@ def _after_slash(text):
 def _at_the_end(text):
     """Unit at the end of a name, "Depth nm", "load_micro_N", "Defl_pN_Rt", and what stands before it."""
     text = text.strip(" .:;,_-()[]")
-    ends = [text, re.sub(r"[\s_-]+(ex|rt|ext|ret|extend|retract|approach|withdraw|trace|retrace|raw|\d+)$", "",
-                         text, flags=re.I)]  # fmt: skip
-    for end in dict.fromkeys(ends):
+    for end in dict.fromkeys((text, _LAST.sub("", text))):
         starts = [0, *(m.end() for m in re.finditer(r"[\s_,:;]+|(?<=[^\W\d_])-(?=[^\W\d_])", end))]
         for start in starts:
             unit = _parsed(end[start:].replace("_", " "), _upper(end))

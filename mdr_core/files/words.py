@@ -5,71 +5,92 @@ from functools import lru_cache
 
 from .units import cleaned
 
+#: A word begins and ends where no letter of an alphabet stands beside it.
+_BOUNDED = r"(?<![^\W\d_])(?:%s)(?![^\W\d_])"
+
+
+def _any_of(*words):
+    return re.compile(_BOUNDED % "|".join(words))
+
+
 #: Words of each quantity, in small letters; single letters are its symbols.
 _QUANTITIES = {
-    "time": r"time|zeit|\w*zeit|temps|tiempo|tempo|t|时间|時間",
-    "force": r"force|forces|load|\w*kraft|last|\w*last|charge|effort|fuerza|carga|forza|carico|kracht|сила|нагрузка"
-    r"|f|p|fn|fz|ph|\w*载荷|\w*荷载|\w*负荷|\w*力|荷重",
-    "deflection": r"v?defl\w*|dfl|t b|auslenkung|durchbiegung|verbiegung|d[eé]flexion|deflexi[oó]n|deflessione|偏转"
-    r"|挠度",
-    "depth": r"depth|displ\w*|disp|indent\w*|penetr\w*|\w*tiefe|\w*weg|eindring\w*|profond\w*|enfonce\w*"
-    r"|d[eé]placement|p[eé]n[eé]tration|profundidad|desplazamiento|penetraci[oó]n|profondit[aà]|spostamento"
-    r"|penetrazione|diepte|глубина|\w*verschiebung|hub|\w*位移|\w*深度|压入\w*|压痕\w*|h|d|z|tip|separation|sep|tss"
-    r"|\w*height|höhe|hauteur|altura|altezza|piezo|ramp|extension|stage|z ?pos\w*|z ?sens\w*|scanner|travel|stroke"
-    r"|traverse\w*|distance|abstand",
+    "time": _any_of(r"\w*zeit", "time", "temps", "tiempo", "tempo", "t", "时间", "時間"),
+    "force": _any_of(
+        r"forces?|load|charge|effort|fuerza|carga|forza|carico|kracht|сила|нагрузка|f|p|fn|fz|ph",
+        r"\w*kraft|\w*last|\w*载荷|\w*荷载|\w*负荷|\w*力|荷重",
+    ),
+    "deflection": _any_of(
+        r"v?defl\w*|dfl|t b|auslenkung|durchbiegung|verbiegung|d[eé]flexion|deflexi[oó]n",
+        r"deflessione|偏转|挠度",
+    ),
+    "depth": _any_of(
+        r"depth|displ\w*|disp|indent\w*|penetr\w*|\w*tiefe|\w*weg|eindring\w*|profond\w*|enfonce\w*",
+        r"d[eé]placement|p[eé]n[eé]tration|profundidad|desplazamiento|penetraci[oó]n|profondit[aà]",
+        r"spostamento",
+        r"penetrazione|diepte|глубина|\w*verschiebung|hub|\w*位移|\w*深度|压入\w*|压痕\w*|h|d|z|tip",
+        r"separation|sep",
+        r"tss|\w*height|höhe|hauteur|altura|altezza|piezo|ramp|extension|stage|z ?pos\w*|z ?sens\w*",
+        r"scanner|travel",
+        r"stroke|traverse\w*|distance|abstand",
+    ),
 }
-#: A word begins and ends where no letter of an alphabet stands beside it.
-_WORD = r"(?<![^\W\d_])(?:%s)(?![^\W\d_])"
-_PATTERNS = {each: re.compile(_WORD % words) for each, words in _QUANTITIES.items()}
-#: Names of columns of values that belong to a whole test or to the instrument, or are no part of the curve.
+#: Words of values that belong to a whole test, or are no part of the curve.
 _STATISTICS = (
-    r"std\w*|sd|stdev|s d|standard\w*|deviation|sigma|error\w*|uncertainty|rms|noise|max\w*|peak|min|minimum|mean"
-    r"|average\w*|avg|median|target|set ?point\w*|demand\w*|command\w*|limit|threshold|trigger\w*|rate|velocity|speed"
-    r"|amplitude|harmonic|dynamic|variance|abweichung|stabw|mittel\w*|fehler|soll\w*|rausch\w*|moyen\w*|écart|consigne"
-    r"|promedio|desviación|media|scarto|deriva|标准差|平均\w*|最大\w*"
+    r"std\w*|sd|s d|standard ?(?:deviation|dev|error)|standardabweichung|standardfehler|deviation",
+    r"sigma|error\w*",
+    r"uncertainty|rms|noise|max\w*|peak|min|minimum|mean|average\w*|avg|median|target|set ?point\w*",
+    r"demand\w*",
+    r"command\w*|limit|threshold|trigger\w*|rate|velocity|speed|amplitude|harmonic|dynamic|variance",
+    r"abweichung",
+    r"stabw|mittel\w*|fehler|soll\w*|rausch\w*|moyen\w*|écart|consigne|promedio|desviación|media",
+    r"scarto|deriva",
+    r"标准差|平均\w*|最大\w*",
 )
 _NONE = {
-    "force": re.compile(_WORD % (
-        rf"{_STATISTICS}|lat\w*|friction\w*|tangential\w*|horizontal\w*|h ?defl\w*|hdefl\w*|quer\w*|seiten\w*|reib\w*"
-        r"|frottement|roz\w*|attrito|fricci[oó]n|fx|fy|[fpl] ?max|摩擦\w*|preload|adhesion|pull ?off"
-    )),
-    "depth": re.compile(_WORD % (
-        rf"{_STATISTICS}|contact(?! point)|residual|plastic|final|permanent|area|radius|diameter|wavelength|roughness"
-        r"|lateral|drift(?! ?corr)|frame(?! ?corr)|offset|h ?(?:c|f|r|max|p|i)|width|[xy](?!\w)|x ?pos\w*|y ?pos\w*|restl\w*|"
-        r"kontakt\w*|接触\w*|残余\w*"
-    )),
-    "time": re.compile(_WORD % "std|sd|deviation|error|constant|period|dwell|hold|interval|step|rate"),
-}  # fmt: skip
+    "force": _any_of(
+        *_STATISTICS,
+        r"lat\w*|friction\w*|tangential\w*|horizontal\w*|h ?defl\w*|quer\w*|seiten\w*|reib\w*",
+        r"frottement|roz\w*",
+        r"attrito|fricci[oó]n|fx|fy|[fpl] ?max|摩擦\w*|preload|adhesion|pull ?off",
+    ),
+    "depth": _any_of(
+        *_STATISTICS,
+        r"contact(?! point)|residual|plastic|final|permanent|area|radius|diameter|wavelength",
+        r"roughness|lateral",
+        r"drift(?! ?corr)|frame(?! ?corr)|offset|h ?(?:c|f|r|max|p|i)|width|[xy](?!\w)|x ?pos\w*",
+        r"y ?pos\w*|restl\w*",
+        r"kontakt\w*|接触\w*|残余\w*",
+    ),
+    "time": _any_of("std|sd|deviation|error|constant|period|dwell|hold|interval|step|rate"),
+}
 #: Names that say the depth of the tip, and others of the position of a piezo, with its deflection.
-_DEPTH = re.compile(
-    _WORD % (
-        r"depth|indent\w*|penetr\w*|\w*tiefe|eindring\w*|profond\w*|enfonce\w*|p[eé]n[eé]tration|profundidad"
-        r"|penetraci[oó]n|profondit[aà]|penetrazione|diepte|глубина|\w*深度|压入\w*|压痕\w*|into surface"
-    )
-)  # fmt: skip
-_TIP = re.compile(_WORD % r"tip|separation|sep|tss|h|distance tip|abstand")
+_DEPTH = _any_of(
+    r"depth|indent\w*|penetr\w*|\w*tiefe|eindring\w*|profond\w*|enfonce\w*|p[eé]n[eé]tration|profundidad",
+    r"penetraci[oó]n|profondit[aà]|penetrazione|diepte|глубина|\w*深度|压入\w*|压痕\w*|into surface",
+)
+_TIP = _any_of("tip|separation|sep|tss|h|abstand")
 _PIEZO = re.compile(r"piezo|\w*height|sens|scanner|höhe|hauteur|altura|altezza")
 #: Nouns that number samples, each a curve of its own; a cycle or a segment is a part of one.
 SAMPLES = (
-    r"tests?|curves?|indents?|indentations?|imprints?|samples?|specimens?|runs?|points?|spots?|measurements?|positions?|"
-    r"experiments?|kurven?|messung(?:en)?|versuche?|proben?|eindr[uü]ck|punkt|essais?|courbes?|mesures?|pruebas?|ensayos?|"
-    r"curvas?|prov[ae]|curv[ae]|misur[ae]|试验|测试|曲线|试样|样品|压痕|测点"
+    r"tests?|curves?|indents?|indentations?|imprints?|samples?|specimens?|runs?|points?|spots?"
+    r"|measurements?"
+    r"|positions?|experiments?|kurven?|messung(?:en)?|versuche?|proben?|eindr[uü]ck|punkt|essais?"
+    r"|courbes?|mesures?"
+    r"|pruebas?|ensayos?|curvas?|prov[ae]|curv[ae]|misur[ae]|试验|测试|曲线|试样|样品|压痕|测点"
 )
-_SAMPLES = re.compile(_WORD % rf"{SAMPLES}|id|nr|no|number|file|label|name|group|probe|#")
-_PARTS = re.compile(
-    _WORD % r"segments?|steps?|phases?|cycles?|retract|zyklus|zyklen|schritt|segmente?|direction|stage"
-)
+_SAMPLES = _any_of(SAMPLES, "id|nr|no|number|file|label|name|group|probe|#")
+_PARTS = _any_of("segments?|steps?|phases?|cycles?|retract|zyklus|zyklen|schritt|segmente?|direction|stage")
 #: Modulus and hardness, of which a test has one.
-_MECHANICAL = re.compile(
-    _WORD % (
-        r"modulus|moduli|hardness|young\w*|e ?modul\w*|h[äa]rte|martens\w*|vickers|e ?it|h ?it|e ?r|er|hv|hm|hmv"
-        r"|module|duret[eé]|m[oó]dulo|dureza|durezza|modulo|模量|\w*模量|硬度|eindringhärte|elastizitäts\w*"
-    )
-)  # fmt: skip
-_MEANS = re.compile(
-    _WORD
-    % r"std\w*|stdev|stddev|s d|deviation|standard\w*|mean|average\w*|avg|cov|mittel\w*|abweichung|stabw|moyen\w*|"
-    r"écart|promedio|desviación|media|scarto|标准差|平均\w*"
+_MECHANICAL = _any_of(
+    r"modulus|moduli|hardness|young\w*|e ?modul\w*|\w*h[äa]rte|martens\w*|vickers|e ?it|h ?it|e ?r",
+    r"er|hv|hm|hmv",
+    r"module|duret[eé]|m[oó]dulo|dureza|durezza|modulo|\w*模量|硬度|elastizitäts\w*",
+)
+_MEANS = _any_of(
+    r"std\w*|s d|deviation|standard ?(?:deviation|dev|error)|standardabweichung|mean|average\w*|avg",
+    r"cov|mittel\w*",
+    r"abweichung|stabw|moyen\w*|écart|promedio|desviación|media|scarto|标准差|平均\w*",
 )
 
 
@@ -82,12 +103,12 @@ def normal(head):
 
 def quantity_of(head):
     """Quantity that a name has a word of: "time", "force", "deflection" or "depth"; else None."""
-    return next((each for each, pattern in _PATTERNS.items() if pattern.search(normal(head))), None)
+    return next((each for each, pattern in _QUANTITIES.items() if pattern.search(normal(head))), None)
 
 
 def named(each, head):
     """Whether a name has a word of a quantity."""
-    return bool(_PATTERNS[each].search(normal(head)))
+    return bool(_QUANTITIES[each].search(normal(head)))
 
 
 def is_none(each, head):

@@ -36,7 +36,8 @@ def from_workbook(path, options):
     if not curves:
         reasons = "; ".join(left)
         raise ValueError(
-            f"{path.name} has no sheet with columns of depth and force and their units{': ' * bool(left)}{reasons}"
+            f"{path.name} has no sheet with columns of depth and force and their units"
+            f"{': ' * bool(left)}{reasons}"
         )
     return [partial(_said, make, tuple(left)) for make in curves]
 

@@ -306,7 +306,7 @@ class TestCycles:
 
 @pytest.mark.parametrize(("of_depth", "of_force"), [(1e-3, 1.0), (1.0, 1e3)])
 def test_numbers_of_no_material_are_said(of_depth, of_force):
-    """Depths or forces in a wrong unit: 10³ or 10⁶ times a modulus of 80 GPa, where diamond has 1.15 TPa."""
+    """Depths or forces in a wrong unit: 10³ or 10⁶ times 80 GPa, where diamond has 1.15 TPa."""
     tip = mdr.Cone(slope=0.3)
     depth = np.append(np.linspace(0, 100e-9, 200), np.linspace(100e-9, 0, 200))
     force = mdr.indent(tip, mdr.Medium(E_star=80e9, hardness=8e9), depth).force
