@@ -150,9 +150,10 @@ def _unknown(table, name, each, free):
         if words.named(each, head) and unit.doubt:
             unit_given = "nm" if each == "depth" else "mN"
             return (
-                f"{name}: the unit of {each} in {head!r} is not understood: {unit.doubt!r} is no unit "
-                "of this package, or scales one. Convert the numbers if need be, and give the number of the "
-                f'column and its unit, columns={{"{each}": ({column}, "{unit_given}"), …}}, out of {_units(each)}'
+                f"{name}: the unit of {each} in {head!r} is not understood: {unit.doubt!r} is "
+                "no unit of this package, or scales one. Convert the numbers if need be, and give the number "
+                f'of the column and its unit, columns={{"{each}": ({column}, "{unit_given}"), …}}, '
+                f"out of {_units(each)}"
             )
     kind = {"depth": "length"}.get(each, each)
     fits = [head for k, head in free.items() if table.unit_of(k).kind == kind]

@@ -64,8 +64,8 @@ def curves_of(table, name, sheet="", *, columns=None, spring_constant=None, sens
 
 def _no_curve(name, reason):
     return (
-        f"{name} is a table of results, not a curve, as it has {reason}: read the file with depth and force "
-        "of a test, or give columns= if this is one"
+        f"{name} is a table of results, not a curve, as it has {reason}: read the file with depth and "
+        "force of a test, or give columns= if this is one"
     )
 
 
@@ -162,7 +162,9 @@ def _constant(header, names, kind):
     for line in header:
         line = cleaned(line)
         found = re.match(
-            rf"[#\s\"]*(?:{names})\b([^\d=:]*)[:=\s]\s*([-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(\S*)", line, re.I
+            rf"[#\s\"]*(?:{names})\b([^\d=:]*)[:=;,\s]\s*([-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(\S*)",
+            line,
+            re.I,
         )
         if not found:
             continue
@@ -227,8 +229,8 @@ def _contact_stiffness(table, contact, rows, columns):
         unit = unit_of("", size)
         if column not in table.values or unit.kind != "stiffness" or unit.doubt:
             raise ValueError(
-                f"columns: stiffness = {contact!r} must be the number of a column of {table.heads} and a unit "
-                'of stiffness, as in (4, "N/m")'
+                f"columns: stiffness = {contact!r} must be the number of a column of {table.heads} and a "
+                'unit of stiffness, as in (4, "N/m")'
             )
         size = unit.size
     unit = f"{size:g} N/m" if size != 1 else "N/m"

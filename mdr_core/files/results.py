@@ -7,7 +7,8 @@ from . import words
 #: Names of sheets of results and settings.
 _SHEETS = (
     "result", "summary", "statistic", "input", "analysis", "average", "ergebnis", "zusammenfassung",
-    "auswertung", "résultat", "resultad", "risultat", "resumen", "riassunto", "résumé", "结果", "汇总", "统计",
+    "auswertung", "résultat", "resultad", "risultat", "resumen", "riassunto", "résumé",
+    "结果", "汇总", "统计",
 )  # fmt: skip
 #: Largest number of rows that a person would take for tests where the numbers go up and down smoothly.
 _FEW = 100

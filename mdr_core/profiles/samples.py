@@ -127,7 +127,7 @@ def _correlation(residual):
 
 
 def area_samples(coefficients, height, samples, limit, unit):
-    """Radii and heights (m) of a profile with A(h) = Σ Cᵢ h^(2/2ⁱ), A in unit² and h in a unit, and remarks.
+    """Radii and heights (m) of a profile with A(h) = Σ Cᵢ h^(2/2ⁱ), A in unit², h in a unit, and remarks.
 
     The remarks say where the profile is another one than that of the area function.
     """
