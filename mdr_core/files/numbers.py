@@ -1,6 +1,7 @@
 """Numbers of a table as text: decimal points and commas, and separated thousands."""
 
 import re
+from contextlib import suppress
 from math import nan
 
 _GROUPS = r"[-+]?\d{1,3}(?:%s\d{3})+"
@@ -12,6 +13,14 @@ _POINTS = re.compile(_GROUPS % r"\." + rf"(,\d+)?{_EXPONENT}")
 #: Thousands parted by a blank or an apostrophe, with either decimal sign.
 _PARTED = re.compile(_GROUPS % "[ \u00a0\u2009\u202f'’]" + rf"([.,]\d*)?{_EXPONENT}")
 _NUMERIC = re.compile(r"[-+−]?[\d.,][\d.,' \u00a0\u2009\u202f’]*(?:[eE][-+−]?\d+)?")
+
+
+#: Number of rows that tell how numbers are written.
+_ENOUGH = 5000
+
+
+class _Ambiguous(Exception):
+    """A comma that may be a decimal sign, or separate thousands."""
 
 
 def numeric(cell):
@@ -26,12 +35,32 @@ def with_comma(cell):
     )
 
 
-def number_reader(cells, name):
-    """Function from a cell to its number, NaN for words, by what the cells of a file tell.
+def number_reader(rows, name):
+    """Function from a cell to its number, NaN for words, by what the cells of all rows of a file tell.
 
     A comma is a decimal sign or separates thousands: "1,5" and "0,500" tell the first, "1,234.5" and
     "1,234,567" the second. Raises ValueError where nothing tells it.
     """
+    if not any("," in cell for row in rows for cell in row):
+        return _plain
+    # A part of a long file tells it, or all of it does.
+    for part in dict.fromkeys((len(rows) // _ENOUGH + 1, 1)):
+        cells = {cell for row in rows[::part] if _is_row(row) for cell in row}
+        with suppress(_Ambiguous):
+            return _reader(cells, name)
+    raise ValueError(
+        f"{name}: the comma of {min(filter(with_comma, cells))!r} may be a decimal sign, or separate thousands: "
+        "write numbers without separators of thousands, and with decimal points"
+    )
+
+
+def _is_row(row):
+    """Whether half of the cells that are not empty may be numbers."""
+    return 2 * sum(map(numeric, row)) >= sum(map(bool, row))
+
+
+def _reader(cells, name):
+    """`number_reader` for the cells of rows."""
     commas = {cell for cell in cells if "," in cell and with_comma(cell)}
     if not commas:
         return _plain
@@ -60,10 +89,7 @@ def number_reader(cells, name):
         return lambda cell: _plain(cell.replace(",", "") if _COMMAS.fullmatch(cell) else cell)
     # All have three digits after the comma: with a fixed number of decimals there are none without it.
     if any(re.fullmatch(r"[-+]?\d+", cell) and cell.strip("+-0") for cell in cells):
-        raise ValueError(
-            f"{name}: the comma of {min(commas)!r} may be a decimal sign, or separate thousands: write "
-            "numbers without separators of thousands, and with decimal points"
-        )
+        raise _Ambiguous
     return lambda cell: _plain(cell.replace(",", "."))
 
 

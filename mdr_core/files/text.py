@@ -64,23 +64,19 @@ class Table:
         return "" if unit.doubt else unit.name
 
 
-@dataclass(frozen=True)
 class _Line:
-    """A line of a text with its number, whether it is a comment, its cells and their numbers."""
+    """A line of a text: its number, its cells and their numbers, and how many are finite.
 
-    number: int
-    text: str
-    cells: list[str]
-    values: list[float]
+    `width` is the number of cells of a row: half of those that are not empty are numbers; else 0.
+    """
 
-    @property
-    def width(self):
-        """Number of cells of a row: half of those that are not empty are numbers; else 0."""
-        if not self.text[:1].isdigit() and is_title(self.text):
-            return 0
-        filled = sum(map(bool, self.cells))
-        count = sum(map(isfinite, self.values))
-        return len(self.cells) if count and 2 * count >= filled else 0
+    __slots__ = "cells", "finite", "number", "text", "values", "width"
+
+    def __init__(self, number, text, cells, values):
+        self.number, self.text, self.cells, self.values = number, text, cells, values
+        self.finite = sum(map(isfinite, values))
+        row = self.finite and 2 * self.finite >= len(cells) - cells.count("")
+        self.width = len(cells) if row and (text[0] in "0123456789-+." or not is_title(text)) else 0
 
 
 def is_title(line):
@@ -137,8 +133,7 @@ def _lines(text, name, limit):
     if any(len(line) > _LONGEST_LINE for _, line in lines):
         raise ValueError(f"{name}: a line is longer than {_LONGEST_LINE} characters; use a line a sample")
     cells = [[] if line.startswith("#") else _cells(line) for _, line in lines]
-    rows = (row for row in cells if 2 * sum(map(numeric, row)) >= sum(map(bool, row)))
-    number = number_reader({cell for row in rows for cell in row}, name)
+    number = number_reader(cells, name)
     return [
         _Line(i, line, row, [number(cell) for cell in row])
         for (i, line), row in zip(lines, cells, strict=True)
@@ -165,7 +160,7 @@ def _table(lines, name, limit, before=None):
         raise ValueError(f"{name}: no samples; expected rows of numbers")
     width = Counter(filter(None, counts)).most_common(1)[0][0]
     # Lines of a header, as "Depth limit, 200", have fewer numbers than rows.
-    finite = [sum(map(isfinite, line.values)) for line in lines]
+    finite = [line.finite for line in lines]
     usual = Counter(finite[i] for i, count in enumerate(counts) if count == width).most_common(1)[0][0]
     pairs = list(pairwise([i for i, line in enumerate(lines) if line.cells]))
     whole = (i for i, j in pairs if counts[i] == counts[j] == width and min(finite[i], finite[j]) >= usual)
@@ -182,19 +177,13 @@ def _table(lines, name, limit, before=None):
     if len(whole) > limit:
         raise ValueError(f"{name}: more than {limit} samples; thin them out")
     values = np.array([line.values for line in whole])
-    filled = np.array([[bool(cell) for cell in line.cells] for line in whole])
-    finite = np.isfinite(values)
-    # Columns of a shorter curve end before the others.
-    enough = (2 * finite.sum(axis=0) >= len(values)) | (
-        (finite.sum(axis=0) >= 2) & (finite.sum(axis=0) == filled.sum(axis=0))
-    )
-    numeric = [k for k in range(width) if enough[k]]
-    good = {line.number for line, row in zip(whole, finite, strict=True) if row[numeric].all()}
+    known = np.isfinite(values)
+    numeric = [k for k in range(width) if _has_numbers(known[:, k], k, whole)]
+    complete = known[:, numeric].all(axis=1)
+    good = {line.number for line, row in zip(whole, complete.tolist(), strict=True) if row}
     # A row of numbers before the rows, after which the header goes on.
     early = {
-        line.number: line.text
-        for line in lines[:first]
-        if line.width == width and all(map(isfinite, line.values))
+        line.number: line.text for line in lines[:first] if line.width == width and line.finite == width
     }
     odd = {line.number: line.text for line in lines[first:] if line.cells and line.number not in good}
     return Table(
@@ -203,6 +192,14 @@ def _table(lines, name, limit, before=None):
         {f"{k + 1} {heads[k]}": [row.cells[k] for row in whole] for k in range(width) if k not in numeric},
         {k: units[k] for k in numeric if units[k]}, tuple(header),
     )  # fmt: skip
+
+
+def _has_numbers(known, column, lines):
+    """Whether half of the cells of a column are numbers, or all that are not empty: a shorter curve ends."""
+    count = np.count_nonzero(known)
+    return 2 * count >= known.size or (
+        count > 1 and count == sum(bool(line.cells[column]) for line in lines)
+    )
 
 
 def _header_cells(line, width):
@@ -281,8 +278,8 @@ def _parts(lines):
     """Titles of the tables of a text and their lines: where a header or a title stands between rows."""
     parts, start, rows, last, title = [], 0, 0, 0, ""
     for i, line in enumerate(lines):
-        named = is_title(line.text)
-        if line.width and (rows or sum(map(isfinite, line.values)) > 1):
+        named = not line.width and is_title(line.text)
+        if line.width and (rows or line.finite > 1):
             rows, last = rows + 1, i
         elif rows >= 2 and (named or _is_header(line.text)):
             parts.append((title, lines[start : last + 1]))

@@ -277,7 +277,8 @@ def test_refusals_say_why_and_what_stays_and_a_preset_leaves_the_curve(explorer,
         file.truncate(20_000_000)
     files = {"words": b"force after\ndepth\n", "binary": bytes(range(256)), "NUL": bytes(99), "empty": b""}
     files = [{"name": f"{name}.csv", "mimeType": "", "buffer": data} for name, data in files.items()]
-    whys = 3 * ["no samples; expected rows of numbers"] + ["is empty", "has 20 MB, more than 5 MB"]
+    binary = "is a binary file of a kind that is not read"
+    whys = ["no samples; expected rows of numbers", binary, binary, "is empty", "has 20 MB, more than 5 MB"]
     explorer.press("Fit a measurement")
     for loaded in (False, True):
         stays = " What is shown is still Fused silica, Berkovich tip.csv." * loaded
