@@ -70,8 +70,15 @@ def read_curves(
     """Read all measured curves of a file of an instrument, which is opened once.
 
     Columns of a table are found by the units in its header, in brackets, after the names or in a line of
-    their own, and then by their names. Signs are found by the numbers, as force and depth are positive in
-    compression. `remarks` of a curve has what was turned round or left out. Depth counts as in the file.
+    their own, with powers of ten beside them, as in "10^-3 N", and by their names in several languages.
+    A scale that is not understood is refused. Signs are found by the numbers, as force and depth are
+    positive in compression. `remarks` of a curve has what was turned round, subtracted or left out. Depth
+    counts as in the file.
+
+    A text may have several curves: each below a header or a title of its own ("Test 2"), told apart by a
+    column of labels or numbers ("Sample", "Test"), or side by side in columns of the same names. An
+    approach and its retract side by side, and segments with a header each, are one curve. Tables of
+    results, one row a test, are left out, with a remark; a file that has nothing else is refused.
 
     Parameters
     ----------
@@ -82,15 +89,18 @@ def read_curves(
         `afmformats`. Of AFM files the depth is minus the position of the tip, −(height + F/k) with the
         stiffness k of the cantilever, and its zero is not the contact point.
     spring_constant : float, optional
-        Stiffness of the cantilever (N/m) that the file lacks. With it the deflection F/k is subtracted from
-        a column of a table that is the position of the piezo: its name has piezo, height, sens or scanner.
+        Stiffness of the cantilever (N/m) that the file lacks; the header of a text may have it. With it the
+        deflection F/k is subtracted from the depth of a table, unless the name of its column says that it
+        is a depth, an indentation, the tip or a separation. A column of the deflection (m or V) gives the
+        force.
     sensitivity : float, optional
-        Deflection (m) of the cantilever for 1 V that an AFM file lacks; m/A for NT-MDT. Its files have no
-        header: they are known by the two values that are given.
+        Deflection (m) of the cantilever for 1 V, where the file has its deflection in V; m/A for NT-MDT.
+        Its files have no header: they are known by the two values that are given.
     columns : dict, optional
         Columns of a table for "depth", "force" and "time": a name in the header, as in
         ``{"depth": "Z-Sense (nm)"}``, or a number from 0 on and a unit, as in ``{"depth": (0, "nm")}``,
-        where the header lacks them. None leaves out the time.
+        where the header lacks them. None leaves out the time. "stiffness", a column of a contact stiffness
+        and its unit, as in ``(4, "N/m")``, is found by its name, too.
 
     Returns
     -------
@@ -99,8 +109,10 @@ def read_curves(
     Raises
     ------
     ValueError
-        If most lines are no rows of numbers, or there is no column of depth or force with a unit; if a
-        stiffness or a sensitivity is needed that is not given, or given where the file has its own forces.
+        If most lines are no rows of numbers, or there is no column of depth or force with a unit that is
+        understood; if a table is one of results, or of several curves that it does not tell apart; if a
+        stiffness or a sensitivity is needed that is not given, or given where the file has its own forces;
+        if the file is binary and not read, with the export to make.
     ImportError
         If the package is not installed that reads the format.
     """

@@ -119,12 +119,12 @@ def _rank(each, head):
 
 def _deflection(table, name, free, cantilever):
     """Number of a column of a deflection (m or V), for which the constants of the cantilever are known."""
-    found = [k for k, head in free.items() if words.quantity_of(head) == "deflection"
+    candidates = [k for k, head in free.items() if words.quantity_of(head) == "deflection"
              and not words.is_none("force", head) and table.unit(k) in _DEFLECTION]  # fmt: skip
-    if not found:
+    if not candidates:
         return None
     # In m no sensitivity is needed.
-    best = min(found, key=lambda k: table.unit(k) in UNITS["voltage"])
+    best = min(candidates, key=lambda k: table.unit(k) in UNITS["voltage"])
     _need_cantilever(table, name, best, table.unit(best), cantilever)
     return best
 
@@ -144,15 +144,15 @@ def _need_cantilever(table, name, column, unit, cantilever):
 
 
 def _unknown(table, name, each, free):
-    """What is wrong with the header, and what to give."""
+    """Message on a header that is not understood, and on the columns to give."""
     for column, head in free.items():
         unit = table.unit_of(column)
         if words.named(each, head) and unit.doubt:
             unit_given = "nm" if each == "depth" else "mN"
             return (
                 f"{name}: the unit of {each} in {head!r} is not understood: {unit.doubt!r} is "
-                "no unit of this package, or scales one. Convert the numbers if need be, and give the number "
-                f'of the column and its unit, columns={{"{each}": ({column}, "{unit_given}"), …}}, '
+                "no unit of this package, or scales one. Convert the numbers if need be, and give the "
+                f'number of the column and its unit, columns={{"{each}": ({column}, "{unit_given}"), …}}, '
                 f"out of {_units(each)}"
             )
     kind = {"depth": "length"}.get(each, each)
@@ -209,14 +209,14 @@ def _given(table, each, column, free, cantilever):
 
 def stiffness_of(table):
     """Number and size (N/m) of the column of a contact stiffness, or None; "Contact" comes first."""
-    found = []
+    candidates = []
     for column, head in table.heads.items():
         unit, name = table.unit_of(column), words.normal(head)
         if unit.kind != "stiffness" or unit.doubt or _NO_CONTACT.search(name):
             continue
         if re.search(r"stiffness|steifigkeit|raideur|rigid|刚度|^s\b|d[fpl] d[hdz]\b", name):
-            found.append(("contact" in name or "kontakt" in name, -column, unit.size))
-    if not found:
+            candidates.append(("contact" in name or "kontakt" in name, -column, unit.size))
+    if not candidates:
         return None
-    _, column, size = max(found)
+    _, column, size = max(candidates)
     return -column, size

@@ -33,7 +33,7 @@ def curves_of(table, name, sheet="", *, columns=None, spring_constant=None, sens
     cantilever, _ = _cantilever(table, options)
     given = _without_stiffness(columns)
     try:
-        found, _ = columns_of(table, name, given, cantilever)
+        automatic, _ = columns_of(table, name, given, cantilever)
     except UnknownColumns:
         if not given and of_tests(table):
             raise NoCurve(
@@ -41,13 +41,13 @@ def curves_of(table, name, sheet="", *, columns=None, spring_constant=None, sens
             ) from None
         raise
     if not given:
-        numbers = {each: column and column[0] for each, column in found.items()}
+        numbers = {each: column and column[0] for each, column in automatic.items()}
         reason = as_results(table, numbers, sheet)
         if reason:
             raise NoCurve(_no_curve(name, reason))
     makers = []
-    for label, part in below_each_other(table, found, name):
-        groups = [found] if given else side_by_side(part, found)
+    for label, part in below_each_other(table, automatic, name):
+        groups = [automatic] if given else side_by_side(part, automatic)
         if groups is None:
             raise UnknownColumns(
                 f"{name} has columns of one name, but not as many of depth as of force, {table.heads}: "
@@ -116,12 +116,12 @@ def curve_of(table, name, columns=None, spring_constant=None, *, turn=True, segm
         columns[each] = column, unit[1:] if unit[0] == "−" else f"−{unit}"
         remarks.append(f"{each} turned round: it is positive in compression")
     head = table.heads[columns["depth"][0]]
-    values["depth"], said = _of_tip(head, values, known.get("spring_constant"), spring_constant is None)
+    values["depth"], remark = _of_tip(head, values, known.get("spring_constant"), spring_constant is None)
     arrays = {"time": None} | {each: _check.frozen(value) for each, value in values.items()}
     arrays["stiffness"] = _contact_stiffness(table, contact, rows, columns)
     arrays["segment"] = segments_of(**values) if segment is None else _check.frozen(segment[rows])
     stiffness = known.get("spring_constant")
-    return MeasuredCurve(name, stiffness, None, columns, (*remarks, *said), table, **arrays)
+    return MeasuredCurve(name, stiffness, None, columns, (*remarks, *remark), table, **arrays)
 
 
 def _in_time(table, name, values, rows, columns, remarks):
@@ -161,16 +161,16 @@ def _constant(header, names, kind):
     """Constant of the cantilever (SI) in a header, with a unit or as JPK writes it without one, or None."""
     for line in header:
         line = cleaned(line)
-        found = re.match(
+        match = re.match(
             rf"[#\s\"]*(?:{names})\b([^\d=:]*)[:=;,\s]\s*([-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(\S*)",
             line,
             re.I,
         )
-        if not found:
+        if not match:
             continue
-        value = float(found[2].rstrip(",.").replace(",", "."))
-        unit = unit_of("", (found[3] or found[1]).strip(' ()[],;\t"'))
-        jpk = re.match(r"#\s*(springConstant|sensitivity):\s", line) and not found[3]
+        value = float(match[2].rstrip(",.").replace(",", "."))
+        unit = unit_of("", (match[3] or match[1]).strip(' ()[],;\t"'))
+        jpk = re.match(r"#\s*(springConstant|sensitivity):\s", line) and not match[3]
         size = unit.size if unit.kind == kind else 1.0 if jpk else None
         if size is not None and value > 0:
             return value * size

@@ -49,8 +49,8 @@ def number_reader(rows, name):
         with suppress(_Ambiguous):
             return _reader(cells, name)
     raise ValueError(
-        f"{name}: the comma of {min(filter(with_comma, cells))!r} may be a decimal sign, or separate thousands: "
-        "write numbers without separators of thousands, and with decimal points"
+        f"{name}: the comma of {min(filter(with_comma, cells))!r} may be a decimal sign, or separate "
+        "thousands: write numbers without separators of thousands, and with decimal points"
     )
 
 

@@ -22,10 +22,10 @@ _MOST, _EDGE, _STEPS = 10_000, 0.1, 5.0
 
 def below_each_other(table, columns, name):
     """Names and tables of the curves of which a column of labels or of whole numbers tells the rows."""
-    found = _blocks(table, columns, name)
-    if found is None:
+    blocks = _blocks(table, columns, name)
+    if blocks is None:
         return [("", table)]
-    head, edges, labels = found
+    head, edges, labels = blocks
     # These cells are in the names of the curves.
     table = replace(
         table, words={key: cells for key, cells in table.words.items() if key.partition(" ")[2] != head}
@@ -155,7 +155,7 @@ def _key(table, column):
     """Name of a column without its unit and a number at its end."""
     head = table.heads[column].removesuffix(table.units.get(column, ""))
     head = re.sub(
-        r"[(\[{]([^()\[\]{}]*)[)\]}]", lambda found: " " if unit_named(found[1]) else found[0], head
+        r"[(\[{]([^()\[\]{}]*)[)\]}]", lambda match: " " if unit_named(match[1]) else match[0], head
     )
     name = words.normal(re.sub(r"/.*$", " ", head))
     name = re.sub(r"[\s.]*\d+$", "", name)

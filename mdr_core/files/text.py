@@ -53,7 +53,7 @@ class Table:
     header: tuple[str, ...] = ()
 
     def unit_of(self, column: int) -> Unit:
-        """What the header says of the unit of a column."""
+        """Unit of a column by the header."""
         cell = self.units.get(column, "")
         head = self.heads[column]
         return unit_of(head.removesuffix(cell).strip() if cell else head, cell)
@@ -113,7 +113,7 @@ def read_tables(text, name, limit=10**7):
     tables = []
     for title, lines in parts:
         before = tables[-1][1] if tables else None
-        # What follows the last table, as a summary, may have no rows.
+        # Lines after the last table, as of a summary, may be no rows.
         if before is not None and not any(line.width for line in lines):
             before.odd.update({line.number: line.text for line in lines if line.cells})
             continue
@@ -195,7 +195,7 @@ def _table(lines, name, limit, before=None):
 
 
 def _has_numbers(known, column, lines):
-    """Whether half of the cells of a column are numbers, or all that are not empty: a shorter curve ends."""
+    """Whether half of the cells of a column are numbers, or all that are not empty."""
     count = np.count_nonzero(known)
     return 2 * count >= known.size or (
         count > 1 and count == sum(bool(line.cells[column]) for line in lines)
@@ -245,14 +245,14 @@ def _heads(header, width, place):
             # Units stand below the names, unless they are called so.
             units = units if named_units else None
     if names is None and units is None:
-        found = _BRACKETS.findall(header[-1]) if header else []
-        if len(found) not in (0, 1, width):
-            count = "two" if len(found) == 2 else len(found)
+        matches = _BRACKETS.findall(header[-1]) if header else []
+        if len(matches) not in (0, 1, width):
+            count = "two" if len(matches) == 2 else len(matches)
             raise ValueError(
                 f"{place}: expected {count} numbers, as the header names {count} units, found {width}; "
                 "where commas are decimal ones, separate columns by semicolons"
             )
-        names = found if len(found) == width else None
+        names = matches if len(matches) == width else None
     nothing = [""] * width
     return names or nothing, units or nothing
 
@@ -305,8 +305,8 @@ def _is_header(line):
 
 def _labels(table):
     """Number and name of the segment that the header of a table says."""
-    found = [next(filter(None, map(each.match, table.header)), None) for each in (_INDEX, _SEGMENT)]
-    return tuple(match[1] if match else None for match in found)
+    matches = [next(filter(None, map(each.match, table.header)), None) for each in (_INDEX, _SEGMENT)]
+    return tuple(match[1] if match else None for match in matches)
 
 
 def _continues(before, table):

@@ -67,7 +67,9 @@ _SCALING = re.compile(
 )
 _BRACKETS = re.compile(r"[(\[{<]([^()\[\]{}<>]*)[)\]}>]")
 #: What may stand behind the unit in a name, as in "Defl_pN_Rt".
-_LAST = re.compile(r"[\s_-]+(ex|rt|ext|ret|extend|retract|approach|withdraw|trace|retrace|raw|\d+)$", re.I)
+_LAST = re.compile(
+    r"[\s_-]+(ex|rt|ext|ret|extend|retract|approach|withdraw|trace|retrace|raw)$|[\s_]+\d+$", re.I
+)
 #: What stands before the slash of a compound unit, as of a rate.
 _A_UNIT = re.compile(r"[pnµumkMGcd]?[NmVgsJA]|[kMG]?Pa|1")
 #: A prefix that stands alone before a unit without one, or before a name: "Force m(N)", "kForce (N)".
@@ -80,7 +82,7 @@ _LONGEST = 300
 
 @dataclass(frozen=True)
 class Unit:
-    """What the header of a column says of its unit.
+    """Unit of a column by its header.
 
     `kind` is a key of `UNITS`, "stiffness", "sensitivity" or empty for other quantities; `name` one of
     `UNITS[kind]`; `size` in SI. `doubt` is what stands beside and is not understood.
@@ -111,8 +113,8 @@ def cleaned(text):
 
 def unit_named(text):
     """Name of a known unit as in `UNITS`, or None."""
-    found = _parsed(cleaned(str(text)).strip(" ()[]"))
-    return found.name if found and not found.doubt and found.kind in UNITS else None
+    parsed = _parsed(cleaned(str(text)).strip(" ()[]"))
+    return parsed.name if parsed and not parsed.doubt and parsed.kind in UNITS else None
 
 
 @lru_cache(maxsize=4096)
@@ -125,21 +127,21 @@ def unit_of(head, cell=""):
             return Unit(doubt=_doubt_of(cell.strip(" ()[]")))
         return _with(own, text)
     for find in (_in_brackets, _after_slash, _at_the_end):
-        found = find(text)
-        if found:
-            unit, rest = found
-            return _with(unit, rest)
+        parsed = find(text)
+        if parsed:
+            unit, remainder = parsed
+            return _with(unit, remainder)
     return Unit(doubt=_foreign_in(text))
 
 
-def _with(unit, rest):
+def _with(unit, remainder):
     """A unit with the doubt that is in the rest of the header."""
     if unit.doubt or unit.kind not in UNITS:
         return unit
-    beside = _SCALING.search(rest) or (unit.size in (1.0, 60.0) and _LONE_PREFIX.search(rest))
+    beside = _SCALING.search(remainder) or (unit.size in (1.0, 60.0) and _LONE_PREFIX.search(remainder))
     if beside:
         return Unit(unit.kind, unit.name, unit.size, beside[0].strip())
-    for piece in _BRACKETS.findall(rest):
+    for piece in _BRACKETS.findall(remainder):
         other = _parsed(piece.strip())
         if (other and (other.kind, other.size) != (unit.kind, unit.size)) or _FOREIGN.fullmatch(
             piece.strip()
@@ -154,7 +156,7 @@ def _doubt_of(text):
 
 
 def _foreign_in(text):
-    """What is no unit of this package and looks like one, in a header that has no other."""
+    """Text that looks like a unit and is none of this package, in a header that has no other."""
     pieces = [
         *_BRACKETS.findall(text),
         *re.split(r"\s*/\s*|,\s*", text)[1:],
@@ -180,22 +182,22 @@ def _in_brackets(text):
             )
             if unit is None:
                 continue
-            rest = (
+            remainder = (
                 f"{before} {after}"
                 if piece is match[1]
                 else f"{before} {match[1].replace(piece, ' ')} {after}"
             )
             scale = _AFTER.match(after)
             if scale:
-                rest = f"{before} {after[scale.end() :]}"
+                remainder = f"{before} {after[scale.end() :]}"
                 unit = _scaled(unit, scale, inside=False)
             else:
                 # "Depth x1e-6 (m)"
                 scale = re.search(rf"({_TIMES}){_POWER}\s*$", before)
                 if scale:
-                    rest = f"{before[: scale.start()]} {after}"
+                    remainder = f"{before[: scale.start()]} {after}"
                     unit = _scaled(unit, scale, inside=False)
-            return unit, rest
+            return unit, remainder
         inner = _at_the_end(match[1])
         if inner and (re.search(r"\d", match[1]) or re.search(r"(?<!\w)\w{1,2}(?!\w)", inner[1])):
             # As in (0.1 mN), (10e-3 N), (m N).
@@ -254,8 +256,8 @@ def _parsed(text, capitals=False):
     if not text or len(text) > 60:
         return None
     before = _BEFORE.match(text)
-    if before and not (rest := text[before.end() :].strip()).startswith(("/", "^")):
-        unit = _parsed(rest, capitals)
+    if before and not (remainder := text[before.end() :].strip()).startswith(("/", "^")):
+        unit = _parsed(remainder, capitals)
         if unit is None or unit.kind not in UNITS:
             return unit and Unit(unit.kind, unit.name, unit.size, before[0].strip())
         return _scaled(unit, before, inside=True)

@@ -19,13 +19,13 @@ def doubts(E_star, hardness):
     """Sentences on moduli E* and hardnesses (Pa) of unloadings that are those of no material."""
     E_star, hardness = np.ravel(E_star), np.ravel(hardness)
     soft, stiff = E_star.min(), E_star.max()
-    found = []
+    numbers = []
     if not (is_modulus(soft) and is_modulus(stiff)):
-        found.append(("E*", stiff if is_modulus(soft) else soft))
+        numbers.append(("E*", stiff if is_modulus(soft) else soft))
     if hardness.max() > HARDEST:
-        found.append(("H", hardness.max()))
+        numbers.append(("H", hardness.max()))
     remedy = "give depth in m and force in N, from first contact on"
     return [
         f"{symbol} = {engineering(float(f'{value:.3g}'), 'Pa')} is that of no material: {remedy}"
-        for symbol, value in found
+        for symbol, value in numbers
     ]

@@ -64,8 +64,8 @@ class Sampled(Profile):
     def __repr__(self) -> str:
         if len(self.r) <= 6:
             return f"Sampled(r={self.r!r}, z={self.z!r})"
-        said = "".join(f"; {remark}" for remark in self.remarks)
-        return f"Sampled({len(self.r)} samples to r = {self.r[-1]:g} m, z = {self.z[-1]:g} m{said})"
+        remarks = "".join(f"; {remark}" for remark in self.remarks)
+        return f"Sampled({len(self.r)} samples to r = {self.r[-1]:g} m, z = {self.z[-1]:g} m{remarks})"
 
     @classmethod
     def from_csv(cls, path: str | PathLike[str], unit: str | None = None) -> "Sampled":
@@ -158,9 +158,9 @@ class Sampled(Profile):
         0.35809
         """
         r, z, remarks = area_samples(coefficients, height, samples, _MOST_SAMPLES, unit)
-        tip = cls(r, z)
-        _check.store(tip, remarks=remarks)
-        return tip
+        profile = cls(r, z)
+        _check.store(profile, remarks=remarks)
+        return profile
 
     def _refuse_concave(self):
         slope, concave = self._slope, self._bend < 0

@@ -61,7 +61,7 @@ def test_a_sheet_that_is_refused_is_named(tmp_path):
 
 
 BATCH = "".join(
-    f"ind_{k:03d}.hys\t{k}\t{100 + k}\t{180 + k % 3}\t{9990 + k * 7 % 5}\t{200 + k * 3 % 7}\t72.{k}\t9.{k}\t1000\n"
+    f"ind_{k}.hys\t{k}\t{100 + k}\t{180 + k % 3}\t{9990 + k * 7 % 5}\t{200 + k * 3 % 7}\t72.{k}\t9.{k}\t1\n"
     for k in range(9)
 )
 NUMBERED = "".join(f"{k + 1};{10 + 0.01 * (k * 7 % 5)};{200 + k % 3};9.1;70\n" for k in range(8))

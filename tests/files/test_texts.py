@@ -75,8 +75,8 @@ def jpk(columns, names, units, values, *extra):
     for number, (segment, part) in enumerate((("extend", slice(0, 56)), ("retract", slice(56, None)))):
         head = [
             f"segmentIndex: {number}", f"segment: {segment}", f"columns: {columns}", f"fancyNames: {names}",
-            "sensitivity: 6.0E-8", *extra, "calibrationSlots: nominal force nominal elapsed", f"units: {units}",
-            "",
+            "sensitivity: 6.0E-8", *extra, "calibrationSlots: nominal force nominal elapsed",
+            f"units: {units}", "",
         ]  # fmt: skip
         lines = "".join(f"# {line}\n" for line in head)
         blocks.append(lines + rows(*(column[part] for column in values), between=" "))

@@ -42,7 +42,7 @@ DOUBTFUL = (
 OTHERS = (
     "Load (µN/s)", "Load µN/s", "Load rate mN / s", "Area (nm^2)", "Area (nm²)",
     "1/Depth (1/nm)", "E (GPa)",
-    "Load (mN^0.5)", "Height (measured & smoothed)", "Load", "h",
+    "Load (mN^0.5)", "Depth nm-1", "Height (measured & smoothed)", "Load", "h",
 )  # fmt: skip
 
 
