@@ -81,8 +81,8 @@ def _reader(cells, name):
         doubtful = [cell for cell in points if _POINTS.fullmatch(cell)]
         if doubtful and len(doubtful) == len(points):
             raise ValueError(
-                f"{name}: beside {min(decimal)!r} with a decimal comma, {doubtful[0]!r} may be a thousand "
-                "times larger: write numbers without separators of thousands"
+                f"{name}: beside {min(decimal)!r} with a decimal comma, {min(doubtful)!r} may be a "
+                "thousand times larger: write numbers without separators of thousands"
             )
         return lambda cell: _plain(cell.replace(",", "."))
     if thousands or points:

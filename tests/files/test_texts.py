@@ -304,3 +304,13 @@ def test_binary_files_are_refused_with_the_export_to_make(write, name, says):
     for data in (b"\x00\x01\x02\xff\xd8junk" * 50, b"\\*File list\r\n" * 500 + bytes(range(256))):
         with pytest.raises(ValueError, match=f"{name} is a binary file .* Use .*{says}"):
             mdr.read_curve(write(data, name))
+
+
+def test_a_line_of_units_may_have_some_that_are_not_known(write):
+    names = "Depth\tLoad\tArea\tStatus\tTemp\tSlope\tTime\n"
+    units = "nm\tmN\tnm^2\t\tfoo\tN/m\ts\n"
+    other = 0 * TIME + 1
+    content = names + units + rows(1e9 * DEPTH, 1e3 * FORCE, other, other, other, other, TIME, between="\t")
+    curve = mdr.read_curve(write(content))
+    assert_curve(curve)
+    assert curve.columns["time"] == (6, "s")
