@@ -30,7 +30,12 @@ _TITLE = re.compile(
     re.I,
 )
 #: Lines of a header that name a segment, and its number.
-_SEGMENT = re.compile(r"#+\s*segment:\s*(\S+)", re.I)
+_SEGMENT = re.compile(
+    r"#+\s*segment:\s*(\S+)|#*\s*((?:approach|extend|retract|withdraw|load|unload|hold|pause)(?:ing|al)?)\s*:?\s*$",
+    re.I,
+)
+#: Segments with which a curve begins.
+_FIRST = re.compile("approach|extend|load", re.I)
 _INDEX = re.compile(r"#+\s*segmentIndex:\s*(\d+)", re.I)
 
 
@@ -307,15 +312,17 @@ def _is_header(line):
 def _labels(table):
     """Number and name of the segment that the header of a table says."""
     matches = [next(filter(None, map(each.match, table.header)), None) for each in (_INDEX, _SEGMENT)]
-    return tuple(match[1] if match else None for match in matches)
+    return tuple(next(filter(None, match.groups())) if match else None for match in matches)
 
 
 def _continues(before, table):
     """Whether a table is the next segment of the one before: the same columns, and a higher number."""
-    (index, segment), (last, _) = _labels(table), _labels(before)
-    if segment is None or table.heads != before.heads:
+    (index, segment), (last, previous) = _labels(table), _labels(before)
+    if segment is None or previous is None or table.heads != before.heads:
         return False
-    return index is None or last is None or int(index) > int(last)
+    if index is None or last is None:
+        return not _FIRST.match(segment)
+    return int(index) > int(last)
 
 
 def _joined(before, table):

@@ -314,3 +314,15 @@ def test_a_line_of_units_may_have_some_that_are_not_known(write):
     curve = mdr.read_curve(write(content))
     assert_curve(curve)
     assert curve.columns["time"] == (6, "s")
+
+
+def test_segments_with_a_header_each_are_one_curve_and_the_next_loading_another(write):
+    head = "Depth (nm),Load (mN)\n"
+    one = "".join(
+        f"# {name}\n{head}" + rows(1e9 * DEPTH[part], 1e3 * FORCE[part])
+        for name, part in (("loading", slice(0, 56)), ("unloading", slice(56, None)))
+    )
+    (curve,) = mdr.read_curves(write(one))
+    assert_curve(curve)
+    assert curve.segment.tolist() == 56 * ["approach"] + 19 * ["retract"]
+    assert [len(each) for each in mdr.read_curves(write(one + one))] == [75, 75]
