@@ -10,7 +10,7 @@ import scipy
 from numpy.typing import NDArray
 
 from ._check import Array, frozen, number, positive_number
-from .profiles.samples import Table
+from .files.text import Table
 from .results.quantities import engineering
 from .results.report import Report
 
@@ -73,6 +73,9 @@ class MeasuredCurve(Report):
     depth: Array
     force: Array
     time: Array | None
+    #: Contact stiffness dF/dh (N/m) where the instrument measures it, as by an oscillation on top of the
+    #: loading (continuous stiffness measurement), NaN where a cell has none; None without such a column.
+    stiffness: Array | None
     #: "approach", "hold" or "retract" for each sample, as the file names them. Where it does not, approach
     #: and retract end where the depth turns round by more than 5 % of its range, and in a hold depth and
     #: force stay within 1 % of their ranges, for 2 % of the samples or more.

@@ -243,7 +243,9 @@ def test_the_deflection_is_subtracted_from_the_position_of_the_piezo(tmp_path):
     curve = mdr.read_curve(path)
     remarks = "\n".join(curve.remarks)
     assert "'Extend Z-Sense(nm)' includes the deflection force/stiffness: give spring_constant=" in remarks
-    assert "not from 'Retract Z-Sense(nm)'" in remarks
+    assert "the retract is that of the columns 'Retract Z-Sense(nm)' and 'Retract Force(nN)'" in remarks
+    assert curve.segment.tolist() == 5 * ["approach"] + 5 * ["retract"]
+    np.testing.assert_allclose(curve.approach.depth, np.array(DEPTH) * 1e-9)
     tip = mdr.read_curve(path, spring_constant=0.5)
     np.testing.assert_allclose(tip.depth, curve.depth - 2 * curve.force, rtol=1e-12)
     assert tip.spring_constant == 0.5
@@ -285,3 +287,26 @@ def test_a_sensitivity_is_for_files_of_instruments(read, tmp_path):
     read(text((DEPTH, FORCE), ["h (nm), F (mN)"]))
     with pytest.raises(ValueError, match=r"run\.csv is a table, .* leave out sensitivity"):
         mdr.read_curve(tmp_path / "run.csv", sensitivity=6e-8)
+
+
+@pytest.mark.parametrize(
+    ("head", "size"),
+    [
+        ("Harmonic Contact Stiffness N/m", 1.0),
+        ("Stiffness (N/m)", 1.0),
+        ("S [mN/nm]", 1e6),
+        ("Contact stiffness (µN/nm)", 1e3),
+        ("Frame Stiffness (N/m)", None),
+        ("Support Spring Stiffness N/m", None),
+    ],
+)
+def test_a_measured_contact_stiffness_is_read(read, head, size):
+    """1 mN/nm is 10⁶ N/m; the stiffness of the instrument is not that of the contact."""
+    stiffness = [1.0, 2.0, 3.0, 4.0, 5.0]
+    curve = read(text((DEPTH, FORCE, stiffness), [f"Depth (nm);Load (mN);{head}"], ";"))
+    assert_same(curve)
+    if size is None:
+        assert curve.stiffness is None
+    else:
+        np.testing.assert_allclose(curve.stiffness, np.array(stiffness) * size)
+        np.testing.assert_allclose(curve.retract.stiffness, curve.stiffness[4:])

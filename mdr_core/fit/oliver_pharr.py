@@ -15,6 +15,7 @@ from ..results.quantities import QUANTITIES, Quantity, described
 from ..results.report import Report
 from .errors import roughness
 from .least_squares import least_squares
+from .materials import doubts
 from .report import with_error
 
 #: Quantities of the results, and others.
@@ -128,6 +129,7 @@ def oliver_pharr(
         dict(zip(OliverPharr._quantities, map(_check.frozen, each.T), strict=True))
         for each in (columns[..., 0, :], columns[..., 1, :])
     )
+    remarks += [*doubts(values["E_star"], values["hardness"]), *profile.remarks]
     return OliverPharr(profile, **values, standard_errors=errors, remarks=tuple(remarks))
 
 
@@ -243,7 +245,7 @@ class OliverPharr(Report):
     hardness: Any
     exponent: Any
     standard_errors: dict[str, Any]
-    #: Which unloading was taken of several, and which were left out.
+    #: Which unloading was taken of several, and which were left out; numbers that are those of no material.
     remarks: tuple[str, ...] = ()
 
     _dimensions = ("unloading",)

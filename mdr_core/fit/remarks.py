@@ -6,6 +6,7 @@ import numpy as np
 
 from ..results.quantities import engineering
 from .errors import SIGNIFICANT
+from .materials import is_modulus
 from .nested import nested_tests
 from .noise import tests_of_noise
 from .parameters import PARAMETERS, TOGETHER
@@ -80,7 +81,7 @@ def _units(solved, i):
     variance = np.sum((force - force.mean()) ** 2)
     line = variance * (1 - np.corrcoef(depth, force)[0, 1] ** 2)
     straight = not curves.adhesive and line < 1.1 * squares
-    plausible = 1.0 <= E <= 1e13
+    plausible = is_modulus(E)
     if plausible and not straight:
         return
     shares, own = _shares_of_others(depth, force), _share_of_contact(depth, force)

@@ -57,6 +57,8 @@ class Profile(_check.Parameters, ABC):
     kinks = ()
     #: Depth (m) at which g changes from one power of x to another, None if it is not known.
     transition_depth = None
+    #: Sentences on what was changed when the profile was made, as of a concave area function.
+    remarks = ()
     #: Words for the end of the known depth.
     _last = "the shape is known"
 

@@ -9,10 +9,11 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike, Parameter
+from ..files.text import decoded
 from ..numerics.blocks import chunks
 from ..numerics.stable import root
 from .profile import Profile
-from .samples import area_samples, axis_of_symmetry, convex_fit, decoded, samples_of
+from .samples import area_samples, axis_of_symmetry, convex_fit, samples_of
 
 #: Largest number of samples: time and memory grow with its square.
 _MOST_SAMPLES = 5000
@@ -63,7 +64,8 @@ class Sampled(Profile):
     def __repr__(self) -> str:
         if len(self.r) <= 6:
             return f"Sampled(r={self.r!r}, z={self.z!r})"
-        return f"Sampled({len(self.r)} samples to r = {self.r[-1]:g} m, z = {self.z[-1]:g} m)"
+        remarks = "".join(f"; {remark}" for remark in self.remarks)
+        return f"Sampled({len(self.r)} samples to r = {self.r[-1]:g} m, z = {self.z[-1]:g} m{remarks})"
 
     @classmethod
     def from_csv(cls, path: str | PathLike[str], unit: str | None = None) -> "Sampled":
@@ -128,6 +130,7 @@ class Sampled(Profile):
         The area function of instrumented indentation (Oliver and Pharr 1992). The profile is a polygon;
         where it is slightly concave, as calibrated ones are, neighbouring slopes are averaged. Near the
         tip, up to 5 % of the height, the function may fall or be negative: the profile is a cone there.
+        ``tip.remarks`` says by how much heights were changed, and so does its text.
 
         Parameters
         ----------
@@ -155,7 +158,10 @@ class Sampled(Profile):
         >>> print(round(profile.height(1e-6) / 1e-6, 6))
         0.35809
         """
-        return cls(*area_samples(coefficients, height, samples, _MOST_SAMPLES, unit))
+        r, z, remarks = area_samples(coefficients, height, samples, _MOST_SAMPLES, unit)
+        profile = cls(r, z)
+        _check.store(profile, remarks=remarks)
+        return profile
 
     def _refuse_concave(self):
         slope, concave = self._slope, self._bend < 0

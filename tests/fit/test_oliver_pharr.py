@@ -302,3 +302,16 @@ class TestCycles:
     def test_a_curve_without_unloading_is_refused(self):
         with pytest.raises(ValueError, match="5 or more are needed"):
             mdr.oliver_pharr(BERKOVICH, DEPTH[:60], F_CONE[:60], cycles=True)
+
+
+@pytest.mark.parametrize(("of_depth", "of_force"), [(1e-3, 1.0), (1.0, 1e3)])
+def test_numbers_of_no_material_are_said(of_depth, of_force):
+    """Depths or forces in a wrong unit: 10³ or 10⁶ times 80 GPa, where diamond has 1.15 TPa."""
+    tip = mdr.Cone(slope=0.3)
+    depth = np.append(np.linspace(0, 100e-9, 200), np.linspace(100e-9, 0, 200))
+    force = mdr.indent(tip, mdr.Medium(E_star=80e9, hardness=8e9), depth).force
+    right = mdr.oliver_pharr(tip, depth, force)
+    wrong = mdr.oliver_pharr(tip, of_depth * depth, of_force * force)
+    assert not any("of no material" in remark for remark in right.remarks)
+    said = [re.match(r"(E\*|H) = .* is that of no material", remark)[1] for remark in wrong.remarks]
+    assert said == ["E*", "H"]
