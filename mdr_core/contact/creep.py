@@ -76,7 +76,7 @@ def creep(
     >>> medium = Medium(E_star=1.0, eta=0.25)
     >>> state = creep(FlatPunch(1.0), medium, [0.0, 2.0, 2.0], [0.0, 1.0, 2.0])
     >>> print(round(float(state.depth[-1]), 9))
-    0.76745584
+    0.767455842
 
     A cone of slope s on a medium of constant hardness H: d² relaxes with the time τ/(κ(2 − κ)), where
     κ = H/(E* s); here to 1/(κ(2 − κ)) = 4/3 of that without yield:
