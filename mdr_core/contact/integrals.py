@@ -97,11 +97,13 @@ class Integrals(ABC):
 def _growing_mean_slope(profile):
     """Whether g(x)/x nowhere falls between 10⁻¹² and 10³ m, as far as the profile is known."""
     with np.errstate(all="ignore"):
+        last = profile.known_radius
+        if np.all(np.isfinite(profile.known_depth)):
+            # Beyond this radius g may have no value at all.
+            last = np.minimum(last, profile._radius(np.asarray(profile.known_depth)))
         for radius in np.geomspace(1e-12, 1e3, 256):
-            x = np.full(profile.shape, radius)
-            g, slope = profile._reduced(x), profile._reduced_slope(x)
-            known = (x <= profile.known_radius) & (g <= profile.known_depth)
-            if np.any(known & (x * slope < g * (1 - 1e-9))):
+            x = np.minimum(np.full(profile.shape, radius), last)
+            if np.any(x * profile._reduced_slope(x) < profile._reduced(x) * (1 - 1e-9)):
                 return False
     return True
 

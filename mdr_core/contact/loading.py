@@ -144,7 +144,8 @@ def _loading_depth(rule, branches, area):
 
         start = np.clip(onset if 0 < onset < np.inf else 1.0, low, high)
         depth = increasing_root(loading, area, start, high)
-        result = np.minimum(result, depth)
+        # On the line no depth carries the force.
+        result = np.where(depth >= low, np.minimum(result, depth), result)
     return result
 
 

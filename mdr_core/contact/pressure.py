@@ -62,7 +62,10 @@ def _pressure(profile, radius, weight, edges, starts, r):
         for piece in range(len(radius)):
             rows = own < piece
             if rows.any():
-                total[rows] += (weight[piece] / root(radius[piece], r[rows, None])).sum(axis=1)
+                place = r[rows, None]
+                # Next to r ≈ c the radius of the first punches rounds to r, but it is larger.
+                outside = np.maximum(radius[piece], np.nextafter(place, np.inf))
+                total[rows] += (weight[piece] / root(outside, place)).sum(axis=1)
         rows = np.flatnonzero((own >= 0) & (own < len(radius)))
         if rows.size:
             total[rows] += _pressure_from(profile, r[rows], edges[own[rows] + 1])

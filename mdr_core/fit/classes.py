@@ -14,7 +14,7 @@ from .._check import Array
 from ..contact.integrals import integrals
 from ..medium import Medium
 from .depth_noise import turning_points_of
-from .parameters import CLASSES
+from .parameters import BACKGROUND, CLASSES
 from .solution import problems, solved
 
 #: Least n ln(S₂/S₁) by which two classes are told apart: the square of three standard deviations.
@@ -27,7 +27,8 @@ _NONE = 0.01
 class ClassFit:
     """A fit with the hardness of one class alone, of one curve or of many.
 
-    `misfit` is the root mean square of the residuals over the largest force, `medium` the fitted medium,
+    `misfit` is the root mean square of the residuals over the largest force, or over the range of the force
+    where a part of the background (baseline, tilt, drag) is free; `medium` the fitted medium, and
     `block_length` the number of samples over which residuals are correlated.
     """
 
@@ -71,14 +72,20 @@ def _fit(profile, measured, held, depth_noise):
 
 
 def _misfit(solution):
-    """Root mean square of the residuals over the largest force (R,)."""
-    values, _ = solution.values_and_states
-    force = np.max(np.abs(solution.curves.force - solution.curves.background(values)), axis=1)
+    """Root mean square of the residuals over a force that is the same for all classes (R,)."""
+    curves, (values, _) = solution.curves, solution.values_and_states
+    force = curves.load[:, 0]
+    # A background that is fitted differs between the classes, and may be much larger than the record.
+    if not set(BACKGROUND) & set(curves.free):
+        force = np.max(np.abs(curves.force - curves.background(values)), axis=1)
     return np.sqrt(np.mean((solution.minimum.residual * solution.noise) ** 2, axis=1)) / force
 
 
-def verdict(fits, depth, force, depth_noise):
-    """Rows of a report on one curve: misfits, classes that they do not rule out, and what this presumes."""
+def verdict(fits, free, depth, force, depth_noise):
+    """Rows of a report on one curve: misfits, classes that they do not rule out, and what this presumes.
+
+    `free` are the names of the free parameters.
+    """
     best = min(fits, key=lambda letter: fits[letter].misfit)
     least = max(fits[best].misfit, np.finfo(float).tiny)
     independent = depth.size / fits[best].block_length
@@ -87,7 +94,8 @@ def verdict(fits, depth, force, depth_noise):
     answer = f"({best})" if len(close) == 1 else f"not told, ({') or ('.join(close)})"
     if fits[best].misfit > _NONE and fits[best].block_length > 1:
         answer += f", none within {100 * _NONE:g} %"
-    yield "class of hardness", f"{answer}: misfit {misfits} of the largest force"
+    whole = "range of the force" if set(BACKGROUND) & set(free) else "largest force"
+    yield "class of hardness", f"{answer}: misfit {misfits} of the {whole}"
     turns, starts = turning_points_of(depth, force, depth_noise)
     record = f"this record has {len(starts)} loadings" * (len(starts) > 1)
     if not turns:

@@ -213,7 +213,8 @@ class IndentationFit(Fit):
         """Rows on the hardness of one curve that yields: its class, and the pressures."""
         if classes := self.classes:
             used = np.isfinite(self.residuals)
-            yield from verdict(classes, self.depth[used], self.force[used], self.depth_noise)
+            samples = self.depth[used], self.force[used], self.depth_noise
+            yield from verdict(classes, self.standard_errors, *samples)
         top = int(np.argmax(self.path.force))
         if self._yields and self.path.force[top] > 0:
             a, mean = self.path.contact_radius[top], self.path.mean_pressure[top]

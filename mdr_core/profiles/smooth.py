@@ -17,6 +17,8 @@ from .profile import Profile
 #: rounding; its last coefficients must be smaller than this share of the largest.
 _EDGES = np.log(2.0) * np.arange(-60, 20.5, 0.5)
 _DEGREE, _RESOLVED = 11, 1e-12
+#: g ∝ x^(1 + this) next to the axis is the least power of a tip that is not sharp.
+_ROUNDED = 1e-6
 
 
 @dataclass(frozen=True)
@@ -54,7 +56,12 @@ class Smooth(Profile):
         _check.store(self, radius=radius)
 
     shape = ()
-    known_radius = property(lambda self: self.radius)
+
+    @cached_property
+    def known_radius(self):
+        """Radius (m) up to which the profile is known: where a valid slope ends, at most `radius`."""
+        end = self._mean_slope.x[-1]
+        return float(np.exp(end)) if end < np.log(self.radius) else self.radius
 
     @cached_property
     def known_depth(self):
@@ -129,7 +136,9 @@ class Smooth(Profile):
         # Between the tip and the first panel g is a power of x.
         power = 1 + rate / value
         value = value * np.exp((logarithm - inside) * (power - 1))
-        return x * value, value * power
+        slope = value * power
+        # On the axis it is the slope of a cone, or 0, also where the power is 1 to rounding.
+        return x * value, np.where((x == 0) & (power > 1 + _ROUNDED), 0.0, slope)
 
     def _radius(self, depth):
         return increasing_root(self._height_and_slope, depth, 1e-6, np.exp(self._mean_slope.x[-1]))
