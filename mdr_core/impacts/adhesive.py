@@ -25,14 +25,18 @@ from ..contact.adhesion import (
 )
 from ..contact.indentation import Indentation
 from ..contact.live_interval import LiveInterval
-from ..contact.yielding import yield_rule
+from ..contact.yielding import ConstantCap, yield_rule
 from ..medium import Medium, check_pair
 from ..numerics.blocks import LONG, chunks
 from ..numerics.gauss import gauss_legendre
 from ..numerics.roots import crossing
 from ..profiles.profile import Profile
+from .contact_time import TRANSITIONS, places
 from .energy_balance import turning_interval
 from .result import Impact, tabulated_for
+
+#: Gauss nodes of the contact time in each piece.
+_NODES = 32
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -157,33 +161,59 @@ def adhesive_contact_time(profile, medium, inertia, speed, interval, increase):
 
     `inertia` is the mass over 2E*.
     """
-    before = interval.lower - increase
+    before, turn, yields = interval.lower - increase, interval.upper, increase > 0
     start, energy = touching(profile, medium, before)
     end, lost = pull_off(profile, medium, interval.lower)
+    total, last = inertia * speed**2 / 2 + energy, _energy(profile, medium, interval)
     low = single_range(profile, medium, AT_DEPTH)
-    yielding, _ = contact_interval(
-        profile, medium, before, np.where(increase > 0, medium.critical_depth, 0.0), low, np.inf
-    )
-    turn, (node, weight) = interval.upper, gauss_legendre(64)
-    total, time = inertia * speed**2 / 2 + energy, 0.0
-    last = _energy(profile, medium, interval)
-    # D = D₁ e^(−u²): the speed goes as u next to the turning point D₁, and a(D) is a power of D at the tip.
-    first, end, cut = (
-        np.sqrt(np.log(turn / np.maximum(low, 1e-13 * turn)))
-        for low in (start.upper, end.upper, np.where(increase > 0, yielding.upper, turn))
-    )
-    for share, load in zip(node, weight, strict=True):
-        for low, width in ((0.0, cut), (cut, first - cut)):
-            u = low + share * width
-            upper = turn * np.exp(-(u**2))
-            energy, _ = _loading(profile, medium, upper, before)
-            rate = _step(profile, medium, upper, total - energy, inertia)
-            time = time + load * width * 2 * u * upper * rate
-        upper = turn * np.exp(-((share * end) ** 2))
-        left = last - _energy(profile, medium, last_interval(interval.lower, upper))
-        rate = _step(profile, medium, upper, left, inertia)
-        time = time + load * end * 2 * share * end * upper * rate
+    kinks = [kink for kink in profile.kinks if np.any(kink < turn)]
+
+    def passing(plastic_depth):
+        """D (m) at which loading reaches a plastic depth (m), and otherwise the turning point."""
+        live_depth = np.where(yields, medium.critical_depth, 0.0)
+        reached, _ = contact_interval(profile, medium, plastic_depth, live_depth, low, np.inf)
+        return np.where(yields & (plastic_depth >= before), reached.upper, turn)
+
+    def loading(upper):
+        return total - _loading(profile, medium, upper, before)[0]
+
+    def unloading(upper):
+        return last - _energy(profile, medium, last_interval(interval.lower, upper))
+
+    breaks = []
+    if profile.transition_depth is not None:
+        breaks = [profile.transition_depth * share for share in TRANSITIONS]
+    onset = passing(before)
+    yielded = [onset, *(passing(kink) for kink in kinks)]
+    scales = [onset + share * onset for share in ConstantCap.scales]
+    time = _passage(profile, medium, inertia, loading, start.upper, turn, kinks + yielded, breaks + scales)
+    time = time + _passage(profile, medium, inertia, unloading, end.upper, turn, kinks, breaks)
     return np.where(last > lost, time, np.inf)
+
+
+def _passage(profile, medium, inertia, kinetic_energy, low, turn, kinks, breaks):
+    """Time (s) between D = `low` and the turning point D = `turn` (m), elementwise.
+
+    `kinetic_energy` (m³) is a function of D. Pieces end at `kinks`, past which a(D) or the energy is a
+    power of the distance, and at `breaks`.
+    """
+    node, weight = gauss_legendre(_NODES)
+    low, turn, *cuts = np.broadcast_arrays(low, turn, *kinks, *breaks)
+    node, weight = (each.reshape(-1, *(1,) * low.ndim) for each in (node, weight))
+    cuts = np.clip(np.reshape(cuts, (-1, *low.shape)), low, turn)
+    order = np.argsort(cuts, axis=0)
+    edges = np.concatenate([low[None], np.take_along_axis(cuts, order, axis=0), turn[None]])
+    # The last kink below each piece, or the tip.
+    origins = np.where((order < len(kinks)) & (edges[1:-1] > low), edges[1:-1], 0.0)
+    origins = np.maximum.accumulate(np.concatenate([0.0 * low[None], origins]), axis=0)
+    time = np.zeros_like(low)
+    for begin, end, origin in zip(edges[:-1], edges[1:], origins, strict=True):
+        if np.any(end > begin):
+            depth, rate = places(begin - origin, end - begin, turn - end, node)
+            upper = np.minimum(begin + depth, end)
+            steps = _step(profile, medium, upper, kinetic_energy(upper), inertia)
+            time += np.where(end > begin, np.sum(weight * rate * steps, axis=0), 0.0)
+    return time
 
 
 def _step(profile, medium, upper, kinetic, inertia):

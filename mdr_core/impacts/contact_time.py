@@ -15,7 +15,7 @@ from ..numerics.stable import cube_rise, cube_way
 
 #: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
 #: transition depth.
-_TRANSITIONS = np.array([1.0, 6.0])
+TRANSITIONS = np.array([1.0, 6.0])
 
 
 def contact_time(rule, inertia, speed, interval, increase):
@@ -115,7 +115,7 @@ def time_over_root(rule, interval, increase):
     kinks = kinks[:, (kinks < interval.upper.max()).any(axis=0)]
     breaks = np.empty((1, 0))
     if profile.transition_depth is not None:
-        breaks = np.atleast_2d(np.multiply.outer(profile.transition_depth, _TRANSITIONS))
+        breaks = np.atleast_2d(np.multiply.outer(profile.transition_depth, TRANSITIONS))
     first = kink_above(profile, lower[:, 0])[:, None] - lower
     time, _ = stretch(lambda s, rows: (lower[rows], s), first, length, kinks - lower, breaks - lower)
 
@@ -162,7 +162,7 @@ def _stretch(profile, interval_at, first, length, kinks, breaks, distance=0.0, w
             node, weight, tail = _rule(count)
             row, at = rows[subset, None], start[subset, None]
             sizes = size[subset, None], remainder[subset, None]
-            depth, rate = _places(at - origin[subset, None], *sizes, node)
+            depth, rate = places(at - origin[subset, None], *sizes, node)
             entries = profile.entries((row,), (len(length),))
             flow = _flow(entries, *interval_at(at + depth, row[:, 0])) * rate
             # Not by @: for sums as short as these the threads of BLAS take a second core, and no less time.
@@ -187,7 +187,7 @@ def _edges(first, length, kinks, breaks):
     return np.hstack([0 * length, cuts, length]), np.maximum.accumulate(np.hstack([first, roots]), axis=1)
 
 
-def _places(offset, size, remainder, node):
+def places(offset, size, remainder, node):
     """Nodes of pieces as depths from their start (m), and their rates by the node.
 
     A piece starts `offset` (m) below the depth where a(s) starts as a root, has the length `size`, and ends
