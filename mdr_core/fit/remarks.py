@@ -12,12 +12,12 @@ from .parameters import PARAMETERS, TOGETHER
 
 #: All kinds of remarks, the most important first.
 KINDS = (
-    "invalid", "units", "no contact", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag",
+    "invalid", "units", "order", "no contact", "adhesion", "bound", "second minimum", "undetermined", "tilt", "drag",
     "drift", "misfit", "jitter", "unloading", "outliers", "blocks", "few", "loading", "vague", "contact",
     "constants", "elastic", "hardly yields", "noisy", "rest", "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
-DOUBTS = {"units", "no contact", "tilt", "drag", "drift", "misfit", "jitter", "noisy"}
+DOUBTS = {"units", "order", "no contact", "tilt", "drag", "drift", "misfit", "jitter", "noisy"}
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
 #: Number of standard errors below which a constant of the hardness beside another one may be 0.
@@ -26,6 +26,13 @@ _TOLD = 2.0
 _LONGEST, _EXPLAINED = 1e-3, 0.75
 #: Least share that noise does not reach, and least ratio of the unexplained shares of other columns.
 _SEEN, _BENT = 0.25, 1.1
+#: Ranges of depth (m) that no indentation has, and that few have in soft media; the modulus (Pa) of the
+#: softest ones; contact radius over the radius of the tip beyond which its depths are in another unit.
+_ENORMOUS, _LARGE, _SOFTEST, _BEYOND_TIP = 1.0, 1e-2, 1e3, 10.0
+#: Excess of the force after the largest depth over that before it, as a share of its range, that no medium
+#: has; least share of samples at which depths turn, and least median step, as a share of their range, of a
+#: record without order; least number of samples that tell it.
+_REVERSED, _TURNS, _STEPS, _FEW = 0.05, 0.4, 0.1, 10
 _SWAPPED, _NO_CONTACT = "depth and force are swapped", "no contact is seen in this record"
 #: Least distance of the pull-off from that of the model, as a share of the range of depth.
 _PULL_OFF = 0.02
@@ -33,7 +40,7 @@ _PULL_OFF = 0.02
 
 def remarks_of(solved):
     """Remarks on each curve of a `Solution`: a sentence by its kind, the same for all curves."""
-    checks = _units, _ambiguous, _adhesion, _undetermined, tests_of_noise, nested_tests
+    checks = _units, _order, _ambiguous, _adhesion, _undetermined, tests_of_noise, nested_tests
     count = len(solved.rows)
     remarks = [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in range(count)]
     for each in remarks:
@@ -61,6 +68,11 @@ def missing(used, samples):
 def _units(solved, i):
     """Columns that are swapped or of the other sign, records without contact, and data in other units."""
     curves, values = solved.curves, solved.values_and_states[0]
+    if _is_enormous(solved, i):
+        reached = engineering(np.ptp(curves.depth[i]), "m")
+        text = f"the depths of this record differ by {reached}, which is no indentation by this tip"
+        yield "units", f"{text}: give depth in m and force in N"
+        return
     if "E_star" not in curves.free:
         return
     depth, force, E = curves.depth[i], curves.force[i], values["E_star"][i, 0]
@@ -91,6 +103,47 @@ def _units(solved, i):
             yield "no contact", f"{text}: {_NO_CONTACT}"
         else:
             yield "units", f"{text}: {_SWAPPED if swapped else 'give depth in m and force in N'}"
+
+
+def _is_enormous(solved, i):
+    """Whether depths are evidently in another unit than m."""
+    profile, values = solved.curves.profile, solved.values_and_states[0]
+    reached = float(np.ptp(solved.curves.depth[i]))
+    radius = profile._radius(np.minimum(reached, profile.known_depth))
+    soft = reached > _LARGE and values["E_star"][i, 0] < _SOFTEST
+    return reached > _ENORMOUS or soft or bool(radius > _BEYOND_TIP * profile.body_radius)
+
+
+def _order(solved, i):
+    """Samples that are not in the order in which they were measured, where the order matters."""
+    curves = solved.curves
+    depth, force = curves.depth[i], curves.force[i]
+    if (curves.held_elastic and not curves.adhesive) or depth.size < _FEW:
+        return
+    steps = np.diff(depth)
+    turns = np.mean(steps[1:] * steps[:-1] < 0)
+    if turns > _TURNS and np.median(np.abs(steps)) > _STEPS * np.ptp(depth):
+        text = "depths go up and down from sample to sample, as in a record that is shuffled"
+        yield "order", f"{text}: give the samples in the order in which they were measured"
+    elif _rise_after(depth, force) > _REVERSED * np.ptp(force):
+        text = "forces are larger after the largest depth than before it, as in a record that is reversed"
+        yield "order", f"{text}: give the samples in the order in which they were measured"
+
+
+def _rise_after(depth, force):
+    """Mean force (N) after the largest depth less that before it, at the same depths."""
+    top = int(np.argmax(depth))
+    parts = slice(top + 1), slice(top, None)
+    least = max(depth[part].min() for part in parts)
+    if least == depth[top]:
+        return 0.0
+    common = np.linspace(least, depth[top], 50)
+    before, after = (
+        np.interp(common, depth[part][order], force[part][order])
+        for part in parts
+        for order in [np.argsort(depth[part], kind="stable")]
+    )
+    return float(np.mean(after - before))
 
 
 def _shares_of_others(depth, force):

@@ -209,8 +209,9 @@ def _passage(profile, medium, inertia, kinetic_energy, low, turn, kinks, breaks)
     time = np.zeros_like(low)
     for begin, end, origin in zip(edges[:-1], edges[1:], origins, strict=True):
         if np.any(end > begin):
-            depth, rate = places(begin - origin, end - begin, turn - end, node)
-            upper = np.minimum(begin + depth, end)
+            with np.errstate(invalid="ignore"):
+                depth, rate = places(begin - origin, end - begin, turn - end, node)
+            upper = np.where(end > begin, np.minimum(begin + depth, end), begin)
             steps = _step(profile, medium, upper, kinetic_energy(upper), inertia)
             time += np.where(end > begin, np.sum(weight * rate * steps, axis=0), 0.0)
     return time
