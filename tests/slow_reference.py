@@ -1,9 +1,10 @@
 """States and impacts by springs over x in plain quadrature: slow, and without the solver's code.
 
-Of the package only the reduced profile g(x), its slope, and the radii of its kinks and faces are taken. A
-spring at x is compressed by d − g(x). After a largest contact of radius a it is compressed elastically by no
-more than u_c = π a σ_c(a)/(2E*), and keeps the rest as its plastic part. Contact radii are found by bisection
-of g. Integrals are of Gauss and Legendre, in a variable in which powers at both ends of a piece are smooth.
+Of the package only the reduced profile g(x), its slope, and the radii of its kinks and faces are taken.
+A spring at x is compressed by d − g(x). After a largest contact of radius a it is compressed elastically by
+no more than u_c = π a σ_c(a)/(2E*), and keeps the rest as its plastic part. Contact radii are found by
+bisection of g. Integrals are of Gauss and Legendre, in a variable in which powers at both ends of a piece
+are smooth.
 """
 
 import itertools

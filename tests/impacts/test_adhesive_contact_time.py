@@ -98,7 +98,7 @@ def passage(springs, kinetic, low, high, cuts):
 @pytest.mark.parametrize("speed", [0.2, 0.3])
 @pytest.mark.parametrize("tip", TIPS, ids=name)
 def test_across_kinks(tip, speed):
-    """Where the springs' kinetic energy is a difference next to the turning point, 10⁻⁸ of the time is left."""
+    """The springs' kinetic energy is a difference next to the turning point: 10⁻⁸ of the time is left."""
     hit = mdr.impact(tip, MEDIUM, MASS, speed)
     assert hit.restitution > 0
     expected = contact_time(Sticky(tip, MEDIUM, 7.5e-7), speed)
