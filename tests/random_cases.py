@@ -18,8 +18,8 @@ SUMS = ("", "a", "b", "c", "ab", "bc", "ac", "abc")
 BOUNDS = {
     "plastic depth": 1e-12, "contact radius": 1e-11, "plastic radius": 1e-9, "force": 1e-9,
     "stored energy": 1e-9, "mean pressure": 1e-9, "line load": 1e-9, "pressure": 1e-6,
-    "pressure at c": 1e-4, "surface": 1e-8, "imprint": 1e-8, "stiffness": 1e-5, "energy": 1e-8, "plastic work": 1e-8,
-    "force path": 1e-9, "max depth": 1e-8, "restitution": 1e-7, "contact time": 5e-7,
+    "pressure at c": 1e-4, "surface": 1e-8, "imprint": 1e-8, "stiffness": 1e-5, "energy": 1e-8,
+    "plastic work": 1e-8, "force path": 1e-9, "max depth": 1e-8, "restitution": 1e-7, "contact time": 5e-7,
 }  # fmt: skip
 
 

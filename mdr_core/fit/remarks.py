@@ -12,9 +12,9 @@ from .parameters import PARAMETERS, TOGETHER
 
 #: All kinds of remarks, the most important first.
 KINDS = (
-    "invalid", "units", "order", "no contact", "adhesion", "bound", "second minimum", "undetermined", "tilt",
-    "drag", "drift", "misfit", "jitter", "unloading", "outliers", "blocks", "few", "loading", "vague", "contact",
-    "constants", "elastic", "hardly yields", "noisy", "rest", "inviscid", "missing",
+    "invalid", "units", "order", "no contact", "adhesion", "bound", "second minimum", "undetermined",
+    "tilt", "drag", "drift", "misfit", "jitter", "unloading", "outliers", "blocks", "few", "loading",
+    "vague", "contact", "constants", "elastic", "hardly yields", "noisy", "rest", "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
 DOUBTS = {"units", "order", "no contact", "tilt", "drag", "drift", "misfit", "jitter", "noisy"}
