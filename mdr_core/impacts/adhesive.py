@@ -39,6 +39,9 @@ from .result import Impact
 #: Gauss nodes of the contact time in each piece.
 _NODES = 32
 
+#: Gauss nodes of the contact time in each piece.
+_NODES = 32
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AdhesiveImpact(Impact):

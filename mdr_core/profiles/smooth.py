@@ -135,10 +135,10 @@ class Smooth(Profile):
         value, rate = mean(inside), mean(inside, 1)
         # Between the tip and the first panel g is a power of x.
         power = 1 + rate / value
+        # On the axis the slope is that of a cone, whose power is 1 to rounding, or 0.
+        on_axis = np.where(power > 1 + _ROUNDED, 0.0, value * power)
         value = value * np.exp((logarithm - inside) * (power - 1))
-        slope = value * power
-        # On the axis it is the slope of a cone, or 0, also where the power is 1 to rounding.
-        return x * value, np.where((x == 0) & (power > 1 + _ROUNDED), 0.0, slope)
+        return x * value, np.where(x == 0, on_axis, value * power)
 
     def _radius(self, depth):
         return increasing_root(self._height_and_slope, depth, 1e-6, np.exp(self._mean_slope.x[-1]))
