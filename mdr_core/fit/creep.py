@@ -6,7 +6,7 @@ import numpy as np
 
 from ..results.quantities import engineering
 from .errors import roughness
-from .unloading import deepest
+from .unloading import last_at_top
 
 #: Least force in a hold and largest deviation from its median, as shares, in standard deviations of noise.
 _HELD, _STILL, _NOISE = 0.99, 1e-3, 4.0
@@ -75,17 +75,17 @@ def share_of_compliance(rate, stiffness, force, time, end):
     return float(rate * stiffness / max(unloading, 1e-300))
 
 
-def growth(depth, force):
+def rise_of_depth(depth, force):
     """How far (m) the depth grows while the force falls, 0 where it does not beyond its noise."""
     noise = roughness(force[None])[0, 0]
     last = int(np.flatnonzero(force >= _HELD * force.max() - _NOISE * noise)[-1])
-    top = deepest(depth)
+    top = last_at_top(depth)
     # Where more than half of the force is lost it is the force that has the wrong sign.
     if top <= last or not force[last] / 2 < force[top] < force[last] - _NOISE * noise:
         return 0.0
-    grown = depth[top] - depth[last]
+    rise = depth[top] - depth[last]
     least = max(_GROWTH * np.ptp(depth), 2 * _NOISE * roughness(depth[None])[0, 0])
-    return float(grown) if grown > least else 0.0
+    return float(rise) if rise > least else 0.0
 
 
 def sentence(share):
@@ -96,9 +96,9 @@ def sentence(share):
     )
 
 
-def sentence_of_growth(grown):
+def sentence_of_rise(rise):
     """A remark on a depth that grows while the force falls."""
     return (
-        f"the depth creeps: it grows by {engineering(grown, 'm')} while the force falls, so that the "
+        f"the depth creeps: it grows by {engineering(rise, 'm')} while the force falls, so that the "
         "stiffness is too large; give time=, hold the force longer, or unload faster"
     )

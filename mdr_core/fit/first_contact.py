@@ -17,7 +17,7 @@ _CONSTANT = 0.01
 _SHARES = (1.0, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01)
 #: The exponent of the loading may be so much smaller or larger than that of an elastic contact.
 _SOFTER, _STIFFER = 0.5, 1.0
-#: Trial contact points, as shares of the way from the first sample to the first force that is seen.
+#: Trial contact points, as shares of the depth between the first sample and the first force that is seen.
 _STARTS = np.linspace(0.1, 1.0, 4)
 #: Least number of samples of a part that is fitted, standard deviations of noise that its force exceeds,
 #: and within which two contact points agree.
@@ -57,11 +57,11 @@ def first_contact(profile, depth, force):
     quiet = slice(max(LEAST_SAMPLES, seen // 2))
     if _trend(depth[quiet], force[quiet], noise) * length > _CONSTANT * (force[top] - level):
         return None, air
-    found = _contact_of_loading(profile, depth[: top + 1], force[: top + 1], seen, level, noise)
-    before = np.count_nonzero(depth[:seen] < found.depth - 2 * found.depth_error)
-    if before < LEAST_SAMPLES or found.depth - depth[0] < _LEAST_LENGTH * length:
+    contact = _contact_of_loading(profile, depth[: top + 1], force[: top + 1], seen, level, noise)
+    before = np.count_nonzero(depth[:seen] < contact.depth - 2 * contact.depth_error)
+    if before < LEAST_SAMPLES or contact.depth - depth[0] < _LEAST_LENGTH * length:
         return None, air
-    return found, ""
+    return contact, ""
 
 
 def _first_seen(force):
@@ -84,16 +84,16 @@ def _trend(depth, force, noise):
 def _contact_of_loading(profile, depth, force, seen, level, noise):
     """`FirstContact` of a loading whose force is seen from one sample on."""
     exponents = _exponents(profile, depth[-1] - depth[0])
-    parts, found = [], []
+    parts, contacts = [], []
     for share in _SHARES:
         height = share * (force[-1] - level)
         end = int(np.argmax(force >= level + height)) + 1
         if end - seen >= _FEW and height > _SEEN * noise:
             parts.append((depth[:end], force[:end]))
-            found.append(_power_law(*parts[-1], seen, *exponents))
-    found = [each for each in found if each.depth_error < np.inf]
-    for i, each in enumerate(found):
-        smaller = found[i + 1 :]
+            contacts.append(_power_law(*parts[-1], seen, *exponents))
+    contacts = [each for each in contacts if each.depth_error < np.inf]
+    for i, each in enumerate(contacts):
+        smaller = contacts[i + 1 :]
         distances = [abs(each.depth - other.depth) for other in smaller]
         if all(
             distance <= _AGREE * np.hypot(each.depth_error, other.depth_error)

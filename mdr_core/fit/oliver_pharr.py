@@ -16,7 +16,7 @@ from . import creep as creeping
 from .errors import roughness
 from .first_contact import FirstContact, first_contact
 from .report import with_error
-from .unloading import deepest, laws_of, parts_of
+from .unloading import last_at_top, laws_of, parts_of
 
 #: Quantities of the results, and others.
 OLIVER_PHARR = QUANTITIES | {
@@ -138,8 +138,8 @@ def oliver_pharr(
             profile, depth, force, columns["stiffness"], constants, contact
         )
         return OverDepth(profile=profile, **values, standard_errors=errors, remarks=(*remarks, text))
-    found, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
-    corrected, uncorrected = zip(*found, strict=True)
+    pairs, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
+    corrected, uncorrected = zip(*pairs, strict=True)
     result = _collected(profile, corrected, contact, cycles, (*remarks, text))
     if time is None:
         return result
@@ -203,9 +203,9 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
         which = f"unloading {number} of {len(parts)}"
         moments = None if time is None else time[part]
         try:
-            both, said = _with_creep(profile, depth[part], force[part], moments, constants, contact)
+            both, notes = _with_creep(profile, depth[part], force[part], moments, constants, contact)
             results.append(both)
-            remarks += [f"{which}: {each}" for each in said] if cycles and len(parts) > 1 else said
+            remarks += [f"{which}: {each}" for each in notes] if cycles and len(parts) > 1 else notes
         except ValueError as error:
             if not cycles or len(parts) < 2:
                 raise
@@ -213,7 +213,7 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
     if not results:
         raise ValueError(remarks[0])
     if len(parts) > 1 and not cycles:
-        number = sum(part.start <= deepest(depth) for part in parts)
+        number = sum(part.start <= last_at_top(depth) for part in parts)
         taken = f"unloading {number} of {len(parts)} was taken, the one after the largest depth"
         remarks.insert(0, f"{taken}: cycles=True takes each")
     return results, remarks
@@ -221,31 +221,31 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
 
 def _with_creep(profile, depth, force, time, constants, contact):
     """Values and errors of one unloading with and without correction for creep, and remarks."""
-    grown, said = creeping.growth(depth, force), []
+    rise, notes = creeping.rise_of_depth(depth, force), []
     creep = None if time is None else creeping.creep(depth, force, time)
     try:
         uncorrected = _values_and_errors(profile, depth, force, constants, contact)
     except ValueError as error:
-        if grown and creep is None:
-            raise ValueError(creeping.sentence_of_growth(grown)) from error
+        if rise and creep is None:
+            raise ValueError(creeping.sentence_of_rise(rise)) from error
         if creep is None:
             raise
         uncorrected = np.full((2, 5), np.nan)
     if creep is None:
-        if grown:
-            said.append(creeping.sentence_of_growth(grown))
+        if rise:
+            notes.append(creeping.sentence_of_rise(rise))
         if time is not None:
-            said.append("no hold of the force before the unloading tells its creep: nothing is corrected")
-        return (uncorrected, uncorrected), said
+            notes.append("no hold of the force before the unloading tells its creep: nothing is corrected")
+        return (uncorrected, uncorrected), notes
     corrected, shifted = (
         _values_and_errors(profile, creep.without(depth, time, n), force, constants, contact)
         for n in (0, 1)
     )
     corrected[1] = np.hypot(corrected[1], shifted[0] - corrected[0])
     share = creeping.share_of_compliance(creep.rate, corrected[0, 0], force, time, creep.end)
-    if grown or share > creeping.COUNTS:
-        said.append(creeping.sentence(share))
-    return (corrected, uncorrected), said
+    if rise or share > creeping.COUNTS:
+        notes.append(creeping.sentence(share))
+    return (corrected, uncorrected), notes
 
 
 def _values_and_errors(profile, depth, force, constants, contact):

@@ -5,6 +5,7 @@ from typing import Literal
 
 import numpy as np
 
+from .creep import COUNTS
 from .errors import SIGNIFICANT, roughness
 from .oliver_pharr import OliverPharr, oliver_pharr
 from .remarks import DOUBTS
@@ -98,27 +99,26 @@ def unloading(fit) -> tuple[OliverPharr | None, str]:
     for name, text in (("eta", "viscous"), ("work_of_adhesion", "adhesive")):
         if name in fit.standard_errors or getattr(fit.medium, name) > 0:
             return None, f"the medium is {text}: its unloading is no power law of the depth"
-    if doubts := _doubts(fit, OF_THE_FORCE):
+    # Beside a law of hardness that does not fit, these are of the law, not of the force.
+    if not _doubts(fit, {"misfit"}) and (doubts := _doubts(fit, OF_THE_FORCE)):
         return None, f"the force of the contact is not known: {doubts[0]}"
     # Without background the measured force is that of the contact plus the residual.
     force = fit.path.force + fit.residuals
     try:
-        result = oliver_pharr(fit.profile, fit.path.depth, force, time=_times(fit))
+        result = _evaluated(fit, fit.path.depth, force)
         if "contact_point" in result.standard_errors:
             return result, "is that of the record, which begins in the air"
         if "contact_point" not in fit.standard_errors:
             return result, "is held"
         if _begins_at_contact(fit.depth, force):
-            return oliver_pharr(
-                fit.profile, fit.depth, force, time=_times(fit)
-            ), "is the zero of the depths"
+            return _evaluated(fit, fit.depth, force), "is the zero of the depths"
         if doubts := _doubts(fit, DOUBTS):
             return (
                 None,
                 f"the model does not fit, so that its contact point is not first contact: {doubts[0]}",
             )
         shift = fit.standard_errors["contact_point"]
-        shifted = oliver_pharr(fit.profile, fit.path.depth + shift, force, time=_times(fit))
+        shifted = _evaluated(fit, fit.path.depth + shift, force)
     except ValueError as error:
         return None, str(error)
     errors = {
@@ -128,10 +128,13 @@ def unloading(fit) -> tuple[OliverPharr | None, str]:
     return replace(result, standard_errors=errors), "is that of the fit"
 
 
-def _times(fit):
-    """Times of a curve where they do not decrease, else None."""
+def _evaluated(fit, depth, force):
+    """Results of Oliver and Pharr, corrected for creep where times are given and it is not small."""
     increases = fit.time is not None and not np.any(np.diff(fit.time[np.isfinite(fit.time)]) < 0)
-    return fit.time if increases else None
+    result = oliver_pharr(fit.profile, depth, force, time=fit.time if increases else None)
+    if increases and abs(result.stiffness / result.uncorrected.stiffness - 1) <= COUNTS:
+        return result.uncorrected
+    return result
 
 
 def _begins_at_contact(depth, force):

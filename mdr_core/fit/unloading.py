@@ -35,7 +35,7 @@ def parts_of(force):
     return parts if lowest is None else [*parts, slice(begin, force.size)]
 
 
-def deepest(depth):
+def last_at_top(depth):
     """Index of the last sample of the largest depth."""
     return int(np.flatnonzero(depth == depth.max())[-1])
 
@@ -55,7 +55,7 @@ def laws_of(depth, force):
 
 def _part(depth, force, upper, lower):
     """Depths (m) minus the largest one, and forces (N), of the unloading between shares of the force."""
-    start = deepest(depth)
+    start = last_at_top(depth)
     h, F = depth[start:] - depth[start], force[start:]
     share = F / np.abs(F).max()
     below = np.flatnonzero(share < lower)
