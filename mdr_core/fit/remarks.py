@@ -15,7 +15,7 @@ from .parameters import PARAMETERS, TOGETHER
 KINDS = (
     "invalid", "units", "order", "no contact", "adhesion", "bound", "second minimum", "undetermined",
     "tilt", "drag", "drift", "misfit", "jitter", "unloading", "outliers", "blocks", "few", "loading",
-    "vague", "contact", "constants", "elastic", "hardly yields", "noisy", "rest", "inviscid", "missing",
+    "vague", "contact", "constants", "elastic", "noisy", "rest", "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
 DOUBTS = {"units", "order", "no contact", "tilt", "drag", "drift", "misfit", "jitter", "noisy"}
@@ -239,12 +239,6 @@ def _undetermined(solved, i):
     if solved.elastic[i] and constants:
         yield "elastic", f"nothing has yielded within the noise: {_hardest(solved, i)}"
         return
-    if solved.hardly_yields[i]:
-        symbols = " and ".join(PARAMETERS[name].quantity.symbol for name in constants)
-        text = (
-            f"an elastic medium fits about as well: yield and {symbols} are hardly determined; press deeper"
-        )
-        yield "hardly yields", text
     if len(constants) > 1:
         yield from _constants(solved, i, constants)
     unloading = np.count_nonzero((state.live_interval.length[i] > 0) & ~state.loading[i])

@@ -106,6 +106,7 @@ class Fit(Report):
 
     def _rows(self):
         yield "indenter", described(self.profile)
+        yield from self._comparable()
         for name, value in self._values().items():
             free = name in self.standard_errors
             if free or np.any(value) or name not in self._zero_unless_asked:
@@ -121,6 +122,10 @@ class Fit(Report):
         if name not in self.standard_errors:
             return f"{engineering(np.extract(~np.isnan(value), value), unit)} (held)"
         return with_error(value, self.standard_errors[name], unit)
+
+    def _comparable(self):
+        """Rows on what is comparable with tables."""
+        yield from ()
 
     def _quality(self):
         """Rows on how well the model fits."""

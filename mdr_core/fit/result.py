@@ -228,20 +228,35 @@ class IndentationFit(Fit):
             text = f"{engineering(mean, 'Pa')} over the model's a = {engineering(a, 'm')}"
             yield "mean pressure F/(π a²)", f"{text}, {yielded} where all of it yields"
 
+    def _comparable(self):
+        """Rows on the number to quote of one curve, and why that of the model differs."""
+        if self.shape or self.invalid:
+            return
+        quote = self.quoted
+        if quote.source is None:
+            yield "to quote", f"no E*: {quote.reason}"
+            return
+        value = with_error(quote.value, quote.standard_error, "Pa")
+        yield "to quote", f"E* {value} of the {quote.source}: {quote.reason}"
+        if quote.source == "unloading":
+            yield (
+                "the model's",
+                "its contact sinks in elastically, and is smaller: E* and hardness are larger",
+            )
+
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
         result, _ = unloading(self)
-        if result is None:
+        if result is None or {"misfit", "jitter", "noisy"} & set(self._remarks[0]):
             return
-        names = ("E_star", "hardness")
+        errors = result.standard_errors
         texts = [
-            f"{OLIVER_PHARR[n].symbol} {with_error(getattr(result, n), result.standard_errors[n], 'Pa')}"
-            for n in names
+            f"{OLIVER_PHARR[name].symbol} {with_error(getattr(result, name), errors[name], 'Pa')}"
+            for name in ("E_star", "hardness")
         ]
         force = self.path.force + self.residuals
         a = engineering(np.sqrt(np.nanmax(force) / (np.pi * result.hardness)), "m")
-        model = "; the model's contact has elastic sink-in" * self._yields
-        yield "Oliver and Pharr", f"{', '.join(texts)} over a = {a}{model}"
+        yield "Oliver and Pharr", f"{', '.join(texts)} over a = {a}"
 
     def _limits(self):
         return self.path.limits

@@ -88,6 +88,22 @@ class Cone(Profile):
         """
         return cls(math.sqrt(math.pi / (3 * math.sqrt(3.0))) / math.tan(math.radians(65.27)))
 
+    @classmethod
+    def pyramid(cls, degrees: ArrayLike) -> "Cone":
+        """Cone with the force of a four-sided pyramid, as of an AFM tip, at each depth.
+
+        The half-angle α is between the axis and a face, in degrees between 0 and 90. F = 0.7453 E* d² tan α
+        (Bilodeau, J. Appl. Mech. 59, 1992, 519), which is that of a cone of slope 2/(0.7453 π tan α).
+
+        Examples
+        --------
+        >>> from mdr_core import Medium, indent
+        >>> state = indent(Cone.pyramid(35.0), Medium(E_star=1.0), 1.0)
+        >>> print(round(state.force / np.tan(np.radians(35.0)), 4))
+        0.7453
+        """
+        return cls(2 / (0.7453 * np.pi) * cls.from_half_angle(degrees).slope)
+
     def _height(self, r):
         return self.slope * r
 

@@ -41,6 +41,7 @@ def test_elastic_unloadings_are_power_laws(profile, epsilon, exponent):
     expected = loaded.stiffness, E, loaded.mean_pressure, exponent
     values = result.stiffness, result.E_star, result.hardness, result.exponent
     assert values == pytest.approx(expected, rel=1e-11)
+    assert not any("creep" in remark for remark in result.remarks)
     height = profile.height(loaded.contact_radius)
     assert result.contact_depth == pytest.approx(height, rel=1e-11, abs=1e-18)
 
@@ -235,7 +236,7 @@ class TestCycles:
         a = np.sqrt(np.array(PEAKS) / (np.pi * 9.2e9))
         assert result.stiffness == pytest.approx(2 * self.MODULUS * a, rel=1e-11)
         assert result.contact_depth == pytest.approx(BERKOVICH.height(a), rel=1e-11)
-        assert not result.remarks
+        assert not any("unloading" in remark for remark in result.remarks)
 
     def test_they_are_one_table(self):
         pytest.importorskip("pandas")
@@ -270,7 +271,8 @@ class TestCycles:
         # The second of two where the last peak is less deep.
         twice = np.append(depth[:698], depth[:349]), np.append(force[:698], force[:349])
         assert mdr.oliver_pharr(BERKOVICH, *twice).remarks[0].startswith("unloading 2 of 3")
-        assert not mdr.oliver_pharr(BERKOVICH, depth[:349], force[:349]).remarks
+        single = mdr.oliver_pharr(BERKOVICH, depth[:349], force[:349])
+        assert not any("unloading" in remark for remark in single.remarks)
 
     def test_an_unloading_that_is_none_is_left_out_with_its_reason(self):
         """The force relaxes by 30 % at the depth of the second peak: it falls at one depth."""
@@ -281,7 +283,7 @@ class TestCycles:
         relaxed[698:897] = np.linspace(depth[547], depth[896], 199)
         result = mdr.oliver_pharr(BERKOVICH, relaxed, force, cycles=True)
         assert result.E_star == pytest.approx([self.MODULUS] * 2, rel=1e-11)
-        (remark,) = result.remarks
+        remark, _ = result.remarks
         assert remark.startswith("unloading 2 of 3 is left out:")
         assert "depth and force must fall" in remark
 
@@ -291,7 +293,8 @@ class TestCycles:
         away, random = np.linspace(-5e-8, 0, 60, endpoint=False), np.random.default_rng(2)
         pull = np.where(away > -1e-8, -0.002, 0.0) + 1e-5 * random.normal(size=60)
         result = mdr.oliver_pharr(BERKOVICH, np.append(away, depth), np.append(pull, force), cycles=True)
-        assert result.E_star == pytest.approx([self.MODULUS] * 3, rel=1e-11)
+        assert np.all(np.abs(result.E_star - self.MODULUS) < 2 * result.standard_errors["E_star"])
+        assert np.all(result.standard_errors["E_star"] < 0.02 * self.MODULUS)
 
     def test_fused_silica_has_one(self):
         depth, force, _ = silica()
