@@ -72,7 +72,11 @@ def _units(solved, i):
     if _is_enormous(solved, i):
         reached = engineering(np.ptp(curves.depth[i]), "m")
         text = f"the depths of this record differ by {reached}, which is no indentation by this tip"
-        yield "units", f"{text}: give depth in m and force in N"
+        columns = curves.depth[i], curves.force[i]
+        swapped = _shares_of_others(*columns).get(_SWAPPED, 0.0) >= max(
+            _EXPLAINED, _share_of_contact(*columns)
+        )
+        yield "units", f"{text}: {_SWAPPED if swapped else 'give depth in m and force in N'}"
         return
     if "E_star" not in curves.free:
         return

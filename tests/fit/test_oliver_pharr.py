@@ -316,5 +316,5 @@ def test_numbers_of_no_material_are_said(of_depth, of_force):
     right = mdr.oliver_pharr(tip, depth, force)
     wrong = mdr.oliver_pharr(tip, of_depth * depth, of_force * force)
     assert not any("of no material" in remark for remark in right.remarks)
-    said = [re.match(r"(E\*|H) = .* is that of no material", remark)[1] for remark in wrong.remarks]
-    assert said == ["E*", "H"]
+    said = [re.match(r"(E\*|H) = .* is that of no material", remark) for remark in wrong.remarks]
+    assert [match[1] for match in said if match] == ["E*", "H"]
