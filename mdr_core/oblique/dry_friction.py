@@ -114,8 +114,9 @@ class DryRun:
         """F (m²) at a displacement U, a depth d and a plastic depth p (m) after slip, which moves origins.
 
         The first `count` elements are in contact. The bound of the load is B = d − `zero` with
-        zero = max(g, p), at most d for the two at the edge; |U − O| ≤ B for O between `low` and `high`. All of these are
-        lengths in units of μ/κ. They are changed in place: rows that are released keep their last values.
+        zero = max(g, p), at most d for the two at the edge; |U − O| ≤ B for O between `low`
+        and `high`. All are lengths along the surface, in units of μ/κ, or depths (m). They are changed in
+        place: rows that are released keep their last values.
         """
         zero = np.maximum(self.depth[:count], plastic_depth, out=self.zero[:count])
         np.minimum(zero[-2:], depth, out=zero[-2:])
