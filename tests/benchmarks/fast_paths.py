@@ -22,12 +22,11 @@ from mdr_core.profiles.power import PowerLaw, kappa
 DRY, HARD = mdr.Medium(1e9, 10.0), mdr.Medium(1e9, 10.0, hardness=1e7)
 WET = mdr.Medium(1e9, 10.0, eta=3.0)
 STICKY = mdr.Medium(1e9, 10.0, work_of_adhesion=0.01)
-MORE_OR_LESS_STICKY = mdr.Medium(1e9, work_of_adhesion=np.linspace(0.01, 0.02, 20)[:, None])
 R = np.linspace(0, 2e-5, 400)
 CONE, POWER = mdr.Cone(0.2), mdr.PowerLaw(1e3, 1.7)
 TIP, ROUND = mdr.Sampled(R, R**2 / 2e-5), mdr.RoundedCone(1e-5, 0.2)
 SMOOTH = mdr.Smooth(lambda r: 0.2 * np.tanh(r / 1e-6))
-SPEEDS = np.geomspace(1e-4, 1e-2, 300)
+SPEEDS = np.geomspace(1e-3, 1.0, 300)
 
 
 @dataclass(frozen=True)
@@ -56,7 +55,7 @@ def one_by_one(profile, medium=DRY, count=20):
 
 def hits(profile, medium=DRY, count=20, speeds=SPEEDS):
     """Impacts, one call each."""
-    return [mdr.impact(profile, medium, 1e-9, speed).restitution for speed in speeds[:count]]
+    return [mdr.impact(profile, medium, 1e-9, speed).restitution for speed in speeds[-count:]]
 
 
 def uncached(module, name):
@@ -113,24 +112,23 @@ PATHS = (
     ("_similar_time, 300 cones", lambda: patch.object(contact_time, "_similar_time", by_ratio),
      lambda: times(CONE)),
     ("_similar_time, 10⁵ cones", lambda: patch.object(contact_time, "_similar_time", by_ratio),
-     lambda: times(CONE, np.geomspace(1e-4, 1e-2, 10**5))),
-    ("its coefficients kept, a cone", lambda: uncached(contact_time, "_table"), lambda: times(CONE, 1e-3)),
-    ("_rule of contact times kept", lambda: uncached(contact_time, "_rule"), lambda: times(TIP)),
+     lambda: times(CONE, np.geomspace(1e-3, 1.0, 10**5))),
+    ("its coefficients kept, a cone", lambda: uncached(contact_time, "_table"), lambda: times(CONE, 0.1)),
     ("Tabulated, times of 300 samples", lambda: patch.object(integrals, "_tabulated", plain),
-     lambda: times(TIP)),
+     lambda: times(TIP, SPEEDS / 5)),
     ("Tabulated, 20 viscous, samples", lambda: patch.object(integrals, "_tabulated", plain),
-     lambda: times(TIP, SPEEDS[::15], WET)),
+     lambda: times(TIP, SPEEDS[::15] / 5, WET)),
     ("Tabulated, 20 viscous, smooth", lambda: patch.object(integrals, "_tabulated", plain),
      lambda: times(SMOOTH, SPEEDS[::15], WET)),
     ("Tabulated, one time, samples", lambda: patch.object(integrals, "_tabulated", plain),
-     lambda: times(TIP, 1e-3)),
+     lambda: times(TIP, 0.1)),
     ("Tabulated kept, 300 samples", lambda: patch.object(integrals, "_tabulated", integrals.Tabulated),
-     lambda: times(TIP)),
+     lambda: times(TIP, SPEEDS / 5)),
     ("_first_guess (_inverses), 300 samples", without_guess,
-     lambda: mdr.impact(TIP, DRY, 1e-9, SPEEDS).restitution),
+     lambda: mdr.impact(TIP, DRY, 1e-9, SPEEDS / 5).restitution),
     ("_first_guess (_inverses), 10⁵ rounded cones",
      without_guess,
-     lambda: mdr.impact(ROUND, DRY, 1e-9, np.geomspace(1e-4, 1e-2, 10**5)).restitution),
+     lambda: mdr.impact(ROUND, DRY, 1e-9, np.geomspace(1e-3, 1.0, 10**5)).restitution),
     ("_zone_integrals kept, 20 states of samples", lambda: uncached(quadrature, "_zone_integrals"),
      lambda: one_by_one(TIP)),
     ("_zone_integrals kept, 2000 states at once", lambda: uncached(quadrature, "_zone_integrals"),
@@ -141,12 +139,10 @@ PATHS = (
      lambda: one_by_one(TIP, HARD)),
     ("_ranges kept, samples, adhesion", lambda: uncached(adhesion, "_ranges"),
      lambda: one_by_one(TIP, STICKY)),
-    ("_rates kept, samples, adhesion", lambda: uncached(adhesion, "_rates"),
-     lambda: mdr.indent(TIP, MORE_OR_LESS_STICKY, 1e-7).force),
     ("_sharp_radii kept, own law, impacts", lambda: patch.object(*sharp()), lambda: hits(CONE, OWN, 5)),
     ("PowerLaw._reduced_coefficient kept",
      without_coefficient,
-     lambda: one_by_one(POWER)),
+     lambda: times(POWER, SPEEDS[::15], WET)),
     ("Parameters.shape kept, single states", shapeless, lambda: one_by_one(CONE)),
 )  # fmt: skip
 
