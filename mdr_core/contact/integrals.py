@@ -252,5 +252,5 @@ def tabulated(profile, known_depth):
 
 
 # A table makes the times of 300 impacts of a sampled tip 400 times as fast, one time six times, 20 viscous
-# impacts 10 times, those of a `Smooth` tip 170 times. Without its cache the table would be made again at every call.
+# impacts 10 times, those of a `Smooth` tip 170 times. Without the cache every call would make it again.
 _tabulated = lru_cache(maxsize=16)(Tabulated)
