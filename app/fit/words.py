@@ -1,0 +1,174 @@
+"""What is said of a measurement: the number to quote, parameters with errors, classes, remarks, refusals."""
+
+import re
+from html import escape
+
+import numpy as np
+
+from mdr_core.fit.indentation import IndentationFit
+from mdr_core.fit.parameters import PARAMETERS
+from mdr_core.fit.quoted import unloading
+from mdr_core.fit.report import with_error
+from mdr_core.results.units import written
+
+from ..ui import indexed, marked
+from .setting import CLASS_NAMES, CORRECTIONS, Setting, parameter
+
+#: Ratio of misfits from which another class is taken to fit clearly better.
+CLEARLY = 5.0
+#: Words for what is code in messages of the reader and of the fit.
+_WORDS = {
+    r'give columns=\{.*?\}, numbers and units': "choose its columns and their units below",
+    r"spring_constant=": "the spring constant",
+    r"sensitivity=": "the sensitivity",
+    r"cycles=True takes each": "choose another one by the range",
+    r"\bspring_constant\b": "spring constant",
+    r"\bcontact_point\b": "contact point",
+    r"\bdepth_noise\b": "noise of the depth",
+    r"\bforce_noise\b": "noise of the force",
+    r"\bwork_of_adhesion\b": "work of adhesion",
+    r"or free baseline": "or free the baseline",
+    r"\bE_star\b": "E*",
+    r"\beta\b": "η",
+    r"\bq_c=np\.inf\b|q_c = inf": "an elastic sample",
+    r"give time=": "give a column of times",
+}
+
+
+def in_page_words(text: str) -> str:
+    """A report, remark or refusal of the core with symbols and words for its names of parameters."""
+    for code, words in _WORDS.items():
+        text = re.sub(code, words, text)
+    return text
+
+
+def amount(value: float, error: float | None, unit: str) -> str:
+    """A number with its error, one unit and a true minus."""
+    text = with_error(value, np.nan if error is None else error, unit) if error is not None else ""
+    if error is None:
+        text = written(value, parameter_kind(unit))
+    return re.sub(r"(?<![\w/])-(?=[\d.])", "−", text)
+
+
+def parameter_kind(unit: str) -> str:
+    """Kind of a unit of SI."""
+    from mdr_core.results.units import KINDS
+
+    return KINDS.get(unit, "number")
+
+
+def value_of(fit: IndentationFit, name: str) -> str:
+    """A parameter of a fit with its error, or as it was held."""
+    values = fit.to_dict()
+    unit = PARAMETERS[name].quantity.unit
+    if name in ("hardness", "q_c", "f_c") and name in fit.standard_errors and np.isinf(fit.medium.q_c):
+        return "∞: nothing has yielded"
+    return amount(float(values[name]), fit.standard_errors.get(name), unit)
+
+
+def headline(fit: IndentationFit, E: tuple[float, float] | None) -> str:
+    """The number to quote, large, and of what it is (HTML)."""
+    quoted = fit.quoted
+    if quoted.source is None:
+        reason = in_page_words(quoted.reason)
+        return (
+            f'<p class="big none">No E* to quote</p><p class="of">{marked(reason[:1].upper() + reason[1:])}.</p>'
+        )
+    number = amount(quoted.value, quoted.standard_error, "Pa")
+    source = {"unloading": "from the unloading, by Oliver and Pharr", "fit": "from the fit"}[quoted.source]
+    parts = [f'<p class="big">E* = <output>{escape(number)}</output></p>']
+    parts.append(f'<p class="of">Effective modulus, {source}.</p>')
+    if E is not None:
+        parts.append(f'<p class="second">E = <output>{amount(*E, "Pa")}</output>, Young’s modulus of the sample</p>')
+    if quoted.source == "unloading":
+        result, _ = unloading(fit)
+        H = amount(float(result.hardness), float(result.standard_errors["hardness"]), "Pa")
+        parts.append(f'<p class="second">H = <output>{H}</output>, hardness by Oliver and Pharr</p>')
+    return "".join(parts)
+
+
+def why(fit: IndentationFit) -> str:
+    """One sentence on the E* of the model where another one is quoted (HTML)."""
+    if fit.quoted.source != "unloading":
+        return ""
+    model = value_of(fit, "E_star")
+    return (
+        f"<p>The model’s own E* is {escape(model)}: on loading its contact sinks in elastically, so that its "
+        "contact is smaller than that of a material that flows, and its modulus larger.</p>"
+    )
+
+
+def verdict(fit: IndentationFit) -> tuple[str, dict[str, float]]:
+    """What the samples say of the class of hardness, in a sentence, and the misfit of each class."""
+    misfits = {letter: float(each.misfit) for letter, each in fit.classes.items()}
+    if not misfits:
+        return "", {}
+    told = next((line for line in repr(fit).splitlines() if "class of hardness" in line), "")
+    best = min(misfits, key=misfits.__getitem__)
+    if "not told" in told:
+        return "The class cannot be told from this curve.", misfits
+    text = f"The curve is of class ({best}), {CLASS_NAMES[best]}."
+    if "none within" in told:
+        text = f"No class describes the curve within 1 %; the nearest is ({best}), {CLASS_NAMES[best]}."
+    return text, misfits
+
+
+def better(misfits: dict[str, float], own: str) -> str:
+    """The class that fits clearly better than the one that was fitted, or nothing."""
+    best = min(misfits, key=misfits.__getitem__, default="")
+    clearly = best and best != own and CLEARLY * misfits[best] <= misfits.get(own, np.inf)
+    return best if clearly else ""
+
+
+def classes_table(misfits: dict[str, float], own: str) -> str:
+    """Misfit of each class (HTML)."""
+    rows = []
+    for letter, misfit in misfits.items():
+        chosen = " class='own'" if letter == own else ""
+        mark = "fitted" if letter == own else ""
+        rows.append(
+            f"<tr{chosen}><th>({letter}) {CLASS_NAMES[letter]}</th><td>{100 * misfit:.2g} %</td><td>{mark}</td></tr>"
+        )
+    head = "<tr><th>class of hardness</th><td>misfit, of the largest force</td><td></td></tr>"
+    return f"<table>{head}{''.join(rows)}</table>"
+
+
+def remarks(fit: IndentationFit, of_file: tuple[str, ...]) -> str:
+    """Remarks on the fit and on the reading of the file, and assumptions that are exceeded (HTML)."""
+    texts = [*fit.remarks, *of_file, *(each.sentence for each in fit.path.limits if each.exceeded)]
+    told = [marked(in_page_words(text)) for text in texts]
+    return "".join(f"<li>{text[:1].upper() + text[1:]}</li>" for text in told)
+
+
+def report(setting: Setting, fit: IndentationFit, E: tuple[float, float] | None) -> str:
+    """A fit as lines of text, to be pasted into a report."""
+    lines = [f"{setting.file}: {_plain(headline(fit, E))}"]
+    for name in setting.parameters(fit.time is not None):
+        known = parameter(name)
+        state = "" if name in fit.standard_errors else " (held)"
+        lines.append(f"{known.label} {known.symbol}\t{value_of(fit, name)}{state}")
+    for name, value in setting.corrections.items():
+        known = CORRECTIONS[name]
+        lines.append(f"{known.label} {known.symbol}\t{written(value, known.kind)}")
+    text, misfits = verdict(fit)
+    if misfits:
+        each = ", ".join(f"({letter}) {100 * misfit:.2g} %" for letter, misfit in misfits.items())
+        lines.append(f"{text} Misfits: {each} of the largest force.")
+    lines += [in_page_words(remark) for remark in fit.remarks]
+    return "\n".join(lines)
+
+
+def _plain(html: str) -> str:
+    text = re.sub(r"</p>", "; ", html)
+    return re.sub(r"<[^>]+>", "", text).strip("; ")
+
+
+def refused(text: str) -> str:
+    """A refusal (HTML)."""
+    return f'<p class="refused" role="alert">{marked(in_page_words(text))}</p>' if text else ""
+
+
+def name_html(name: str) -> str:
+    """Symbol and name of a parameter (HTML)."""
+    known = parameter(name)
+    return f"<i>{indexed(escape(known.symbol))}</i> {escape(known.label)}"
