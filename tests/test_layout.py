@@ -31,7 +31,7 @@ ORDER = (
     "sweep", "fit.parameters", "fit.least_squares", "fit.errors", "fit.report", "fit.oliver_pharr",
     "fit.hardness", "fit.measurement", "fit.model", "fit.curves", "fit.adhesion", "fit.depth_noise",
     "fit.start", "fit.solution", "fit.classes",
-    "fit.nested", "fit.noise", "fit.remarks", "fit.figures", "fit.result",
+    "fit.nested", "fit.noise", "fit.remarks", "fit.quoted", "fit.figures", "fit.result",
     "fit.indentation", "drives", "scene", "results.figures", "results.elements", "__init__",
 )  # fmt: skip
 # What the chain bears witness of.

@@ -1,6 +1,5 @@
 """Results of `fit_indentation`: parameters, states and residuals of all curves."""
 
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -16,9 +15,10 @@ from ..results.quantities import described, engineering
 from ..results.report import imported
 from .classes import ClassFit, fits_of_classes, verdict
 from .measurement import Measurement
-from .oliver_pharr import OLIVER_PHARR, oliver_pharr
+from .oliver_pharr import OLIVER_PHARR
 from .parameters import BACKGROUND, CLASSES, MEDIUM, PARAMETERS
-from .remarks import DOUBTS, by_importance, missing, remarks_of
+from .quoted import Quoted, quoted, unloading
+from .remarks import by_importance, missing, remarks_of
 from .report import Fit, with_error
 
 if TYPE_CHECKING:
@@ -150,6 +150,12 @@ class IndentationFit(Fit):
         held = {name: np.atleast_1d(value) for name, value in values.items()}
         return fits_of_classes(self.profile, measured, held, self.depth_noise)
 
+    @cached_property
+    def quoted(self) -> Quoted:
+        """The modulus of one curve that is to be quoted, and of what it is; found when first read."""
+        self._one("quoted")
+        return quoted(self)
+
     def plot(self) -> Any:
         """Measured and fitted force over depth, and the residuals, of one curve as HoloViews elements.
 
@@ -223,25 +229,18 @@ class IndentationFit(Fit):
 
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
-        # The unloading of a viscous or adhesive medium is no power law of the depth.
-        for name in ("eta", "work_of_adhesion"):
-            if name in self.standard_errors or getattr(self.medium, name) > 0:
-                return
-        if set(self._remarks[0]) & DOUBTS:
+        result, _ = unloading(self)
+        if result is None:
             return
-        # Without background the measured force is that of the contact plus the residual.
-        force, shift = self.path.force + self.residuals, self.standard_errors.get("contact_point", 0.0)
-        with suppress(ValueError):
-            result = oliver_pharr(self.profile, self.path.depth, force)
-            shifted = oliver_pharr(self.profile, self.path.depth + shift, force)
-            texts = []
-            for name in ("E_star", "hardness"):
-                value = getattr(result, name)
-                error = np.hypot(result.standard_errors[name], getattr(shifted, name) - value)
-                texts.append(f"{OLIVER_PHARR[name].symbol} {with_error(value, error, 'Pa')}")
-            a = engineering(np.sqrt(force.max() / (np.pi * result.hardness)), "m")
-            model = "; the model's contact has elastic sink-in" * self._yields
-            yield "Oliver and Pharr", f"{', '.join(texts)} over a = {a}{model}"
+        names = ("E_star", "hardness")
+        texts = [
+            f"{OLIVER_PHARR[n].symbol} {with_error(getattr(result, n), result.standard_errors[n], 'Pa')}"
+            for n in names
+        ]
+        force = self.path.force + self.residuals
+        a = engineering(np.sqrt(np.nanmax(force) / (np.pi * result.hardness)), "m")
+        model = "; the model's contact has elastic sink-in" * self._yields
+        yield "Oliver and Pharr", f"{', '.join(texts)} over a = {a}{model}"
 
     def _limits(self):
         return self.path.limits
