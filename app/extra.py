@@ -94,8 +94,6 @@ class Extra:
     below: Callable[[View], str] = lambda view: ""
     #: Titles and texts (HTML) that a saved scene has of it.
     told: Callable[[View], list[tuple[str, str]]] = lambda view: []
-    #: A page of its own at the address `?NAME=place`.
-    served: Callable[[str], Any] | None = None
 
 
 #: All extras by name, in their order.

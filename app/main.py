@@ -1,15 +1,23 @@
-"""The served page: `panel serve app` from the project root."""
+"""The served pages: `panel serve app` from the project root."""
 
 from urllib.parse import urlencode
 
 import panel as pn
 
-from .extra import EXTRAS
+from .extras import theory
+from .fit import page as fit
 from .page import Address, Page
 from .ui import SHEETS
 
+#: Pages beside the explorer by the name that opens them, the first one that is there: what makes a page of
+#: the query, its title, style sheets and extensions of Panel.
+_PAGES = {
+    "fit": (fit.served, "Measurement", ["app/static/fit.css"], ["filedropper", "tabulator"]),
+    "theory": (theory.served, "Theory", [], ["katex"]),
+}
 _ADDRESS = Address.from_request(pn.state.curdoc.session_context.request)
 _GIVEN = pn.state.session_args
+_QUERY = urlencode(_GIVEN, doseq=True)
 # As wide as the screen: a phone would lay the page out for a desk. No plot is drawn with WebGL, which
 # spares the first visit 194 of 3,060 kB of scripts.
 pn.state.curdoc.template = """{% block postamble %}
@@ -17,10 +25,7 @@ pn.state.curdoc.template = """{% block postamble %}
 <link rel="modulepreload" href="app/static/parts.js">{% endblock %}{% block js_resources %}
 {% for line in bokeh_js.splitlines() if "bokeh-gl" not in line %}{{ line }}
 {% endfor %}{% endblock %}"""
-pn.extension(notifications=True, css_files=SHEETS)
-_PAGES = [extra for extra in EXTRAS.values() if extra.served and extra.name in _GIVEN]
-if _PAGES:
-    place = _GIVEN[_PAGES[0].name][0].decode("utf-8", "replace")
-    _PAGES[0].served(place).servable(_PAGES[0].name.capitalize(), _ADDRESS)
-else:
-    Page(urlencode(_GIVEN, doseq=True)).view.servable("Indentation explorer", _ADDRESS)
+_name = next((name for name in _PAGES if name in _GIVEN), "")
+_made, _title, _sheets, _extensions = _PAGES.get(_name, (None, "Indentation explorer", [], []))
+pn.extension(*_extensions, notifications=True, css_files=[*SHEETS, *_sheets])
+(_made(_QUERY) if _made else Page(_QUERY).view).servable(_title, _ADDRESS)

@@ -12,6 +12,7 @@ from tornado.websocket import WebSocketClosedError
 # Here, so that the first visitor does not wait for it, and that the server does not start if it fails.
 from . import extras as extras
 from . import page as page
+from .fit import page as measurement  # noqa: F401
 
 
 class PromptHandler(WSHandler):

@@ -17,13 +17,6 @@ NAMES = {
     "attack": "oblique.attack",
     "friction": "oblique.friction",
     "body": "oblique.body",
-    "fixed": "fit.fixed",
-    "fit_note": "fit.note",
-    "contact_point": "fit.contact_point",
-    "baseline": "fit.baseline",
-    "tilt": "fit.tilt",
-    "drag": "fit.drag",
-    "depth_noise": "fit.depth_noise",
 }
 #: What version 0.6 had and is gone: left out in silence, in lists too.
 _GONE = {"frame_compliance", "loglog"}

@@ -3,6 +3,7 @@
 import re
 from html import escape
 from pathlib import Path
+from urllib.parse import parse_qsl
 
 import panel as pn
 from bokeh.events import DocumentReady
@@ -54,9 +55,9 @@ def linked(html):
     return re.sub(r"§ (\d+)", led.format("section"), text)
 
 
-def served(place):
-    pn.extension("katex")
-    return page(place)
+def served(query):
+    """The page for a query, at the place that `theory=` in it names."""
+    return page(dict(parse_qsl(query)).get("theory", ""))
 
 
-EXTRA = Extra("theory", linked=linked, served=served)
+EXTRA = Extra("theory", linked=linked)

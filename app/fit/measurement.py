@@ -97,15 +97,28 @@ def read(path: str, given: dict[str, Any], number: int) -> Any:
         raise ValueError(f"{Path(path).name} cannot be read: {type(error).__name__}, {error}") from error
 
 
-def fit(profile: mdr.Profile, taken: dict[str, Any], arguments: dict[str, Any]) -> IndentationFit:
-    """A fit with what is found when it is first read: classes, and the number to quote."""
+def fit(
+    profile: mdr.Profile, taken: dict[str, Any], arguments: dict[str, Any]
+) -> tuple[IndentationFit, tuple[str, ...]]:
+    """A fit, with its classes and the number to quote, and its remarks.
+
+    The times of the samples tell a drift, which a remark names, and of which the unloading of a known contact
+    is independent: where they alone leave no number to quote, the fit is the one without them.
+    """
     _refuse_range(arguments, taken)
     used = taken["used"]
+    depth, force = taken["depth"][used], taken["force"][used]
     time = None if taken["time"] is None else taken["time"][used]
-    found = mdr.fit_indentation(profile, taken["depth"][used], taken["force"][used], time=time, **arguments)
+    found = mdr.fit_indentation(profile, depth, force, time=time, **arguments)
+    remarks = found.remarks
+    needs_time = any(arguments.get(name, 0.0) != 0 for name in ("eta", "drag"))
+    if found.quoted.value is None and time is not None and not needs_time:
+        other = mdr.fit_indentation(profile, depth, force, **arguments)
+        if other.quoted.value is not None:
+            found, remarks = other, tuple(dict.fromkeys((*remarks, *other.remarks)))
     # Kept in the object that is sent.
-    _ = found.classes, found.quoted
-    return found
+    _ = found.classes
+    return found, remarks
 
 
 def fit_all(
@@ -123,8 +136,13 @@ def fit_all(
             if asked["noise"] and taken.depth_noise:
                 own["depth_noise"] = taken.depth_noise
             ends = asked["samples"] or first_and_last(taken, len(curve), asked["part"])
-            told = {"depth": taken.depth, "force": taken.force, "time": taken.time, "used": taken.within(ends)}
-            quoted = fit(profile, told, own).quoted
+            told = {
+                "depth": taken.depth,
+                "force": taken.force,
+                "time": taken.time,
+                "used": taken.within(ends),
+            }
+            quoted = fit(profile, told, own)[0].quoted
             yield number, quoted.value, quoted.standard_error, quoted.reason
         except ValueError as error:
             yield number, None, None, str(error)

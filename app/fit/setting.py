@@ -57,7 +57,7 @@ class Tip:
     profile: Callable[..., mdr.Profile]
 
 
-def _slope(half_angle: float) -> float:
+def slope_of(half_angle: float) -> float:
     return 1 / tan(half_angle)
 
 
@@ -68,11 +68,11 @@ TIPS = {
         "Paraboloid: a colloid or a blunt tip", ("radius",), lambda radius: mdr.Paraboloid(radius)
     ),
     "sphere": Tip("Sphere", ("radius",), lambda radius: mdr.Sphere(radius)),
-    "cone": Tip("Cone", ("half_angle",), lambda half_angle: mdr.Cone(_slope(half_angle))),
+    "cone": Tip("Cone", ("half_angle",), lambda half_angle: mdr.Cone(slope_of(half_angle))),
     "rounded_cone": Tip(
         "Cone with a rounded tip",
         ("half_angle", "radius"),
-        lambda half_angle, radius: mdr.RoundedCone(tip_radius=radius, slope=_slope(half_angle)),
+        lambda half_angle, radius: mdr.RoundedCone(tip_radius=radius, slope=slope_of(half_angle)),
     ),
     "flat_punch": Tip("Flat punch", ("radius",), lambda radius: mdr.FlatPunch(radius)),
     "measured": Tip("Measured tip, from a file", (), lambda: mdr.Cone(1.0)),
@@ -97,13 +97,9 @@ MEDIA = {
     "constant": Kind(
         "Glass, metal or ceramic: constant hardness", ("E_star", "hardness", "contact_point"), letter="a"
     ),
-    "composite": Kind(
-        "Composite, PDMS: hardness ∝ 1/a", ("E_star", "q_c", "contact_point"), letter="b"
-    ),
+    "composite": Kind("Composite, PDMS: hardness ∝ 1/a", ("E_star", "q_c", "contact_point"), letter="b"),
     "line": Kind("Hardness ∝ 1/a²", ("E_star", "f_c", "contact_point"), letter="c"),
-    "gel": Kind(
-        "Gel, cell, rubber: elastic", ("E_star", "contact_point", "baseline"), part="loading"
-    ),
+    "gel": Kind("Gel, cell, rubber: elastic", ("E_star", "contact_point", "baseline"), part="loading"),
     "viscous": Kind(
         "Viscous gel in a liquid (with times)", ("E_star", "eta", "contact_point", "baseline", "drag")
     ),

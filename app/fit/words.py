@@ -9,7 +9,7 @@ from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.parameters import PARAMETERS
 from mdr_core.fit.quoted import unloading
 from mdr_core.fit.report import with_error
-from mdr_core.results.units import written
+from mdr_core.results.units import KINDS, written
 
 from ..ui import indexed, marked
 from .setting import CLASS_NAMES, CORRECTIONS, Setting, parameter
@@ -18,7 +18,7 @@ from .setting import CLASS_NAMES, CORRECTIONS, Setting, parameter
 CLEARLY = 5.0
 #: Words for what is code in messages of the reader and of the fit.
 _WORDS = {
-    r'give columns=\{.*?\}, numbers and units': "choose its columns and their units below",
+    r"give columns=\{.*?\}, numbers and units": "choose its columns and their units below",
     r"spring_constant=": "the spring constant",
     r"sensitivity=": "the sensitivity",
     r"cycles=True takes each": "choose another one by the range",
@@ -44,17 +44,8 @@ def in_page_words(text: str) -> str:
 
 def amount(value: float, error: float | None, unit: str) -> str:
     """A number with its error, one unit and a true minus."""
-    text = with_error(value, np.nan if error is None else error, unit) if error is not None else ""
-    if error is None:
-        text = written(value, parameter_kind(unit))
+    text = written(value, KINDS.get(unit, "number")) if error is None else with_error(value, error, unit)
     return re.sub(r"(?<![\w/])-(?=[\d.])", "−", text)
-
-
-def parameter_kind(unit: str) -> str:
-    """Kind of a unit of SI."""
-    from mdr_core.results.units import KINDS
-
-    return KINDS.get(unit, "number")
 
 
 def value_of(fit: IndentationFit, name: str) -> str:
@@ -71,15 +62,15 @@ def headline(fit: IndentationFit, E: tuple[float, float] | None) -> str:
     quoted = fit.quoted
     if quoted.source is None:
         reason = in_page_words(quoted.reason)
-        return (
-            f'<p class="big none">No E* to quote</p><p class="of">{marked(reason[:1].upper() + reason[1:])}.</p>'
-        )
+        return f'<p class="big none">No E* to quote</p><p class="of">{marked(reason[:1].upper() + reason[1:])}.</p>'
     number = amount(quoted.value, quoted.standard_error, "Pa")
     source = {"unloading": "from the unloading, by Oliver and Pharr", "fit": "from the fit"}[quoted.source]
     parts = [f'<p class="big">E* = <output>{escape(number)}</output></p>']
     parts.append(f'<p class="of">Effective modulus, {source}.</p>')
     if E is not None:
-        parts.append(f'<p class="second">E = <output>{amount(*E, "Pa")}</output>, Young’s modulus of the sample</p>')
+        parts.append(
+            f'<p class="second">E = <output>{amount(*E, "Pa")}</output>, Young’s modulus of the sample</p>'
+        )
     if quoted.source == "unloading":
         result, _ = unloading(fit)
         H = amount(float(result.hardness), float(result.standard_errors["hardness"]), "Pa")
@@ -133,14 +124,16 @@ def classes_table(misfits: dict[str, float], own: str) -> str:
     return f"<table>{head}{''.join(rows)}</table>"
 
 
-def remarks(fit: IndentationFit, of_file: tuple[str, ...]) -> str:
+def remarks(fit: IndentationFit, remarked: tuple[str, ...]) -> str:
     """Remarks on the fit and on the reading of the file, and assumptions that are exceeded (HTML)."""
-    texts = [*fit.remarks, *of_file, *(each.sentence for each in fit.path.limits if each.exceeded)]
+    texts = [*remarked, *(each.sentence for each in fit.path.limits if each.exceeded)]
     told = [marked(in_page_words(text)) for text in texts]
     return "".join(f"<li>{text[:1].upper() + text[1:]}</li>" for text in told)
 
 
-def report(setting: Setting, fit: IndentationFit, E: tuple[float, float] | None) -> str:
+def report(
+    setting: Setting, fit: IndentationFit, E: tuple[float, float] | None, remarked: tuple[str, ...] = ()
+) -> str:
     """A fit as lines of text, to be pasted into a report."""
     lines = [f"{setting.file}: {_plain(headline(fit, E))}"]
     for name in setting.parameters(fit.time is not None):
@@ -154,7 +147,7 @@ def report(setting: Setting, fit: IndentationFit, E: tuple[float, float] | None)
     if misfits:
         each = ", ".join(f"({letter}) {100 * misfit:.2g} %" for letter, misfit in misfits.items())
         lines.append(f"{text} Misfits: {each} of the largest force.")
-    lines += [in_page_words(remark) for remark in fit.remarks]
+    lines += [in_page_words(remark) for remark in remarked]
     return "\n".join(lines)
 
 

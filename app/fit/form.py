@@ -1,0 +1,293 @@
+"""The left column: the file and how it is read, the tip, the sample, and the parameters of the fit."""
+
+from collections.abc import Callable
+from typing import Any
+
+import panel as pn
+
+from mdr_core.reading import SIZES
+from mdr_core.results.units import UNITS, entry, fitting, read
+
+from ..shared.widgets import field
+from ..ui import WIDE, html, show
+from . import words
+from .setting import CORRECTIONS, IN_TIME, MEDIA, NUMBERS, TIPS, Number, Setting, parameter
+
+#: Most bytes of a file, and of a part in which it comes: a third longer as text, below the 8 MB of a message.
+MAX_BYTES, CHUNK = 50_000_000, 2_000_000
+#: The option for no column, and for one that is still to be chosen.
+_NONE, _ASK = "none", "choose"
+#: Units of numbers that have no value yet.
+_FIRST = {
+    "radius": "µm", "half_angle": "°", "tip_modulus": "GPa", "spring_constant": "N/m", "sensitivity": "nm",
+    "drift": "nm/s", "frame": "nm/mN", "depth_noise": "nm",
+}  # fmt: skip
+
+
+class Dropper(pn.widgets.FileDropper):
+    """A field for a file, dropped or chosen, that comes in parts; one that is too large is left out."""
+
+    def _process_event(self, event: Any) -> None:
+        so_far = sum(map(len, self._file_buffer.get(event.data.get("name"), ())))
+        if so_far + len(event.data.get("data") or b"") <= MAX_BYTES:
+            super()._process_event(event)
+
+
+class Typed:
+    """A number that is typed with its unit; a refusal stands below it."""
+
+    def __init__(self, name: str, known: Number, take: Callable[[float], None]):
+        self._known, self._take, self._name = known, take, name
+        self._value: float | None = None
+        self._text = ""
+        self.field = field(pn.widgets.TextInput, "typed", label="", placeholder="type a value")
+        self.said = html("", "note")
+        self.label = html(f"<label><i>{known.symbol}</i> {known.label}</label>", "name")
+        self.row = pn.Row(self.label, self.field, css_classes=["fields"], **WIDE)
+        self.view = pn.Column(self.row, self.said, css_classes=["typed-number"], **WIDE)
+        self.field.param.watch(self._typed, "value")
+
+    def show(self, value: float | None, **options: Any) -> None:
+        """Show a value (SI), or an empty field."""
+        self._value = value
+        self._text = "" if value is None else entry(value, fitting(value, self._known.kind, self._like()))
+        show(self.said, object="")
+        show(self.field, value=self._text, **options)
+
+    def _like(self) -> float:
+        units = {unit.name: unit.factor for unit in UNITS[self._known.kind]}
+        return units.get(_FIRST.get(self._name, ""), 0.0)
+
+    def _typed(self, event: Any) -> None:
+        if event.new == self._text:
+            return
+        unit = fitting(self._value or 0.0, self._known.kind, self._like())
+        try:
+            value, _ = read(event.new, self._known.kind, unit)
+            value = self._known.checked(value)
+        except ValueError as error:
+            show(self.said, object=words.refused(str(error)))
+            return
+        self._take(value)
+
+
+def heading(text: str) -> Any:
+    """A heading of a part of the column."""
+    return html(f"<h2>{text}</h2>", "title")
+
+
+class Form:
+    """The left column of a page, shown for a setting; what is set goes to `change(make)` of the page."""
+
+    def __init__(self, page: Any):
+        self._page = page
+        self._quiet = False
+        self._file()
+        self._reader()
+        self._tip()
+        self._medium()
+        self._moduli()
+        parts = [
+            heading("1 · Curve"), self.drop, self.samples, self.about, self.refused, self.reader,
+            heading("2 · Tip"), self.tip, self.tip_file, *(self.numbers[n].view for n in ("radius", "half_angle")),
+            heading("3 · Sample"), self.medium, self.parameters, self.more,
+        ]  # fmt: skip
+        self.view = pn.Column(
+            *parts, css_classes=["asked"], width=330, margin=0, sizing_mode="stretch_height"
+        )
+
+    # The parts.
+
+    def _file(self) -> None:
+        limit = f"{MAX_BYTES / 1e6:g}MB"
+        self.drop = Dropper(
+            label=f"Drop a file of depth and force here (up to {MAX_BYTES / 1e6:g} MB)", max_file_size=limit,
+            chunk_size=CHUNK, multiple=False, layout="compact", css_classes=["drop"], **WIDE,
+        )  # fmt: skip
+        self.drop.param.watch(self._dropped, "value")
+        self.samples = pn.Row(css_classes=["tools"], **WIDE)
+        for label, name in (("Sample: fused silica", "silica"), ("Sample: gel by AFM", "gel")):
+            button = pn.widgets.Button(label=label, css_classes=["button"], margin=0)
+            button.on_click(lambda event, name=name: self._page.take_sample(name))
+            self.samples.append(button)
+        self.about, self.refused = html("", "note"), html("", "note", "refusal")
+
+    def _dropped(self, event: Any) -> None:
+        for name, data in list(event.new.items())[-1:]:
+            self._page.take_file(name, data.encode() if isinstance(data, str) else data)
+
+    def _reader(self) -> None:
+        """What a file lacks: spring constant, sensitivity, columns and their units."""
+        self.numbers = {
+            name: Typed(name, known, lambda value, name=name: self._put(name, value))
+            for name, known in NUMBERS.items()
+        }
+        select = pn.widgets.Select
+        self.columns = {role: field(select, label=f"Column of {role}") for role in SIZES}
+        self.units = {
+            role: field(select, label=f"Unit of {role}", options=[_ASK, *sizes])
+            for role, sizes in SIZES.items()
+        }
+        for role in SIZES:
+            for widget in (self.columns[role], self.units[role]):
+                widget.param.watch(self._told, "value")
+        rows = [
+            pn.Row(self.columns[role], self.units[role], css_classes=["pair"], **WIDE) for role in SIZES
+        ]
+        self._of_table = pn.Column(*rows, **WIDE)
+        self._of_cantilever = pn.Column(
+            self.numbers["spring_constant"].view, self.numbers["sensitivity"].view, **WIDE
+        )
+        self.reader = pn.Card(
+            self._of_table, self._of_cantilever, title="How the file is read", collapsed=True,
+            css_classes=["fold"], visible=False, **WIDE,
+        )  # fmt: skip
+
+    def _tip(self) -> None:
+        options = {"choose the tip": ""} | {tip.label: name for name, tip in TIPS.items()}
+        self.tip = field(pn.widgets.Select, label="Tip", options=options)
+        self.tip.param.watch(lambda event: self._change(lambda s: s.replace(tip=event.new)), "value")
+        self.tip_file = pn.widgets.FileInput(
+            accept=".csv,.txt", css_classes=["choice"], visible=False, **WIDE
+        )
+        self.tip_file.param.watch(self._tip_dropped, "value")
+
+    def _tip_dropped(self, event: Any) -> None:
+        if event.new:
+            self._page.take_tip(self.tip_file.filename or "the file", event.new)
+
+    def _medium(self) -> None:
+        options = {"choose the kind of sample": ""} | {kind.label: name for name, kind in MEDIA.items()}
+        self.medium = field(pn.widgets.Select, label="Sample", options=options)
+        self.medium.param.watch(lambda event: self._page.choose_medium(event.new), "value")
+        self.free: dict[str, Any] = {}
+        self.held: dict[str, Typed] = {}
+        names = dict.fromkeys(name for kind in MEDIA.values() for name in kind.free)
+        self._rows: dict[str, Any] = {}
+        for name in (*names, "tilt", *CORRECTIONS):
+            typed = Typed(name, parameter(name), lambda value, name=name: self._page.hold(name, value))
+            typed.label.object = words.name_html(name)
+            self.held[name] = typed
+            free = pn.widgets.Checkbox(label="free", css_classes=["free"], margin=0, width=48)
+            free.param.watch(lambda event, name=name: self._page.free(name, event.new), "value")
+            if name not in CORRECTIONS:
+                self.free[name] = free
+                typed.row.insert(1, free)
+            self._rows[name] = typed.view
+        self.parameters = pn.Column(*self._rows.values(), css_classes=["parameters"], visible=False, **WIDE)
+
+    def _moduli(self) -> None:
+        names = ("poisson", "tip_modulus", "tip_poisson")
+        note = html(
+            "With ν the page gives Young’s modulus E of the sample; a tip without a modulus is rigid."
+        )
+        self.more = pn.Card(
+            note, *(self.numbers[name].view for name in names), title="Young’s modulus of the sample",
+            collapsed=True, css_classes=["fold"], **WIDE,
+        )  # fmt: skip
+
+    # What is set.
+
+    def _change(self, make: Callable[[Setting], Setting]) -> None:
+        if not self._quiet:
+            self._page.change(make)
+
+    def _put(self, name: str, value: float) -> None:
+        if name in ("spring_constant", "sensitivity"):
+            self._page.reread(**{name: value})
+        else:
+            self._change(lambda setting: setting.replace(**{name: value}))
+
+    def _told(self, event: Any) -> None:
+        """Read the file again once its columns and units are told."""
+        if self._quiet:
+            return
+        given: dict[str, Any] = {}
+        for role in SIZES:
+            column, unit = self.columns[role].value, self.units[role].value
+            if column == _NONE and role == "time":
+                given[role] = None
+            elif column not in (_NONE, _ASK) and unit != _ASK:
+                given[role] = (column, unit)
+        if {"depth", "force"} <= given.keys():
+            self._page.reread(columns=given)
+
+    # What is shown.
+
+    def show(self, setting: Setting) -> None:
+        """Show a setting, and what the page knows of the file."""
+        self._quiet = True
+        try:
+            self._show(setting)
+        finally:
+            self._quiet = False
+
+    def _show(self, setting: Setting) -> None:
+        page = self._page
+        show(self.about, object=page.about)
+        show(self.refused, object=page.refused)
+        show(self.tip, value=setting.tip)
+        show(self.tip_file, visible=setting.tip == "measured")
+        show(self.medium, value=setting.medium)
+        asked = TIPS[setting.tip].numbers if setting.tip else ()
+        for name, typed in self.numbers.items():
+            typed.show(getattr(setting, name))
+            show(typed.view, visible=name in asked or name not in ("radius", "half_angle"))
+        self._show_reader(setting)
+        self._show_parameters(setting)
+
+    def _show_reader(self, setting: Setting) -> None:
+        table, page = page_table(self._page), self._page
+        show(self.reader, visible=table is not None or bool(page.wants))
+        if page.wants:
+            show(self.reader, collapsed=False)
+        show(self._of_table, visible=table is not None and not page.is_afm)
+        show(
+            self._of_cantilever,
+            visible=page.is_afm
+            or bool(page.wants & {"spring constant", "sensitivity"})
+            or table is not None,
+        )
+        if table is None:
+            return
+        firsts = {k: ", ".join(f"{x:.3g}" for x in values[:3]) for k, values in table.values.items()}
+        heads = {f"{k + 1}: {head or firsts[k] + ' …'}": k for k, head in table.heads.items()}
+        known = (
+            page.curve.columns if page.curve is not None and page.curve.table is table else setting.columns
+        )
+        for role in SIZES:
+            column = known.get(role)
+            nothing = (
+                {"none, rows in order": _NONE} if role == "time" else {"choose": _ASK} if not column else {}
+            )
+            number, unit = column or (_NONE if role == "time" else _ASK, _ASK)
+            show(self.columns[role], options=nothing | heads, value=number)
+            show(self.units[role], value=unit if unit in SIZES[role] else _ASK)
+
+    def _show_parameters(self, setting: Setting) -> None:
+        page = self._page
+        show(self.parameters, visible=bool(setting.medium))
+        if not setting.medium:
+            return
+        timed = page.curve is None or page.curve.time is not None
+        names = setting.parameters(timed)
+        corrections = [name for name in CORRECTIONS if timed or name not in IN_TIME]
+        if not setting.kind.letter:
+            corrections.remove("depth_noise")
+        for name, row in self._rows.items():
+            show(row, visible=name in names or name in corrections)
+        for name in names:
+            free = name not in setting.held
+            show(self.free[name], value=free)
+            found = page.value_of(name) if free else ""
+            # A free parameter shows what was found.
+            self.held[name].show(
+                None if free else setting.held[name], disabled=free, placeholder=found or "free"
+            )
+        for name in corrections:
+            self.held[name].show(page.correction(name), placeholder="0")
+
+
+def page_table(page: Any) -> Any:
+    """The table of numbers in the file of a page, if it is one."""
+    return page.table

@@ -1,0 +1,405 @@
+"""The page of one person for a measurement: a file in, the number to quote out."""
+
+import re
+import shutil
+import tempfile
+from collections.abc import Callable
+from functools import partial
+from html import escape
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import panel as pn
+from bokeh.document import Document
+
+from mdr_core.fit.indentation import IndentationFit
+from mdr_core.measured_curve import MeasuredCurve
+from mdr_core.profiles.samples import decoded
+
+from ..tip import in_line, read_tip
+from ..ui import WIDE, html
+from . import words
+from .files import as_csv, as_json
+from .form import Form
+from .measurement import Samples, first_and_last, modulus_of_sample, samples
+from .results import Results
+from .samples import EXAMPLES, example_named
+from .setting import Setting
+from .worker import Here, Worker
+
+#: Beginnings of the suffixes of files that are no tables.
+_AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
+_ENDED = (
+    "The process that reads and fits has ended, which a damaged file or too little memory can cause; nothing "
+    "else is lost. Try another file, or fewer samples"
+)
+
+
+class Measurement:
+    """The page: a setting, the curve that is read, its samples and its fit, and what is shown of them."""
+
+    def __init__(self, query: str = "", worker: Worker | Here | None = None):
+        self.document = pn.state.curdoc or Document()
+        self.setting = Setting.read(query)
+        self.curve: MeasuredCurve | None = None
+        self.count = 0
+        self.table: Any = None
+        self.taken: Samples | None = None
+        self.fit: IndentationFit | None = None
+        self.remarks: tuple[str, ...] = ()
+        self.E: tuple[float, float] | None = None
+        # What is said below the file and of the fit; what a refused file needs; what is being done.
+        self.about, self.refused, self.not_fitted, self.busy = "", "", "", ""
+        self.wants: set[str] = set()
+        #: Of each curve of a map its number, E*, error and reason, once all are asked for.
+        self.rows: list[tuple[Any, ...]] = []
+        self.worker = Worker() if worker is None else worker
+        self._folder = Path(tempfile.mkdtemp(prefix="measurement-"))
+        self._path, self._files = "", 0
+        self._example = ""
+        self.form, self.results = Form(self), Results(self)
+        self._address = pn.widgets.TextInput(visible=False)
+        self._address.jscallback(value="history.replaceState(null, '', source.value)")
+        header = (
+            html("<h1>Measurement</h1>", "name", sizing_mode="stretch_width"),
+            html('<a href="?">Indentation explorer</a>', "links", sizing_mode="fixed"),
+        )
+        columns = pn.Row(self.form.view, self.results.view, css_classes=["fit-columns"], **WIDE)
+        self.view = pn.Column(
+            pn.Row(*header, self._address, css_classes=["fit-header"], **WIDE), columns,
+            css_classes=["fit-page"], **WIDE,
+        )  # fmt: skip
+        if self.document.session_context is not None:
+            self.document.on_session_destroyed(lambda context: self.close())
+        self._begin()
+
+    def _begin(self) -> None:
+        """Show what a link asks for: an example at once, another file by its name."""
+        self.worker.start()
+        asked = self.setting
+        if name := example_named(asked.file):
+            self._take(EXAMPLES[name].name, EXAMPLES[name].read(), asked, name)
+            return
+        if asked.file:
+            self.about = f"This link was made with <b>{escape(asked.file)}</b>: drop that file here."
+        self.show()
+
+    def close(self) -> None:
+        """End the process and remove the file."""
+        self.worker.stop()
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    # Files.
+
+    def take_sample(self, name: str) -> None:
+        """Open a measured example with its tip and sample."""
+        example = EXAMPLES[name]
+        self._take(example.name, example.read(), example.setting, name)
+
+    def take_file(self, name: str, data: bytes) -> None:
+        """Read a file; tip and sample stay as they were told, unless they were those of an example."""
+        old, name = self.setting, in_line(name)
+        if self._example:
+            old = Setting()
+        if name != old.file:
+            # What is known of another curve does not hold for this one.
+            old = old.replace(curve=0, columns={}, corrections={}, samples=())
+            old = old.with_medium(old.medium) if old.medium else old
+            old = old.replace(spring_constant=None, sensitivity=None)
+        self._take(name, data, old)
+
+    def _take(self, name: str, data: bytes, setting: Setting, example: str = "") -> None:
+        self.curve = self.taken = self.fit = self.table = self.E = None
+        self.count, self.rows, self._example = 0, [], example
+        self.about = self.refused = self.not_fitted = ""
+        suffix = re.sub(r"[^\w.-]", "", Path(name).suffix)[:20] if "\0" not in name else ""
+        # A new name each time: the process keeps the curves of the last one.
+        self._files += 1
+        path = self._folder / f"file {self._files}{suffix}"
+        for old in self._folder.iterdir():
+            old.unlink()
+        path.write_bytes(data)
+        self._path, self.setting = str(path), setting.replace(file=name)
+        self._read()
+
+    def reread(self, **given: Any) -> None:
+        """Read the file again with what it lacks."""
+        self.setting = self.setting.replace(samples=(), **given)
+        if self._path:
+            self._read()
+
+    def choose_curve(self, number: int) -> None:
+        """Take another curve of the file."""
+        if self.count and number != self.setting.curve:
+            self.setting = self.setting.replace(curve=number, samples=())
+            self._read()
+
+    @property
+    def is_afm(self) -> bool:
+        """Whether the file is none of a table."""
+        return Path(self._path).suffix.lower().startswith(_AFM)
+
+    @property
+    def _given(self) -> dict[str, Any]:
+        asked = self.setting
+        given = {"spring_constant": asked.spring_constant, "sensitivity": asked.sensitivity}
+        given = {name: value for name, value in given.items() if value is not None}
+        return given | ({"columns": asked.columns} if asked.columns else {})
+
+    def _read(self) -> None:
+        self.busy = f"Reading {self.setting.file}"
+        self.wants, self.refused, self.fit = set(), "", None
+        self.show()
+        self.worker.ask(
+            "read", self._path, self._given, self.setting.curve, tell=self._tell(self._have_read)
+        )
+
+    def _have_read(self, kind: str, answer: Any) -> None:
+        self.busy = ""
+        if kind == "done" and answer[1]:
+            self.curve, self.count = answer
+            self.table = self.curve.table
+            self.about = self._of_file()
+            self._place()
+            self.fit_again()
+            return
+        self.curve = self.taken = None
+        if kind == "done":
+            self.table = answer[0]
+            self.wants = {"columns"}
+            self._refuse(
+                f"{self.setting.file} does not name its columns of depth and force with their units: choose them below"
+            )
+        else:
+            text = answer if kind == "refused" else _ENDED
+            text = text.replace(Path(self._path).name, self.setting.file)
+            self.wants = {
+                name for name, known in (("spring constant", "spring.constant"), ("sensitivity", "sensitivity"))
+                if re.search(known, text)
+            }  # fmt: skip
+            self._refuse(text)
+        self.show()
+
+    def _refuse(self, text: str) -> None:
+        self.refused = words.refused(text.rstrip(".") + ".")
+
+    def _of_file(self) -> str:
+        curve = self.curve
+        of = f", curve {self.setting.curve + 1} of {self.count}" if self.count > 1 else ""
+        return f"<b>{escape(self.setting.file)}</b>{of}: {len(curve):,} samples".replace(",", " ")
+
+    def _place(self) -> None:
+        """Take the samples of the curve without what is subtracted."""
+        given = self.setting.corrections
+        self.taken = samples(self.curve, given.get("drift", 0.0), given.get("frame", 0.0))
+
+    # What is set.
+
+    def change(self, make: Callable[[Setting], Setting]) -> None:
+        """Change the setting, and fit again."""
+        self.setting = make(self.setting)
+        self.fit_again()
+
+    def choose_medium(self, name: str) -> None:
+        """Take another kind of sample, whose parameters are free as it says."""
+        if name != self.setting.medium and not self.form._quiet:
+            self.change(lambda s: s.with_medium(name) if name else s.replace(medium="", held={}))
+
+    def take_class(self, medium: str) -> None:
+        """Fit the hardness of another class; what else is free or held, and the samples, stay."""
+        constants = {"E_star", "contact_point", "baseline", "tilt", "drag"}
+        held = {name: v for name, v in self.setting.held.items() if name in constants}
+        self.change(lambda setting: setting.replace(medium=medium, held=held))
+
+    def take_tip(self, name: str, data: bytes) -> None:
+        """Take a measured tip from a file."""
+        try:
+            (r, z), _ = read_tip(decoded(data), name)
+        except ValueError as error:
+            self._refuse(str(error))
+            self.show()
+            return
+        self.refused = ""
+        columns = tuple(map(tuple, (r, z)))
+        self.change(lambda s: s.replace(tip="measured", tip_samples=columns, tip_name=in_line(name)))
+
+    def hold(self, name: str, value: float) -> None:
+        """Hold a parameter at a value, or correct the depth by one."""
+        if name in ("drift", "frame", "depth_noise"):
+            self.setting = self.setting.replace(corrections=self.setting.corrections | {name: value})
+            if self.curve is not None:
+                self._place()
+            self.fit_again()
+        else:
+            self.change(lambda setting: setting.replace(held=setting.held | {name: value}))
+
+    def free(self, name: str, free: bool) -> None:
+        """Let the fit find a parameter, or hold it at what was found."""
+        held = dict(self.setting.held)
+        if self.form._quiet or free == (name not in held):
+            return
+        if free:
+            del held[name]
+        else:
+            held[name] = float(self.fit.to_dict()[name]) if self.fit is not None else 0.0
+            if self.fit is None and name in ("E_star", "hardness", "q_c", "f_c"):
+                self.show()
+                return
+        self.change(lambda setting: setting.replace(held=held))
+
+    def choose_samples(self, ends: tuple[int, ...]) -> None:
+        """Fit the samples from one number to another."""
+        if self.taken is not None and tuple(ends) != self.ends:
+            whole = tuple(ends) == self._ends_of(self.setting.kind.part if self.setting.medium else "all")
+            self.change(lambda setting: setting.replace(samples=() if whole else tuple(map(int, ends))))
+
+    def choose_part(self, part: str) -> None:
+        """Fit all samples, those of loading, or those of unloading."""
+        if self.taken is not None:
+            self.choose_samples(self._ends_of(part))
+
+    def _ends_of(self, part: str) -> tuple[int, int]:
+        return first_and_last(self.taken, len(self.curve), part)
+
+    @property
+    def ends(self) -> tuple[int, ...]:
+        """Numbers of the first and the last sample that are fitted."""
+        count = len(self.curve)
+        chosen = self.setting.samples
+        if chosen and chosen[0] < min(chosen[1], count):
+            return chosen[0], min(chosen[1], count)
+        return self._ends_of(self.setting.kind.part if self.setting.medium else "all")
+
+    @property
+    def part(self) -> str:
+        """Which part the samples are: "all", "loading", "unloading", or none of them."""
+        return next((p for p in ("all", "loading", "unloading") if self._ends_of(p) == self.ends), "")
+
+    def correction(self, name: str) -> float | None:
+        """What the depth is corrected by: as typed, or the noise that is estimated."""
+        value = self.setting.corrections.get(name)
+        if value is None and name == "depth_noise" and self.taken is not None:
+            value = self.taken.depth_noise
+        return value or None
+
+    def value_of(self, name: str) -> str:
+        """A parameter as it was found, in words."""
+        return words.value_of(self.fit, name) if self.fit is not None else ""
+
+    # Fits.
+
+    def fit_again(self) -> None:
+        """Fit, if everything is told."""
+        self.fit, self.E, self.not_fitted, self.rows = None, None, "", []
+        if self.curve is None or self.setting.missing:
+            self.show()
+            return
+        try:
+            profile, arguments = self.setting.profile, self._arguments()
+        except ValueError as error:
+            self.not_fitted = words.refused(f"{error}.")
+            self.show()
+            return
+        taken = self.taken
+        sent = {"depth": taken.depth, "force": taken.force, "time": taken.time}
+        self.busy = "Fitting"
+        self.show()
+        sent["used"] = taken.within(self.ends)
+        self.worker.ask("fit", profile, sent, arguments, tell=self._tell(self._have_fitted))
+
+    def _arguments(self) -> dict[str, Any]:
+        arguments = self.setting.arguments(self.curve.time is not None)
+        if self.setting.kind.letter and (noise := self.correction("depth_noise")):
+            arguments["depth_noise"] = noise
+        return arguments
+
+    def _have_fitted(self, kind: str, answer: Any) -> None:
+        self.busy = ""
+        if kind == "done":
+            self.fit, self.remarks = answer
+            self._find_modulus()
+        else:
+            text = answer if kind == "refused" else _ENDED
+            self.not_fitted = words.refused(text.rstrip(".") + ".")
+        self.show()
+
+    def _find_modulus(self) -> None:
+        """Young's modulus of the sample, where Poisson's ratio is told."""
+        asked, quoted = self.setting, self.fit.quoted
+        if asked.poisson is None or quoted.value is None:
+            return
+        given = quoted.value, quoted.standard_error, asked.poisson, asked.tip_modulus, asked.tip_poisson
+        try:
+            self.E = modulus_of_sample(*given)
+        except ValueError as error:
+            self.not_fitted = words.refused(f"{error}.")
+
+    def fit_all(self) -> None:
+        """Fit each curve of the file as the one that is shown, and say which could not be."""
+        asked = self.setting
+        told = {name: asked.corrections[name] for name in ("drift", "frame") if name in asked.corrections}
+        part = {
+            "corrections": told, "noise": bool(asked.kind.letter), "samples": asked.samples,
+            "part": asked.kind.part,
+        }  # fmt: skip
+        self.rows, self.busy = [], f"Fitting curve 1 of {self.count}"
+        self.show()
+        arguments = asked.arguments(True)
+        jobs = self._path, self._given, part, asked.profile, arguments
+        self.worker.ask("fit_all", *jobs, tell=self._tell(self._have_one))
+
+    def _have_one(self, kind: str, answer: Any) -> None:
+        if kind == "part":
+            self.rows.append(answer)
+            self.busy = f"Fitting curve {min(len(self.rows) + 1, self.count)} of {self.count}"
+            self.results.show_progress()
+            return
+        self.busy = ""
+        if kind != "done":
+            self.not_fitted = words.refused((answer if kind == "refused" else _ENDED) + ".")
+        self.show()
+
+    def cancel(self) -> None:
+        """Stop what is being done."""
+        self.worker.stop()
+        self.busy = ""
+        if self.fit is None:
+            self.not_fitted = words.refused("Cancelled. Change something, or drop the file again.")
+        self.show()
+
+    def _tell(self, heard: Callable[[str, Any], None]) -> Callable[[str, Any], None]:
+        """What a worker calls in its thread: `heard` is called where the page may be changed."""
+        if self.document.session_context is None:
+            return heard
+        return lambda kind, answer: self.document.add_next_tick_callback(partial(heard, kind, answer))
+
+    # What is shown and saved.
+
+    @pn.io.hold()
+    def show(self) -> None:
+        """Show everything as it is."""
+        self.form.show(self.setting)
+        self.results.show()
+        query = self.setting.query()
+        self._address.value = "?fit" + f"&{query}" * bool(query)
+
+    @property
+    def used(self) -> np.ndarray:
+        """Which of the samples that are taken are fitted."""
+        return self.taken.within(self.ends)
+
+    def written(self, name: str) -> StringIO:
+        """The fit as a file: "json" or "csv"."""
+        write = {"json": as_json, "csv": as_csv}[name]
+        told = {
+            "remarks": (*self.curve.remarks, *self.remarks), "samples": self.ends, "count": len(self.curve), "E": self.E,
+        }  # fmt: skip
+        return StringIO(write(self.setting, self.fit, told))
+
+
+def served(query: str) -> Any:
+    """The page of a session."""
+    page = Measurement(query)
+    return page.view

@@ -1,0 +1,93 @@
+"""The curve over the model, and the residuals, as two Bokeh figures."""
+
+from typing import Any
+
+import bokeh.models as bk
+import numpy as np
+from bokeh.plotting import figure
+
+from mdr_core.fit.indentation import IndentationFit
+from mdr_core.results.units import fitting
+
+from .measurement import Samples
+
+#: Colours as those of the explorer's light theme: measured, model, not in use.
+_MEASURED, _MODEL, _OTHER, _INK = "#7a4a1e", "#0072b2", "#b9bec6", "#22272e"
+#: Most samples that are drawn of each kind.
+_DRAWN = 1000
+
+
+class Plots:
+    """Both figures, with one axis of depth."""
+
+    def __init__(self) -> None:
+        tools = {"tools": "pan,box_zoom,wheel_zoom,reset,save", "toolbar_location": "right"}
+        look = {"sizing_mode": "stretch_width", "output_backend": "canvas"} | tools
+        self.force = figure(name="curve", height=300, min_height=300, x_axis_label="depth z", **look)
+        self.residual = figure(
+            name="residuals", height=150, min_height=150, x_range=self.force.x_range, **look | {"tools": ""}
+        )
+        self.residual.toolbar_location = None
+        # The same width inside the axes, so that depths stand below each other.
+        for each in (self.force, self.residual):
+            each.min_border_left = 76
+            each.toolbar.logo = None
+            each.min_border_right = 34
+            for axis in each.axis:
+                axis.axis_label_text_font_style = "normal"
+                axis.axis_label_text_font_size = axis.major_label_text_font_size = "12px"
+            each.grid.grid_line_color = "#e8eaed"
+            each.outline_line_color = None
+        self.force.xaxis.axis_label = ""
+        self.sources = {name: bk.ColumnDataSource({"x": [], "y": []}, name=name) for name in _NAMES}
+        self._draw()
+
+    def _draw(self) -> None:
+        force, residual, sources = self.force, self.residual, self.sources
+        look = {"size": 4, "line_color": None}
+        force.scatter("x", "y", source=sources["others"], color=_OTHER, legend_label="not fitted", **look)
+        force.scatter(
+            "x", "y", source=sources["measured"], color=_MEASURED, legend_label="measured", **look
+        )
+        force.line("x", "y", source=sources["model"], color=_MODEL, width=2, legend_label="model")
+        force.legend.location = "top_left"
+        force.legend.background_fill_alpha = 0.8
+        force.legend.border_line_color = None
+        force.legend.label_text_font_size = "12px"
+        force.legend.glyph_height = force.legend.label_height = 15
+        residual.add_layout(bk.Span(location=0, dimension="width", line_color=_INK, line_dash="dashed"))
+        residual.line("x", "y", source=sources["noise"], color=_OTHER, width=1.2)
+        residual.scatter("x", "y", source=sources["residuals"], color=_MEASURED, **look | {"size": 3})
+
+    def show(self, taken: Samples, used: np.ndarray, fit: IndentationFit | None) -> None:
+        """Show samples, and the fit of those in use."""
+        length = fitting(float(np.max(np.abs(taken.depth))), "length")
+        force = fitting(float(np.max(np.abs(taken.force))), "force")
+        self.force.yaxis.axis_label = f"force F ({force.name})"
+        self.residual.xaxis.axis_label = f"measured depth z ({length.name})"
+
+        def columns(x: Any, y: Any, unit: float) -> dict[str, Any]:
+            step = max(1, -(-len(x) // _DRAWN))
+            return {"x": np.asarray(x)[::step] / length.factor, "y": np.asarray(y)[::step] / unit}
+
+        places = {name: {"x": [], "y": []} for name in _NAMES}
+        places["measured"] = columns(taken.depth[used], taken.force[used], force.factor)
+        places["others"] = columns(taken.depth[~used], taken.force[~used], force.factor)
+        if fit is not None:
+            places["model"] = columns(fit.depth, fit.force - fit.residuals, force.factor)
+            misses = float(np.nanmax(np.abs(fit.residuals)))
+            small = fitting(misses or float(np.max(np.abs(taken.force))), "force")
+            self.residual.yaxis.axis_label = f"residual ({small.name})"
+            places["residuals"] = columns(fit.depth, fit.residuals, small.factor)
+            noise = np.broadcast_to(fit.residual_noise, fit.depth.shape)
+            order = np.argsort(fit.depth)
+            depth = fit.depth[order]
+            places["noise"] = {
+                "x": np.concatenate([depth, [np.nan], depth]) / length.factor,
+                "y": np.concatenate([noise[order], [np.nan], -noise[order]]) / small.factor,
+            }
+        for name, data in places.items():
+            self.sources[name].data = data
+
+
+_NAMES = ("measured", "others", "model", "residuals", "noise")

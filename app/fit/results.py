@@ -1,0 +1,256 @@
+"""The right column: the number to quote, why it is that one, the curve over the model, and its files."""
+
+from functools import partial
+from io import StringIO
+from typing import Any
+
+import numpy as np
+import panel as pn
+
+from ..shared.widgets import field
+from ..ui import WIDE, html, show
+from . import words
+from .explorer import explorer_query
+from .files import map_csv
+from .plots import Plots
+from .setting import OF_CLASS
+
+#: Script of the button that copies the report.
+_COPY = """
+const area = Object.assign(document.createElement("textarea"), { value: report.value })
+document.body.append(area)
+area.select()
+document.execCommand("copy")
+area.remove()
+"""
+_PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
+_WELCOME = (
+    '<p class="big none">A curve in, E* out</p><p class="of">Drop a file of depth and force, or open a sample; '
+    "tell the tip and what the sample is. The fit runs at once.</p>"
+)
+
+
+class Results:
+    """The right column of a page."""
+
+    def __init__(self, page: Any):
+        self._page, self._quiet = page, False
+        self.headline = html(_WELCOME, "headline")
+        self.not_fitted = html("", "note", "refusal")
+        self._tools()
+        self._classes()
+        self._range()
+        self._map()
+        self.plots = Plots()
+        self.curve = pn.Column(
+            pn.pane.Bokeh(self.plots.force, **WIDE), pn.pane.Bokeh(self.plots.residual, **WIDE),
+            css_classes=["plots-of-fit"], visible=False, **WIDE,
+        )  # fmt: skip
+        self.why, self.remarks = html("", "note", "why"), html("", "note", "remarks")
+        left = pn.Column(self.headline, self.not_fitted, self.tools, **WIDE)
+        right = pn.Column(self.classes, self.verdict, self.take, width=370, margin=0)
+        self._right = right
+        self.view = pn.Column(
+            pn.Row(left, right, css_classes=["top-of-found"], **WIDE),
+            self.several, self.why, self.range, self.curve, self.remarks,
+            css_classes=["found"], **WIDE,
+        )  # fmt: skip
+
+    # The parts.
+
+    def _tools(self) -> None:
+        look = {"css_classes": ["button"], "margin": 0}
+        self._report = pn.widgets.TextInput(visible=False)
+        self.copy = pn.widgets.Button(label="Copy", **look)
+        self.copy.js_on_click(args={"report": self._report}, code=_COPY)
+        self.files = [
+            pn.widgets.FileDownload(
+                label=name.upper(), filename=f"fit.{name}", callback=partial(self._page.written, name),
+                auto=True, **look,
+            )
+            for name in ("json", "csv")
+        ]  # fmt: skip
+        self.cancel = pn.widgets.Button(label="Cancel", visible=False, **look)
+        self.cancel.on_click(lambda event: self._page.cancel())
+        self.explorer = html("", "links", sizing_mode="fixed")
+        self.saved = pn.Row(
+            self.copy,
+            *self.files,
+            self.explorer,
+            self._report,
+            css_classes=["tools"],
+            visible=False,
+            **WIDE,
+        )
+        self.tools = pn.Column(self.saved, self.cancel, **WIDE)
+
+    def _classes(self) -> None:
+        self.classes, self.verdict = html("", "classes"), html("", "note")
+        self.take = pn.widgets.Button(label="", visible=False, css_classes=["button", "primary"], margin=0)
+        self.take.on_click(lambda event: self._page.take_class(OF_CLASS[self._better]))
+        self._better = ""
+
+    def _range(self) -> None:
+        self.part = pn.widgets.RadioButtonGroup(
+            options=list(_PARTS), value="All", css_classes=["parts-of-curve"], margin=0, width=220
+        )
+        self.part.param.watch(self._choose_part, "value")
+        self.ends = pn.widgets.EditableRangeSlider(
+            label="Samples that are fitted", start=1, end=2, value=(1, 2), step=1, format="0",
+            css_classes=["ends"], **WIDE,
+        )  # fmt: skip
+        self.ends.param.watch(self._choose_ends, "value_throttled")
+        self.range = pn.Row(self.part, self.ends, css_classes=["range"], visible=False, **WIDE)
+
+    def _choose_part(self, event: Any) -> None:
+        if not self._quiet and event.new in _PARTS:
+            self._page.choose_part(_PARTS[event.new])
+
+    def _choose_ends(self, event: Any) -> None:
+        if self._quiet or self._page.taken is None or event.new is None:
+            return
+        first, last = (round(each) for each in event.new)
+        if first < last:
+            self._page.choose_samples((first, last))
+
+    def _map(self) -> None:
+        """The curves of a file with several of them."""
+        self.number = field(
+            pn.widgets.IntInput, "curve-number", label="Curve", start=1, end=2, value=1, width=110
+        )
+        self.number.param.watch(self._choose_curve, "value")
+        self.all = pn.widgets.Button(label="Fit all", css_classes=["button"], margin=0)
+        self.all.on_click(lambda event: self._page.fit_all())
+        self.progress = pn.indicators.Progress(value=0, max=1, visible=False, margin=0, width=220)
+        self.summary = html("", "note")
+        self.map_file = pn.widgets.FileDownload(
+            label="All as CSV", filename="curves.csv", callback=self._map_written, auto=True,
+            css_classes=["button"], margin=0, visible=False,
+        )  # fmt: skip
+        self.list = pn.Column(visible=False, **WIDE)
+        bar = pn.Row(self.number, self.all, self.progress, self.map_file, css_classes=["tools"], **WIDE)
+        self.several = pn.Column(
+            bar, self.summary, self.list, css_classes=["several"], visible=False, **WIDE
+        )
+
+    def _choose_curve(self, event: Any) -> None:
+        if not self._quiet and event.new:
+            self._page.choose_curve(event.new - 1)
+
+    def _map_written(self) -> StringIO:
+        return StringIO(map_csv(self._page.setting.file, self._page.rows))
+
+    # What is shown.
+
+    def show(self) -> None:
+        """Show the page as it is."""
+        self._quiet = True
+        try:
+            self._show_number()
+            self._show_classes()
+            self._show_curve()
+            self._show_several()
+        finally:
+            self._quiet = False
+
+    def _show_number(self) -> None:
+        page, fit = self._page, self._page.fit
+        text = _WELCOME
+        if fit is not None:
+            text = words.headline(fit, page.E)
+        elif page.busy:
+            text = f'<p class="waiting" role="status">{page.busy} …</p>'
+        elif page.curve is not None and page.setting.missing:
+            text = f'<p class="big none">Tell {page.setting.missing}</p><p class="of">Then the fit runs at once.</p>'
+        elif page.refused or page.not_fitted:
+            text = '<p class="big none">No fit</p>'
+        show(self.headline, object=text)
+        show(self.not_fitted, object=page.not_fitted)
+        show(self.cancel, visible=bool(page.busy))
+        show(self.saved, visible=fit is not None)
+        show(self.why, object=words.why(fit) if fit is not None else "")
+        remarks = words.remarks(fit, (*page.remarks, *page.curve.remarks)) if fit is not None else ""
+        show(self.remarks, object=f"<h2>Remarks</h2><ul>{remarks}</ul>" if remarks else "")
+        if fit is not None:
+            show(self._report, value=words.report(page.setting, fit, page.E, page.remarks))
+            try:
+                query = explorer_query(page.setting, fit)
+                text = f'<a href="?{query}">Tip and medium in the explorer</a>'
+            except ValueError:
+                text = ""
+            show(self.explorer, object=text)
+
+    def _show_classes(self) -> None:
+        page, fit = self._page, self._page.fit
+        letter = page.setting.kind.letter if page.setting.medium else ""
+        sentence, misfits = words.verdict(fit) if fit is not None and letter else ("", {})
+        self._better = words.better(misfits, letter)
+        show(self._right, visible=bool(misfits))
+        show(self.classes, object=words.classes_table(misfits, letter) if misfits else "")
+        show(self.verdict, object=sentence)
+        label = f"Take class ({self._better}), {words.CLASS_NAMES[self._better]}" if self._better else ""
+        show(self.take, visible=bool(self._better), label=label)
+
+    def _show_curve(self) -> None:
+        page = self._page
+        there = page.taken is not None
+        show(self.curve, visible=there)
+        show(self.range, visible=there)
+        if not there:
+            return
+        count, ends = len(page.curve), page.ends
+        show(self.ends, start=1, end=max(2, count), value=ends)
+        name = next((name for name, part in _PARTS.items() if part == page.part), None)
+        show(self.part, value=name)
+        self.plots.show(page.taken, page.used, page.fit)
+
+    def _show_several(self) -> None:
+        page = self._page
+        several = page.count > 1
+        show(self.several, visible=several)
+        if not several:
+            return
+        show(self.number, end=page.count, value=page.setting.curve + 1, label=f"Curve, of {page.count}")
+        ready = not page.setting.missing and not page.busy
+        show(self.all, label=f"Fit all {page.count}", disabled=not ready)
+        self.show_progress()
+        done = bool(page.rows) and not page.busy
+        show(self.map_file, visible=done)
+        self._show_list(done)
+
+    def show_progress(self) -> None:
+        """Show how many curves of a file are fitted."""
+        page = self._page
+        running = bool(page.busy) and bool(page.rows)
+        show(self.progress, visible=running, max=max(page.count, 1), value=len(page.rows))
+        if running:
+            show(self.headline, object=f'<p class="waiting" role="status">{page.busy} …</p>')
+        found = [row[1] for row in page.rows if row[1] is not None]
+        text = ""
+        if page.rows:
+            median = words.amount(float(np.median(found)), None, "Pa") if found else "none"
+            lost = len(page.rows) - len(found)
+            text = f"{len(page.rows)} of {page.count} curves fitted: median E* {median}; {lost} without a number to quote."
+        show(self.summary, object=text)
+
+    def _show_list(self, done: bool) -> None:
+        """The curves as a table: a click on a row opens its curve."""
+        page = self._page
+        show(self.list, visible=done)
+        if not done:
+            self.list.objects = []
+            return
+        import pandas
+
+        columns = {
+            "Curve": [number + 1 for number, *_ in page.rows],
+            "E*": ["" if v is None else words.amount(v, error, "Pa") for _, v, error, _ in page.rows],
+            "Of what, or why not": [words.in_page_words(reason) for *_, reason in page.rows],
+        }
+        frame = pandas.DataFrame(columns).set_index("Curve")
+        table = pn.widgets.Tabulator(
+            frame, disabled=True, pagination="local", page_size=8, theme="simple", layout="fit_data_stretch",
+            **WIDE,
+        )  # fmt: skip
+        table.on_click(lambda event: page.choose_curve(int(frame.index[event.row]) - 1))
+        self.list.objects = [table]
