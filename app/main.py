@@ -4,7 +4,7 @@ from urllib.parse import urlencode
 
 import panel as pn
 
-from .extras import theory
+from . import theory
 from .fit import page as fit
 from .page import Address, Page
 from .ui import SHEETS

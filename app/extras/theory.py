@@ -1,51 +1,8 @@
-"""The theory, assets/theory.md, as a page, to which equations and sections in texts lead."""
+"""Links from equations and sections in texts to the page of the theory."""
 
 import re
-from html import escape
-from pathlib import Path
-from urllib.parse import parse_qsl
-
-import panel as pn
-from bokeh.events import DocumentReady
-from bokeh.models import CustomJS
-from markdown_it import MarkdownIt
-from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from ..extra import Extra
-from ..quantities import ASSETS
-
-#: Goes to the place that the address names.
-_SCRIPT = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
-
-#: Equations that a text names, (4) or (4)–(8).
-_NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
-
-
-def html():
-    """The theory as HTML with KaTeX formulas and ids of sections and equations."""
-    parser, marked = MarkdownIt().enable("table"), set()
-    parser.use(dollarmath_plugin, renderer=lambda text, _: f"\\({escape(text)}\\)")
-    tokens = parser.parse((ASSETS / "theory.md").read_text(encoding="utf-8"))
-    parts, in_body = [], False
-    for k, token in enumerate(tokens):
-        if token.type == "heading_open" and (number := re.match(r"\d+", tokens[k + 1].content)):
-            token.attrSet("id", f"section-{number[0]}")
-            in_body = True
-        for first, last in _NAMED.findall(token.content) if in_body and not token.nesting else ():
-            new = set(range(int(first), int(last or first) + 1)) - marked
-            parts += [f'<a id="eq-{n}"></a>' for n in sorted(new)]
-            marked |= new
-        if token.type == "fence" and token.info == "math":
-            parts.append(f"<p>$${escape(token.content)}$$</p>")
-        else:
-            parts.append(parser.renderer.render([token], parser.options, {}))
-    return "".join(parts)
-
-
-def page(place):
-    """The page, starting at an id such as "eq-11" or "section-4"."""
-    pn.state.curdoc.js_on_event(DocumentReady, CustomJS(args={"place": place}, code=_SCRIPT))
-    return pn.pane.LaTeX(html(), css_classes=["theory"], renderer="katex")
 
 
 def linked(html):
@@ -53,11 +10,6 @@ def linked(html):
     led = r'<a href="?theory={}-\1" target="theory">\g<0></a>'
     text = re.sub(r"\(([1-9]\d?)\)", led.format("eq"), html)
     return re.sub(r"§ (\d+)", led.format("section"), text)
-
-
-def served(query):
-    """The page for a query, at the place that `theory=` in it names."""
-    return page(dict(parse_qsl(query)).get("theory", ""))
 
 
 EXTRA = Extra("theory", linked=linked)

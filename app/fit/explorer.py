@@ -38,7 +38,7 @@ def rounded(value: float, error: float | None) -> float:
 
 
 def explorer_query(setting: Setting, fit: IndentationFit) -> str:
-    """Tip and medium of a fit as the query of a scene. Raises ValueError if the explorer cannot have them."""
+    """Tip and medium of a fit as the query of a scene. Raises ValueError if the explorer has none."""
     values, errors = fit.to_dict(), fit.standard_errors
     options, number, name = _OPTIONS[setting.medium]
     numbers = {"E_star": rounded(values["E_star"], errors.get("E_star"))}

@@ -19,7 +19,7 @@ _UNITS = {"drift": "m/s", "frame": "m/N", "depth_noise": "m"}
 
 
 def contents(setting: Setting, fit: IndentationFit, told: dict[str, Any]) -> dict[str, Any]:
-    """Numbers of a fit with units and standard errors, what to quote, misfits, remarks, and what was fitted.
+    """Numbers of a fit with units and standard errors, misfits, remarks, and what was fitted.
 
     `told` has the remarks on the file, the numbers of the first and last sample, how many there are, and
     Young's modulus of the sample with its error, or None.
@@ -27,8 +27,8 @@ def contents(setting: Setting, fit: IndentationFit, told: dict[str, Any]) -> dic
     quoted = fit.quoted
     numbers = {
         "quoted": {
-            "units": "Pa", "long_name": f"effective modulus to quote, {quoted.source or 'none'}", "symbol": "E*",
-            "value": quoted.value, "standard_error": quoted.standard_error,
+            "units": "Pa", "long_name": f"effective modulus to quote, {quoted.source or 'none'}",
+            "symbol": "E*", "value": quoted.value, "standard_error": quoted.standard_error,
         }
     }  # fmt: skip
     if told["E"] is not None:

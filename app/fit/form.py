@@ -8,12 +8,11 @@ import panel as pn
 from mdr_core.reading import SIZES
 from mdr_core.results.units import UNITS, entry, fitting, read
 
-from ..shared.widgets import field
 from ..ui import WIDE, html, show
 from . import words
 from .setting import CORRECTIONS, IN_TIME, MEDIA, NUMBERS, TIPS, Number, Setting, parameter
 
-#: Most bytes of a file, and of a part in which it comes: a third longer as text, below the 8 MB of a message.
+#: Most bytes of a file, and of a part in which it comes: with a third more as text below 8 MB of a message.
 MAX_BYTES, CHUNK = 50_000_000, 2_000_000
 #: The option for no column, and for one that is still to be chosen.
 _NONE, _ASK = "none", "choose"
@@ -22,6 +21,11 @@ _FIRST = {
     "radius": "µm", "half_angle": "°", "tip_modulus": "GPa", "spring_constant": "N/m", "sensitivity": "nm",
     "drift": "nm/s", "frame": "nm/mN", "depth_noise": "nm",
 }  # fmt: skip
+
+
+def field(kind: Any, *classes: str, **options: Any) -> Any:
+    """A widget of Panel that looks like those of the explorer."""
+    return kind(css_classes=["choice", *classes], **WIDE | options)
 
 
 class Dropper(pn.widgets.FileDropper):
@@ -89,19 +93,19 @@ class Form:
         self._moduli()
         parts = [
             heading("1 · Curve"), self.drop, self.samples, self.about, self.refused, self.reader,
-            heading("2 · Tip"), self.tip, self.tip_file, *(self.numbers[n].view for n in ("radius", "half_angle")),
+            heading("2 · Tip"), self.tip, self.tip_file, self.numbers["radius"].view,
+            self.numbers["half_angle"].view,
             heading("3 · Sample"), self.medium, self.parameters, self.more,
         ]  # fmt: skip
-        self.view = pn.Column(
-            *parts, css_classes=["asked"], width=330, margin=0, sizing_mode="stretch_height"
-        )
+        self.view = pn.Column(*parts, css_classes=["asked"], width=360, margin=0)
 
     # The parts.
 
     def _file(self) -> None:
         limit = f"{MAX_BYTES / 1e6:g}MB"
         self.drop = Dropper(
-            label=f"Drop a file of depth and force here (up to {MAX_BYTES / 1e6:g} MB)", max_file_size=limit,
+            label=f"Drop a file of depth and force here (up to {MAX_BYTES / 1e6:g} MB)",
+            max_file_size=limit,
             chunk_size=CHUNK, multiple=False, layout="compact", css_classes=["drop"], **WIDE,
         )  # fmt: skip
         self.drop.param.watch(self._dropped, "value")

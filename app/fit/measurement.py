@@ -25,7 +25,7 @@ MOST = 2000
 
 @dataclass(frozen=True)
 class Samples:
-    """The samples of a curve that are taken: their numbers from 1 on, depth (m), force (N), and time (s)."""
+    """The samples of a curve that are taken: numbers from 1 on, depth (m), force (N), and time (s)."""
 
     number: np.ndarray
     depth: np.ndarray
@@ -102,8 +102,8 @@ def fit(
 ) -> tuple[IndentationFit, tuple[str, ...]]:
     """A fit, with its classes and the number to quote, and its remarks.
 
-    The times of the samples tell a drift, which a remark names, and of which the unloading of a known contact
-    is independent: where they alone leave no number to quote, the fit is the one without them.
+    The times of the samples tell a drift, which a remark names, and of which the unloading of a known
+    contact is independent: where they alone leave no number to quote, the fit is the one without them.
     """
     _refuse_range(arguments, taken)
     used = taken["used"]

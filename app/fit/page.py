@@ -32,8 +32,8 @@ from .worker import Here, Worker
 #: Beginnings of the suffixes of files that are no tables.
 _AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
 _ENDED = (
-    "The process that reads and fits has ended, which a damaged file or too little memory can cause; nothing "
-    "else is lost. Try another file, or fewer samples"
+    "The process that reads and fits has ended, which a damaged file or too little memory can cause; "
+    "nothing else is lost. Try another file, or fewer samples"
 )
 
 
@@ -64,7 +64,7 @@ class Measurement:
         self._address.jscallback(value="history.replaceState(null, '', source.value)")
         header = (
             html("<h1>Measurement</h1>", "name", sizing_mode="stretch_width"),
-            html('<a href="?">Indentation explorer</a>', "links", sizing_mode="fixed"),
+            html('<a href="?">Indentation explorer</a>', "links", sizing_mode=None),
         )
         columns = pn.Row(self.form.view, self.results.view, css_classes=["fit-columns"], **WIDE)
         self.view = pn.Column(
@@ -170,14 +170,15 @@ class Measurement:
             self.table = answer[0]
             self.wants = {"columns"}
             self._refuse(
-                f"{self.setting.file} does not name its columns of depth and force with their units: choose them below"
+                f"{self.setting.file} does not name its columns of depth and force with their units: "
+                "choose them below"
             )
         else:
             text = answer if kind == "refused" else _ENDED
             text = text.replace(Path(self._path).name, self.setting.file)
             self.wants = {
-                name for name, known in (("spring constant", "spring.constant"), ("sensitivity", "sensitivity"))
-                if re.search(known, text)
+                name for name in ("spring constant", "sensitivity")
+                if re.search(name.replace(" ", "."), text)
             }  # fmt: skip
             self._refuse(text)
         self.show()
@@ -188,7 +189,7 @@ class Measurement:
     def _of_file(self) -> str:
         curve = self.curve
         of = f", curve {self.setting.curve + 1} of {self.count}" if self.count > 1 else ""
-        return f"<b>{escape(self.setting.file)}</b>{of}: {len(curve):,} samples".replace(",", " ")
+        return f"<b>{escape(self.setting.file)}</b>{of}: {len(curve)} samples"
 
     def _place(self) -> None:
         """Take the samples of the curve without what is subtracted."""
@@ -394,7 +395,8 @@ class Measurement:
         """The fit as a file: "json" or "csv"."""
         write = {"json": as_json, "csv": as_csv}[name]
         told = {
-            "remarks": (*self.curve.remarks, *self.remarks), "samples": self.ends, "count": len(self.curve), "E": self.E,
+            "remarks": (*self.curve.remarks, *self.remarks), "samples": self.ends,
+            "count": len(self.curve), "E": self.E,
         }  # fmt: skip
         return StringIO(write(self.setting, self.fit, told))
 

@@ -22,11 +22,9 @@ class Plots:
 
     def __init__(self) -> None:
         tools = {"tools": "pan,box_zoom,wheel_zoom,reset,save", "toolbar_location": "right"}
-        look = {"sizing_mode": "stretch_width", "output_backend": "canvas"} | tools
-        self.force = figure(name="curve", height=300, min_height=300, x_axis_label="depth z", **look)
-        self.residual = figure(
-            name="residuals", height=150, min_height=150, x_range=self.force.x_range, **look | {"tools": ""}
-        )
+        look = {"sizing_mode": "stretch_both", "output_backend": "canvas", "y_range": (0, 1)}
+        self.force = figure(name="curve", x_range=(0, 1), **look | tools)
+        self.residual = figure(name="residuals", x_range=self.force.x_range, tools="", **look)
         self.residual.toolbar_location = None
         # The same width inside the axes, so that depths stand below each other.
         for each in (self.force, self.residual):
@@ -79,7 +77,9 @@ class Plots:
             small = fitting(misses or float(np.max(np.abs(taken.force))), "force")
             self.residual.yaxis.axis_label = f"residual ({small.name})"
             places["residuals"] = columns(fit.depth, fit.residuals, small.factor)
-            noise = np.broadcast_to(fit.residual_noise, fit.depth.shape)
+            # Before first contact a rate at which the hardness falls is infinite, times a width of 0.
+            with np.errstate(invalid="ignore"):
+                noise = np.broadcast_to(fit.residual_noise, fit.depth.shape)
             order = np.argsort(fit.depth)
             depth = fit.depth[order]
             places["noise"] = {
@@ -88,6 +88,21 @@ class Plots:
             }
         for name, data in places.items():
             self.sources[name].data = data
+        self.force.legend.items[0].visible = bool(np.any(~used))
+        parts = ("measured", "others")
+        self._reach(self.force.x_range, [places[name]["x"] for name in parts], 0.03)
+        self._reach(self.force.y_range, [places[name]["y"] for name in parts], 0.08)
+        self._reach(self.residual.y_range, [places[name]["y"] for name in ("residuals", "noise")], 0.12)
+
+    @staticmethod
+    def _reach(axis: Any, values: list[Any], margin: float) -> None:
+        """Let a range of an axis, also where it is reset, have all values and a margin."""
+        every = np.concatenate([np.asarray(each, float) for each in values])
+        low, high = (np.nanmin(every), np.nanmax(every)) if np.isfinite(every).any() else (-1.0, 1.0)
+        wide = margin * ((high - low) or 1.0)
+        ends = float(low - wide), float(high + wide)
+        if ends != (axis.reset_start, axis.reset_end):
+            axis.update(start=ends[0], end=ends[1], reset_start=ends[0], reset_end=ends[1])
 
 
 _NAMES = ("measured", "others", "model", "residuals", "noise")

@@ -2,16 +2,19 @@
 
 from functools import partial
 from io import StringIO
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import panel as pn
 
-from ..shared.widgets import field
+from mdr_core.results.units import written
+
 from ..ui import WIDE, html, show
 from . import words
 from .explorer import explorer_query
 from .files import map_csv
+from .form import field
 from .plots import Plots
 from .setting import OF_CLASS
 
@@ -23,11 +26,20 @@ area.select()
 document.execCommand("copy")
 area.remove()
 """
+_SLIDER = Path(__file__).with_name("slider.css").read_text(encoding="utf-8")
+_BOTH = {"sizing_mode": "stretch_both", "margin": 0}
 _PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
 _WELCOME = (
-    '<p class="big none">A curve in, E* out</p><p class="of">Drop a file of depth and force, or open a sample; '
-    "tell the tip and what the sample is. The fit runs at once.</p>"
+    '<p class="big none">A curve in, E* out</p><p class="of">Drop a file of depth and force, or open '
+    "a sample; tell the tip and what the sample is. The fit runs at once.</p>"
 )
+
+
+def _folded(items: str) -> str:
+    """Remarks as a list that is folded, with their number (HTML)."""
+    count = items.count("<li>")
+    name = f"{count} remark{'s' * (count > 1)} on this fit"
+    return f"<details><summary>{name}</summary><ul>{items}</ul></details>" if count else ""
 
 
 class Results:
@@ -43,7 +55,8 @@ class Results:
         self._map()
         self.plots = Plots()
         self.curve = pn.Column(
-            pn.pane.Bokeh(self.plots.force, **WIDE), pn.pane.Bokeh(self.plots.residual, **WIDE),
+            pn.pane.Bokeh(self.plots.force, css_classes=["of-force"], **_BOTH),
+            pn.pane.Bokeh(self.plots.residual, css_classes=["of-residual"], **_BOTH),
             css_classes=["plots-of-fit"], visible=False, **WIDE,
         )  # fmt: skip
         self.why, self.remarks = html("", "note", "why"), html("", "note", "remarks")
@@ -52,7 +65,7 @@ class Results:
         self._right = right
         self.view = pn.Column(
             pn.Row(left, right, css_classes=["top-of-found"], **WIDE),
-            self.several, self.why, self.range, self.curve, self.remarks,
+            self.why, self.remarks, self.several, self.range, self.curve,
             css_classes=["found"], **WIDE,
         )  # fmt: skip
 
@@ -72,7 +85,7 @@ class Results:
         ]  # fmt: skip
         self.cancel = pn.widgets.Button(label="Cancel", visible=False, **look)
         self.cancel.on_click(lambda event: self._page.cancel())
-        self.explorer = html("", "links", sizing_mode="fixed")
+        self.explorer = html("", "links", sizing_mode=None)
         self.saved = pn.Row(
             self.copy,
             *self.files,
@@ -95,12 +108,14 @@ class Results:
             options=list(_PARTS), value="All", css_classes=["parts-of-curve"], margin=0, width=220
         )
         self.part.param.watch(self._choose_part, "value")
-        self.ends = pn.widgets.EditableRangeSlider(
-            label="Samples that are fitted", start=1, end=2, value=(1, 2), step=1, format="0",
-            css_classes=["ends"], **WIDE,
+        self.ends = pn.widgets.IntRangeSlider(
+            label="", start=1, end=2, value=(1, 2), show_value=False,
+            css_classes=["ends"], stylesheets=[_SLIDER], **WIDE,
         )  # fmt: skip
         self.ends.param.watch(self._choose_ends, "value_throttled")
-        self.range = pn.Row(self.part, self.ends, css_classes=["range"], visible=False, **WIDE)
+        self.said = html("", "note")
+        slider = pn.Column(self.said, self.ends, css_classes=["slider"], **WIDE)
+        self.range = pn.Row(self.part, slider, css_classes=["range"], visible=False, **WIDE)
 
     def _choose_part(self, event: Any) -> None:
         if not self._quiet and event.new in _PARTS:
@@ -115,9 +130,7 @@ class Results:
 
     def _map(self) -> None:
         """The curves of a file with several of them."""
-        self.number = field(
-            pn.widgets.IntInput, "curve-number", label="Curve", start=1, end=2, value=1, width=110
-        )
+        self.number = field(pn.widgets.IntInput, "curve-number", label="Curve", start=1, end=2, value=1)
         self.number.param.watch(self._choose_curve, "value")
         self.all = pn.widgets.Button(label="Fit all", css_classes=["button"], margin=0)
         self.all.on_click(lambda event: self._page.fit_all())
@@ -161,7 +174,8 @@ class Results:
         elif page.busy:
             text = f'<p class="waiting" role="status">{page.busy} …</p>'
         elif page.curve is not None and page.setting.missing:
-            text = f'<p class="big none">Tell {page.setting.missing}</p><p class="of">Then the fit runs at once.</p>'
+            text = f'<p class="big none">Tell {page.setting.missing}</p>'
+            text += '<p class="of">Then the fit runs at once.</p>'
         elif page.refused or page.not_fitted:
             text = '<p class="big none">No fit</p>'
         show(self.headline, object=text)
@@ -170,7 +184,7 @@ class Results:
         show(self.saved, visible=fit is not None)
         show(self.why, object=words.why(fit) if fit is not None else "")
         remarks = words.remarks(fit, (*page.remarks, *page.curve.remarks)) if fit is not None else ""
-        show(self.remarks, object=f"<h2>Remarks</h2><ul>{remarks}</ul>" if remarks else "")
+        show(self.remarks, object=_folded(remarks))
         if fit is not None:
             show(self._report, value=words.report(page.setting, fit, page.E, page.remarks))
             try:
@@ -202,7 +216,18 @@ class Results:
         show(self.ends, start=1, end=max(2, count), value=ends)
         name = next((name for name, part in _PARTS.items() if part == page.part), None)
         show(self.part, value=name)
+        show(self.said, object=self._range_words(ends, count))
         self.plots.show(page.taken, page.used, page.fit)
+
+    def _range_words(self, ends: tuple[int, ...], count: int) -> str:
+        """The samples that are fitted, with depth and force of the first and the last one."""
+        curve = self._page.curve
+        places = [
+            f"{k} ({written(float(curve.depth[k - 1]), 'length')}, "
+            f"{written(float(curve.force[k - 1]), 'force')})"
+            for k in ends
+        ]
+        return f"Fitted: samples {' to '.join(places)} of {count}"
 
     def _show_several(self) -> None:
         page = self._page
@@ -230,7 +255,8 @@ class Results:
         if page.rows:
             median = words.amount(float(np.median(found)), None, "Pa") if found else "none"
             lost = len(page.rows) - len(found)
-            text = f"{len(page.rows)} of {page.count} curves fitted: median E* {median}; {lost} without a number to quote."
+            text = f"{len(page.rows)} of {page.count} curves fitted: median E* {median}; "
+            text += f"{lost} without a number to quote."
         show(self.summary, object=text)
 
     def _show_list(self, done: bool) -> None:
@@ -249,8 +275,8 @@ class Results:
         }
         frame = pandas.DataFrame(columns).set_index("Curve")
         table = pn.widgets.Tabulator(
-            frame, disabled=True, pagination="local", page_size=8, theme="simple", layout="fit_data_stretch",
-            **WIDE,
+            frame, disabled=True, pagination="local", page_size=8, theme="simple",
+            layout="fit_data_stretch", **WIDE,
         )  # fmt: skip
         table.on_click(lambda event: page.choose_curve(int(frame.index[event.row]) - 1))
         self.list.objects = [table]

@@ -133,9 +133,9 @@ def parameter(name: str) -> Number:
 class Setting:
     """Everything that a person has set, in SI units; a function of nothing else.
 
-    `held` has the values of the parameters that are held. `samples` are the numbers of the first and the last
-    sample that are fitted, from 1 on, or none for those that the kind of sample takes. `columns` are given to
-    the reader of the file, of which `curve` is the number of the curve.
+    `held` has the values of the parameters that are held. `samples` are the numbers of the first and the
+    last sample that are fitted, from 1 on, or none for those that the kind of sample takes. `columns` are
+    given to the reader of the file, of which `curve` is the number of the curve, from 0 on.
     """
 
     file: str = ""

@@ -1,4 +1,4 @@
-"""What is said of a measurement: the number to quote, parameters with errors, classes, remarks, refusals."""
+"""What is said of a measurement: the number to quote, parameters, classes, remarks, refusals."""
 
 import re
 from html import escape
@@ -62,7 +62,8 @@ def headline(fit: IndentationFit, E: tuple[float, float] | None) -> str:
     quoted = fit.quoted
     if quoted.source is None:
         reason = in_page_words(quoted.reason)
-        return f'<p class="big none">No E* to quote</p><p class="of">{marked(reason[:1].upper() + reason[1:])}.</p>'
+        reason = marked(reason[:1].upper() + reason[1:])
+        return f'<p class="big none">No E* to quote</p><p class="of">{reason}.</p>'
     number = amount(quoted.value, quoted.standard_error, "Pa")
     source = {"unloading": "from the unloading, by Oliver and Pharr", "fit": "from the fit"}[quoted.source]
     parts = [f'<p class="big">E* = <output>{escape(number)}</output></p>']
@@ -84,8 +85,8 @@ def why(fit: IndentationFit) -> str:
         return ""
     model = value_of(fit, "E_star")
     return (
-        f"<p>The model’s own E* is {escape(model)}: on loading its contact sinks in elastically, so that its "
-        "contact is smaller than that of a material that flows, and its modulus larger.</p>"
+        f"<p>The model’s own E* is {escape(model)}: on loading its contact sinks in elastically, so that "
+        "it is smaller than that of a material that flows, and its modulus larger.</p>"
     )
 
 
@@ -118,7 +119,8 @@ def classes_table(misfits: dict[str, float], own: str) -> str:
         chosen = " class='own'" if letter == own else ""
         mark = "fitted" if letter == own else ""
         rows.append(
-            f"<tr{chosen}><th>({letter}) {CLASS_NAMES[letter]}</th><td>{100 * misfit:.2g} %</td><td>{mark}</td></tr>"
+            f"<tr{chosen}><th>({letter}) {CLASS_NAMES[letter]}</th>"
+            f"<td>{100 * misfit:.2g} %</td><td>{mark}</td></tr>"
         )
     head = "<tr><th>class of hardness</th><td>misfit, of the largest force</td><td></td></tr>"
     return f"<table>{head}{''.join(rows)}</table>"

@@ -39,7 +39,7 @@ class Worker:
             self._rest()
 
     def ask(self, name: str, *arguments: Any, tell: Tell) -> None:
-        """Do a job of `measurement.JOBS`; `tell` is called in another thread, but for a job that is stopped."""
+        """Do a job of `measurement.JOBS`; `tell` is called in another thread, unless it is stopped."""
         with self._lock:
             if self._busy:
                 self._kill()

@@ -1,20 +1,15 @@
 """States, courses and views for tests without a browser."""
 
-import numpy as np
-
-import mdr_core as mdr
 from app import changes, link
 from app.drives import follow
 from app.extra import EXTRAS
-from app.extras import fit as fitting
-from app.extras.fit.measured import read_curve
 from app.extras.former import NAMES
 from app.extras.guide import TOURS, step_state
 from app.parts import Parts
 from app.plot import View
 from app.readouts import readings
 from app.shared.rest import exact
-from app.state import State, medium, preset_state, profile
+from app.state import State, preset_state
 
 from .conftest import DROP, GOLD
 
@@ -85,25 +80,6 @@ def table(columns: dict, between=", ", comma=False) -> str:
     rows = [between.join(f"{x:.6f}" for x in row) for row in zip(*columns.values(), strict=True)]
     text = "\n".join([between.join(columns), *rows])
     return text.replace(".", ",") if comma else text
-
-
-def example_curve():
-    """The opening's tip on a medium of 1.3 E* and 0.8 q_c, begun at a tenth of its depth; 0.4 % noise."""
-    state = preset_state()
-    made, depth = medium(state), state.max_depth
-    other = mdr.Medium(1.3 * made.E_star, 0.8 * made.q_c)
-    back = depth - 0.8 * min(depth, other.critical_depth)
-    path = np.append(np.linspace(-0.05, 1, 240) * depth, np.linspace(depth, back, 160))
-    force = mdr.indent(profile(state), other, path).force
-    force = force + 0.004 * force.max() * np.random.default_rng(1).standard_normal(path.size)
-    text = table({"depth (nm)": 1e9 * (path + 0.1 * depth), "force (µN)": 1e6 * force}, "; ")
-    return read_curve(text.encode(), "A made curve, no measurement")
-
-
-def fitted(**changed) -> State:
-    """The opening with a fit to the example curve."""
-    changed = {f"fit.{name}": value for name, value in changed.items()}
-    return fitting.fit(fitting.take(preset_state(), example_curve()).replace(**changed))
 
 
 def numbers(course) -> dict:

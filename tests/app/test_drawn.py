@@ -165,34 +165,6 @@ def test_a_wavy_tip_is_refused_and_a_preset_is_chosen_again(server, page, tmp_pa
     assert page.chosen("Preset") == PRESETS[GOLD].label
 
 
-def test_a_fit_takes_the_noise_of_the_depth_and_oliver_and_pharr_first_contact(server, page, tmp_path):
-    """A cone of gold, first contact 5 nm into the record, 0.02 nm of noise in the depth."""
-    rng, medium = np.random.default_rng(1), mdr.Medium(80e9, 100.0)
-    d = np.append(np.linspace(-2e-9, 15e-9, 600), np.linspace(15e-9, 12e-9, 200))
-    F = mdr.indent(mdr.Cone(0.358), medium, d).force
-    F = F + 0.002 * F.max() * rng.standard_normal(d.size)
-    depth = 1e9 * d + 5 + 0.02 * rng.standard_normal(d.size)
-    path = tmp_path / "run.csv"
-    path.write_text(table({"h (nm)": depth, "F (µN)": 1e6 * F}), encoding="utf-8")
-    page.goto(server.url)
-    page.press("Fit a measurement")
-    load = page.page.get_by_label("CSV file of a measured curve: depth, force")
-    page.change(load.set_input_files, path)
-    unloading = page.page.locator(".unloading")
-    unloading.get_by_text("need first contact").wait_for()
-    assert unloading.get_by_text("GPa").count() == 0
-    # A standard deviation from 800 samples is known to about 5 %.
-    assert amounts(page.field("σ_d").input_value())[0] == pytest.approx(2e-11, rel=0.2)
-    page.change(page.press, "Fit")
-    said = " ".join(page.page.locator(".said table").all_inner_texts())
-    modulus, error = map(float, re.search(r"E\*\s+([\d.]+) ± ([\d.]+) GPa", said).groups())
-    assert abs(modulus - 80) < 4 * error < 4
-    assert page.page.locator(".said").get_by_text("back and forth").count() == 0
-    # The numbers stand in the table of the fit, and nowhere else.
-    assert "Oliver and Pharr" in said
-    assert unloading.inner_text() == ""
-
-
 def test_a_number_that_is_shown_is_the_one_that_is_used(server, page):
     """Young's modulus of diamond is 1.141 TPa; what is typed has nine digits, what is dragged five."""
     page.goto(server.url)

@@ -5,19 +5,16 @@ import re
 import numpy as np
 import pytest
 
-import mdr_core as mdr
 from app import changes
 from app.drives import follow
-from app.extras import fit as fitting
 from app.extras import hardness, oblique, reading, sweep
-from app.extras.fit.measured import read_curve
 from app.extras.guide import TOURS, step_state, step_text
 from app.extras.notes import limits
 from app.plots import PLOTS, D, X
-from app.state import medium, preset_state, profile
+from app.state import medium, preset_state
 
 from .conftest import DROP, ELASTIC, GOLD, PUNCH
-from .states import numbers, solved, state_with, table, view_of
+from .states import numbers, solved, state_with, view_of
 from .test_hardness import SILICA, STEEL
 
 KINDS = TOURS["Which kind of medium is it?"]
@@ -206,22 +203,6 @@ def test_an_oblique_impact_says_whether_it_sticks(angle, body, says):
 def test_speed_of_onset_is_a_readout():
     hit = changes.choose(preset_state(), "drive", "impact")
     assert 0 < numbers(follow(hit))["yield_speed"] < hit.speed
-
-
-def test_remarks_of_a_fit_have_words_in_the_place_of_names_of_python():
-    """Depths that go back and forth by 30 pm, taken as exact; a minus is a minus."""
-    state = preset_state()
-    path = np.append(np.linspace(-0.05, 1, 240), np.linspace(1, 0.85, 160)) * state.max_depth
-    force = mdr.indent(profile(state), medium(state), path).force
-    noise = np.random.default_rng(3).standard_normal((2, path.size))
-    columns = {"depth (nm)": 1e9 * path + 0.03 * noise[0], "force (µN)": 1e6 * force + 0.01 * noise[1]}
-    curve = read_curve(table(columns, "; ").encode(), "A made curve")
-    state = fitting.fit(fitting.take(state, curve).replace(**{"fit.depth_noise": 0.0}))
-    text = re.sub("<[^>]+>", " ", fitting.result(state))
-    assert "give depth noise, about" in text
-    assert re.findall(r"[A-Za-z]{2,}_[a-z]+|E_star", text) == []
-    assert re.findall(r"(?<![\w/])-\d", text) == []
-    assert state["fit.curve"].fit.remarks
 
 
 def test_quasi_static_pressing_is_said_where_it_is_so():

@@ -65,7 +65,7 @@ def test_the_link_of_a_preset_is_its_name():
 def test_a_link_holds_the_whole_page(drive):
     state = state_with(DROP, drive, damping="eta", shape="sphere")
     state = state.replace(at=0.75, tiles=("sweep", "section"), dark=True, **{"log.plots": ("force",)})
-    others = {"held.scenes": (link.write(state),), "fit.note": "a < b", "section.stress": "zz"}
+    others = {"held.scenes": (link.write(state),), "section.stress": "zz"}
     state = state.replace(**others)
     again = linked_state(state)
     assert scene_of(again) == scene_of(state)
@@ -91,15 +91,17 @@ LINKS = {
     "tiles=section&section=zz&hold=shape%3Dcone%26cone_slope%3D0.2&dark=1": {
         "section.stress": "zz", "held.scenes": ("shape=cone&cone_slope=0.2",), "dark": True,
     },
-    "fixed=q_c+tilt&contact_point=1e-09&baseline=1e-08&depth_noise=1e-11&fit_note=fit+to+a+curve": {
-        "fit.fixed": ("q_c", "tilt"), "fit.contact_point": 1e-9, "fit.baseline": 1e-8,
-        "fit.depth_noise": 1e-11, "fit.note": "fit to a curve",
-    },
     "tiles=hardness&log=force+hardness": {"tiles": ("hardness",), "log.plots": ("force", "hardness")},
     # A hardness is that of class (b) at a radius.
     "plasticity=hardness&hardness=2000000000.0&hardness_radius=5e-08": {"q_c": 100.0, "hardness": 2e9},
-    # A compliance of the frame and the logarithmic plot are gone.
-    "frame_compliance=1e-05&fixed=q_c+frame_compliance&tiles=loglog": {"fit.fixed": ("q_c",), "tiles": ()},
+    # A compliance of the frame and the logarithmic plot are gone; a fit has a page of its own.
+    "frame_compliance=1e-05&fixed=q_c+frame_compliance&tiles=loglog": {"tiles": (), "fit.former": "1"},
+    "fixed=q_c+tilt&contact_point=1e-09&depth_noise=1e-11&fit_note=fit+to+a+curve&E_star=5e9": {
+        "fit.former": "1", "E_star": 5e9,
+    },
+    "fit.fixed=q_c&fit.samples=1+150&tiles=residual+hardness": {
+        "fit.former": "1", "tiles": ("hardness",),
+    },
 }  # fmt: skip
 
 

@@ -5,14 +5,10 @@ import pytest
 
 from app import changes, link, readouts, ui
 from app.drives import follow
-from app.extras import fit as fitting
 from app.extras import held, notes
-from app.extras.fit.drawn import residual
 from app.extras.guide import TOURS, step_state, step_text
 from app.extras.numbers import table
-from app.extras.scene_file import scene_file
 from app.page import Page
-from app.plot import rows_of
 from app.plots import PLOTS, D, F, P, X, force, springs, visible
 from app.quantities import CHOICES, QUANTITIES
 from app.shared.summary import summary
@@ -20,9 +16,8 @@ from app.state import preset_state
 from mdr_core.results.figures import SPRINGS
 
 from .conftest import DROP
-from .states import example_curve, fitted, numbers, part, side, solved, state_with, view_of, viscous
+from .states import numbers, solved, state_with, view_of, viscous
 from .test_drives import oblique_state, path
-from .test_scene_file import plain
 
 
 def area(row):
@@ -62,41 +57,6 @@ def test_3_the_guide_says_of_which_shape_the_area_goes_with_the_energy():
     assert "under a cone the area is proportional to the energy" in steps[4]["says"]
     assert step_state(steps[5], preset_state()).tiles == ("sweep",)
     assert "ball of 5.5 kg" not in str(TOURS)
-
-
-def test_4_saved_scene_and_link_of_a_fit_have_the_fit():
-    state = fitted(depth_noise=1e-11)
-    found = state["fit.curve"].fit
-    text = plain(scene_file(view_of(state)))
-    assert "Fit to A made curve" in text
-    assert "± " in text[text.index("Fit to A made curve") :]
-    for words in ("reduced χ²", "contact point", *found.remarks):
-        assert words in text
-    again = link.read(link.write(state))
-    assert "χ² =" in again["fit.note"]
-    assert "E* =" in again["fit.note"]
-    assert "made with a fit to A made curve" in plain(fitting.result(again))
-
-
-def test_5_the_noise_around_a_residual_has_that_of_the_depth():
-    state = fitted(depth_noise=5e-11)
-    found, view = state["fit.curve"].fit, view_of(state)
-    size = residual(view, 0)["± noise"][1][: found.residuals.size]
-    expected = np.hypot(found.force_noise, found.path.stiffness * 5e-11)
-    np.testing.assert_allclose(size, expected, rtol=1e-9)
-    # A good fit looks good: two thirds of the samples are within.
-    assert np.mean(np.abs(found.residuals) < size) > 0.6
-    assert next(row for row in rows_of(PLOTS["force"]) if row.name == "measured").kind == "marks"
-
-
-def test_6_and_7_are_of_typed_numbers():
-    """In test_state.py: zeros in the unit of their column, 90°, 10 000 nm, 5 Å, 70.3°."""
-    page = Page()
-    page.apply(lambda state: fitting.take(state, example_curve()))
-    side(page, "fit")
-    names = [f"fit.{name}" for name in ("contact_point", "baseline", "tilt", "frame")]
-    shown = [part(page, name).look["text"].split()[1] for name in names]
-    assert shown == ["nm", "µN", "N/m", "nm/mN"]
 
 
 def test_8_formulas_are_those_of_the_drive():

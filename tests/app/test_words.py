@@ -6,9 +6,8 @@ from html import unescape
 import pytest
 
 import mdr_core as mdr
-from app import changes
+from app import changes, theory
 from app.drives import follow
-from app.extras import theory
 from app.extras.guide import TOURS
 from app.page import Page
 from app.plots import PLOTS

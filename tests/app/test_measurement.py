@@ -1,0 +1,500 @@
+"""The page for a measurement, without a browser: what it reads, fits, says and saves."""
+
+import csv
+import json
+import re
+import struct
+import zipfile
+from html import unescape
+from io import BytesIO
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+from app import link
+from app.fit.explorer import explorer_query, rounded
+from app.fit.form import CHUNK, MAX_BYTES, Dropper
+from app.fit.measurement import modulus_of_sample
+from app.fit.page import Measurement
+from app.fit.setting import MEDIA, Setting
+from app.fit.worker import Here, answers
+from app.quantities import ASSETS
+from app.state import medium, profile
+
+from .conftest import ROOT, deployed
+from .states import table
+
+TIP = mdr.Cone.from_half_angle(70.3)
+GLASS = mdr.Medium(80e9, hardness=14e9)
+#: Depths (m) from before first contact to a third back.
+DEPTH = 1e-6 * np.append(np.linspace(-0.05, 1, 240), np.linspace(1, 0.7, 160))
+
+
+def page_of(query="", worker=None):
+    return Measurement(query, worker or Here())
+
+
+def plain(html):
+    return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())
+
+
+def curve_file(medium=GLASS, tip=TIP, depth=DEPTH, offset=0.0, timed=False, noise=0.0):
+    """A made curve as a file; 10⁻⁶ nm and mN are its last digits."""
+    force = mdr.indent(tip, medium, depth).force
+    force = force + noise * force.max() * np.random.default_rng(1).standard_normal(depth.size)
+    columns = {"t (s)": 0.1 * np.arange(depth.size)} if timed else {}
+    return table(columns | {"h (nm)": 1e9 * (depth + offset), "F (mN)": 1e3 * force}).encode()
+
+
+def opened(data, medium="constant", tip="berkovich", name="run.csv", **numbers):
+    """A page with a file, a tip and a kind of sample."""
+    page = page_of()
+    page.take_file(name, data)
+    page.change(lambda setting: setting.replace(tip=tip, **numbers))
+    page.choose_medium(medium)
+    return page
+
+
+def headline(page):
+    return plain(page.results.headline.object)
+
+
+def test_fused_silica_is_one_click_and_its_number_is_that_of_the_unloading():
+    """69.6 GPa by micromechanics; with ν = 0.17 and a diamond E is that of the handbooks, 72 GPa."""
+    page = page_of()
+    page.take_sample("silica")
+    value, error = map(float, re.search(r"E\* = ([\d.]+) ± ([\d.]+) GPa", headline(page)).groups())
+    assert value == pytest.approx(69.6, abs=max(0.2, error))
+    assert "Oliver and Pharr" in headline(page)
+    young = float(re.search(r"E = ([\d.]+) ± ", headline(page))[1])
+    assert young == pytest.approx(72, rel=0.01)
+    hardness = float(
+        re.search(r"H = ([\d.]+) ± [\d.]+ GPa, hardness by Oliver", headline(page).replace(" ,", ","))[1]
+    )
+    assert hardness == pytest.approx(9.1, abs=0.1)
+    assert page.results.verdict.object == "The curve is of class (a), constant hardness."
+    # The model's own E* is another one, which is said once.
+    assert "own E* is 84.53 ± " in page.results.why.object
+    assert not page.results.take.visible
+
+
+def test_the_gel_is_one_click_and_its_number_is_that_of_hertz():
+    """nanite's E* of the same samples, from 60 first contacts."""
+    reference = json.loads((ROOT / "tests/data/reference.json").read_text())["spot3-0"]
+    page = page_of()
+    page.take_sample("gel")
+    value, error = map(float, re.search(r"E\* = ([\d.]+) ± ([\d.]+) kPa", headline(page)).groups())
+    assert value * 1e3 == pytest.approx(reference["approach"]["hertz_para"]["E_star"], rel=5e-3)
+    assert 0.2 < error < 0.8
+    assert "from the fit" in headline(page)
+    # A gel has no hardness, and so no classes.
+    assert not page.results._right.visible
+    assert page.part == "loading"
+
+
+def test_tip_and_sample_are_asked_for_one_after_the_other():
+    page = page_of()
+    page.take_file("run.csv", curve_file())
+    assert headline(page).startswith("Tell the tip")
+    page.change(lambda setting: setting.replace(tip="paraboloid"))
+    assert headline(page).startswith("Tell the tip radius R")
+    page.change(lambda setting: setting.replace(tip="berkovich"))
+    assert headline(page).startswith("Tell the sample")
+    assert page.fit is None
+    page.form.medium.value = "constant"
+    assert page.fit.medium.E_star == pytest.approx(80e9, rel=1e-4)
+    # What was told holds for the next file; that of an example does not.
+    page.take_file("other.csv", curve_file(offset=5e-9))
+    assert page.fit.contact_point == pytest.approx(5e-9, abs=1e-12)
+    page.take_sample("gel")
+    page.take_file("run.csv", curve_file())
+    assert headline(page).startswith("Tell the tip")
+
+
+@pytest.mark.parametrize(
+    ("made", "name"),
+    [
+        (GLASS, "constant"), (mdr.Medium(80e9, q_c=5000.0), "composite"), (mdr.Medium(80e9, f_c=2e-3), "line"),
+    ],
+)  # fmt: skip
+def test_the_class_that_fits_five_times_better_is_taken_by_a_button(made, name):
+    """A curve without noise is fitted by its own class alone, with the constant it was made with."""
+    own = MEDIA[name].letter
+    data = curve_file(made)
+    for other in ("constant", "composite", "line"):
+        page = opened(data, other)
+        assert f"of class ({own})" in page.results.verdict.object
+        button = page.results.take
+        assert button.visible == (other != name)
+        if button.visible:
+            assert f"Take class ({own})" in button.label
+            page.results.take.param.trigger("clicks")
+        assert page.setting.medium == name
+        assert page.fit.medium.E_star == pytest.approx(80e9, rel=1e-4)
+        constant = MEDIA[name].free[1]
+        assert getattr(page.fit.medium, constant) == pytest.approx(getattr(made, constant), rel=1e-4)
+
+
+def test_a_class_that_cannot_be_told_is_not_offered():
+    """In 20 % of noise all classes are as good."""
+    page = opened(curve_file(noise=0.2))
+    assert page.results.verdict.object == "The class cannot be told from this curve."
+    assert not page.results.take.visible
+
+
+def test_what_is_held_stays_and_what_is_freed_is_found():
+    page = opened(curve_file(offset=4e-9))
+    assert page.fit.contact_point == pytest.approx(4e-9, abs=1e-12)
+    page.hold("E_star", 70e9)
+    assert page.fit.medium.E_star == 70e9
+    assert "E_star" not in page.fit.standard_errors
+    assert headline(page).startswith("E* = ") or "No E* to quote" in headline(page)
+    page.free("E_star", True)
+    assert page.fit.medium.E_star == pytest.approx(80e9, rel=1e-4)
+    # Held where it was found.
+    page.free("contact_point", False)
+    assert page.setting.held["contact_point"] == pytest.approx(4e-9, abs=1e-12)
+    page.form.held["contact_point"].field.value = "4,5 nm"
+    assert page.fit.contact_point == 4.5e-9
+    page.form.held["contact_point"].field.value = "4.5 furlongs"
+    assert "is not a number with one of the units" in page.form.held["contact_point"].said.object
+    assert page.fit.contact_point == 4.5e-9
+    page.hold("contact_point", 1e-3)
+    assert "contact point z₀ = 1.000 mm is held, and the samples reach only" in plain(page.not_fitted)
+    assert page.fit is None
+
+
+def test_a_drag_and_a_viscosity_are_fitted_where_there_are_times():
+    """A viscous gel in a liquid, from before contact and back."""
+    made, tip = mdr.Medium(20e3, eta=500.0), mdr.Paraboloid(10e-6)
+    t = np.linspace(0, 2, 401)
+    d = 1e-6 * np.sin(np.pi * t / 2) - 0.2e-6
+    F = mdr.indent_in_time(tip, made, d, t).force
+    drag = 0.05 * F.max() / (1e-6 * np.pi / 2)
+    columns = {"t (s)": t, "h (nm)": 1e9 * d, "F (pN)": 1e12 * (F + drag * np.gradient(d, t))}
+    page = opened(table(columns).encode(), "viscous", "paraboloid", radius=10e-6)
+    assert page.fit.medium.E_star == pytest.approx(20e3, rel=0.01)
+    assert page.fit.drag == pytest.approx(drag, rel=0.05)
+    page.choose_samples((5, 401))
+    assert "begin the range at sample 1" in plain(page.not_fitted)
+    # Without times they are not offered.
+    page = opened(
+        table({n: v for n, v in columns.items() if n != "t (s)"}).encode(), "gel", "paraboloid", radius=1e-5
+    )
+    assert not page.form._rows["drag"].visible
+    assert not page.form._rows["drift"].visible
+
+
+def test_adhesion_is_fitted_from_a_pull_off():
+    made = mdr.Medium(1e9, work_of_adhesion=0.2)
+    d = np.append(np.linspace(-10e-9, 60e-9, 100), np.linspace(60e-9, -20e-9, 120))
+    F = mdr.indent(mdr.Cone(0.3), made, d).force
+    data = table({"h (nm)": 1e9 * d, "F (nN)": 1e9 * F}).encode()
+    page = opened(data, "sticky", "cone", half_angle=float(np.arctan(1 / 0.3)))
+    assert page.fit.medium.work_of_adhesion == pytest.approx(0.2, rel=1e-2)
+    assert page.fit.medium.E_star == pytest.approx(1e9, rel=1e-2)
+
+
+def test_a_drift_and_the_compliance_of_a_frame_are_subtracted():
+    """E* of a curve with both is that of the curve without."""
+    F = mdr.indent(TIP, GLASS, DEPTH).force
+    t = 0.1 * np.arange(DEPTH.size)
+    drift, frame = 0.05e-9, 20e-9 / F.max()
+    z = DEPTH + drift * t + frame * F
+    data = table({"t (s)": t, "h (nm)": 1e9 * z, "F (mN)": 1e3 * F}).encode()
+    page = opened(data)
+    assert page.fit.medium.E_star != pytest.approx(80e9, rel=1e-2)
+    page.hold("drift", drift)
+    page.hold("frame", frame)
+    assert page.fit.medium.E_star == pytest.approx(80e9, rel=1e-4)
+    np.testing.assert_allclose(page.taken.depth, DEPTH, atol=1e-14)
+    # Another file has neither.
+    page.take_file("next.csv", curve_file())
+    assert page.setting.corrections == {}
+
+
+def test_only_the_chosen_samples_are_fitted_and_the_others_are_faint():
+    """A force that is half as large again from the 151st of 300 samples on: the film and its substrate."""
+    d = 1e-6 * np.append(np.linspace(-0.05, 1, 200), np.linspace(1, 0.9, 100))
+    F = mdr.indent(TIP, GLASS, d).force * np.where(np.arange(300) < 150, 1.0, 1.5)
+    page = opened(table({"h (nm)": 1e9 * d, "F (mN)": 1e3 * F}).encode())
+    page.hold("E_star", 80e9)
+    assert page.fit.medium.hardness != pytest.approx(14e9, rel=0.05)
+    page.results.ends.param.update(value=(1, 150), value_throttled=(1, 150))
+    assert page.fit.medium.hardness == pytest.approx(14e9, rel=1e-4)
+    assert len(page.fit.depth) == 150
+    sources = page.results.plots.sources
+    assert [len(sources[name].data["x"]) for name in ("measured", "others", "residuals")] == [150, 150, 150]
+    assert "samples=1-150" in page.setting.query()
+    for part, ends in (("Loading", (1, 200)), ("Unloading", (200, 300)), ("All", (1, 300))):
+        page.results.part.value = part
+        assert (page.ends, page.results.ends.value) == (ends, ends)
+        assert f"samples {ends[0]} (" in page.results.said.object
+    page.choose_samples((240, 300))
+    assert "the samples before the range reach deeper" in plain(page.not_fitted)
+    # An elastic medium has no memory.
+    page.choose_medium("gel")
+    page.choose_samples((240, 300))
+    assert page.fit is not None
+
+
+def test_noise_of_the_depth_counts_where_it_is_no_rounding_and_no_trifle():
+    """Noise of a hundredth of the recovered depth is found; of a ten-thousandth, or none, it is 0."""
+    d = np.append(np.linspace(-2, 15, 600), np.linspace(15, 12, 200))
+    force = np.maximum(d, 0) ** 2
+    for size, expected in ((0.03, 0.03), (3e-4, 0.0), (0.0, 0.0)):
+        depth = d + size * np.random.default_rng(3).standard_normal(d.size)
+        page = page_of()
+        page.take_file("run.csv", table({"h (nm)": depth, "F (µN)": force}).encode())
+        # A standard deviation of 800 samples, from third differences.
+        assert page.correction("depth_noise") or pytest.approx(1e-9 * expected, rel=0.2) == 0.0
+
+
+def test_a_table_without_a_header_asks_for_its_columns_and_units():
+    """Nothing is fitted until depth and force have both; then as if the header named them."""
+    page = page_of()
+    F = mdr.indent(TIP, GLASS, DEPTH).force
+    rows = "\n".join(f"{1e3 * f:.9g},{1e9 * h:.9g}" for f, h in zip(F, DEPTH, strict=True))
+    page.take_file("bare.csv", rows.encode())
+    assert "bare.csv does not name its columns of depth and force" in plain(page.refused)
+    form = page.form
+    assert form.reader.visible
+    assert not form.reader.collapsed
+    assert page.curve is None
+    form.columns["depth"].value, form.units["depth"].value = 1, "nm"
+    form.columns["force"].value = 0
+    assert page.curve is None
+    form.units["force"].value = "mN"
+    np.testing.assert_allclose(page.curve.depth, DEPTH, rtol=1e-8, atol=1e-16)
+    assert page.refused == ""
+    # The link has the columns, and asks for the same file.
+    again = page_of(page.setting.query())
+    assert "drop that file here" in again.about
+    again.take_file("bare.csv", rows.encode())
+    np.testing.assert_allclose(again.curve.force, F, rtol=1e-8, atol=1e-12)
+    # A wrong unit is corrected.
+    form.units["force"].value = "µN"
+    np.testing.assert_allclose(page.curve.force, 1e-3 * F, rtol=1e-8, atol=1e-12)
+
+
+def test_files_that_are_none_are_refused_in_words_and_the_next_one_is_read():
+    """Zeros, words, a table of results, a damaged and an empty archive, a name that is none."""
+    packed = BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        archive.writestr("a.txt", "nothing")
+    page = page_of()
+    results = b"Sample,E (GPa),H (GPa)\nglass,70.1,9.1\nsteel,210,3\n"
+    for name, data in (
+        ("zeros.csv", bytes(10_000)), ("words.txt", b"force after\ndepth\n"), ("none.csv", b""),
+        ("results.csv", results), ("a.zip", packed.getvalue()), ("b.zip", b"PK\x03\x04" + bytes(99)),
+        ("c.xlsx", b"PK\x03\x04xx"), ("d.jpk-force", b"PK\x03\x04"), ("e.h5", struct.pack("100d", *range(100))),
+        ("../x\0y/<img src=x>.csv", b"1"), ("f.ibw", b"\0\5" * 50), ("g" * 300, b"\xff\xfe\0"),
+    ):  # fmt: skip
+        page.take_file(name, data)
+        said = plain(page.refused)
+        assert len(said) > 20, name
+        assert "<img" not in page.refused + page.about
+        assert not re.search(r"\w+_\w+=|file \d+\.", said), said
+        assert page.busy == ""
+    page.take_file("run.csv", curve_file())
+    page.change(lambda setting: setting.replace(tip="berkovich"))
+    page.choose_medium("constant")
+    assert page.fit is not None
+    assert page.refused == ""
+
+
+def test_parts_of_a_file_are_below_the_message_that_the_documented_line_allows():
+    """As text a part has a third more; what comes beyond the limit is left out and keeps no memory."""
+    options = deployed(5006)
+    largest = int(options[options.index("--websocket-max-message-size") + 1])
+    assert largest > CHUNK * 4 / 3 + 10_000
+    text = (ASSETS / "docs" / "explorer.md").read_text(encoding="utf-8")
+    assert f"measured curves to {MAX_BYTES / 1e6:g} MB" in " ".join(text.split())
+    assert f"up to {MAX_BYTES / 1e6:g} MB" in page_of().form.drop.label
+    drop = Dropper()
+
+    class Event:
+        event_name = "upload_event"
+
+        def __init__(self, k):
+            self.data = {"name": "a", "chunk": k, "total_chunks": 10**6, "data": bytes(CHUNK), "type": ""}
+
+    for k in range(1, 60):
+        drop._process_event(Event(k))
+    assert sum(map(len, drop._file_buffer["a"])) <= MAX_BYTES
+
+
+def test_the_files_of_a_fit_have_its_numbers():
+    """Values and errors of the result, digit for digit; held ones have no error."""
+    page = opened(curve_file(noise=0.004))
+    page.choose_samples((1, 350))
+    found = page.fit
+    told = json.loads(page.written("json").read(), parse_constant=pytest.fail)
+    rows = page.written("csv").read().splitlines()
+    heads = [line for line in rows if line.startswith("# ")]
+    lines = {row["name"]: row for row in csv.DictReader(rows[len(heads) :])}
+    for name, value in found.to_dict().items():
+        kind = "standard_error" if name.endswith("_error") else "value"
+        name = name.removesuffix("_error")
+        assert told["numbers"][name][kind] == value
+        assert float(lines[name][kind.replace("_", " ")]) == value
+    assert lines["baseline"]["standard error"] == ""
+    assert told["numbers"]["quoted"]["value"] == found.quoted.value
+    assert told["quoted"]["source"] == "unloading"
+    for letter, each in found.classes.items():
+        assert told["numbers"][f"misfit_{letter}"]["value"] == float(each.misfit)
+    assert told["samples"] == {"first": 1, "last": 350, "of": 400, "fitted": 350}
+    assert heads[0].startswith(f"# mdr_core {mdr.__version__}: fit to run.csv, samples 1 to 350 of 400")
+    scene = mdr.Scene.from_json(json.dumps(told["scene"]))
+    assert (scene.profile, scene.medium) == (found.profile, found.medium)
+    assert told["samples_fitted"]["depth"]["values"] == found.depth.tolist()
+    # An elastic medium has q_c = ∞, which JSON has no number for.
+    page.choose_medium("gel")
+    assert json.loads(page.written("json").read())["numbers"]["q_c"]["value"] is None
+
+
+def test_the_link_asks_for_the_same_file_with_everything_that_was_told():
+    page = opened(curve_file(timed=True), "constant", "rounded_cone", radius=5e-8, half_angle=1.2)
+    page.hold("E_star", 81e9)
+    page.free("baseline", True)
+    page.hold("frame", 1e-7)
+    page.change(lambda setting: setting.replace(poisson=0.2, tip_modulus=1.1e12))
+    page.choose_samples((1, 300))
+    again = Setting.read("fit=&" + page.setting.query())
+    assert again == page.setting
+    assert page._address.value == f"?fit&{page.setting.query()}"
+    example = page_of(
+        "fit&file=Fused+silica,+Berkovich+tip.csv&tip=berkovich&medium=constant&contact_point=0.0"
+    )
+    assert headline(example).startswith("E* = 69.6")
+
+
+@pytest.mark.parametrize(
+    "query",
+    [
+        "tip=none&medium=x&radius=nan&half_angle=1e999&samples=9-3&curve=-5&held=1", "radius=-1&poisson=7",
+        "depth_column=0,<b>&force_column=²,nm&curve=99999999999999", "E_star=abc&medium=gel&samples=1-²",
+        "file=" + "<img src=x>" * 999, "&".join("medium=gel" for _ in range(999)), "%00=%00&file=%00",
+    ],
+)  # fmt: skip
+def test_a_hostile_link_opens_the_page(query):
+    page = page_of(query)
+    assert page.fit is None
+    assert "<img" not in page.about
+    page.take_file("run.csv", curve_file())
+    assert page.busy == ""
+
+
+def test_the_way_to_the_explorer_has_tip_and_medium_in_their_digits_and_nothing_else():
+    page = opened(curve_file(noise=0.004, timed=True), poisson=0.2)
+    state = link.read(explorer_query(page.setting, page.fit))
+    E, error = page.fit.medium.E_star, page.fit.standard_errors["E_star"]
+    assert state.E_star == pytest.approx(E, abs=0.06 * error)
+    assert state.E_star != E
+    assert len(f"{state.E_star:.15g}".rstrip("0")) <= 6
+    assert (profile(state), medium(state).E_star) == (page.fit.profile, state.E_star)
+    assert medium(state).hardness == pytest.approx(page.fit.medium.hardness, rel=1e-2)
+    names = set(dict(part.split("=") for part in explorer_query(page.setting, page.fit).split("&")))
+    assert names <= {"elasticity", "plasticity", "shape", "cone_slope", "E_star", "volume_hardness"}
+    gel = page_of()
+    gel.take_sample("gel")
+    state = link.read(explorer_query(gel.setting, gel.fit))
+    assert (state.shape, state.paraboloid_radius, state.plasticity) == ("paraboloid", 10e-6, "none")
+    assert state.E_star == 19700.0
+    assert rounded(12345.678, None) == 12350.0
+    assert rounded(-12345.678, 3.21) == -12345.7
+
+
+def test_youngs_modulus_of_the_sample():
+    """Back through `Medium.from_bodies`, which has E* of two bodies."""
+    E_star = mdr.Medium.from_bodies(72e9, 0.17, 1141e9, 0.07).E_star
+    E, error = modulus_of_sample(E_star, 1e-3 * E_star, 0.17, 1141e9, 0.07)
+    assert pytest.approx(72e9, rel=1e-12) == E
+    step = modulus_of_sample(E_star * (1 + 1e-6), 0.0, 0.17, 1141e9, 0.07)[0] - E
+    assert error == pytest.approx(1e-3 * step / 1e-6, rel=1e-4)
+    assert modulus_of_sample(1e4, 0.0, 0.5, None, None)[0] == pytest.approx(7500)
+    with pytest.raises(ValueError, match="softer than the contact"):
+        modulus_of_sample(80e9, 0.0, 0.2, 50e9, 0.2)
+
+
+class Afterwards(Here):
+    """Jobs that are done one answer at a time, as a process does them."""
+
+    def ask(self, name, *arguments, tell):
+        self.jobs = [(tell, each) for each in answers(name, arguments)] if name == "fit_all" else []
+        if name != "fit_all":
+            super().ask(name, *arguments, tell=tell)
+
+    def step(self):
+        tell, (kind, answer) = self.jobs.pop(0)
+        tell(kind, answer)
+
+    def stop(self):
+        self.jobs = []
+
+
+def workbook():
+    """A map as an Excel file: two curves, a dead one between them, and a sheet of results."""
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("openpyxl")
+    file = BytesIO()
+    with pandas.ExcelWriter(file) as writer:
+        for number, E in enumerate((2e4, None, 3e4), 1):
+            d = 1e-6 * np.append(np.linspace(-0.5, 1, 200), np.linspace(1, 0, 100))
+            F = mdr.indent(mdr.Paraboloid(1e-5), mdr.Medium(E), d).force if E else np.zeros(d.size)
+            frame = pandas.DataFrame({"depth (nm)": 1e9 * d, "force (nN)": 1e9 * F})
+            frame.to_excel(writer, sheet_name=f"Test {number}", index=False)
+        pandas.DataFrame({"E": [1, 2]}).to_excel(writer, sheet_name="Results")
+    return file.getvalue()
+
+
+def test_all_curves_of_a_file_are_fitted_and_a_dead_one_says_why():
+    page = page_of(worker=Afterwards())
+    page.take_file("map.xlsx", workbook())
+    page.change(lambda setting: setting.replace(tip="paraboloid", radius=1e-5))
+    page.choose_medium("gel")
+    assert page.count == 3
+    assert "curve 1 of 3" in plain(page.about)
+    assert page.fit.medium.E_star == pytest.approx(2e4, rel=1e-4)
+    # The dead curve alone has a reason, and the next one is a click away.
+    page.results.number.value = 2
+    assert page.fit is None
+    assert len(plain(page.not_fitted)) > 20
+    page.results.number.value = 3
+    assert page.fit.medium.E_star == pytest.approx(3e4, rel=1e-4)
+    page.fit_all()
+    assert page.results.cancel.visible
+    page.worker.step()
+    assert "curve 2 of 3" in headline(page)
+    assert page.results.progress.value == 1
+    page.cancel()
+    assert not page.results.cancel.visible
+    assert "1 of 3 curves fitted" in page.results.summary.object
+    page.fit_all()
+    while page.worker.jobs:
+        page.worker.step()
+    values = [row[1] for row in page.rows]
+    assert values[0] == pytest.approx(2e4, rel=1e-4)
+    assert values[1] is None
+    assert values[2] == pytest.approx(3e4, rel=1e-4)
+    assert "median E* 25.0" in page.results.summary.object
+    assert "1 without a number" in page.results.summary.object
+    (shown,) = page.results.list.objects
+    assert len(shown.value) == 3
+    assert shown.value["Of what, or why not"].iloc[1]
+    lines = page.results._map_written().read().splitlines()
+    assert len(lines) == 5
+    assert lines[3].startswith("2,,,")
+
+
+def test_remarks_have_words_in_the_place_of_names_of_python():
+    """Depths that go back and forth, taken as exact; a minus is a minus."""
+    noise = np.random.default_rng(3).standard_normal((2, DEPTH.size))
+    F = mdr.indent(TIP, GLASS, DEPTH).force
+    data = table({"h (nm)": 1e9 * DEPTH + 5 * noise[0], "F (mN)": 1e3 * F * (1 + 0.01 * noise[1])}).encode()
+    page = opened(data)
+    page.hold("depth_noise", 0.0)
+    text = plain(page.results.remarks.object) + headline(page) + page.results._report.value
+    assert re.findall(r"[A-Za-z]{2,}_[a-z]+|E_star|\w=\w", text) == []
+    assert page.results.remarks.object

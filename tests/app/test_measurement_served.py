@@ -1,0 +1,197 @@
+"""The page for a measurement as a person uses it, in a browser, and what it does to others."""
+
+import re
+import zipfile
+from urllib.request import urlopen
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+from app.fit.worker import Worker
+
+from .conftest import ROOT, Explorer, Server
+from .states import table
+
+READY = "Bokeh.documents.length && Bokeh.documents.every((each) => each.is_idle)"
+TIP = mdr.Cone.from_half_angle(70.3)
+
+
+@pytest.fixture
+def measurement(server, context):
+    """The page freshly opened; afterwards nothing may have been complained about or left the host."""
+    opened = Explorer(context.new_page(), f"{server.url}?fit", READY)
+    yield opened
+    assert opened.problems == []
+    opened.page.close()
+    assert server.faults == ""
+
+
+def number(opened, text):
+    """Wait for the number that is large, and return it."""
+    shown = opened.page.locator(".big output", has_text=re.compile(text))
+    shown.wait_for()
+    return shown.inner_text()
+
+
+def drop(opened, *files):
+    opened.page.locator('.filepond--browser, input[type="file"]').first.set_input_files(*files)
+
+
+def curve(path, medium, depth=None):
+    depth = (
+        1e-6 * np.append(np.linspace(-0.05, 1, 240), np.linspace(1, 0.7, 160)) if depth is None else depth
+    )
+    force = mdr.indent(TIP, medium, depth).force
+    path.write_text(table({"h (nm)": 1e9 * depth, "F (mN)": 1e3 * force}), encoding="utf-8")
+    return path
+
+
+def test_a_sample_is_one_click_and_all_of_it_is_in_sight(measurement):
+    """At 1280 × 720 without scrolling: number, class, curve and residuals; the link has the sample."""
+    page = measurement.page
+    page.set_viewport_size({"width": 1280, "height": 720})
+    measurement.press("Sample: fused silica")
+    assert re.match(r"69\.\d+ ± 0\.\d+ GPa", number(measurement, "69"))
+    page.get_by_text("The curve is of class (a), constant hardness.").wait_for()
+    for place in (".big output", ".classes table", ".of-force canvas", ".of-residual canvas"):
+        box = page.locator(place).first.bounding_box()
+        assert box["y"] >= 0
+        assert box["y"] + box["height"] <= 720, place
+    assert page.locator(".big").evaluate("(each) => parseFloat(getComputedStyle(each).fontSize)") >= 30
+    measurement.wait("location.search.includes('medium=constant')")
+    again = page.url
+    page.goto(again)
+    number(measurement, "69")
+    page.context.grant_permissions(["clipboard-read"])
+    measurement.press("Copy")
+    copied = page.evaluate("navigator.clipboard.readText()")
+    assert re.search(r"E\* = 69\.\d+ ± 0\.\d+ GPa", copied)
+    assert re.search(r"constant hardness H\t14\.\d+ ± 0\.\d+ GPa", copied)
+    for button, start in (("CSV", "# mdr_core "), ("JSON", '{\n "version": "mdr_core ')):
+        with page.expect_download() as download:
+            page.get_by_text(button, exact=True).click()
+        assert download.value.path().read_text(encoding="utf-8").startswith(start)
+
+
+def test_a_file_is_dropped_and_a_handle_takes_fewer_samples(measurement, tmp_path):
+    page = measurement.page
+    drop(measurement, curve(tmp_path / "run.csv", mdr.Medium(80e9, hardness=14e9)))
+    page.get_by_text("Tell the tip").wait_for()
+    page.get_by_label("Tip", exact=True).select_option(label="Berkovich or Vickers (cone of 70.3°)")
+    page.get_by_text("Tell the sample").wait_for()
+    page.get_by_label("Sample", exact=True).select_option(label="Composite, PDMS: hardness ∝ 1/a")
+    # The class that fits is a click away.
+    page.get_by_role("button", name="Take class (a), constant hardness").click()
+    page.get_by_text("14 GPa").or_(page.get_by_placeholder("14 GPa")).first.wait_for()
+    handle = page.locator(".ends .noUi-handle-upper")
+    handle.focus()
+    page.keyboard.press("ArrowLeft")
+    page.get_by_text(re.compile("Fitted: samples 1 .* to 399 ")).wait_for()
+    # A file of the same name is read again.
+    drop(measurement, curve(tmp_path / "run.csv", mdr.Medium(40e9, hardness=14e9)))
+    page.get_by_placeholder("40 GPa").wait_for()
+
+
+def test_no_file_ends_the_session(measurement, tmp_path):
+    """20 MB of zeros, NUL, words, a zip; then the next curve is read, in the same session."""
+    page = measurement.page
+    large = tmp_path / "large.csv"
+    large.write_bytes(bytes(20_000_000))
+    packed = tmp_path / "packed.zip"
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("large.jpk", bytes(10_000_000))
+    words = tmp_path / "words.csv"
+    words.write_text("force after\ndepth\n")
+    for path in (large, packed, words):
+        drop(measurement, path)
+        refusal = page.locator(".refusal p", has_text=re.compile(re.escape(path.name)))
+        refusal.first.wait_for(timeout=60_000)
+    # More than the limit is refused before it is sent, in words.
+    huge = tmp_path / "huge.csv"
+    with huge.open("wb") as file:
+        file.truncate(60_000_000)
+    drop(measurement, huge)
+    page.get_by_text(re.compile("too large", re.IGNORECASE)).first.wait_for()
+    page.get_by_text(re.compile("50 ?MB")).first.wait_for()
+    measurement.press("Sample: gel by AFM")
+    assert number(measurement, "kPa").startswith("19.7")
+
+
+def test_it_adds_no_byte_to_the_explorer_in_the_same_process(browser):
+    """What the explorer's page loads is the same before and after somebody has opened this page."""
+    server = Server()
+    try:
+
+        def loaded():
+            text = urlopen(server.url).read().decode()
+            # Tokens and ids differ from session to session.
+            text = re.sub(r'"token":"[^"]*"|"roots?[^}]*}|[0-9a-f]{8}-[0-9a-f-]{27}|p\d{4,}', "", text)
+            return text, re.findall(r'(?:src|href)="([^"]+)"', text)
+
+        before = loaded()
+        with browser.new_context() as context:
+            opened = Explorer(context.new_page(), f"{server.url}?fit", READY)
+            opened.press("Sample: fused silica")
+            number(opened, "GPa")
+            assert opened.problems == []
+        after = loaded()
+        assert after[1] == before[1]
+        assert len(after[0]) == len(before[0])
+        assert not any("filepond" in each.lower() or "tabulator" in each.lower() for each in after[1])
+    finally:
+        server.stop()
+    assert server.faults == ""
+
+
+def test_the_explorer_leads_there_and_back(explorer):
+    page = explorer.page
+    page.get_by_role("link", name="Fit a measurement").click()
+    page.get_by_text("A curve in, E* out").wait_for()
+    explorer.press("Sample: gel by AFM")
+    number(explorer, "kPa")
+    page.get_by_role("link", name="Tip and medium in the explorer").click()
+    page.wait_for_function("window.explorer?.idle()")
+    assert explorer.field("E*").input_value() == "19.7 kPa"
+    assert explorer.chosen("Shape") == "Paraboloid"
+
+
+def test_an_old_link_of_a_fit_opens_its_scene_and_says_where_fits_are(explorer):
+    url = explorer.page.url.split("?")[0]
+    for query in ("max_depth=5e-09&fit.fixed=q_c&fit.note=fit", "max_depth=5e-09&fixed=q_c&fit_note=fit"):
+        explorer.goto(f"{url}?{query}")
+        assert explorer.readout("depth") == "5.000 nm"
+        explorer.page.locator(".former", has_text="was made with a fit").wait_for()
+        assert explorer.page.locator(".former a").get_attribute("href") == "?fit"
+    # `fit` beside other names is the page of measurements, whatever it says.
+    explorer.page.goto(f"{url}?theory=eq-11&fit=x&max_depth=5e-09")
+    explorer.page.get_by_text("A curve in, E* out").wait_for()
+
+
+def test_a_job_is_stopped_and_the_next_one_is_done(tmp_path):
+    """A process that ends says so; what is stopped says nothing more."""
+    heard, worker = [], Worker()
+    path = str(ROOT / "assets" / "silica.csv")
+
+    def tell(kind, answer):
+        heard.append(kind)
+
+    def wait(count):
+        for _ in range(600):
+            if len(heard) >= count:
+                return
+            __import__("time").sleep(0.05)
+        raise AssertionError(heard)
+
+    try:
+        worker.ask("read", path, {}, 0, tell=tell)
+        wait(1)
+        worker.ask("nothing", tell=tell)
+        wait(2)
+        worker.ask("read", path, {}, 0, tell=lambda kind, answer: heard.append("of the stopped"))
+        worker.ask("read", path, {}, 0, tell=tell)
+        wait(3)
+        worker.stop()
+        assert heard == ["done", "ended", "done"]
+    finally:
+        worker.stop()
