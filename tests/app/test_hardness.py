@@ -13,6 +13,7 @@ from app.extras import share, sweep
 from app.extras.scene_file import scene_file
 from app.page import Page
 from app.plots import PLOTS
+from app.quantities import ASSETS
 from app.shared.rest import Searched, exact
 from app.state import PRESETS, altered, medium, preset_state, profile
 from mdr_core.results.units import written

@@ -115,7 +115,8 @@ def test_tip_and_sample_are_asked_for_one_after_the_other():
 @pytest.mark.parametrize(
     ("made", "name"),
     [
-        (GLASS, "constant"), (mdr.Medium(80e9, q_c=5000.0), "composite"), (mdr.Medium(80e9, f_c=2e-3), "line"),
+        (GLASS, "constant"), (mdr.Medium(80e9, q_c=5000.0), "composite"),
+        (mdr.Medium(80e9, f_c=2e-3), "line"),
     ],
 )  # fmt: skip
 def test_the_class_that_fits_five_times_better_is_taken_by_a_button(made, name):
@@ -288,7 +289,8 @@ def test_files_that_are_none_are_refused_in_words_and_the_next_one_is_read():
     for name, data in (
         ("zeros.csv", bytes(10_000)), ("words.txt", b"force after\ndepth\n"), ("none.csv", b""),
         ("results.csv", results), ("a.zip", packed.getvalue()), ("b.zip", b"PK\x03\x04" + bytes(99)),
-        ("c.xlsx", b"PK\x03\x04xx"), ("d.jpk-force", b"PK\x03\x04"), ("e.h5", struct.pack("100d", *range(100))),
+        ("c.xlsx", b"PK\x03\x04xx"), ("d.jpk-force", b"PK\x03\x04"),
+        ("e.h5", struct.pack("100d", *range(100))),
         ("../x\0y/<img src=x>.csv", b"1"), ("f.ibw", b"\0\5" * 50), ("g" * 300, b"\xff\xfe\0"),
     ):  # fmt: skip
         page.take_file(name, data)

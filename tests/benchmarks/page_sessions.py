@@ -1,6 +1,7 @@
 """Many people at the served page at once: opening, server time of a move, memory, what stays behind.
 
 Opening is page, websocket and document, beside a plain page of Panel's that is served by the same process.
+A move is also timed while somebody else fits on the page for measurements.
 
 Run from the project root: python -m tests.benchmarks.page_sessions
 """
@@ -50,6 +51,9 @@ def dig(part, *keys):
 class Visitor:
     """A person's browser as far as the server sees it, until the page is there."""
 
+    #: Figures of the page.
+    figures = FIGURES
+
     async def open(self, url):
         """Load the page, connect, and wait until all its figures are in the document."""
         patience = {"connect_timeout": PATIENCE, "request_timeout": PATIENCE}
@@ -73,7 +77,7 @@ class Visitor:
         event = {"type": "event", "name": "document_ready", "values": {"type": "map", "entries": []}}
         await self._event("ready", event)
         count = figures(content)
-        while count < FIGURES:
+        while count < self.figures:
             _, content = await self._message()
             count += figures(content)
         return self
@@ -133,6 +137,64 @@ class Client(Visitor):
             times.append(await self.move(n))
             await asyncio.sleep(max(begin + n / RATE - time.perf_counter(), 0))
         return times
+
+
+class Fitter(Visitor):
+    """A person who fits the sample again and again."""
+
+    figures = 2
+
+    async def open(self, url):
+        """Load the page for measurements, and find the button of the sample."""
+        await super().open(f"{url}?fit")
+        found = (each for each in objects(self.document) if each.get("name") == "Button")
+        self.button = next(
+            e["id"] for e in found if dig(e, "attributes", "label") == "Sample: fused silica"
+        )
+        return self
+
+    async def work(self, done):
+        """Click and wait for the number, until `done` is set; how many fits there were."""
+        count = 0
+        while not done.is_set():
+            event = {"type": "event", "name": "button_click"}
+            values = {"type": "map", "entries": [["model", {"id": self.button}]]}
+            await self._event(f"fit {count}", event | {"values": values})
+            content = ""
+            while "of the unloading" not in content and "from the unloading" not in content:
+                _, content = await self._message()
+            count += 1
+        return count
+
+
+async def beside_a_fit(url):
+    """Moves of a slider alone, and beside a person who fits without a pause, in turn; medians (ms)."""
+    client, fitter = await Client().open(url), await Fitter().open(url)
+    found, fits = {False: [], True: []}, 0
+    for _ in range(3):
+        for fitting in (False, True):
+            done = asyncio.Event()
+            others = asyncio.ensure_future(fitter.work(done)) if fitting else None
+            await asyncio.sleep(1.0)
+            found[fitting] += await client.work(0.0)
+            done.set()
+            fits += await others if others else 0
+    quiet, busy = (1000 * statistics.median(found[each]) for each in (False, True))
+    print(
+        f"a move beside {fits} fits in {3 * SECONDS:.0f} s: median {busy:.0f} ms, alone {quiet:.0f} ms, "
+        f"{busy / quiet:.2f} times; load of the machine {os.getloadavg()[0]:.1f}",
+        flush=True,
+    )
+
+
+def fits():
+    """What a person at the explorer feels of one who fits."""
+    server = Server()
+    try:
+        asyncio.run(asyncio.wait_for(come_and_go(server.url, 2), 300))
+        asyncio.run(asyncio.wait_for(beside_a_fit(server.url), 600))
+    finally:
+        server.stop()
 
 
 def figures(content):
@@ -272,6 +334,7 @@ def main():
     # All of a class are on their way at the same time.
     AsyncHTTPClient.configure(None, max_clients=CLASS)
     openings()
+    fits()
     # More and more, until they wait.
     next((count for count in SESSIONS if at_once(count) > ENOUGH), None)
     left_behind()
