@@ -61,7 +61,7 @@ def _shape(setting: Setting) -> tuple[str, dict[str, float]]:
         return "cone", {"cone_slope": setting.profile.slope}
     sizes = {f"{setting.tip}_{name}": getattr(setting, name) for name in names}
     if "half_angle" in names:
-        sizes[f"{setting.tip}slope_of"] = slope_of(sizes.pop(f"{setting.tip}_half_angle"))
+        sizes[f"{setting.tip}_slope"] = slope_of(sizes.pop(f"{setting.tip}_half_angle"))
     if setting.tip == "rounded_cone":
         sizes["rounded_cone_tip_radius"] = sizes.pop("rounded_cone_radius")
     return setting.tip, sizes

@@ -10,7 +10,7 @@ import panel as pn
 
 from mdr_core.results.units import written
 
-from ..ui import WIDE, html, show
+from ..ui import WIDE, html, marked, show
 from . import words
 from .explorer import explorer_query
 from .files import map_csv
@@ -28,6 +28,8 @@ area.remove()
 """
 _SLIDER = Path(__file__).with_name("slider.css").read_text(encoding="utf-8")
 _BOTH = {"sizing_mode": "stretch_both", "margin": 0}
+#: Most curves of a file that are listed.
+_LISTED = 300
 _PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
 _WELCOME = (
     '<p class="big none">A curve in, E* out</p><p class="of">Drop a file of depth and force, or open '
@@ -140,7 +142,7 @@ class Results:
             label="All as CSV", filename="curves.csv", callback=self._map_written, auto=True,
             css_classes=["button"], margin=0, visible=False,
         )  # fmt: skip
-        self.list = pn.Column(visible=False, **WIDE)
+        self.list = html("", "curves", visible=False)
         bar = pn.Row(self.number, self.all, self.progress, self.map_file, css_classes=["tools"], **WIDE)
         self.several = pn.Column(
             bar, self.summary, self.list, css_classes=["several"], visible=False, **WIDE
@@ -260,23 +262,13 @@ class Results:
         show(self.summary, object=text)
 
     def _show_list(self, done: bool) -> None:
-        """The curves as a table: a click on a row opens its curve."""
-        page = self._page
-        show(self.list, visible=done)
-        if not done:
-            self.list.objects = []
-            return
-        import pandas
-
-        columns = {
-            "Curve": [number + 1 for number, *_ in page.rows],
-            "E*": ["" if v is None else words.amount(v, error, "Pa") for _, v, error, _ in page.rows],
-            "Of what, or why not": [words.in_page_words(reason) for *_, reason in page.rows],
-        }
-        frame = pandas.DataFrame(columns).set_index("Curve")
-        table = pn.widgets.Tabulator(
-            frame, disabled=True, pagination="local", page_size=8, theme="simple",
-            layout="fit_data_stretch", **WIDE,
-        )  # fmt: skip
-        table.on_click(lambda event: page.choose_curve(int(frame.index[event.row]) - 1))
-        self.list.objects = [table]
+        """The curves as a table, those without a number first."""
+        rows = sorted(self._page.rows, key=lambda row: (row[1] is not None, row[0])) if done else []
+        cells = [
+            f"<tr><th>{number + 1}</th><td>{'–' if v is None else words.amount(v, error, 'Pa')}</td>"
+            f"<td class='reason'>{marked(words.in_page_words(reason))}</td></tr>"
+            for number, v, error, reason in rows[:_LISTED]
+        ]
+        head = "<tr><th>curve</th><td>E*</td><td class='reason'>of what, or why there is none</td></tr>"
+        more = f"<p>{len(rows) - _LISTED} more are in the CSV.</p>" if len(rows) > _LISTED else ""
+        show(self.list, visible=done, object=f"<table>{head}{''.join(cells)}</table>{more}" if rows else "")
