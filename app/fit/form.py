@@ -151,14 +151,15 @@ class Form:
         options = {"choose the tip": ""} | {tip.label: name for name, tip in TIPS.items()}
         self.tip = field(pn.widgets.Select, label="Tip", options=options)
         self.tip.param.watch(lambda event: self._change(lambda s: s.replace(tip=event.new)), "value")
-        self.tip_file = pn.widgets.FileInput(
-            accept=".csv,.txt", css_classes=["choice"], visible=False, **WIDE
-        )
+        self.tip_file = Dropper(
+            label="Drop the file of the tip, radii and heights, here", max_file_size="5MB",
+            chunk_size=CHUNK, multiple=False, layout="compact", visible=False, css_classes=["drop"], **WIDE,
+        )  # fmt: skip
         self.tip_file.param.watch(self._tip_dropped, "value")
 
     def _tip_dropped(self, event: Any) -> None:
-        if event.new:
-            self._page.take_tip(self.tip_file.filename or "the file", event.new)
+        for name, data in list(event.new.items())[-1:]:
+            self._page.take_tip(name, data.encode() if isinstance(data, str) else data)
 
     def _medium(self) -> None:
         options = {"choose the kind of sample": ""} | {kind.label: name for name, kind in MEDIA.items()}

@@ -4,6 +4,7 @@ Arguments and answers are numbers, texts, arrays and objects of `mdr_core`, whic
 """
 
 import logging
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
@@ -179,8 +180,9 @@ JOBS = {"read": read, "fit": fit, "fit_all": fit_all}
 
 
 def quiet() -> None:
-    """No messages of readers on the output."""
+    """Leave out messages of readers, and warnings, which are in nobody's sight."""
     logging.disable(logging.WARNING)
+    warnings.simplefilter("ignore")
 
 
 def modulus_of_sample(

@@ -13,13 +13,15 @@ from typing import Any
 import numpy as np
 import panel as pn
 from bokeh.document import Document
+from bokeh.events import ConnectionLost
+from bokeh.models import CustomJS
 
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.measured_curve import MeasuredCurve
 from mdr_core.profiles.samples import decoded
 
 from ..tip import in_line, read_tip
-from ..ui import WIDE, html
+from ..ui import JS, WIDE, html
 from . import words
 from .files import as_csv, as_json
 from .form import Form
@@ -57,7 +59,7 @@ class Measurement:
         self.rows: list[tuple[Any, ...]] = []
         self.worker = Worker() if worker is None else worker
         self._folder = Path(tempfile.mkdtemp(prefix="measurement-"))
-        self._path, self._files = "", 0
+        self._path, self._files, self._job = "", 0, 0
         self._example = ""
         self.form, self.results = Form(self), Results(self)
         self._address = pn.widgets.TextInput(visible=False)
@@ -71,6 +73,8 @@ class Measurement:
             pn.Row(*header, self._address, css_classes=["fit-header"], **WIDE), columns,
             css_classes=["fit-page"], **WIDE,
         )  # fmt: skip
+        # The address restores what was told when the session is lost.
+        self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
         if self.document.session_context is not None:
             self.document.on_session_destroyed(lambda context: self.close())
         self._begin()
@@ -365,6 +369,7 @@ class Measurement:
     def cancel(self) -> None:
         """Stop what is being done."""
         self.worker.stop()
+        self._job += 1
         self.busy = ""
         if self.fit is None:
             self.not_fitted = words.refused("Cancelled. Change something, or drop the file again.")
@@ -372,9 +377,17 @@ class Measurement:
 
     def _tell(self, heard: Callable[[str, Any], None]) -> Callable[[str, Any], None]:
         """What a worker calls in its thread: `heard` is called where the page may be changed."""
+        self._job += 1
+        job = self._job
+
+        def told(kind: str, answer: Any) -> None:
+            # An answer that was on its way when something else was asked is nobody's.
+            if job == self._job:
+                heard(kind, answer)
+
         if self.document.session_context is None:
-            return heard
-        return lambda kind, answer: self.document.add_next_tick_callback(partial(heard, kind, answer))
+            return told
+        return lambda kind, answer: self.document.add_next_tick_callback(partial(told, kind, answer))
 
     # What is shown and saved.
 

@@ -60,6 +60,8 @@ class Worker:
     def _kill(self) -> None:
         if self._process is not None:
             self._process.kill()
+            with suppress(OSError):
+                self._process.stdin.close()
         self._process, self._busy = None, False
         # Its answers are nobody's.
         self._job += 1
