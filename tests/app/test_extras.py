@@ -51,7 +51,7 @@ def words(name):
     found += [drive["label"] for drive in choices.get("drive", {}).get("options", {}).values()]
     page = opened()
     buttons = extra.on_plots(page, PLOTS["force"], page.shown), extra.header(page, page.shown)
-    found += [each.look["label"] for each in buttons if each is not None]
+    found += [each.look.get("label") for each in buttons if each is not None]
     found += re.findall("<summary>(.*?)</summary>", extra.below(page.shown))
     found += extra.notes(page.shown).values()
     return {each for each in found if each}

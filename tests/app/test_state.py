@@ -96,8 +96,8 @@ LINKS = {
     "plasticity=hardness&hardness=2000000000.0&hardness_radius=5e-08": {"q_c": 100.0, "hardness": 2e9},
     # A compliance of the frame and the logarithmic plot are gone; a fit has a page of its own.
     "frame_compliance=1e-05&fixed=q_c+frame_compliance&tiles=loglog": {"tiles": (), "fit.former": "1"},
-    "fixed=q_c+tilt&contact_point=1e-09&depth_noise=1e-11&fit_note=fit+to+a+curve&E_star=5e9": {
-        "fit.former": "1", "E_star": 5e9,
+    "fixed=q_c+tilt&contact_point=1e-09&depth_noise=1e-11&fit_note=fit+to+a+curve&max_depth=5e-09": {
+        "fit.former": "1", "max_depth": 5e-9,
     },
     "fit.fixed=q_c&fit.samples=1+150&tiles=residual+hardness": {
         "fit.former": "1", "tiles": ("hardness",),
@@ -117,7 +117,7 @@ def test_links_of_version_0_6_are_read(query):
     [
         "preset=none", "cone_slope=1e9", "shape=ball", "at=7", "shape=cone&shape=cone", "at=nan",
         "shape=sampled&samples=0,0 1", "q_c=" + 9000 * "1", "hold=a b c d e", "shape=sphere",
-        "fixed=everything", "drive=path&pattern=own",
+        "drive=path&pattern=own",
     ],
 )  # fmt: skip
 def test_a_hostile_link_is_refused(query):
