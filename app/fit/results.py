@@ -57,8 +57,8 @@ class Results:
         self._map()
         self.plots = Plots()
         self.curve = pn.Column(
-            pn.pane.Bokeh(self.plots.force, css_classes=["of-force"], **_BOTH),
-            pn.pane.Bokeh(self.plots.residual, css_classes=["of-residual"], **_BOTH),
+            pn.pane.Bokeh(self.plots.force, **_BOTH),
+            pn.pane.Bokeh(self.plots.residual, **_BOTH),
             css_classes=["plots-of-fit"], visible=False, **WIDE,
         )  # fmt: skip
         self.why, self.remarks = html("", "note", "why"), html("", "note", "remarks")
