@@ -178,7 +178,10 @@ class Results:
         elif page.curve is not None and page.setting.missing:
             text = f'<p class="big none">Tell {page.setting.missing}</p>'
             text += '<p class="of">Then the fit runs at once.</p>'
-        elif page.refused or page.not_fitted:
+        elif page.refused:
+            text = '<p class="big none">The curve is not read yet</p>'
+            text += '<p class="of">What the file lacks is asked for on the left.</p>'
+        elif page.not_fitted:
             text = '<p class="big none">No fit</p>'
         show(self.headline, object=text)
         show(self.not_fitted, object=page.not_fitted)
