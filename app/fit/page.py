@@ -25,7 +25,7 @@ from ..ui import JS, WIDE, html
 from . import words
 from .files import as_csv, as_json
 from .form import Form
-from .measurement import Samples, first_and_last, modulus_of_sample, samples
+from .measurement import Samples, Told, first_and_last, modulus_of_sample, samples
 from .results import Results
 from .samples import EXAMPLES, example_named
 from .setting import Setting
@@ -50,7 +50,7 @@ class Measurement:
         self.table: Any = None
         self.taken: Samples | None = None
         self.fit: IndentationFit | None = None
-        self.remarks: tuple[str, ...] = ()
+        self.told = Told((), None, "")
         self.E: tuple[float, float] | None = None
         # What is said below the file and of the fit; what a refused file needs; what is being done.
         self.about, self.refused, self.not_fitted, self.busy = "", "", "", ""
@@ -323,7 +323,7 @@ class Measurement:
     def _have_fitted(self, kind: str, answer: Any) -> None:
         self.busy = ""
         if kind == "done":
-            self.fit, self.remarks = answer
+            self.fit, self.told = answer[0], Told(**answer[1])
             self._find_modulus()
         else:
             text = answer if kind == "refused" else _ENDED
@@ -408,7 +408,7 @@ class Measurement:
         """The fit as a file: "json" or "csv"."""
         write = {"json": as_json, "csv": as_csv}[name]
         told = {
-            "remarks": (*self.curve.remarks, *self.remarks), "samples": self.ends,
+            "remarks": (*self.curve.remarks, *self.told.remarks), "samples": self.ends,
             "count": len(self.curve), "E": self.E,
         }  # fmt: skip
         return StringIO(write(self.setting, self.fit, told))
