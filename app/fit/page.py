@@ -28,7 +28,7 @@ from .form import Form
 from .measurement import Samples, Told, first_and_last, modulus_of_sample, samples
 from .results import Results
 from .samples import EXAMPLES, example_named
-from .setting import Setting
+from .setting import MEDIA, Setting
 from .worker import Here, Worker
 
 #: Beginnings of the suffixes of files that are no tables.
@@ -208,8 +208,15 @@ class Measurement:
         self.fit_again()
 
     def choose_medium(self, name: str) -> None:
-        """Take another kind of sample, whose parameters are free as it says."""
-        if name != self.setting.medium and not self.form._quiet:
+        """Take another kind of sample, whose parameters are free as it says.
+
+        Of one that yields, too, what is held stays.
+        """
+        if name == self.setting.medium or self.form._quiet:
+            return
+        if self.setting.medium and self.setting.kind.letter and name and MEDIA[name].letter:
+            self.take_class(name)
+        else:
             self.change(lambda s: s.with_medium(name) if name else s.replace(medium="", held={}))
 
     def take_class(self, medium: str) -> None:
