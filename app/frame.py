@@ -12,9 +12,15 @@ from .fields import Form
 from .parts import Part, Parts, button, text
 from .player import player
 from .plot import View
+from .state import State
 from .ui import FULL, LAYOUT, html, show
 
 _TITLE = text("name", "<h1>Indentation explorer</h1>", "name")
+
+
+def _turned(state: State) -> State:
+    """Dark instead of light, or back."""
+    return state.replace(dark=not state.dark)
 
 
 class Frame:
@@ -61,8 +67,9 @@ class Frame:
         page = self._page
         undo = button("Undo", page.undo, disabled=page.history.at == 0, key="z")
         redo = button("Redo", page.redo, disabled=page.history.at + 1 == len(page.history.states))
+        dark = button("Dark", partial(page.apply, _turned), pressed=view.state.dark)
         buttons = self._buttons(view, "above", "over")
-        self.header.show([_TITLE, page.choice("preset"), undo, redo, *buttons])
+        self.header.show([_TITLE, page.choice("preset"), undo, redo, *buttons, dark])
         self.tabs.show([*self._buttons(view, "side")])
         numbers = readouts.line(view.course)
         heads = text("heads", readouts.heads(numbers), "heads")

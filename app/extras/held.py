@@ -53,7 +53,7 @@ def translated(pairs: Pairs) -> Pairs:
     """A link of which what is no scene is among its unknown names."""
     found = []
     for name, value in pairs:
-        if name not in ("held.scenes", "hold"):
+        if name != "held.scenes":
             found.append((name, value))
             continue
         scenes = value.split()
@@ -131,12 +131,6 @@ def _pressure(view: View, course: Course) -> dict:
     half = max(view.end(R), 1.01 * float(course.state.contact_radius))
     r = figures.radii(course.state, half)
     return {"": (both(r, -1), both(figures.cut(course.state.pressure(r), view.end(P))))}
-
-
-def _radii(view: View, course: Course) -> dict:
-    rows = PLOTS["radii"].places(View(view.state, course), course.peak)
-    whole = tuple(map(np.append, rows["contact radius a"], rows["unloading"]))
-    return {" a": whole, " c": rows["plastic zone c"]}
 
 
 def _over_time(plot: str, row: str) -> Callable[[View, Course], dict]:
@@ -244,7 +238,6 @@ EXTRA = Extra(
     overlays=(
         _overlay("force", _rows("F"), _force),
         _overlay("pressure", _rows("−σzz"), _pressure),
-        _overlay("radii", [*_rows("a", " a"), *_rows("c", " c", 0.9, legend=False)], _radii),
         _overlay("motion", _rows("F", axis=2), _over_time("motion", "force F")),
         _overlay("forces", _rows("F"), _over_time("forces", "tangential force Fₓ")),
     ),
