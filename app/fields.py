@@ -11,7 +11,7 @@ from .extra import EXTRAS
 from .parts import Part, Parts, button, text, upload
 from .plot import View
 from .quantities import QUANTITIES, Quantity
-from .state import MEDIUM_CHOICES, PRESETS, State, altered, checked, regions
+from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, regions
 from .tip import Uploaded, read_tip
 from .ui import LAYOUT, linked, marked, symbol
 
@@ -62,6 +62,7 @@ class Field:
         low, self._middle, high = slider_range(self._known, self._middle, value)
         look = {"text": entry(value, self._unit), "refused": self.refused, "value": value}
         look |= {"low": low, "middle": self._middle, "high": high}
+        look["ends"] = [written(end, self._known.kind, 3) for end in (low, high)]
         return Part("number", self._name, self._told | look, self._take)
 
     def _take(self, message: Any) -> None:
@@ -105,20 +106,15 @@ def _told(known: Quantity) -> dict[str, Any]:
     }
 
 
-def take_tip(page: Any) -> Part:
-    """The field for the file of a measured tip, as in the form."""
-    return page.frame.form.tip()
-
-
 def title(text_: str) -> Part:
     return text(text_, f"<h2>{text_}</h2>", "title")
 
 
 class Form:
-    """The form: drive, shape, E* and q_c; the rest of the medium folds."""
+    """The form: drive, shape, E*, the law of the hardness and its constant; all else folds."""
 
     def __init__(self, page: Any):
-        self._page, self._open = page, False
+        self._page, self._open = page, {"more": False, "tip": False}
         # Why the last file of a tip was refused.
         self._tip_refused = ""
         self.view = Parts("form", stylesheets=LAYOUT)
@@ -137,18 +133,19 @@ class Form:
 
         again = button("Hit again", partial(page.apply, changes.hit_again))
         # What differs from the preset is not folded.
-        in_use = not {*MEDIUM_CHOICES, *regions(state)["more"]}.isdisjoint(altered(state))
-        opened = self._open or in_use
-        more = [*map(page.choice, MEDIUM_CHOICES), *numbers["more"], note("more")]
+        in_use = not {*FOLDED_CHOICES, *regions(state)["more"]}.isdisjoint(altered(state))
+        modulus, *constant = numbers["medium"]
+        more = [*map(page.choice, FOLDED_CHOICES), *numbers["more"], note("more")]
+        tip = [self.tip(), note("sources")]
         parts = [
             note("first", _FIRST),
             page.choice("drive"), *numbers["drive"], note("drive"),
             *map(page.choice, state.chosen("drive").form), *[again] * (state.drive == "impact"),
             title("Indenter"), page.choice("shape"), note("shape"), *numbers["shape"],
-            title("Medium"), *numbers["medium"], note("medium"),
-            button("More about the medium", self._fold, pressed=opened, disabled=in_use),
-            *(more if opened else []),
-            title("Tip and sources"), self.tip(), note("sources"),
+            title("Medium"), modulus, page.choice("plasticity"), *constant, *numbers["hardness"], note("medium"),
+            self._fold("more", "More about the medium", in_use), *more * (in_use or self._open["more"]),
+            self._fold("tip", "Measured tip, and sources", bool(self._tip_refused)),
+            *tip * (self._open["tip"] or bool(self._tip_refused)),
         ]  # fmt: skip
         self.view.show(parts)
 
@@ -169,7 +166,11 @@ class Form:
     def _refuse_tip(self, text: str) -> None:
         self._tip_refused = text
 
-    def _fold(self) -> None:
-        """Open or close the rest of the medium."""
-        self._open = not self._open
-        self._page.refresh()
+    def _fold(self, name: str, label: str, in_use: bool) -> Part:
+        """The button that opens or closes what folds; what is in use stays open."""
+
+        def turn():
+            self._open[name] = not self._open[name]
+            self._page.refresh()
+
+        return button(label, turn, pressed=in_use or self._open[name], disabled=in_use)
