@@ -39,7 +39,7 @@ class Card:
         """Show the texts and buttons around the plot."""
         plot, page = self.plot, self._page
         # What is cut off by axes that stay leaves no gap: the plot would move while it is dragged.
-        kept = self._legend if "axes" in view.computed else {}
+        kept = self._legend if view.kept else {}
         self._legend = kept | drawn(view, plot)
         law = plot.formula_of(view.course)
         formula = f'<h3>{plot.title}</h3><span title="{escape(law)}">{marked(law)}</span>'

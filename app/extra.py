@@ -64,9 +64,9 @@ class Extra:
     drives: dict[str, Drive] = field(default_factory=dict)
     plots: tuple[Plot, ...] = ()
     overlays: tuple[Overlay, ...] = ()
-    #: Label of the button in the header that opens its part of the page; where the part is: "above" the form
-    #: or "over" the plots, or without a button at the "top" of the form while it is offered; whether it is
-    #: offered; and the part, made of a page when it is first opened.
+    #: Label of the button in the header that opens its part of the page; where the part is: "above" the
+    #: form or "over" the plots, or without a button at the "top" of the form while it is offered; whether
+    #: it is offered; and the part, made of a page when it is first opened.
     tab: str = ""
     place: str = "above"
     offered: Callable[[View], bool] = lambda view: True

@@ -15,6 +15,8 @@ from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, regions
 from .tip import Uploaded, read_tip
 from .ui import LAYOUT, linked, marked, symbol
 
+#: Option of the list of shapes that asks for a file.
+_FILE = "file"
 _FIRST = "Move a slider: orange springs have yielded. "
 
 
@@ -117,6 +119,8 @@ class Form:
         self._page, self._open = page, {"more": False, "tip": False}
         # Why the last file of a tip was refused.
         self._tip_refused = ""
+        #: Where the numbers of the preset come from, as HTML.
+        self.sources = ""
         self.view = Parts("form", stylesheets=LAYOUT)
 
     def show(self, view: View) -> None:
@@ -129,25 +133,47 @@ class Form:
         notes = [extra.notes(view) for extra in EXTRAS.values()]
 
         def note(place: str, before: str = "") -> Part:
-            return text(f"note {place}", before + "".join(each.get(place, "") for each in notes))
+            return text(f"note {place}", before + told(place))
+
+        def told(place: str) -> str:
+            return "".join(each.get(place, "") for each in notes)
+
+        self.sources = told("sources")
 
         again = button("Hit again", partial(page.apply, changes.hit_again))
         # What differs from the preset is not folded.
         in_use = not {*FOLDED_CHOICES, *regions(state)["more"]}.isdisjoint(altered(state))
+        opened = in_use or self._open["more"]
         modulus, *constant = numbers["medium"]
         more = [*map(page.choice, FOLDED_CHOICES), *numbers["more"], note("more")]
-        tip = [self.tip(), note("sources")]
+        with_tip = self._open["tip"] or state.shape == "sampled" or self._tip_refused
         parts = [
             note("first", _FIRST),
             page.choice("drive"), *numbers["drive"], note("drive"),
             *map(page.choice, state.chosen("drive").form), *[again] * (state.drive == "impact"),
-            title("Indenter"), page.choice("shape"), note("shape"), *numbers["shape"],
-            title("Medium"), modulus, page.choice("plasticity"), *constant, *numbers["hardness"], note("medium"),
-            self._fold("more", "More about the medium", in_use), *more * (in_use or self._open["more"]),
-            self._fold("tip", "Measured tip, and sources", bool(self._tip_refused)),
-            *tip * (self._open["tip"] or bool(self._tip_refused)),
+            title("Indenter"), self._shape(state), *[self.tip()] * bool(with_tip), note("shape"),
+            *numbers["shape"],
+            title("Medium"), modulus, page.choice("plasticity"), *constant, *numbers["hardness"],
+            note("medium"),
+            button("More about the medium", self._fold, pressed=opened, disabled=in_use),
+            *(more if opened else []),
         ]  # fmt: skip
         self.view.show(parts)
+
+    def _shape(self, state: State) -> Part:
+        """The list of shapes, of which one asks for the file of a measured tip while there is none."""
+        shapes = self._page.choice("shape")
+        if state.samples:
+            return shapes
+        pairs = [*shapes.look["options"], [_FILE, "Measured tip: a file"]]
+
+        def choose(option):
+            self._open["tip"] = option == _FILE
+            if option != _FILE:
+                shapes.act(option)
+            self._page.refresh()
+
+        return Part("choice", "shape", shapes.look | {"options": pairs}, choose)
 
     def tip(self) -> Part:
         """The field for the file of a measured tip, with what was refused in the last one."""
@@ -166,11 +192,7 @@ class Form:
     def _refuse_tip(self, text: str) -> None:
         self._tip_refused = text
 
-    def _fold(self, name: str, label: str, in_use: bool) -> Part:
-        """The button that opens or closes what folds; what is in use stays open."""
-
-        def turn():
-            self._open[name] = not self._open[name]
-            self._page.refresh()
-
-        return button(label, turn, pressed=in_use or self._open[name], disabled=in_use)
+    def _fold(self) -> None:
+        """Open or close the rest of the medium."""
+        self._open["more"] = not self._open["more"]
+        self._page.refresh()

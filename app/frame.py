@@ -11,9 +11,15 @@ from .fields import Form
 from .parts import Part, Parts, button, text
 from .player import player
 from .plot import View
+from .state import State
 from .ui import FULL, LAYOUT, WIDE, html, show
 
 _TITLE = text("name", "<h1>Indentation explorer</h1>", "name")
+
+
+def _turned(state: State) -> State:
+    """Dark instead of light, or back."""
+    return state.replace(dark=not state.dark)
 
 
 class Frame:
@@ -65,14 +71,18 @@ class Frame:
         undo = [button("Undo", page.undo, key="z")] * (page.history.at > 0)
         redo = [button("Redo", page.redo)] * (page.history.at + 1 < len(page.history.states))
         opening = [self._button(name) for name, each in EXTRAS.items() if name in offered and each.tab]
-        self.header.show([_TITLE, page.choice("preset"), *undo, *redo, *opening])
-        self.more.show([part for each in EXTRAS.values() if (part := each.header(page, view))])
+        self.form.show(view)
+        preset = page.choice("preset")
+        preset.look["about"] += self.form.sources
+        self.header.show([_TITLE, preset, *undo, *redo, *opening])
+        dark = button("Dark", partial(page.apply, _turned), pressed=view.state.dark)
+        more = (each.header(page, view) for each in EXTRAS.values())
+        self.more.show([*filter(None, more), dark])
         numbers = readouts.line(view.course)
         heads = text("heads", readouts.heads(numbers), "heads")
         page.messages.words = readouts.values(numbers, view.course.now)
         self.line.show([heads, Part("words", "words", {})])
         self.player.show([player(view, page.move), page.board.others(view)])
-        self.form.show(view)
         for name, part in self.parts.items():
             show(part.view, visible=name in self.opened.values())
             if part.view.visible:

@@ -39,7 +39,7 @@ def notes(view: View) -> dict[str, str]:
         + marked(state.tip_note if state.shape == "sampled" else angle),
         "medium": marked(law_of_hardness(course)),
         "more": linked(f"η = {eta}, τ = 4η/E* = {tau} (1){idle}") if made.eta > 0 else "",
-        "sources": f"{head}<dl>{sources}</dl>",
+        "sources": f"<p>{head}</p><dl>{sources}</dl>",
     }
 
 

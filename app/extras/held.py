@@ -55,7 +55,7 @@ def translated(pairs: Pairs) -> Pairs:
     """A link of which what is no scene is among its unknown names."""
     found = []
     for name, value in pairs:
-        if name not in ("held.scenes", "hold"):
+        if name != "held.scenes":
             found.append((name, value))
             continue
         scenes = value.split()

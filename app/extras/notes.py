@@ -56,10 +56,8 @@ def below(view: View) -> str:
         exceeded += html * (level == "beyond")
         others += html * (level != "beyond")
     others += readouts.explained(readouts.line(view.course))
-    plots = (
-        f"<dt>{plot.title}</dt><dd><em>{linked(plot.formula_of(view.course))}</em></dd>"
-        for plot in visible(view)
-    )
+    laws = [(plot.title, linked(plot.formula_of(view.course))) for plot in visible(view)]
+    plots = (f"<dt>{title}</dt><dd><em>{law}</em></dd>" for title, law in laws)
     return f"{exceeded}<details><summary>{_HEAD}</summary>{others}<dl>{''.join(plots)}</dl></details>"
 
 

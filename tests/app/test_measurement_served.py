@@ -156,18 +156,6 @@ def test_the_explorer_leads_there_and_back(explorer):
     assert explorer.chosen("Shape") == "Paraboloid"
 
 
-def test_an_old_link_of_a_fit_opens_its_scene_and_says_where_fits_are(explorer):
-    url = explorer.page.url.split("?")[0]
-    for query in ("max_depth=5e-09&fit.fixed=q_c&fit.note=fit", "max_depth=5e-09&fixed=q_c&fit_note=fit"):
-        explorer.goto(f"{url}?{query}")
-        assert explorer.readout("depth") == "5.000 nm"
-        explorer.page.locator(".former", has_text="was made with a fit").wait_for()
-        assert explorer.page.locator(".former a").get_attribute("href") == "?fit"
-    # `fit` beside other names is the page of measurements, whatever it says.
-    explorer.page.goto(f"{url}?theory=eq-11&fit=x&max_depth=5e-09")
-    explorer.page.get_by_text("A curve in, E* out").wait_for()
-
-
 def test_a_job_is_stopped_and_the_next_one_is_done(tmp_path):
     """A process that ends says so; what is stopped says nothing more."""
     heard, worker = [], Worker()
