@@ -23,9 +23,9 @@ extensions = [
 ]
 exclude_patterns = ["examples"]
 html_theme = "pydata_sphinx_theme"
-html_theme_options = {"show_prev_next": False, "header_links_before_dropdown": 8}
+html_theme_options = {"show_prev_next": False, "header_links_before_dropdown": 5}
 html_context = {"default_mode": "auto"}
-html_sidebars = {"*": []}
+html_sidebars = {"index": [], "install": [], "**": ["sidebar-nav-bs"]}
 html_title = project
 html_show_sourcelink = False
 html_math_renderer = "mathml"
