@@ -146,6 +146,12 @@ def test_a_class_that_cannot_be_told_is_not_offered():
 
 def test_what_is_held_stays_and_what_is_freed_is_found():
     page = opened(curve_file(offset=4e-9))
+    # Another class of hardness leaves what is held as it is; another kind of sample does not.
+    page.hold("contact_point", 1e-9)
+    page.choose_medium("composite")
+    assert page.fit.contact_point == 1e-9
+    page.choose_medium("gel")
+    page.choose_medium("constant")
     assert page.fit.contact_point == pytest.approx(4e-9, abs=1e-12)
     page.hold("E_star", 70e9)
     assert page.fit.medium.E_star == 70e9
