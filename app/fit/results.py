@@ -33,7 +33,7 @@ _LISTED = 300
 _PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
 _WELCOME = (
     '<p class="big none">A curve in, E* out</p><p class="of">Drop a file of depth and force, or open '
-    "a sample; tell the tip and what the sample is. The fit runs at once.</p>"
+    "a sample; choose the tip and the kind of sample. The fit runs at once.</p>"
 )
 
 
