@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mdr_core.results import figures
-from mdr_core.results.figures import label, line, mark, split
-from mdr_core.results.quantities import QUANTITIES
+from mdr_core.show import figures
+from mdr_core.show.figures import label, line, mark, split
+from mdr_core.show.quantities import QUANTITIES
 
 from .courses import Course
 from .plot import Along, Plot, View

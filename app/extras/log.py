@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr_core.results.figures import NOTHING, Axis
+from mdr_core.show.figures import NOTHING, Axis
 
 from ..extra import Extra
 from ..parts import Part, button

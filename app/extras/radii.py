@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mdr_core.results.figures import area, line, mark, split
+from mdr_core.show.figures import area, line, mark, split
 
 from ..courses import Course
 from ..extra import Extra

@@ -9,8 +9,8 @@ from bokeh.events import DocumentReady
 from bokeh.model import DataModel
 from bokeh.models import CustomJS
 
-from mdr_core.results.figures import label
-from mdr_core.results.units import written
+from mdr_core.show.figures import label
+from mdr_core.show.units import written
 
 from ..courses import Course
 from ..extra import Extra, Service

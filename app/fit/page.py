@@ -16,9 +16,9 @@ from bokeh.document import Document
 from bokeh.events import ConnectionLost
 from bokeh.models import CustomJS
 
+from mdr_core.files.text import decoded
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.measured_curve import MeasuredCurve
-from mdr_core.profiles.samples import decoded
 
 from ..tip import in_line, read_tip
 from ..ui import JS, WIDE, html

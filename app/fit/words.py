@@ -9,7 +9,7 @@ from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.parameters import PARAMETERS
 from mdr_core.fit.quoted import unloading
 from mdr_core.fit.report import with_error
-from mdr_core.results.units import KINDS, written
+from mdr_core.show.units import KINDS, written
 
 from ..ui import indexed, marked
 from .setting import CLASS_NAMES, CORRECTIONS, Setting, parameter

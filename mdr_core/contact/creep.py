@@ -15,8 +15,8 @@ from .._check import ArrayLike
 from ..foundation.depth_path import Ramps, TimedIndentation
 from ..foundation.force_path import Start, chain_creep, check_creep
 from ..medium import Medium
+from ..numerics.results import CLOSED_FORM, CREEP_LAW, Model
 from ..profiles.profile import Profile
-from ..results.base import CLOSED_FORM, CREEP_LAW, Model
 from .creep_law import Loading, Retreat
 from .integrals import integrals, tabulated
 from .live_interval import LiveInterval

@@ -9,10 +9,9 @@ import numpy as np
 from .. import _check
 from .._check import Array, ArrayLike
 from ..medium import Medium
+from ..numerics.results import CLOSED_FORM, Limit, Result, above
 from ..numerics.stable import root
 from ..profiles.profile import Profile
-from ..results.base import CLOSED_FORM, Result
-from ..results.limits import Limit, contact_limits, jump_limits
 from . import adhesion, stress
 from .integrals import integrals, tabulated
 from .live_interval import LiveInterval
@@ -69,8 +68,7 @@ class Indentation(Result):
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
         """Limits of the model for these states."""
-        limits = contact_limits(self.profile, self.medium, self.contact_radius, slow=not self.in_time)
-        return (*limits, *jump_limits(self.jumps))
+        return above("show.limits").path_limits(self)
 
     @property
     def _rule(self):
@@ -310,15 +308,11 @@ class Indentation(Result):
 
     def plot_pressure(self) -> Any:
         """Contact pressure p(r) of one state with a, c and the mean pressure, as HoloViews elements."""
-        from ..results.elements import plot_pressure
-
-        return plot_pressure(self)
+        return above("show.plots").plot_pressure(self)
 
     def plot_springs(self) -> Any:
         """The 1D foundation in one state, springs below the profile g(x), as HoloViews elements."""
-        from ..results.elements import plot_springs
-
-        return plot_springs(self)
+        return above("show.plots").plot_springs(self)
 
     @staticmethod
     def _radii(r, quantity="radius r"):

@@ -14,7 +14,7 @@ from ..impacts.scaling import class_of
 from ..medium import Medium, check_pair, yield_constant
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
-from ..results.quantities import engineering
+from ..show.quantities import engineering
 from .errors import covariances
 from .least_squares import least_squares
 from .parameters import CLASSES, hardness_by_default, held_values

@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import _check
 from ..medium import Medium
-from ..results.quantities import QUANTITIES, Quantity
+from ..show.quantities import QUANTITIES, Quantity
 
 #: The contact point is searched down to so many ranges of depth below the record.
 REACH = 30.0

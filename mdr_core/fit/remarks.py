@@ -4,7 +4,7 @@ from itertools import chain
 
 import numpy as np
 
-from ..results.quantities import engineering
+from ..show.quantities import engineering
 from .errors import SIGNIFICANT
 from .materials import is_modulus
 from .nested import nested_tests

@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..numerics.motions import Motion
 from ..numerics.roots import root_in_bracket
-from ..results.base import Motion
 from . import element
 from .cap import elastic_limit, plastic_depth
 from .element import Elements, Exchange, Ramp

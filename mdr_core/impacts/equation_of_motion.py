@@ -20,8 +20,8 @@ import numpy as np
 from ..contact.integrals import integrals, tabulated
 from ..contact.live_interval import LiveInterval
 from ..contact.yielding import YieldRule, yield_rule
+from ..numerics.results import Entries
 from ..profiles.profile import Profile
-from ..results.base import Entries
 
 
 @dataclass(frozen=True)

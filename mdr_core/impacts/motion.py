@@ -5,7 +5,7 @@ import numpy as np
 from ..contact.indentation import Indentation
 from ..contact.yielding import yield_rule
 from ..medium import refuse_adhesion
-from ..results.base import Motion, instants
+from ..numerics.motions import Motion, instants
 
 
 def motion(hit, n, before_yield=0):

@@ -11,8 +11,8 @@ import numpy as np
 
 from .. import _check
 from .._check import Array
-from ..results.base import Entries
-from ..results.progress import tracked_chunks
+from ..numerics.results import Entries
+from ..show.progress import tracked_chunks
 from .depth_levels import MOST_LEVELS, levels
 from .dry_friction import solve_dry
 from .dry_levels import NormalMotions

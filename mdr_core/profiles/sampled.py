@@ -3,17 +3,16 @@
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
-from pathlib import Path
 
 import numpy as np
 
 from .. import _check
 from .._check import ArrayLike, Parameter
-from ..files.text import decoded
 from ..numerics.blocks import chunks
+from ..numerics.results import above
 from ..numerics.stable import root
 from .profile import Profile
-from .samples import area_samples, axis_of_symmetry, convex_fit, samples_of
+from .samples import area_samples, axis_of_symmetry, convex_fit
 
 #: Largest number of samples: time and memory grow with its square.
 _MOST_SAMPLES = 5000
@@ -85,8 +84,7 @@ class Sampled(Profile):
         ValueError
             If a row is not two numbers, or no unit is given, or two that differ.
         """
-        text, remedy = decoded(Path(path).read_bytes()), "; or give unit='nm'"
-        return cls(*samples_of(text, str(path), unit, _MOST_SAMPLES, remedy))
+        return cls(*above("files.tips").samples_in(path, unit, _MOST_SAMPLES))
 
     @classmethod
     def fit(cls, r: ArrayLike, z: ArrayLike) -> "Sampled":

@@ -11,7 +11,7 @@ from app.extras import sweep
 from app.extras.former import NAMES
 from app.extras.guide import TOURS, step_state
 from app.state import OPENING, medium, profile
-from mdr_core.results.units import in_full
+from mdr_core.show.units import in_full
 
 from .conftest import DROP, PUNCH
 from .states import linked_state, state_with
