@@ -4,9 +4,9 @@
     energy_integral   ∫ (d − s) a(s) ds                          stored energy
     radius_drop       a(d) − a(d_p)                              stiffness while yielding
 
-for arrays of states. They are geometry only: the caller multiplies by the modulus. `fields` has the
-integrals that depend on the radius r. A profile has closed forms, or a table of a(s), or is integrated by
-quadrature: `integrals` chooses, for all that is asked of it.
+for arrays of states. They are geometry only: the caller multiplies by the modulus. `pressure` has
+the integrals that depend on the radius r. A profile has closed forms, or a table of a(s), or is integrated
+by quadrature: `integrals` chooses, for all that is asked of it.
 """
 
 from abc import ABC, abstractmethod

@@ -96,10 +96,10 @@ def oliver_pharr(
 
     **Creep** at the start of an unloading makes S too large. With `time`, and a hold of the force before
     the unloading, the depth of the unloading is reduced by creep at the rate ḣ of the end of the hold: at
-    the start of the unloading 1/S = 1/S_measured + ḣ/|Ṗ| (Feng and Ngan, J. Mater. Res. 17, 2002, 660).
-    `uncorrected` has the results without it. Of made records with ḣ/|Ṗ| of 20 % of 1/S, E* is then within
-    1 % instead of 14 or 15 % too large, where the unloading takes no longer than the hold; where it takes
-    four times as long, and the rate falls meanwhile, it is up to 3 % too small.
+    the start of the unloading 1/S = 1/S_measured + ``ḣ/|Ṗ|`` (Feng and Ngan, J. Mater. Res. 17, 2002, 660).
+    `uncorrected` has the results without it. Of made records with ``ḣ/|Ṗ|`` of 20 % of 1/S, E* is then
+    within 1 % instead of 14 or 15 % too large, where the unloading takes no longer than the hold; where it
+    takes four times as long, and the rate falls meanwhile, it is up to 3 % too small.
 
     Examples
     --------

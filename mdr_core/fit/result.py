@@ -13,7 +13,7 @@ from ..contact.live_interval import LiveInterval
 from ..medium import Medium
 from ..show.quantities import described, engineering
 from ..show.report import attributes as attributes_of
-from ..show.report import imported
+from ..show.report import dimensions, imported
 from .classes import ClassFit, fits_of_classes, verdict
 from .figures import plot_fit
 from .measurement import Measurement
@@ -179,7 +179,7 @@ class IndentationFit(Fit):
         """
         xarray = imported("xarray", "to_xarray()")
         # Zarr has no specification of texts of fixed length.
-        dims, parameters = self._dims(), np.array(list(self.standard_errors), object)
+        dims, parameters = dimensions(self), np.array(list(self.standard_errors), object)
         variables = {}
         for name, value in self.to_dict().items():
             variables[name] = dims, value, PARAMETERS[name.removesuffix("_error")].quantity.attributes

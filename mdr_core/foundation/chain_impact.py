@@ -92,7 +92,7 @@ def chain_impact(
 
     def solve(elements, depth, steps):
         foundation = foundation_before(profile, medium, history, count or elements, depth)
-        return ImpactSolver(foundation, mass, speed, steps, bound)
+        return ImpactSolver(foundation, mass, speed, steps, bound).solved()
 
     # A first run determines the largest depth, at whose radius the next one has an edge.
     runs = [solve(_ELEMENTS, bound, _STEPS / 2)]

@@ -15,7 +15,7 @@ from ..medium import Medium
 from ..numerics.motions import ImpactResult, Motion
 from ..numerics.results import CLOSED_FORM, Entries, Limit, Model, above
 from ..profiles.profile import Profile
-from .dense_motion import DenseMotion
+from .dense_motion import dense_motion
 from .motion import motion
 from .scaling import FastLimit, fast_limit
 
@@ -55,7 +55,7 @@ class Impact(Entries, ImpactResult):
 
     @cached_property
     def _dense_motion(self):
-        return DenseMotion(self)
+        return dense_motion(self)
 
     @property
     def max_depth(self) -> Array:

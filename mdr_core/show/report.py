@@ -38,9 +38,9 @@ def table(result):
     values = result.to_dict() | _parameters(result)
     columns = {name: np.broadcast_to(v, result.shape).ravel() for name, v in values.items()}
     if len(result.shape) > 1:
-        index = pandas.MultiIndex.from_product(map(range, result.shape), names=_dims(result))
+        index = pandas.MultiIndex.from_product(map(range, result.shape), names=dimensions(result))
     else:
-        index = pandas.RangeIndex(len(next(iter(columns.values()))), name=(*_dims(result), None)[0])
+        index = pandas.RangeIndex(len(next(iter(columns.values()))), name=(*dimensions(result), None)[0])
     table = pandas.DataFrame(columns, index=index)
     named = {name: QUANTITIES[name] for name in columns if name in QUANTITIES}
     units = {name: quantity.unit for name, quantity in named.items()}
@@ -55,7 +55,7 @@ def dataset(result):
     Prescribed quantities (depth, time, mass, speed, array-valued parameters) are coordinates.
     """
     xarray = imported("xarray", "to_xarray()")
-    dims, variables = _dims(result), {}
+    dims, variables = dimensions(result), {}
     for name, value in (result.to_dict() | _parameters(result)).items():
         about = QUANTITIES[name].attributes if name in QUANTITIES else {}
         variables[name] = (dims, np.broadcast_to(value, result.shape), about)
@@ -64,7 +64,7 @@ def dataset(result):
     return xarray.Dataset(variables, attrs=attributes(result)).set_coords(sorted(given))
 
 
-def _dims(result):
+def dimensions(result):
     """Names of the dimensions; the last one counts the states of a path."""
     names, count = result._dimensions, len(result.shape)
     if count <= len(names):
