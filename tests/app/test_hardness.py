@@ -288,11 +288,11 @@ def test_the_peak_of_the_mean_pressure_is_on_its_axis_or_is_told():
     """Of a round nose on class (c) it is many times that of the largest depth; with dashpots infinite."""
     *_, last = stepped("Which kind of medium is it?")
     p = np.where(last.states.contact_radius > 0, last.states.mean_pressure, 0.0)
-    for log in (False, True):
-        drawn = found(last, (log,))
+    for scale in ("linear", "log"):
+        drawn = found(last, (scale,))
         assert drawn.axes[1].end > p.max() > 4 * last.turning_point.mean_pressure
         assert "Beyond the axis" not in drawn.note
     viscous = follow(state_with(DROP, damping="eta"))
-    drawn = found(viscous, (False,))
+    drawn = found(viscous, ("linear",))
     p = viscous.states.mean_pressure[viscous.states.contact_radius > 0]
     assert ("Beyond the axis" in drawn.note) == bool(p.max() > drawn.axes[1].end)
