@@ -138,17 +138,27 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
 
 
 class _Branches(NamedTuple):
-    """Depths (m) between which the force of a first loading grows, ascending; ∫ a ds (m²) at their ends."""
+    """Branches of a first loading on which its force grows: arrays with an entry for each, ascending.
 
+    Depths (m) are counted from the undeformed surface, and A = ∫ a ds = F/(2E*) (m²) stands for the force.
+    Between `high` of one branch and `low` of the next one the force falls.
+    """
+
+    #: Depths (m) at which branches begin and end; the first begins at 0, the last may be infinite.
     low: np.ndarray
     high: np.ndarray
+    #: A (m²) at these depths.
     least: np.ndarray
     most: np.ndarray
 
 
 def _loading_depth(rule, branches, area):
-    """The first depth (m) at which a first loading has ∫ a ds = `area` (m²), elementwise."""
-    # It lies on the first branch that reaches so far: between branches the force falls.
+    """The first depth (m) at which a first loading has A = ∫ a ds = `area` (m²), elementwise.
+
+    It is the root on the first branch that reaches so far. Newton's method may try shallower depths, where
+    A is taken as the straight line from 0 to the beginning of the branch. dA/ds is a − c dp/ds past the
+    onset of yield, and a before it.
+    """
     number = np.searchsorted(np.maximum.accumulate(branches.most), area)
     low, high, least, _ = (values[np.minimum(number, values.size - 1)] for values in branches)
     onset, rate = rule.onset(), least / np.maximum(low, 1e-300)
@@ -158,7 +168,7 @@ def _loading_depth(rule, branches, area):
         width = rule.yielding_width(interval)
         slope = np.where(interval.lower > 0, width, rule.profile._radius(depth))
         value = integrals(rule.profile).radius_integral(interval)
-        # Shallower than the branch a straight line, which stays below what was not reached before.
+        # The line stays below an area that no branch before has reached.
         return np.where(depth < low, rate * depth, value), np.where(depth < low, rate, slope)
 
     start = np.clip(onset if 0 < onset < np.inf else 1.0, low, high)
@@ -183,8 +193,10 @@ def _one_branch(end):
 def _growing_branches(rule, elastic=None):
     """The `_Branches` of a first loading.
 
-    With f_c above 0, or a law of hardness, the force may fall after the onset of yield. For a law,
-    `elastic` are the depths (m) that elastic loadings reach.
+    With f_c above 0, or a law of hardness, the force may fall after the onset of yield. Whether it grows is
+    asked at a grid of depths from the onset on; each change, between neighbours `low` and `high` of the
+    grid, is then halved down to rounding. For a law, `elastic` are the depths (m) that elastic loadings
+    reach, about which the grid is denser.
     """
     end, onset = rule.profile.known_depth, float(rule.onset())
     if not onset < end or not rule.may_fall(end):

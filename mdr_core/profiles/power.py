@@ -177,6 +177,7 @@ class PowerLaw(Profile):
         bound = "must lie in 0.01 ≤ n ≤ 100"
         _check.refuse("PowerLaw exponent", exponent, outside, bound, remedy="FlatPunch is n → ∞")
 
+    # Kept, viscous impacts are 1.3 times as fast.
     @cached_property
     def _reduced_coefficient(self):
         return _check.frozen(kappa(self.exponent) * self.coefficient)

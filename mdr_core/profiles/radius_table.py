@@ -38,11 +38,7 @@ class RadiusTable:
         edges = np.asarray(edges) / unit
         self.unit, (self.start, self.end), self._function = unit, edges[[0, -1]], radius
         low, powers = _panels(lambda depth: radius(depth * unit), edges)
-        face, half, a = radius(edges[0] * unit * np.array([0.0, 0.5, 1.0]))
-        p = np.log2((a - face) / (half - face)) if half > face else 1.0
-        first = np.array([1 - 3 / (2 + p), 2 / (2 + p) - 0.5, 0.0]) * 12 / (1 + p) * (a - face)
-        first[2] = face
-        first = np.append(np.zeros(_COUNT - 3), first / edges[0] ** np.array([2, 1, 0]))
+        first = _tip_panel(lambda share: radius(edges[0] * unit * share), edges[0])
         self._radius = scipy.interpolate.PPoly(
             np.column_stack([first, powers]), np.concatenate([[0.0], low, edges[-1:]])
         )
@@ -91,6 +87,20 @@ class RadiusTable:
         edges = self._radius.x[1:] * self.unit
         depth = np.append(np.linspace(edges[:-1], edges[1:], 4, endpoint=False).T, edges[-1])
         return [(np.log(integral(depth)), np.log(depth)) for integral in (self.area, self.volume)]
+
+
+def _tip_panel(radius, edge):
+    """Coefficients of the panel from the tip to the first edge (m), highest power first.
+
+    `radius` is a (m) at shares t of the edge. There a = face + (whole − face) tᵖ, with p from the middle.
+    Of this panel only the integrals at its end are used: it is the parabola face + b t + c t² that has the
+    same ∫ a dt and ∫ (1 − t) a dt.
+    """
+    face, half, whole = radius(np.array([0.0, 0.5, 1.0]))
+    p = np.log2((whole - face) / (half - face)) if half > face else 1.0
+    area = (whole - face) / (1 + p)
+    c, b = np.linalg.solve([[1 / 3, 1 / 2], [1 / 12, 1 / 6]], [area, area / (2 + p)])
+    return np.append(np.zeros(_COUNT - 3), [c / edge**2, b / edge, face])
 
 
 def _panels(radius, edges):
