@@ -105,13 +105,13 @@ class Indentation(Result):
     def contact_radius(self):
         """Contact radius a (m), Popov (2015), Eq. (16); 0 without contact."""
         touching = (self.live_interval.length > 0) | (self.uniform_load != 0)
-        return np.where(touching, self._quick._radius(np.asarray(self.live_interval.upper)), 0.0)
+        return np.where(touching, self._quick.radius_at(np.asarray(self.live_interval.upper)), 0.0)
 
     @_check.frozen_property
     def plastic_radius(self):
         """Radius c (m) of the plastic zone, Popov (2015), Eq. (21); 0 if nothing has yielded."""
         depth = np.asarray(self.plastic_depth)
-        return np.where(depth > 0, self._quick._radius(depth), 0.0)
+        return np.where(depth > 0, self._quick.radius_at(depth), 0.0)
 
     @_check.frozen_property
     def contact_area(self):
@@ -222,7 +222,7 @@ class Indentation(Result):
         """Line load q(x) (N/m) of the 1D foundation at x (m); Popov (2015), Eqs. (1), (17), (18)."""
         self._one("line_load")
         interval, x = self.live_interval, self._radii(x, "coordinate x")
-        ring = interval.upper - self.profile._reduced(np.minimum(x, self.contact_radius))
+        ring = interval.upper - self.profile.reduced_at(np.minimum(x, self.contact_radius))
         # For x < c the compression is the length of the interval, which has no rounding of a difference.
         inside = np.where(x < self.plastic_radius, interval.length, np.clip(ring, 0.0, interval.length))
         load = self.medium.E_star * inside + self.uniform_load

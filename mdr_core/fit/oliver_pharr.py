@@ -349,7 +349,7 @@ def _radius_at_height(profile, height):
     """Radius (m) of the profile at heights (m): 0 below its tip, infinite where it is not known."""
     known = np.minimum(profile.wall, profile.known_radius)
     # Without a slope the search is by bisection.
-    radius = increasing_root(lambda r: (profile._height(r), np.inf), height, np.abs(height), known)
+    radius = increasing_root(lambda r: (profile.height_at(r), np.inf), height, np.abs(height), known)
     return np.maximum(np.minimum(radius, profile.wall), profile.face_radius)
 
 

@@ -192,7 +192,7 @@ def depth_in_fast_limit(hit):
     target = np.broadcast_to(energy / (np.pi * hit.medium.q_c), np.shape(hit.max_depth))
 
     def work(depth):
-        return integrals(profile).radius_integral(LiveInterval.elastic(depth)), profile._radius(depth)
+        return integrals(profile).radius_integral(LiveInterval.elastic(depth)), profile.radius_at(depth)
 
     return increasing_root(work, target, hit.max_depth, profile.known_depth)
 
@@ -208,7 +208,7 @@ def fast_limit(hit):
     bound = f"presses deeper than the known depth of the profile, {known:g} m, in this limit"
     speed = np.asarray(hit.speed)
     _check.refuse("speed", speed, np.isinf(depth), bound, unit="m/s", remedy="reduce the speed")
-    a = profile._radius(depth)
+    a = profile.radius_at(depth)
     area = np.pi * a**2
     energy = hit.mass * hit.speed**2 / 2
     restitution = np.sqrt(medium.E_star * a * d_c**2 / energy)
