@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import panel as pn
 
-from mdr_core.results.units import written
+from mdr_core.show.units import written
 
 from ..ui import WIDE, html, marked, show
 from . import words

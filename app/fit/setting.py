@@ -9,7 +9,7 @@ from urllib.parse import parse_qsl, urlencode
 
 import mdr_core as mdr
 from mdr_core.fit.parameters import PARAMETERS
-from mdr_core.results.units import KINDS, written
+from mdr_core.show.units import KINDS, written
 
 #: Most characters of a link that is read, and of a text in it.
 _LINK, _TEXT = 4000, 200

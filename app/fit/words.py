@@ -8,7 +8,7 @@ import numpy as np
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.parameters import PARAMETERS
 from mdr_core.fit.report import with_error
-from mdr_core.results.units import KINDS, written
+from mdr_core.show.units import KINDS, written
 
 from ..ui import indexed, marked
 from .measurement import Told
