@@ -36,7 +36,7 @@ def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> Measu
 
     Raises
     ------
-    ValueError, ImportError
+    ValueError, OSError, ImportError
         As in `read_curves`.
 
     Examples
@@ -113,10 +113,15 @@ def read_curves(
         understood; if a table is one of results, or of several curves that it does not tell apart; if a
         stiffness or a sensitivity is needed that is not given, or given where the file has its own forces;
         if the file is binary and not read, with the export to make.
+    OSError
+        If there is no such file (FileNotFoundError), whatever its name ends with, or it may not be read.
     ImportError
         If the package is not installed that reads the format.
     """
     path = Path(path)
+    # A file that is missing or may not be read is the system's error, whatever would read it.
+    with path.open("rb"):
+        pass
     suffix, given = path.suffix.lower(), {}
     if spring_constant is not None:
         given["spring constant"] = _check.positive_number("spring_constant", spring_constant, unit="N/m")

@@ -276,10 +276,32 @@ def test_files_that_afmformats_does_not_read_are_refused(monkeypatch, tmp_path, 
 
 
 def test_missing_packages_are_named(monkeypatch, tmp_path):
-    for package, suffix in (("afmformats", "jpk-force"), ("pandas", "xlsx")):
+    """Each with a command that works where the project is installed, though no index has it."""
+    ways = {
+        "jpk-force": ("afmformats", r'pip install "mdr-core\[afm\]"$'),
+        "xlsx": ("openpyxl", "pip install openpyxl xlrd$"),
+        "xls": ("xlrd", "pip install openpyxl xlrd$"),
+        "xlsm": ("pandas", "pip install pandas openpyxl xlrd$"),
+    }
+    for suffix, (package, install) in ways.items():
+        if package != "afmformats":
+            pytest.importorskip("pandas")
+        path = tmp_path / f"run.{suffix}"
+        path.write_bytes(b"")
         monkeypatch.setitem(sys.modules, package, None)
-        with pytest.raises(ImportError, match=f"needs {package}"):
-            mdr.read_curve(tmp_path / f"run.{suffix}")
+        with pytest.raises(ImportError, match=f"needs {package}, which is not installed: {install}"):
+            mdr.read_curve(path)
+
+
+@pytest.mark.parametrize(
+    "suffix", ["csv", "txt", "xls", "xlsx", "jpk-force", "h5", "ibw", "zip", "tab", "spm"]
+)
+def test_a_missing_file_is_one_whatever_would_read_it(suffix, tmp_path):
+    """Also where the package that would read it is not installed."""
+    path = tmp_path / f"no such curve.{suffix}"
+    for read in (mdr.read_curve, mdr.read_curves, mdr.Sampled.from_csv):
+        with pytest.raises(FileNotFoundError, match="no such curve"):
+            read(path)
 
 
 def test_a_sensitivity_is_for_files_of_instruments(read, tmp_path):

@@ -4,9 +4,9 @@
     energy_integral   ∫ (d − s) a(s) ds                          stored energy
     radius_drop       a(d) − a(d_p)                              stiffness while yielding
 
-for arrays of states. They are geometry only: the caller multiplies by the modulus. `fields` has the
-integrals that depend on the radius r. A profile has closed forms, or a table of a(s), or is integrated by
-quadrature: `integrals` chooses, for all that is asked of it.
+for arrays of states. They are geometry only: the caller multiplies by the modulus. `pressure` has
+the integrals that depend on the radius r. A profile has closed forms, or a table of a(s), or is integrated
+by quadrature: `integrals` chooses, for all that is asked of it.
 """
 
 from abc import ABC, abstractmethod
@@ -104,10 +104,10 @@ def _growing_mean_slope(profile):
         last = profile.known_radius
         if np.all(np.isfinite(profile.known_depth)):
             # Beyond this radius g may have no value at all.
-            last = np.minimum(last, profile._radius(np.asarray(profile.known_depth)))
+            last = np.minimum(last, profile.radius_at(np.asarray(profile.known_depth)))
         for radius in np.geomspace(1e-12, 1e3, 256):
             x = np.minimum(np.full(profile.shape, radius), last)
-            if np.any(x * profile._reduced_slope(x) < profile._reduced(x) * (1 - 1e-9)):
+            if np.any(x * profile.reduced_slope_at(x) < profile.reduced_at(x) * (1 - 1e-9)):
                 return False
     return True
 
@@ -129,7 +129,7 @@ class QuadratureIntegrals(Integrals):
         return integrate(self.profile, interval, radius, moment=1)
 
     def radius_drop(self, interval):
-        a, c = self.profile._radius(interval.upper), self.profile._radius(interval.lower)
+        a, c = self.profile.radius_at(interval.upper), self.profile.radius_at(interval.lower)
         narrow = interval.length < 1e-2 * interval.upper
         if not np.any(narrow):
             return a - c

@@ -122,7 +122,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     branches = _growing_branches(rule, elastic)
     largest_depth = _loading_depth(rule, branches, largest)
     known = largest_depth <= min(profile.known_depth, _check.LONGEST)
-    bound = f"presses {profile._too_deep()}"
+    bound = f"presses {profile.too_deep()}"
     if medium.has_own_law and profile.known_depth == np.inf and not np.all(known):
         carried = np.max(_carried(rule, np.minimum(branches.high, _check.LONGEST)))
         bound = f"is more than the {2 * medium.E_star * carried:g} N that the contact carries on loading"
@@ -166,7 +166,7 @@ def _loading_depth(rule, branches, area):
     def loading(depth):
         interval, _ = rule.loading(depth)
         width = rule.yielding_width(interval)
-        slope = np.where(interval.lower > 0, width, rule.profile._radius(depth))
+        slope = np.where(interval.lower > 0, width, rule.profile.radius_at(depth))
         value = integrals(rule.profile).radius_integral(interval)
         # The line stays below an area that no branch before has reached.
         return np.where(depth < low, rate * depth, value), np.where(depth < low, rate, slope)
@@ -206,7 +206,7 @@ def _growing_branches(rule, elastic=None):
     def growing(depth):
         interval, _ = rule.loading(depth)
         # Where the force goes to π f_c only the rounding of the radii is left of its slope.
-        return rule.yielding_width(interval) >= -1e-14 * rule.profile._radius(interval.upper)
+        return rule.yielding_width(interval) >= -1e-14 * rule.profile.radius_at(interval.upper)
 
     depth = onset * (1 + np.geomspace(1e-9, 1e9, 721))
     if elastic is not None:
@@ -238,7 +238,7 @@ def live_length(profile, largest, area):
 
     def unloading(length):
         interval = LiveInterval.above(largest.lower, np.minimum(length, largest.length))
-        return integrals(profile).radius_integral(interval), profile._radius(interval.upper)
+        return integrals(profile).radius_integral(interval), profile.radius_at(interval.upper)
 
     limit = np.where(largest.length > 0, largest.length, 1.0)
     return np.minimum(increasing_root(unloading, area, limit, limit), largest.length)

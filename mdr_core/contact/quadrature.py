@@ -15,13 +15,13 @@ from ..numerics.gauss import gauss_legendre
 
 def radius(profile, depth):
     """Contact radius a(s) (m)."""
-    return profile._radius(depth)
+    return profile.radius_at(depth)
 
 
 def radius_rate(profile, depth):
     """da/ds (dimensionless); 0 at a wall."""
     with np.errstate(divide="ignore"):
-        return 1 / profile._reduced_slope(profile._radius(depth))
+        return 1 / profile.reduced_slope_at(profile.radius_at(depth))
 
 
 def integrate(profile, interval, function, moment):

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _check
 from ..measured_curve import MODALITIES, MeasuredCurves
-from ..results.report import imported
+from ..show.report import imported
 from .curve import curve_of
 from .text import Table
 
@@ -95,7 +95,7 @@ def _refused(errors, path):
 
 def from_afm(path, given):
     """`MeasuredCurves` of a file that `afmformats` reads."""
-    afmformats = imported("afmformats", f"reading {path.name}", "mdr-core[afm]")
+    afmformats = imported("afmformats", f"reading {path.name}", '"mdr-core[afm]"')
     with _refused(afmformats.errors, path):
         curves = sorted(afmformats.load_data(path, meta_override=given), key=lambda data: data.enum)
         position = [[data.metadata.get(f"position {axis}", np.nan) for axis in "xy"] for data in curves]

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import partial
 
-from ..results.report import imported
+from ..show.report import imported
 from .columns import NoCurve, UnknownColumns
 from .curve import curves_of
 from .text import read_tables
@@ -11,7 +11,9 @@ from .text import read_tables
 
 def from_workbook(path, options):
     """Functions that make the curves of the sheets of an Excel file that have depth and force."""
-    pandas = imported("pandas", f"reading {path.name}", "mdr-core[tables]")
+    pandas = imported("pandas", f"reading {path.name}", "pandas openpyxl xlrd")
+    reader = "xlrd" if path.suffix.lower() == ".xls" else "openpyxl"
+    imported(reader, f"reading {path.name}", "openpyxl xlrd")
     try:
         sheets = pandas.read_excel(path, sheet_name=None, header=None)
     except Exception as error:

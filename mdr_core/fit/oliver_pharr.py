@@ -1,23 +1,28 @@
 """Modulus and hardness from unloadings or a measured stiffness, by the method of Oliver and Pharr."""
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
 from ..medium import Medium, check_pair
+from ..numerics.results import Record
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
-from ..results.quantities import QUANTITIES, Quantity, described, engineering
-from ..results.report import Report
+from ..show.quantities import QUANTITIES, Quantity, described, engineering
+from ..show.report import rows
 from . import creep as creeping
 from .errors import roughness
 from .first_contact import FirstContact, first_contact
 from .materials import doubts
 from .report import with_error
 from .unloading import last_at_top, laws_of, parts_of
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 #: Quantities of the results, and others.
 OLIVER_PHARR = QUANTITIES | {
@@ -95,10 +100,11 @@ def oliver_pharr(
 
     **Creep** at the start of an unloading makes S too large. With `time`, and a hold of the force before
     the unloading, the depth of the unloading is reduced by creep at the rate ḣ of the end of the hold: at
-    the start of the unloading 1/S = 1/S_measured + ḣ/|Ṗ| (Feng and Ngan, J. Mater. Res. 17, 2002, 660).
-    `uncorrected` has the results without it. Of made records with ḣ/|Ṗ| of 20 % of 1/S, E* is then within
-    1 % instead of 14 or 15 % too large, where the unloading takes no longer than the hold; where it takes
-    four times as long, and the rate falls meanwhile, it is up to 3 % too small.
+    the start of the unloading 1/S = 1/S_measured − ḣ/Ṗ, where Ṗ < 0 is the rate of the force (Feng and
+    Ngan, J. Mater. Res. 17, 2002, 660). `uncorrected` has the results without it. For made records with
+    −ḣ/Ṗ of 20 % of 1/S, E* is then within 1 % instead of 14 or 15 % too large, where the unloading takes
+    no longer than the hold; where it takes four times as long, and the rate falls meanwhile, E* is up to
+    3 % too small.
 
     Examples
     --------
@@ -142,12 +148,14 @@ def oliver_pharr(
         middle = [np.nanmedian(values[name]) for name in ("E_star", "hardness")]
         remarks = (*remarks, text, *doubts(*middle), *profile.remarks)
         return OverDepth(profile=profile, **values, standard_errors=errors, remarks=remarks)
-    pairs, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
+    parts, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
+    numbers, pairs = zip(*parts.items(), strict=True)
     corrected, uncorrected = zip(*pairs, strict=True)
-    result = _collected(profile, corrected, contact, cycles, (*remarks, text))
+    numbers = _check.frozen(numbers if cycles else numbers[0])
+    result = _collected(profile, corrected, contact, numbers, (*remarks, text))
     if time is None:
         return result
-    return replace(result, uncorrected=_collected(profile, uncorrected, contact, cycles, ()))
+    return replace(result, uncorrected=_collected(profile, uncorrected, contact, numbers, ()))
 
 
 def _columns(depth, force, time, stiffness):
@@ -201,14 +209,16 @@ def _rounded(values, value, error):
 
 
 def _of_parts(profile, depth, force, time, constants, contact, cycles):
-    """Values and errors, with and without a correction for creep, of each unloading; and remarks."""
-    parts, results, remarks = parts_of(force), [], []
-    for number, part in enumerate(parts if cycles and parts else [slice(None)], 1):
+    """Values and errors by unloading, with and without a correction for creep; and remarks."""
+    parts, results, remarks = parts_of(force), {}, []
+    taken = sum(part.start <= last_at_top(depth) for part in parts) or 1
+    every = cycles and parts
+    for number, part in enumerate(parts, 1) if every else [(taken, slice(None))]:
         which = f"unloading {number} of {len(parts)}"
         moments = None if time is None else time[part]
         try:
             both, notes = _with_creep(profile, depth[part], force[part], moments, constants, contact)
-            results.append(both)
+            results[number] = both
             remarks += [f"{which}: {each}" for each in notes] if cycles and len(parts) > 1 else notes
         except ValueError as error:
             if not cycles or len(parts) < 2:
@@ -217,9 +227,8 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
     if not results:
         raise ValueError(remarks[0])
     if len(parts) > 1 and not cycles:
-        number = sum(part.start <= last_at_top(depth) for part in parts)
-        taken = f"unloading {number} of {len(parts)} was taken, the one after the largest depth"
-        remarks.insert(0, f"{taken}; each of them can be evaluated")
+        text = f"unloading {taken} of {len(parts)} was taken, the one after the largest depth"
+        remarks.insert(0, f"{text}; each of them can be evaluated")
     return results, remarks
 
 
@@ -320,16 +329,16 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     return frozen, {name: _check.frozen(error) for name, error in errors.items()}, remarks
 
 
-def _collected(profile, results, contact, cycles, remarks):
-    """An `OliverPharr` of the values and errors of each unloading, of the only one without `cycles`."""
-    columns = np.array(results) if cycles else np.array(results[0])
+def _collected(profile, results, contact, numbers, remarks):
+    """An `OliverPharr` of the values and errors of unloadings by number, or of one where that is one."""
+    columns = np.array(results) if numbers.ndim else np.array(results[0])
     names = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
     values, errors = (
         dict(zip(names, map(_check.frozen, each.T), strict=True))
         for each in (columns[..., 0, :], columns[..., 1, :])
     )
     shape = columns.shape[:-2]
-    values["contact_point"] = _check.frozen(np.full(shape, contact.depth))
+    values |= {"contact_point": _check.frozen(np.full(shape, contact.depth)), "unloading": numbers}
     if contact.depth_error:
         errors["contact_point"] = _check.frozen(np.full(shape, contact.depth_error))
     remarks = [*remarks, *doubts(values["E_star"], values["hardness"]), *profile.remarks]
@@ -340,18 +349,19 @@ def _radius_at_height(profile, height):
     """Radius (m) of the profile at heights (m): 0 below its tip, infinite where it is not known."""
     known = np.minimum(profile.wall, profile.known_radius)
     # Without a slope the search is by bisection.
-    radius = increasing_root(lambda r: (profile._height(r), np.inf), height, np.abs(height), known)
+    radius = increasing_root(lambda r: (profile.height_at(r), np.inf), height, np.abs(height), known)
     return np.maximum(np.minimum(radius, profile.wall), profile.face_radius)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class OliverPharr(Report):
+class OliverPharr(Record):
     """Results for one unloading, or for each of a curve, returned by `oliver_pharr`.
 
     The standard errors, by name, are those of the scatter about the power law, and not less than half the
     range of the results for six parts of the unloading: from 99 or 95 % of the largest force down to 50, 40
     or 30 %; with those of first contact and of the rate of creep where these were found. With
-    ``cycles=True`` all are arrays (U,), and `result[i]` is one unloading.
+    ``cycles=True`` all are arrays (U,), and `result[i]` is one unloading, i from 0 on. Its number in the
+    record, from 1 on, is `unloading`; remarks, print and tables have the same number.
     """
 
     profile: Profile
@@ -368,6 +378,8 @@ class OliverPharr(Report):
     remarks: tuple[str, ...] = ()
     #: Results without the correction for creep, where times were given; NaN where these are no power law.
     uncorrected: "OliverPharr | None" = None
+    #: Number of the unloading in the record, from 1 on; those that are left out are counted.
+    unloading: Any = None
 
     _dimensions = ("unloading",)
     _quantities = ("stiffness", "contact_depth", "E_star", "hardness", "exponent", "contact_point")
@@ -378,6 +390,8 @@ class OliverPharr(Report):
             return super().__getitem__(index)
         errors = {name: error[index] for name, error in self.standard_errors.items()}
         values = {name: getattr(self, name)[index] for name in self._quantities}
+        if self.unloading is not None:
+            values["unloading"] = self.unloading[index]
         uncorrected = None if self.uncorrected is None else self.uncorrected[index]
         return replace(self, **values, standard_errors=errors, uncorrected=uncorrected)
 
@@ -385,11 +399,23 @@ class OliverPharr(Report):
         """Values by name, in SI units, and their standard errors, whose names end in `_error`."""
         return super().to_dict() | {f"{name}_error": error for name, error in self.standard_errors.items()}
 
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A table in SI units, one row for each unloading by its number in the record, or each sample."""
+        table = super().to_pandas()
+        if self.shape and self.unloading is not None:
+            table = table.set_index(np.asarray(self.unloading)).rename_axis("unloading")
+        return table
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """A dataset, with the numbers of the unloadings in the record as coordinate."""
+        dataset = super().to_xarray()
+        return dataset if self.unloading is None else dataset.assign_coords(unloading=self.unloading)
+
     def _rows(self):
         yield "indenter", described(self.profile)
         for i in range(len(self) if self.shape else 0):
             texts = [f"{OLIVER_PHARR[name].symbol} {text}" for name, text in self[i]._texts()]
-            yield f"{self._dimensions[0]} {i + 1}", ", ".join(texts)
+            yield f"unloading {self.unloading[i]}", ", ".join(texts)
         for name, text in () if self.shape else self._texts():
             yield f"{OLIVER_PHARR[name].long_name} {OLIVER_PHARR[name].symbol}", text
         if self.uncorrected is not None and not self.shape:
@@ -429,3 +455,8 @@ class OverDepth(OliverPharr):
             text = engineering(values[np.isfinite(values)], quantity.unit)
             yield f"{quantity.long_name} {quantity.symbol}", text
         yield from (("remark", remark) for remark in self.remarks)
+
+
+@rows.register
+def _rows_of_unloading(result: OliverPharr):
+    return result._rows()

@@ -31,7 +31,7 @@ def force_and_radius(foundation):
 
 def _virgin_radius(foundation, depth):
     """Contact radius (m) at a depth on a virgin surface."""
-    return float(foundation.profile._radius(np.asarray(max(depth, 0.0))))
+    return float(foundation.profile.radius_at(np.asarray(max(depth, 0.0))))
 
 
 def _yield_correction(foundation, load):

@@ -173,7 +173,7 @@ def _distance_to_rest(profile, bottom, length, work):
     From the live interval [bottom, bottom + length] on: x at F x + a x²/2 = W, with F = ∫ a ds.
     """
     force = _flow(profile, bottom, length)
-    a = profile._radius(bottom + length)
+    a = profile.radius_at(bottom + length)
     total = force + np.sqrt(force**2 + 2 * a * work)
     # Under a sharp tip that yields from first touch on there is none.
     return 2 * work / np.where(total > 0, total, np.inf)

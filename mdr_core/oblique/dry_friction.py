@@ -37,11 +37,11 @@ class DryRun:
 
     def __init__(self, motions, inertia, velocity, counts, depths=()):
         self.levels = motions.levels(*counts, depths)
-        edge = motions.profile._radius(self.levels.depth[: self.levels.turn + 1])
+        edge = motions.profile.radius_at(self.levels.depth[: self.levels.turn + 1])
         edge = np.maximum.accumulate(edge, axis=0)
         width = np.diff(edge, axis=0)
         x = (edge[:-1, None] + width[:, None] * _POINTS).reshape(-1, velocity.size)
-        depth = motions.profile._reduced(x)
+        depth = motions.profile.reduced_at(x)
         # The first element is the flat face, if there is one. There are no elements behind a wall.
         self.width = np.vstack([edge[:1], np.repeat(width / 2, 2, axis=0)])
         self.depth = np.where(self.width > 0, np.vstack([0 * edge[:1], depth]), 0.0)
@@ -174,7 +174,7 @@ def first_counts(motions, inertia):
     """Numbers of levels below and above the imprint to begin with, of few different values."""
     levels = motions.levels(8, 8)
     # How far elements that all stick oscillate in a step (rad).
-    angle = np.sqrt(inertia * motions.profile._radius(levels.middle)) * levels.step
+    angle = np.sqrt(inertia * motions.profile.radius_at(levels.middle)) * levels.step
     imprint = 2 * levels.turn - len(angle)
     parts = angle[:imprint], angle[imprint : levels.turn], angle[levels.turn :]
     below, loading, unloading = (part.sum(axis=0) for part in parts)

@@ -146,19 +146,19 @@ class OneLength(Profile):
     #: The `RadiusTable` of the unit profile.
     table = property(lambda self: _unit_table(type(self)))
 
-    def _height(self, r):
+    def height_at(self, r):
         return self._depth * self._Z(r / self._length)
 
-    def _reduced(self, x):
+    def reduced_at(self, x):
         return self._depth * self._G(x / self._length)
 
-    def _reduced_slope(self, x):
+    def reduced_slope_at(self, x):
         u = x / self._length
         # Radii outside an edge must stay outside after rounding.
         u = np.where(x > self._length, np.maximum(u, np.nextafter(1.0, 2.0)), u)
         return self._depth / self._length * self._G_slope(u)
 
-    def _radius(self, depth):
+    def radius_at(self, depth):
         # Rounding must not lead out of the range of u.
         u = np.minimum(np.maximum(self.table.radius(depth / self._depth), self._edge), self._end)
         return self._length * u
@@ -206,9 +206,9 @@ class Tabulated(Profile):
     wall = property(lambda self: self.profile.wall)
     face_radius = property(lambda self: self.profile.face_radius)
     known_radius = property(lambda self: self.profile.known_radius)
-    _height = property(lambda self: self.profile._height)
-    _reduced = property(lambda self: self.profile._reduced)
-    _reduced_slope = property(lambda self: self.profile._reduced_slope)
+    height_at = property(lambda self: self.profile.height_at)
+    reduced_at = property(lambda self: self.profile.reduced_at)
+    reduced_slope_at = property(lambda self: self.profile.reduced_slope_at)
 
     @cached_property
     def table(self):
@@ -216,8 +216,8 @@ class Tabulated(Profile):
         edges = np.append(np.ldexp(kinks[0], np.arange(-64, 0)), kinks)
         with np.errstate(all="ignore"):
             return RadiusTable(
-                lambda s: self.profile._radius(np.minimum(s, self.known_depth)), edges, self.known_depth
+                lambda s: self.profile.radius_at(np.minimum(s, self.known_depth)), edges, self.known_depth
             )
 
-    def _radius(self, depth):
+    def radius_at(self, depth):
         return self.table.radius(depth)

@@ -3,17 +3,16 @@
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
-from pathlib import Path
 
 import numpy as np
 
 from .. import _check
 from .._check import ArrayLike, Parameter
-from ..files.text import decoded
 from ..numerics.blocks import chunks
+from ..numerics.results import above
 from ..numerics.stable import root
 from .profile import Profile
-from .samples import area_samples, axis_of_symmetry, convex_fit, samples_of
+from .samples import area_samples, axis_of_symmetry, convex_fit
 
 #: Largest number of samples: time and memory grow with its square.
 _MOST_SAMPLES = 5000
@@ -85,8 +84,7 @@ class Sampled(Profile):
         ValueError
             If a row is not two numbers, or no unit is given, or two that differ.
         """
-        text, remedy = decoded(Path(path).read_bytes()), "; or give unit='nm'"
-        return cls(*samples_of(text, str(path), unit, _MOST_SAMPLES, remedy))
+        return cls(*above("files.tips").samples_in(path, unit, _MOST_SAMPLES))
 
     @classmethod
     def fit(cls, r: ArrayLike, z: ArrayLike) -> "Sampled":
@@ -184,7 +182,7 @@ class Sampled(Profile):
     _slope = cached_property(lambda self: np.diff(self._z) / np.diff(self._r))
 
     #: Reduced height at the vertices (m).
-    _g = cached_property(lambda self: self._reduced(self._r))
+    _g = cached_property(lambda self: self.reduced_at(self._r))
 
     @cached_property
     def _bend(self):
@@ -213,14 +211,14 @@ class Sampled(Profile):
             return self.kinks[0] if self.kinks else None
         return float(self._slope[np.argmax(self._slope > 0)] * self.face_radius)
 
-    def _height(self, r):
+    def height_at(self, r):
         outside = np.maximum(r - self._r[-1], 0.0)
         return np.interp(r, self._r, self._z) + self._slope[-1] * outside
 
-    def _reduced(self, x):
+    def reduced_at(self, x):
         return self._reduced_and_slope(x)[0]
 
-    def _reduced_slope(self, x):
+    def reduced_slope_at(self, x):
         return self._reduced_and_slope(x)[1]
 
     def _reduced_and_slope(self, x):
@@ -239,7 +237,7 @@ class Sampled(Profile):
             result[:, rows] = flat[rows] * (angle @ bend), rate @ bend
         return result.reshape(2, *np.shape(x))
 
-    def _radius(self, depth):
+    def radius_at(self, depth):
         # Outside a vertex g starts as a square root, and is smooth in t = √(x − r).
         depth, shape = np.ravel(depth), np.shape(depth)
         zone, guess = self._first_guess(depth)

@@ -287,6 +287,29 @@ class TestCycles:
         assert remark.startswith("unloading 2 of 3 is left out:")
         assert "depth and force must fall" in remark
 
+    def test_unloadings_have_one_number_in_remarks_print_and_tables(self):
+        """The second of three is left out: the others are 1 and 3 everywhere."""
+        pytest.importorskip("pandas")
+        xarray = pytest.importorskip("xarray")
+        depth, force = cycles(self.MODULUS)
+        relaxed = depth.copy()
+        relaxed[548:698] = depth[547]
+        relaxed[698:897] = np.linspace(depth[547], depth[896], 199)
+        result = mdr.oliver_pharr(BERKOVICH, relaxed, force, cycles=True)
+        assert result.unloading.tolist() == [1, 3]
+        assert re.findall(r"^  unloading (\d)", repr(result), re.MULTILINE) == ["1", "3"]
+        table = result.to_pandas()
+        assert table.index.tolist() == [1, 3]
+        assert table["E_star"][3] == result[1].E_star
+        assert result[1].unloading == 3
+        dataset = result.to_xarray()
+        assert isinstance(dataset, xarray.Dataset)
+        assert dataset["E_star"].sel(unloading=3).item() == result.E_star[1]
+        # Of one unloading as well.
+        single = mdr.oliver_pharr(BERKOVICH, depth, force)
+        assert single.unloading == 3
+        assert single.to_xarray()["unloading"].item() == 3
+
     def test_a_jump_to_contact_is_no_unloading(self):
         """An approach in air with noise, attracted by 2 % of the largest force before contact."""
         depth, force = cycles(self.MODULUS)
