@@ -288,7 +288,7 @@ class Sampled(Profile):
     @cached_property
     def _slope_inside(self):
         """g′ just inside each vertex but the first."""
-        return self._reduced_slope(np.nextafter(self._r[1:], 0))
+        return self.reduced_slope_at(np.nextafter(self._r[1:], 0))
 
 
 def tip_through(r, z, most, averages):
