@@ -266,7 +266,7 @@ class Sampled(Profile):
         """Number of the vertex inside the edge of the contact, and t = √(x − r) there to some digits.
 
         Between two vertices g rises about as a cubic of u, t over its value at the outer one: with the bend
-        β √(2r) t at the inner vertex, and with g and its rate at the outer one. `_radius` then takes 2.5
+        β √(2r) t at the inner vertex, and with g and its rate at the outer one. `radius_at` then takes 2.5
         evaluations of g for a depth, from a parabola 3.0.
         """
         zone = np.clip(np.searchsorted(self._g, depth, side="right") - 1, 0, len(self.r) - 2)
