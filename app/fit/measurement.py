@@ -20,7 +20,7 @@ from mdr_core.fit.oliver_pharr import OliverPharr
 from mdr_core.fit.quoted import unloading
 from mdr_core.measured_curve import MeasuredCurve, MeasuredCurves
 from mdr_core.reading import UnknownColumns
-from mdr_core.results.units import written
+from mdr_core.show.units import written
 
 #: Most samples that are fitted and drawn: of more, one in two, three … is taken.
 MOST = 2000

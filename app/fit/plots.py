@@ -7,7 +7,7 @@ import numpy as np
 from bokeh.plotting import figure
 
 from mdr_core.fit.indentation import IndentationFit
-from mdr_core.results.units import fitting
+from mdr_core.show.units import fitting
 
 from .measurement import Samples
 

@@ -8,7 +8,7 @@ import numpy as np
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.parameters import PARAMETERS
 from mdr_core.fit.report import with_error
-from mdr_core.results.units import KINDS, written
+from mdr_core.show.units import KINDS, written
 
 from ..ui import indexed, marked
 from .measurement import Told
@@ -95,7 +95,7 @@ def verdict(fit: IndentationFit, told: Told) -> tuple[str, dict[str, float]]:
     if not misfits:
         return "", {}
     best = min(misfits, key=misfits.__getitem__)
-    if "not told" in told.of_class:
+    if "cannot be told" in told.of_class:
         return "The class cannot be told from this curve.", misfits
     text = f"The curve is of class ({best}), {CLASS_NAMES[best]}."
     if "none within" in told.of_class:

@@ -8,10 +8,11 @@ import numpy as np
 from .. import _check
 from .._check import ArrayLike
 from ..medium import Medium, check_pair
+from ..numerics.results import Record
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
-from ..results.quantities import QUANTITIES, Quantity, described, engineering
-from ..results.report import Report
+from ..show.quantities import QUANTITIES, Quantity, described, engineering
+from ..show.report import rows
 from . import creep as creeping
 from .errors import roughness
 from .first_contact import FirstContact, first_contact
@@ -348,12 +349,12 @@ def _radius_at_height(profile, height):
     """Radius (m) of the profile at heights (m): 0 below its tip, infinite where it is not known."""
     known = np.minimum(profile.wall, profile.known_radius)
     # Without a slope the search is by bisection.
-    radius = increasing_root(lambda r: (profile._height(r), np.inf), height, np.abs(height), known)
+    radius = increasing_root(lambda r: (profile.height_at(r), np.inf), height, np.abs(height), known)
     return np.maximum(np.minimum(radius, profile.wall), profile.face_radius)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class OliverPharr(Report):
+class OliverPharr(Record):
     """Results for one unloading, or for each of a curve, returned by `oliver_pharr`.
 
     The standard errors, by name, are those of the scatter about the power law, and not less than half the
@@ -454,3 +455,8 @@ class OverDepth(OliverPharr):
             text = engineering(values[np.isfinite(values)], quantity.unit)
             yield f"{quantity.long_name} {quantity.symbol}", text
         yield from (("remark", remark) for remark in self.remarks)
+
+
+@rows.register
+def _rows_of_unloading(result: OliverPharr):
+    return result._rows()
