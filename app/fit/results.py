@@ -176,7 +176,7 @@ class Results:
         elif page.busy:
             text = f'<p class="waiting" role="status">{page.busy} …</p>'
         elif page.curve is not None and page.setting.missing:
-            text = f'<p class="big none">Tell {page.setting.missing}</p>'
+            text = f'<p class="big none">Give {page.setting.missing}</p>'
             text += '<p class="of">Then the fit runs at once.</p>'
         elif page.refused:
             text = '<p class="big none">The curve is not read yet</p>'

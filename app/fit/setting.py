@@ -177,7 +177,7 @@ class Setting:
 
     @property
     def missing(self) -> str:
-        """What is still to be told before a fit, in words; empty if nothing is."""
+        """What is still to be given before a fit, in words; empty if nothing is."""
         if not self.tip:
             return "the tip"
         if self.tip == "measured" and not self.tip_samples:

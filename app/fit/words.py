@@ -95,7 +95,7 @@ def verdict(fit: IndentationFit, told: Told) -> tuple[str, dict[str, float]]:
     if not misfits:
         return "", {}
     best = min(misfits, key=misfits.__getitem__)
-    if "not told" in told.of_class:
+    if "cannot be told" in told.of_class:
         return "The class cannot be told from this curve.", misfits
     text = f"The curve is of class ({best}), {CLASS_NAMES[best]}."
     if "none within" in told.of_class:

@@ -23,7 +23,7 @@ class Profile(_check.Parameters, ABC):
 
     A profile of your own is a frozen dataclass with the first three functions below. They are not checked:
     they take an array of lengths (m), none negative, and return an array of its shape. Besides
-    its parameters solvers ask a profile for ten names; a shape gives those that differ from the base class::
+    its parameters solvers ask a profile for ten names; a shape gives those that differ from the base::
 
         height_at(r)          height z (m) at radii r (m)
         reduced_at(x)         height g (m) of the equivalent 1D profile at x (m), which does not fall

@@ -96,11 +96,11 @@ def test_the_gel_is_one_click_and_its_number_is_that_of_hertz():
 def test_tip_and_sample_are_asked_for_one_after_the_other():
     page = page_of()
     page.take_file("run.csv", curve_file())
-    assert headline(page).startswith("Choose the tip")
+    assert headline(page).startswith("Give the tip")
     page.change(lambda setting: setting.replace(tip="paraboloid"))
-    assert headline(page).startswith("Choose the tip radius R")
+    assert headline(page).startswith("Give the tip radius R")
     page.change(lambda setting: setting.replace(tip="berkovich"))
-    assert headline(page).startswith("Choose the sample")
+    assert headline(page).startswith("Give the sample")
     assert page.fit is None
     page.form.medium.value = "constant"
     assert page.fit.medium.E_star == pytest.approx(80e9, rel=1e-4)
@@ -109,7 +109,7 @@ def test_tip_and_sample_are_asked_for_one_after_the_other():
     assert page.fit.contact_point == pytest.approx(5e-9, abs=1e-12)
     page.take_sample("gel")
     page.take_file("run.csv", curve_file())
-    assert headline(page).startswith("Choose the tip")
+    assert headline(page).startswith("Give the tip")
 
 
 @pytest.mark.parametrize(

@@ -77,9 +77,9 @@ def test_a_sample_is_one_click_and_all_of_it_is_in_sight(measurement):
 def test_a_file_is_dropped_and_a_handle_takes_fewer_samples(measurement, tmp_path):
     page = measurement.page
     drop(measurement, curve(tmp_path / "run.csv", mdr.Medium(80e9, hardness=14e9)))
-    page.get_by_text("Choose the tip", exact=True).wait_for()
+    page.get_by_text("Give the tip", exact=True).wait_for()
     page.get_by_label("Tip", exact=True).select_option(label="Berkovich or Vickers (cone of 70.3°)")
-    page.get_by_text("Choose the sample", exact=True).wait_for()
+    page.get_by_text("Give the sample", exact=True).wait_for()
     page.get_by_label("Sample", exact=True).select_option(label="Composite, PDMS: hardness ∝ 1/a")
     # The class that fits is a click away.
     page.get_by_role("button", name="Take class (a), constant hardness").click()
