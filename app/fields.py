@@ -105,11 +105,6 @@ def _told(known: Quantity) -> dict[str, Any]:
     }
 
 
-def take_tip(page: Any) -> Part:
-    """The field for the file of a measured tip, as in the form."""
-    return page.frame.form.tip()
-
-
 def title(text_: str) -> Part:
     return text(text_, f"<h2>{text_}</h2>", "title")
 

@@ -61,4 +61,4 @@ def told(view: View) -> list[tuple[str, str]]:
     return [("Assumptions and notes", "".join(html))]
 
 
-EXTRA = Extra("notes", order=30, below=below, told=told)
+EXTRA = Extra("notes", order=30, notes=lambda view: {"below": below(view)}, told=told)

@@ -270,7 +270,16 @@ def _notes(sweep, numbers, values, classes, inside):
             yield marked(f"Not all of the range can be solved: {in_words(error)}.")
 
 
-SWEEP = Searched(
+@dataclass(frozen=True, eq=False)
+class SweepPlot(Searched):
+    """The plot, whose choices offer what applies to the drive."""
+
+    def options_of(self, state, control):
+        offered = {"sweep.swept": swept, "sweep.against": against}
+        return offered[control](state) if control in offered else super().options_of(state, control)
+
+
+SWEEP = SweepPlot(
     "sweep", "Sweep", "one parameter varied, all others fixed  § 10, § 20", (),
     (
         *(line(name, "ink", 1.4, dash, "y") for name, dash in LINES.items()),
@@ -284,7 +293,6 @@ SWEEP = Searched(
 
 EXTRA = Extra(
     "sweep",
-    offers={"sweep.swept": swept, "sweep.against": against},
     plots=(SWEEP,),
     service=Resting,
 )
