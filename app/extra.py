@@ -45,6 +45,10 @@ class Extra:
 
     Its numbers, choices, drives and readouts are in a JSON file of its name beside it; names of numbers and
     choices begin with its own and a point. These are values of the state, in links and undone.
+
+    What it alone needs is in a class of its own: of `Service`, what it keeps or does in a session; of
+    `Drive`, numbers that keep their meaning when a choice of it changes (`converted`); of `Plot`, axes,
+    notes and options that apply to a state (`axes_of`, `note_of`, `options_of`).
     """
 
     name: str
@@ -56,11 +60,11 @@ class Extra:
     drives: dict[str, Drive] = field(default_factory=dict)
     plots: tuple[Plot, ...] = ()
     overlays: tuple[Overlay, ...] = ()
-    #: Label of the button that opens its part of the page; where the part is: in the "side", or with a
-    #: button in the header "above" the side or "over" the plots; whether the button is there; and the part,
-    #: made of a page when it is first opened.
+    #: Label of the button in the header that opens its part of the page; where the part is: "above" the
+    #: form or "over" the plots, or without a button at the "top" of the form while it is offered; whether
+    #: it is offered; and the part, made of a page when it is first opened.
     tab: str = ""
-    place: str = "side"
+    place: str = "above"
     offered: Callable[[View], bool] = lambda view: True
     side: Callable[[Any], Side] | None = None
     #: A button in the header of a page for a view, and one above a plot; each may be None.

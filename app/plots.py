@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from mdr_core.results import figures
-from mdr_core.results.figures import label, line, mark, split
-from mdr_core.results.quantities import QUANTITIES
-from mdr_core.results.units import written
+from mdr_core.show import figures
+from mdr_core.show.figures import label, line, mark, split
+from mdr_core.show.quantities import QUANTITIES
+from mdr_core.show.units import written
 
 from .courses import Course
 from .plot import Along, Plot, View
@@ -105,9 +105,21 @@ def _spring_formula(course: Course) -> str:
     if course.adhesive:
         return "q = E* (u − Δl),  Δl = √(2π a w/E*)  § 19"
     law = "(1) (17) (18)  q = E* u + 4η du/dt" if course.dashpots else "(17) (18)  q = E* u"
-    of_class_b = course.scene.medium.inverse_to_radius
-    cap = "d_c" if of_class_b else "u_c = π a σ_c/(2E*)  § 20"
-    return f"{law},  u ≤ {cap}{course.more_law}"
+    return f"{law},  u ≤ {_cap(course)}{course.more_law}"
+
+
+def _cap(course: Course) -> str:
+    """Largest elastic compression of a spring; where it depends on a, at the largest depth."""
+    medium = course.scene.medium
+    if medium.q_c == np.inf:
+        return "∞"
+    if medium.inverse_to_radius:
+        return f"d_c = π q_c/(2E*) = {written(float(medium.critical_depth), 'length')}"
+    a = float(course.turning_point.contact_radius)
+    if a == 0:
+        return "u_c = π a σ_c/(2E*)  § 20"
+    cap = np.pi * a * float(medium.hardness_at(a)) / (2 * medium.E_star)
+    return f"u_c = π a σ_c/(2E*) = {written(cap, 'length')}  § 20"
 
 
 SPRINGS = Plot(
@@ -183,6 +195,6 @@ NAMED = tuple(PLOTS)
 
 
 def visible(view: View) -> list[Plot]:
-    """Plots that a view shows, in their order."""
-    plots = (plot for plot in PLOTS.values() if not plot.tab or plot.name in view.state.tiles)
-    return [plot for plot in plots if plot.applies(view)]
+    """Plots that a view shows: the three, and the first optional one that applies."""
+    optional = [PLOTS[name] for name in view.state.tiles if name not in NAMED]
+    return [*map(PLOTS.get, NAMED), *[plot for plot in optional if plot.applies(view)][:1]]

@@ -37,13 +37,12 @@ def tours() -> dict[str, list[dict[str, Any]]]:
 
 
 def step_state(step: dict[str, Any], now: State) -> State:
-    """State of a step; theme, values of extras that it does not set, and other tiles stay."""
+    """State of a step, with its plots; theme, and values of extras that it does not set, stay."""
     state = link.read(urlencode(step["set"]))
     # Also a value that is set to its default is set.
     named = {name for name, _ in link.pairs(urlencode(step["set"]))}
     kept = {name: value for name, value in now.extras.items() if name not in named}
-    tiles = state.tiles or now.tiles
-    return state.replace(tiles=tiles, dark=now.dark, **(kept | state.extras))
+    return state.replace(dark=now.dark, **(kept | state.extras))
 
 
 def step_text(step: dict[str, Any], course: Course) -> str:

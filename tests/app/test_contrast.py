@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 import app
-from mdr_core.results.figures import ROLES
+from mdr_core.show.figures import ROLES
 
 CSS = (Path(app.__file__).parent / "static" / "style.css").read_text(encoding="utf-8")
 

@@ -11,7 +11,7 @@ from app.draw import Picture
 from app.drives import follow, scene_of
 from app.plots import PLOTS
 from app.state import PRESETS, State, preset_state
-from mdr_core.results.units import UNITS, written
+from mdr_core.show.units import UNITS, written
 
 from .conftest import DROP, ELASTIC, GOLD, PUNCH, Explorer
 from .states import state_with, table, view_of

@@ -7,7 +7,7 @@ import pytest
 
 from app.draw import drawn, legend
 from app.plots import PLOTS
-from mdr_core.results.figures import ROLES
+from mdr_core.show.figures import ROLES
 
 from .conftest import DROP, Explorer
 from .states import state_with, view_of
