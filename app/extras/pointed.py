@@ -1,4 +1,4 @@
-"""A spring that is pointed at says its place x, its compression u and its line load q, beside their limits."""
+"""A spring that is pointed at says its place x, compression u and line load q, beside their limits."""
 
 from pathlib import Path
 from typing import Any
@@ -28,7 +28,7 @@ class Springs(DataModel):
 
 
 def caps(course: Course) -> np.ndarray:
-    """Largest elastic compression (m) of the springs in each state, or one for all; none if nothing yields."""
+    """Largest elastic compression (m) of springs in each state, or one for all; none if nothing yields."""
     scene, imprint = course.scene, course.initial_plastic_depth
     if scene.medium.q_c == np.inf:
         return np.empty(0)

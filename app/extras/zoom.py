@@ -1,4 +1,4 @@
-"""Zoom: a box with Shift on any plot; a double click, another drive or another preset shows the whole plot."""
+"""Zoom: a box with Shift on any plot; a double click, another drive or preset shows the whole plot."""
 
 from math import isfinite
 from pathlib import Path

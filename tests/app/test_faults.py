@@ -136,7 +136,7 @@ def test_the_indenter_is_dragged_to_a_depth_under_a_given_force_too(page):
 def rested(page):
     """What is found of the section when the input is at rest."""
     page._input_rests()
-    return page.shown.computed["section"]
+    return page.shown.computed.get("section")
 
 
 def test_what_was_found_of_another_scene_or_state_is_not_shown(page):

@@ -8,8 +8,7 @@ import pytest
 from app import link
 from app.draw import Picture, drawn, legend
 from app.drives import follow
-from app.extra import EXTRAS
-from app.extras.held import DASHES, difference, held_scene, is_held, numbers, toggle_hold
+from app.extras.held import DASHES, computed, difference, held_scene, is_held, numbers, toggle_hold
 from app.page import Page
 from app.plot import rows_of
 from app.plots import PLOTS, D, F, P, X, Z
@@ -101,7 +100,7 @@ def test_a_held_scene_is_named_by_what_differs_from_the_present_one():
     later = drop.replace(**{"held.scenes": (link.write(gold),)})
     view = view_of(soft, 1.0, gold)
     assert [each.name for each in view.computed["held"]] == ["q_c = 100 N/m"]
-    assert [each.name for each in EXTRAS["held"].compute(later, view)] == [difference(gold, drop)]
+    assert [each.name for each in computed(later, view)] == [difference(gold, drop)]
 
 
 def test_a_scene_of_another_scale_leaves_the_axes():

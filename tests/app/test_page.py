@@ -60,7 +60,7 @@ def test_the_first_screen_has_what_a_person_comes_for(server, browser, width, he
             assert card["width"] > 0.3 * width
             assert card["height"] > 0.3 * height
         assert page.locator("output").count() <= 8
-        assert page.locator(".header .act:visible").count() == 10
+        assert page.locator(".header .act:visible").count() == 7
         assert page.locator(".top").bounding_box()["height"] < 70
         assert page.evaluate("document.documentElement.scrollHeight") <= height
         assert explorer.problems == []
