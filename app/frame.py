@@ -73,7 +73,8 @@ class Frame:
         opening = [self._button(name) for name, each in EXTRAS.items() if name in offered and each.tab]
         self.form.show(view)
         preset = page.choice("preset")
-        preset.look["about"] += self.form.sources
+        # What it is, and its sources, are told in the form.
+        preset.look["about"] = ""
         self.header.show([_TITLE, preset, *undo, *redo, *opening])
         dark = button("Dark", partial(page.apply, _turned), pressed=view.state.dark)
         more = (each.header(page, view) for each in EXTRAS.values())

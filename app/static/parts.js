@@ -46,10 +46,7 @@ const KINDS = {
       return label
     }))
     if (!radio) list.onchange = () => choose(list.value)
-    const told = el.querySelector("[popover]")
-    let said = about
-    return [el, ({ options, value, about }, answered) => {
-      if (about !== said) told.innerHTML = said = about
+    return [el, ({ options, value }, answered) => {
       if (offered !== JSON.stringify(options)) filled(options)
       offered = JSON.stringify(options)
       // Also what was refused is answered: the present option stands again. Earlier answers do not touch what is asked now.
