@@ -65,8 +65,13 @@ def part(page, name: str):
 
 
 def press(page, label: str) -> None:
-    """Press a button."""
-    part(page, label).act(None)
+    """Press a button, or open or close an optional plot by its name in their list."""
+    plots = part(page, "fourth plot")
+    names = {shown: name for name, shown in plots.look["options"]}
+    if label in names:
+        plots.act("" if plots.look["value"] == names[label] else names[label])
+    else:
+        part(page, label).act(None)
 
 
 def fields_of(parts) -> list[str]:

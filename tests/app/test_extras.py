@@ -86,8 +86,8 @@ def texts(page):
     page.frame.toggle("explore")
     for drive in dict(page.choice("drive").look["options"]):
         page.choose("drive", drive)
-        for tab in list(page.board.tabs.parts):
-            page.board.tabs.parts[tab].act(None)
+        for name, _ in page.board.others(page.shown).look["options"]:
+            page.board.others(page.shown).act(name)
             look()
     page.document.add_root(page.view.get_root(page.document))
     for model in page.document.models:
@@ -187,7 +187,7 @@ def test_a_new_extra_is_a_file_of_its_own(folder):
     (extras / "area.py").write_text(code.replace("from app.", "from .."), encoding="utf-8")
     (extras / "area.json").write_text(data, encoding="utf-8")
     page = importlib.import_module("with_area.page").Page(f"preset={DROP}&tiles=area&area.of=plastic")
-    assert page.board.tabs.parts["Area"].look["pressed"]
+    assert page.board.others(page.shown).look["value"] == "area"
     states = page.shown.course.states
     plot = page.board.cards["area"].plot
     for option, radius in (("plastic", states.plastic_radius), ("contact", states.contact_radius)):
