@@ -40,7 +40,7 @@ def step_state(step: dict[str, Any], now: State) -> State:
     """State of a step, with its plots; theme, and values of extras that it does not set, stay."""
     state = link.read(urlencode(step["set"]))
     # Also a value that is set to its default is set.
-    named = {name for name, _ in link.translated(urlencode(step["set"]))}
+    named = {name for name, _ in link.pairs(urlencode(step["set"]))}
     kept = {name: value for name, value in now.extras.items() if name not in named}
     return state.replace(dark=now.dark, **(kept | state.extras))
 
