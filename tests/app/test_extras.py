@@ -83,7 +83,6 @@ def texts(page):
         if extra.side:
             page.frame.toggle(name)
             look()
-    page.frame.toggle("explore")
     for drive in dict(page.choice("drive").look["options"]):
         page.choose("drive", drive)
         for name, _ in page.board.others(page.shown).look["options"]:
@@ -162,7 +161,7 @@ def test_the_page_with_no_extras_at_all(browser, tmp_path):
         with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
             explorer = Explorer(context.new_page(), server.url)
             assert explorer.readout("force") == "4.514 µN"
-            assert explorer.page.locator(".header .act").all_inner_texts() == ["Undo", "Redo", "Dark"]
+            assert explorer.page.locator(".header .act, .more .act").all_inner_texts() == ["Dark"]
             assert explorer.page.locator(".card").count() == 3
             assert explorer.page.locator(".tabs button").count() == 0
             explorer.change(explorer.type, "d_max", "5 nm")
