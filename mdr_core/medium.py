@@ -238,6 +238,7 @@ class Medium(_check.Parameters):
             )
 
     @classmethod
+    @_check.keywords_explained
     def from_hardness(
         cls, E_star: ArrayLike, hardness: ArrayLike, radius: ArrayLike, **other: ArrayLike
     ) -> "Medium":
@@ -269,6 +270,7 @@ class Medium(_check.Parameters):
         return cls(E_star, hardness * radius, **other)
 
     @classmethod
+    @_check.keywords_explained
     def from_critical_depth(
         cls, E_star: ArrayLike, critical_depth: ArrayLike, **other: ArrayLike
     ) -> "Medium":
@@ -299,6 +301,7 @@ class Medium(_check.Parameters):
         return cls(E_star, yield_constant(E_star, depth), **other)
 
     @classmethod
+    @_check.keywords_explained
     def from_bodies(
         cls,
         E1: ArrayLike,

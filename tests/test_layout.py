@@ -12,7 +12,8 @@ import mdr_core as mdr
 PACKAGE = Path(mdr.__file__).parent
 # From the bottom up; a module may import what stands before it.
 ORDER = (
-    "_errors", "_check", "numerics.stable", "numerics.blocks", "numerics.gauss", "numerics.collocation",
+    "_errors", "_hints", "_check", "numerics.stable", "numerics.blocks", "numerics.gauss",
+    "numerics.collocation",
     "numerics.roots", "abel", "results.units", "results.quantities", "files.units",
     "files.numbers", "files.words", "files.text", "profiles.samples", "profiles.profile",
     "profiles.power", "profiles.radius_table", "profiles.rounded", "profiles.truncated", "profiles.sampled",

@@ -64,6 +64,7 @@ class Cone(Profile):
         _check.set_positive(self, slope="")
 
     @classmethod
+    @_check.keywords_explained
     def from_half_angle(cls, degrees: ArrayLike) -> "Cone":
         """Cone with a half-angle between axis and generator, in degrees between 0 and 90.
 
@@ -89,6 +90,7 @@ class Cone(Profile):
         return cls(math.sqrt(math.pi / (3 * math.sqrt(3.0))) / math.tan(math.radians(65.27)))
 
     @classmethod
+    @_check.keywords_explained
     def pyramid(cls, degrees: ArrayLike) -> "Cone":
         """Cone with the force of a four-sided pyramid, as of an AFM tip, at each depth.
 

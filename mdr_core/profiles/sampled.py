@@ -68,6 +68,7 @@ class Sampled(Profile):
         return f"Sampled({len(self.r)} samples to r = {self.r[-1]:g} m, z = {self.z[-1]:g} m{remarks})"
 
     @classmethod
+    @_check.keywords_explained
     def from_csv(cls, path: str | PathLike[str], unit: str | None = None) -> "Sampled":
         """Read a text file with columns radius and height.
 
@@ -89,6 +90,7 @@ class Sampled(Profile):
         return cls(*samples_of(text, str(path), unit, _MOST_SAMPLES, remedy))
 
     @classmethod
+    @_check.keywords_explained
     def fit(cls, r: ArrayLike, z: ArrayLike) -> "Sampled":
         """Fit the convex profile nearest to noisy samples, by least squares in the height.
 
@@ -122,6 +124,7 @@ class Sampled(Profile):
         return cls(*convex_fit(r, z))
 
     @classmethod
+    @_check.keywords_explained
     def from_area_function(
         cls, coefficients: ArrayLike, height: float, samples: int = 400, *, unit: str = "m"
     ) -> "Sampled":
