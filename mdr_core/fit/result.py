@@ -13,7 +13,7 @@ from ..contact.live_interval import LiveInterval
 from ..medium import Medium
 from ..results.quantities import described, engineering
 from ..results.report import imported
-from .classes import ClassFit, fits_of_classes, verdict
+from .classes import ClassFit, fit_again, fits_of_classes, verdict
 from .measurement import Measurement
 from .oliver_pharr import OLIVER_PHARR
 from .parameters import BACKGROUND, CLASSES, MEDIUM, PARAMETERS
@@ -232,6 +232,10 @@ class IndentationFit(Fit):
         """Rows on the number to quote of one curve, and why that of the model differs."""
         if self.shape or self.invalid:
             return
+        if classes := self.classes:
+            yield from fit_again(
+                classes, self.standard_errors, np.count_nonzero(np.isfinite(self.residuals))
+            )
         quote = self.quoted
         if quote.source is None:
             yield "to quote", f"no E*: {quote.reason}"
